@@ -1,0 +1,1 @@
+//! Semi-analytical (USAW) and dummy-particle walls: wall geometry, renormalisation factor, wall state

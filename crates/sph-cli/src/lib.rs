@@ -1,0 +1,1 @@
+//! The sph command: run, check, explain, plugins, schema, scenes, new

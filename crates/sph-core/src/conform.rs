@@ -1,0 +1,311 @@
+//! Holds a TOML value against a JSON schema: unknown keys, types, ranges, units.
+//!
+//! One walk serves the scene and every plugin: it turns "10 kPa" into 10000.0 where the schema
+//! names a unit, and reports every problem with the path of its key and the nearest valid name.
+
+use serde_json::Value as Json;
+use toml::Value;
+
+use crate::{SceneProblem, parse_quantity, suggestion};
+
+/// Checks `value` against `schema` and converts quantities to SI in place.
+///
+/// # Errors
+/// All problems found, each with its path relative to `value`.
+pub fn conform(value: &mut Value, schema: &Json) -> Result<(), Vec<SceneProblem>> {
+    let mut walk = Walk {
+        root: schema,
+        problems: Vec::new(),
+    };
+    walk.value(value, schema, "", None);
+    if walk.problems.is_empty() {
+        Ok(())
+    } else {
+        Err(walk.problems)
+    }
+}
+
+/// The default of every property that has one, by name.
+pub fn defaults(schema: &Json) -> Vec<(String, Json)> {
+    let properties = schema.get("properties").and_then(Json::as_object);
+    properties
+        .into_iter()
+        .flatten()
+        .filter_map(|(name, p)| p.get("default").map(|d| (name.clone(), d.clone())))
+        .collect()
+}
+
+struct Walk<'s> {
+    root: &'s Json,
+    problems: Vec<SceneProblem>,
+}
+
+impl<'s> Walk<'s> {
+    fn resolve(&self, schema: &'s Json) -> &'s Json {
+        let target = schema
+            .get("$ref")
+            .and_then(Json::as_str)
+            .and_then(|r| r.strip_prefix('#'))
+            .and_then(|pointer| self.root.pointer(pointer));
+        target.unwrap_or(schema)
+    }
+
+    fn problem(&mut self, path: &str, message: String) {
+        self.problems.push(SceneProblem::new(path, message));
+    }
+
+    fn value(&mut self, value: &mut Value, schema: &'s Json, path: &str, unit: Option<&'s str>) {
+        let unit = schema.get("unit").and_then(Json::as_str).or(unit);
+        let schema = self.resolve(schema);
+        let unit = schema.get("unit").and_then(Json::as_str).or(unit);
+        for key in ["anyOf", "oneOf"] {
+            if let Some(options) = schema.get(key).and_then(Json::as_array) {
+                return self.one_of(value, options, path, unit);
+            }
+        }
+        if let Some(allowed) = schema.get("enum").and_then(Json::as_array) {
+            return self.one_of_names(value, allowed.iter().filter_map(Json::as_str), path);
+        }
+        if let Some(name) = schema.get("const").and_then(Json::as_str) {
+            return self.one_of_names(value, std::iter::once(name), path);
+        }
+        let kind = match schema.get("type") {
+            Some(Json::String(kind)) => Some(kind.as_str()),
+            Some(Json::Array(kinds)) => kinds.iter().filter_map(Json::as_str).find(|k| *k != "null"),
+            _ => None,
+        };
+        match kind {
+            Some("number") => self.number(value, schema, path, unit),
+            Some("integer") => self.integer(value, schema, path),
+            Some("boolean") if value.as_bool().is_none() => {
+                self.problem(path, "expected true or false".into());
+            }
+            Some("string") if value.as_str().is_none() => {
+                self.problem(path, format!("expected a string, found {}", describe(value)));
+            }
+            Some("array") => self.array(value, schema, path, unit),
+            Some("object") => self.object(value, schema, path),
+            _ => {}
+        }
+    }
+
+    fn one_of(&mut self, value: &mut Value, options: &'s [Json], path: &str, unit: Option<&'s str>) {
+        let names: Vec<&str> = options.iter().filter_map(|o| o.get("const")?.as_str()).collect();
+        if names.len() == options.len() {
+            return self.one_of_names(value, names.into_iter(), path);
+        }
+        let before = self.problems.len();
+        let mut first = None;
+        for option in options {
+            if option.get("type").and_then(Json::as_str) == Some("null") {
+                continue;
+            }
+            let mut attempt = value.clone();
+            self.value(&mut attempt, option, path, unit);
+            let found = self.problems.split_off(before);
+            if found.is_empty() {
+                *value = attempt;
+                return;
+            }
+            // The option that gets furthest (deepest path) has the most telling message.
+            let depth = |p: &Vec<SceneProblem>| p.iter().map(|q| q.path.len()).max();
+            if first.as_ref().is_none_or(|f| depth(&found) > depth(f)) {
+                first = Some(found);
+            }
+        }
+        self.problems.extend(first.unwrap_or_default());
+    }
+
+    fn one_of_names<'n>(&mut self, value: &Value, names: impl Iterator<Item = &'n str>, path: &str) {
+        let names: Vec<&str> = names.collect();
+        let expected = || names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
+        match value.as_str() {
+            Some(text) if names.contains(&text) => {}
+            Some(text) => self.problem(
+                path,
+                format!(
+                    "`{text}` is not one of {}{}",
+                    expected(),
+                    suggestion(text, names.iter().copied())
+                ),
+            ),
+            None => self.problem(path, format!("expected one of {}", expected())),
+        }
+    }
+
+    fn number(&mut self, value: &mut Value, schema: &Json, path: &str, unit: Option<&str>) {
+        let of = unit.map_or(String::new(), |u| format!(" in {u}"));
+        let number = match value {
+            Value::Float(x) => *x,
+            Value::Integer(i) => *i as f64,
+            Value::String(text) => match parse_quantity(text, unit.unwrap_or("1")) {
+                Ok(x) => x,
+                Err(why) => return self.problem(path, why),
+            },
+            other => {
+                let found = describe(other);
+                return self.problem(path, format!("expected a number{of}, found {found}"));
+            }
+        };
+        if !number.is_finite() {
+            return self.problem(path, format!("expected a finite number{of}, found {number}"));
+        }
+        *value = Value::Float(number);
+        self.range(number, schema, path, unit);
+    }
+
+    fn integer(&mut self, value: &mut Value, schema: &Json, path: &str) {
+        match value {
+            Value::Integer(i) => self.range(*i as f64, schema, path, None),
+            other => {
+                let found = describe(other);
+                self.problem(path, format!("expected a whole number, found {found}"));
+            }
+        }
+    }
+
+    fn range(&mut self, x: f64, schema: &Json, path: &str, unit: Option<&str>) {
+        let bound = |key: &str| schema.get(key).and_then(Json::as_f64);
+        let unit = unit.filter(|u| *u != "1").map_or(String::new(), |u| format!(" {u}"));
+        let checks: [(Option<f64>, bool, &str); 4] = [
+            (bound("minimum"), bound("minimum").is_some_and(|b| x < b), "at least"),
+            (
+                bound("exclusiveMinimum"),
+                bound("exclusiveMinimum").is_some_and(|b| x <= b),
+                "more than",
+            ),
+            (bound("maximum"), bound("maximum").is_some_and(|b| x > b), "at most"),
+            (
+                bound("exclusiveMaximum"),
+                bound("exclusiveMaximum").is_some_and(|b| x >= b),
+                "less than",
+            ),
+        ];
+        for (bound, violated, words) in checks {
+            if let (Some(bound), true) = (bound, violated) {
+                self.problem(path, format!("must be {words} {bound}{unit}, found {x}"));
+            }
+        }
+    }
+
+    fn array(&mut self, value: &mut Value, schema: &'s Json, path: &str, unit: Option<&'s str>) {
+        let Value::Array(items) = value else {
+            let found = describe(value);
+            return self.problem(path, format!("expected a list, found {found}"));
+        };
+        let count = |key: &str| schema.get(key).and_then(Json::as_u64).map(|n| n as usize);
+        let (least, most) = (count("minItems"), count("maxItems"));
+        if least.is_some_and(|n| items.len() < n) || most.is_some_and(|n| items.len() > n) {
+            let wanted = match (least, most) {
+                (Some(a), Some(b)) if a == b => format!("{a}"),
+                (Some(a), None) => format!("at least {a}"),
+                (a, Some(b)) => format!("{} to {b}", a.unwrap_or(0)),
+                _ => String::new(),
+            };
+            let found = items.len();
+            self.problem(path, format!("expected {wanted} entries, found {found}"));
+        }
+        if let Some(schema) = schema.get("items") {
+            for (k, item) in items.iter_mut().enumerate() {
+                self.value(item, schema, &format!("{path}[{k}]"), unit);
+            }
+        }
+    }
+
+    fn object(&mut self, value: &mut Value, schema: &'s Json, path: &str) {
+        let Value::Table(table) = value else {
+            let found = describe(value);
+            return self.problem(path, format!("expected a table, found {found}"));
+        };
+        let join = |key: &str| match path {
+            "" => key.to_string(),
+            _ => format!("{path}.{key}"),
+        };
+        let properties = schema.get("properties").and_then(Json::as_object);
+        let others = schema.get("additionalProperties");
+        for (key, item) in table.iter_mut() {
+            match (properties.and_then(|p| p.get(key)), others) {
+                (Some(property), _) => self.value(item, property, &join(key), None),
+                (None, Some(Json::Bool(false))) => {
+                    let names = || properties.into_iter().flatten().map(|(n, _)| n.as_str());
+                    let near = suggestion(key, names());
+                    let known = names().collect::<Vec<_>>().join(", ");
+                    let known = match known.as_str() {
+                        "" => "none is taken here".to_string(),
+                        list => format!("valid here: {list}"),
+                    };
+                    self.problem(&join(key), format!("`{key}` is not a known key{near} ({known})"));
+                }
+                (None, Some(schema @ Json::Object(_))) => self.value(item, schema, &join(key), None),
+                _ => {}
+            }
+        }
+        for name in schema.get("required").and_then(Json::as_array).into_iter().flatten() {
+            let name = name.as_str().unwrap_or_default();
+            if !table.contains_key(name) {
+                let meaning = properties
+                    .and_then(|p| p.get(name)?.get("description")?.as_str())
+                    .map_or(String::new(), |d| format!(": {d}"));
+                self.problem(path, format!("the key `{name}` is missing{meaning}"));
+            }
+        }
+    }
+}
+
+fn describe(value: &Value) -> String {
+    match value {
+        Value::String(s) => format!("the string \"{s}\""),
+        Value::Integer(i) => format!("{i}"),
+        Value::Float(x) => format!("{x}"),
+        Value::Boolean(b) => format!("{b}"),
+        Value::Datetime(_) => "a date".into(),
+        Value::Array(_) => "a list".into(),
+        Value::Table(_) => "a table".into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn schema() -> Json {
+        json!({
+            "type": "object", "additionalProperties": false, "required": ["density"],
+            "properties": {
+                "density": {"type": "number", "unit": "kg/m³", "exclusiveMinimum": 0.0},
+                "gravity": {"type": "array", "items": {"type": "number"}, "minItems": 2, "unit": "m/s²"},
+                "mode": {"enum": ["no-slip", "free-slip"]},
+            }
+        })
+    }
+
+    fn problems(text: &str) -> Vec<String> {
+        let mut value: Value = Value::Table(toml::from_str(text).unwrap());
+        match conform(&mut value, &schema()) {
+            Ok(()) => Vec::new(),
+            Err(all) => all.iter().map(ToString::to_string).collect(),
+        }
+    }
+
+    #[test]
+    fn quantities_become_si_numbers() {
+        let mut value: Value =
+            Value::Table(toml::from_str("density = '1 g/cm^3'\ngravity = [0, '-9.81 m/s^2']").unwrap());
+        conform(&mut value, &schema()).unwrap();
+        assert_eq!(value["density"].as_float(), Some(1000.0));
+        assert_eq!(value["gravity"][1].as_float(), Some(-9.81));
+    }
+
+    #[test]
+    fn every_problem_is_named_with_its_path() {
+        assert!(problems("density = 1").is_empty());
+        assert!(problems("densty = 1")[0].contains("did you mean `density`?"));
+        assert!(problems("densty = 1")[1].contains("`density` is missing"));
+        assert!(problems("density = -1")[0].contains("more than 0 kg/m³"));
+        assert!(problems("density = nan")[0].contains("finite"));
+        assert!(problems("density = '3 m'")[0].contains("kg/m³"));
+        assert!(problems("density = 1\ngravity = [1]")[0].contains("at least 2"));
+        assert!(problems("density = 1\nmode = 'noslip'")[0].contains("did you mean `no-slip`?"));
+    }
+}

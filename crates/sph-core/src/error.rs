@@ -1,0 +1,141 @@
+//! Typed errors of the shared vocabulary.
+
+use thiserror::Error;
+
+/// A column that is not what its reader takes it for.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum FieldError {
+    /// Nobody declared the field.
+    #[error("field `{0}` is not allocated in this scene: no plugin declared it")]
+    Missing(&'static str),
+    /// The field has another type.
+    #[error("field `{0}` is read with a type it does not have")]
+    Type(&'static str),
+    /// A column came back with another length.
+    #[error("field `{0}` has {1} entries where {2} were expected")]
+    Length(&'static str, usize, usize),
+}
+
+/// A set of stages that cannot be put in order.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum PlanError {
+    /// A field that nobody writes.
+    #[error("field `{field}`, needed by {reader}, is written by no stage of this scene")]
+    NoWriter {
+        /// The missing field.
+        field: &'static str,
+        /// Who needs it.
+        reader: String,
+    },
+    /// Two stages that write the same field.
+    #[error("field `{field}` is written by both {first} and {second}: choose one of them")]
+    TwoWriters {
+        /// The contested field.
+        field: &'static str,
+        /// One writer.
+        first: String,
+        /// The other writer.
+        second: String,
+    },
+    /// Stages that wait for each other.
+    #[error("the stages {0} wait for each other's fields")]
+    Cycle(String),
+}
+
+/// Something wrong with the text of a scene, addressed by its key.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{path}: {message}")]
+pub struct SceneProblem {
+    /// Dotted path of the key, `phase.water.density`.
+    pub path: String,
+    /// What is wrong, what was expected, the nearest valid name.
+    pub message: String,
+}
+
+impl SceneProblem {
+    /// A problem at a key.
+    pub fn new(path: impl Into<String>, message: impl Into<String>) -> Self {
+        SceneProblem {
+            path: path.into(),
+            message: message.into(),
+        }
+    }
+}
+
+/// A plugin that cannot be found or built.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum RegistryError {
+    /// No plugin of that kind has that name.
+    #[error(
+        "there is no {kind} called `{name}`{hint}; registered: {known} \
+         (a plugin of another crate must be mentioned in your binary: `use my_plugin as _;`)"
+    )]
+    Unknown {
+        /// Kind of plugin.
+        kind: &'static str,
+        /// Name asked for.
+        name: String,
+        /// Nearest name, as `, did you mean …?`.
+        hint: String,
+        /// All names of the kind.
+        known: String,
+    },
+    /// Two crates registered the same name.
+    #[error("the {kind} `{name}` is registered twice, by {first} and by {second}")]
+    Duplicate {
+        /// Kind of plugin.
+        kind: &'static str,
+        /// The contested name.
+        name: &'static str,
+        /// One provider.
+        first: &'static str,
+        /// The other provider.
+        second: &'static str,
+    },
+    /// The plugin exists, but not in this dimension.
+    #[error("the {kind} `{name}` has no {dimension}D form")]
+    Dimension {
+        /// Kind of plugin.
+        kind: &'static str,
+        /// Name asked for.
+        name: &'static str,
+        /// Dimension of the scene.
+        dimension: usize,
+    },
+    /// A parameter is wrong; the paths are relative to the plugin's table.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
+    Parameters(Vec<SceneProblem>),
+}
+
+/// A time step that went wrong, with the particle and the quantity.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum StepError {
+    /// A column is not what its reader takes it for.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// A value left its bounds or is not a number.
+    #[error(
+        "{quantity} of particle {particle} at ({}) is {value}, {reason}",
+        .position.iter().map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(", ")
+    )]
+    Bad {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Identity of the particle.
+        particle: u32,
+        /// Where it is.
+        position: Vec<f64>,
+        /// The value.
+        value: f64,
+        /// Why it is bad.
+        reason: String,
+    },
+    /// A stage failed for a reason of its own.
+    #[error("{stage}: {reason}")]
+    Stage {
+        /// Name of the stage.
+        stage: String,
+        /// What happened and what to change.
+        reason: String,
+    },
+}

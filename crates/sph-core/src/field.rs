@@ -1,0 +1,125 @@
+//! What a field is: a name, a unit, a meaning, and the type of one entry.
+
+use crate::Vect;
+
+/// One real number per particle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scalar;
+
+/// One vector of D components per particle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Vector;
+
+/// One unsigned integer per particle (identity, phase).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Index;
+
+/// A column of one of the supported types.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Column<const D: usize> {
+    /// Reals.
+    Scalar(Vec<f64>),
+    /// Vectors.
+    Vector(Vec<Vect<D>>),
+    /// Unsigned integers.
+    Index(Vec<u32>),
+}
+
+/// The type of a field's entries.
+pub trait Kind: Copy + 'static {
+    /// One entry of the column in D dimensions.
+    type Item<const D: usize>: Copy + Send + Sync + std::fmt::Debug + 'static;
+    /// A column of `n` zero entries.
+    fn column<const D: usize>(n: usize) -> Column<D>;
+    /// The entries, if the column has this type.
+    fn items<const D: usize>(column: &Column<D>) -> Option<&Vec<Self::Item<D>>>;
+    /// The entries, if the column has this type.
+    fn items_mut<const D: usize>(column: &mut Column<D>) -> Option<&mut Vec<Self::Item<D>>>;
+    /// Real components per entry in D dimensions.
+    fn components(dimension: usize) -> usize;
+}
+
+macro_rules! kind {
+    ($kind:ident, $item:ty, $zero:expr, $components:expr) => {
+        impl Kind for $kind {
+            type Item<const D: usize> = $item;
+            fn column<const D: usize>(n: usize) -> Column<D> {
+                Column::$kind(vec![$zero; n])
+            }
+            fn items<const D: usize>(column: &Column<D>) -> Option<&Vec<Self::Item<D>>> {
+                match column {
+                    Column::$kind(items) => Some(items),
+                    _ => None,
+                }
+            }
+            fn items_mut<const D: usize>(
+                column: &mut Column<D>,
+            ) -> Option<&mut Vec<Self::Item<D>>> {
+                match column {
+                    Column::$kind(items) => Some(items),
+                    _ => None,
+                }
+            }
+            fn components(dimension: usize) -> usize {
+                let components: fn(usize) -> usize = $components;
+                components(dimension)
+            }
+        }
+    };
+}
+kind!(Scalar, f64, 0.0, |_| 1);
+kind!(Vector, Vect<D>, Vect::<D>::zeros(), |d| d);
+kind!(Index, u32, 0, |_| 1);
+
+/// A typed name for a column: `Field<Scalar>`, `Field<Vector>` or `Field<Index>`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Field<K> {
+    /// Name in scene files, VTK arrays and the book.
+    pub name: &'static str,
+    /// SI unit, "1" where there is none.
+    pub unit: &'static str,
+    /// One sentence.
+    pub meaning: &'static str,
+    kind: std::marker::PhantomData<K>,
+}
+
+impl<K: Kind> Field<K> {
+    /// Names a field.
+    pub const fn new(name: &'static str, unit: &'static str, meaning: &'static str) -> Self {
+        Field {
+            name,
+            unit,
+            meaning,
+            kind: std::marker::PhantomData,
+        }
+    }
+
+    /// Forgets the type, for declarations and listings.
+    pub const fn any(self) -> AnyField {
+        AnyField {
+            name: self.name,
+            unit: self.unit,
+            meaning: self.meaning,
+            components: K::components,
+        }
+    }
+}
+
+/// A field whose type is forgotten; compared by name.
+#[derive(Clone, Copy, Debug)]
+pub struct AnyField {
+    /// Name in scene files, VTK arrays and the book.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+    /// One sentence.
+    pub meaning: &'static str,
+    /// Real components per entry in the given dimension.
+    pub components: fn(usize) -> usize,
+}
+
+impl PartialEq for AnyField {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}

@@ -1,0 +1,44 @@
+//! The well-known fields. A plugin may declare others; the name is what counts.
+
+use crate::{Field, Index, Scalar, Vector};
+
+/// Position of a particle.
+pub const POSITION: Field<Vector> = Field::new("position", "m", "position");
+/// Velocity of a particle.
+pub const VELOCITY: Field<Vector> = Field::new("velocity", "m/s", "velocity");
+/// Rate of change of the velocity.
+pub const ACCELERATION: Field<Vector> =
+    Field::new("acceleration", "m/s²", "rate of change of the velocity");
+/// Mass of a particle, per metre of depth in two dimensions.
+pub const MASS: Field<Scalar> = Field::new("mass", "kg", "mass (per metre of depth in 2D)");
+/// Density.
+pub const DENSITY: Field<Scalar> = Field::new("density", "kg/m³", "density");
+/// Volume, mass over density.
+pub const VOLUME: Field<Scalar> = Field::new("volume", "m^d", "volume, mass over density");
+/// Pressure of the equation of state.
+pub const PRESSURE: Field<Scalar> =
+    Field::new("pressure", "Pa", "pressure of the equation of state");
+/// Dynamic viscosity where it differs between particles.
+pub const VISCOSITY: Field<Scalar> = Field::new("viscosity", "Pa s", "dynamic viscosity");
+/// Wall renormalisation factor γ: the share of the kernel inside the walls.
+pub const RENORMALISATION: Field<Scalar> = Field::new(
+    "renormalisation",
+    "1",
+    "wall renormalisation factor γ, the share of the kernel inside the walls",
+);
+/// K = γρ − mΣθw: what the density sum does not see of the initial state.
+pub const DENSITY_CONSTANT: Field<Scalar> = Field::new(
+    "density_constant",
+    "kg/m³",
+    "K = γρ − mΣθw, holds the free-surface deficit",
+);
+/// Rate of change of [`DENSITY_CONSTANT`], from density diffusion.
+pub const DENSITY_CONSTANT_RATE: Field<Scalar> = Field::new(
+    "density_constant_rate",
+    "kg/m³/s",
+    "rate of change of the density constant",
+);
+/// Number of the phase in the scene's order of names.
+pub const PHASE: Field<Index> = Field::new("phase", "1", "number of the phase");
+/// Number given at filling; follows the particle through every sort.
+pub const IDENTITY: Field<Index> = Field::new("identity", "1", "number given at filling");

@@ -1,0 +1,59 @@
+//! The shared vocabulary of the workspace: what a field, a plugin, a stage and an error are.
+//! There is no physics here.
+//!
+//! * [`Field`] and [`Store`]: one column per field, allocated only when somebody declared it.
+//! * [`contract!`] and [`register!`]: how a crate offers plugins of a kind, with typed
+//!   parameters whose unit, default, meaning and source travel with them.
+//! * [`Declares`], [`Stage`] and [`plan()`]: stages say what they read at the particle, what
+//!   they read at its neighbours and what they write; the planner prunes and orders them.
+//! * [`StepLimit`]: a plugin's own largest stable time step, with its reason.
+//!
+//! ```
+//! use sph_core::{Field, Role, Scalar, Store};
+//!
+//! const DENSITY: Field<Scalar> = Field::new("density", "kg/m³", "mass per volume");
+//! let mut store = Store::<2>::new(3);
+//! store.add(DENSITY, Role::State);
+//! store.get_mut(DENSITY).unwrap().fill(1000.0);
+//! assert_eq!(store.get(DENSITY).unwrap(), [1000.0; 3]);
+//! ```
+
+mod conform;
+mod error;
+mod evolve;
+mod field;
+pub mod fields;
+mod limit;
+mod names;
+mod plan;
+mod quantity;
+mod registry;
+mod stage;
+mod store;
+
+pub use conform::{conform, defaults};
+pub use error::{FieldError, PlanError, RegistryError, SceneProblem, StepError};
+pub use evolve::{Evolved, System};
+pub use field::{AnyField, Field, Index, Kind, Scalar, Vector};
+pub use limit::StepLimit;
+pub use names::{nearest, suggestion};
+pub use plan::{Plan, plan};
+pub use quantity::{Dimensions, parse_quantity, parse_unit};
+pub use registry::{
+    Contract, ContractInfo, Parameter, PluginInfo, Registry, contracts, parameters,
+    registry_contract_info, schema_of, typed,
+};
+pub use stage::{Access, Declares, Stage};
+pub use store::{Plain, Role, Store};
+
+/// Crates that the registration macros name; use them through the macros only.
+#[doc(hidden)]
+pub mod reexport {
+    pub use inventory;
+    pub use schemars;
+    pub use serde;
+    pub use toml;
+}
+
+/// A vector of D components, SI units of whatever it holds.
+pub type Vect<const D: usize> = nalgebra::SVector<f64, D>;

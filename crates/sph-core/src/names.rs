@@ -1,0 +1,31 @@
+//! The nearest valid name for a misspelt one.
+
+/// The candidate most like `name`, if any is near enough to be meant.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let plain = |s: &str| s.to_lowercase().replace('_', "-");
+    let wanted = plain(name);
+    candidates
+        .into_iter()
+        .map(|c| (strsim::damerau_levenshtein(&wanted, &plain(c)), c))
+        .filter(|(distance, c)| *distance <= 1 + c.len().max(name.len()) / 3)
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, c)| c)
+}
+
+/// `, did you mean `x`?` or nothing.
+pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
+    nearest(name, candidates).map_or(String::new(), |c| format!(", did you mean `{c}`?"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_swapped_letter_is_found_and_a_stranger_is_not() {
+        let names = ["viscosity", "density", "yield-stress"];
+        assert_eq!(nearest("yeild_stress", names), Some("yield-stress"));
+        assert_eq!(nearest("visosity", names), Some("viscosity"));
+        assert_eq!(nearest("banana", names), None);
+    }
+}

@@ -1,0 +1,225 @@
+//! Numbers with units in strings: "10 kPa", "1e-3 Pa s", "35 deg", "9.81 m/s^2".
+
+/// Exponents of metre, kilogram and second.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Dimensions {
+    /// Exponent of the metre.
+    pub metre: i32,
+    /// Exponent of the kilogram.
+    pub kilogram: i32,
+    /// Exponent of the second.
+    pub second: i32,
+}
+
+impl Dimensions {
+    const fn new(metre: i32, kilogram: i32, second: i32) -> Self {
+        Dimensions {
+            metre,
+            kilogram,
+            second,
+        }
+    }
+
+    fn add(self, other: Dimensions, times: i32) -> Self {
+        Dimensions::new(
+            self.metre + times * other.metre,
+            self.kilogram + times * other.kilogram,
+            self.second + times * other.second,
+        )
+    }
+}
+
+/// Units that may carry a prefix, with their value in SI.
+const BASE: [(&str, f64, Dimensions); 8] = [
+    ("m", 1.0, Dimensions::new(1, 0, 0)),
+    ("g", 1e-3, Dimensions::new(0, 1, 0)),
+    ("s", 1.0, Dimensions::new(0, 0, 1)),
+    ("N", 1.0, Dimensions::new(1, 1, -2)),
+    ("Pa", 1.0, Dimensions::new(-1, 1, -2)),
+    ("J", 1.0, Dimensions::new(2, 1, -2)),
+    ("W", 1.0, Dimensions::new(2, 1, -3)),
+    ("Hz", 1.0, Dimensions::new(0, 0, -1)),
+];
+
+/// Units that stand alone.
+const PLAIN: [(&str, f64, Dimensions); 10] = [
+    ("1", 1.0, Dimensions::new(0, 0, 0)),
+    ("%", 0.01, Dimensions::new(0, 0, 0)),
+    ("rad", 1.0, Dimensions::new(0, 0, 0)),
+    ("deg", std::f64::consts::PI / 180.0, Dimensions::new(0, 0, 0)),
+    ("°", std::f64::consts::PI / 180.0, Dimensions::new(0, 0, 0)),
+    ("bar", 1e5, Dimensions::new(-1, 1, -2)),
+    ("min", 60.0, Dimensions::new(0, 0, 1)),
+    ("h", 3600.0, Dimensions::new(0, 0, 1)),
+    ("t", 1e3, Dimensions::new(0, 1, 0)),
+    ("rpm", std::f64::consts::PI / 30.0, Dimensions::new(0, 0, -1)),
+];
+
+const PREFIXES: [(&str, f64); 9] = [
+    ("n", 1e-9),
+    ("u", 1e-6),
+    ("µ", 1e-6),
+    ("m", 1e-3),
+    ("c", 1e-2),
+    ("d", 1e-1),
+    ("k", 1e3),
+    ("M", 1e6),
+    ("G", 1e9),
+];
+
+/// Value in SI and dimensions of a unit such as "kPa", "m/s^2", "kg m^-3", "Pa·s".
+///
+/// # Errors
+/// Says which symbol is not known.
+pub fn parse_unit(text: &str) -> Result<(f64, Dimensions), String> {
+    let mut factor = 1.0;
+    let mut dimensions = Dimensions::default();
+    let mut sign = 1;
+    let mut symbol = String::new();
+    let mut flush = |symbol: &mut String, sign: i32| -> Result<(), String> {
+        if symbol.is_empty() {
+            return Ok(());
+        }
+        let (value, dims, power) = one_symbol(symbol)?;
+        factor *= value.powi(sign * power);
+        dimensions = dimensions.add(dims, sign * power);
+        symbol.clear();
+        Ok(())
+    };
+    for c in text.chars() {
+        match c {
+            ' ' | '*' | '·' => flush(&mut symbol, sign)?,
+            '/' => {
+                flush(&mut symbol, sign)?;
+                sign = -1;
+            }
+            c => symbol.push(c),
+        }
+    }
+    flush(&mut symbol, sign)?;
+    Ok((factor, dimensions))
+}
+
+fn one_symbol(symbol: &str) -> Result<(f64, Dimensions, i32), String> {
+    let plain = symbol.replace('²', "^2").replace('³', "^3");
+    let (name, power) = match plain.split_once('^') {
+        Some((name, power)) => (
+            name,
+            power
+                .parse::<i32>()
+                .map_err(|_| format!("`{power}` is not an exponent in the unit `{symbol}`"))?,
+        ),
+        None => (plain.as_str(), 1),
+    };
+    let known = |n: &str| {
+        PLAIN
+            .iter()
+            .chain(BASE.iter())
+            .find(|u| u.0 == n)
+            .map(|u| (u.1, u.2))
+    };
+    if let Some((value, dims)) = known(name) {
+        return Ok((value, dims, power));
+    }
+    for (prefix, scale) in PREFIXES {
+        let base = name
+            .strip_prefix(prefix)
+            .and_then(|rest| BASE.iter().find(|u| u.0 == rest));
+        if let Some(base) = base {
+            return Ok((scale * base.1, base.2, power));
+        }
+    }
+    Err(format!("`{symbol}` is not a unit that is known"))
+}
+
+/// The SI value of "number unit"; the unit must have the dimensions of `expected`.
+///
+/// A bare number is taken as SI.
+///
+/// # Errors
+/// Says what is wrong with the number, the unit or its dimensions.
+pub fn parse_quantity(text: &str, expected: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let end = number_end(text);
+    let number: f64 = text[..end]
+        .parse()
+        .map_err(|_| format!("`{text}` does not start with a number"))?;
+    if !number.is_finite() {
+        return Err(format!("`{text}` is not finite"));
+    }
+    let unit = text[end..].trim();
+    if unit.is_empty() {
+        return Ok(number);
+    }
+    let (factor, dimensions) = parse_unit(unit)?;
+    let (wanted_factor, wanted) = parse_unit(expected)?;
+    if dimensions != wanted {
+        return Err(format!(
+            "`{unit}` does not measure what is asked for here, expected a unit like `{expected}`"
+        ));
+    }
+    Ok(tidy(number * factor / wanted_factor))
+}
+
+/// The 15-digit decimal next to `x` if rounding alone separates them: 1 g/cm³ is 1000 kg/m³.
+fn tidy(x: f64) -> f64 {
+    let decimal = format!("{x:.14e}").parse().unwrap_or(x);
+    if (x - decimal).abs() <= 4.0 * f64::EPSILON * x.abs() {
+        decimal
+    } else {
+        x
+    }
+}
+
+/// Where the leading decimal number of a text ends.
+fn number_end(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let mut end = 0;
+    while end < bytes.len() {
+        let exponent_sign = end > 0 && matches!(bytes[end - 1], b'e' | b'E');
+        let exponent = matches!(bytes[end], b'e' | b'E')
+            && bytes
+                .get(end + 1)
+                .is_some_and(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-'));
+        let sign = matches!(bytes[end], b'+' | b'-') && (end == 0 || exponent_sign);
+        if bytes[end].is_ascii_digit() || bytes[end] == b'.' || exponent || sign {
+            end += 1;
+        } else {
+            break;
+        }
+    }
+    end
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantities_reach_si() {
+        let cases = [
+            ("10 kPa", "Pa", 1e4),
+            ("1e-3 Pa s", "Pa s", 1e-3),
+            ("1e-3Pa·s", "Pa s", 1e-3),
+            ("2 mm", "m", 2e-3),
+            ("180 deg", "rad", std::f64::consts::PI),
+            ("9.81 m/s^2", "m/s²", 9.81),
+            ("1 g/cm^3", "kg/m³", 1e3),
+            ("-3", "m", -3.0),
+            ("5 kg m^-3", "kg/m³", 5.0),
+        ];
+        for (text, unit, value) in cases {
+            let got = parse_quantity(text, unit).unwrap();
+            assert!((got - value).abs() <= 1e-12 * value.abs(), "{text}: {got}");
+        }
+    }
+
+    #[test]
+    fn wrong_units_are_named() {
+        assert!(parse_quantity("3 kPa", "m").unwrap_err().contains("like `m`"));
+        assert!(parse_quantity("3 parsec", "m").unwrap_err().contains("parsec"));
+        assert!(parse_quantity("abc", "m").unwrap_err().contains("number"));
+        assert!(parse_quantity("nan", "m").is_err());
+        assert!(parse_quantity("1e999", "m").unwrap_err().contains("finite"));
+    }
+}

@@ -1,0 +1,328 @@
+//! Plugins: contracts, entries, discovery through `inventory`, and a registry without globals.
+
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+use serde_json::Value as Json;
+use toml::{Table, Value};
+
+use crate::{RegistryError, SceneProblem, conform, suggestion};
+
+/// What is known of a plugin without building it.
+#[derive(Clone, Copy)]
+pub struct PluginInfo {
+    /// Name in scene files.
+    pub name: &'static str,
+    /// One sentence.
+    pub summary: &'static str,
+    /// Publication and equation.
+    pub source: &'static str,
+    /// Crate and version that registered it.
+    pub provider: &'static str,
+    /// Dimensions it can be built in.
+    pub dimensions: &'static [usize],
+    /// JSON schema of its parameters.
+    pub schema: fn() -> Json,
+}
+
+/// One parameter of a plugin, for listings.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Parameter {
+    /// Key in the scene.
+    pub name: String,
+    /// Type as the schema names it.
+    pub kind: String,
+    /// SI unit, "1" or empty where there is none.
+    pub unit: String,
+    /// Default value, if the key may be left out.
+    pub default: Option<Json>,
+    /// What it means.
+    pub meaning: String,
+    /// Where it comes from.
+    pub source: String,
+}
+
+/// The parameters that a schema describes.
+pub fn parameters(schema: &Json) -> Vec<Parameter> {
+    let text = |p: &Json, key: &str| {
+        let found = p.get(key).and_then(Json::as_str);
+        found.unwrap_or_default().replace('\n', " ")
+    };
+    let properties = schema.get("properties").and_then(Json::as_object);
+    properties
+        .into_iter()
+        .flatten()
+        .map(|(name, p)| Parameter {
+            name: name.clone(),
+            kind: match p.get("type") {
+                Some(Json::String(kind)) => kind.clone(),
+                Some(Json::Array(kinds)) => kinds[0].as_str().unwrap_or_default().to_string(),
+                _ => "choice".to_string(),
+            },
+            unit: text(p, "unit"),
+            default: p.get("default").cloned(),
+            meaning: text(p, "description"),
+            source: text(p, "source"),
+        })
+        .collect()
+}
+
+/// A kind of plugin: the type of its entries and where the discovered ones are.
+pub trait Contract: Sized + 'static {
+    /// Kind in scene files and listings.
+    const KIND: &'static str;
+    /// What the kind is for, one sentence.
+    const PURPOSE: &'static str;
+    /// Entries registered in any crate that the binary mentions.
+    fn discovered() -> Vec<&'static Self>;
+    /// What is known without building.
+    fn info(&self) -> &PluginInfo;
+}
+
+/// A kind of plugin with its type forgotten, for listings.
+pub struct ContractInfo {
+    /// Kind in scene files.
+    pub kind: &'static str,
+    /// One sentence.
+    pub purpose: &'static str,
+    /// Its discovered plugins.
+    pub plugins: fn() -> Vec<PluginInfo>,
+}
+inventory::collect!(ContractInfo);
+
+/// Every kind of plugin in this binary, sorted by name.
+pub fn contracts() -> Vec<&'static ContractInfo> {
+    let mut all: Vec<_> = inventory::iter::<ContractInfo>.into_iter().collect();
+    all.sort_by_key(|c| c.kind);
+    all
+}
+
+/// The plugins of one kind that may be named.
+pub struct Registry<E: Contract> {
+    entries: Vec<&'static E>,
+}
+
+impl<E: Contract> Default for Registry<E> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<E: Contract> Registry<E> {
+    /// No plugin at all; nothing global is looked at.
+    pub fn new() -> Self {
+        Registry {
+            entries: Vec::new(),
+        }
+    }
+
+    /// Every plugin of the kind in this binary.
+    ///
+    /// # Errors
+    /// If two crates registered the same name.
+    pub fn discovered() -> Result<Self, RegistryError> {
+        E::discovered().into_iter().try_fold(Self::new(), Self::with)
+    }
+
+    /// Adds a plugin.
+    ///
+    /// # Errors
+    /// If the name is taken.
+    pub fn with(mut self, entry: &'static E) -> Result<Self, RegistryError> {
+        let info = entry.info();
+        if let Some(other) = self.entries.iter().find(|e| e.info().name == info.name) {
+            return Err(RegistryError::Duplicate {
+                kind: E::KIND,
+                name: info.name,
+                first: other.info().provider,
+                second: info.provider,
+            });
+        }
+        self.entries.push(entry);
+        self.entries.sort_by_key(|e| e.info().name);
+        Ok(self)
+    }
+
+    /// The plugin of that name.
+    ///
+    /// # Errors
+    /// If there is none; the message lists what there is and the nearest name.
+    pub fn find(&self, name: &str) -> Result<&'static E, RegistryError> {
+        let names = || self.entries.iter().map(|e| e.info().name);
+        let found = self.entries.iter().find(|e| e.info().name == name);
+        found.copied().ok_or_else(|| RegistryError::Unknown {
+            kind: E::KIND,
+            name: name.to_string(),
+            hint: suggestion(name, names()),
+            known: names().collect::<Vec<_>>().join(", "),
+        })
+    }
+
+    /// All entries, sorted by name.
+    pub fn entries(&self) -> &[&'static E] {
+        &self.entries
+    }
+}
+
+/// Typed parameters from a table: checked against the type's own schema, units converted.
+///
+/// # Errors
+/// Every unknown key, wrong type, wrong unit and value out of range.
+pub fn typed<P: DeserializeOwned + JsonSchema>(table: &Table) -> Result<P, RegistryError> {
+    let mut value = Value::Table(table.clone());
+    conform(&mut value, &schema_of::<P>()).map_err(RegistryError::Parameters)?;
+    value
+        .try_into()
+        .map_err(|e: toml::de::Error| one_problem(e.message()))
+}
+
+fn one_problem(message: &str) -> RegistryError {
+    RegistryError::Parameters(vec![SceneProblem::new("", message)])
+}
+
+/// The JSON schema of a parameter type.
+pub fn schema_of<P: JsonSchema>() -> Json {
+    schemars::schema_for!(P).to_value()
+}
+
+/// Declares a kind of plugin: `contract!(/** doc */ pub WallEntry, "walls", "what for", Wall<D>)`
+/// for a trait with a dimension, `Kernel` without `<D>` for one without.
+#[macro_export]
+macro_rules! contract {
+    ($(#[$doc:meta])* $vis:vis $entry:ident, $kind:literal, $purpose:literal, $tr:ident<D>) => {
+        $(#[$doc])*
+        $vis struct $entry {
+            /// What is known without building.
+            pub info: $crate::PluginInfo,
+            /// Builds the two-dimensional form.
+            pub build_2d: Option<
+                fn(&$crate::reexport::toml::Table) -> Result<Box<dyn $tr<2>>, $crate::RegistryError>,
+            >,
+            /// Builds the three-dimensional form.
+            pub build_3d: Option<
+                fn(&$crate::reexport::toml::Table) -> Result<Box<dyn $tr<3>>, $crate::RegistryError>,
+            >,
+        }
+        impl $entry {
+            /// Builds the plugin in D dimensions from its table of parameters.
+            ///
+            /// # Errors
+            /// If a parameter is wrong or the plugin has no form in that dimension.
+            pub fn build<const D: usize>(
+                &self,
+                table: &$crate::reexport::toml::Table,
+            ) -> Result<Box<dyn $tr<D>>, $crate::RegistryError> {
+                let absent = || $crate::RegistryError::Dimension {
+                    kind: $kind,
+                    name: self.info.name,
+                    dimension: D,
+                };
+                let built: Box<dyn std::any::Any> = match D {
+                    2 => Box::new(self.build_2d.ok_or_else(absent)?(table)?),
+                    3 => Box::new(self.build_3d.ok_or_else(absent)?(table)?),
+                    _ => return Err(absent()),
+                };
+                built.downcast::<Box<dyn $tr<D>>>().map(|b| *b).map_err(|_| absent())
+            }
+        }
+        $crate::contract!(@common $entry, $kind, $purpose);
+    };
+    ($(#[$doc:meta])* $vis:vis $entry:ident, $kind:literal, $purpose:literal, $tr:ident) => {
+        $(#[$doc])*
+        $vis struct $entry {
+            /// What is known without building.
+            pub info: $crate::PluginInfo,
+            /// Builds the plugin from its table of parameters.
+            pub build:
+                fn(&$crate::reexport::toml::Table) -> Result<Box<dyn $tr>, $crate::RegistryError>,
+        }
+        $crate::contract!(@common $entry, $kind, $purpose);
+    };
+    (@common $entry:ident, $kind:literal, $purpose:literal) => {
+        impl $crate::Contract for $entry {
+            const KIND: &'static str = $kind;
+            const PURPOSE: &'static str = $purpose;
+            fn discovered() -> Vec<&'static Self> {
+                $crate::reexport::inventory::iter::<$entry>.into_iter().collect()
+            }
+            fn info(&self) -> &$crate::PluginInfo {
+                &self.info
+            }
+        }
+        $crate::reexport::inventory::collect!($entry);
+        $crate::reexport::inventory::submit! {
+            $crate::registry_contract_info($kind, $purpose, || {
+                let mut all: Vec<_> = <$entry as $crate::Contract>::discovered()
+                    .iter()
+                    .map(|e| e.info)
+                    .collect();
+                all.sort_by_key(|i| i.name);
+                all
+            })
+        }
+    };
+}
+
+/// An entry as a value: `entry!(WallEntry [2, 3], Usaw, "usaw", "summary", "source")`, or
+/// without dimensions for contracts that have none.
+#[macro_export]
+macro_rules! entry {
+    (@info $ty:ty, $name:literal, $summary:literal, $source:literal, $dims:expr) => {
+        $crate::PluginInfo {
+            name: $name,
+            summary: $summary,
+            source: $source,
+            provider: concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")),
+            dimensions: $dims,
+            schema: $crate::schema_of::<$ty>,
+        }
+    };
+    ($entry:ident [2], $ty:ty, $name:literal, $summary:literal, $source:literal) => {
+        $entry {
+            info: $crate::entry!(@info $ty, $name, $summary, $source, &[2]),
+            build_2d: Some(|t| Ok(Box::new($crate::typed::<$ty>(t)?))),
+            build_3d: None,
+        }
+    };
+    ($entry:ident [3], $ty:ty, $name:literal, $summary:literal, $source:literal) => {
+        $entry {
+            info: $crate::entry!(@info $ty, $name, $summary, $source, &[3]),
+            build_2d: None,
+            build_3d: Some(|t| Ok(Box::new($crate::typed::<$ty>(t)?))),
+        }
+    };
+    ($entry:ident [2, 3], $ty:ty, $name:literal, $summary:literal, $source:literal) => {
+        $entry {
+            info: $crate::entry!(@info $ty, $name, $summary, $source, &[2, 3]),
+            build_2d: Some(|t| Ok(Box::new($crate::typed::<$ty>(t)?))),
+            build_3d: Some(|t| Ok(Box::new($crate::typed::<$ty>(t)?))),
+        }
+    };
+    ($entry:ident, $ty:ty, $name:literal, $summary:literal, $source:literal) => {
+        $entry {
+            info: $crate::entry!(@info $ty, $name, $summary, $source, &[2, 3]),
+            build: |t| Ok(Box::new($crate::typed::<$ty>(t)?)),
+        }
+    };
+}
+
+/// Registers a plugin for discovery; the arguments of [`entry!`].
+#[macro_export]
+macro_rules! register {
+    ($($arguments:tt)*) => {
+        $crate::reexport::inventory::submit! { $crate::entry!($($arguments)*) }
+    };
+}
+
+/// Used by [`contract!`].
+#[doc(hidden)]
+pub const fn registry_contract_info(
+    kind: &'static str,
+    purpose: &'static str,
+    plugins: fn() -> Vec<PluginInfo>,
+) -> ContractInfo {
+    ContractInfo {
+        kind,
+        purpose,
+        plugins,
+    }
+}

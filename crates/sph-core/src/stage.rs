@@ -1,0 +1,97 @@
+//! Stages: what a piece of work reads and writes, and the work itself.
+
+use crate::field::AnyField;
+use crate::{Field, Kind, StepError};
+
+/// The columns a stage touches.
+///
+/// Reads at the particle and reads at its neighbours are told apart: the planner needs both
+/// for order and pruning, and a halo exchange would need only the second.
+#[derive(Clone, Debug, Default)]
+pub struct Access {
+    /// Columns read at the particle itself.
+    pub here: Vec<AnyField>,
+    /// Columns read at its neighbours.
+    pub neighbours: Vec<AnyField>,
+    /// Columns written at the particle itself.
+    pub writes: Vec<AnyField>,
+    /// Whether the stage walks over neighbours (a sweep).
+    pub sweep: bool,
+}
+
+impl Access {
+    /// No column at all.
+    pub fn none() -> Self {
+        Access::default()
+    }
+
+    /// Adds a column read at the particle.
+    pub fn here<K: Kind>(mut self, field: Field<K>) -> Self {
+        push(&mut self.here, field.any());
+        self
+    }
+
+    /// Adds a column read at the particle and at its neighbours.
+    pub fn both<K: Kind>(mut self, field: Field<K>) -> Self {
+        push(&mut self.here, field.any());
+        self.neighbours(field)
+    }
+
+    /// Adds a column read at the neighbours.
+    pub fn neighbours<K: Kind>(mut self, field: Field<K>) -> Self {
+        push(&mut self.neighbours, field.any());
+        self.sweep = true;
+        self
+    }
+
+    /// Adds a column written at the particle.
+    pub fn writes<K: Kind>(mut self, field: Field<K>) -> Self {
+        push(&mut self.writes, field.any());
+        self
+    }
+
+    /// Joins the accesses of two pieces of work done in one walk.
+    pub fn and(mut self, other: Access) -> Self {
+        other.here.into_iter().for_each(|f| push(&mut self.here, f));
+        other
+            .neighbours
+            .into_iter()
+            .for_each(|f| push(&mut self.neighbours, f));
+        other
+            .writes
+            .into_iter()
+            .for_each(|f| push(&mut self.writes, f));
+        self.sweep |= other.sweep;
+        self
+    }
+
+    /// Every column read, here or at neighbours, once.
+    pub fn reads(&self) -> Vec<AnyField> {
+        let mut all = self.here.clone();
+        self.neighbours.iter().for_each(|f| push(&mut all, *f));
+        all
+    }
+}
+
+fn push(list: &mut Vec<AnyField>, field: AnyField) {
+    if !list.contains(&field) {
+        list.push(field);
+    }
+}
+
+/// Something with a name and declared columns.
+pub trait Declares {
+    /// Name in plans and timings.
+    fn name(&self) -> String;
+    /// The columns it touches.
+    fn access(&self) -> Access;
+}
+
+/// One piece of work of an evaluation, over all particles, in a context `C`.
+pub trait Stage<C>: Declares + Send {
+    /// Does the work.
+    ///
+    /// # Errors
+    /// When a column is missing or a value is impossible; the step is then rolled back.
+    fn run(&mut self, context: &mut C) -> Result<(), StepError>;
+}

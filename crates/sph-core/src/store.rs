@@ -1,0 +1,195 @@
+//! Columns by name: the fields that this run needs and no other.
+
+use std::borrow::Cow;
+
+use crate::field::Column;
+use crate::{Field, FieldError, Kind, Vect};
+
+/// What happens to a column over a time step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Carries history: sorted with the particles, written to checkpoints.
+    State,
+    /// Computed anew at every evaluation.
+    Derived,
+}
+
+struct Entry<const D: usize> {
+    name: &'static str,
+    unit: &'static str,
+    role: Role,
+    column: Column<D>,
+}
+
+/// The columns of one set of particles.
+pub struct Store<const D: usize> {
+    len: usize,
+    entries: Vec<Entry<D>>,
+}
+
+/// A column as plain numbers, for files.
+#[derive(Clone, Debug)]
+pub enum Plain<'a> {
+    /// Reals, `components` per particle.
+    Real(Cow<'a, [f64]>),
+    /// Unsigned integers.
+    Index(&'a [u32]),
+}
+
+impl<const D: usize> Store<D> {
+    /// An empty store for `len` particles.
+    pub fn new(len: usize) -> Self {
+        Store {
+            len,
+            entries: Vec::new(),
+        }
+    }
+
+    /// Number of particles.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there is no particle.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Allocates a column of zeros unless it is there; a state column stays one.
+    pub fn add<K: Kind>(&mut self, field: Field<K>, role: Role) {
+        match self.entries.iter_mut().find(|e| e.name == field.name) {
+            Some(entry) if role == Role::State => entry.role = Role::State,
+            Some(_) => {}
+            None => self.entries.push(Entry {
+                name: field.name,
+                unit: field.unit,
+                role,
+                column: K::column::<D>(self.len),
+            }),
+        }
+    }
+
+    /// Whether a column of that name is allocated.
+    pub fn has(&self, name: &str) -> bool {
+        self.entries.iter().any(|e| e.name == name)
+    }
+
+    /// The entries of a column.
+    ///
+    /// # Errors
+    /// If nobody asked for the column, or it has another type.
+    pub fn get<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
+        let entry = self.entries.iter().find(|e| e.name == field.name);
+        let entry = entry.ok_or(FieldError::Missing(field.name))?;
+        K::items(&entry.column)
+            .map(Vec::as_slice)
+            .ok_or(FieldError::Type(field.name))
+    }
+
+    /// The entries of a column, to be changed.
+    ///
+    /// # Errors
+    /// If nobody asked for the column, or it has another type.
+    pub fn get_mut<K: Kind>(&mut self, field: Field<K>) -> Result<&mut Vec<K::Item<D>>, FieldError> {
+        let entry = self.entries.iter_mut().find(|e| e.name == field.name);
+        let entry = entry.ok_or(FieldError::Missing(field.name))?;
+        K::items_mut(&mut entry.column).ok_or(FieldError::Type(field.name))
+    }
+
+    /// Takes a column out so that it can be written while others are read.
+    ///
+    /// # Errors
+    /// If nobody asked for the column, or it has another type.
+    pub fn take<K: Kind>(&mut self, field: Field<K>) -> Result<Vec<K::Item<D>>, FieldError> {
+        self.get_mut(field).map(std::mem::take)
+    }
+
+    /// Puts a taken column back.
+    ///
+    /// # Errors
+    /// If the column is not there, has another type, or the length has changed.
+    pub fn put<K: Kind>(
+        &mut self,
+        field: Field<K>,
+        items: Vec<K::Item<D>>,
+    ) -> Result<(), FieldError> {
+        if items.len() != self.len {
+            return Err(FieldError::Length(field.name, items.len(), self.len));
+        }
+        *self.get_mut(field)? = items;
+        Ok(())
+    }
+
+    /// Sorts every state column: entry `k` becomes the old entry `order[k]`.
+    pub fn permute(&mut self, order: &[u32]) {
+        fn gather<T: Copy>(items: &mut Vec<T>, order: &[u32]) {
+            *items = order.iter().map(|&o| items[o as usize]).collect();
+        }
+        for entry in self.entries.iter_mut().filter(|e| e.role == Role::State) {
+            match &mut entry.column {
+                Column::Scalar(items) => gather(items, order),
+                Column::Vector(items) => gather(items, order),
+                Column::Index(items) => gather(items, order),
+            }
+        }
+    }
+
+    /// Name, unit, role, components and numbers of every column, in order of allocation.
+    pub fn columns(&self) -> impl Iterator<Item = (&'static str, &'static str, Role, usize, Plain<'_>)> {
+        self.entries.iter().map(|e| {
+            let (components, plain) = match &e.column {
+                Column::Scalar(v) => (1, Plain::Real(Cow::Borrowed(v.as_slice()))),
+                Column::Vector(v) => (D, Plain::Real(v.iter().flatten().copied().collect())),
+                Column::Index(v) => (1, Plain::Index(v.as_slice())),
+            };
+            (e.name, e.unit, e.role, components, plain)
+        })
+    }
+
+    /// Overwrites a column by name with plain reals.
+    ///
+    /// # Errors
+    /// If the column is missing, of another type, or of another length.
+    pub fn set_real(&mut self, name: &'static str, values: &[f64]) -> Result<(), FieldError> {
+        let len = self.len;
+        let entry = self.entries.iter_mut().find(|e| e.name == name);
+        match &mut entry.ok_or(FieldError::Missing(name))?.column {
+            Column::Scalar(v) if values.len() == len => v.copy_from_slice(values),
+            Column::Vector(v) if values.len() == D * len => {
+                for (item, chunk) in v.iter_mut().zip(values.chunks_exact(D)) {
+                    *item = Vect::from_column_slice(chunk);
+                }
+            }
+            Column::Index(_) => return Err(FieldError::Type(name)),
+            _ => return Err(FieldError::Length(name, values.len(), len)),
+        }
+        Ok(())
+    }
+
+    /// Overwrites a column by name with unsigned integers.
+    ///
+    /// # Errors
+    /// If the column is missing, of another type, or of another length.
+    pub fn set_index(&mut self, name: &'static str, values: &[u32]) -> Result<(), FieldError> {
+        let len = self.len;
+        let entry = self.entries.iter_mut().find(|e| e.name == name);
+        match &mut entry.ok_or(FieldError::Missing(name))?.column {
+            Column::Index(v) if values.len() == len => v.copy_from_slice(values),
+            Column::Index(_) => return Err(FieldError::Length(name, values.len(), len)),
+            _ => return Err(FieldError::Type(name)),
+        }
+        Ok(())
+    }
+
+    /// Bytes of one particle over all columns.
+    pub fn bytes_per_particle(&self) -> usize {
+        self.entries
+            .iter()
+            .map(|e| match &e.column {
+                Column::Scalar(_) => 8,
+                Column::Vector(_) => 8 * D,
+                Column::Index(_) => 4,
+            })
+            .sum()
+    }
+}

@@ -1,0 +1,67 @@
+//! A contract and its plugins as a stranger's crate would write them.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Contract, Registry, RegistryError, contract, entry, register};
+
+/// A law that maps a rate to a stress.
+pub trait Law<const D: usize>: Send {
+    /// Stress, Pa.
+    fn stress(&self, rate: f64) -> f64;
+}
+contract!(
+    /// Laws of this test.
+    pub LawEntry, "law", "maps a rate to a stress", Law<D>
+);
+
+/// τ = η γ̇
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Newtonian {
+    /// Dynamic viscosity.
+    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "Newton 1687"))]
+    viscosity: f64,
+}
+impl<const D: usize> Law<D> for Newtonian {
+    fn stress(&self, rate: f64) -> f64 {
+        self.viscosity * rate
+    }
+}
+register!(LawEntry [2], Newtonian, "newtonian", "linear law", "Newton 1687");
+
+fn table(text: &str) -> toml::Table {
+    toml::from_str(text).unwrap()
+}
+
+#[test]
+fn a_registered_plugin_is_found_built_and_listed() {
+    let registry = Registry::<LawEntry>::discovered().unwrap();
+    let law = registry.find("newtonian").unwrap();
+    let built = law.build::<2>(&table("viscosity = '2 mPa s'")).unwrap();
+    assert!((built.stress(3.0) - 6e-3).abs() < 1e-15);
+    let listed = sph_core::parameters(&(law.info().schema)());
+    assert_eq!(listed[0].unit, "Pa s");
+    assert_eq!(listed[0].source, "Newton 1687");
+    assert!(sph_core::contracts().iter().any(|c| c.kind == "law"));
+}
+
+#[test]
+fn mistakes_are_named() {
+    let registry = Registry::<LawEntry>::discovered().unwrap();
+    let unknown = registry.find("newtonain").err().unwrap().to_string();
+    assert!(unknown.contains("did you mean `newtonian`?"), "{unknown}");
+    assert!(unknown.contains("use my_plugin as _"), "{unknown}");
+    let law = registry.find("newtonian").unwrap();
+    let misspelt = law.build::<2>(&table("viscosty = 1")).err().unwrap();
+    assert!(misspelt.to_string().contains("did you mean `viscosity`?"));
+    let dimension = law.build::<3>(&table("viscosity = 1")).err().unwrap();
+    assert!(matches!(dimension, RegistryError::Dimension { dimension: 3, .. }));
+}
+
+#[test]
+fn the_same_name_twice_is_refused() {
+    static ONE: LawEntry = entry!(LawEntry [2, 3], Newtonian, "same", "one", "here");
+    static TWO: LawEntry = entry!(LawEntry [2, 3], Newtonian, "same", "two", "there");
+    let twice = Registry::new().with(&ONE).unwrap().with(&TWO).err().unwrap();
+    assert!(matches!(twice, RegistryError::Duplicate { name: "same", .. }));
+}

@@ -1,0 +1,1 @@
+//! Time integrators and step limits

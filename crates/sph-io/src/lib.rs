@@ -1,0 +1,1 @@
+//! VTK series, CSV tables, pictures and checkpoints

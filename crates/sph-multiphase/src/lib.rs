@@ -1,0 +1,1 @@
+//! Density formulations, pressure gradients, viscous operators, smoothers and equations of state

@@ -1,0 +1,1 @@
+//! Cell-ordered neighbour search, Verlet lists and the fused pair loop

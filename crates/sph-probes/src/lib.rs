@@ -1,0 +1,1 @@
+//! Probes, gauges, reference solutions and error norms

@@ -1,0 +1,1 @@
+//! Constitutive laws on slices: effective viscosity and stress

@@ -1,0 +1,1 @@
+//! Scene files: parsing, units, shapes, filling, JSON schema

@@ -1,0 +1,1 @@
+//! Assembles plugins into a plan and runs it
