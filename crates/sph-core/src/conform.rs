@@ -71,7 +71,9 @@ impl<'s> Walk<'s> {
         }
         let kind = match schema.get("type") {
             Some(Json::String(kind)) => Some(kind.as_str()),
-            Some(Json::Array(kinds)) => kinds.iter().filter_map(Json::as_str).find(|k| *k != "null"),
+            Some(Json::Array(kinds)) => {
+                kinds.iter().filter_map(Json::as_str).find(|k| *k != "null")
+            }
             _ => None,
         };
         match kind {
@@ -81,7 +83,10 @@ impl<'s> Walk<'s> {
                 self.problem(path, "expected true or false".into());
             }
             Some("string") if value.as_str().is_none() => {
-                self.problem(path, format!("expected a string, found {}", describe(value)));
+                self.problem(
+                    path,
+                    format!("expected a string, found {}", describe(value)),
+                );
             }
             Some("array") => self.array(value, schema, path, unit),
             Some("object") => self.object(value, schema, path),
@@ -89,8 +94,17 @@ impl<'s> Walk<'s> {
         }
     }
 
-    fn one_of(&mut self, value: &mut Value, options: &'s [Json], path: &str, unit: Option<&'s str>) {
-        let names: Vec<&str> = options.iter().filter_map(|o| o.get("const")?.as_str()).collect();
+    fn one_of(
+        &mut self,
+        value: &mut Value,
+        options: &'s [Json],
+        path: &str,
+        unit: Option<&'s str>,
+    ) {
+        let names: Vec<&str> = options
+            .iter()
+            .filter_map(|o| o.get("const")?.as_str())
+            .collect();
         if names.len() == options.len() {
             return self.one_of_names(value, names.into_iter(), path);
         }
@@ -116,9 +130,20 @@ impl<'s> Walk<'s> {
         self.problems.extend(first.unwrap_or_default());
     }
 
-    fn one_of_names<'n>(&mut self, value: &Value, names: impl Iterator<Item = &'n str>, path: &str) {
+    fn one_of_names<'n>(
+        &mut self,
+        value: &Value,
+        names: impl Iterator<Item = &'n str>,
+        path: &str,
+    ) {
         let names: Vec<&str> = names.collect();
-        let expected = || names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
+        let expected = || {
+            names
+                .iter()
+                .map(|n| format!("`{n}`"))
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
         match value.as_str() {
             Some(text) if names.contains(&text) => {}
             Some(text) => self.problem(
@@ -148,7 +173,10 @@ impl<'s> Walk<'s> {
             }
         };
         if !number.is_finite() {
-            return self.problem(path, format!("expected a finite number{of}, found {number}"));
+            return self.problem(
+                path,
+                format!("expected a finite number{of}, found {number}"),
+            );
         }
         *value = Value::Float(number);
         self.range(number, schema, path, unit);
@@ -166,15 +194,25 @@ impl<'s> Walk<'s> {
 
     fn range(&mut self, x: f64, schema: &Json, path: &str, unit: Option<&str>) {
         let bound = |key: &str| schema.get(key).and_then(Json::as_f64);
-        let unit = unit.filter(|u| *u != "1").map_or(String::new(), |u| format!(" {u}"));
+        let unit = unit
+            .filter(|u| *u != "1")
+            .map_or(String::new(), |u| format!(" {u}"));
         let checks: [(Option<f64>, bool, &str); 4] = [
-            (bound("minimum"), bound("minimum").is_some_and(|b| x < b), "at least"),
+            (
+                bound("minimum"),
+                bound("minimum").is_some_and(|b| x < b),
+                "at least",
+            ),
             (
                 bound("exclusiveMinimum"),
                 bound("exclusiveMinimum").is_some_and(|b| x <= b),
                 "more than",
             ),
-            (bound("maximum"), bound("maximum").is_some_and(|b| x > b), "at most"),
+            (
+                bound("maximum"),
+                bound("maximum").is_some_and(|b| x > b),
+                "at most",
+            ),
             (
                 bound("exclusiveMaximum"),
                 bound("exclusiveMaximum").is_some_and(|b| x >= b),
@@ -234,13 +272,23 @@ impl<'s> Walk<'s> {
                         "" => "none is taken here".to_string(),
                         list => format!("valid here: {list}"),
                     };
-                    self.problem(&join(key), format!("`{key}` is not a known key{near} ({known})"));
+                    self.problem(
+                        &join(key),
+                        format!("`{key}` is not a known key{near} ({known})"),
+                    );
                 }
-                (None, Some(schema @ Json::Object(_))) => self.value(item, schema, &join(key), None),
+                (None, Some(schema @ Json::Object(_))) => {
+                    self.value(item, schema, &join(key), None)
+                }
                 _ => {}
             }
         }
-        for name in schema.get("required").and_then(Json::as_array).into_iter().flatten() {
+        for name in schema
+            .get("required")
+            .and_then(Json::as_array)
+            .into_iter()
+            .flatten()
+        {
             let name = name.as_str().unwrap_or_default();
             if !table.contains_key(name) {
                 let meaning = properties
@@ -290,8 +338,9 @@ mod tests {
 
     #[test]
     fn quantities_become_si_numbers() {
-        let mut value: Value =
-            Value::Table(toml::from_str("density = '1 g/cm^3'\ngravity = [0, '-9.81 m/s^2']").unwrap());
+        let mut value: Value = Value::Table(
+            toml::from_str("density = '1 g/cm^3'\ngravity = [0, '-9.81 m/s^2']").unwrap(),
+        );
         conform(&mut value, &schema()).unwrap();
         assert_eq!(value["density"].as_float(), Some(1000.0));
         assert_eq!(value["gravity"][1].as_float(), Some(-9.81));

@@ -121,7 +121,10 @@ mod tests {
     fn names_what_is_missing_double_or_circular() {
         let c = Work("c", Access::none().here(B).writes(C));
         let missing = plan(&[&c], &[C.any()], &[]).unwrap_err();
-        assert!(missing.to_string().contains("`b`, needed by c"), "{missing}");
+        assert!(
+            missing.to_string().contains("`b`, needed by c"),
+            "{missing}"
+        );
         let other = Work("other c", Access::none().writes(C));
         let double = plan(&[&c, &other], &[C.any()], &[B.any()]).unwrap_err();
         assert!(matches!(double, PlanError::TwoWriters { field: "c", .. }));

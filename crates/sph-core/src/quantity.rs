@@ -46,13 +46,21 @@ const PLAIN: [(&str, f64, Dimensions); 10] = [
     ("1", 1.0, Dimensions::new(0, 0, 0)),
     ("%", 0.01, Dimensions::new(0, 0, 0)),
     ("rad", 1.0, Dimensions::new(0, 0, 0)),
-    ("deg", std::f64::consts::PI / 180.0, Dimensions::new(0, 0, 0)),
+    (
+        "deg",
+        std::f64::consts::PI / 180.0,
+        Dimensions::new(0, 0, 0),
+    ),
     ("°", std::f64::consts::PI / 180.0, Dimensions::new(0, 0, 0)),
     ("bar", 1e5, Dimensions::new(-1, 1, -2)),
     ("min", 60.0, Dimensions::new(0, 0, 1)),
     ("h", 3600.0, Dimensions::new(0, 0, 1)),
     ("t", 1e3, Dimensions::new(0, 1, 0)),
-    ("rpm", std::f64::consts::PI / 30.0, Dimensions::new(0, 0, -1)),
+    (
+        "rpm",
+        std::f64::consts::PI / 30.0,
+        Dimensions::new(0, 0, -1),
+    ),
 ];
 
 const PREFIXES: [(&str, f64); 9] = [
@@ -216,8 +224,16 @@ mod tests {
 
     #[test]
     fn wrong_units_are_named() {
-        assert!(parse_quantity("3 kPa", "m").unwrap_err().contains("like `m`"));
-        assert!(parse_quantity("3 parsec", "m").unwrap_err().contains("parsec"));
+        assert!(
+            parse_quantity("3 kPa", "m")
+                .unwrap_err()
+                .contains("like `m`")
+        );
+        assert!(
+            parse_quantity("3 parsec", "m")
+                .unwrap_err()
+                .contains("parsec")
+        );
         assert!(parse_quantity("abc", "m").unwrap_err().contains("number"));
         assert!(parse_quantity("nan", "m").is_err());
         assert!(parse_quantity("1e999", "m").unwrap_err().contains("finite"));

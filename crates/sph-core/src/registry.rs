@@ -120,7 +120,9 @@ impl<E: Contract> Registry<E> {
     /// # Errors
     /// If two crates registered the same name.
     pub fn discovered() -> Result<Self, RegistryError> {
-        E::discovered().into_iter().try_fold(Self::new(), Self::with)
+        E::discovered()
+            .into_iter()
+            .try_fold(Self::new(), Self::with)
     }
 
     /// Adds a plugin.

@@ -90,7 +90,10 @@ impl<const D: usize> Store<D> {
     ///
     /// # Errors
     /// If nobody asked for the column, or it has another type.
-    pub fn get_mut<K: Kind>(&mut self, field: Field<K>) -> Result<&mut Vec<K::Item<D>>, FieldError> {
+    pub fn get_mut<K: Kind>(
+        &mut self,
+        field: Field<K>,
+    ) -> Result<&mut Vec<K::Item<D>>, FieldError> {
         let entry = self.entries.iter_mut().find(|e| e.name == field.name);
         let entry = entry.ok_or(FieldError::Missing(field.name))?;
         K::items_mut(&mut entry.column).ok_or(FieldError::Type(field.name))
@@ -135,7 +138,9 @@ impl<const D: usize> Store<D> {
     }
 
     /// Name, unit, role, components and numbers of every column, in order of allocation.
-    pub fn columns(&self) -> impl Iterator<Item = (&'static str, &'static str, Role, usize, Plain<'_>)> {
+    pub fn columns(
+        &self,
+    ) -> impl Iterator<Item = (&'static str, &'static str, Role, usize, Plain<'_>)> {
         self.entries.iter().map(|e| {
             let (components, plain) = match &e.column {
                 Column::Scalar(v) => (1, Plain::Real(Cow::Borrowed(v.as_slice()))),

@@ -27,7 +27,13 @@ impl<const D: usize> Law<D> for Newtonian {
         self.viscosity * rate
     }
 }
-register!(LawEntry [2], Newtonian, "newtonian", "linear law", "Newton 1687");
+register!(
+    LawEntry[2],
+    Newtonian,
+    "newtonian",
+    "linear law",
+    "Newton 1687"
+);
 
 fn table(text: &str) -> toml::Table {
     toml::from_str(text).unwrap()
@@ -55,13 +61,24 @@ fn mistakes_are_named() {
     let misspelt = law.build::<2>(&table("viscosty = 1")).err().unwrap();
     assert!(misspelt.to_string().contains("did you mean `viscosity`?"));
     let dimension = law.build::<3>(&table("viscosity = 1")).err().unwrap();
-    assert!(matches!(dimension, RegistryError::Dimension { dimension: 3, .. }));
+    assert!(matches!(
+        dimension,
+        RegistryError::Dimension { dimension: 3, .. }
+    ));
 }
 
 #[test]
 fn the_same_name_twice_is_refused() {
     static ONE: LawEntry = entry!(LawEntry [2, 3], Newtonian, "same", "one", "here");
     static TWO: LawEntry = entry!(LawEntry [2, 3], Newtonian, "same", "two", "there");
-    let twice = Registry::new().with(&ONE).unwrap().with(&TWO).err().unwrap();
-    assert!(matches!(twice, RegistryError::Duplicate { name: "same", .. }));
+    let twice = Registry::new()
+        .with(&ONE)
+        .unwrap()
+        .with(&TWO)
+        .err()
+        .unwrap();
+    assert!(matches!(
+        twice,
+        RegistryError::Duplicate { name: "same", .. }
+    ));
 }

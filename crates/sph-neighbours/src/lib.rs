@@ -1,1 +1,34 @@
-//! Cell-ordered neighbour search, Verlet lists and the fused pair loop
+//! Who is near whom, and the one walk over the pairs that serves every term.
+//!
+//! * [`CellGrid`] sorts points by cell; [`NeighbourList`] keeps, per particle, the candidates
+//!   within the support plus a skin, and stays valid until somebody moved half the skin.
+//! * [`World`] is what a stage sees: the columns of the free particles, the wall points and
+//!   elements, the lists, the kernel.
+//! * A pair term is a scalar formula ([`BoundTerm`]); tuples of terms are one fused term, and
+//!   [`Interaction`] is the object-safe form, called once per particle and never per pair.
+//! * [`interactions`] is the sweep that sums all terms, [`kernel_sums`] the density sum.
+//!
+//! Each particle sums its own neighbourhood in the order of its list: no atomics, and the same
+//! bits for any number of threads.
+
+mod domain;
+mod fuse;
+mod grid;
+mod kernels;
+mod list;
+mod row;
+mod sweep;
+mod term;
+mod walls;
+mod world;
+
+pub use domain::Domain;
+pub use fuse::{FusionEntry, Terms, fuse_all, fuse_three, fuse_two};
+pub use grid::CellGrid;
+pub use kernels::KernelEntry;
+pub use list::{CHUNK, NeighbourList};
+pub use row::{Neighbourhood, Row, Scratch};
+pub use sweep::{interactions, interactions_with, kernel_sums, shepard};
+pub use term::{BoundTerm, Fused, Interaction, Pair, PairTerm, Rates, RowTerm, Term, TermEntry};
+pub use walls::{Contact, Contacts, Elements, WallPoints, WallSet};
+pub use world::{Lists, World};

@@ -1,1 +1,19 @@
-//! Constitutive laws on slices: effective viscosity and stress
+//! Constitutive laws on slices: no particles, no neighbours.
+//!
+//! A [`Rheology`] says what it [`Needs`] and turns it into an effective viscosity. The crate
+//! knows nothing of kernels or walls; an embedder hands it slices and gets slices back.
+//!
+//! ```
+//! use sph_rheology::{Inputs, Newtonian, Rheology};
+//!
+//! let water = Newtonian { viscosity: 1.0e-3 };
+//! let mut viscosity = [0.0; 2];
+//! water.viscosity(&Inputs::default(), &mut viscosity);
+//! assert_eq!(viscosity, [1.0e-3; 2]);
+//! ```
+
+mod contract;
+mod newtonian;
+
+pub use contract::{Inputs, Needs, Rheology, RheologyEntry};
+pub use newtonian::Newtonian;

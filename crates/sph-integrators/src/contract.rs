@@ -1,0 +1,33 @@
+//! What a time integrator is.
+
+use sph_core::{StepError, System, contract};
+
+/// How much of each physical time scale one step may take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LimitCoefficients {
+    /// Δt ≤ C h / c.
+    pub courant: f64,
+    /// Δt ≤ C ρ h² / η.
+    pub viscous: f64,
+    /// Δt ≤ C √(h / |a|).
+    pub force: f64,
+}
+
+/// A scheme that advances the system by one step.
+pub trait Integrator: Send {
+    /// Its stable shares of the time scales.
+    fn coefficients(&self) -> LimitCoefficients;
+    /// Advances from t to t + dt.
+    ///
+    /// On entry the rates belong to the present state; on exit the clock stands at t + dt and
+    /// the rates may be stale.
+    ///
+    /// # Errors
+    /// If an evaluation inside the step fails.
+    fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<(), StepError>;
+}
+
+contract!(
+    /// An integrator that a scene may name.
+    pub IntegratorEntry, "integrator", "the time stepping scheme", Integrator
+);

@@ -1,0 +1,35 @@
+//! Equations of state: pressure from density, on slices.
+
+use sph_core::contract;
+
+/// The state at which a phase has its reference density.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reference {
+    /// ρ₀, kg/m³.
+    pub density: f64,
+    /// Numerical speed of sound c₀, m/s.
+    pub sound_speed: f64,
+}
+
+/// A law with its reference state.
+pub trait BoundState: Send + Sync + std::fmt::Debug {
+    /// p(ρ), Pa.
+    fn pressure(&self, density: &[f64], pressure: &mut [f64]);
+    /// ρ(p), kg/m³.
+    fn density(&self, pressure: f64) -> f64;
+    /// c(ρ) = √(dp/dρ), m/s.
+    fn sound_speed(&self, density: f64) -> f64;
+    /// The reference state.
+    fn reference(&self) -> Reference;
+}
+
+/// A barotropic law p(ρ) of one phase.
+pub trait EquationOfState: Send + Sync {
+    /// The law for a phase.
+    fn bind(&self, reference: Reference) -> Box<dyn BoundState>;
+}
+
+contract!(
+    /// An equation of state that a phase may name.
+    pub EquationOfStateEntry, "equation-of-state", "pressure from density, per phase", EquationOfState
+);

@@ -1,0 +1,26 @@
+//! The combinations of built-in terms that are compiled into one loop.
+
+use sph_core::reexport::inventory;
+use sph_neighbours::{FusionEntry, fuse_three, fuse_two};
+
+use crate::{
+    BrezziPitkaranta as Smooth, HuAdamsPressure as Pressure, MorrisTerm, PerParticle, Uniform,
+};
+
+macro_rules! fuse {
+    ($terms:literal, $fuse:ident: $($t:ty),+) => {
+        inventory::submit! {
+            FusionEntry {
+                terms: $terms,
+                fuse_2d: $fuse::<2, $($t),+>,
+                fuse_3d: $fuse::<3, $($t),+>,
+            }
+        }
+    };
+}
+
+fuse!(3, fuse_three: Pressure, MorrisTerm<Uniform>, Smooth);
+fuse!(3, fuse_three: Pressure, MorrisTerm<PerParticle>, Smooth);
+fuse!(2, fuse_two: Pressure, MorrisTerm<Uniform>);
+fuse!(2, fuse_two: Pressure, MorrisTerm<PerParticle>);
+fuse!(2, fuse_two: Pressure, Smooth);

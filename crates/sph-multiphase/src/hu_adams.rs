@@ -1,0 +1,185 @@
+//! The volume formulation of Hu and Adams with semi-analytical walls and free surfaces.
+
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, register};
+use sph_neighbours::{
+    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, World, kernel_sums,
+};
+
+use crate::{Formulation, FormulationEntry};
+
+/// Density from volumes, ρ_a = (K_a + m_a Σ_b θ_b w_ab)/γ_a, with the skew-adjoint gradient
+/// G_a = 1/(γ_a V_a) [Σ_b θ_b (p_aV_a² + p_bV_b²) ∇w_ab − Σ_s (p_aV_a² + p_sV_s²)/V_s ∇γ_as].
+///
+/// K_a = γ_aρ_a − m_aΣθw is fixed at the start and holds the free-surface deficit; it changes
+/// by density diffusion alone, so the density has no drift. With one phase and no wall the
+/// formulation is the classical single-fluid one.
+///
+/// Source: Ghaïtanellis 2017, Eq. 3.24–3.25 in the telescoped form.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HuAdams {}
+
+impl<const D: usize> Formulation<D> for HuAdams {
+    fn evolved(&self) -> Vec<Evolved> {
+        vec![Evolved {
+            value: fields::DENSITY_CONSTANT,
+            rate: fields::DENSITY_CONSTANT_RATE,
+        }]
+    }
+
+    fn density_stage(&self) -> Box<dyn Stage<World<D>>> {
+        Box::new(DensitySum)
+    }
+
+    fn pressure_term(&self) -> Box<dyn Interaction<D>> {
+        Box::new(Term(HuAdamsPressure))
+    }
+
+    fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
+        kernel_sums(world, &mut constant)?;
+        let mass = world.free.get(fields::MASS)?;
+        let density = world.free.get(fields::DENSITY)?;
+        let gamma = world.free.get(fields::RENORMALISATION).ok();
+        for (i, k) in constant.iter_mut().enumerate() {
+            *k = gamma.map_or(1.0, |g| g[i]) * density[i] - mass[i] * *k;
+        }
+        Ok(world.free.put(fields::DENSITY_CONSTANT, constant)?)
+    }
+}
+
+register!(
+    FormulationEntry [2, 3],
+    HuAdams,
+    "hu-adams",
+    "volume-based densities, exact for several phases and with free surfaces",
+    "Ghaïtanellis 2017, Eq. 3.24–3.26; Hu & Adams 2006"
+);
+
+/// ρ = (K + m Σθw)/γ and V = m/ρ.
+struct DensitySum;
+
+impl Declares for DensitySum {
+    fn name(&self) -> String {
+        "density sum".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::POSITION)
+            .here(fields::MASS)
+            .here(fields::DENSITY_CONSTANT)
+            .writes(fields::DENSITY)
+            .writes(fields::VOLUME)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for DensitySum {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut density = world.free.take(fields::DENSITY)?;
+        let mut volume = world.free.take(fields::VOLUME)?;
+        kernel_sums(world, &mut density)?;
+        let mass = world.free.get(fields::MASS)?;
+        let constant = world.free.get(fields::DENSITY_CONSTANT)?;
+        let gamma = world.free.get(fields::RENORMALISATION).ok();
+        density
+            .par_iter_mut()
+            .zip(volume.par_iter_mut())
+            .enumerate()
+            .with_min_len(1024)
+            .for_each(|(i, (rho, v))| {
+                *rho = (constant[i] + mass[i] * *rho) / gamma.map_or(1.0, |g| g[i]);
+                *v = mass[i] / *rho;
+            });
+        world.free.put(fields::DENSITY, density)?;
+        Ok(world.free.put(fields::VOLUME, volume)?)
+    }
+}
+
+/// The pressure term of [`HuAdams`].
+pub struct HuAdamsPressure;
+
+impl<const D: usize> PairTerm<D> for HuAdamsPressure {
+    type Bound<'a> = Bound<'a, D>;
+
+    fn name(&self) -> String {
+        "Hu–Adams pressure gradient".into()
+    }
+
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::PRESSURE)
+            .both(fields::VOLUME)
+            .here(fields::MASS)
+    }
+
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
+        let points = &world.walls.points;
+        Ok(Bound {
+            pressure: world.free.get(fields::PRESSURE)?,
+            volume: world.free.get(fields::VOLUME)?,
+            mass: world.free.get(fields::MASS)?,
+            wall_pressure: &points.pressure,
+            wall_volume: &points.volume,
+            wall_share: &points.share,
+            elements: &world.walls.elements,
+        })
+    }
+}
+
+/// [`HuAdamsPressure`] with its columns.
+pub struct Bound<'a, const D: usize> {
+    pressure: &'a [f64],
+    volume: &'a [f64],
+    mass: &'a [f64],
+    wall_pressure: &'a [f64],
+    wall_volume: &'a [f64],
+    wall_share: &'a [f64],
+    elements: &'a Elements<D>,
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    /// p_a V_a² and 1/m_a.
+    type Here = (f64, f64);
+    type Sum = sph_core::Vect<D>;
+
+    #[inline(always)]
+    fn here(&self, i: usize) -> (f64, f64) {
+        (
+            self.pressure[i] * self.volume[i] * self.volume[i],
+            1.0 / self.mass[i],
+        )
+    }
+
+    #[inline(always)]
+    fn zero(&self) -> Self::Sum {
+        Self::Sum::zeros()
+    }
+
+    #[inline(always)]
+    fn free(&self, here: &(f64, f64), j: usize, pair: &Pair<D>, sum: &mut Self::Sum) {
+        let there = self.pressure[j] * self.volume[j] * self.volume[j];
+        *sum += pair.separation * ((here.0 + there) * pair.factor);
+    }
+
+    #[inline(always)]
+    fn wall(&self, here: &(f64, f64), v: usize, pair: &Pair<D>, sum: &mut Self::Sum) {
+        let there = self.wall_pressure[v] * self.wall_volume[v] * self.wall_volume[v];
+        *sum += pair.separation * (self.wall_share[v] * (here.0 + there) * pair.factor);
+    }
+
+    #[inline(always)]
+    fn element(&self, here: &(f64, f64), contact: &Contact<D>, sum: &mut Self::Sum) {
+        let s = contact.element as usize;
+        let volume = self.elements.volume[s];
+        let there = self.elements.pressure[s] * volume * volume;
+        *sum -= contact.gradient * ((here.0 + there) / volume);
+    }
+
+    #[inline(always)]
+    fn finish(&self, here: &(f64, f64), sum: &Self::Sum, inverse_gamma: f64, rates: &mut Rates<D>) {
+        rates.acceleration -= sum * (here.1 * inverse_gamma);
+    }
+}

@@ -1,0 +1,102 @@
+//! The step limits of sound, viscosity and force.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use sph_core::{StepError, StepLimit, fields};
+use sph_neighbours::World;
+
+use crate::BoundState;
+
+/// A plugin's bound on the step at the present state.
+pub trait Limiter<const D: usize>: Send + Sync {
+    /// The bound with its name.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError>;
+    /// The formula, for listings.
+    fn formula(&self) -> String;
+}
+
+/// Δt ≤ C h / c with the largest local speed of sound, Ghaïtanellis 2017, Eq. 2.104.
+pub struct SoundLimit {
+    /// C.
+    pub courant: f64,
+    /// The equations of state, in the order of the phase numbers.
+    pub laws: Arc<[Box<dyn BoundState>]>,
+}
+
+impl<const D: usize> Limiter<D> for SoundLimit {
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+        let density = world.free.get(fields::DENSITY)?;
+        // Sound is fastest where density is highest, so one law call per phase is enough.
+        let fastest = match &self.laws[..] {
+            [law] => law.sound_speed(largest(density, |rho| *rho)),
+            laws => {
+                let phase = world.free.get(fields::PHASE)?;
+                let fastest = |k: usize, law: &dyn BoundState| {
+                    let pairs = density.iter().zip(phase);
+                    let own = pairs.filter(|(_, p)| **p as usize == k);
+                    law.sound_speed(own.map(|(rho, _)| *rho).fold(0.0, f64::max))
+                };
+                let each = laws.iter().enumerate();
+                each.map(|(k, law)| fastest(k, &**law)).fold(0.0, f64::max)
+            }
+        };
+        let h = world.kernel.smoothing_length();
+        Ok(StepLimit::new("sound", self.courant * h / fastest))
+    }
+    fn formula(&self) -> String {
+        format!("sound: dt <= {} h / c", self.courant)
+    }
+}
+
+/// Δt ≤ C ρ h² / η, Ghaïtanellis 2017, Eq. 2.106.
+pub struct ViscousLimit {
+    /// C, already divided by the operator's stiffness.
+    pub coefficient: f64,
+    /// Largest η/ρ₀ over the phases, m²/s.
+    pub kinematic_viscosity: f64,
+}
+
+impl<const D: usize> Limiter<D> for ViscousLimit {
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+        let h = world.kernel.smoothing_length();
+        let dt = self.coefficient * h * h / self.kinematic_viscosity;
+        Ok(StepLimit::new("viscosity", dt))
+    }
+    fn formula(&self) -> String {
+        format!("viscosity: dt <= {} h² / ν", self.coefficient)
+    }
+}
+
+/// Δt ≤ C √(h / |a|) with the largest acceleration.
+pub struct ForceLimit {
+    /// C.
+    pub coefficient: f64,
+}
+
+impl<const D: usize> Limiter<D> for ForceLimit {
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+        let acceleration = world.free.get(fields::ACCELERATION)?;
+        let squared = largest(acceleration, |a| a.norm_squared());
+        let h = world.kernel.smoothing_length();
+        Ok(StepLimit::new(
+            "force",
+            self.coefficient * (h / squared.sqrt()).sqrt(),
+        ))
+    }
+    fn formula(&self) -> String {
+        format!("force: dt <= {} sqrt(h / |a|)", self.coefficient)
+    }
+}
+
+/// The largest value of a column; a value that is not a number counts as infinite.
+fn largest<T: Sync>(column: &[T], value: impl Fn(&T) -> f64 + Sync) -> f64 {
+    let all = column.par_iter().with_min_len(1024).map(|x| {
+        let v = value(x);
+        if v.is_nan() { f64::INFINITY } else { v }
+    });
+    all.reduce(|| 0.0, f64::max)
+}

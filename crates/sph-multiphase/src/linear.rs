@@ -1,0 +1,69 @@
+//! The linear equation of state.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::register;
+
+use crate::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
+
+/// p = c₀² (ρ − ρ₀) + P_bg, constant speed of sound.
+///
+/// Source: the Tait law of Ghaïtanellis 2017, Eq. 1.25, for ξ = 1.
+///
+/// ```toml
+/// [phase.water.equation-of-state.linear]
+/// ```
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Linear {
+    /// Background pressure P_bg, the same in all phases.
+    #[schemars(
+        range(min = 0.0),
+        extend("unit" = "Pa", "source" = "Ghaïtanellis 2017, §5.1.2")
+    )]
+    pub background_pressure: f64,
+}
+
+impl EquationOfState for Linear {
+    fn bind(&self, reference: Reference) -> Box<dyn BoundState> {
+        Box::new(Bound {
+            background: self.background_pressure,
+            reference,
+        })
+    }
+}
+
+#[derive(Debug)]
+struct Bound {
+    background: f64,
+    reference: Reference,
+}
+
+impl BoundState for Bound {
+    fn pressure(&self, density: &[f64], pressure: &mut [f64]) {
+        let c2 = self.reference.sound_speed.powi(2);
+        for (p, rho) in pressure.iter_mut().zip(density) {
+            *p = c2 * (rho - self.reference.density) + self.background;
+        }
+    }
+
+    fn density(&self, pressure: f64) -> f64 {
+        self.reference.density + (pressure - self.background) / self.reference.sound_speed.powi(2)
+    }
+
+    fn sound_speed(&self, _density: f64) -> f64 {
+        self.reference.sound_speed
+    }
+
+    fn reference(&self) -> Reference {
+        self.reference
+    }
+}
+
+register!(
+    EquationOfStateEntry,
+    Linear,
+    "linear",
+    "p = c₀² (ρ − ρ₀)",
+    "Ghaïtanellis 2017, Eq. 1.25 with ξ = 1"
+);

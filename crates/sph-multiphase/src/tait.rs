@@ -1,0 +1,125 @@
+//! The Tait equation of state.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::register;
+
+use crate::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
+
+/// p = ρ₀c₀²/ξ [(ρ/ρ₀)^ξ − 1] + P_bg, c = c₀ (ρ/ρ₀)^((ξ−1)/2).
+///
+/// Source: Ghaïtanellis 2017, Eq. 1.25 and 1.28. The background pressure must be the same in
+/// all phases; keep it zero where there is a free surface.
+///
+/// ```toml
+/// [phase.water.equation-of-state.tait]
+/// exponent = 7
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Tait {
+    /// Exponent ξ: 7 for water and soils, 1.4 for air.
+    #[schemars(
+        range(min = 1.0, max = 20.0),
+        extend("unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 1.25")
+    )]
+    pub exponent: f64,
+    /// Background pressure P_bg, the same in all phases.
+    #[schemars(
+        range(min = 0.0),
+        extend("unit" = "Pa", "source" = "Ghaïtanellis 2017, §5.1.2")
+    )]
+    pub background_pressure: f64,
+}
+
+impl Default for Tait {
+    fn default() -> Self {
+        Tait {
+            exponent: 7.0,
+            background_pressure: 0.0,
+        }
+    }
+}
+
+impl EquationOfState for Tait {
+    fn bind(&self, reference: Reference) -> Box<dyn BoundState> {
+        Box::new(Bound {
+            law: *self,
+            reference,
+            stiffness: reference.density * reference.sound_speed.powi(2) / self.exponent,
+        })
+    }
+}
+
+#[derive(Debug)]
+struct Bound {
+    law: Tait,
+    reference: Reference,
+    stiffness: f64,
+}
+
+impl BoundState for Bound {
+    fn pressure(&self, density: &[f64], pressure: &mut [f64]) {
+        let inverse = 1.0 / self.reference.density;
+        let (b, background) = (self.stiffness, self.law.background_pressure);
+        let exponent = self.law.exponent;
+        let pairs = pressure.iter_mut().zip(density);
+        if exponent == 7.0 {
+            for (p, rho) in pairs {
+                let x = rho * inverse;
+                let (x2, x4) = (x * x, (x * x) * (x * x));
+                *p = b * (x4 * x2 * x - 1.0) + background;
+            }
+        } else {
+            pairs.for_each(|(p, rho)| *p = b * ((rho * inverse).powf(exponent) - 1.0) + background);
+        }
+    }
+
+    fn density(&self, pressure: f64) -> f64 {
+        let ratio = (pressure - self.law.background_pressure) / self.stiffness + 1.0;
+        self.reference.density * ratio.max(0.0).powf(1.0 / self.law.exponent)
+    }
+
+    fn sound_speed(&self, density: f64) -> f64 {
+        let ratio = (density / self.reference.density).max(0.0);
+        self.reference.sound_speed * ratio.powf(0.5 * (self.law.exponent - 1.0))
+    }
+
+    fn reference(&self) -> Reference {
+        self.reference
+    }
+}
+
+register!(
+    EquationOfStateEntry,
+    Tait,
+    "tait",
+    "stiff power law, p = ρ₀c₀²/ξ [(ρ/ρ₀)^ξ − 1]",
+    "Ghaïtanellis 2017, Eq. 1.25"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn density_inverts_pressure_and_sound_is_its_slope() {
+        for exponent in [1.0, 1.4, 7.0] {
+            let law = Tait {
+                exponent,
+                background_pressure: 200.0,
+            };
+            let law = law.bind(Reference {
+                density: 1000.0,
+                sound_speed: 30.0,
+            });
+            for rho in [950.0, 1000.0, 1049.0] {
+                let mut p = [0.0; 2];
+                law.pressure(&[rho, rho + 1e-4], &mut p);
+                assert!((law.density(p[0]) - rho).abs() < 1e-10 * rho);
+                let c2 = (p[1] - p[0]) / 1e-4;
+                assert!((law.sound_speed(rho).powi(2) / c2 - 1.0).abs() < 1e-5);
+            }
+        }
+    }
+}

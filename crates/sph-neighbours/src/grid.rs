@@ -1,0 +1,171 @@
+//! Points sorted by cell, so that every cell is one contiguous range.
+
+use sph_core::Vect;
+
+use crate::Domain;
+
+/// Cells per search radius: smaller cells waste fewer candidates, more of them cost loops.
+const CELLS_PER_RADIUS: usize = 2;
+
+/// A regular grid over a set of points; row-major with the first axis fastest.
+#[derive(Clone, Debug)]
+pub struct CellGrid<const D: usize> {
+    lower: Vect<D>,
+    inverse_width: [f64; D],
+    counts: [usize; D],
+    periodic: [bool; D],
+    starts: Vec<u32>,
+    points: Vec<u32>,
+    sorted: bool,
+}
+
+impl<const D: usize> CellGrid<D> {
+    /// Sorts points into cells at least `radius / 2` wide.
+    ///
+    /// Points outside the box count for the cell at its edge, which is still correct.
+    pub fn new(positions: &[Vect<D>], radius: f64, domain: &Domain<D>) -> Self {
+        let (mut lower, mut upper) = bounds(positions);
+        for axis in 0..D {
+            if domain.periodic[axis] {
+                lower[axis] = domain.lower[axis];
+                upper[axis] = domain.upper[axis];
+            } else {
+                lower[axis] = lower[axis].max(domain.lower[axis]);
+                upper[axis] = upper[axis].min(domain.upper[axis]);
+            }
+        }
+        let extent = |a: usize| (upper[a] - lower[a]).max(radius);
+        // Cells number at most a few per point, however sparse the cloud is.
+        let most = 4.0 * positions.len().max(16) as f64;
+        let mut width = radius / CELLS_PER_RADIUS as f64;
+        let cells = |w: f64| {
+            (0..D)
+                .map(|a| (extent(a) / w).floor().max(1.0))
+                .product::<f64>()
+        };
+        while cells(width) > most {
+            width *= 1.5;
+        }
+        let mut counts = [1; D];
+        let mut inverse_width = [0.0; D];
+        for axis in 0..D {
+            counts[axis] = ((extent(axis) / width) as usize).max(1);
+            inverse_width[axis] = counts[axis] as f64 / extent(axis);
+        }
+        let mut grid = CellGrid {
+            lower,
+            inverse_width,
+            counts,
+            periodic: domain.periodic,
+            starts: Vec::new(),
+            points: Vec::new(),
+            sorted: true,
+        };
+        grid.sort(positions);
+        grid
+    }
+
+    fn sort(&mut self, positions: &[Vect<D>]) {
+        let cells: Vec<u32> = positions.iter().map(|x| self.cell_of(x) as u32).collect();
+        let total: usize = self.counts.iter().product();
+        let mut starts = vec![0u32; total + 1];
+        for &c in &cells {
+            starts[c as usize + 1] += 1;
+        }
+        for c in 0..total {
+            starts[c + 1] += starts[c];
+        }
+        self.sorted = cells.is_sorted();
+        let mut next = starts.clone();
+        let mut points = vec![0u32; positions.len()];
+        for (i, &c) in cells.iter().enumerate() {
+            let slot = &mut next[c as usize];
+            points[*slot as usize] = i as u32;
+            *slot += 1;
+        }
+        self.starts = starts;
+        self.points = points;
+    }
+
+    /// The points in cell order: entry `k` is the index of the point at place `k`.
+    pub fn order(&self) -> &[u32] {
+        &self.points
+    }
+
+    /// Whether the points came in cell order.
+    pub fn is_sorted(&self) -> bool {
+        self.sorted
+    }
+
+    fn coordinate(&self, x: &Vect<D>, axis: usize) -> usize {
+        let c = (x[axis] - self.lower[axis]) * self.inverse_width[axis];
+        // A negative or non-finite value casts to 0, a large one is clamped.
+        (c as usize).min(self.counts[axis] - 1)
+    }
+
+    fn cell_of(&self, x: &Vect<D>) -> usize {
+        (0..D).rev().fold(0, |cell, axis| {
+            cell * self.counts[axis] + self.coordinate(x, axis)
+        })
+    }
+
+    /// Calls `visit` with ranges of places that together hold every point within `radius`.
+    #[inline]
+    pub fn ranges(&self, x: &Vect<D>, radius: f64, mut visit: impl FnMut(std::ops::Range<usize>)) {
+        let mut spans = [[(0usize, 0usize); 2]; 3];
+        for (axis, span) in spans.iter_mut().enumerate().take(D) {
+            *span = self.span(x, radius, axis);
+        }
+        // Axes that do not exist contribute the single cell 0.
+        for span in spans.iter_mut().skip(D) {
+            *span = [(0, 1), (0, 0)];
+        }
+        let count = |axis: usize| if axis < D { self.counts[axis] } else { 1 };
+        for z_part in spans[2] {
+            for z in z_part.0..z_part.1 {
+                for y_part in spans[1] {
+                    for y in y_part.0..y_part.1 {
+                        let row = (z * count(1) + y) * count(0);
+                        for (from, to) in spans[0] {
+                            if from < to {
+                                let first = self.starts[row + from] as usize;
+                                let last = self.starts[row + to] as usize;
+                                if first < last {
+                                    visit(first..last);
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Half-open spans of cells along an axis, at most two where a period is crossed.
+    fn span(&self, x: &Vect<D>, radius: f64, axis: usize) -> [(usize, usize); 2] {
+        let n = self.counts[axis];
+        let reach = (radius * self.inverse_width[axis]).ceil().min(n as f64) as usize;
+        let c = self.coordinate(x, axis);
+        if !self.periodic[axis] {
+            return [(c.saturating_sub(reach), (c + reach + 1).min(n)), (0, 0)];
+        }
+        if 2 * reach + 1 >= n {
+            return [(0, n), (0, 0)];
+        }
+        if c < reach {
+            [(0, c + reach + 1), (n + c - reach, n)]
+        } else if c + reach >= n {
+            [(0, c + reach + 1 - n), (c - reach, n)]
+        } else {
+            [(c - reach, c + reach + 1), (0, 0)]
+        }
+    }
+}
+
+fn bounds<const D: usize>(positions: &[Vect<D>]) -> (Vect<D>, Vect<D>) {
+    let mut finite = positions.iter().filter(|x| x.iter().all(|c| c.is_finite()));
+    let first = finite.next().copied().unwrap_or_else(Vect::zeros);
+    finite.fold((first, first), |(lower, upper), x| {
+        (lower.inf(x), upper.sup(x))
+    })
+}

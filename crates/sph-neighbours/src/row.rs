@@ -1,0 +1,128 @@
+//! The neighbourhood of one particle: geometry and kernel values as slices, computed once.
+
+use sph_core::Vect;
+use sph_kernels::Sampler;
+
+use crate::{Contact, Domain};
+
+/// Pairs of one particle with one set of sources, inside the support only.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<'a, const D: usize> {
+    /// Indices of the neighbours.
+    pub index: &'a [u32],
+    /// Separations r_i − r_j, m.
+    pub separation: &'a [Vect<D>],
+    /// Squared distances, m².
+    pub distance2: &'a [f64],
+    /// F = w'(r)/r, so that ∇w = F (r_i − r_j), m^−(d+2).
+    pub factor: &'a [f64],
+}
+
+/// Everything a term may sum over for one particle.
+#[derive(Clone, Copy, Debug)]
+pub struct Neighbourhood<'a, const D: usize> {
+    /// Index of the particle.
+    pub particle: usize,
+    /// Its free neighbours.
+    pub free: Row<'a, D>,
+    /// Its wall points.
+    pub wall: Row<'a, D>,
+    /// Its wall elements with their share of ∇γ.
+    pub contacts: &'a [Contact<D>],
+    /// 1/γ, 1 away from walls.
+    pub inverse_renormalisation: f64,
+}
+
+/// Buffers for one row; one per thread.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch<const D: usize> {
+    index: Vec<u32>,
+    separation: Vec<Vect<D>>,
+    distance2: Vec<f64>,
+    factor: Vec<f64>,
+    len: usize,
+}
+
+impl<const D: usize> Scratch<D> {
+    /// Empty buffers.
+    pub fn new() -> Self {
+        Scratch {
+            index: Vec::new(),
+            separation: Vec::new(),
+            distance2: Vec::new(),
+            factor: Vec::new(),
+            len: 0,
+        }
+    }
+
+    /// Keeps the candidates within the support and evaluates F for them.
+    #[inline]
+    pub fn fill<K: Sampler + ?Sized>(
+        &mut self,
+        x: &Vect<D>,
+        sources: &[Vect<D>],
+        candidates: &[u32],
+        domain: Option<&Domain<D>>,
+        kernel: &K,
+    ) {
+        let radius = kernel.support_radius();
+        let limit = radius * radius;
+        if self.index.len() < candidates.len() {
+            let n = candidates.len().next_power_of_two();
+            self.index.resize(n, 0);
+            self.separation.resize(n, Vect::zeros());
+            self.distance2.resize(n, 0.0);
+            self.factor.resize(n, 0.0);
+        }
+        self.len = match domain {
+            None => self.compress(x, sources, candidates, limit, |d| d),
+            Some(domain) => {
+                self.compress(x, sources, candidates, limit, |d| domain.nearest_image(d))
+            }
+        };
+        let n = self.len;
+        kernel.gradient_factor(&self.distance2[..n], &mut self.factor[..n]);
+    }
+
+    #[inline(always)]
+    fn compress(
+        &mut self,
+        x: &Vect<D>,
+        sources: &[Vect<D>],
+        candidates: &[u32],
+        limit: f64,
+        image: impl Fn(Vect<D>) -> Vect<D>,
+    ) -> usize {
+        let m = candidates.len();
+        let index = &mut self.index[..m];
+        let separation = &mut self.separation[..m];
+        let distance2 = &mut self.distance2[..m];
+        let mut n = 0;
+        for &j in candidates {
+            let d = image(x - sources[j as usize]);
+            let r2 = d.norm_squared();
+            index[n] = j;
+            separation[n] = d;
+            distance2[n] = r2;
+            n += usize::from(r2 < limit);
+        }
+        n
+    }
+
+    /// The row that was filled last.
+    #[inline(always)]
+    pub fn row(&self) -> Row<'_, D> {
+        Row {
+            index: &self.index[..self.len],
+            separation: &self.separation[..self.len],
+            distance2: &self.distance2[..self.len],
+            factor: &self.factor[..self.len],
+        }
+    }
+
+    /// Forgets the row.
+    #[inline(always)]
+    pub fn clear(&mut self) {
+        self.len = 0;
+    }
+}

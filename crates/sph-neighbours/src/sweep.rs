@@ -1,0 +1,236 @@
+//! The sweeps: one walk over the neighbours of every particle.
+
+use rayon::prelude::*;
+use sph_core::{StepError, Vect, fields};
+use sph_kernels::Sampler;
+
+use crate::list::CHUNK;
+use crate::term::{Interaction, Rates, RowTerm};
+use crate::{Domain, NeighbourList, Neighbourhood, Scratch, World};
+
+/// Sums all terms of all particles.
+///
+/// `rates` receives accelerations, starting from gravity and driving; `scalar`, where the
+/// formulation evolves one, its rate. One virtual call per particle and unfused term.
+///
+/// # Errors
+/// If a term misses a column.
+pub fn interactions<const D: usize>(
+    world: &World<D>,
+    terms: &[Box<dyn Interaction<D>>],
+    acceleration: &mut [Vect<D>],
+    scalar: Option<&mut [f64]>,
+) -> Result<(), StepError> {
+    let bound = terms
+        .iter()
+        .map(|t| t.bind(world))
+        .collect::<Result<Vec<_>, _>>()?;
+    match &bound[..] {
+        [one] => interactions_with(world, &*world.kernel, &**one, acceleration, scalar),
+        _ => interactions_with(
+            world,
+            &*world.kernel,
+            &Several(&bound),
+            acceleration,
+            scalar,
+        ),
+    }
+}
+
+struct Several<'a, 'b, const D: usize>(&'a [Box<dyn RowTerm<D> + 'b>]);
+
+impl<const D: usize> RowTerm<D> for Several<'_, '_, D> {
+    fn row(&self, neighbourhood: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        for term in self.0 {
+            term.row(neighbourhood, rates);
+        }
+    }
+}
+
+/// The sweep for a kernel and a term known by type or as objects.
+///
+/// # Errors
+/// If the world has no positions.
+pub fn interactions_with<const D: usize, K, T>(
+    world: &World<D>,
+    kernel: &K,
+    term: &T,
+    acceleration: &mut [Vect<D>],
+    scalar: Option<&mut [f64]>,
+) -> Result<(), StepError>
+where
+    K: Sampler + ?Sized,
+    T: RowTerm<D> + ?Sized,
+{
+    let positions = world.free.get(fields::POSITION)?;
+    let renormalisation = world.free.get(fields::RENORMALISATION).ok();
+    let start = Rates {
+        acceleration: world.gravity + world.driving,
+        scalar: 0.0,
+    };
+    let points = &world.walls.points.position[..];
+    let work = |from: usize, scratch: &mut [Scratch<D>; 2], i: usize| {
+        let i = from + i;
+        let x = &positions[i];
+        let domain = wrapping(&world.domain, x, world.reach());
+        let [free, wall] = scratch;
+        free.fill(x, positions, world.lists.free.row(i), domain, kernel);
+        wall.clear();
+        if !points.is_empty() {
+            let candidates = world.lists.wall.row(i);
+            if !candidates.is_empty() {
+                wall.fill(x, points, candidates, domain, kernel);
+            }
+        }
+        let neighbourhood = Neighbourhood {
+            particle: i,
+            free: free.row(),
+            wall: wall.row(),
+            contacts: world.walls.contacts.of(i),
+            inverse_renormalisation: renormalisation.map_or(1.0, |g| 1.0 / g[i]),
+        };
+        let mut rates = start;
+        term.row(&neighbourhood, &mut rates);
+        rates
+    };
+    let new_scratch = || [Scratch::new(), Scratch::new()];
+    match scalar {
+        Some(scalar) => acceleration
+            .par_chunks_mut(CHUNK)
+            .zip(scalar.par_chunks_mut(CHUNK))
+            .enumerate()
+            .for_each_init(new_scratch, |scratch, (c, (a, s))| {
+                for i in 0..a.len() {
+                    let rates = work(c * CHUNK, scratch, i);
+                    a[i] = rates.acceleration;
+                    s[i] = rates.scalar;
+                }
+            }),
+        None => acceleration
+            .par_chunks_mut(CHUNK)
+            .enumerate()
+            .for_each_init(new_scratch, |scratch, (c, a)| {
+                for (i, a) in a.iter_mut().enumerate() {
+                    *a = work(c * CHUNK, scratch, i).acceleration;
+                }
+            }),
+    }
+    Ok(())
+}
+
+fn wrapping<'a, const D: usize>(
+    domain: &'a Domain<D>,
+    x: &Vect<D>,
+    reach: f64,
+) -> Option<&'a Domain<D>> {
+    // The particle itself may have left the box by up to the skin since the last build.
+    domain.near_periodic_face(x, 2.0 * reach).then_some(domain)
+}
+
+/// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d.
+///
+/// # Errors
+/// If the world has no positions.
+pub fn kernel_sums<const D: usize>(world: &World<D>, sums: &mut [f64]) -> Result<(), StepError> {
+    let positions = world.free.get(fields::POSITION)?;
+    let points = &world.walls.points;
+    let kernel = &*world.kernel;
+    let own = kernel.value_at_zero();
+    sums.par_chunks_mut(CHUNK)
+        .enumerate()
+        .for_each_init(Values::default, |values, (c, sums)| {
+            for (k, sum) in sums.iter_mut().enumerate() {
+                let i = c * CHUNK + k;
+                let x = &positions[i];
+                let domain = wrapping(&world.domain, x, world.reach());
+                let w = values.fill(x, positions, world.lists.free.row(i), domain, kernel);
+                *sum = own + total(w);
+                if !points.position.is_empty() {
+                    let row = world.lists.wall.row(i);
+                    if !row.is_empty() {
+                        let w = values.fill(x, &points.position, row, domain, kernel);
+                        let shares = row.iter().map(|&v| points.share[v as usize]);
+                        *sum += w
+                            .iter()
+                            .zip(shares)
+                            .map(|(w, share)| w * share)
+                            .sum::<f64>();
+                    }
+                }
+            }
+        });
+    Ok(())
+}
+
+/// Calls `use_row(target, candidates, w)` for every target and collects what it returns: the
+/// walk behind Shepard means at walls and probes. `w` is exactly zero beyond the support.
+pub fn shepard<const D: usize, R: Send>(
+    world: &World<D>,
+    targets: &[Vect<D>],
+    list: &NeighbourList,
+    use_row: impl Fn(usize, &[u32], &[f64]) -> R + Sync,
+) -> Result<Vec<R>, StepError> {
+    let positions = world.free.get(fields::POSITION)?;
+    let kernel = &*world.kernel;
+    Ok(targets
+        .par_iter()
+        .enumerate()
+        .with_min_len(CHUNK)
+        .map_init(Values::default, |values, (t, x)| {
+            let row = list.row(t);
+            let domain = world.domain.any_periodic().then_some(&world.domain);
+            let w = values.fill(x, positions, row, domain, kernel);
+            use_row(t, row, w)
+        })
+        .collect())
+}
+
+#[derive(Default)]
+struct Values {
+    distance2: Vec<f64>,
+    value: Vec<f64>,
+}
+
+impl Values {
+    fn fill<const D: usize>(
+        &mut self,
+        x: &Vect<D>,
+        sources: &[Vect<D>],
+        candidates: &[u32],
+        domain: Option<&Domain<D>>,
+        kernel: &dyn Sampler,
+    ) -> &[f64] {
+        let n = candidates.len();
+        if self.value.len() < n {
+            self.distance2.resize(n.next_power_of_two(), 0.0);
+            self.value.resize(n.next_power_of_two(), 0.0);
+        }
+        let distance2 = &mut self.distance2[..n];
+        match domain {
+            None => {
+                for (r2, &j) in distance2.iter_mut().zip(candidates) {
+                    *r2 = (x - sources[j as usize]).norm_squared();
+                }
+            }
+            Some(domain) => {
+                for (r2, &j) in distance2.iter_mut().zip(candidates) {
+                    *r2 = domain.nearest_image(x - sources[j as usize]).norm_squared();
+                }
+            }
+        }
+        kernel.value(distance2, &mut self.value[..n]);
+        &self.value[..n]
+    }
+}
+
+/// A sum over four lanes in a fixed order.
+fn total(values: &[f64]) -> f64 {
+    let (whole, rest) = values.as_chunks::<4>();
+    let mut lanes = [0.0; 4];
+    for chunk in whole {
+        for k in 0..4 {
+            lanes[k] += chunk[k];
+        }
+    }
+    (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]) + rest.iter().sum::<f64>()
+}

@@ -1,0 +1,160 @@
+//! What stages and terms see of a running scene.
+
+use rayon::prelude::*;
+use sph_core::{FieldError, Store, Vect, fields};
+use sph_kernels::Sampler;
+
+use crate::{CellGrid, Domain, NeighbourList, WallSet};
+
+/// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
+#[derive(Default)]
+pub struct Lists<const D: usize> {
+    /// Free particles around free particles.
+    pub free: NeighbourList,
+    /// Wall points around free particles.
+    pub wall: NeighbourList,
+    /// Free particles around wall points.
+    pub of_points: NeighbourList,
+    /// Free particles around element centres.
+    pub of_elements: NeighbourList,
+    /// Positions of the free particles at the last build, m.
+    pub reference: Vec<Vect<D>>,
+    reference_points: Vec<Vect<D>>,
+    /// Builds so far.
+    pub builds: u64,
+}
+
+/// Columns, walls, lists, kernel and clock.
+pub struct World<const D: usize> {
+    /// Columns of the free particles.
+    pub free: Store<D>,
+    /// The walls.
+    pub walls: WallSet<D>,
+    /// The neighbour lists.
+    pub lists: Lists<D>,
+    /// The box.
+    pub domain: Domain<D>,
+    /// The kernel at this scene's smoothing length.
+    pub kernel: Box<dyn Sampler>,
+    /// Initial particle spacing δr, m.
+    pub spacing: f64,
+    /// Skin of the lists as a share of the support radius.
+    pub skin: f64,
+    /// Hydrostatic gravity, m/s².
+    pub gravity: Vect<D>,
+    /// Body acceleration that drives a periodic flow and is not balanced by pressure, m/s².
+    pub driving: Vect<D>,
+    /// Time, s.
+    pub time: f64,
+    /// The step in force, s: the last one taken, or the first estimate.
+    pub dt: f64,
+}
+
+impl<const D: usize> World<D> {
+    /// Support radius plus skin, m.
+    pub fn reach(&self) -> f64 {
+        self.kernel.support_radius() * (1.0 + self.skin)
+    }
+
+    /// Whether somebody moved so far that the lists may miss a pair.
+    ///
+    /// # Errors
+    /// If there is no position column.
+    pub fn lists_expired(&self) -> Result<bool, FieldError> {
+        let positions = self.free.get(fields::POSITION)?;
+        if self.lists.builds == 0 || positions.len() != self.lists.reference.len() {
+            return Ok(true);
+        }
+        let free = largest_step(positions, &self.lists.reference);
+        let points = &self.walls.points.position;
+        let wall = if *points == self.lists.reference_points {
+            0.0
+        } else {
+            largest_step(points, &self.lists.reference_points)
+        };
+        let skin = self.skin * self.kernel.support_radius();
+        // Not "<=": a step that is not a number must expire the lists, too.
+        Ok(!(2.0 * free.max(wall) < skin && free + wall < skin))
+    }
+
+    /// Sorts the particles by cell and builds all lists anew.
+    ///
+    /// # Errors
+    /// If there is no position column.
+    pub fn rebuild_lists(&mut self) -> Result<(), FieldError> {
+        let reach = self.reach();
+        let domain = self.domain.clone();
+        if domain.any_periodic() {
+            let positions = self.free.get_mut(fields::POSITION)?;
+            positions
+                .par_iter_mut()
+                .for_each(|x| *x = domain.wrapped(*x));
+        }
+        let grid = CellGrid::new(self.free.get(fields::POSITION)?, reach, &self.domain);
+        if !grid.is_sorted() {
+            self.free.permute(grid.order());
+        }
+        let positions = self.free.get(fields::POSITION)?.to_vec();
+        self.build_lists_at(positions);
+        Ok(())
+    }
+
+    /// Builds all lists for given positions of the (sorted) free particles.
+    ///
+    /// A resumed run passes the positions of the last build, so that its lists, and with them
+    /// the order of its sums, are those of the run that was interrupted.
+    pub fn build_lists_at(&mut self, positions: Vec<Vect<D>>) {
+        let reach = self.reach();
+        let grid = CellGrid::new(&positions, reach, &self.domain);
+        let lists = &mut self.lists;
+        let domain = &self.domain;
+        lists
+            .free
+            .build(&positions, &positions, &grid, reach, domain, true);
+        let points = &self.walls.points.position;
+        if !points.is_empty() {
+            let wall_grid = CellGrid::new(points, reach, domain);
+            lists
+                .wall
+                .build(&positions, points, &wall_grid, reach, domain, false);
+            lists
+                .of_points
+                .build(points, &positions, &grid, reach, domain, false);
+        }
+        let centres = &self.walls.elements.centre;
+        if !centres.is_empty() {
+            lists
+                .of_elements
+                .build(centres, &positions, &grid, reach, domain, false);
+        }
+        lists.reference_points.clone_from(points);
+        lists.reference = positions;
+        lists.builds += 1;
+    }
+
+    /// Rebuilds the lists if they expired; says whether it did.
+    ///
+    /// # Errors
+    /// If there is no position column.
+    pub fn refresh_lists(&mut self) -> Result<bool, FieldError> {
+        let expired = self.lists_expired()?;
+        if expired {
+            self.rebuild_lists()?;
+        }
+        Ok(expired)
+    }
+}
+
+fn largest_step<const D: usize>(now: &[Vect<D>], then: &[Vect<D>]) -> f64 {
+    let largest = now
+        .par_iter()
+        .zip(then)
+        .with_min_len(1024)
+        .map(|(a, b)| {
+            let step = (a - b).norm_squared();
+            // A NaN must win the maximum.
+            if step.is_nan() { f64::INFINITY } else { step }
+        })
+        .reduce(|| 0.0, f64::max);
+    largest.sqrt()
+}

@@ -1,0 +1,65 @@
+//! The Newtonian fluid.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::register;
+
+use crate::{Inputs, Needs, Rheology, RheologyEntry};
+
+/// τ = 2 η γ̇ with constant η.
+///
+/// Source: Ghaïtanellis 2017, Eq. 1.15–1.16 (the divergence part is dropped).
+///
+/// ```toml
+/// [phase.water.rheology.newtonian]
+/// viscosity = "1e-3 Pa s"
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Newtonian {
+    /// Dynamic viscosity η.
+    #[schemars(
+        range(min = 0.0),
+        extend("unit" = "Pa s", "source" = "Ghaïtanellis 2017, Eq. 1.15")
+    )]
+    pub viscosity: f64,
+}
+
+impl Rheology for Newtonian {
+    fn needs(&self) -> Needs {
+        Needs::default()
+    }
+    fn uniform_viscosity(&self) -> Option<f64> {
+        Some(self.viscosity)
+    }
+    fn viscosity(&self, _inputs: &Inputs<'_>, viscosity: &mut [f64]) {
+        viscosity.fill(self.viscosity);
+    }
+    fn largest_viscosity(&self) -> f64 {
+        self.viscosity
+    }
+}
+
+register!(
+    RheologyEntry,
+    Newtonian,
+    "newtonian",
+    "constant viscosity",
+    "Ghaïtanellis 2017, Eq. 1.15–1.16"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sph_core::Registry;
+
+    #[test]
+    fn the_registered_law_reads_units_and_refuses_negative_viscosity() {
+        let entry = Registry::<RheologyEntry>::discovered().unwrap();
+        let entry = entry.find("newtonian").unwrap();
+        let law = (entry.build)(&toml::from_str("viscosity = '2 mPa s'").unwrap()).unwrap();
+        assert_eq!(law.uniform_viscosity(), Some(2e-3));
+        let refused = (entry.build)(&toml::from_str("viscosity = -1").unwrap()).unwrap_err();
+        assert!(refused.to_string().contains("at least 0 Pa s"), "{refused}");
+    }
+}
