@@ -25,7 +25,9 @@ fn main() {
 /// Squared distances spread evenly over a little more than the support, in shuffled order.
 fn distances(support: f64, length: usize) -> Vec<f64> {
     let place = |i: usize| (i * 389 % length) as f64 / length as f64;
-    (0..length).map(|i| 1.1 * support * support * place(i)).collect()
+    (0..length)
+        .map(|i| 1.1 * support * support * place(i))
+        .collect()
 }
 
 fn bench(bencher: Bencher, name: &str, length: usize, run: fn(&dyn Sampler, &[f64], &mut [f64])) {
@@ -40,12 +42,16 @@ fn bench(bencher: Bencher, name: &str, length: usize, run: fn(&dyn Sampler, &[f6
 
 #[divan::bench(args = NAMES, consts = LENGTHS)]
 fn value<const N: usize>(bencher: Bencher, name: &str) {
-    bench(bencher, name, N, |sampler, r2, out| sampler.value(r2, &mut out[..r2.len()]));
+    bench(bencher, name, N, |sampler, r2, out| {
+        sampler.value(r2, &mut out[..r2.len()])
+    });
 }
 
 #[divan::bench(args = NAMES, consts = LENGTHS)]
 fn gradient_factor<const N: usize>(bencher: Bencher, name: &str) {
-    bench(bencher, name, N, |sampler, r2, out| sampler.gradient_factor(r2, &mut out[..r2.len()]));
+    bench(bencher, name, N, |sampler, r2, out| {
+        sampler.gradient_factor(r2, &mut out[..r2.len()])
+    });
 }
 
 #[divan::bench(args = NAMES, consts = LENGTHS)]

@@ -12,8 +12,14 @@ pub(crate) struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    pub(crate) const ZERO: Self = Self { high: 0.0, low: 0.0 };
-    pub(crate) const ONE: Self = Self { high: 1.0, low: 0.0 };
+    pub(crate) const ZERO: Self = Self {
+        high: 0.0,
+        low: 0.0,
+    };
+    pub(crate) const ONE: Self = Self {
+        high: 1.0,
+        low: 0.0,
+    };
 
     /// Nearest f64.
     pub(crate) fn value(self) -> f64 {
@@ -26,7 +32,10 @@ impl DoubleDouble {
     }
 
     pub(crate) fn minus(self, other: Self) -> Self {
-        self.plus(Self { high: -other.high, low: -other.low })
+        self.plus(Self {
+            high: -other.high,
+            low: -other.low,
+        })
     }
 
     pub(crate) fn times(self, b: f64) -> Self {
@@ -43,7 +52,13 @@ impl DoubleDouble {
 
     /// xⁿ; negative n by division.
     pub(crate) fn power(x: f64, n: i32) -> Self {
-        let step = |result: Self| if n < 0 { result.over(x) } else { result.times(x) };
+        let step = |result: Self| {
+            if n < 0 {
+                result.over(x)
+            } else {
+                result.times(x)
+            }
+        };
         (0..n.unsigned_abs()).fold(Self::ONE, |result, _| step(result))
     }
 }
@@ -51,13 +66,19 @@ impl DoubleDouble {
 fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     let b_part = high - a;
-    DoubleDouble { high, low: (a - (high - b_part)) + (b - b_part) }
+    DoubleDouble {
+        high,
+        low: (a - (high - b_part)) + (b - b_part),
+    }
 }
 
 /// As [`two_sum`] for |a| ≥ |b|.
 fn normalised(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
-    DoubleDouble { high, low: b - (high - a) }
+    DoubleDouble {
+        high,
+        low: b - (high - a),
+    }
 }
 
 fn two_product(a: f64, b: f64) -> DoubleDouble {
@@ -68,7 +89,10 @@ fn two_product(a: f64, b: f64) -> DoubleDouble {
     };
     let ((a1, a2), (b1, b2)) = (split(a), split(b));
     let high = a * b;
-    DoubleDouble { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
+    DoubleDouble {
+        high,
+        low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2,
+    }
 }
 
 #[cfg(test)]
@@ -89,7 +113,11 @@ mod tests {
     fn thirds_come_back() {
         let third = DoubleDouble::ONE.over(3.0);
         let rest = third.plus(third).plus(third).minus(DoubleDouble::ONE);
-        assert!(rest.value().abs() < 1e-31, "1/3 + 1/3 + 1/3 − 1 = {:e}", rest.value());
+        assert!(
+            rest.value().abs() < 1e-31,
+            "1/3 + 1/3 + 1/3 − 1 = {:e}",
+            rest.value()
+        );
         assert_eq!(DoubleDouble::power(2.0, -3).value(), 0.125);
         assert_eq!(DoubleDouble::ZERO.value(), 0.0);
     }

@@ -82,7 +82,10 @@ mod tests {
     use super::*;
 
     fn step() -> PiecewisePolynomial {
-        PiecewisePolynomial { breaks: vec![0.0, 1.0, 2.0], pieces: vec![vec![0.0, 3.0], vec![3.0]] }
+        PiecewisePolynomial {
+            breaks: vec![0.0, 1.0, 2.0],
+            pieces: vec![vec![0.0, 3.0], vec![3.0]],
+        }
     }
 
     #[test]

@@ -32,7 +32,7 @@ impl PiecewisePolynomial {
 
     /// f(q) for q ≥ 0, by Horner's rule in q.
     ///
-    /// Rounding is of the order of ε Σ|c_n| qⁿ: up to 3·10⁻¹⁴ f(0) near the support of the
+    /// Rounding is of the order of ε Σ|c_n| qⁿ: up to 10⁻¹³ f(0) near the support of the
     /// built-in kernels. A [`Sampler`](crate::Sampler) evaluates factored forms and does better.
     pub fn value(&self, q: f64) -> f64 {
         self.piece(q).map_or(0.0, |piece| algebra::value(piece, q))
@@ -61,7 +61,9 @@ impl PiecewisePolynomial {
             return Err(format!("the first break is {} and must be 0", breaks[0]));
         }
         if !breaks.is_sorted_by(|a, b| a < b) || !self.support().is_finite() {
-            return Err(format!("the breaks {breaks:?} do not ascend to a finite support"));
+            return Err(format!(
+                "the breaks {breaks:?} do not ascend to a finite support"
+            ));
         }
         if !pieces.iter().flatten().all(|c| c.is_finite()) {
             return Err("a coefficient is not finite".into());

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::{Kernel, PiecewisePolynomial, PolynomialSampler, Sampler};
+use crate::{Kernel, PiecewisePolynomial, Sampler, polynomial_sampler};
 
 /// A kernel given by a name, a source and its shape.
 ///
@@ -36,7 +36,11 @@ impl PolynomialKernel {
         if let Err(reason) = shape.check() {
             panic!("kernel {name}: {reason}");
         }
-        Self { name, source, shape }
+        Self {
+            name,
+            source,
+            shape,
+        }
     }
 
     /// The shape f(q).
@@ -67,7 +71,7 @@ impl Kernel for PolynomialKernel {
     }
 
     fn sampler(&self, dimension: usize, h: f64) -> Box<dyn Sampler> {
-        Box::new(PolynomialSampler::new(&self.shape, dimension, h))
+        polynomial_sampler(&self.shape, dimension, h)
     }
 
     fn polynomial(&self) -> Option<&PiecewisePolynomial> {

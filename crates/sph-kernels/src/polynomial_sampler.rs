@@ -1,228 +1,131 @@
-//! The sampler of piecewise polynomial kernels, in blocks that become vector instructions.
+//! The sampler of piecewise polynomial kernels: slices in vector instructions.
 
-use crate::factored::{self, Piece};
+use crate::factored;
+use crate::formula::{Formula, General, Product, Selection};
 use crate::sampler::assert_smoothing_length;
 use crate::{PiecewisePolynomial, Sampler};
 
-/// Distances per block.
-const LANES: usize = 8;
-
-type Block = [f64; LANES];
-
-/// Divisor instead of q = 0 where the first piece has a cusp, f'(0) ≠ 0: F stays finite.
-const SMALLEST_Q: f64 = 1e-9;
-
-/// [`Sampler`] of a [`PiecewisePolynomial`].
+/// The fast [`Sampler`] of a shape in d = 1, 2, 3 dimensions with the smoothing length h in m.
 ///
-/// Coefficients hold σ_d/h^d and σ_d/h^(d+2). Every block evaluates all pieces at all its
-/// distances and selects, so that nothing branches on a distance; a last partial block is
-/// filled up, so that all distances see the same operations. There is no fused
-/// multiply-add, hence the bits do not depend on the processor.
+/// Coefficients hold σ_d/h^d and σ_d/h^(d+2). All pieces are evaluated at every distance and
+/// one is selected, so that nothing branches on a distance; the sizes of all built-in kernels
+/// are known to the compiler, and other shapes take a general and slower path. There is no
+/// fused multiply-add: the bits depend neither on the place in the slice nor on the processor.
+///
+/// # Panics
+/// If the shape is refused by [`PiecewisePolynomial::check`], the dimension is not 1, 2 or 3
+/// or h is not positive.
+pub fn polynomial_sampler(
+    shape: &PiecewisePolynomial,
+    dimension: usize,
+    h: f64,
+) -> Box<dyn Sampler> {
+    assert_smoothing_length(h);
+    assert_eq!(shape.check(), Ok(()));
+    let scale = shape.normalisation(dimension) / h.powi(dimension as i32);
+    let value = factored::value(shape, scale);
+    let factor = factored::factor(shape, scale / (h * h));
+    let radius = shape.support() * h;
+    let range = Range {
+        dimension,
+        h,
+        per_h: 1.0 / h,
+        support: shape.support(),
+        radius,
+        radius_squared: radius * radius,
+    };
+    macro_rules! first_fit {
+        ($($value:ty, $factor:ty;)*) => {
+            $(if let (Some(value), Some(factor)) = (<$value>::of(&value), <$factor>::of(&factor)) {
+                return Box::new(PolynomialSampler { range, value, factor });
+            })*
+        };
+    }
+    first_fit! {
+        Product<4, 2>, Product<3, 1>;                   // Wendland C2
+        Product<6, 3>, Product<5, 2>;                   // C4
+        Product<8, 4>, Product<7, 3>;                   // C6
+        Selection<2, 4, false>, Selection<2, 3, true>;  // cubic spline
+        Selection<3, 5, false>, Selection<3, 4, true>;  // quartic
+        Selection<3, 6, false>, Selection<3, 5, true>;  // quintic
+    }
+    Box::new(PolynomialSampler {
+        range,
+        value: General(value),
+        factor: General(factor),
+    })
+}
+
+/// Dimension, scale and reach.
 #[derive(Clone, Debug)]
-pub struct PolynomialSampler {
+struct Range {
     dimension: usize,
     h: f64,
     per_h: f64,
     support: f64,
     radius: f64,
     radius_squared: f64,
-    smallest_divisor: f64,
-    value: Vec<Piece>,
-    factor: Vec<Piece>,
 }
 
-impl PolynomialSampler {
-    /// Binds a shape to a dimension (1, 2, 3) and the smoothing length h in m.
-    ///
-    /// # Panics
-    /// If the shape is refused by [`PiecewisePolynomial::check`], the dimension is not 1, 2
-    /// or 3 or h is not positive.
-    pub fn new(shape: &PiecewisePolynomial, dimension: usize, h: f64) -> Self {
-        assert_smoothing_length(h);
-        assert_eq!(shape.check(), Ok(()));
-        let scale = shape.normalisation(dimension) / h.powi(dimension as i32);
-        let factor = factored::factor(shape, scale / (h * h));
-        let smallest_divisor = if factor[0].over_q { SMALLEST_Q } else { shape.breaks[1] };
-        let radius = shape.support() * h;
-        Self {
-            dimension,
-            h,
-            per_h: 1.0 / h,
-            support: shape.support(),
-            radius,
-            radius_squared: radius * radius,
-            smallest_divisor,
-            value: factored::value(shape, scale),
-            factor,
-        }
-    }
-
-    /// q = r/h, at most the support.
+impl Range {
+    /// q = r/h, the support itself from the support radius on.
     #[inline(always)]
-    fn q(&self, r2: &Block) -> Block {
-        let mut q = [0.0; LANES];
-        for i in 0..LANES {
-            let free = r2[i].sqrt() * self.per_h;
-            q[i] = if free > self.support { self.support } else { free };
-        }
-        q
-    }
-
-    /// The piece that holds each q, exactly 0 from the support radius on.
-    #[inline(always)]
-    fn sum(&self, pieces: &[Piece], r2: &Block, q: &Block) -> Block {
-        let mut result = [0.0; LANES];
-        for piece in pieces.iter().rev() {
-            let p = self.piece(piece, q);
-            for i in 0..LANES {
-                result[i] = if q[i] >= piece.until { result[i] } else { p[i] };
-            }
-        }
-        for i in 0..LANES {
-            result[i] = if r2[i] >= self.radius_squared { 0.0 } else { result[i] };
-        }
-        result
-    }
-
-    #[inline(always)]
-    fn piece(&self, piece: &Piece, q: &Block) -> Block {
-        let mut s = [0.0; LANES];
-        for i in 0..LANES {
-            s[i] = (q[i] - piece.origin).abs();
-        }
-        let mut result = horner(&piece.coefficients, &s);
-        if piece.root > 0 {
-            let mut u = [0.0; LANES];
-            for i in 0..LANES {
-                u[i] = self.support - q[i];
-            }
-            times_power(&mut result, u, piece.root);
-        }
-        if piece.over_q {
-            for i in 0..LANES {
-                let small = q[i] < self.smallest_divisor;
-                result[i] /= if small { self.smallest_divisor } else { q[i] };
-            }
-        }
-        result
-    }
-
-    #[inline(always)]
-    fn value_block(&self, r2: &Block) -> Block {
-        self.sum(&self.value, r2, &self.q(r2))
-    }
-
-    #[inline(always)]
-    fn factor_block(&self, r2: &Block) -> Block {
-        self.sum(&self.factor, r2, &self.q(r2))
-    }
-
-    #[inline(always)]
-    fn both_block(&self, r2: &Block) -> (Block, Block) {
-        let q = self.q(r2);
-        (self.sum(&self.value, r2, &q), self.sum(&self.factor, r2, &q))
+    fn q(&self, r2: f64) -> f64 {
+        let free = r2.sqrt() * self.per_h;
+        let outside = (r2 >= self.radius_squared) | (free > self.support);
+        if outside { self.support } else { free }
     }
 }
 
-/// Σ c_n sⁿ with the number of coefficients known to the compiler up to eight.
-#[inline(always)]
-fn horner(coefficients: &[f64], s: &Block) -> Block {
-    #[inline(always)]
-    fn unrolled<const N: usize>(c: &[f64; N], s: &Block) -> Block {
-        let mut sum = [c[N - 1]; LANES];
-        for n in (0..N - 1).rev() {
-            for i in 0..LANES {
-                sum[i] = sum[i] * s[i] + c[n];
-            }
-        }
-        sum
-    }
-    macro_rules! by_length {
-        ($($n:literal)*) => {
-            match coefficients.len() {
-                $($n => unrolled::<$n>(coefficients.first_chunk().expect("this length"), s),)*
-                _ => {
-                    let mut sum = [0.0; LANES];
-                    for c in coefficients.iter().rev() {
-                        for i in 0..LANES {
-                            sum[i] = sum[i] * s[i] + c;
-                        }
-                    }
-                    sum
-                }
-            }
-        };
-    }
-    by_length!(1 2 3 4 5 6 7 8)
+#[derive(Clone, Debug)]
+struct PolynomialSampler<V, F> {
+    range: Range,
+    value: V,
+    factor: F,
 }
 
-/// Multiplies by uⁿ, by repeated squaring.
-#[inline(always)]
-fn times_power(result: &mut Block, mut u: Block, mut n: usize) {
-    loop {
-        if n & 1 == 1 {
-            for i in 0..LANES {
-                result[i] *= u[i];
-            }
-        }
-        n >>= 1;
-        if n == 0 {
-            return;
-        }
-        for u in &mut u {
-            *u *= *u;
-        }
-    }
-}
-
-/// Applies `f` block by block; the last partial block is filled up with zeros.
-#[inline(always)]
-fn sweep(r2: &[f64], result: &mut [f64], f: impl Fn(&Block) -> Block) {
-    assert_eq!(r2.len(), result.len());
-    let (blocks, rest) = r2.as_chunks();
-    let (results, result_rest) = result.as_chunks_mut();
-    for (r2, result) in blocks.iter().zip(results) {
-        *result = f(r2);
-    }
-    if !rest.is_empty() {
-        let mut filled = [0.0; LANES];
-        filled[..rest.len()].copy_from_slice(rest);
-        result_rest.copy_from_slice(&f(&filled)[..rest.len()]);
-    }
-}
-
-impl Sampler for PolynomialSampler {
+impl<V: Formula, F: Formula> Sampler for PolynomialSampler<V, F> {
     fn dimension(&self) -> usize {
-        self.dimension
+        self.range.dimension
     }
 
     fn smoothing_length(&self) -> f64 {
-        self.h
+        self.range.h
     }
 
     fn support_radius(&self) -> f64 {
-        self.radius
+        self.range.radius
     }
 
     fn value_at_zero(&self) -> f64 {
-        self.at(0.0).0
+        self.value.at(0.0)
     }
 
     fn at(&self, r: f64) -> (f64, f64) {
-        let (w, factor) = self.both_block(&[r * r; LANES]);
-        (w[0], factor[0])
+        let q = self.range.q(r * r);
+        (self.value.at(q), self.factor.at(q))
     }
 
     fn value(&self, r2: &[f64], w: &mut [f64]) {
-        sweep(r2, w, |r2| self.value_block(r2));
+        assert_eq!(r2.len(), w.len());
+        for (w, r2) in w.iter_mut().zip(r2) {
+            *w = self.value.at(self.range.q(*r2));
+        }
     }
 
     fn gradient_factor(&self, r2: &[f64], factor: &mut [f64]) {
-        sweep(r2, factor, |r2| self.factor_block(r2));
+        assert_eq!(r2.len(), factor.len());
+        for (factor, r2) in factor.iter_mut().zip(r2) {
+            *factor = self.factor.at(self.range.q(*r2));
+        }
     }
 
     fn both(&self, r2: &[f64], w: &mut [f64], factor: &mut [f64]) {
-        sweep(r2, w, |r2| self.value_block(r2));
-        sweep(r2, factor, |r2| self.factor_block(r2));
+        assert_eq!((r2.len(), r2.len()), (w.len(), factor.len()));
+        for ((w, factor), r2) in w.iter_mut().zip(factor).zip(r2) {
+            let q = self.range.q(*r2);
+            *w = self.value.at(q);
+            *factor = self.factor.at(q);
+        }
     }
 }

@@ -4,7 +4,7 @@ use crate::sampler::assert_smoothing_length;
 use crate::{Kernel, Sampler};
 
 /// Below this q the factor f'(q)/q is taken at it: its limit for smooth f, finite for all.
-const SMALLEST_Q: f64 = 1e-6;
+const SMALLEST_Q: f64 = 1e-8;
 
 /// [`Sampler`] of a kernel known by `value` and `derivative` only: general and slow.
 ///
@@ -29,7 +29,14 @@ impl<K: Kernel> ScalarSampler<K> {
         let value_scale = kernel.normalisation(dimension) / h.powi(dimension as i32);
         let radius = kernel.support() * h;
         let factor_scale = value_scale / (h * h);
-        Self { kernel, dimension, h, radius, value_scale, factor_scale }
+        Self {
+            kernel,
+            dimension,
+            h,
+            radius,
+            value_scale,
+            factor_scale,
+        }
     }
 
     fn at_squared(&self, r2: f64) -> (f64, f64) {
@@ -39,7 +46,10 @@ impl<K: Kernel> ScalarSampler<K> {
         let q = r2.sqrt() / self.h;
         let away = if q < SMALLEST_Q { SMALLEST_Q } else { q };
         let factor = self.kernel.derivative(away) / away;
-        (self.value_scale * self.kernel.value(q), self.factor_scale * factor)
+        (
+            self.value_scale * self.kernel.value(q),
+            self.factor_scale * factor,
+        )
     }
 }
 

@@ -1,0 +1,70 @@
+//! Cost of γ and ∇γ per pair of a point and a segment.
+
+use divan::{Bencher, black_box, counter::ItemsCount};
+use sph_boundary::{PeriodicBox, Polyline, Renormalisation2d, SegmentGrid, SegmentMesh};
+use sph_kernels::PolynomialKernel;
+
+fn main() {
+    divan::main();
+}
+
+const KERNELS: [fn() -> PolynomialKernel; 4] = [
+    sph_kernels::wendland_c2,
+    sph_kernels::wendland_c6,
+    sph_kernels::cubic_spline,
+    sph_kernels::quintic_spline,
+];
+
+/// A floor of segments of h/2 and points at all heights above it.
+#[divan::bench(args = [0, 1, 2, 3])]
+fn segment(bencher: Bencher, kernel: usize) {
+    let renormalisation = Renormalisation2d::new(KERNELS[kernel]().shape(), 1.0).unwrap();
+    let radius = renormalisation.kernel_radius();
+    let mut pairs = Vec::new();
+    for i in 0..40 {
+        let (x, y) = (0.013 * f64::from(i), (f64::from(i) + 0.5) / 40.0 * radius);
+        let half = (radius * radius - y * y).sqrt();
+        for s in -10..10 {
+            let start = 0.5 * f64::from(s) - x;
+            if start + 0.5 > -half && start < half {
+                pairs.push(([start, -y], [start + 0.5, -y]));
+            }
+        }
+    }
+    bencher.counter(ItemsCount::new(pairs.len())).bench(|| {
+        let mut sum = 0.0;
+        for (start, end) in black_box(&pairs) {
+            let integral = renormalisation.segment(*start, *end, [0.0, 1.0]);
+            sum += integral.gamma + integral.kernel;
+        }
+        sum
+    });
+}
+
+fn tank() -> (SegmentMesh, Renormalisation2d, SegmentGrid) {
+    let square = vec![[0.0, 0.0], [100.0, 0.0], [100.0, 100.0], [0.0, 100.0]];
+    let line = Polyline::closed("tank", square);
+    let mesh = SegmentMesh::build(&[line], 0.5, &PeriodicBox::none()).unwrap();
+    let renormalisation = Renormalisation2d::new(sph_kernels::wendland_c2().shape(), 1.0).unwrap();
+    let grid = SegmentGrid::build(&mesh, renormalisation.kernel_radius());
+    (mesh, renormalisation, grid)
+}
+
+/// A thousand points at the distance given from the floor of a tank, search included.
+#[divan::bench(args = [0.1, 1.0, 1.9, 50.0])]
+fn points(bencher: Bencher, height: f64) {
+    let (mesh, renormalisation, grid) = tank();
+    bencher.counter(ItemsCount::new(1000usize)).bench(|| {
+        let points = (0..1000).map(|i| [5.0 + 0.09 * f64::from(i), height]);
+        points
+            .map(|point| renormalisation.at(black_box(point), &mesh, &grid).gamma())
+            .sum::<f64>()
+    });
+}
+
+/// Building the grid over 800 segments.
+#[divan::bench]
+fn grid(bencher: Bencher) {
+    let (mesh, ..) = tank();
+    bencher.bench(|| SegmentGrid::build(black_box(&mesh), 2.0));
+}

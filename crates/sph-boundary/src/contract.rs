@@ -1,0 +1,98 @@
+//! What a wall treatment is.
+
+use sph_core::{StepError, Vect, contract};
+use sph_kernels::Kernel;
+use sph_neighbours::{Domain, WallSet, World};
+
+use crate::{BoundaryError, Polyline, RigidMotion};
+
+/// How the fluid meets a wall.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Condition {
+    /// The fluid sticks to the wall.
+    #[default]
+    NoSlip,
+    /// The wall exerts no friction.
+    FreeSlip,
+}
+
+/// One named wall.
+#[derive(Clone, Debug)]
+pub struct WallSpec<const D: usize> {
+    /// Its line; the name is the wall's.
+    pub polyline: Polyline,
+    /// How the fluid meets it.
+    pub condition: Condition,
+    /// Velocity of the surface where the wall itself stays (a belt), m/s.
+    pub surface_velocity: Vect<D>,
+    /// Motion of the wall.
+    pub motion: RigidMotion,
+}
+
+/// What a wall treatment needs to set itself up.
+pub struct WallSetup<'a, const D: usize> {
+    /// The walls of the scene.
+    pub walls: &'a [WallSpec<D>],
+    /// Particle spacing δr, m.
+    pub spacing: f64,
+    /// Smoothing length h, m.
+    pub smoothing_length: f64,
+    /// The kernel's shape.
+    pub kernel: &'a dyn Kernel,
+    /// The box with its periodic directions.
+    pub domain: &'a Domain<D>,
+}
+
+/// A treatment of all walls of a scene.
+pub trait Wall<const D: usize>: Send {
+    /// Where the first row of particles stands in front of a flat wall, in spacings beyond half
+    /// a spacing: 0 for rows at 1, 2, 3 δr (the wall itself carries points), 0.5 for ½, 1½, ….
+    fn lattice_offset(&self) -> f64;
+
+    /// Sets up the walls at time 0.
+    ///
+    /// # Errors
+    /// If a wall is refused; the message names it.
+    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError>;
+
+    /// Whether γ differs from 1 near walls, so that a column for it is needed.
+    fn renormalises(&self) -> bool;
+
+    /// Whether a point is on the fluid's side of all walls; for checks, not for inner loops.
+    fn contains(&self, point: &Vect<D>) -> bool;
+
+    /// Distance of a point from the nearest wall, m, and that wall's name, if nearer than `within`.
+    fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)>;
+
+    /// Refuses points near the free end of an open wall.
+    ///
+    /// # Errors
+    /// Names the wall and the end.
+    fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError>;
+
+    /// Moves the walls to a time.
+    ///
+    /// # Errors
+    /// If a wall cannot follow.
+    fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError>;
+
+    /// Contacts and γ at the present positions; called after the lists are fresh.
+    ///
+    /// # Errors
+    /// If a column is missing or a particle is where γ has no meaning.
+    fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError>;
+
+    /// Pressures, volumes and velocities of wall points and elements from the fluid's state.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    fn state(&mut self, world: &mut World<D>) -> Result<(), StepError>;
+
+    /// Remarks on the walls.
+    fn warnings(&self) -> Vec<String>;
+}
+
+contract!(
+    /// A wall treatment that a scene may name.
+    pub WallEntry, "walls", "the treatment of all walls", Wall<D>
+);

@@ -1,0 +1,204 @@
+//! What can be wrong with a wall or with the kernel that looks at it.
+
+use crate::mesh::WallEnd;
+
+/// A refused wall, motion or kernel. Lengths are in metres, edges and points count from 0.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BoundaryError {
+    /// A polyline without an edge.
+    #[error("wall `{wall}` has {count} point(s), at least two are needed")]
+    TooFewPoints {
+        /// Name of the wall.
+        wall: String,
+        /// Points given.
+        count: usize,
+    },
+    /// A coordinate that is infinite or not a number.
+    #[error("wall `{wall}`: point {point} has a coordinate that is not finite")]
+    NotFinite {
+        /// Name of the wall.
+        wall: String,
+        /// Index of the point.
+        point: usize,
+    },
+    /// Two consecutive points at the same place.
+    #[error(
+        "wall `{wall}`: edge {edge} has zero length, points {edge} and {next} are both at \
+         ({x}, {y})"
+    )]
+    ZeroLengthEdge {
+        /// Name of the wall.
+        wall: String,
+        /// Index of the edge.
+        edge: usize,
+        /// Index of the point at its end.
+        next: usize,
+        /// Abscissa of both points.
+        x: f64,
+        /// Ordinate of both points.
+        y: f64,
+    },
+    /// A closed wall that encloses nothing and is not a plate drawn forth and back.
+    #[error(
+        "wall `{wall}` is closed but encloses no area, and edge {edge} is not retraced in the \
+         opposite direction as it would be on a plate of zero thickness"
+    )]
+    ZeroArea {
+        /// Name of the wall.
+        wall: String,
+        /// First edge without an opposite face.
+        edge: usize,
+    },
+    /// Two edges that cross.
+    #[error(
+        "edge {edge} of wall `{wall}` crosses edge {other_edge} of wall `{other}` near ({x}, {y})"
+    )]
+    Crossing {
+        /// Name of the first wall.
+        wall: String,
+        /// Edge of the first wall.
+        edge: usize,
+        /// Name of the second wall, which may be the first.
+        other: String,
+        /// Edge of the second wall.
+        other_edge: usize,
+        /// Abscissa of the crossing.
+        x: f64,
+        /// Ordinate of the crossing.
+        y: f64,
+    },
+    /// Two ends meet whose directions of travel disagree about where the fluid is.
+    #[error(
+        "the {end} end of wall `{wall}` meets the {other_end} end of wall `{other}` at ({x}, {y}): \
+         their directions of travel put the fluid on opposite sides, reverse one of them"
+    )]
+    OpposedWalls {
+        /// Name of the first wall.
+        wall: String,
+        /// Its end.
+        end: WallEnd,
+        /// Name of the second wall.
+        other: String,
+        /// Its end.
+        other_end: WallEnd,
+        /// Abscissa of the joint.
+        x: f64,
+        /// Ordinate of the joint.
+        y: f64,
+    },
+    /// More than two ends at one place.
+    #[error(
+        "{count} ends of walls meet at ({x}, {y}), the first of wall `{wall}`: only two can be \
+         joined"
+    )]
+    AmbiguousJoint {
+        /// Name of one of the walls.
+        wall: String,
+        /// Number of ends.
+        count: usize,
+        /// Abscissa of the joint.
+        x: f64,
+        /// Ordinate of the joint.
+        y: f64,
+    },
+    /// A particle whose support reaches past the end of an open wall.
+    #[error(
+        "the {end} end of wall `{wall}` at ({x}, {y}) is free and particle {particle} is {distance} \
+         m away, within the kernel radius {radius} m: close the wall or extend it"
+    )]
+    FreeEndInReach {
+        /// Name of the wall.
+        wall: String,
+        /// Which end.
+        end: WallEnd,
+        /// Abscissa of the end.
+        x: f64,
+        /// Ordinate of the end.
+        y: f64,
+        /// Index of the nearest particle.
+        particle: usize,
+        /// Its distance, m.
+        distance: f64,
+        /// The kernel radius, m.
+        radius: f64,
+    },
+    /// A plate folded back onto itself.
+    #[error("plate `{wall}` turns too sharply at point {point} to be given a thickness")]
+    SharpPlate {
+        /// Name of the plate.
+        wall: String,
+        /// Index of the point.
+        point: usize,
+    },
+    /// The number of poses is not the number of walls.
+    #[error("{given} pose(s) given for {walls} wall(s)")]
+    PoseCount {
+        /// Poses given.
+        given: usize,
+        /// Walls of the mesh.
+        walls: usize,
+    },
+    /// Two joined walls given different motions.
+    #[error("walls `{wall}` and `{other}` are joined at ({x}, {y}) and cannot move differently")]
+    JointTornApart {
+        /// Name of the wall that ends at the joint.
+        wall: String,
+        /// Name of the wall that starts there.
+        other: String,
+        /// Abscissa of the joint in the reference position.
+        x: f64,
+        /// Ordinate of the joint in the reference position.
+        y: f64,
+    },
+    /// A wall closed through periodicity given a rotation.
+    #[error("wall `{wall}` is closed through periodicity and cannot rotate")]
+    PeriodicWallRotated {
+        /// Name of the wall.
+        wall: String,
+    },
+    /// A number that must be positive and finite.
+    #[error("{name} must be positive and finite, got {value}")]
+    NotPositive {
+        /// What it is.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// Breaks or pieces of the kernel that do not fit.
+    #[error("kernel is not a piecewise polynomial with a positive integral: {reason}")]
+    Kernel {
+        /// What is wrong.
+        reason: String,
+    },
+}
+
+/// Something to look at that does not stop the run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WallWarning {
+    /// An edge shorter than a quarter of the spacing: it becomes one short segment.
+    ShortEdge {
+        /// Name of the wall.
+        wall: String,
+        /// Index of the edge.
+        edge: usize,
+        /// Its length, m.
+        length: f64,
+        /// The spacing asked for, m.
+        spacing: f64,
+    },
+}
+
+impl std::fmt::Display for WallWarning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self::ShortEdge {
+            wall,
+            edge,
+            length,
+            spacing,
+        } = self;
+        write!(
+            f,
+            "edge {edge} of wall `{wall}` is {length} m long, far shorter than the spacing {spacing} m"
+        )
+    }
+}

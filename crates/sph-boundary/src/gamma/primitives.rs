@@ -1,0 +1,113 @@
+//! Tables of the closed forms: one polynomial per knot of the kernel.
+
+use std::f64::consts::TAU;
+
+use sph_kernels::PiecewisePolynomial;
+
+/// The part Δ(q) = Σ c_n qⁿ of the kernel that ends at one knot.
+///
+/// Σ c_n I_n = y P(q) + a² p_1 asinh(y/a) with P = Σ p_n qⁿ and, downwards in n,
+/// p_n = c_n/(n + 1) + a² p_{n+2} (n + 2)/(n + 1).
+#[derive(Clone, Debug)]
+pub(super) struct Knot {
+    /// ρ, the knot over h.
+    pub radius: f64,
+    /// C/2π = σ ∫₀^ρ Δ q dq.
+    pub angle: f64,
+    /// For n = N, …, 0.
+    terms: Vec<Term>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Term {
+    /// (n + 2)/(n + 1).
+    ratio: f64,
+    /// σ c_n/(n + 1).
+    gradient: f64,
+    /// σ c_n/((n + 1)(n + 2)).
+    gamma: f64,
+}
+
+/// One end of a clipped segment: abscissa y on the line and distance q, over h.
+#[derive(Clone, Copy)]
+pub(super) struct End {
+    pub y: f64,
+    pub q: f64,
+}
+
+/// σ Σ c_n I_n and σ Σ c_n I_n/(n + 2), without and with the logarithm's factor.
+pub(super) struct Primitives {
+    pub gradient: f64,
+    pub gamma: f64,
+    /// Factors of asinh(y₂/a) − asinh(y₁/a) still to be added to both.
+    pub gradient_log: f64,
+    pub gamma_log: f64,
+}
+
+impl Knot {
+    /// Differences between two ends of everything except the logarithm and the angle.
+    #[inline]
+    pub fn between(&self, a2: f64, from: End, to: End) -> Primitives {
+        // p_{n+1} and p_{n+2} of both sums.
+        let (mut g1, mut g2, mut s1, mut s2) = (0.0, 0.0, 0.0, 0.0);
+        let (mut g_from, mut g_to, mut s_from, mut s_to) = (0.0, 0.0, 0.0, 0.0);
+        for term in &self.terms {
+            let up = term.ratio * a2;
+            let (g, s) = (term.gradient + up * g2, term.gamma + up * s2);
+            (g2, g1, s2, s1) = (g1, g, s1, s);
+            g_from = g_from * from.q + g;
+            g_to = g_to * to.q + g;
+            s_from = s_from * from.q + s;
+            s_to = s_to * to.q + s;
+        }
+        Primitives {
+            gradient: to.y * g_to - from.y * g_from,
+            gamma: to.y * s_to - from.y * s_from,
+            gradient_log: g2 * a2,
+            gamma_log: s2 * a2,
+        }
+    }
+}
+
+/// Tables of all knots where the polynomial changes, from the outermost inwards.
+pub(super) fn knots(shape: &PiecewisePolynomial, sigma: f64) -> Vec<Knot> {
+    let mut knots = Vec::with_capacity(shape.pieces.len());
+    let mut outside: &[f64] = &[];
+    for (piece, bounds) in shape.pieces.iter().zip(shape.breaks.windows(2)).rev() {
+        let degree = piece.len().max(outside.len());
+        let at = |c: &[f64], n: usize| c.get(n).copied().unwrap_or(0.0);
+        let step: Vec<f64> = (0..degree).map(|n| at(piece, n) - at(outside, n)).collect();
+        outside = piece;
+        if step.iter().any(|c| *c != 0.0) {
+            knots.push(knot(bounds[1], step, sigma));
+        }
+    }
+    knots
+}
+
+fn knot(radius: f64, step: Vec<f64>, sigma: f64) -> Knot {
+    let last = step.iter().rposition(|c| *c != 0.0).unwrap_or(0);
+    let terms = (0..=last)
+        .rev()
+        .map(|n| {
+            let (n1, n2) = (n as f64 + 1.0, n as f64 + 2.0);
+            let c = step[n] * sigma;
+            Term {
+                ratio: n2 / n1,
+                gradient: c / n1,
+                gamma: c / (n1 * n2),
+            }
+        })
+        .collect();
+    let alone = PiecewisePolynomial {
+        breaks: vec![0.0, radius],
+        pieces: vec![step],
+    };
+    // σ ∫ Δ q dq = (1/2π) · 2πσ ∫ Δ q dq, in the order that makes a single knot exactly 1/2π.
+    let angle = alone.moment(1) * (TAU * sigma) / TAU;
+    Knot {
+        radius,
+        angle,
+        terms,
+    }
+}

@@ -1,0 +1,72 @@
+//! Free ends of open walls.
+
+use super::SegmentMesh;
+use crate::error::BoundaryError;
+
+/// Which end of an open wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WallEnd {
+    /// Where the direction of travel starts.
+    First,
+    /// Where it stops.
+    Last,
+}
+
+impl std::fmt::Display for WallEnd {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::First => "first",
+            Self::Last => "last",
+        })
+    }
+}
+
+/// The end of a wall that nothing continues.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeEnd {
+    /// Index of the wall.
+    pub wall: usize,
+    /// Which end of it.
+    pub end: WallEnd,
+    /// Index of the vertex.
+    pub vertex: usize,
+    /// Present position, m.
+    pub position: [f64; 2],
+}
+
+impl SegmentMesh {
+    /// Refuses a free end within the kernel radius of any point, where γ is not defined.
+    ///
+    /// # Errors
+    /// Names the wall, the end and the nearest point. Lengths in metres.
+    pub fn check_free_ends(
+        &self,
+        points: &[[f64; 2]],
+        kernel_radius: f64,
+    ) -> Result<(), BoundaryError> {
+        for free in &self.free_ends {
+            let distance = |point: &[f64; 2]| {
+                let apart = [0, 1].map(|k| point[k] - free.position[k]);
+                let shift = self.domain.shift(self.domain.nearest_image(apart));
+                (apart[0] - shift[0]).hypot(apart[1] - shift[1])
+            };
+            let nearest = points
+                .iter()
+                .map(distance)
+                .enumerate()
+                .min_by(|a, b| a.1.total_cmp(&b.1));
+            if let Some((particle, distance)) = nearest.filter(|(_, d)| *d < kernel_radius) {
+                return Err(BoundaryError::FreeEndInReach {
+                    wall: self.walls[free.wall].clone(),
+                    end: free.end,
+                    x: free.position[0],
+                    y: free.position[1],
+                    particle,
+                    distance,
+                    radius: kernel_radius,
+                });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,115 @@
+//! A box whose opposite sides may be the same place.
+
+use crate::error::BoundaryError;
+
+/// An axis-aligned box, each axis periodic or not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PeriodicBox {
+    /// Lower corner, m.
+    pub lower: [f64; 2],
+    /// Upper corner, m.
+    pub upper: [f64; 2],
+    /// Whether the two sides across an axis are the same place.
+    pub periodic: [bool; 2],
+}
+
+impl PeriodicBox {
+    /// No periodic direction.
+    pub fn none() -> Self {
+        Self {
+            lower: [0.0; 2],
+            upper: [0.0; 2],
+            periodic: [false; 2],
+        }
+    }
+
+    /// Periods in metres, 0 across an axis that is not periodic.
+    pub fn periods(&self) -> [f64; 2] {
+        [0, 1].map(|k| {
+            if self.periodic[k] {
+                self.upper[k] - self.lower[k]
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// Refuses a periodic axis without extent.
+    pub(crate) fn check(&self) -> Result<(), BoundaryError> {
+        for k in 0..2 {
+            let period = self.upper[k] - self.lower[k];
+            if self.periodic[k] && !(period > 0.0 && period.is_finite()) {
+                return Err(BoundaryError::NotPositive {
+                    name: "period",
+                    value: period,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The whole number of periods nearest to a displacement.
+    pub(crate) fn nearest_image(&self, displacement: [f64; 2]) -> [i32; 2] {
+        let periods = self.periods();
+        [0, 1].map(|k| {
+            if self.periodic[k] {
+                (displacement[k] / periods[k]).round() as i32
+            } else {
+                0
+            }
+        })
+    }
+
+    /// The displacement of an image, m.
+    pub(crate) fn shift(&self, image: [i32; 2]) -> [f64; 2] {
+        let periods = self.periods();
+        [0, 1].map(|k| f64::from(image[k]) * periods[k])
+    }
+
+    /// Images of the interval [`low`, `high`] along `axis` that come within `margin` of the box.
+    pub(crate) fn images(
+        &self,
+        axis: usize,
+        low: f64,
+        high: f64,
+        margin: f64,
+    ) -> std::ops::RangeInclusive<i32> {
+        if !self.periodic[axis] {
+            return 0..=0;
+        }
+        let period = self.periods()[axis];
+        let first = ((self.lower[axis] - margin - high) / period).ceil() as i32;
+        let last = ((self.upper[axis] + margin - low) / period).floor() as i32;
+        first..=last
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn images_reach_into_the_box_from_both_sides() {
+        let channel = PeriodicBox {
+            lower: [0.0; 2],
+            upper: [10.0, 1.0],
+            periodic: [true, false],
+        };
+        assert_eq!(channel.images(0, 9.5, 10.0, 1.0), -1..=0);
+        assert_eq!(channel.images(0, 4.0, 5.0, 1.0), 0..=0);
+        assert_eq!(channel.images(1, 4.0, 5.0, 1.0), 0..=0);
+        assert_eq!(channel.nearest_image([-9.9, 3.0]), [-1, 0]);
+        assert_eq!(channel.shift([-1, 0]), [-10.0, 0.0]);
+    }
+
+    #[test]
+    fn period_must_be_positive() {
+        let flat = PeriodicBox {
+            lower: [0.0; 2],
+            upper: [0.0; 2],
+            periodic: [true, false],
+        };
+        assert!(flat.check().is_err());
+        assert!(PeriodicBox::none().check().is_ok());
+    }
+}

@@ -1,0 +1,48 @@
+//! Means of the fluid's state at the wall.
+
+use sph_core::{StepError, Vect, fields};
+use sph_neighbours::{NeighbourList, World, shepard};
+
+/// What the fluid looks like from a place on the wall.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WallMean {
+    /// Σ V [p + ρ g·(x − r)] w / Σ V w, Pa; 0 without fluid. Ghaïtanellis 2017, Eq. 2.91.
+    pub pressure: f64,
+    /// Σ V w / Σ w, m^d; a whole cell without fluid. Ghaïtanellis 2017, Eq. 3.21.
+    pub volume: f64,
+}
+
+/// Means over the free particles at every target.
+pub(crate) fn wall_means<const D: usize>(
+    world: &World<D>,
+    targets: &[Vect<D>],
+    list: &NeighbourList,
+    whole: f64,
+) -> Result<Vec<WallMean>, StepError> {
+    let position = world.free.get(fields::POSITION)?;
+    let pressure = world.free.get(fields::PRESSURE)?;
+    let density = world.free.get(fields::DENSITY)?;
+    let volume = world.free.get(fields::VOLUME)?;
+    shepard(world, targets, list, |t, row, w| {
+        let (mut sum_w, mut sum_vw, mut sum_p) = (0.0, 0.0, 0.0);
+        for (&j, w) in row.iter().zip(w) {
+            let j = j as usize;
+            let vw = volume[j] * w;
+            let apart = world.domain.nearest_image(targets[t] - position[j]);
+            sum_w += w;
+            sum_vw += vw;
+            sum_p += vw * (pressure[j] + density[j] * world.gravity.dot(&apart));
+        }
+        if sum_vw > 0.0 {
+            WallMean {
+                pressure: sum_p / sum_vw,
+                volume: sum_vw / sum_w,
+            }
+        } else {
+            WallMean {
+                pressure: 0.0,
+                volume: whole,
+            }
+        }
+    })
+}

@@ -1,0 +1,313 @@
+//! Geometry of walls: what is accepted, what is refused and with which words.
+
+use sph_boundary::{
+    BoundaryError, PeriodicBox, Polyline, Pose, SegmentGrid, SegmentMesh, WallEnd, thin_plate,
+};
+
+const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+
+fn channel() -> PeriodicBox {
+    PeriodicBox {
+        lower: [0.0; 2],
+        upper: [4.0, 2.0],
+        periodic: [true, false],
+    }
+}
+
+fn build(lines: &[Polyline]) -> Result<SegmentMesh, BoundaryError> {
+    SegmentMesh::build(lines, 0.5, &PeriodicBox::none())
+}
+
+fn message(lines: &[Polyline]) -> String {
+    build(lines).unwrap_err().to_string()
+}
+
+#[test]
+fn a_square_is_cut_into_equal_segments() {
+    let mesh = build(&[Polyline::closed("tank", SQUARE.to_vec())]).unwrap();
+    assert_eq!((mesh.segments().len(), mesh.vertices().len()), (16, 16));
+    for (s, segment) in mesh.segments().iter().enumerate() {
+        assert_eq!(
+            (segment.length, segment.edge, segment.wall),
+            (0.5, s / 4, 0)
+        );
+        assert_eq!(segment.vertices, [s, (s + 1) % 16]);
+    }
+    assert_eq!(mesh.segments()[5].normal, [-1.0, 0.0], "into the square");
+    for (v, vertex) in mesh.vertices().iter().enumerate() {
+        assert_eq!(vertex.theta, if v % 4 == 0 { 0.25 } else { 0.5 });
+        assert_eq!(
+            (vertex.previous, vertex.next),
+            (Some((v + 15) % 16), Some(v))
+        );
+    }
+    let outside = build(&[Polyline::closed("block", SQUARE.to_vec()).reversed()]).unwrap();
+    assert_eq!(outside.vertices()[0].theta, 0.75, "re-entrant");
+}
+
+#[test]
+fn a_wall_along_a_period_closes_onto_itself() {
+    let floor = Polyline::open("floor", vec![[0.0, 0.0], [4.0, 0.0]]);
+    let mesh = SegmentMesh::build(&[floor], 0.5, &channel()).unwrap();
+    assert_eq!((mesh.segments().len(), mesh.vertices().len()), (8, 8));
+    assert!(mesh.free_ends().is_empty());
+    let last = mesh.segments()[7];
+    assert_eq!(
+        (last.vertices, last.end_image, last.centre),
+        ([7, 0], [1, 0], [3.75, 0.0])
+    );
+    assert!(mesh.vertices().iter().all(|v| v.theta == 0.5));
+}
+
+#[test]
+fn a_slope_across_the_seam_gets_its_angle_from_the_other_side() {
+    let roof = Polyline::open("roof", vec![[0.0, 0.0], [2.0, 2.0], [4.0, 0.0]]);
+    let mesh = SegmentMesh::build(&[roof], 0.5, &channel()).unwrap();
+    assert!(
+        (mesh.vertices()[0].theta - 0.25).abs() < 1e-15,
+        "a valley at the seam"
+    );
+}
+
+#[test]
+fn open_walls_are_joined_end_to_end() {
+    let floor = Polyline::open("floor", vec![[0.0, 2.0], [0.0, 0.0], [2.0, 0.0]]);
+    let rest = Polyline::open("rest", vec![[2.0, 0.0], [2.0, 2.0], [0.0, 2.0 + 1e-9]]);
+    let mesh = build(&[floor.clone(), rest.clone()]).unwrap();
+    assert_eq!((mesh.segments().len(), mesh.vertices().len()), (16, 16));
+    assert!(mesh.free_ends().is_empty());
+    assert_eq!(mesh.segments()[15].vertices, [15, 0]);
+    let opposed = message(&[floor.clone(), rest.reversed()]);
+    assert!(
+        opposed.starts_with("the first end of wall `floor` meets the first end of wall `rest`")
+    );
+    let spur = Polyline::open("spur", vec![[2.0, 0.0], [3.0, 0.0]]);
+    assert!(message(&[floor, rest, spur]).starts_with("3 ends of walls meet at (2, 0)"));
+}
+
+#[test]
+fn free_ends_are_refused_near_particles_only() {
+    let mesh = build(&[Polyline::open("floor", vec![[0.0, 0.0], [9.0, 0.0]])]).unwrap();
+    let ends: Vec<WallEnd> = mesh.free_ends().iter().map(|free| free.end).collect();
+    assert_eq!(ends, [WallEnd::First, WallEnd::Last]);
+    assert_eq!(mesh.vertices()[0].theta, 0.5);
+    mesh.check_free_ends(&[[4.0, 0.5], [2.1, 0.5]], 2.0)
+        .unwrap();
+    let refused = mesh.check_free_ends(&[[4.0, 0.5], [8.5, 1.0], [8.5, 0.0]], 2.0);
+    assert_eq!(
+        refused.unwrap_err().to_string(),
+        "the last end of wall `floor` at (9, 0) is free and particle 2 is 0.5 m away, within the \
+         kernel radius 2 m: close the wall or extend it"
+    );
+}
+
+#[test]
+fn degenerate_walls_are_named() {
+    let open = |points: &[[f64; 2]]| [Polyline::open("gate", points.to_vec())];
+    assert_eq!(
+        message(&open(&[])),
+        "wall `gate` has 0 point(s), at least two are needed"
+    );
+    assert_eq!(
+        message(&open(&[[0.0, 0.0], [1.0, f64::NAN]])),
+        "wall `gate`: point 1 has a coordinate that is not finite"
+    );
+    assert_eq!(
+        message(&open(&[[0.0, 0.0], [1.0, 0.5], [1.0, 0.5]])),
+        "wall `gate`: edge 1 has zero length, points 1 and 2 are both at (1, 0.5)"
+    );
+    let repeated = Polyline::closed("gate", vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]);
+    assert!(message(&[repeated]).contains("points 3 and 0"));
+    assert!(SegmentMesh::build(&[], 0.0, &PeriodicBox::none()).is_err());
+    assert!(build(&[]).unwrap().segments().is_empty());
+}
+
+#[test]
+fn crossings_are_named_and_touching_is_allowed() {
+    let tank = Polyline::closed("tank", SQUARE.to_vec());
+    let bow = Polyline::closed("bow", vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]);
+    assert_eq!(
+        message(&[bow]),
+        "edge 0 of wall `bow` crosses edge 2 of wall `bow` near (0.5, 0.5)"
+    );
+    let pipe = Polyline::open("pipe", vec![[1.0, 1.0], [3.0, 1.0]]);
+    let crossing = message(&[tank.clone(), pipe]);
+    assert_eq!(
+        crossing,
+        "edge 0 of wall `pipe` crosses edge 1 of wall `tank` near (2, 1)"
+    );
+    let block = Polyline::closed(
+        "block",
+        vec![[0.5, 0.0], [0.5, 1.0], [1.5, 1.0], [1.5, 0.0]],
+    );
+    build(&[tank, block]).unwrap();
+    // Across the periodic side.
+    let post = Polyline::closed("post", vec![[3.5, 0.5], [3.5, 1.0], [4.5, 1.0], [4.5, 0.5]]);
+    let other = Polyline::closed(
+        "other",
+        vec![[0.2, 0.7], [0.2, 1.5], [0.8, 1.5], [0.8, 0.7]],
+    );
+    build(&[post.clone(), other.clone()]).unwrap();
+    let across = SegmentMesh::build(&[post, other], 0.5, &channel());
+    assert!(
+        matches!(across, Err(BoundaryError::Crossing { .. })),
+        "{across:?}"
+    );
+}
+
+#[test]
+fn a_closed_wall_without_area_must_be_a_plate() {
+    let plate = Polyline::closed("plate", vec![[0.0, 0.0], [1.0, 2.0]]);
+    let mesh = build(&[plate]).unwrap();
+    assert_eq!(mesh.vertices()[0].theta, 1.0);
+    // Two triangles of opposite orientation that meet in a point.
+    let bow = [
+        [-2.0, -1.0],
+        [0.0, 0.0],
+        [2.0, 1.0],
+        [2.0, -1.0],
+        [0.0, 0.0],
+        [-2.0, 1.0],
+    ];
+    assert!(matches!(
+        build(&[Polyline::closed("bow", bow.to_vec())]),
+        Err(BoundaryError::ZeroArea { edge: 0, .. })
+    ));
+}
+
+#[test]
+fn short_edges_are_remarked_upon() {
+    let plate = thin_plate("plate", &[[0.0, 0.0], [2.0, 0.0]], 0.01).unwrap();
+    let mesh = build(&[plate]).unwrap();
+    assert_eq!(mesh.segments().len(), 10, "caps are one segment");
+    let warnings: Vec<String> = mesh.warnings().iter().map(ToString::to_string).collect();
+    assert_eq!(
+        warnings[0],
+        "edge 1 of wall `plate` is 0.01 m long, far shorter than the spacing 0.5 m"
+    );
+    assert_eq!(warnings.len(), 2);
+}
+
+#[test]
+fn the_grid_finds_what_a_search_over_everything_finds() {
+    let domain = channel();
+    let floor = Polyline::open("floor", vec![[0.0, 0.0], [2.0, 0.3], [4.0, 0.0]]);
+    let post = Polyline::closed("post", vec![[3.8, 0.8], [3.8, 1.2], [4.3, 1.2], [4.3, 0.8]]);
+    let mesh = SegmentMesh::build(&[floor, post], 0.2, &domain).unwrap();
+    let grid = SegmentGrid::build(&mesh, 0.6);
+    let distance = |p: [f64; 2], [a, b]: [[f64; 2]; 2]| {
+        let t = [b[0] - a[0], b[1] - a[1]];
+        let part = ((p[0] - a[0]) * t[0] + (p[1] - a[1]) * t[1]) / (t[0] * t[0] + t[1] * t[1]);
+        let part = part.clamp(0.0, 1.0);
+        (a[0] + part * t[0] - p[0]).hypot(a[1] + part * t[1] - p[1])
+    };
+    for i in 0..400 {
+        let point = [0.01 * f64::from(i), 0.05 + 0.0371 * f64::from(i % 50)];
+        let found: Vec<(usize, i32)> = grid
+            .near(&mesh, point, 0.5)
+            .map(|near| (near.segment, near.image[0]))
+            .collect();
+        let mut expected = Vec::new();
+        for s in 0..mesh.segments().len() {
+            for image in -2..=2 {
+                let ends = mesh.ends(s).map(|[x, y]| [x + 4.0 * f64::from(image), y]);
+                if distance(point, ends) < 0.5 {
+                    expected.push((s, image));
+                }
+            }
+        }
+        assert_eq!(found, expected, "at {point:?}");
+    }
+    assert_eq!(grid.near(&mesh, [1.0, 900.0], 0.5).count(), 0);
+}
+
+#[test]
+fn inside_of_tanks_blocks_plates_and_channels() {
+    let tank = Polyline::closed("tank", SQUARE.to_vec());
+    let block = Polyline::closed(
+        "block",
+        vec![[0.5, 0.0], [0.5, 1.0], [1.5, 1.0], [1.5, 0.0]],
+    );
+    let plate = thin_plate("plate", &[[0.2, 1.2], [1.8, 1.7]], 0.0).unwrap();
+    let mesh = build(&[tank, block.clone(), plate]).unwrap();
+    let inside = [
+        [0.25, 0.5],
+        [1.0, 1.2],
+        [1.0, 1.9],
+        [0.5, 1.5],
+        [1.999, 1e-9],
+    ];
+    let outside = [
+        [1.0, 0.5],
+        [-0.1, 1.0],
+        [1.0, -0.1],
+        [1.0, 2.1],
+        [5.0, 1.0],
+        [1.0, 1e-9],
+    ];
+    assert!(inside.iter().all(|p| mesh.contains(*p)));
+    assert!(outside.iter().all(|p| !mesh.contains(*p)));
+    let alone = build(&[block]).unwrap();
+    assert!(
+        alone.contains([9.0, 9.0]) && alone.contains([1.0, 2.0]) && alone.contains([1.0, -1.0])
+    );
+    assert!(!alone.contains([1.0, 0.5]));
+    let floor = Polyline::open("floor", vec![[0.0, 0.0], [4.0, 0.0]]);
+    let lid = Polyline::open("lid", vec![[4.0, 2.0], [0.0, 2.0]]);
+    let ball = Polyline::closed("ball", vec![[3.5, 0.5], [3.5, 1.0], [4.5, 1.0], [4.5, 0.5]]);
+    let open = SegmentMesh::build(&[floor.clone(), ball.clone()], 0.5, &channel()).unwrap();
+    let closed = SegmentMesh::build(&[floor, lid, ball], 0.5, &channel()).unwrap();
+    for mesh in [&open, &closed] {
+        assert!(
+            mesh.contains([2.0, 1.0]) && mesh.contains([0.0, 0.2]) && mesh.contains([3.9, 1.2])
+        );
+        assert!(!mesh.contains([2.0, -0.1]) && !mesh.contains([0.2, 0.7]));
+        assert!(!mesh.contains([3.7, 0.7]));
+    }
+    assert!(open.contains([2.0, 7.0]) && !closed.contains([2.0, 7.0]));
+    assert!(build(&[]).unwrap().contains([0.0, 0.0]));
+}
+
+#[test]
+fn walls_move_from_their_reference() {
+    let tank = Polyline::closed("tank", SQUARE.to_vec());
+    let gate = thin_plate("gate", &[[1.0, 0.5], [1.0, 1.0]], 0.1).unwrap();
+    let mut mesh = build(&[tank, gate]).unwrap();
+    let at_rest = mesh.clone();
+    let lifted = Pose::translated([0.0, 0.7]);
+    mesh.move_walls(&[Pose::default(), lifted]).unwrap();
+    assert_eq!(mesh.vertices()[..16], at_rest.vertices()[..16]);
+    assert_eq!(
+        mesh.vertices()[16].position[1],
+        at_rest.vertices()[16].position[1] + 0.7
+    );
+    assert_eq!(mesh.segments()[16].normal, at_rest.segments()[16].normal);
+    let turn = Pose::rotated(std::f64::consts::PI, [1.0, 0.75]);
+    mesh.move_walls(&[Pose::default(), turn]).unwrap();
+    let opposite = mesh.segments()[16].normal;
+    assert!((opposite[0] + at_rest.segments()[16].normal[0]).abs() < 1e-14);
+    mesh.move_walls(&[Pose::default(); 2]).unwrap();
+    assert_eq!(mesh, at_rest, "exactly back");
+    assert!(matches!(
+        mesh.move_walls(&[]),
+        Err(BoundaryError::PoseCount { .. })
+    ));
+}
+
+#[test]
+fn joined_and_periodic_walls_cannot_be_torn() {
+    let left = Polyline::open("left", vec![[0.0, 0.0], [2.0, 0.0]]);
+    let right = Polyline::open("right", vec![[2.0, 0.0], [4.0, 0.0]]);
+    let mut mesh = SegmentMesh::build(&[left, right], 0.5, &channel()).unwrap();
+    let up = Pose::translated([0.0, 0.1]);
+    let torn = mesh.move_walls(&[Pose::default(), up]).unwrap_err();
+    assert_eq!(
+        torn.to_string(),
+        "walls `left` and `right` are joined at (2, 0) and cannot move differently"
+    );
+    mesh.move_walls(&[up; 2]).unwrap();
+    let turned = mesh
+        .move_walls(&[Pose::rotated(0.1, [0.0; 2]); 2])
+        .unwrap_err();
+    assert!(turned.to_string().contains("cannot rotate"));
+}

@@ -1,0 +1,8 @@
+//! Identities every kernel fulfils, through the public interface alone.
+
+mod constants;
+mod derivatives;
+mod quadrature;
+mod sampling;
+mod shapes;
+mod transform;

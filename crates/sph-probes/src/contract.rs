@@ -1,0 +1,60 @@
+//! What probes and reference solutions are.
+
+use sph_core::{StepError, Vect, contract};
+use sph_neighbours::World;
+
+/// A column that a probe adds to the time series.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProbeColumn {
+    /// Appended to the probe's name; empty for a probe with one column.
+    pub suffix: String,
+    /// SI unit.
+    pub unit: &'static str,
+}
+
+impl ProbeColumn {
+    /// The only column of a probe.
+    pub fn only(unit: &'static str) -> Vec<ProbeColumn> {
+        vec![ProbeColumn {
+            suffix: String::new(),
+            unit,
+        }]
+    }
+}
+
+/// Something measured at every row of the time series.
+pub trait Probe<const D: usize>: Send {
+    /// The columns it adds.
+    fn columns(&self) -> Vec<ProbeColumn>;
+    /// Their values now; NaN where there is nothing to measure.
+    ///
+    /// # Errors
+    /// If a column of the flow is missing.
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError>;
+}
+
+contract!(
+    /// A probe that a scene may name.
+    pub ProbeEntry, "probe", "what is measured over time", Probe<D>
+);
+
+/// An analytical flow.
+pub trait Solution<const D: usize>: Send + Sync {
+    /// Velocity, m/s, if the solution has one.
+    fn velocity(&self, _position: &Vect<D>, _time: f64) -> Option<Vect<D>> {
+        None
+    }
+    /// Pressure, Pa, if the solution has one.
+    fn pressure(&self, _position: &Vect<D>, _time: f64) -> Option<f64> {
+        None
+    }
+    /// d ln(kinetic energy)/dt, 1/s, if it is constant.
+    fn energy_rate(&self) -> Option<f64> {
+        None
+    }
+}
+
+contract!(
+    /// A solution that a scene may name, as a reference or as an initial state.
+    pub SolutionEntry, "solution", "analytical flows: references and initial states", Solution<D>
+);

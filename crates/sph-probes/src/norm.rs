@@ -1,0 +1,111 @@
+//! The norms in which errors are reported.
+
+/// √(Σ V |u − e|² / Σ V |e|²) over values of `components` numbers each.
+pub fn l2(values: &[f64], exact: &[f64], volume: &[f64], components: usize) -> f64 {
+    let (mut difference, mut size) = (0.0, 0.0);
+    let pairs = values.chunks(components).zip(exact.chunks(components));
+    for ((u, e), v) in pairs.zip(volume) {
+        difference += v * u.iter().zip(e).map(|(u, e)| (u - e).powi(2)).sum::<f64>();
+        size += v * e.iter().map(|e| e * e).sum::<f64>();
+    }
+    (difference / size).sqrt()
+}
+
+/// Σ | |u| − |e| | / Σ |e|.
+pub fn l1(values: &[f64], exact: &[f64], components: usize) -> f64 {
+    let pairs = values.chunks(components).zip(exact.chunks(components));
+    let (mut difference, mut total) = (0.0, 0.0);
+    for (u, e) in pairs {
+        difference += (size(u) - size(e)).abs();
+        total += size(e);
+    }
+    difference / total
+}
+
+/// max |u − e| / max |e|.
+pub fn linf(values: &[f64], exact: &[f64], components: usize) -> f64 {
+    let pairs = values.chunks(components).zip(exact.chunks(components));
+    let (mut difference, mut largest) = (0.0_f64, 0.0_f64);
+    for (u, e) in pairs {
+        let d: Vec<f64> = u.iter().zip(e).map(|(u, e)| u - e).collect();
+        difference = difference.max(size(&d));
+        largest = largest.max(size(e));
+    }
+    difference / largest
+}
+
+/// √(Σ V |u|² / Σ V) / scale: the root mean square against a scale, for fields at rest.
+pub fn rms(values: &[f64], volume: &[f64], components: usize, scale: f64) -> f64 {
+    let mut sum = 0.0;
+    for (u, v) in values.chunks(components).zip(volume) {
+        sum += v * u.iter().map(|x| x * x).sum::<f64>();
+    }
+    (sum / volume.iter().sum::<f64>()).sqrt() / scale
+}
+
+fn size(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Linear interpolation of a series; `None` outside its times.
+pub fn at(times: &[f64], values: &[f64], t: f64) -> Option<f64> {
+    let after = times.partition_point(|x| *x < t);
+    if after == 0 {
+        return (times.first() == Some(&t)).then(|| values[0]);
+    }
+    let (t0, t1) = (times[after - 1], *times.get(after)?);
+    let (v0, v1) = (values[after - 1], values[after]);
+    Some(v0 + (v1 - v0) * (t - t0) / (t1 - t0))
+}
+
+/// Root mean square of the difference at the reference's times over the reference's range.
+pub fn rms_over_range(differences: &[f64], reference: &[f64]) -> f64 {
+    let mean = differences.iter().map(|d| d * d).sum::<f64>() / differences.len() as f64;
+    let high = reference.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = reference.iter().copied().fold(f64::INFINITY, f64::min);
+    mean.sqrt() / (high - low)
+}
+
+/// Least-squares slope of y over x.
+pub fn slope(x: &[f64], y: &[f64]) -> f64 {
+    let n = x.len() as f64;
+    let (mx, my) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
+    let xy: f64 = x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum();
+    let xx: f64 = x.iter().map(|x| (x - mx).powi(2)).sum();
+    xy / xx
+}
+
+/// Observed order of convergence: least-squares slope of ln error over ln spacing, three finest.
+pub fn order(spacing: &[f64], error: &[f64]) -> f64 {
+    let mut pairs: Vec<(f64, f64)> = spacing.iter().copied().zip(error.iter().copied()).collect();
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    pairs.truncate(3);
+    let x: Vec<f64> = pairs.iter().map(|p| p.0.ln()).collect();
+    let y: Vec<f64> = pairs.iter().map(|p| p.1.ln()).collect();
+    slope(&x, &y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn norms_of_known_differences() {
+        let (u, e, v) = ([1.1, 2.2], [1.0, 2.0], [1.0, 1.0]);
+        assert!((l2(&u, &e, &v, 1) - 0.1).abs() < 1e-14);
+        assert!((l1(&u, &e, 1) - 0.1).abs() < 1e-14);
+        assert!((linf(&u, &e, 1) - 0.1).abs() < 1e-14);
+        assert!((linf(&[3.0, 4.0], &[0.0, 1.0], 2) - 18f64.sqrt()).abs() < 1e-14);
+        assert!((rms_over_range(&[0.1, -0.1], &[0.0, 2.0]) - 0.05).abs() < 1e-14);
+        assert_eq!(at(&[0.0, 1.0], &[5.0, 7.0], 0.5), Some(6.0));
+        assert_eq!(at(&[0.0, 1.0], &[5.0, 7.0], 1.5), None);
+        assert_eq!(at(&[0.0, 1.0], &[5.0, 7.0], 0.0), Some(5.0));
+    }
+
+    #[test]
+    fn the_order_of_a_quadratic_error_is_two() {
+        let h = [0.4, 0.2, 0.1, 0.05];
+        let error: Vec<f64> = h.iter().map(|h| 3.0 * h * h).collect();
+        assert!((order(&h, &error) - 2.0).abs() < 1e-12);
+    }
+}

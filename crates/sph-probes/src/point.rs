@@ -1,0 +1,108 @@
+//! Pressure and velocity at a point.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, Vect, register};
+use sph_neighbours::World;
+
+use crate::{Probe, ProbeColumn, ProbeEntry, interpolate};
+
+/// Pressure at a point, in the fluid or on a wall, averaged over the face of a sensor.
+///
+/// p = Σ V [p_b + ρ_b g·(x − r_b)] w / Σ V w (Ghaïtanellis 2017, Eq. 2.91), averaged over
+/// points along the sensor's diameter; 0 where there is no fluid.
+///
+/// ```toml
+/// [probe.P2]
+/// kind = "pressure"
+/// at = ["1610 mm", "15 mm"]
+/// diameter = "4.2 mm"
+/// along = [0, 1]
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PressureProbe {
+    /// Where.
+    #[schemars(extend("unit" = "m"))]
+    pub at: Vec<f64>,
+    /// Diameter of the sensor's face; 0 for a point.
+    #[serde(default)]
+    #[schemars(range(min = 0.0), extend("unit" = "m"))]
+    pub diameter: f64,
+    /// Direction of the diameter (need not be a unit vector).
+    #[serde(default)]
+    #[schemars(extend("unit" = "1"))]
+    pub along: Vec<f64>,
+}
+
+/// A point of D coordinates; missing ones are zero.
+pub(crate) fn point<const D: usize>(coordinates: &[f64]) -> Vect<D> {
+    Vect::from_fn(|k, _| coordinates.get(k).copied().unwrap_or(0.0))
+}
+
+impl<const D: usize> Probe<D> for PressureProbe {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        ProbeColumn::only("Pa")
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let centre = point::<D>(&self.at);
+        let along = point::<D>(&self.along);
+        if self.diameter == 0.0 || along.norm() == 0.0 {
+            return Ok(vec![interpolate(world, &centre)?.pressure]);
+        }
+        // Five points share the face evenly.
+        let step = along.normalize() * (self.diameter / 5.0);
+        let mut mean = 0.0;
+        for k in -2..=2 {
+            mean += interpolate(world, &(centre + step * f64::from(k)))?.pressure / 5.0;
+        }
+        Ok(vec![mean])
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    PressureProbe,
+    "pressure",
+    "pressure at a point or over a sensor's face",
+    "Ghaïtanellis 2017, Eq. 2.91"
+);
+
+/// Velocity at a point; 0 where there is no fluid.
+///
+/// ```toml
+/// [probe.middle]
+/// kind = "velocity"
+/// at = [0.5, 0.5]
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct VelocityProbe {
+    /// Where.
+    #[schemars(extend("unit" = "m"))]
+    pub at: Vec<f64>,
+}
+
+impl<const D: usize> Probe<D> for VelocityProbe {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        let column = |axis: &str| ProbeColumn {
+            suffix: format!(".{axis}"),
+            unit: "m/s",
+        };
+        ["x", "y", "z"].iter().take(D).map(|a| column(a)).collect()
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let found = interpolate(world, &point::<D>(&self.at))?;
+        Ok(found.velocity.iter().copied().collect())
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    VelocityProbe,
+    "velocity",
+    "velocity at a point",
+    "Shepard mean"
+);

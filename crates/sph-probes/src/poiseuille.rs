@@ -1,0 +1,82 @@
+//! Plane Poiseuille flow, from rest to steady.
+
+use std::f64::consts::PI;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Vect, register};
+
+use crate::{Solution, SolutionEntry};
+
+/// u = a/(2ν) η(H−η) − Σ_n 4aH²/(νπ³(2n+1)³) sin(πη(2n+1)/H) exp(−(2n+1)²π²νt/H²), with η the
+/// distance from the lower wall.
+///
+/// Source: Morris et al. 1997, Eq. 21.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Poiseuille {
+    /// Driving acceleration a along x.
+    #[schemars(extend("unit" = "m/s²"))]
+    pub acceleration: f64,
+    /// Kinematic viscosity ν.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m²/s"))]
+    pub kinematic_viscosity: f64,
+    /// Height H of the channel.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    pub height: f64,
+    /// Ordinate of the lower wall.
+    #[serde(default)]
+    #[schemars(extend("unit" = "m"))]
+    pub bottom: f64,
+}
+
+impl<const D: usize> Solution<D> for Poiseuille {
+    fn velocity(&self, position: &Vect<D>, time: f64) -> Option<Vect<D>> {
+        let (a, nu, height) = (self.acceleration, self.kinematic_viscosity, self.height);
+        let eta = position[D - 1] - self.bottom;
+        let mut u = 0.5 * a / nu * eta * (height - eta);
+        for n in 0..200 {
+            let k = f64::from(2 * n + 1);
+            let decay = (-k * k * PI * PI * nu * time / (height * height)).exp();
+            if decay < 1e-18 {
+                break;
+            }
+            let amplitude = 4.0 * a * height * height / (nu * PI.powi(3) * k.powi(3));
+            u -= amplitude * (PI * eta * k / height).sin() * decay;
+        }
+        let mut velocity = Vect::zeros();
+        velocity[0] = u;
+        Some(velocity)
+    }
+}
+
+register!(
+    SolutionEntry [2, 3],
+    Poiseuille,
+    "poiseuille",
+    "plane channel flow driven by a body force, started from rest",
+    "Morris et al. 1997, Eq. 21"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_starts_at_rest_and_becomes_a_parabola() {
+        let flow = Poiseuille {
+            acceleration: 0.8,
+            kinematic_viscosity: 0.1,
+            height: 1.0,
+            bottom: 0.0,
+        };
+        let at = |y: f64, t: f64| {
+            Solution::<2>::velocity(&flow, &Vect::from([0.0, y]), t)
+                .unwrap()
+                .x
+        };
+        assert!(at(0.3, 0.0).abs() < 1e-6, "u(t=0) = {:e}", at(0.3, 0.0));
+        assert!((at(0.5, 1e3) - 1.0).abs() < 1e-14);
+        assert!(at(0.0, 1.0).abs() < 1e-14 && at(1.0, 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,80 @@
+//! The least and largest value of a field.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Plain, StepError, register};
+use sph_neighbours::World;
+
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// Smallest and largest value of a scalar field over a scale.
+///
+/// ```toml
+/// [probe.deficit]
+/// kind = "range"
+/// field = "density_constant"
+/// scale = 1000
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FieldRange {
+    /// Name of the field.
+    pub field: String,
+    /// The values are divided by this, in the field's own unit.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub scale: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl<const D: usize> Probe<D> for FieldRange {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        let column = |suffix: &str| ProbeColumn {
+            suffix: suffix.into(),
+            unit: "1",
+        };
+        vec![column(".min"), column(".max")]
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let mut columns = world.free.columns();
+        let found = columns.find(|(name, ..)| *name == self.field);
+        match found {
+            Some((_, _, _, components, Plain::Real(values))) => {
+                let magnitude = |v: &[f64]| match v {
+                    [x] => *x,
+                    _ => v.iter().map(|x| x * x).sum::<f64>().sqrt(),
+                };
+                let all = || values.chunks(components).map(|v| magnitude(v) / self.scale);
+                Ok(vec![
+                    all().fold(f64::NAN, f64::min),
+                    all().fold(f64::NAN, f64::max),
+                ])
+            }
+            _ => Err(StepError::Stage {
+                stage: "probe `range`".into(),
+                reason: format!(
+                    "there is no field `{}` in this scene; there are: {}",
+                    self.field,
+                    world
+                        .free
+                        .columns()
+                        .map(|c| c.0)
+                        .collect::<Vec<_>>()
+                        .join(", ")
+                ),
+            }),
+        }
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    FieldRange,
+    "range",
+    "smallest and largest value of a field",
+    "plain extrema"
+);
