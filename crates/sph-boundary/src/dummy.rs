@@ -37,7 +37,7 @@ struct SetUp {
 }
 
 register!(
-    WallEntry [2],
+    WallEntry[2],
     DummyParticles,
     "dummy-particles",
     "layers of fixed particles behind the wall",
@@ -71,7 +71,11 @@ impl Wall<2> for DummyParticles {
         }
         let names = outline.mesh.walls().to_vec();
         let motions = setup.walls.iter().map(|w| w.motion).collect();
-        self.set_up = Some(SetUp { outline, drawn, motions });
+        self.set_up = Some(SetUp {
+            outline,
+            drawn,
+            motions,
+        });
         Ok(WallSet {
             names,
             points,
@@ -128,21 +132,26 @@ impl Wall<2> for DummyParticles {
         let pressure = world.free.get(fields::PRESSURE)?;
         let density = world.free.get(fields::DENSITY)?;
         let points = &world.walls.points;
-        let means = shepard(world, &points.position, &world.lists.of_points, |v, row, w| {
-            let (mut sum_w, mut sum_p, mut sum_u) = (0.0, 0.0, Vect::<2>::zeros());
-            for (&j, w) in row.iter().zip(w) {
-                let j = j as usize;
-                let apart = world.domain.nearest_image(points.position[v] - position[j]);
-                sum_w += w;
-                sum_p += w * (pressure[j] + density[j] * world.gravity.dot(&apart));
-                sum_u += velocity[j] * *w;
-            }
-            if sum_w > 0.0 {
-                (sum_p / sum_w, points.velocity[v] * 2.0 - sum_u / sum_w)
-            } else {
-                (0.0, points.velocity[v])
-            }
-        })?;
+        let means = shepard(
+            world,
+            &points.position,
+            &world.lists.of_points,
+            |v, row, w| {
+                let (mut sum_w, mut sum_p, mut sum_u) = (0.0, 0.0, Vect::<2>::zeros());
+                for (&j, w) in row.iter().zip(w) {
+                    let j = j as usize;
+                    let apart = world.domain.nearest_image(points.position[v] - position[j]);
+                    sum_w += w;
+                    sum_p += w * (pressure[j] + density[j] * world.gravity.dot(&apart));
+                    sum_u += velocity[j] * *w;
+                }
+                if sum_w > 0.0 {
+                    (sum_p / sum_w, points.velocity[v] * 2.0 - sum_u / sum_w)
+                } else {
+                    (0.0, points.velocity[v])
+                }
+            },
+        )?;
         let points = &mut world.walls.points;
         for (v, (pressure, velocity)) in means.into_iter().enumerate() {
             points.pressure[v] = pressure;
@@ -154,7 +163,12 @@ impl Wall<2> for DummyParticles {
     fn warnings(&self) -> Vec<String> {
         let set_up = self.set_up.as_ref();
         set_up.map_or(Vec::new(), |s| {
-            s.outline.mesh.warnings().iter().map(ToString::to_string).collect()
+            s.outline
+                .mesh
+                .warnings()
+                .iter()
+                .map(ToString::to_string)
+                .collect()
         })
     }
 }

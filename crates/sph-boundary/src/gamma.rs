@@ -1,8 +1,10 @@
 //! γ and ∇γ of straight wall segments in closed form.
 
 mod primitives;
+mod ring;
 mod segment;
 mod sum;
+mod taylor;
 
 pub use segment::{Contact, SegmentIntegral};
 pub use sum::GammaSum;
@@ -11,6 +13,7 @@ use sph_kernels::PiecewisePolynomial;
 
 use crate::error::BoundaryError;
 use primitives::Knot;
+use ring::Ring;
 
 /// Exact wall integrals of one kernel in two dimensions.
 ///
@@ -22,7 +25,7 @@ use primitives::Knot;
 /// ```
 ///
 /// because ∇·(H̃ r/r) = w − δ. The kernel is written as a sum over its knots ρ_j of polynomials that
-/// end there, f(q) = Σ_j [q < ρ_j] Δ_j(q), Δ_j the difference of the pieces on either side, so each
+/// end there, f(q) = Σ Δ_j(q) over the ρ_j > q, Δ_j the difference of the pieces on either side, so each
 /// segment is clipped once per knot circle. On the line at the distance a all lengths divided by h:
 ///
 /// ```text
@@ -38,8 +41,11 @@ use primitives::Knot;
 /// | ∇γ, ∫ w dS | gradient and an element's part, along n | 1/m |
 /// | a, y, q | signed distance to the line (> 0 in the fluid), abscissa on it, distance; over h | 1 |
 ///
-/// Valid for any piecewise polynomial and at every distance, touching included; the absolute error
-/// is that of rounding times the cancellation Σ|c_n|ρⁿ of the kernel's monomials. The wall must be
+/// Valid for any piecewise polynomial and at every distance, touching included. The rounding of the
+/// closed form is amplified by the cancellation σ Σ|c_n| ρⁿ⁺¹/(n + 1) of the kernel's monomials;
+/// where that exceeds 60 (Wendland C4 and C6, not the splines) the outer part of the kernel is a
+/// ring integrated by Gauss–Legendre rules, which are exact to rounding there. Measured: γ and h∇γ
+/// within 4·10⁻¹⁴ of quadrature for all built-in kernels. The wall must be
 /// closed within the support. Source: the divergence theorem applied to the definitions (2.63)
 /// and (2.64) of Ghaïtanellis (2017); for Wendland C2, ∫ w dS is its Eq. (2.73) with 7/192 in
 /// place of 7/129.
@@ -47,8 +53,12 @@ use primitives::Knot;
 pub struct Renormalisation2d {
     smoothing_length: f64,
     per_h: f64,
-    /// From the outermost inwards.
+    /// Support over h.
+    support: f64,
+    /// Discs of the closed form, from the outermost inwards.
     knots: Vec<Knot>,
+    /// What is left to quadrature.
+    rings: Vec<Ring>,
 }
 
 impl Renormalisation2d {
@@ -73,11 +83,14 @@ impl Renormalisation2d {
             let reason = "its integral over the plane is not positive".into();
             return Err(BoundaryError::Kernel { reason });
         }
-        let knots = primitives::knots(shape, sigma);
+        let (knots, rings) = primitives::tables(shape, sigma);
+        let (per_h, support) = (1.0 / smoothing_length, shape.support());
         Ok(Self {
             smoothing_length,
-            per_h: 1.0 / smoothing_length,
+            per_h,
+            support,
             knots,
+            rings,
         })
     }
 
@@ -88,7 +101,7 @@ impl Renormalisation2d {
 
     /// Distance beyond which the kernel vanishes, m.
     pub fn kernel_radius(&self) -> f64 {
-        self.knots.first().map_or(0.0, |knot| knot.radius) * self.smoothing_length
+        self.support * self.smoothing_length
     }
 }
 

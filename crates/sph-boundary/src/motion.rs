@@ -83,7 +83,11 @@ mod tests {
             let velocity = motion.velocity_at(at(t), t);
             for k in 0..2 {
                 let rate = (after[k] - before[k]) / 2e-6;
-                assert!((rate - velocity[k]).abs() < 1e-8, "t = {t}: {rate} {}", velocity[k]);
+                assert!(
+                    (rate - velocity[k]).abs() < 1e-8,
+                    "t = {t}: {rate} {}",
+                    velocity[k]
+                );
             }
         }
     }

@@ -4,9 +4,7 @@ use sph_core::Vect;
 use sph_neighbours::Elements;
 
 use crate::grid::distance_squared;
-use crate::{
-    BoundaryError, Condition, PeriodicBox, SegmentGrid, SegmentMesh, WallSetup, WallSpec,
-};
+use crate::{BoundaryError, Condition, PeriodicBox, SegmentGrid, SegmentMesh, WallSetup, WallSpec};
 
 /// The walls of a scene as segments, with what the scene says of each.
 #[derive(Debug)]
@@ -98,7 +96,9 @@ impl Outline {
         for segment in self.mesh.segments() {
             elements.centre.push(segment.centre.into());
             elements.normal.push(segment.normal.into());
-            elements.velocity.push(self.velocity(segment.wall, segment.centre, time));
+            elements
+                .velocity
+                .push(self.velocity(segment.wall, segment.centre, time));
             elements.measure.push(segment.length);
             elements.volume.push(spacing * spacing);
             elements.pressure.push(0.0);

@@ -48,7 +48,7 @@ struct NearLists {
 }
 
 register!(
-    WallEntry [2],
+    WallEntry[2],
     Usaw,
     "usaw",
     "semi-analytical walls with exact renormalisation",
@@ -82,12 +82,15 @@ impl Wall<2> for Usaw {
     }
 
     fn build(&mut self, setup: &WallSetup<'_, 2>) -> Result<WallSet<2>, BoundaryError> {
-        let shape = setup.kernel.polynomial().ok_or_else(|| BoundaryError::Kernel {
-            reason: format!(
-                "`{}` gives no radial moments, and semi-analytical walls integrate them",
-                setup.kernel.name()
-            ),
-        })?;
+        let shape = setup
+            .kernel
+            .polynomial()
+            .ok_or_else(|| BoundaryError::Kernel {
+                reason: format!(
+                    "`{}` gives no radial moments, and semi-analytical walls integrate them",
+                    setup.kernel.name()
+                ),
+            })?;
         let gamma = Renormalisation2d::new(shape, setup.smoothing_length)?;
         let outline = Outline::new(setup, gamma.kernel_radius())?;
         let mut points = WallPoints::default();
@@ -219,9 +222,18 @@ impl Wall<2> for Usaw {
     fn state(&mut self, world: &mut World<2>) -> Result<(), StepError> {
         let spacing = self.ready()?.spacing;
         let whole = spacing * spacing;
-        let points = wall_means(world, &world.walls.points.position, &world.lists.of_points, whole)?;
-        let elements =
-            wall_means(world, &world.walls.elements.centre, &world.lists.of_elements, whole)?;
+        let points = wall_means(
+            world,
+            &world.walls.points.position,
+            &world.lists.of_points,
+            whole,
+        )?;
+        let elements = wall_means(
+            world,
+            &world.walls.elements.centre,
+            &world.lists.of_elements,
+            whole,
+        )?;
         let walls = &mut world.walls;
         for (v, mean) in points.iter().enumerate() {
             walls.points.pressure[v] = mean.pressure;
@@ -237,7 +249,12 @@ impl Wall<2> for Usaw {
     fn warnings(&self) -> Vec<String> {
         let set_up = self.set_up.as_ref();
         set_up.map_or(Vec::new(), |s| {
-            s.outline.mesh.warnings().iter().map(ToString::to_string).collect()
+            s.outline
+                .mesh
+                .warnings()
+                .iter()
+                .map(ToString::to_string)
+                .collect()
         })
     }
 }
@@ -248,7 +265,12 @@ fn near_lists(outline: &Outline, world: &World<2>) -> Result<NearLists, StepErro
     let rows: Vec<Vec<NearSegment>> = positions
         .par_iter()
         .with_min_len(256)
-        .map(|x| outline.grid.near(&outline.mesh, [x[0], x[1]], reach).collect())
+        .map(|x| {
+            outline
+                .grid
+                .near(&outline.mesh, [x[0], x[1]], reach)
+                .collect()
+        })
         .collect();
     let mut near = NearLists {
         built_for: world.lists.builds,
@@ -260,7 +282,11 @@ fn near_lists(outline: &Outline, world: &World<2>) -> Result<NearLists, StepErro
         near.segments.extend(row);
         near.starts.push(near.segments.len() as u32);
     }
-    let close: Vec<_> = near.particles.iter().map(|&p| positions[p as usize]).collect();
+    let close: Vec<_> = near
+        .particles
+        .iter()
+        .map(|&p| positions[p as usize])
+        .collect();
     outline.check_free_ends(&close).map_err(stage_error)?;
     Ok(near)
 }

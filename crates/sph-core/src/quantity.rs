@@ -63,6 +63,9 @@ const PLAIN: [(&str, f64, Dimensions); 10] = [
     ),
 ];
 
+/// Larger exponents than this occur in no unit; they must not overflow the sums.
+const LARGEST_POWER: i32 = 12;
+
 const PREFIXES: [(&str, f64); 9] = [
     ("n", 1e-9),
     ("u", 1e-6),
@@ -115,7 +118,9 @@ fn one_symbol(symbol: &str) -> Result<(f64, Dimensions, i32), String> {
             name,
             power
                 .parse::<i32>()
-                .map_err(|_| format!("`{power}` is not an exponent in the unit `{symbol}`"))?,
+                .ok()
+                .filter(|p| p.abs() <= LARGEST_POWER)
+                .ok_or_else(|| format!("`{power}` is not an exponent in the unit `{symbol}`"))?,
         ),
         None => (plain.as_str(), 1),
     };
@@ -236,6 +241,7 @@ mod tests {
         );
         assert!(parse_quantity("abc", "m").unwrap_err().contains("number"));
         assert!(parse_quantity("nan", "m").is_err());
+        assert!(parse_quantity("3 W^2000000000", "m").unwrap_err().contains("exponent"));
         assert!(parse_quantity("1e999", "m").unwrap_err().contains("finite"));
     }
 }

@@ -221,7 +221,10 @@ mod tests {
     fn misfits_are_named() {
         let short = FieldData::scalar("pressure", "Pa", vec![0.0; 2]);
         let said = piece(Cells::Vertices, vec![short]).check().unwrap_err();
-        assert!(said.contains("`pressure`") && said.contains("3 tuples"), "{said}");
+        assert!(
+            said.contains("`pressure`") && said.contains("3 tuples"),
+            "{said}"
+        );
 
         let id = FieldData::integer("id", vec![1, 2, 3]);
         let said = piece(Cells::Vertices, vec![id.clone(), id]).check();

@@ -1,1 +1,78 @@
-//! VTK series, CSV tables, pictures and checkpoints
+//! # Files of a simulation
+//!
+//! Plain data in, files out: this crate knows no particle method, only columns
+//! of numbers. It serves a solver, but also any script that has positions and
+//! fields and wants to see them.
+//!
+//! | subject | write | read |
+//! |---|---|---|
+//! | fields for ParaView | [`PvdSeries`], [`write_vtu`] from a [`Frame`] of [`Piece`]s | ParaView, VTK |
+//! | time series | [`SeriesWriter`] | [`read_table`], [`read_columns`] |
+//! | restart | [`Checkpoint::save`] | [`Checkpoint::load`] |
+//! | pictures of particles | [`Picture`] | your eyes |
+//! | plots | [`Plot`] as PNG or SVG | your eyes |
+//! | summaries | [`write_json`] | anything |
+//!
+//! Three promises hold for all of them.
+//!
+//! **No half file.** What is rewritten (lists, checkpoints, pictures,
+//! summaries, grids) is written under a temporary name and renamed
+//! ([`write_atomic`]); what grows (tables) grows by whole rows. A full disk or
+//! a killed process costs the last output, never the ones before.
+//!
+//! **No lost bit.** Reals are written with all 64 bits, or in the shortest
+//! decimal form that reads back to the same bits. A run that is resumed from a
+//! checkpoint, with its table cut by [`SeriesWriter::open_truncated`] and its
+//! list by [`PvdSeries::open_at`], leaves the files that the uninterrupted run
+//! leaves.
+//!
+//! **No anonymous error.** Every failure is an [`IoError`] that names the file;
+//! damaged checkpoints say which check failed ([`CheckpointFault`]), bad tables
+//! which line and column. [`writable`] asks for trouble before the run rather
+//! than after it.
+//!
+//! All quantities are in SI units. Vectors of planar scenes are padded with a
+//! zero, because ParaView wants three components.
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+mod atomic;
+mod axes;
+mod canvas;
+mod checkpoint;
+mod colour;
+mod colour_bar;
+mod error;
+mod extent;
+mod folder;
+mod frame;
+mod legend;
+mod mark;
+mod picture;
+mod plot;
+mod pvd;
+mod series;
+mod summary;
+mod surface;
+mod svg;
+mod table;
+mod text;
+mod ticks;
+mod vtu;
+mod xml;
+
+pub use atomic::{AtomicFile, Durability, sweep_temporaries, write_atomic};
+pub use checkpoint::{Checkpoint, CheckpointFault, Column, ColumnData};
+pub use colour::{Colour, ColourMap};
+pub use error::{IoError, Result};
+pub use folder::writable;
+pub use frame::{Cells, FieldData, FieldValues, Frame, Location, Piece};
+pub use picture::{Picture, View};
+pub use plot::{Plot, Series, Style};
+pub use pvd::PvdSeries;
+pub use series::SeriesWriter;
+pub use summary::write_json;
+pub use table::{Table, TableColumn, read_columns, read_table};
+pub use vtu::write_vtu;

@@ -50,17 +50,17 @@ impl PvdSeries {
         let mut series = Self::create(path)?;
         let found = series.load(frames)?;
         let times = distinct_times(&found);
-        let Some(&end) = frames.checked_sub(1).and_then(|last| times.get(last)) else {
-            if frames == 0 {
-                return Ok(series);
-            }
+        if times.len() < frames {
             return Err(IoError::TooShort {
                 path: series.path,
                 what: "output times",
                 expected: frames as u64,
                 found: times.len() as u64,
             });
-        };
+        }
+        let end = frames
+            .checked_sub(1)
+            .map_or(f64::NEG_INFINITY, |last| times[last]);
         series.keep(found, end)?;
         Ok(series)
     }
@@ -83,6 +83,9 @@ impl PvdSeries {
         {
             let (time, before) = (frame.time, last.time);
             return refuse(format!("time {time} s does not come after {before} s"));
+        }
+        if frame.pieces.is_empty() {
+            return refuse(format!("frame {} has no pieces", frame.index));
         }
         let (folder, prefix) = (self.folder(), self.stem());
         let mut added = Vec::with_capacity(frame.pieces.len());
@@ -211,7 +214,10 @@ fn parse(text: &str) -> std::result::Result<Vec<Entry>, String> {
 fn entry(found: &[(&str, String)]) -> Option<Entry> {
     let get = |name| found.iter().find(|(n, _)| *n == name).map(|(_, v)| v);
     Some(Entry {
-        time: get("timestep")?.parse().ok().filter(|t: &f64| t.is_finite())?,
+        time: get("timestep")?
+            .parse()
+            .ok()
+            .filter(|t: &f64| t.is_finite())?,
         part: get("part")?.parse().ok()?,
         name: get("name")?.clone(),
         file: get("file")?.clone(),
@@ -231,5 +237,9 @@ fn file_name(name: &str) -> String {
         .chars()
         .map(|c| if plain(c) { c } else { '_' })
         .collect();
-    if name.is_empty() { "piece".into() } else { name }
+    if name.is_empty() {
+        "piece".into()
+    } else {
+        name
+    }
 }

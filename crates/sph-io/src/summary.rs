@@ -19,8 +19,7 @@ pub fn write_json(path: impl AsRef<Path>, value: &(impl Serialize + ?Sized)) -> 
     })?;
     text.push(b'\n');
     let mut file = AtomicFile::create(path)?;
-    file.write_all(&text)
-        .map_err(|e| IoError::write(path, e))?;
+    file.write_all(&text).map_err(|e| IoError::write(path, e))?;
     file.commit(Durability::Process)
 }
 

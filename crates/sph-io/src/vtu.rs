@@ -62,10 +62,7 @@ impl Document {
         doc.line(&format!(
             "    <Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">"
         ));
-        for (tag, location) in [
-            ("PointData", Location::Point),
-            ("CellData", Location::Cell),
-        ] {
+        for (tag, location) in [("PointData", Location::Point), ("CellData", Location::Cell)] {
             doc.line(&format!("      <{tag}>"));
             for field in piece.fields.iter().filter(|f| f.location == location) {
                 doc.field(field)?;
@@ -103,9 +100,21 @@ impl Document {
     fn cells(&mut self, cells: &Cells, count: usize) -> std::io::Result<()> {
         // VTK's numbers for vertex, line and triangle.
         let (kind, corners, joined) = match cells {
-            Cells::Vertices => (1_u8, 1, (0..count as i64).flat_map(i64::to_le_bytes).collect()),
-            Cells::Segments(c) => (3, 2, bytes(c.as_flattened(), |p| i64::from(p).to_le_bytes())),
-            Cells::Triangles(c) => (5, 3, bytes(c.as_flattened(), |p| i64::from(p).to_le_bytes())),
+            Cells::Vertices => (
+                1_u8,
+                1,
+                (0..count as i64).flat_map(i64::to_le_bytes).collect(),
+            ),
+            Cells::Segments(c) => (
+                3,
+                2,
+                bytes(c.as_flattened(), |p| i64::from(p).to_le_bytes()),
+            ),
+            Cells::Triangles(c) => (
+                5,
+                3,
+                bytes(c.as_flattened(), |p| i64::from(p).to_le_bytes()),
+            ),
         };
         let ends = (1..=count as i64).map(|i| i * corners);
         let offsets: Vec<u8> = ends.flat_map(i64::to_le_bytes).collect();

@@ -19,6 +19,8 @@ pub trait BoundState: Send + Sync + std::fmt::Debug {
     fn density(&self, pressure: f64) -> f64;
     /// c(ρ) = √(dp/dρ), m/s.
     fn sound_speed(&self, density: f64) -> f64;
+    /// Elastic energy ∫ p/ρ² dρ from the reference state, J/kg.
+    fn internal_energy(&self, density: f64) -> f64;
     /// The reference state.
     fn reference(&self) -> Reference;
 }

@@ -55,6 +55,12 @@ impl BoundState for Bound {
         self.reference.sound_speed
     }
 
+    fn internal_energy(&self, density: f64) -> f64 {
+        let (rho, c2) = (self.reference.density, self.reference.sound_speed.powi(2));
+        let x = density / rho;
+        c2 * x.ln() + (c2 - self.background / rho) * (1.0 / x - 1.0)
+    }
+
     fn reference(&self) -> Reference {
         self.reference
     }

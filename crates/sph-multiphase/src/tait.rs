@@ -85,6 +85,17 @@ impl BoundState for Bound {
         self.reference.sound_speed * ratio.powf(0.5 * (self.law.exponent - 1.0))
     }
 
+    fn internal_energy(&self, density: f64) -> f64 {
+        let x = density / self.reference.density;
+        let xi = self.law.exponent;
+        let power = match xi {
+            1.0 => x.ln(),
+            _ => (x.powf(xi - 1.0) - 1.0) / (xi - 1.0),
+        };
+        let (b, background) = (self.stiffness, self.law.background_pressure);
+        (b * power + (b - background) * (1.0 / x - 1.0)) / self.reference.density
+    }
+
     fn reference(&self) -> Reference {
         self.reference
     }
@@ -119,6 +130,8 @@ mod tests {
                 assert!((law.density(p[0]) - rho).abs() < 1e-10 * rho);
                 let c2 = (p[1] - p[0]) / 1e-4;
                 assert!((law.sound_speed(rho).powi(2) / c2 - 1.0).abs() < 1e-5);
+                let de = law.internal_energy(rho + 1e-2) - law.internal_energy(rho - 1e-2);
+                assert!((de / 2e-2 - p[0] / (rho * rho)).abs() < 1e-6 * c2 / rho);
             }
         }
     }

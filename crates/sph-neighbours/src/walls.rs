@@ -4,6 +4,8 @@
 
 use sph_core::Vect;
 
+use crate::Domain;
+
 /// Wall points that take part in sums like particles: USAW vertices, dummy particles.
 #[derive(Clone, Debug, Default)]
 pub struct WallPoints<const D: usize> {
@@ -46,6 +48,17 @@ pub struct Elements<const D: usize> {
     pub wall: Vec<u32>,
     /// Corner points of every element, for pictures: indices into the wall points.
     pub corners: Vec<[u32; D]>,
+}
+
+impl<const D: usize> Elements<D> {
+    /// The centre of an element for given positions of the wall points, m; the corners may be
+    /// on two sides of a period.
+    pub fn centre_from(&self, element: usize, points: &[Vect<D>], domain: &Domain<D>) -> Vect<D> {
+        let corners = self.corners[element].map(|c| points[c as usize]);
+        let apart = |c: Vect<D>| domain.nearest_image(c - corners[0]);
+        let mean = corners.iter().fold(Vect::zeros(), |sum, c| sum + apart(*c)) / D as f64;
+        corners[0] + mean
+    }
 }
 
 /// A wall element within the support of a particle.

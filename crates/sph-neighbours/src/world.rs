@@ -24,6 +24,13 @@ pub struct Lists<const D: usize> {
     pub builds: u64,
 }
 
+impl<const D: usize> Lists<D> {
+    /// Positions of the wall points at the last build, m.
+    pub fn reference_points(&self) -> &Vec<Vect<D>> {
+        &self.reference_points
+    }
+}
+
 /// Columns, walls, lists, kernel and clock.
 pub struct World<const D: usize> {
     /// Columns of the free particles.
@@ -99,35 +106,35 @@ impl<const D: usize> World<D> {
         Ok(())
     }
 
-    /// Builds all lists for given positions of the (sorted) free particles.
+    fn build_lists_at(&mut self, positions: Vec<Vect<D>>) {
+        let points = self.walls.points.position.clone();
+        self.build_lists_from(positions, points);
+    }
+
+    /// Builds all lists for given positions of the (sorted) free particles and wall points.
     ///
     /// A resumed run passes the positions of the last build, so that its lists, and with them
     /// the order of its sums, are those of the run that was interrupted.
-    pub fn build_lists_at(&mut self, positions: Vec<Vect<D>>) {
+    pub fn build_lists_from(&mut self, positions: Vec<Vect<D>>, points: Vec<Vect<D>>) {
         let reach = self.reach();
         let grid = CellGrid::new(&positions, reach, &self.domain);
         let lists = &mut self.lists;
         let domain = &self.domain;
-        lists
-            .free
-            .build(&positions, &positions, &grid, reach, domain, true);
-        let points = &self.walls.points.position;
+        lists.free.build(&positions, &positions, &grid, reach, domain, true);
         if !points.is_empty() {
-            let wall_grid = CellGrid::new(points, reach, domain);
-            lists
-                .wall
-                .build(&positions, points, &wall_grid, reach, domain, false);
-            lists
-                .of_points
-                .build(points, &positions, &grid, reach, domain, false);
+            let wall_grid = CellGrid::new(&points, reach, domain);
+            lists.wall.build(&positions, &points, &wall_grid, reach, domain, false);
+            lists.of_points.build(&points, &positions, &grid, reach, domain, false);
         }
-        let centres = &self.walls.elements.centre;
-        if !centres.is_empty() {
-            lists
-                .of_elements
-                .build(centres, &positions, &grid, reach, domain, false);
+        let elements = &self.walls.elements;
+        if !elements.centre.is_empty() {
+            // An element stands where its corners stood.
+            let centres: Vec<Vect<D>> = (0..elements.centre.len())
+                .map(|s| elements.centre_from(s, &points, domain))
+                .collect();
+            lists.of_elements.build(&centres, &positions, &grid, reach, domain, false);
         }
-        lists.reference_points.clone_from(points);
+        lists.reference_points = points;
         lists.reference = positions;
         lists.builds += 1;
     }

@@ -7,6 +7,7 @@
 
 mod contract;
 mod couette;
+mod energy;
 mod front;
 mod hydrostatic;
 mod interpolate;
@@ -19,6 +20,7 @@ mod taylor_green;
 
 pub use contract::{Probe, ProbeColumn, ProbeEntry, Solution, SolutionEntry};
 pub use couette::Couette;
+pub use energy::KineticEnergy;
 pub use front::Front;
 pub use hydrostatic::Hydrostatic;
 pub use interpolate::{Interpolated, interpolate};

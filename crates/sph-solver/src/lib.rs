@@ -1,1 +1,39 @@
-//! Assembles plugins into a plan and runs it
+//! Assembles the plugins a scene names into a plan, and runs it.
+//!
+//! The solver knows traits and the registry, never a concrete kernel, wall, rheology,
+//! formulation, integrator, probe or solution: names come from the scene, or from
+//! [`defaults`] where the scene is silent.
+//!
+//! * [`assemble()`]: scene → [`Flow`]: columns, stages in order, step limits.
+//! * [`Flow`]: one evaluation, one step; a [`sph_core::System`] for the integrator.
+//! * [`run()`]: steps, outputs, checkpoints, roll-back, references, summary.
+//! * [`examine()`]: the numbers that follow from a scene, without running it.
+
+mod assemble;
+mod balance;
+mod checkpoint;
+mod choices;
+pub mod defaults;
+mod driver;
+mod error;
+mod estimate;
+mod examine;
+mod flow;
+mod guard;
+mod initial;
+mod output;
+mod references;
+mod run;
+mod series;
+mod snapshot;
+mod stages;
+mod summary;
+
+pub use assemble::{Assembled, assemble};
+pub use driver::{Command, Observer, Progress};
+pub use error::{Failure, SolverError};
+pub use estimate::Estimate;
+pub use examine::{Examination, FieldUse, StageUse, examine};
+pub use flow::Flow;
+pub use run::{RunOptions, run};
+pub use summary::{ErrorEntry, PluginInForce, Status, Summary};

@@ -1,8 +1,10 @@
-//! Tables of the closed forms: one polynomial per knot of the kernel.
+//! Tables of the closed forms: one polynomial per knot of the kernel, as long as it does not cancel.
 
 use std::f64::consts::TAU;
 
 use sph_kernels::PiecewisePolynomial;
+
+use super::ring::{Ring, amplification};
 
 /// The part Δ(q) = Σ c_n qⁿ of the kernel that ends at one knot.
 ///
@@ -69,9 +71,51 @@ impl Knot {
     }
 }
 
-/// Tables of all knots where the polynomial changes, from the outermost inwards.
-pub(super) fn knots(shape: &PiecewisePolynomial, sigma: f64) -> Vec<Knot> {
-    let mut knots = Vec::with_capacity(shape.pieces.len());
+/// The closed form serves up to this amplification of rounding, about 10⁻¹⁴ in γ and h∇γ.
+const AMPLIFICATION: f64 = 60.0;
+
+/// Discs of the closed form from the outermost inwards, and rings left to quadrature.
+///
+/// Normally every knot has its disc and there are no rings. Where rounding would be amplified too
+/// much, all pieces but the first become rings, and of the first one as much as needed: the disc
+/// that remains has the whole kernel around it, K(0) = 1.
+pub(super) fn tables(shape: &PiecewisePolynomial, sigma: f64) -> (Vec<Knot>, Vec<Ring>) {
+    let steps = steps(shape);
+    let worst = |amplified: f64, (radius, step): &(f64, Vec<f64>)| {
+        amplified.max(amplification(step, *radius, sigma))
+    };
+    if steps.iter().fold(0.0, worst) <= AMPLIFICATION {
+        return (
+            steps
+                .into_iter()
+                .map(|(radius, step)| knot(radius, step, sigma))
+                .collect(),
+            vec![],
+        );
+    }
+    let pieces = shape.pieces.iter().zip(shape.breaks.windows(2)).rev();
+    let mut rings = Vec::new();
+    for (piece, bounds) in pieces.filter(|(_, bounds)| bounds[0] > 0.0) {
+        rings.push(Ring::new(shape, piece, [bounds[0], bounds[1]], sigma));
+    }
+    let (piece, mut radius) = (&shape.pieces[0], shape.breaks[1]);
+    while amplification(piece, radius, sigma) > AMPLIFICATION {
+        rings.push(Ring::new(shape, piece, [0.5 * radius, radius], sigma));
+        radius *= 0.5;
+    }
+    let disc = knot(radius, piece.clone(), sigma);
+    (
+        vec![Knot {
+            angle: 1.0 / TAU,
+            ..disc
+        }],
+        rings,
+    )
+}
+
+/// Knots where the polynomial changes and by how much, from the outermost inwards.
+fn steps(shape: &PiecewisePolynomial) -> Vec<(f64, Vec<f64>)> {
+    let mut steps = Vec::with_capacity(shape.pieces.len());
     let mut outside: &[f64] = &[];
     for (piece, bounds) in shape.pieces.iter().zip(shape.breaks.windows(2)).rev() {
         let degree = piece.len().max(outside.len());
@@ -79,10 +123,10 @@ pub(super) fn knots(shape: &PiecewisePolynomial, sigma: f64) -> Vec<Knot> {
         let step: Vec<f64> = (0..degree).map(|n| at(piece, n) - at(outside, n)).collect();
         outside = piece;
         if step.iter().any(|c| *c != 0.0) {
-            knots.push(knot(bounds[1], step, sigma));
+            steps.push((bounds[1], step));
         }
     }
-    knots
+    steps
 }
 
 fn knot(radius: f64, step: Vec<f64>, sigma: f64) -> Knot {

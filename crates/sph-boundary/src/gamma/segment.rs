@@ -112,6 +112,13 @@ impl Renormalisation2d {
             smooth += p.gamma + p.gamma_log * log;
             gamma += knot.angle * angle;
         }
+        for ring in &self.rings {
+            if depth < ring.outer && t[0] < ring.outer && t[1] > -ring.outer {
+                let [f, k] = ring.integrals(a, t[0], t[1]);
+                kernel += f;
+                gamma += a * k;
+            }
+        }
         let gamma = if contact == Contact::None {
             gamma - a * smooth
         } else {

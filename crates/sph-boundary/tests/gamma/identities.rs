@@ -55,7 +55,7 @@ fn gradient_is_that_of_gamma() {
 #[test]
 fn cutting_a_wall_finer_changes_nothing() {
     let scenes = [0.9, 0.3, 0.05, 0.004].map(|spacing| Scene::new(vec![TANK.to_vec()], spacing));
-    let mut largest: Vec<f64> = vec![0.0; 6];
+    let mut largest: Vec<f64> = vec![0.0; scenes[0].sums([1.0; 2]).len()];
     for point in points(&scenes[0], 200) {
         let coarse = scenes[0].sums(point);
         for scene in &scenes[1..3] {
@@ -69,12 +69,10 @@ fn cutting_a_wall_finer_changes_nothing() {
         }
     }
     println!("finer cutting changes γ by {largest:?}");
-    // Rounding times the size of the kernel's monomials at its support.
-    for (k, tolerance) in [1e-14, 1e-13, 5e-13, 1e-14, 5e-14, 1e-13]
-        .into_iter()
-        .enumerate()
-    {
-        assert!(largest[k] <= tolerance, "kernel {k}: {:e}", largest[k]);
+    // The quintic and septic splines have the largest coefficients of the closed form.
+    for (k, error) in largest.iter().enumerate() {
+        let tolerance = if k == 5 || k == 6 { 5e-14 } else { 1e-14 };
+        assert!(*error <= tolerance, "kernel {k}: {error:e}");
     }
 }
 
@@ -140,7 +138,7 @@ fn mirrored_rotated_and_moved_walls_give_the_same() {
 fn gamma_is_exactly_one_away_from_walls() {
     let square = vec![[0.0, 0.0], [20.0, 0.0], [20.0, 20.0], [0.0, 20.0]];
     let scene = Scene::new(vec![square], 0.3);
-    for point in [[10.0, 10.0], [3.0 * H, 10.0], [4.0, 17.0]] {
+    for point in [[10.0, 10.0], [4.0 * H, 10.0], [4.0, 17.0]] {
         for sum in scene.sums(point) {
             assert_eq!((sum.gamma(), sum.gradient), (1.0, [0.0; 2]));
         }

@@ -1,6 +1,7 @@
 //! The kernels written as products, which do not cancel near the support.
 
 use sph_kernels::PiecewisePolynomial;
+use sph_kernels::algebra::{power, scaled, sum};
 
 /// A kernel twice: the coefficients under test and an independent value of f(q).
 pub struct TestKernel {
@@ -57,5 +58,37 @@ pub fn all() -> Vec<TestKernel> {
             },
             sigma: 7.0 / (478.0 * PI),
         },
+        TestKernel {
+            name: "septic",
+            shape: septic(),
+            value: |q| {
+                (4.0 - q).max(0.0).powi(7) - 8.0 * (3.0 - q).max(0.0).powi(7)
+                    + 28.0 * (2.0 - q).max(0.0).powi(7)
+                    - 56.0 * (1.0 - q).max(0.0).powi(7)
+            },
+            sigma: 9.0 / (29740.0 * PI),
+        },
+        TestKernel {
+            name: "degree 14",
+            shape: PiecewisePolynomial {
+                breaks: vec![0.0, 2.0],
+                pieces: vec![power(&[1.0, -0.5], 14)],
+            },
+            value: |q| (1.0 - 0.5 * q).max(0.0).powi(14),
+            sigma: 30.0 / PI,
+        },
     ]
+}
+
+/// Spline of degree 7, support 4h: a stranger's kernel with several pieces and large coefficients.
+fn septic() -> PiecewisePolynomial {
+    let term = |edge: f64, weight: f64| scaled(&power(&[edge, -1.0], 7), weight);
+    let mut pieces = vec![term(4.0, 1.0)];
+    for (edge, weight) in [(3.0, -8.0), (2.0, 28.0), (1.0, -56.0)] {
+        pieces.insert(0, sum(&pieces[0], &term(edge, weight)));
+    }
+    PiecewisePolynomial {
+        breaks: vec![0.0, 1.0, 2.0, 3.0, 4.0],
+        pieces,
+    }
 }

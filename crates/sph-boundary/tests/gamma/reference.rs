@@ -129,7 +129,7 @@ pub fn gradient(edges: &[Edge], kernel: &TestKernel, h: f64) -> [f64; 2] {
             let half = (knot * knot - a * a).sqrt();
             inner.extend([-half, half]);
         }
-        inner.extend((0..60).flat_map(|k| [-1.0, 1.0].map(|s| s * a.max(1e-3) * 2f64.powi(k))));
+        inner.extend((0..60).flat_map(|k| [-1.0, 1.0].map(|s| s * a.max(1e-12) * 2f64.powi(k))));
         let (low, high) = (edge.y[0] / h, edge.y[1] / h);
         let mut sum = 0.0;
         for bounds in breaks(inner, low, high).windows(2) {

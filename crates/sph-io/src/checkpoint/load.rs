@@ -1,0 +1,193 @@
+//! Reading a checkpoint, trusting nothing.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read};
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::{
+    Checkpoint, CheckpointFault as Fault, Column, ColumnData, Header, Kind, MAGIC, PREFIX, SUFFIX,
+    Shape, VERSION,
+};
+use crate::error::{IoError, Result};
+
+/// Bytes converted at a time.
+const CHUNK: usize = 1 << 16;
+
+impl Checkpoint {
+    /// Reads the checkpoint at `path`; any damage is an error that says which
+    /// check failed.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self> {
+        let path = path.as_ref();
+        let failed = |e| IoError::read(path, e);
+        let file = File::open(path).map_err(failed)?;
+        let length = file.metadata().map_err(failed)?.len();
+        let source = Source {
+            input: BufReader::with_capacity(CHUNK, file),
+            sum: crc32fast::Hasher::new(),
+            length,
+        };
+        source.checkpoint().map_err(|trouble| match trouble {
+            Trouble::Read(source) => IoError::read(path, source),
+            Trouble::Fault(fault) => IoError::Checkpoint {
+                path: path.to_path_buf(),
+                fault,
+            },
+        })
+    }
+}
+
+/// Why a checkpoint could not be read: the disk, or what is on it.
+enum Trouble {
+    Read(io::Error),
+    Fault(Fault),
+}
+
+impl From<io::Error> for Trouble {
+    fn from(error: io::Error) -> Self {
+        Self::Read(error)
+    }
+}
+
+impl From<Fault> for Trouble {
+    fn from(fault: Fault) -> Self {
+        Self::Fault(fault)
+    }
+}
+
+/// The file and the checksum of what has been read of it.
+struct Source {
+    input: BufReader<File>,
+    sum: crc32fast::Hasher,
+    /// Length of the file in bytes.
+    length: u64,
+}
+
+impl Source {
+    fn checkpoint(mut self) -> std::result::Result<Checkpoint, Trouble> {
+        let header = self.header()?;
+        let mut columns = Vec::with_capacity(header.columns.len());
+        for shape in header.columns {
+            columns.push(self.column(shape)?);
+        }
+        let found = self.sum.clone().finalize();
+        let expected = u32::from_le_bytes(self.take()?);
+        if found != expected {
+            return Err(Fault::Checksum { expected, found }.into());
+        }
+        Ok(Checkpoint {
+            meta: header.meta,
+            columns,
+        })
+    }
+
+    /// Everything before the columns; on return their sizes are known to fit.
+    fn header(&mut self) -> std::result::Result<Header<Value>, Trouble> {
+        let found = self.length;
+        let least = PREFIX + SUFFIX;
+        if found < MAGIC.len() as u64 || self.take()? != MAGIC {
+            return Err(Fault::NotACheckpoint.into());
+        }
+        let short = |expected| Fault::Length { expected, found };
+        if found < least {
+            return Err(short(least).into());
+        }
+        let version = u32::from_le_bytes(self.take()?);
+        if version != VERSION {
+            let (found, supported) = (version, VERSION);
+            return Err(Fault::Version { found, supported }.into());
+        }
+        let sum = u32::from_le_bytes(self.take()?);
+        let stated = u64::from_le_bytes(self.take()?);
+        if stated != found {
+            return Err(short(stated).into());
+        }
+        let size = u64::from_le_bytes(self.take()?);
+        let room = found - least;
+        if size > room {
+            let said = format!("a header of {size} bytes where {room} are left");
+            return Err(Fault::Sizes(said).into());
+        }
+        let text = self.bytes(size)?;
+        let actual = crc32fast::hash(&text);
+        if actual != sum {
+            let (expected, found) = (sum, actual);
+            return Err(Fault::HeaderChecksum { expected, found }.into());
+        }
+        let header: Header<Value> =
+            serde_json::from_slice(&text).map_err(|e| Fault::Header(e.to_string()))?;
+        fits(&header.columns, room - size)?;
+        Ok(header)
+    }
+
+    fn column(&mut self, shape: Shape) -> std::result::Result<Column, Trouble> {
+        let bytes = shape.bytes().unwrap_or(0);
+        let data = match shape.kind {
+            Kind::F64 => ColumnData::F64(self.numbers(bytes, f64::from_le_bytes)?),
+            Kind::U32 => ColumnData::U32(self.numbers(bytes, u32::from_le_bytes)?),
+            Kind::U64 => ColumnData::U64(self.numbers(bytes, u64::from_le_bytes)?),
+        };
+        let components = usize::try_from(shape.components)
+            .map_err(|_| Fault::Sizes(format!("column `{}` is too wide", shape.name)))?;
+        Ok(Column {
+            name: shape.name,
+            components,
+            data,
+        })
+    }
+
+    /// The next `bytes` bytes as numbers of `N` bytes each.
+    fn numbers<T, const N: usize>(
+        &mut self,
+        bytes: u64,
+        number: impl Fn([u8; N]) -> T,
+    ) -> io::Result<Vec<T>> {
+        let mut left = bytes;
+        let mut values = Vec::with_capacity((bytes / N as u64) as usize);
+        while left > 0 {
+            let part = self.bytes(left.min(CHUNK as u64))?;
+            let (images, _) = part.as_chunks::<N>();
+            values.extend(images.iter().map(|&image| number(image)));
+            left -= part.len() as u64;
+        }
+        Ok(values)
+    }
+
+    fn bytes(&mut self, count: u64) -> io::Result<Vec<u8>> {
+        let mut bytes = vec![0; count as usize];
+        self.input.read_exact(&mut bytes)?;
+        self.sum.update(&bytes);
+        Ok(bytes)
+    }
+
+    fn take<const N: usize>(&mut self) -> io::Result<[u8; N]> {
+        let mut bytes = [0; N];
+        self.input.read_exact(&mut bytes)?;
+        self.sum.update(&bytes);
+        Ok(bytes)
+    }
+}
+
+/// Whether the columns take up exactly `room` bytes and are well formed.
+fn fits(columns: &[Shape], room: u64) -> std::result::Result<(), Fault> {
+    let mut total: u64 = 0;
+    for (i, shape) in columns.iter().enumerate() {
+        let name = &shape.name;
+        if shape.components == 0 {
+            return Err(Fault::Sizes(format!("column `{name}` has no components")));
+        }
+        if columns[..i].iter().any(|s| s.name == *name) {
+            return Err(Fault::Header(format!("two columns are named `{name}`")));
+        }
+        let sum = shape.bytes().and_then(|b| b.checked_add(total));
+        total = sum
+            .filter(|&sum| sum <= room)
+            .ok_or_else(|| Fault::Sizes(format!("column `{name}` reaches beyond the end")))?;
+    }
+    if total < room {
+        let said = format!("the columns take {total} of {room} bytes");
+        return Err(Fault::Sizes(said));
+    }
+    Ok(())
+}

@@ -1,0 +1,233 @@
+//! Lines, markers and bands over two axes, as PNG or SVG.
+//!
+//! Meant for probes against reference data and for work–precision plots, not
+//! for publication: everything is automatic.
+
+use std::path::Path;
+
+use crate::axes::{Axes, Axis, left_room};
+use crate::canvas::Canvas;
+use crate::error::{IoError, Result};
+use crate::legend::Legend;
+use crate::mark::Mark;
+use crate::surface::{Anchor, Lettering, Rect, Surface};
+use crate::svg::Svg;
+use crate::ticks::widened;
+
+/// Pixels of a plot.
+const SIZE: [u32; 2] = [1200, 800];
+/// Font size in pixels.
+const LETTERS: f64 = 22.0;
+
+/// A plot of some series.
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// use sph_io::{Plot, Series};
+/// let plot = Plot {
+///     title: "Convergence".into(),
+///     x_label: "spacing [m]".into(),
+///     y_label: "error [1]".into(),
+///     log_x: true,
+///     log_y: true,
+///     series: vec![Series::line("second order", vec![[0.01, 1e-4], [0.1, 1e-2]])],
+/// };
+/// plot.save_png(folder.path().join("convergence.png"))?;
+/// plot.save_svg(folder.path().join("convergence.svg"))?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plot {
+    /// Above the frame.
+    pub title: String,
+    /// Quantity and unit along the horizontal axis.
+    pub x_label: String,
+    /// Quantity and unit along the vertical axis.
+    pub y_label: String,
+    /// Logarithmic horizontal axis; points with x ≤ 0 are left out.
+    pub log_x: bool,
+    /// Logarithmic vertical axis; points with y ≤ 0 are left out.
+    pub log_y: bool,
+    /// Each in its own colour; drawn in this order, bands before all others.
+    pub series: Vec<Series>,
+}
+
+/// One set of points of a [`Plot`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name in the legend; empty for none.
+    pub name: String,
+    /// Abscissa and ordinate. A line is broken at points that are not finite.
+    pub points: Vec<[f64; 2]>,
+    /// How the points are drawn.
+    pub style: Style,
+}
+
+/// How a [`Series`] is drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Style {
+    /// A line through the points.
+    #[default]
+    Line,
+    /// A dashed line through the points.
+    Dashes,
+    /// A marker at every point.
+    Markers,
+    /// Both line and markers.
+    LineAndMarkers,
+    /// A shaded area between the points and as many upper ordinates.
+    Band(
+        /// The upper edge at the abscissae of the points.
+        Vec<f64>,
+    ),
+}
+
+impl Series {
+    /// A line.
+    pub fn line(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
+        Self::of(name, points, Style::Line)
+    }
+
+    /// Markers, for measurements and reference data.
+    pub fn markers(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
+        Self::of(name, points, Style::Markers)
+    }
+
+    /// A band between the points and the ordinates `upper`.
+    pub fn band(name: impl Into<String>, points: Vec<[f64; 2]>, upper: Vec<f64>) -> Self {
+        Self::of(name, points, Style::Band(upper))
+    }
+
+    /// Any style.
+    pub fn of(name: impl Into<String>, points: Vec<[f64; 2]>, style: Style) -> Self {
+        Self {
+            name: name.into(),
+            points,
+            style,
+        }
+    }
+
+    /// All points that must fit into the frame.
+    fn spots(&self) -> impl Iterator<Item = [f64; 2]> {
+        let upper: &[f64] = match &self.style {
+            Style::Band(upper) => upper,
+            _ => &[],
+        };
+        let above = self.points.iter().zip(upper).map(|(p, &y)| [p[0], y]);
+        self.points.iter().copied().chain(above)
+    }
+}
+
+impl Plot {
+    /// Writes the plot as a picture of 1200 by 800 pixels.
+    pub fn save_png(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
+        self.check(path)?;
+        let canvas = Canvas::new(SIZE[0], SIZE[1]);
+        let mut canvas = canvas.ok_or_else(|| IoError::input(path, "no memory for the plot"))?;
+        self.draw(&mut canvas);
+        canvas.save(path)
+    }
+
+    /// Writes the plot as vectors, texts as texts.
+    pub fn save_svg(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
+        self.check(path)?;
+        let mut svg = Svg::new(SIZE[0], SIZE[1]);
+        self.draw(&mut svg);
+        svg.save(path)
+    }
+
+    fn check(&self, path: &Path) -> Result<()> {
+        for Series {
+            name,
+            points,
+            style,
+        } in &self.series
+        {
+            if let Style::Band(upper) = style
+                && upper.len() != points.len()
+            {
+                let (points, upper) = (points.len(), upper.len());
+                let said = format!("band `{name}` has {upper} upper ordinates at {points} points");
+                return Err(IoError::input(path, said));
+            }
+        }
+        Ok(())
+    }
+
+    fn draw(&self, on: &mut dyn Surface) {
+        let axes = self.axes();
+        let marks: Vec<Mark> = self.series.iter().enumerate().map(Mark::new).collect();
+        axes.draw_grid(on);
+        // Bands first, whatever their place in the list: they hide lines.
+        let (bands, others): (Vec<&Mark>, Vec<&Mark>) = marks.iter().partition(|m| m.is_band());
+        for mark in bands.into_iter().chain(others) {
+            mark.draw(on, &axes);
+        }
+        axes.draw(on);
+        Legend::new(&marks, &axes).draw(on);
+        let middle = (axes.frame.left + axes.frame.right) / 2.0;
+        let lettering = Lettering::new(1.15 * LETTERS, Anchor::Middle);
+        on.text([middle, 1.6 * LETTERS], &self.title, lettering);
+    }
+
+    fn axes(&self) -> Axes {
+        let x = self.axis(0, self.log_x, &self.x_label);
+        let y = self.axis(1, self.log_y, &self.y_label);
+        let [width, height] = SIZE.map(f64::from);
+        let top = if self.title.is_empty() { 1.2 } else { 2.6 } * LETTERS;
+        let room = if y.ticks(8).factor.is_some() {
+            0.9
+        } else {
+            0.0
+        };
+        let top = top + room * LETTERS;
+        let bottom = height - 3.6 * LETTERS;
+        Axes {
+            frame: Rect {
+                left: left_room(&y, bottom - top, LETTERS),
+                top,
+                right: width - 1.6 * LETTERS,
+                bottom,
+            },
+            x,
+            y,
+            size: LETTERS,
+            grid: true,
+        }
+    }
+
+    /// The axis that holds all points that can be shown, with a margin.
+    fn axis(&self, direction: usize, log: bool, label: &str) -> Axis {
+        let logs = [self.log_x, self.log_y];
+        let shown = |p: &[f64; 2]| (0..2).all(|i| shown(p[i], logs[i]));
+        let values = self.series.iter().flat_map(Series::spots).filter(shown);
+        let values = values.map(|p| {
+            if log {
+                p[direction].log10()
+            } else {
+                p[direction]
+            }
+        });
+        let (lo, hi) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| {
+            (lo.min(v), hi.max(v))
+        });
+        let [lo, hi] = if lo > hi { [0.0, 1.0] } else { widened(lo, hi) };
+        let margin = 0.04 * (hi - lo);
+        let [lo, hi] = [lo - margin, hi + margin];
+        let back = |v: f64| if log { 10_f64.powf(v) } else { v };
+        Axis {
+            lo: back(lo),
+            hi: back(hi),
+            log,
+            label: label.into(),
+        }
+    }
+}
+
+/// Whether an axis can show `value`.
+pub(crate) fn shown(value: f64, log: bool) -> bool {
+    // Beyond these bounds a range may overflow.
+    value.is_finite() && value.abs() < 1e150 && (!log || value > 1e-150)
+}

@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""Reads what the example `write_sample` wrote through VTK, and compares.
+
+    pip install vtk
+    cargo run -p sph-io --example write_sample -- DIR
+    python3 crates/sph-io/tests/read_back.py DIR
+
+Exits with 1 on any difference and on any complaint of VTK.
+"""
+
+import csv
+import json
+import math
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDataArray, vtkOutputWindow
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+complaints = []
+
+
+def complain(text):
+    complaints.append(text)
+    print(f"FAIL {text}")
+
+
+def check(holds, text):
+    if not holds:
+        complain(text)
+
+
+def observer(where):
+    def on_event(_object, event, message=""):
+        complain(f"{where}: VTK says {event}: {message.strip()}")
+
+    on_event.CallDataType = "string0"
+    return on_event
+
+
+def read(path):
+    reader = vtkXMLUnstructuredGridReader()
+    check(reader.CanReadFile(str(path)), f"{path}: VTK cannot read this file")
+    for event in ("ErrorEvent", "WarningEvent"):
+        reader.AddObserver(event, observer(path))
+    reader.SetFileName(str(path))
+    reader.Update()
+    check(reader.GetErrorCode() == 0, f"{path}: VTK error code {reader.GetErrorCode()}")
+    return reader.GetOutput()
+
+
+def check_arrays(where, data, expected):
+    names = {data.GetArrayName(i) for i in range(data.GetNumberOfArrays())}
+    check(names == set(expected), f"{where}: arrays {sorted(names)}, not {sorted(expected)}")
+    for name in names & set(expected):
+        components, unit = expected[name]
+        array = data.GetArray(name)
+        found = array.GetNumberOfComponents()
+        check(found == components, f"{where}: {name} has {found} components, not {components}")
+        values = vtk_to_numpy(array).ravel()
+        check(all(map(math.isfinite, values)), f"{where}: {name} is not finite everywhere")
+        key = vtkDataArray.UNITS_LABEL()
+        info = array.GetInformation()
+        label = info.Get(key) if info.Has(key) else ""
+        check(label == unit, f"{where}: unit of {name} is '{label}', not '{unit}'")
+
+
+def check_file(folder, entry):
+    where = entry["file"]
+    grid = read(folder / where)
+    for what, found in (("points", grid.GetNumberOfPoints()), ("cells", grid.GetNumberOfCells())):
+        check(found == entry[what], f"{where}: {found} {what}, not {entry[what]}")
+    check_arrays(where, grid.GetPointData(), entry["point_arrays"])
+    check_arrays(where, grid.GetCellData(), entry["cell_arrays"])
+    time = grid.GetFieldData().GetArray("TimeValue")
+    check(time is not None, f"{where}: no TimeValue")
+    if time is not None:
+        check(time.GetValue(0) == entry["time"], f"{where}: time is {time.GetValue(0)}")
+    if grid.GetNumberOfCells() > 0:
+        cell = grid.GetCell(grid.GetNumberOfCells() - 1)
+        last = max(cell.GetPointId(i) for i in range(cell.GetNumberOfPoints()))
+        check(last < grid.GetNumberOfPoints(), f"{where}: a cell uses point {last}")
+    return grid
+
+
+def check_dump(grid, path):
+    with open(path, newline="") as file:
+        rows = list(csv.reader(file))[1:]
+    array = grid.GetPointData().GetArray("velocity")
+    if array is None:
+        return complain(f"{path}: the file has no velocity to compare with")
+    values = vtk_to_numpy(array)
+    check(len(rows) == len(values), f"{path}: {len(rows)} rows for {len(values)} points")
+    differing = sum(
+        [float(cell) for cell in row] != list(found) for row, found in zip(rows, values)
+    )
+    check(differing == 0, f"{path}: {differing} rows differ from the file")
+
+
+def check_list(folder, expected):
+    listed = [
+        (entry.get("file"), float(entry.get("timestep")), entry.get("name"), entry.get("part"))
+        for entry in ElementTree.parse(folder / "fields.pvd").getroot().iter("DataSet")
+    ]
+    for file, *_ in listed:
+        check((folder / file).is_file(), f"fields.pvd lists {file}, which is not there")
+    wanted = [(entry["file"], entry["time"]) for entry in expected]
+    check([entry[:2] for entry in listed] == wanted, f"fields.pvd lists {listed}")
+    parts = {}
+    for _, _, name, part in listed:
+        check(parts.setdefault(name, part) == part, f"part number of {name} changes")
+    check(len(set(parts.values())) == len(parts), f"part numbers are shared: {parts}")
+
+
+def main():
+    if len(sys.argv) != 2:
+        print(__doc__)
+        return 2
+    folder = Path(sys.argv[1])
+    vtkOutputWindow.GetInstance().AddObserver("ErrorEvent", observer("VTK"))
+    expected = json.loads((folder / "expected.json").read_text())
+    check(len(expected) > 0, "nothing to check")
+    dumps = 0
+    for entry in expected:
+        grid = check_file(folder, entry)
+        dump = folder / (Path(entry["file"]).stem + ".velocity.csv")
+        if dump.exists():
+            check_dump(grid, dump)
+            dumps += 1
+    check(dumps > 0, "no array was compared with a dump")
+    check_list(folder, expected)
+    print(f"{len(expected)} files read, {dumps} compared, {len(complaints)} complaints")
+    return 1 if complaints else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

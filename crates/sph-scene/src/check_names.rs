@@ -1,0 +1,141 @@
+//! Names: how they are spelt, and that what they name exists.
+
+use std::collections::BTreeSet;
+
+use sph_core::suggestion;
+use toml::{Table, Value};
+
+use crate::check::{Problems, inside};
+use crate::{Norm, Reference, Scene, Source};
+
+/// Kinds of tables with names that the user chooses.
+const NAMED: [&str; 6] = ["wall", "phase", "body", "probe", "gauge", "reference"];
+/// Longest name.
+const LONGEST: usize = 64;
+
+/// Names go into the names of columns and files, and into dotted paths.
+pub(crate) fn spelling(scene: &Table, found: &mut Problems) {
+    let good = |name: &str| {
+        let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
+        !name.is_empty() && name.len() <= LONGEST && name.chars().all(plain)
+    };
+    for kind in NAMED {
+        for (name, _) in inside(scene.get(kind)).filter(|(name, _)| !good(name)) {
+            let message =
+                format!("a name is 1 to {LONGEST} letters, digits, `-` and `_`, found `{name}`");
+            found.add(format!("{kind}.{name}"), message);
+        }
+    }
+    let probes: BTreeSet<&String> = inside(scene.get("probe")).map(|(name, _)| name).collect();
+    for (name, _) in inside(scene.get("gauge")).filter(|(name, _)| probes.contains(name)) {
+        found.add(
+            format!("gauge.{name}"),
+            format!("there is a probe called `{name}` too"),
+        );
+    }
+    for kind in ["probe", "gauge"] {
+        for (name, keys) in inside(scene.get(kind)) {
+            if keys
+                .get("kind")
+                .and_then(Value::as_str)
+                .is_some_and(|k| k.trim().is_empty())
+            {
+                found.add(
+                    format!("{kind}.{name}.kind"),
+                    "the name of the plugin is empty",
+                );
+            }
+        }
+    }
+}
+
+/// Everything that is named exists; files are where a scene may name them.
+pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problems) {
+    for (kind, empty) in [
+        ("phase", scene.phase.is_empty()),
+        ("body", scene.body.is_empty()),
+    ] {
+        if empty {
+            found.add("", format!("a scene needs a {kind}: [{kind}.NAME]"));
+        }
+    }
+    for (name, body) in &scene.body {
+        if !scene.phase.contains_key(&body.phase) {
+            let near = suggestion(&body.phase, scene.phase.keys().map(String::as_str));
+            let message = format!("there is no phase called `{}`{near}", body.phase);
+            found.add(format!("body.{name}.phase"), message);
+        }
+    }
+    let probes: Vec<String> = scene
+        .probe
+        .keys()
+        .chain(scene.gauge.keys())
+        .cloned()
+        .collect();
+    for (name, reference) in &mut scene.reference {
+        let path = format!("reference.{name}");
+        reference_keys(reference, &path, found);
+        if let Some(probe) = reference.probe.as_ref().filter(|p| !probes.contains(p)) {
+            let near = suggestion(probe, probes.iter().map(String::as_str));
+            let message = format!("there is no probe or gauge called `{probe}`{near}");
+            found.add(format!("{path}.probe"), message);
+        }
+        if let Some(file) = &reference.file {
+            let key = format!("{path}.file");
+            match source.resolve(&key, file) {
+                Ok(path) => reference.path = Some(path),
+                Err(why) => found.add(key, why.to_string()),
+            }
+        }
+    }
+}
+
+fn reference_keys(reference: &Reference, path: &str, found: &mut Problems) {
+    match (&reference.probe, &reference.field) {
+        (None, None) => found.add(
+            path,
+            "the key `probe` or `field` is missing: what is compared",
+        ),
+        (Some(_), Some(_)) => found.add(
+            format!("{path}.field"),
+            "a reference compares a probe or a field, not both",
+        ),
+        _ => {}
+    }
+    match (&reference.file, &reference.solution) {
+        (None, None) => {
+            found.add(
+                path,
+                "the key `file` or `solution` is missing: what it is compared with",
+            );
+        }
+        (Some(_), Some(_)) => found.add(
+            format!("{path}.solution"),
+            "a reference is a file or a solution, not both",
+        ),
+        _ => {}
+    }
+    if reference.solution.is_none() && !reference.parameters.is_empty() {
+        found.add(
+            format!("{path}.parameters"),
+            "parameters belong to a `solution`",
+        );
+    }
+    if reference.file.is_none() {
+        let keys = [
+            ("columns", reference.columns.is_some()),
+            ("lower", reference.lower.is_some()),
+            ("upper", reference.upper.is_some()),
+        ];
+        for (key, _) in keys.iter().filter(|(_, given)| *given) {
+            found.add(format!("{path}.{key}"), "columns belong to a `file`");
+        }
+    }
+    let limits = reference.lower.is_some() && reference.upper.is_some();
+    if reference.norm() == Norm::Band && !limits {
+        found.add(
+            format!("{path}.norm"),
+            "the norm `band` needs the columns `lower` and `upper`",
+        );
+    }
+}

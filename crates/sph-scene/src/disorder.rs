@@ -1,0 +1,70 @@
+//! Random displacement of particles, the same on every machine.
+
+use crate::fill::Filled;
+use crate::place::wrapped;
+
+/// Displaces every particle along each axis by at most `fraction` of the spacing, at random.
+///
+/// The same seed gives the same displacements. A particle that leaves a periodic box enters it
+/// on the other side.
+pub fn disturb<const D: usize>(
+    bodies: &mut [Filled<D>],
+    spacing: f64,
+    fraction: f64,
+    seed: u64,
+    periodic: &[Option<[f64; 2]>; D],
+) {
+    if fraction == 0.0 {
+        return;
+    }
+    let mut random = SplitMix(seed);
+    for x in bodies.iter_mut().flat_map(|b| b.positions.iter_mut()) {
+        let moved = x.map(|c| c + fraction * spacing * (2.0 * random.unit() - 1.0));
+        *x = wrapped(&moved, periodic);
+    }
+}
+
+/// splitmix64 (Steele, Lea & Flood 2014).
+struct SplitMix(u64);
+
+impl SplitMix {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number in [0, 1).
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_number_of_seed_zero_is_the_published_one() {
+        assert_eq!(SplitMix(0).next(), 0xe220_a839_7b1d_cdaf);
+    }
+
+    #[test]
+    fn displacements_repeat_and_stay_within_the_fraction() {
+        let start = || {
+            vec![Filled {
+                body: 0,
+                positions: vec![[0.5, 0.5]; 100],
+            }]
+        };
+        let (mut a, mut b) = (start(), start());
+        disturb(&mut a, 0.1, 0.2, 7, &[None; 2]);
+        disturb(&mut b, 0.1, 0.2, 7, &[None; 2]);
+        assert_eq!(a, b);
+        let near = |x: &[f64; 2]| x.iter().all(|c| (c - 0.5).abs() <= 0.02);
+        assert!(a[0].positions.iter().all(near));
+        assert_ne!(a[0].positions[0], a[0].positions[1]);
+    }
+}

@@ -1,0 +1,70 @@
+//! What is refused for its size before anything is made of it.
+
+use sph_core::SceneProblem;
+use toml::{Table, Value};
+
+/// Longest scene file, bytes.
+pub(crate) const FILE_BYTES: usize = 4 << 20;
+/// Most corners of a wall.
+pub(crate) const WALL_CORNERS: usize = 1_000_000;
+/// Most corners of a polygon that is filled.
+pub(crate) const BODY_CORNERS: usize = 10_000;
+/// Most tables of one kind.
+pub(crate) const TABLES: usize = 1_000;
+/// Most output times.
+pub(crate) const TIMES: usize = 1_000_000;
+
+/// Lists and tables that are too long.
+pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
+    let mut found = Vec::new();
+    for (kind, value) in scene {
+        let Value::Table(tables) = value else {
+            continue;
+        };
+        if tables.len() > TABLES {
+            let n = tables.len();
+            found.push(SceneProblem::new(
+                kind,
+                format!("{n} tables are more than {TABLES}"),
+            ));
+        }
+        for (name, value) in tables {
+            let Value::Table(keys) = value else { continue };
+            for (key, value) in keys {
+                let most = match (kind.as_str(), key.as_str()) {
+                    ("wall", "polyline") => WALL_CORNERS,
+                    ("body", "polygon") => BODY_CORNERS,
+                    ("body", "subtract") => TABLES,
+                    _ => continue,
+                };
+                let path = format!("{kind}.{name}.{key}");
+                longer(value, most, &path, &mut found);
+                let cuts = value.as_array().filter(|_| key == "subtract");
+                for (k, cut) in cuts.into_iter().flatten().take(TABLES).enumerate() {
+                    if let Some(polygon) = cut.get("polygon") {
+                        longer(
+                            polygon,
+                            BODY_CORNERS,
+                            &format!("{path}[{k}].polygon"),
+                            &mut found,
+                        );
+                    }
+                }
+            }
+        }
+    }
+    if let Some(times) = scene.get("output").and_then(|o| o.get("times")) {
+        longer(times, TIMES, "output.times", &mut found);
+    }
+    found
+}
+
+fn longer(value: &Value, most: usize, path: &str, found: &mut Vec<SceneProblem>) {
+    let count = value.as_array().map_or(0, Vec::len);
+    if count > most {
+        found.push(SceneProblem::new(
+            path,
+            format!("{count} entries are more than {most}"),
+        ));
+    }
+}

@@ -1,0 +1,164 @@
+//! From a file to a validated scene, or to all its mistakes.
+
+use std::fmt;
+use std::io::Read;
+use std::path::Path;
+
+use sph_core::{SceneProblem, conform, schema_of};
+use thiserror::Error;
+use toml::de::DeTable;
+use toml::{Table, Value};
+
+use crate::diagnostic::{Diagnostic, Origin};
+use crate::limits::{self, FILE_BYTES};
+use crate::{Override, Scene, Source, check};
+
+/// A valid scene and the text it came from.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The scene.
+    pub scene: Scene,
+    /// Its text, to show mistakes in that are found later.
+    pub source: Source,
+}
+
+/// A scene that is not valid.
+#[derive(Clone, Debug)]
+pub struct Refused {
+    /// Every mistake found, sorted by position.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The text they stand in.
+    pub source: Source,
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, diagnostic) in self.diagnostics.iter().enumerate() {
+            let line = if k == 0 { "" } else { "\n" };
+            write!(f, "{line}{diagnostic}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Refused {}
+
+/// Why a scene cannot be had from a file.
+#[derive(Debug, Error)]
+pub enum LoadError {
+    /// The file cannot be read.
+    #[error("cannot read `{file}`: {reason}")]
+    Unreadable {
+        /// Name of the file.
+        file: String,
+        /// What the system says.
+        reason: String,
+    },
+    /// The scene has mistakes.
+    #[error(transparent)]
+    Refused(Box<Refused>),
+}
+
+/// Reads a scene file, with overrides put on top.
+///
+/// # Errors
+/// If the file cannot be read, or with every mistake in it.
+pub fn load(path: &Path, overrides: &[Override]) -> Result<Loaded, LoadError> {
+    let file = path.display().to_string();
+    let text = read(path).map_err(|reason| LoadError::Unreadable {
+        file: file.clone(),
+        reason,
+    })?;
+    parse(&text, &file, overrides).map_err(|refused| LoadError::Refused(Box::new(refused)))
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    let file = std::fs::File::open(path).map_err(|e| e.to_string())?;
+    let mut bytes = Vec::new();
+    let most = FILE_BYTES as u64 + 1;
+    file.take(most)
+        .read_to_end(&mut bytes)
+        .map_err(|e| e.to_string())?;
+    if bytes.len() > FILE_BYTES {
+        return Err(format!("it is longer than {} MiB", FILE_BYTES >> 20));
+    }
+    String::from_utf8(bytes).map_err(|e| {
+        let at = e.utf8_error().valid_up_to();
+        format!("byte {at} is not UTF-8 text")
+    })
+}
+
+/// Reads a scene from a text; `name` is its file name, against which it names other files.
+///
+/// # Errors
+/// Every mistake found.
+pub fn parse(text: &str, name: &str, overrides: &[Override]) -> Result<Loaded, Refused> {
+    let source = Source::new(text, name, overrides);
+    match scene(&source) {
+        Ok(scene) => Ok(Loaded { scene, source }),
+        Err(diagnostics) => Err(Refused {
+            diagnostics,
+            source,
+        }),
+    }
+}
+
+fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
+    let table = table(source)?;
+    let diagnosed = |problems: Vec<SceneProblem>| source.diagnose(&problems);
+    let mut problems = limits::check(&table);
+    if !problems.is_empty() {
+        return Err(diagnosed(problems));
+    }
+    problems.extend(check::tables(&table));
+    let mut value = Value::Table(table);
+    problems.extend(
+        conform(&mut value, &schema_of::<Scene>())
+            .err()
+            .unwrap_or_default(),
+    );
+    if !problems.is_empty() {
+        return Err(diagnosed(problems));
+    }
+    let mut scene: Scene = value
+        .try_into()
+        .map_err(|e: toml::de::Error| diagnosed(vec![SceneProblem::new("", e.message())]))?;
+    match check::scene(&mut scene, source) {
+        problems if problems.is_empty() => Ok(scene),
+        problems => Err(diagnosed(problems)),
+    }
+}
+
+/// The table of the file with the overrides applied.
+fn table(source: &Source) -> Result<Table, Vec<Diagnostic>> {
+    let text = source.text();
+    let whole = |message: &str| vec![source.diagnostic(Origin::File, 0..0, "", message)];
+    if text.len() > FILE_BYTES {
+        return Err(whole(&format!(
+            "the scene is longer than {} MiB",
+            FILE_BYTES >> 20
+        )));
+    }
+    let syntax = |e: &toml::de::Error| {
+        let span = e.span().unwrap_or(0..0);
+        let message = match e.message() {
+            long if long.contains("as i128") => "the integer does not fit into 64 bits",
+            message => message,
+        };
+        source.diagnostic(Origin::File, span, "", message)
+    };
+    let (_, errors) = DeTable::parse_recoverable(text);
+    if !errors.is_empty() {
+        let mut all: Vec<_> = errors.iter().map(syntax).collect();
+        all.sort_by_key(|d| (d.span.start, d.span.end));
+        all.dedup_by_key(|d| d.line);
+        return Err(all);
+    }
+    let mut table: Table = toml::from_str(text).map_err(|e| vec![syntax(&e)])?;
+    let apply = |o: &Override| o.apply(&mut table).err();
+    let problems: Vec<_> = source.overrides().iter().filter_map(apply).collect();
+    match problems.is_empty() {
+        true => Ok(table),
+        false => Err(source.diagnose(&problems)),
+    }
+}

@@ -1,0 +1,128 @@
+//! The tables `[run]` and `[numerics]`: how long, how fine, under which forces.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// How long the scene runs and how carefully.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Run {
+    /// Simulated time at which the run ends, s.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub end: f64,
+    /// Factor on the largest stable time step of the plugins.
+    #[serde(default = "one")]
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    pub safety: f64,
+    /// How often a failing step is retried with half the time step before the run stops.
+    #[serde(default = "eight")]
+    #[schemars(range(min = 0, max = 60))]
+    pub retries: u32,
+    /// Largest number of steps; no limit if left out.
+    #[schemars(range(min = 1))]
+    pub max_steps: Option<u64>,
+    /// Simulated time between checkpoints, s; a tenth of `end` if left out.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub checkpoint_every: Option<f64>,
+    /// Wall-clock time after which the run stops with a checkpoint, s; no limit if left out.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub max_wall: Option<f64>,
+}
+
+impl Run {
+    /// Simulated time between checkpoints in force, s.
+    pub fn checkpoint_interval(&self) -> f64 {
+        self.checkpoint_every.unwrap_or(self.end / 10.0)
+    }
+}
+
+/// Resolution, forces, periodic directions and bounds.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Numerics {
+    /// Distance of neighbouring particles at the start, m.
+    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub spacing: f64,
+    /// Smoothing length of the kernel over the spacing.
+    #[serde(default = "two")]
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 20.0))]
+    pub smoothing_ratio: f64,
+    /// Gravity, m/s², one entry per dimension; it is in balance with the pressure of walls. None if left out.
+    #[schemars(extend("unit" = "m/s²"))]
+    pub gravity: Option<Vec<f64>>,
+    /// Force per mass that drives a flow, m/s², one entry per dimension; unlike gravity it does not enter the pressure of walls.
+    #[schemars(extend("unit" = "m/s²"))]
+    pub driving: Option<Vec<f64>>,
+    /// Lower and upper bound of every periodic direction.
+    #[serde(default)]
+    pub periodic: Periodic,
+    /// Skin of the neighbour lists as a fraction of the kernel's support; chosen by the solver if left out.
+    #[schemars(extend("unit" = "1", "minimum" = 0.0, "maximum" = 2.0))]
+    pub skin: Option<f64>,
+    /// Lower and upper corner of the space that particles may be in, m; a particle outside stops the run.
+    #[schemars(extend("unit" = "m"))]
+    pub domain: Option<[Vec<f64>; 2]>,
+    /// Least and largest density over the reference density; a particle outside fails the step.
+    #[serde(default = "half_to_twice")]
+    #[schemars(inner(range(min = 0.0)), extend("unit" = "1"))]
+    pub density_bounds: [f64; 2],
+    /// Largest random displacement of a particle at the start along each axis, as a fraction of the spacing.
+    #[serde(default)]
+    #[schemars(extend("unit" = "1", "minimum" = 0.0, "exclusiveMaximum" = 0.5))]
+    pub disorder: f64,
+    /// Seed of the random displacement.
+    #[serde(default = "one_seed")]
+    #[schemars(range(min = 0))]
+    pub seed: u64,
+}
+
+/// Lower and upper bound of every periodic direction, m.
+#[derive(Clone, Copy, Debug, Default, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Periodic {
+    /// Lower and upper bound along x, m.
+    #[schemars(extend("unit" = "m"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x: Option<[f64; 2]>,
+    /// Lower and upper bound along y, m.
+    #[schemars(extend("unit" = "m"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y: Option<[f64; 2]>,
+    /// Lower and upper bound along z, m.
+    #[schemars(extend("unit" = "m"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z: Option<[f64; 2]>,
+}
+
+impl Periodic {
+    /// Name and bounds of all three axes.
+    pub fn axes(&self) -> [(&'static str, Option<[f64; 2]>); 3] {
+        [("x", self.x), ("y", self.y), ("z", self.z)]
+    }
+
+    /// Bounds per axis of D dimensions, m.
+    pub fn bounds<const D: usize>(&self) -> [Option<[f64; 2]>; D] {
+        let all = self.axes();
+        std::array::from_fn(|k| all.get(k).and_then(|a| a.1))
+    }
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn two() -> f64 {
+    2.0
+}
+
+fn eight() -> u32 {
+    8
+}
+
+fn one_seed() -> u64 {
+    1
+}
+
+fn half_to_twice() -> [f64; 2] {
+    [0.5, 2.0]
+}

@@ -1,0 +1,87 @@
+//! The table `[output]`: what a run writes and when.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer};
+
+/// What a run writes and when.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// Simulated time between outputs of fields, s; a hundredth of the end if neither this nor `times` is given.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub every: Option<f64>,
+    /// Times of the outputs of fields, s, rising.
+    #[schemars(extend("unit" = "s"))]
+    pub times: Option<Vec<f64>>,
+    /// Simulated time between rows of the series, s; a thousandth of the end if left out.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub series_every: Option<f64>,
+    /// Names of the fields that are written.
+    pub fields: Vec<String>,
+    /// Name of a field, or a list of names, of which pictures are drawn.
+    #[serde(deserialize_with = "one_or_many")]
+    #[schemars(with = "OneOrMany")]
+    pub picture: Vec<String>,
+    /// Values at the ends of the picture's colours, SI; least and largest value if left out.
+    #[schemars(extend("unit" = "1"))]
+    pub picture_range: Option<[f64; 2]>,
+    /// Whether files for ParaView are written.
+    pub vtk: bool,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Output {
+            every: None,
+            times: None,
+            series_every: None,
+            fields: ["velocity", "pressure", "density"]
+                .map(String::from)
+                .to_vec(),
+            picture: Vec::new(),
+            picture_range: None,
+            vtk: true,
+        }
+    }
+}
+
+impl Output {
+    /// Simulated time between rows of the series in force, s, for a run of `end` seconds.
+    pub fn series_interval(&self, end: f64) -> f64 {
+        self.series_every.unwrap_or(end / 1000.0)
+    }
+
+    /// The first output time after `time`, s, if there is one up to `end`.
+    ///
+    /// The start is an output where outputs are at intervals; ask with a negative time.
+    pub fn next_after(&self, time: f64, end: f64) -> Option<f64> {
+        if let Some(times) = &self.times {
+            return times.iter().copied().find(|t| *t > time);
+        }
+        let every = self.every.unwrap_or(end / 100.0);
+        if time < 0.0 {
+            return Some(0.0);
+        }
+        if time >= end {
+            return None;
+        }
+        let k = (time / every * (1.0 + 1e-12)).floor() + 1.0;
+        Some((k * every).min(end))
+    }
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum OneOrMany {
+    /// One field.
+    One(String),
+    /// Several fields.
+    Many(Vec<String>),
+}
+
+fn one_or_many<'de, T: Deserializer<'de>>(from: T) -> Result<Vec<String>, T::Error> {
+    OneOrMany::deserialize(from).map(|given| match given {
+        OneOrMany::One(name) => vec![name],
+        OneOrMany::Many(names) => names,
+    })
+}

@@ -1,0 +1,176 @@
+//! Simple polygons: containment, distance, area, self-crossing.
+
+/// A closed polygon in the plane of the first two axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polygon {
+    points: Vec<[f64; 2]>,
+}
+
+impl Polygon {
+    /// The polygon through these corners, m; the last is joined to the first.
+    pub fn new(points: Vec<[f64; 2]>) -> Self {
+        Polygon { points }
+    }
+
+    /// Corners, m.
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+
+    /// Edges as pairs of corners.
+    pub fn edges(&self) -> impl Iterator<Item = ([f64; 2], [f64; 2])> + '_ {
+        let next = self.points.iter().cycle().skip(1);
+        self.points.iter().copied().zip(next.copied())
+    }
+
+    /// Area, m², positive if the corners go round anticlockwise.
+    pub fn area(&self) -> f64 {
+        let Some(o) = self.points.first() else {
+            return 0.0;
+        };
+        let cross = |(a, b): ([f64; 2], [f64; 2])| {
+            (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
+        };
+        0.5 * self.edges().map(cross).sum::<f64>()
+    }
+
+    /// Whether a point is inside, by the parity of crossings.
+    pub fn contains(&self, x: [f64; 2]) -> bool {
+        let crossed = |(a, b): &([f64; 2], [f64; 2])| {
+            (a[1] > x[1]) != (b[1] > x[1])
+                && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+        };
+        self.edges().filter(crossed).count() % 2 == 1
+    }
+
+    /// Distance of a point from the nearest edge for which `counts` holds, m.
+    pub fn distance(&self, x: [f64; 2], counts: impl Fn([f64; 2], [f64; 2]) -> bool) -> f64 {
+        let to = |(a, b): ([f64; 2], [f64; 2])| {
+            let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
+            let (px, py) = (x[0] - a[0], x[1] - a[1]);
+            let length = ex * ex + ey * ey;
+            let t = match length > 0.0 {
+                true => ((px * ex + py * ey) / length).clamp(0.0, 1.0),
+                false => 0.0,
+            };
+            (px - t * ex).hypot(py - t * ey)
+        };
+        let edges = self.edges().filter(|(a, b)| counts(*a, *b));
+        edges.map(to).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Two edges that cross or touch without being neighbours, by number, and a place.
+    pub fn crossing(&self) -> Option<(usize, usize, [f64; 2])> {
+        crossing(&self.edges().collect::<Vec<_>>(), true)
+    }
+}
+
+/// The first two segments of a chain that cross or touch without being neighbours.
+///
+/// Segments are swept by their lower end along x, so that a chain of n segments that is not
+/// a tangle costs about n log n.
+pub(crate) fn crossing(
+    edges: &[([f64; 2], [f64; 2])],
+    closed: bool,
+) -> Option<(usize, usize, [f64; 2])> {
+    let n = edges.len();
+    let reach = |k: usize| {
+        let (a, b) = edges[k];
+        (a[0].min(b[0]), a[0].max(b[0]))
+    };
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&i, &j| reach(i).0.total_cmp(&reach(j).0));
+    for (k, &i) in order.iter().enumerate() {
+        let end = reach(i).1;
+        for &j in order[k + 1..].iter().take_while(|&&j| reach(j).0 <= end) {
+            let (first, second) = (i.min(j), i.max(j));
+            let adjacent = second - first == 1 || (closed && first == 0 && second == n - 1);
+            let met = match adjacent {
+                true => folded(edges[first], edges[second], second - first == 1),
+                false => meet(edges[first], edges[second]),
+            };
+            if let Some(place) = met {
+                return Some((first, second, place));
+            }
+        }
+    }
+    None
+}
+
+fn cross(o: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
+}
+
+/// Neighbouring segments may share their corner but must not run back over each other.
+fn folded(
+    first: ([f64; 2], [f64; 2]),
+    second: ([f64; 2], [f64; 2]),
+    in_order: bool,
+) -> Option<[f64; 2]> {
+    let (corner, a, b) = match in_order {
+        true => (first.1, first.0, second.1),
+        false => (first.0, first.1, second.0),
+    };
+    let along = (a[0] - corner[0]) * (b[0] - corner[0]) + (a[1] - corner[1]) * (b[1] - corner[1]);
+    (cross(corner, a, b) == 0.0 && along > 0.0).then_some(corner)
+}
+
+fn meet(p: ([f64; 2], [f64; 2]), q: ([f64; 2], [f64; 2])) -> Option<[f64; 2]> {
+    let (d1, d2) = (cross(q.0, q.1, p.0), cross(q.0, q.1, p.1));
+    let (d3, d4) = (cross(p.0, p.1, q.0), cross(p.0, p.1, q.1));
+    if ((d1 > 0.0 && d2 < 0.0) || (d1 < 0.0 && d2 > 0.0))
+        && ((d3 > 0.0 && d4 < 0.0) || (d3 < 0.0 && d4 > 0.0))
+    {
+        let t = d1 / (d1 - d2);
+        return Some([
+            p.0[0] + t * (p.1[0] - p.0[0]),
+            p.0[1] + t * (p.1[1] - p.0[1]),
+        ]);
+    }
+    let on = |s: ([f64; 2], [f64; 2]), x: [f64; 2]| {
+        (0..2).all(|k| s.0[k].min(s.1[k]) <= x[k] && x[k] <= s.0[k].max(s.1[k]))
+    };
+    let touching = [(d1, q, p.0), (d2, q, p.1), (d3, p, q.0), (d4, p, q.1)];
+    let found = touching.iter().find(|(d, s, x)| *d == 0.0 && on(*s, *x));
+    found.map(|(_, _, x)| *x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> Polygon {
+        Polygon::new(vec![[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
+    }
+
+    #[test]
+    fn a_square_has_its_area_and_distances() {
+        let all = |_: [f64; 2], _: [f64; 2]| true;
+        assert_eq!(square().area(), 4.0);
+        assert!(square().contains([1.0, 0.5]));
+        assert!(!square().contains([3.0, 0.5]));
+        assert_eq!(square().distance([1.0, 0.5], all), 0.5);
+        assert_eq!(square().distance([5.0, 6.0], all), 5.0);
+        assert_eq!(square().crossing(), None);
+    }
+
+    #[test]
+    fn a_bow_tie_crosses_itself_in_the_middle() {
+        let bow = Polygon::new(vec![[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]]);
+        assert_eq!(bow.crossing(), Some((0, 2, [1.0, 1.0])));
+    }
+
+    #[test]
+    fn a_corner_on_another_edge_and_a_fold_are_found() {
+        let touch = Polygon::new(vec![
+            [0.0, 0.0],
+            [4.0, 0.0],
+            [4.0, 4.0],
+            [2.0, 0.0],
+            [0.0, 4.0],
+        ]);
+        assert!(touch.crossing().is_some());
+        let fold = Polygon::new(vec![[0.0, 0.0], [4.0, 0.0], [2.0, 0.0], [2.0, 2.0]]);
+        assert!(fold.crossing().is_some());
+    }
+}

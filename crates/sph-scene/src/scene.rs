@@ -1,0 +1,182 @@
+//! A whole scene as plain data.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::Vect;
+use toml::Value;
+
+use crate::plugins::{AnyPlugins, PluginChoice, Plugins, Probe, single};
+use crate::vector::array;
+use crate::{Body, Numerics, Output, Phase, Reference, Region, Run, Wall};
+
+/// A scene: what flows where, under which laws, for how long, and what is written.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// One line that says what the scene is, with its publication.
+    pub title: String,
+    /// What the scene shows and what to look at.
+    pub description: Option<String>,
+    /// Number of space dimensions.
+    #[schemars(range(min = 2, max = 3))]
+    pub dimension: usize,
+    /// How long the scene runs and how carefully.
+    pub run: Run,
+    /// Resolution, forces, periodic directions and bounds.
+    pub numerics: Numerics,
+    /// Smoothing kernel, `[kernel.PLUGIN]`; chosen by the solver if left out.
+    #[serde(default)]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub kernel: Plugins,
+    /// Density and pressure gradient, `[formulation.PLUGIN]`; chosen by the solver if left out.
+    #[serde(default)]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub formulation: Plugins,
+    /// Time stepping, `[integrator.PLUGIN]`; chosen by the solver if left out.
+    #[serde(default)]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub integrator: Plugins,
+    /// Treatment of all walls, `[walls.PLUGIN]`; chosen by the solver if left out.
+    #[serde(default)]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub walls: Plugins,
+    /// Discrete viscous force, `[viscous-operator.PLUGIN]`; chosen by the solver if left out.
+    #[serde(default, rename = "viscous-operator")]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub viscous_operator: Plugins,
+    /// Smoothing of the density, `[smoother.PLUGIN]`; none if left out.
+    #[serde(default)]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub smoother: Plugins,
+    /// Further forces between particles, `[term.PLUGIN]`, any number.
+    #[serde(default)]
+    #[schemars(with = "AnyPlugins")]
+    pub term: Plugins,
+    /// Walls by name, `[wall.NAME]`.
+    #[serde(default)]
+    pub wall: BTreeMap<String, Wall>,
+    /// Materials by name, `[phase.NAME]`, at least one.
+    #[serde(default)]
+    pub phase: BTreeMap<String, Phase>,
+    /// Bodies by name, `[body.NAME]`, at least one.
+    #[serde(default)]
+    pub body: BTreeMap<String, Body>,
+    /// Measurements by name, `[probe.NAME]`; `kind` is the plugin, the other keys its parameters.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Probe>")]
+    pub probe: Plugins,
+    /// Measurements at fixed places, `[gauge.NAME]`; the same as probes.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Probe>")]
+    pub gauge: Plugins,
+    /// Comparisons by name, `[reference.NAME]`; their errors are in the summary.
+    #[serde(default)]
+    pub reference: BTreeMap<String, Reference>,
+    /// What is written and when.
+    #[serde(default)]
+    pub output: Output,
+}
+
+impl Scene {
+    /// Gravity, m/s²; zero if the scene gives none.
+    pub fn gravity<const D: usize>(&self) -> Vect<D> {
+        array::<D>(self.numerics.gravity.as_deref().unwrap_or(&[])).into()
+    }
+
+    /// Driving force per mass, m/s²; zero if the scene gives none.
+    pub fn driving<const D: usize>(&self) -> Vect<D> {
+        array::<D>(self.numerics.driving.as_deref().unwrap_or(&[])).into()
+    }
+
+    /// The bodies' shapes, in the order of `body`.
+    pub fn regions<const D: usize>(&self) -> Vec<Region<D>> {
+        self.body.values().filter_map(Region::of).collect()
+    }
+
+    /// The plugin that the scene chooses for a kind of which it has one at most: `kernel`,
+    /// `formulation`, `integrator`, `walls`, `viscous-operator` or `smoother`.
+    pub fn choice(&self, kind: &'static str) -> Option<PluginChoice> {
+        let plugins = match kind {
+            "kernel" => &self.kernel,
+            "formulation" => &self.formulation,
+            "integrator" => &self.integrator,
+            "walls" => &self.walls,
+            "viscous-operator" => &self.viscous_operator,
+            "smoother" => &self.smoother,
+            _ => return None,
+        };
+        single(kind, plugins, kind)
+    }
+
+    /// The additional pair terms.
+    pub fn terms(&self) -> Vec<PluginChoice> {
+        let choice = |(name, table): (&String, &toml::Table)| PluginChoice {
+            table: table.clone(),
+            ..PluginChoice::default_of("term", name)
+        };
+        self.term.iter().map(choice).collect()
+    }
+
+    /// The equation of state of a phase, if the scene chooses one.
+    pub fn equation_of_state(&self, phase: &str) -> Option<PluginChoice> {
+        let path = format!("phase.{phase}.equation-of-state");
+        single(
+            "equation-of-state",
+            &self.phase.get(phase)?.equation_of_state,
+            &path,
+        )
+    }
+
+    /// The rheology of a phase.
+    pub fn rheology(&self, phase: &str) -> Option<PluginChoice> {
+        let path = format!("phase.{phase}.rheology");
+        single("rheology", &self.phase.get(phase)?.rheology, &path)
+    }
+
+    /// The plugin that gives a body its velocity at the start, if the scene chooses one.
+    pub fn initial(&self, body: &str) -> Option<PluginChoice> {
+        let path = format!("body.{body}.initial");
+        single("initial", &self.body.get(body)?.initial, &path)
+    }
+
+    /// The reference solution of a comparison, if it has one.
+    pub fn solution(&self, reference: &str) -> Option<PluginChoice> {
+        let given = self.reference.get(reference)?;
+        Some(PluginChoice {
+            kind: "solution",
+            name: given.solution.clone()?,
+            table: given.parameters.clone(),
+            path: format!("reference.{reference}.parameters"),
+            name_path: format!("reference.{reference}.solution"),
+        })
+    }
+
+    /// Probes and gauges: the name of each and its plugin.
+    pub fn probes(&self) -> Vec<(String, PluginChoice)> {
+        let of = |parent: &'static str, tables: &Plugins| {
+            let choice = |(name, table): (&String, &toml::Table)| {
+                let mut table = table.clone();
+                let kind = table.remove("kind").and_then(|k| match k {
+                    Value::String(kind) => Some(kind),
+                    _ => None,
+                })?;
+                let path = format!("{parent}.{name}");
+                let choice = PluginChoice {
+                    kind: "probe",
+                    name: kind,
+                    table,
+                    name_path: format!("{path}.kind"),
+                    path,
+                };
+                Some((name.clone(), choice))
+            };
+            tables.iter().filter_map(choice).collect::<Vec<_>>()
+        };
+        let mut all = of("probe", &self.probe);
+        all.extend(of("gauge", &self.gauge));
+        all.sort_by(|a, b| a.0.cmp(&b.0));
+        all
+    }
+}

@@ -1,0 +1,21 @@
+//! Lists of numbers as arrays of D components.
+
+/// The first D entries; absent ones are zero (a validated list has exactly D).
+pub(crate) fn array<const D: usize>(list: &[f64]) -> [f64; D] {
+    std::array::from_fn(|k| list.get(k).copied().unwrap_or(0.0))
+}
+
+/// Distance of two points.
+pub(crate) fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    let square: f64 = a.iter().zip(b).map(|(x, y)| (x - y).powi(2)).sum();
+    square.sqrt()
+}
+
+/// `(0.1, 0.2)` for messages.
+pub(crate) fn point(x: &[f64]) -> String {
+    let text: Vec<String> = x
+        .iter()
+        .map(|c| format!("{}", (c * 1e9).round() / 1e9))
+        .collect();
+    format!("({})", text.join(", "))
+}

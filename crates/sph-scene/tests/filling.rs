@@ -1,0 +1,171 @@
+//! Where particles stand.
+
+use sph_scene::{Filled, Offset, Polygon, Region, Shape, disturb, estimate, fill};
+
+fn cuboid<const D: usize>(lo: [f64; D], hi: [f64; D]) -> Shape<D> {
+    Shape::Cuboid { lo, hi }
+}
+
+fn counts<const D: usize>(filled: &[Filled<D>]) -> Vec<usize> {
+    filled.iter().map(|f| f.positions.len()).collect()
+}
+
+/// Least distance of two particles across all bodies.
+fn nearest<const D: usize>(filled: &[Filled<D>]) -> f64 {
+    let all: Vec<_> = filled.iter().flat_map(|f| &f.positions).collect();
+    let mut least = f64::INFINITY;
+    for (i, a) in all.iter().enumerate() {
+        for b in &all[i + 1..] {
+            let square: f64 = a.iter().zip(b.iter()).map(|(x, y)| (x - y).powi(2)).sum();
+            least = least.min(square.sqrt());
+        }
+    }
+    least
+}
+
+#[test]
+fn a_box_has_rows_one_or_half_a_spacing_off_its_sides() {
+    let body = [Region::whole(cuboid([0.0; 2], [1.0, 0.5]))];
+    let whole = fill(&body, 0.1, Offset::None, &[None; 2]);
+    assert_eq!(counts(&whole), [9 * 4]);
+    assert!((whole[0].positions[0][0] - 0.1).abs() < 1e-15);
+    let half = fill(&body, 0.1, Offset::Half, &[None; 2]);
+    assert_eq!(counts(&half), [10 * 5]);
+    assert_eq!(estimate(&body, 0.1), 50.0);
+}
+
+#[test]
+fn a_box_in_space_is_filled() {
+    let body = [Region::whole(cuboid([0.0; 3], [0.4, 0.5, 0.6]))];
+    assert_eq!(counts(&fill(&body, 0.1, Offset::Half, &[None; 3])), [120]);
+    assert_eq!(
+        counts(&fill(&body, 0.1, Offset::None, &[None; 3])),
+        [3 * 4 * 5]
+    );
+}
+
+#[test]
+fn a_period_that_is_spanned_has_no_ends() {
+    let periodic = [Some([0.0, 1.0]), None];
+    let body = [Region::whole(cuboid([0.0; 2], [1.0, 0.5]))];
+    let whole = fill(&body, 0.1, Offset::None, &periodic);
+    assert_eq!(counts(&whole), [10 * 4]);
+    assert_eq!(whole[0].positions[0][0], 0.0);
+    assert_eq!(counts(&fill(&body, 0.1, Offset::Half, &periodic)), [10 * 5]);
+    let both = [Some([0.0, 1.0]), Some([0.0, 0.5])];
+    assert_eq!(counts(&fill(&body, 0.1, Offset::None, &both)), [10 * 5]);
+}
+
+#[test]
+fn the_same_shape_as_a_polygon_is_filled_the_same() {
+    let corners = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.0, 0.5]];
+    let body = [Region::whole(Shape::<2>::Polygon(Polygon::new(corners)))];
+    for (offset, periodic, count) in [
+        (Offset::None, [None; 2], 36),
+        (Offset::Half, [None; 2], 50),
+        (Offset::None, [Some([0.0, 1.0]), None], 40),
+        (Offset::Half, [Some([0.0, 1.0]), None], 50),
+        (Offset::None, [Some([0.0, 1.0]), Some([0.0, 0.5])], 50),
+    ] {
+        assert_eq!(counts(&fill(&body, 0.1, offset, &periodic)), [count]);
+    }
+}
+
+#[test]
+fn two_layers_have_one_row_on_their_interface() {
+    let layers = [
+        Region::whole(cuboid([0.0; 2], [1.0, 0.5])),
+        Region::whole(cuboid([0.0, 0.5], [1.0, 1.0])),
+    ];
+    let filled = fill(&layers, 0.1, Offset::None, &[None; 2]);
+    assert_eq!(counts(&filled), [9 * 5, 9 * 4]);
+    assert!((nearest(&filled) - 0.1).abs() < 1e-12);
+    let filled = fill(&layers, 0.1, Offset::Half, &[None; 2]);
+    assert_eq!(counts(&filled), [50, 50]);
+}
+
+#[test]
+fn a_slanted_interface_loses_no_node_and_doubles_none() {
+    let polygon =
+        |corners: &[[f64; 2]]| Region::whole(Shape::<2>::Polygon(Polygon::new(corners.to_vec())));
+    let halves = [
+        polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]),
+        polygon(&[[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
+    ];
+    for (offset, count) in [(Offset::Half, 100), (Offset::None, 81)] {
+        let filled = fill(&halves, 0.1, offset, &[None; 2]);
+        assert_eq!(counts(&filled).iter().sum::<usize>(), count);
+        assert!(nearest(&filled) > 0.099);
+    }
+}
+
+#[test]
+fn a_drop_in_a_bath_leaves_no_ring_empty() {
+    let drop = Shape::Ball {
+        centre: [1.0, 1.0],
+        radius: 0.43,
+    };
+    let bodies = [
+        Region {
+            base: cuboid([0.0; 2], [2.0, 2.0]),
+            cuts: vec![drop.clone()],
+        },
+        Region::whole(drop),
+    ];
+    for offset in [Offset::None, Offset::Half] {
+        let filled = fill(&bodies, 0.05, offset, &[None; 2]);
+        let edge = if offset == Offset::None {
+            39.0f64
+        } else {
+            40.0
+        };
+        let share = counts(&filled).iter().sum::<usize>() as f64 / edge.powi(2);
+        assert!((0.95..1.05).contains(&share), "{share}");
+    }
+}
+
+#[test]
+fn a_ball_keeps_its_distance_from_its_surface() {
+    let body = [Region::whole(Shape::Ball {
+        centre: [0.0; 3],
+        radius: 1.0,
+    })];
+    for (offset, least) in [(Offset::None, 0.05), (Offset::Half, 0.0)] {
+        let filled = fill(&body, 0.1, offset, &[None; 3]);
+        let depth = |x: &[f64; 3]| body[0].depth(x);
+        let least_found = filled[0]
+            .positions
+            .iter()
+            .map(depth)
+            .fold(f64::INFINITY, f64::min);
+        assert!(least_found >= least * (1.0 - 1e-5), "{least_found}");
+        let volume = filled[0].positions.len() as f64 * 1e-3;
+        let radius = 1.0 - least / 2.0;
+        let exact = 4.0 / 3.0 * std::f64::consts::PI * f64::powi(radius, 3);
+        assert!(
+            (volume / exact - 1.0).abs() < 0.1,
+            "a lattice of 20 across: {volume} {exact}"
+        );
+    }
+}
+
+#[test]
+fn a_huge_scene_is_counted_at_once() {
+    let body = Region::whole(cuboid([0.0; 3], [1.0; 3]));
+    assert_eq!(estimate(&[body], 1e-6), 1e18);
+}
+
+#[test]
+fn disorder_stays_in_the_period() {
+    let periodic = [Some([0.0, 1.0]), Some([0.0, 1.0])];
+    let mut filled = fill(
+        &[Region::whole(cuboid([0.0; 2], [1.0; 2]))],
+        0.1,
+        Offset::None,
+        &periodic,
+    );
+    disturb(&mut filled, 0.1, 0.4, 1, &periodic);
+    let inside = |x: &[f64; 2]| x.iter().all(|c| (0.0..1.0).contains(c));
+    assert_eq!(counts(&filled), [100]);
+    assert!(filled[0].positions.iter().all(inside));
+}

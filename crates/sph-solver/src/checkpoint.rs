@@ -1,0 +1,129 @@
+//! Checkpoints: all state columns, the lists' reference positions, the clocks and counters.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use sph_core::{Plain, Role, Vect};
+use sph_io::{Checkpoint, Column, ColumnData};
+
+use crate::{Flow, SolverError};
+
+/// Name of the checkpoint in a run's folder.
+pub const FILE: &str = "checkpoint.sph";
+const REFERENCE: &str = "list_reference";
+const WALL_REFERENCE: &str = "wall_list_reference";
+
+/// The clock, as bits, so that nothing is lost on the way through JSON.
+#[derive(Serialize, Deserialize)]
+struct Clock {
+    time: u64,
+    dt: u64,
+    list_builds: u64,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Meta<T> {
+    scene: String,
+    dimension: usize,
+    clock: Clock,
+    run: T,
+}
+
+/// Writes the state; `run` is whatever the driver wants back.
+pub fn save<const D: usize, T: Serialize>(
+    flow: &Flow<D>,
+    path: &Path,
+    scene: &str,
+    run: &T,
+) -> Result<(), SolverError> {
+    let world = &flow.world;
+    let mut columns = Vec::new();
+    for (name, _, role, components, values) in world.free.columns() {
+        if role == Role::State {
+            columns.push(Column {
+                name: name.to_string(),
+                components,
+                data: match values {
+                    Plain::Real(v) => ColumnData::F64(v.into_owned()),
+                    Plain::Index(v) => ColumnData::U32(v.to_vec()),
+                },
+            });
+        }
+    }
+    for (name, positions) in [
+        (REFERENCE, &world.lists.reference),
+        (WALL_REFERENCE, world.lists.reference_points()),
+    ] {
+        columns.push(Column {
+            name: name.into(),
+            components: D,
+            data: ColumnData::F64(positions.iter().flatten().copied().collect()),
+        });
+    }
+    let meta = Meta {
+        scene: scene.to_string(),
+        dimension: D,
+        clock: Clock {
+            time: world.time.to_bits(),
+            dt: world.dt.to_bits(),
+            list_builds: world.lists.builds,
+        },
+        run,
+    };
+    let meta = serde_json::to_value(&meta).map_err(|e| refused(path, e.to_string()))?;
+    Ok(Checkpoint { meta, columns }.save(path)?)
+}
+
+fn refused(path: &Path, reason: impl Into<String>) -> SolverError {
+    SolverError::Resume {
+        path: PathBuf::from(path),
+        reason: reason.into(),
+    }
+}
+
+/// Puts a saved state into an assembled flow; returns what the driver saved.
+pub fn load<const D: usize, T: DeserializeOwned>(
+    flow: &mut Flow<D>,
+    path: &Path,
+    scene: &str,
+) -> Result<T, SolverError> {
+    let checkpoint = Checkpoint::load(path)?;
+    let meta: Meta<T> = serde_json::from_value(checkpoint.meta.clone())
+        .map_err(|e| refused(path, format!("its header is not one of this version ({e})")))?;
+    if meta.scene != scene || meta.dimension != D {
+        let why = "it was written by a different scene or with other `--set` options; start \
+                   afresh in another folder, or restore the scene";
+        return Err(refused(path, why));
+    }
+    for name in flow.state_columns() {
+        let column = checkpoint.column(name);
+        let column = column.ok_or_else(|| refused(path, format!("it lacks the column `{name}`")))?;
+        match &column.data {
+            ColumnData::F64(v) => flow.world.free.set_real(name, v)?,
+            ColumnData::U32(v) => flow.world.free.set_index(name, v)?,
+            ColumnData::U64(_) => return Err(refused(path, format!("`{name}` has a foreign type"))),
+        }
+    }
+    let positions = |name: &str| match checkpoint.column(name).map(|c| &c.data) {
+        Some(ColumnData::F64(v)) => Ok(v.chunks_exact(D).map(Vect::from_column_slice).collect()),
+        _ => Err(refused(path, format!("it lacks the column `{name}`"))),
+    };
+    let reference: Vec<Vect<D>> = positions(REFERENCE)?;
+    let wall_reference: Vec<Vect<D>> = positions(WALL_REFERENCE)?;
+    if reference.len() != flow.world.free.len()
+        || wall_reference.len() != flow.world.walls.points.position.len()
+    {
+        return Err(refused(path, "its number of particles is not the scene's"));
+    }
+    flow.world.time = f64::from_bits(meta.clock.time);
+    flow.world.dt = f64::from_bits(meta.clock.dt);
+    // The lists are built where the walls were at the last build, then the walls move on.
+    if let Some(walls) = &flow.walls {
+        let now = flow.world.time;
+        let moved = crate::stages::lock(walls).move_to(&mut flow.world.walls, now);
+        moved.map_err(|e| refused(path, e.to_string()))?;
+    }
+    flow.world.build_lists_from(reference, wall_reference);
+    flow.world.lists.builds = meta.clock.list_builds;
+    Ok(meta.run)
+}

@@ -1,0 +1,184 @@
+//! From names in the scene to built plugins.
+
+use serde_json::{Value as Json, json};
+use sph_boundary::{Wall, WallEntry};
+use sph_core::{Contract, PluginInfo, Registry, RegistryError, SceneProblem};
+use sph_integrators::{Integrator, IntegratorEntry};
+use sph_kernels::Kernel;
+use sph_multiphase::{
+    EquationOfState, EquationOfStateEntry, Formulation, FormulationEntry, Smoother, SmootherEntry,
+    ViscousOperator, ViscousOperatorEntry,
+};
+use sph_neighbours::{Interaction, KernelEntry, TermEntry};
+use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry};
+use sph_rheology::{Rheology, RheologyEntry};
+use sph_scene::{PluginChoice, Scene};
+
+use crate::defaults;
+use crate::summary::PluginInForce;
+
+/// Everything the scene's names stand for.
+pub struct Choices<const D: usize> {
+    pub kernel: Box<dyn Kernel>,
+    pub formulation: Box<dyn Formulation<D>>,
+    pub integrator: Box<dyn Integrator>,
+    pub walls: Option<Box<dyn Wall<D>>>,
+    pub viscous_operator: Box<dyn ViscousOperator<D>>,
+    pub smoother: Option<Box<dyn Smoother<D>>>,
+    pub terms: Vec<Box<dyn Interaction<D>>>,
+    /// In the order of the phase numbers.
+    pub equations_of_state: Vec<Box<dyn EquationOfState>>,
+    /// In the order of the phase numbers.
+    pub rheologies: Vec<Box<dyn Rheology>>,
+    pub probes: Vec<(String, Box<dyn Probe<D>>)>,
+    /// Solutions of references, by the reference's name.
+    pub solutions: Vec<(String, Box<dyn Solution<D>>)>,
+    /// Initial fields, by the body's name.
+    pub initial: Vec<(String, Box<dyn Solution<D>>)>,
+    /// What is in force, for the summary.
+    pub in_force: Vec<PluginInForce>,
+}
+
+/// Collects the problems of all plugins before giving up.
+struct Builder {
+    problems: Vec<SceneProblem>,
+    in_force: Vec<PluginInForce>,
+}
+
+impl Builder {
+    fn build<E: Contract, T>(
+        &mut self,
+        choice: &PluginChoice,
+        make: impl FnOnce(&E) -> Result<T, RegistryError>,
+    ) -> Option<T> {
+        let built = Registry::<E>::discovered()
+            .and_then(|registry| registry.find(&choice.name))
+            .and_then(|entry| make(entry).map(|built| (built, *entry.info())));
+        match built {
+            Ok((built, info)) => {
+                self.in_force.push(in_force::<E>(choice, &info));
+                Some(built)
+            }
+            Err(error) => {
+                self.problems.extend(choice.blame(&error));
+                None
+            }
+        }
+    }
+}
+
+fn in_force<E: Contract>(choice: &PluginChoice, info: &PluginInfo) -> PluginInForce {
+    let mut parameters = serde_json::Map::new();
+    for (name, value) in sph_core::defaults(&(info.schema)()) {
+        parameters.insert(name, value);
+    }
+    let given = serde_json::to_value(&choice.table).unwrap_or(json!({}));
+    if let Json::Object(given) = given {
+        parameters.extend(given);
+    }
+    PluginInForce {
+        kind: E::KIND.to_string(),
+        name: choice.name.clone(),
+        path: choice.path.clone(),
+        provider: info.provider.to_string(),
+        parameters: Json::Object(parameters),
+    }
+}
+
+/// The scene's choice of a kind, or the default.
+fn choice(scene: &Scene, kind: &'static str) -> Option<PluginChoice> {
+    let default = || defaults::of(kind).map(|name| PluginChoice::default_of(kind, name));
+    scene.choice(kind).or_else(default)
+}
+
+impl<const D: usize> Choices<D> {
+    /// Builds every plugin the scene names or needs.
+    ///
+    /// # Errors
+    /// All unknown names and wrong parameters at once.
+    pub fn of(scene: &Scene) -> Result<Self, Vec<SceneProblem>> {
+        let mut b = Builder {
+            problems: Vec::new(),
+            in_force: Vec::new(),
+        };
+        macro_rules! one {
+            ($kind:literal, $entry:ty, $make:expr) => {
+                choice(scene, $kind).and_then(|c| b.build::<$entry, _>(&c, |e| $make(e, &c.table)))
+            };
+        }
+        let kernel = one!("kernel", KernelEntry, |e: &KernelEntry, t| (e.build)(t));
+        let formulation =
+            one!("formulation", FormulationEntry, |e: &FormulationEntry, t| e.build::<D>(t));
+        let integrator =
+            one!("integrator", IntegratorEntry, |e: &IntegratorEntry, t| (e.build)(t));
+        let walls = match scene.wall.is_empty() {
+            true => None,
+            false => one!("walls", WallEntry, |e: &WallEntry, t| e.build::<D>(t)),
+        };
+        let viscous_operator = one!(
+            "viscous-operator",
+            ViscousOperatorEntry,
+            |e: &ViscousOperatorEntry, t| e.build::<D>(t)
+        );
+        let smoother = one!("smoother", SmootherEntry, |e: &SmootherEntry, t| e.build::<D>(t));
+        let terms = scene.terms();
+        let terms = terms
+            .iter()
+            .filter_map(|c| b.build::<TermEntry, _>(c, |e| e.build::<D>(&c.table)));
+        let terms = terms.collect();
+        let (mut equations_of_state, mut rheologies) = (Vec::new(), Vec::new());
+        for phase in scene.phase.keys() {
+            let eos = scene.equation_of_state(phase).or_else(|| {
+                defaults::of("equation-of-state")
+                    .map(|name| PluginChoice::default_of("equation-of-state", name))
+            });
+            let eos = eos.and_then(|c| {
+                b.build::<EquationOfStateEntry, _>(&c, |e| (e.build)(&c.table))
+            });
+            equations_of_state.extend(eos);
+            let law = scene.rheology(phase);
+            let law = law.and_then(|c| b.build::<RheologyEntry, _>(&c, |e| (e.build)(&c.table)));
+            rheologies.extend(law);
+        }
+        let mut probes = Vec::new();
+        for (name, c) in scene.probes() {
+            let probe = b.build::<ProbeEntry, _>(&c, |e| e.build::<D>(&c.table));
+            probes.extend(probe.map(|p| (name, p)));
+        }
+        let mut named = |choice: &dyn Fn(&str) -> Option<PluginChoice>, names: Vec<&String>| {
+            let mut found = Vec::new();
+            for name in names {
+                if let Some(c) = choice(name) {
+                    let built = b.build::<SolutionEntry, _>(&c, |e| e.build::<D>(&c.table));
+                    found.extend(built.map(|s| (name.clone(), s)));
+                }
+            }
+            found
+        };
+        let solutions = named(&|n| scene.solution(n), scene.reference.keys().collect());
+        let initial = named(&|n| scene.initial(n), scene.body.keys().collect());
+        let all = (kernel, formulation, integrator, viscous_operator);
+        match all {
+            (Some(kernel), Some(formulation), Some(integrator), Some(viscous_operator))
+                if b.problems.is_empty() =>
+            {
+                Ok(Choices {
+                    kernel,
+                    formulation,
+                    integrator,
+                    walls,
+                    viscous_operator,
+                    smoother,
+                    terms,
+                    equations_of_state,
+                    rheologies,
+                    probes,
+                    solutions,
+                    initial,
+                    in_force: b.in_force,
+                })
+            }
+            _ => Err(b.problems),
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! How assembling or running may fail.
+
+use std::path::PathBuf;
+
+use sph_core::{PlanError, SceneProblem, StepError};
+use sph_io::IoError;
+use thiserror::Error;
+
+/// A run that stopped before its end.
+#[derive(Debug, Error)]
+#[error("the run failed at t = {time:.6} s, step {step}: {cause}")]
+pub struct Failure {
+    /// Simulated time, s.
+    pub time: f64,
+    /// Step.
+    pub step: u64,
+    /// What went wrong, where.
+    pub cause: StepError,
+    /// What to try.
+    pub advice: Vec<String>,
+    /// Checkpoint of the last good state, if one was written.
+    pub checkpoint: Option<PathBuf>,
+    /// Picture file of the bad state, if one was written.
+    pub bad_state: Option<PathBuf>,
+}
+
+/// Anything that keeps a scene from its result.
+#[derive(Debug, Error)]
+pub enum SolverError {
+    /// The scene asks for something that is not there or cannot be.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Scene(Vec<SceneProblem>),
+    /// The plugins of the scene do not fit together.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// A stage failed before the first step.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// The run failed.
+    #[error(transparent)]
+    Failed(Box<Failure>),
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    Io(#[from] IoError),
+    /// A checkpoint that does not belong to the scene.
+    #[error("cannot resume from {path}: {reason}")]
+    Resume {
+        /// The checkpoint.
+        path: PathBuf,
+        /// Why not.
+        reason: String,
+    },
+}
+
+impl From<sph_core::FieldError> for SolverError {
+    fn from(error: sph_core::FieldError) -> Self {
+        SolverError::Step(error.into())
+    }
+}
+
+impl SolverError {
+    /// One problem at a key of the scene.
+    pub fn at(path: impl Into<String>, message: impl Into<String>) -> Self {
+        SolverError::Scene(vec![SceneProblem::new(path, message)])
+    }
+
+    /// 2 for a bad scene, 1 for everything that went wrong later.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            SolverError::Scene(_) | SolverError::Plan(_) => 2,
+            _ => 1,
+        }
+    }
+}

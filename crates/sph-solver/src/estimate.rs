@@ -1,0 +1,86 @@
+//! What a scene will cost, before it costs anything.
+
+use serde::Serialize;
+use sph_scene::{Scene, estimate};
+
+use crate::error::SolverError;
+
+/// Bytes per particle of columns, lists and buffers together, a generous mean.
+const BYTES_PER_PARTICLE: [f64; 2] = [700.0, 2500.0];
+/// Nanoseconds of one core per particle and step, from `docs/performance.md`.
+const NANOSECONDS: [f64; 2] = [550.0, 1800.0];
+/// Bytes per particle in one compressed output.
+const BYTES_PER_OUTPUT: f64 = 60.0;
+
+/// Size and duration of a run.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Estimate {
+    /// Free particles.
+    pub particles: f64,
+    /// Steps at the initial time step.
+    pub steps: f64,
+    /// Hours on the given number of threads.
+    pub hours: f64,
+    /// Memory, bytes.
+    pub memory_bytes: f64,
+    /// Disk, bytes.
+    pub disk_bytes: f64,
+}
+
+impl Estimate {
+    /// From the particle count and the first step, s.
+    pub fn new(scene: &Scene, particles: f64, dt: f64, threads: usize) -> Self {
+        let k = usize::from(scene.dimension == 3);
+        let steps = (scene.run.end / dt).ceil();
+        let outputs = match (&scene.output.times, scene.output.every) {
+            (Some(times), _) => times.len() as f64,
+            (None, Some(every)) => (scene.run.end / every).floor() + 1.0,
+            (None, None) => 2.0,
+        };
+        let vtk = if scene.output.vtk { BYTES_PER_OUTPUT * particles } else { 0.0 };
+        let pictures = 3e5 * scene.output.picture.len() as f64;
+        let checkpoint = 80.0 * particles;
+        Estimate {
+            particles,
+            steps,
+            hours: particles * steps * NANOSECONDS[k] * 1e-9 / (3600.0 * threads.max(1) as f64),
+            memory_bytes: particles * BYTES_PER_PARTICLE[k],
+            disk_bytes: outputs * (vtk + pictures) + 2.0 * checkpoint,
+        }
+    }
+}
+
+/// Memory this machine has left, bytes, where the system tells.
+fn memory_available() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find(|l| l.starts_with("MemAvailable:"))?;
+    let kilobytes: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(1024.0 * kilobytes)
+}
+
+/// Refuses a scene that cannot fit into memory, before any memory is touched.
+pub fn refuse_the_absurd<const D: usize>(scene: &Scene) -> Result<(), SolverError> {
+    let particles = estimate(&scene.regions::<D>(), scene.numerics.spacing);
+    let wall_length: f64 = scene
+        .wall
+        .values()
+        .flat_map(|w| w.polyline.windows(2))
+        .map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]))
+        .sum();
+    let points = wall_length / scene.numerics.spacing;
+    let needed = (particles + points) * BYTES_PER_PARTICLE[usize::from(D == 3)];
+    let limit = memory_available().unwrap_or(64e9);
+    // Indices are 32 bits wide.
+    if needed < limit && particles + points < 4e9 {
+        return Ok(());
+    }
+    Err(SolverError::at(
+        "numerics.spacing",
+        format!(
+            "about {particles:.1e} particles and {points:.1e} wall points would need {:.1e} GB of \
+             memory, and {:.1} GB are free: take a larger spacing or smaller bodies",
+            needed / 1e9,
+            limit / 1e9
+        ),
+    ))
+}

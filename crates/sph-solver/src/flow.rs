@@ -1,0 +1,144 @@
+//! A flow in motion: evaluation of all stages, kicks and drifts.
+
+use std::time::{Duration, Instant};
+
+use rayon::prelude::*;
+use sph_core::{Evolved, Role, Stage, StepError, StepLimit, System, fields};
+use sph_multiphase::{BoundState, Limiter};
+use sph_neighbours::World;
+
+use crate::stages::{SharedWall, lock};
+
+/// Wall-clock time of one kind of work.
+#[derive(Clone, Debug)]
+pub struct Timing {
+    /// Stage or service.
+    pub name: String,
+    /// Time spent so far.
+    pub spent: Duration,
+}
+
+/// The assembled system of one scene.
+pub struct Flow<const D: usize> {
+    /// Columns, walls, lists, kernel, clock.
+    pub world: World<D>,
+    /// Stages in the order of the plan.
+    pub(crate) stages: Vec<Box<dyn Stage<World<D>>>>,
+    /// Names of the stages nobody needed.
+    pub(crate) pruned: Vec<String>,
+    pub(crate) limiters: Vec<Box<dyn Limiter<D>>>,
+    pub(crate) walls: Option<SharedWall<D>>,
+    pub(crate) evolved: Vec<Evolved>,
+    pub(crate) laws: std::sync::Arc<[Box<dyn BoundState>]>,
+    pub(crate) timings: Vec<Timing>,
+}
+
+/// Place of the list refresh among the timings; the stages follow.
+const LISTS: usize = 0;
+/// Place of kicks and drifts among the timings.
+const MOTION: usize = 1;
+
+impl<const D: usize> Flow<D> {
+    pub(crate) fn reset_timings(&mut self) {
+        let services = ["neighbour lists", "kick and drift"].map(String::from);
+        let names = services.into_iter().chain(self.stages.iter().map(|s| s.name()));
+        self.timings = names
+            .map(|name| Timing {
+                name,
+                spent: Duration::ZERO,
+            })
+            .collect();
+    }
+
+    /// Time spent per stage and service since the assembly.
+    pub fn timings(&self) -> &[Timing] {
+        &self.timings
+    }
+
+    /// Smallest step limit with its name; the smallest of all plugins.
+    ///
+    /// # Errors
+    /// If a limiter misses a column.
+    pub fn step_limits(&self) -> Result<Vec<StepLimit>, StepError> {
+        self.limiters.iter().map(|l| l.limit(&self.world)).collect()
+    }
+}
+
+impl<const D: usize> System for Flow<D> {
+    fn evaluate(&mut self) -> Result<(), StepError> {
+        let start = Instant::now();
+        crate::guard::positions(&self.world)?;
+        self.world.refresh_lists()?;
+        self.timings[LISTS].spent += start.elapsed();
+        for (k, stage) in self.stages.iter_mut().enumerate() {
+            let start = Instant::now();
+            stage.run(&mut self.world)?;
+            self.timings[MOTION + 1 + k].spent += start.elapsed();
+        }
+        Ok(())
+    }
+
+    fn kick(&mut self, dt: f64) -> Result<(), StepError> {
+        let start = Instant::now();
+        let mut velocity = self.world.free.take(fields::VELOCITY)?;
+        let acceleration = self.world.free.get(fields::ACCELERATION)?;
+        velocity
+            .par_iter_mut()
+            .zip(acceleration)
+            .with_min_len(2048)
+            .for_each(|(u, a)| *u += a * dt);
+        self.world.free.put(fields::VELOCITY, velocity)?;
+        for evolved in &self.evolved {
+            let mut value = self.world.free.take(evolved.value)?;
+            let rate = self.world.free.get(evolved.rate)?;
+            value
+                .par_iter_mut()
+                .zip(rate)
+                .with_min_len(2048)
+                .for_each(|(v, r)| *v += r * dt);
+            self.world.free.put(evolved.value, value)?;
+        }
+        self.timings[MOTION].spent += start.elapsed();
+        Ok(())
+    }
+
+    fn drift(&mut self, dt: f64) -> Result<(), StepError> {
+        let start = Instant::now();
+        let mut position = self.world.free.take(fields::POSITION)?;
+        let velocity = self.world.free.get(fields::VELOCITY)?;
+        position
+            .par_iter_mut()
+            .zip(velocity)
+            .with_min_len(2048)
+            .for_each(|(x, u)| *x += u * dt);
+        self.world.free.put(fields::POSITION, position)?;
+        self.world.time += dt;
+        if let Some(walls) = &self.walls {
+            let time = self.world.time;
+            let moved = lock(walls).move_to(&mut self.world.walls, time);
+            moved.map_err(|e| StepError::Stage {
+                stage: "wall motion".into(),
+                reason: e.to_string(),
+            })?;
+        }
+        self.timings[MOTION].spent += start.elapsed();
+        Ok(())
+    }
+
+    fn time(&self) -> f64 {
+        self.world.time
+    }
+
+    fn limits(&self) -> Vec<StepLimit> {
+        self.step_limits().unwrap_or_default()
+    }
+}
+
+impl<const D: usize> Flow<D> {
+    /// Names of the columns that carry history, in order of allocation.
+    pub(crate) fn state_columns(&self) -> Vec<&'static str> {
+        let columns = self.world.free.columns();
+        let state = columns.filter(|(_, _, role, ..)| *role == Role::State);
+        state.map(|(name, ..)| name).collect()
+    }
+}

@@ -1,0 +1,87 @@
+//! The guard: values that end a step.
+
+use rayon::prelude::*;
+use sph_core::{StepError, Vect, fields};
+use sph_multiphase::BoundState;
+use sph_neighbours::World;
+
+const BATCH: usize = 4096;
+
+/// The first index, over batches in parallel, at which `bad` holds.
+fn first<T: Sync>(column: &[T], bad: impl Fn(usize, &T) -> bool + Sync) -> Option<usize> {
+    let in_batch = |(b, batch): (usize, &[T])| {
+        // A whole batch is tested without branches; only a bad one is searched.
+        let base = b * BATCH;
+        let any = batch.iter().enumerate().fold(false, |any, (k, x)| any | bad(base + k, x));
+        any.then(|| base + batch.iter().enumerate().position(|(k, x)| bad(base + k, x)).unwrap_or(0))
+    };
+    column.par_chunks(BATCH).enumerate().find_map_first(in_batch)
+}
+
+fn report<const D: usize>(
+    world: &World<D>,
+    quantity: &'static str,
+    index: usize,
+    value: f64,
+    reason: String,
+) -> StepError {
+    let position = world.free.get(fields::POSITION).map(|p| p[index]);
+    let identity = world.free.get(fields::IDENTITY).map(|i| i[index]);
+    StepError::Bad {
+        quantity,
+        particle: identity.unwrap_or(index as u32),
+        position: position.unwrap_or_else(|_| Vect::zeros()).iter().copied().collect(),
+        value,
+        reason,
+    }
+}
+
+/// Refuses positions that are not finite or outside the domain.
+pub fn positions<const D: usize>(world: &World<D>) -> Result<(), StepError> {
+    let position = world.free.get(fields::POSITION)?;
+    let bad = first(position, |_, x| !world.domain.contains(x) || !x.sum().is_finite());
+    match bad {
+        None => Ok(()),
+        Some(i) => {
+            let out = position[i];
+            let axis = (0..D).find(|&a| {
+                !out[a].is_finite() || out[a] < world.domain.lower[a] || out[a] > world.domain.upper[a]
+            });
+            let value = out[axis.unwrap_or(0)];
+            let reason = match value.is_finite() {
+                true => "outside the domain".to_string(),
+                false => "not finite".to_string(),
+            };
+            Err(report(world, "position", i, value, reason))
+        }
+    }
+}
+
+/// Refuses densities outside their bounds and accelerations that are not finite.
+pub fn rates<const D: usize>(
+    world: &World<D>,
+    laws: &[Box<dyn BoundState>],
+    bounds: [f64; 2],
+) -> Result<(), StepError> {
+    let density = world.free.get(fields::DENSITY)?;
+    let phase = world.free.get(fields::PHASE).ok();
+    let references: Vec<f64> = laws.iter().map(|l| l.reference().density).collect();
+    let reference = |i: usize| phase.map_or(references[0], |p| references[p[i] as usize]);
+    let inside = |i: usize, rho: f64| {
+        let ratio = rho / reference(i);
+        ratio >= bounds[0] && ratio <= bounds[1]
+    };
+    if let Some(i) = first(density, |i, rho| !inside(i, *rho)) {
+        let reason = format!(
+            "outside {} to {} of the reference density",
+            bounds[0], bounds[1]
+        );
+        return Err(report(world, "density", i, density[i], reason));
+    }
+    let acceleration = world.free.get(fields::ACCELERATION)?;
+    if let Some(i) = first(acceleration, |_, a| !a.norm_squared().is_finite()) {
+        let value = acceleration[i].norm();
+        return Err(report(world, "acceleration", i, value, "not finite".into()));
+    }
+    Ok(())
+}

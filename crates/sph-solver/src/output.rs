@@ -1,0 +1,201 @@
+//! Fields for ParaView and pictures.
+
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+
+use sph_core::{Plain, fields};
+use sph_io::{
+    Cells, ColourMap, FieldData, FieldValues, Frame, IoError, Location, Picture, Piece, PvdSeries,
+    View,
+};
+use sph_scene::Scene;
+
+use crate::{Flow, SolverError};
+
+/// Writes frames and pictures into a run's folder.
+pub struct Outputs {
+    folder: PathBuf,
+    series: Option<PvdSeries>,
+    fields: Vec<String>,
+    pictures: Vec<String>,
+    range: Option<[f64; 2]>,
+    title: String,
+    /// Outputs written so far, for the names of pictures.
+    pub written: usize,
+}
+
+impl Outputs {
+    /// Starts anew, or goes on after `written` outputs.
+    pub fn open(scene: &Scene, folder: &Path, written: Option<usize>) -> Result<Self, IoError> {
+        let path = folder.join("fields.pvd");
+        let series = match (scene.output.vtk, written) {
+            (false, _) => None,
+            (true, None) => Some(PvdSeries::create(path)?),
+            (true, Some(frames)) => Some(PvdSeries::open_at(path, frames)?),
+        };
+        if !scene.output.picture.is_empty() {
+            sph_io::writable(folder.join("pictures"))?;
+        }
+        Ok(Outputs {
+            folder: folder.to_path_buf(),
+            series,
+            fields: scene.output.fields.clone(),
+            pictures: scene.output.picture.clone(),
+            range: scene.output.picture_range,
+            title: scene.title.clone(),
+            written: written.unwrap_or(0),
+        })
+    }
+
+    /// Writes everything the scene asks for at the flow's present time.
+    pub fn write<const D: usize>(&mut self, flow: &Flow<D>) -> Result<(), SolverError> {
+        let time = flow.world.time;
+        let points = points(flow)?;
+        if let Some(series) = &mut self.series {
+            let frame = Frame {
+                time,
+                index: self.written,
+                pieces: pieces(flow, &points, |name| self.fields.iter().any(|f| f == name)),
+            };
+            series.write(&frame)?;
+        }
+        for name in &self.pictures {
+            let file = format!("pictures/{name}_{:04}.png", self.written);
+            picture(flow, &points, name, self.range, &self.title, &self.folder.join(file))?;
+        }
+        self.written += 1;
+        Ok(())
+    }
+}
+
+/// A frame of all columns, for the state in which a run failed.
+pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<(), SolverError> {
+    let points = points(flow)?;
+    let mut pieces = pieces(flow, &points, |_| true);
+    sph_io::write_vtu(path, &pieces.swap_remove(0), flow.world.time)?;
+    Ok(())
+}
+
+fn padded<const D: usize>(x: &sph_core::Vect<D>) -> [f64; 3] {
+    std::array::from_fn(|k| if k < D { x[k] } else { 0.0 })
+}
+
+fn points<const D: usize>(flow: &Flow<D>) -> Result<Vec<[f64; 3]>, SolverError> {
+    let position = flow.world.free.get(fields::POSITION)?;
+    Ok(position.iter().map(padded).collect())
+}
+
+fn pieces<'a, const D: usize>(
+    flow: &'a Flow<D>,
+    points: &'a [[f64; 3]],
+    wanted: impl Fn(&str) -> bool,
+) -> Vec<Piece<'a>> {
+    let world = &flow.world;
+    let mut data = Vec::new();
+    for (name, unit, _, components, values) in world.free.columns() {
+        let always = name == fields::IDENTITY.name || name == fields::PHASE.name;
+        if name == fields::POSITION.name || !(always || wanted(name)) {
+            continue;
+        }
+        data.push(match values {
+            Plain::Index(v) => FieldData::integer(name, v.to_vec()),
+            Plain::Real(v) if components == 1 => FieldData::scalar(name, unit, v.into_owned()),
+            Plain::Real(v) => FieldData {
+                name: name.into(),
+                unit: unit.into(),
+                location: Location::Point,
+                components: 3,
+                data: FieldValues::F64(Cow::Owned(
+                    v.chunks(D)
+                        .flat_map(|c| [c[0], c[1], c.get(2).copied().unwrap_or(0.0)])
+                        .collect(),
+                )),
+            },
+        });
+    }
+    let mut pieces = vec![Piece {
+        name: "fluid".into(),
+        points: points.into(),
+        cells: Cells::Vertices,
+        fields: data,
+    }];
+    let walls = &world.walls;
+    if !walls.is_empty() {
+        let p = &walls.points;
+        let velocity: Vec<[f64; 3]> = p.velocity.iter().map(padded).collect();
+        let mut data = vec![
+            FieldData::scalar("pressure", "Pa", &p.pressure[..]),
+            FieldData::scalar("share", "1", &p.share[..]),
+            FieldData::vector("velocity", "m/s", &velocity),
+            FieldData::integer("wall", &p.wall[..]),
+        ];
+        let elements = &walls.elements;
+        let cells = match D {
+            2 if !elements.corners.is_empty() => {
+                let normal: Vec<[f64; 3]> = elements.normal.iter().map(padded).collect();
+                data.push(FieldData::vector("normal", "1", &normal).at_cells());
+                let pressure = FieldData::scalar("element_pressure", "Pa", &elements.pressure[..]);
+                data.push(pressure.at_cells());
+                let segments = elements.corners.iter().map(|c| [c[0], c[1]]);
+                Cells::Segments(segments.collect())
+            }
+            _ => Cells::Vertices,
+        };
+        let points: Vec<[f64; 3]> = p.position.iter().map(padded).collect();
+        pieces.push(Piece {
+            name: "walls".into(),
+            points: points.into(),
+            cells,
+            fields: data,
+        });
+    }
+    pieces
+}
+
+fn picture<const D: usize>(
+    flow: &Flow<D>,
+    points: &[[f64; 3]],
+    name: &str,
+    range: Option<[f64; 2]>,
+    title: &str,
+    path: &Path,
+) -> Result<(), SolverError> {
+    let world = &flow.world;
+    let found = world.free.columns().find(|(n, ..)| *n == name);
+    let Some((_, unit, _, components, values)) = found else {
+        return Ok(());
+    };
+    let values: Vec<f64> = match values {
+        Plain::Index(v) => v.iter().map(|x| f64::from(*x)).collect(),
+        Plain::Real(v) if components == 1 => v.into_owned(),
+        Plain::Real(v) => v
+            .chunks(components)
+            .map(|c| c.iter().map(|x| x * x).sum::<f64>().sqrt())
+            .collect(),
+    };
+    let elements = &world.walls.elements;
+    // A segment whose corners are a period apart is drawn at neither side.
+    let longest = 3.0 * world.spacing;
+    let walls: Vec<[[f64; 3]; 2]> = elements
+        .corners
+        .iter()
+        .map(|c| [0, 1].map(|k| padded(&world.walls.points.position[c[k] as usize])))
+        .filter(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1]) < longest)
+        .collect();
+    let label = match unit {
+        "1" => name.replace('_', " "),
+        unit => format!("{} [{unit}]", name.replace('_', " ")),
+    };
+    let picture = Picture {
+        title,
+        time: Some(world.time),
+        label: &label,
+        diameter: world.spacing,
+        walls: &walls,
+        view: if D == 2 { View::Plane } else { View::Front },
+        range,
+        colours: ColourMap::Viridis,
+        ..Picture::of(points, &values)
+    };
+    Ok(picture.save(path)?)
+}

@@ -1,0 +1,176 @@
+//! The stages the solver itself contributes: walls, viscosity per phase, the interaction sweep.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use sph_boundary::Wall;
+use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields};
+use sph_neighbours::{Interaction, World, interactions};
+use sph_rheology::{Inputs, Rheology};
+
+/// Stands for all that walls carry; not a column of the free particles.
+pub const WALL_STATE: Field<Scalar> =
+    Field::new("wall_state", "Pa", "pressure and volume at wall points and elements");
+
+/// The wall plugin, shared by its two stages and the clock.
+pub type SharedWall<const D: usize> = Arc<Mutex<Box<dyn Wall<D>>>>;
+
+/// The wall plugin; a panic elsewhere does not make it unusable.
+pub fn lock<const D: usize>(wall: &SharedWall<D>) -> MutexGuard<'_, Box<dyn Wall<D>>> {
+    wall.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Contacts and γ.
+pub struct WallGeometry<const D: usize>(pub SharedWall<D>);
+
+impl<const D: usize> Declares for WallGeometry<D> {
+    fn name(&self) -> String {
+        "wall geometry".into()
+    }
+    fn access(&self) -> Access {
+        let access = Access::none().here(fields::POSITION);
+        match lock(&self.0).renormalises() {
+            true => access.writes(fields::RENORMALISATION),
+            false => access,
+        }
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for WallGeometry<D> {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        lock(&self.0).geometry(world)
+    }
+}
+
+/// Pressures and volumes at the walls.
+pub struct WallState<const D: usize>(pub SharedWall<D>);
+
+impl<const D: usize> Declares for WallState<D> {
+    fn name(&self) -> String {
+        "wall state".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .neighbours(fields::PRESSURE)
+            .neighbours(fields::DENSITY)
+            .neighbours(fields::VOLUME)
+            .writes(WALL_STATE)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for WallState<D> {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        lock(&self.0).state(world)
+    }
+}
+
+/// The viscosity column where phases differ.
+pub struct ViscosityStage {
+    /// The laws, in the order of the phase numbers.
+    pub laws: Arc<[Box<dyn Rheology>]>,
+}
+
+impl Declares for ViscosityStage {
+    fn name(&self) -> String {
+        "rheology".into()
+    }
+    fn access(&self) -> Access {
+        let mut access = Access::none().writes(fields::VISCOSITY);
+        if self.laws.len() > 1 {
+            access = access.here(fields::PHASE);
+        }
+        match self.laws.iter().any(|l| l.needs().pressure) {
+            true => access.here(fields::PRESSURE),
+            false => access,
+        }
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for ViscosityStage {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut viscosity = world.free.take(fields::VISCOSITY)?;
+        let pressure = world.free.get(fields::PRESSURE).unwrap_or(&[]);
+        let mut apply = |law: usize, from: usize, to: usize| {
+            let inputs = Inputs {
+                strain_rate: &[],
+                pressure: pressure.get(from..to).unwrap_or(&[]),
+            };
+            self.laws[law].viscosity(&inputs, &mut viscosity[from..to]);
+        };
+        match self.laws.len() {
+            1 => apply(0, 0, world.free.len()),
+            _ => {
+                let mut from = 0;
+                for run in world.free.get(fields::PHASE)?.chunk_by(|a, b| a == b) {
+                    apply(run[0] as usize, from, from + run.len());
+                    from += run.len();
+                }
+            }
+        }
+        Ok(world.free.put(fields::VISCOSITY, viscosity)?)
+    }
+}
+
+/// All pair terms in one walk.
+pub struct InteractionSweep<const D: usize> {
+    /// The terms, fused where a fusion is registered.
+    pub terms: Vec<Box<dyn Interaction<D>>>,
+    /// Rate of the formulation's evolved scalar, if anything changes it.
+    pub scalar: Option<Field<Scalar>>,
+    /// Whether walls exist.
+    pub walls: bool,
+}
+
+impl<const D: usize> Declares for InteractionSweep<D> {
+    fn name(&self) -> String {
+        let names: Vec<_> = self.terms.iter().map(|t| t.name()).collect();
+        format!("interactions ({})", names.join("; "))
+    }
+    fn access(&self) -> Access {
+        let mut access = Access::none().both(fields::POSITION).writes(fields::ACCELERATION);
+        if let Some(scalar) = self.scalar {
+            access = access.writes(scalar);
+        }
+        if self.walls {
+            access = access.here(WALL_STATE);
+        }
+        self.terms.iter().fold(access, |access, t| access.and(t.access()))
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut acceleration = world.free.take(fields::ACCELERATION)?;
+        match self.scalar {
+            Some(field) => {
+                let mut scalar = world.free.take(field)?;
+                interactions(world, &self.terms, &mut acceleration, Some(&mut scalar))?;
+                world.free.put(field, scalar)?;
+            }
+            None => interactions(world, &self.terms, &mut acceleration, None)?,
+        }
+        Ok(world.free.put(fields::ACCELERATION, acceleration)?)
+    }
+}
+
+/// A stage with columns that only the assembler knows it reads (γ, where walls renormalise).
+pub struct Also<const D: usize> {
+    /// The stage.
+    pub stage: Box<dyn Stage<World<D>>>,
+    /// What it reads besides.
+    pub access: Access,
+}
+
+impl<const D: usize> Declares for Also<D> {
+    fn name(&self) -> String {
+        self.stage.name()
+    }
+    fn access(&self) -> Access {
+        self.stage.access().and(self.access.clone())
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for Also<D> {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        self.stage.run(world)
+    }
+}

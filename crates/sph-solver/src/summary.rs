@@ -1,0 +1,125 @@
+//! `summary.json`: what a run was and what came out.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
+
+/// Version of the summary's layout.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// It reached its end.
+    Done,
+    /// It stopped on an error.
+    Failed,
+    /// It was told to stop and left a checkpoint.
+    Interrupted,
+}
+
+/// A plugin with the parameters in force.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct PluginInForce {
+    /// Kind of plugin.
+    pub kind: String,
+    /// Name.
+    pub name: String,
+    /// Where in the scene it was asked for.
+    pub path: String,
+    /// Crate and version it comes from.
+    pub provider: String,
+    /// Given parameters and defaults.
+    pub parameters: Json,
+}
+
+/// A comparison with a reference.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ErrorEntry {
+    /// The number; null if nothing could be compared.
+    pub value: Option<f64>,
+    /// Name of the norm.
+    pub norm: String,
+    /// Unit of the value, "1" for relative norms.
+    pub unit: String,
+    /// Points or particles compared.
+    pub samples: usize,
+    /// First and last time compared, s.
+    pub window: [f64; 2],
+    /// What it was compared with.
+    pub against: String,
+}
+
+/// Relative change of what should be conserved.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct Drift {
+    /// Over the initial mass.
+    pub mass: f64,
+    /// Over Σ m|u| at the end, or its largest value so far if larger.
+    pub momentum: f64,
+    /// Over the largest energy of any kind.
+    pub energy: f64,
+}
+
+/// All that is known of a run at its end.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Summary {
+    /// Layout of this file.
+    pub schema_version: u32,
+    /// Title of the scene.
+    pub scene: String,
+    /// How it ended.
+    pub status: Status,
+    /// Version of the program.
+    pub version: String,
+    /// Plugins with their parameters.
+    pub plugins: Vec<PluginInForce>,
+    /// Space dimensions.
+    pub dimension: usize,
+    /// Free particles.
+    pub particles: usize,
+    /// Points and elements of walls.
+    pub wall_points: usize,
+    /// Mean number of true neighbours of a free particle, walls included.
+    pub neighbours: f64,
+    /// Steps taken.
+    pub steps: u64,
+    /// Steps that were rolled back.
+    pub steps_rolled_back: u64,
+    /// Simulated time, s.
+    pub simulated_seconds: f64,
+    /// Wall-clock time of all parts of the run, s.
+    pub wall_seconds: f64,
+    /// Wall-clock time per stage, s.
+    pub wall_seconds_by_stage: BTreeMap<String, f64>,
+    /// Threads of the last part.
+    pub threads: usize,
+    /// Particles times steps per second.
+    pub particle_steps_per_second: f64,
+    /// Wall nanoseconds × threads / (particles × steps × true neighbours), outputs excluded.
+    pub nanoseconds_per_pair: f64,
+    /// Bytes of the columns per particle.
+    pub bytes_per_particle: usize,
+    /// Builds of the neighbour lists.
+    pub list_builds: u64,
+    /// Share of the steps limited by each plugin's bound.
+    pub dt_limiters: BTreeMap<String, f64>,
+    /// Changes of conserved quantities.
+    pub drift: Drift,
+    /// Kinetic energy at the end, J.
+    pub kinetic_energy: f64,
+    /// Least and largest density over the reference, over all rows of the series.
+    pub density_range: [f64; 2],
+    /// Least and largest K/ρ₀ at the end, where the formulation has a density constant.
+    pub density_constant_range: Option<[f64; 2]>,
+    /// Particles behind a wall at the end.
+    pub escaped: usize,
+    /// Errors against the scene's references.
+    pub errors: BTreeMap<String, ErrorEntry>,
+    /// Things a person should know.
+    pub warnings: Vec<String>,
+    /// Files of the run, relative to its folder.
+    pub files: Vec<String>,
+}
