@@ -241,7 +241,11 @@ mod tests {
         );
         assert!(parse_quantity("abc", "m").unwrap_err().contains("number"));
         assert!(parse_quantity("nan", "m").is_err());
-        assert!(parse_quantity("3 W^2000000000", "m").unwrap_err().contains("exponent"));
+        assert!(
+            parse_quantity("3 W^2000000000", "m")
+                .unwrap_err()
+                .contains("exponent")
+        );
         assert!(parse_quantity("1e999", "m").unwrap_err().contains("finite"));
     }
 }

@@ -120,11 +120,17 @@ impl<const D: usize> World<D> {
         let grid = CellGrid::new(&positions, reach, &self.domain);
         let lists = &mut self.lists;
         let domain = &self.domain;
-        lists.free.build(&positions, &positions, &grid, reach, domain, true);
+        lists
+            .free
+            .build(&positions, &positions, &grid, reach, domain, true);
         if !points.is_empty() {
             let wall_grid = CellGrid::new(&points, reach, domain);
-            lists.wall.build(&positions, &points, &wall_grid, reach, domain, false);
-            lists.of_points.build(&points, &positions, &grid, reach, domain, false);
+            lists
+                .wall
+                .build(&positions, &points, &wall_grid, reach, domain, false);
+            lists
+                .of_points
+                .build(&points, &positions, &grid, reach, domain, false);
         }
         let elements = &self.walls.elements;
         if !elements.centre.is_empty() {
@@ -132,11 +138,49 @@ impl<const D: usize> World<D> {
             let centres: Vec<Vect<D>> = (0..elements.centre.len())
                 .map(|s| elements.centre_from(s, &points, domain))
                 .collect();
-            lists.of_elements.build(&centres, &positions, &grid, reach, domain, false);
+            lists
+                .of_elements
+                .build(&centres, &positions, &grid, reach, domain, false);
         }
         lists.reference_points = points;
         lists.reference = positions;
         lists.builds += 1;
+    }
+
+    /// Mean number of neighbours within the support, wall points included.
+    ///
+    /// # Errors
+    /// If there is no position column.
+    pub fn mean_neighbours(&self) -> Result<f64, FieldError> {
+        let positions = self.free.get(fields::POSITION)?;
+        let limit = self.kernel.support_radius().powi(2);
+        let near =
+            |a: &Vect<D>, b: &Vect<D>| self.domain.nearest_image(a - b).norm_squared() < limit;
+        let points = &self.walls.points.position;
+        let count = |i: usize| {
+            let x = &positions[i];
+            let free = self
+                .lists
+                .free
+                .row(i)
+                .iter()
+                .filter(|&&j| near(x, &positions[j as usize]));
+            let wall = match points.is_empty() {
+                true => &[][..],
+                false => self.lists.wall.row(i),
+            };
+            free.count()
+                + wall
+                    .iter()
+                    .filter(|&&v| near(x, &points[v as usize]))
+                    .count()
+        };
+        let total: usize = (0..positions.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(count)
+            .sum();
+        Ok(total as f64 / positions.len().max(1) as f64)
     }
 
     /// Rebuilds the lists if they expired; says whether it did.

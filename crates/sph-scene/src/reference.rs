@@ -74,6 +74,8 @@ pub enum Norm {
     L1,
     /// max |u − e| / max |e|.
     Linf,
+    /// √(Σ V|u − e|² / Σ V) over `scale_value`: for fields at rest.
+    Rms,
     /// |u − e| / |e| at the last time.
     Final,
     /// Largest |u − e|, in the unit of the result.
@@ -86,11 +88,12 @@ pub enum Norm {
 
 impl Norm {
     /// Every norm.
-    pub const ALL: [Norm; 8] = [
+    pub const ALL: [Norm; 9] = [
         Norm::RmsOverRange,
         Norm::L2,
         Norm::L1,
         Norm::Linf,
+        Norm::Rms,
         Norm::Final,
         Norm::Absolute,
         Norm::DecayRate,
@@ -104,6 +107,7 @@ impl Norm {
             Norm::L2 => "l2",
             Norm::L1 => "l1",
             Norm::Linf => "linf",
+            Norm::Rms => "rms",
             Norm::Final => "final",
             Norm::Absolute => "absolute",
             Norm::DecayRate => "decay-rate",

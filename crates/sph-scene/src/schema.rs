@@ -35,11 +35,6 @@ fn insert(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, Jso
                 shared,
             );
         }
-        "initial" => named(
-            root.pointer_mut("/$defs/Body/properties/initial"),
-            contract,
-            shared,
-        ),
         "probe" => {
             let all = json!({ "oneOf": tagged(contract, shared) });
             for table in ["probe", "gauge"] {
@@ -48,7 +43,15 @@ fn insert(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, Jso
                 }
             }
         }
-        "solution" => solutions(root, contract, shared),
+        "solution" => {
+            // A solution is also an initial state.
+            named(
+                root.pointer_mut("/$defs/Body/properties/initial"),
+                contract,
+                shared,
+            );
+            solutions(root, contract, shared);
+        }
         kind if kind == "term" || SINGLE_KINDS.contains(&kind) => {
             named(
                 root.pointer_mut(&format!("/properties/{kind}")),

@@ -3,9 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use sph_boundary::{Condition, Polyline, RigidMotion, WallSetup, WallSpec, thin_plate};
-use sph_core::{
-    Access, AnyField, Declares, Role, SceneProblem, Stage, Store, Vect, fields, plan,
-};
+use sph_core::{Access, AnyField, Declares, Role, SceneProblem, Stage, Store, Vect, fields, plan};
 use sph_integrators::Integrator;
 use sph_kernels::Kernel;
 use sph_multiphase::{
@@ -13,7 +11,7 @@ use sph_multiphase::{
 };
 use sph_neighbours::{Domain, WallSet, World, fuse_all};
 use sph_probes::{Probe, Solution};
-use sph_scene::{Region, Scene};
+use sph_scene::Scene;
 
 use crate::choices::Choices;
 use crate::defaults;
@@ -99,7 +97,8 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         dt: 0.0,
     };
 
-    let limiters = limiters_of(scene, &choices, &laws);
+    let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
+    let limiters = limiters_of(&choices, &laws, &kinematic_viscosities);
     let (stages, pruned) = plan_stages(scene, &mut choices, &laws, walls.as_ref(), &world)?;
     let mut flow = Flow {
         world,
@@ -109,6 +108,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         walls,
         evolved,
         laws,
+        kinematic_viscosities,
         timings: Vec::new(),
     };
     flow.reset_timings();
@@ -161,7 +161,14 @@ pub(crate) fn height<const D: usize>(scene: &Scene) -> f64 {
         let (lower, upper) = region.base.bounds();
         for corner in 0..1 << D {
             let along: f64 = (0..D)
-                .map(|k| down[k] * if corner >> k & 1 == 0 { lower[k] } else { upper[k] })
+                .map(|k| {
+                    down[k]
+                        * if corner >> k & 1 == 0 {
+                            lower[k]
+                        } else {
+                            upper[k]
+                        }
+                })
                 .sum();
             low = low.min(along);
             high = high.max(along);
@@ -236,9 +243,8 @@ fn build_walls<const D: usize>(
     let mut specs = Vec::new();
     for (name, wall) in &scene.wall {
         let points: Vec<[f64; 2]> = wall.polyline.iter().map(|p| [p[0], p[1]]).collect();
-        let refused = |e: sph_boundary::BoundaryError| {
-            SolverError::at(format!("wall.{name}"), e.to_string())
-        };
+        let refused =
+            |e: sph_boundary::BoundaryError| SolverError::at(format!("wall.{name}"), e.to_string());
         let polyline = match wall.thickness {
             Some(thickness) => thin_plate(name.clone(), &points, thickness).map_err(refused)?,
             None => Polyline {
@@ -248,13 +254,16 @@ fn build_walls<const D: usize>(
             },
         };
         let pair = |v: &Option<Vec<f64>>| v.as_ref().map_or([0.0; 2], |v| [v[0], v[1]]);
-        let motion = wall.motion.as_ref().map_or(RigidMotion::default(), |m| RigidMotion {
-            velocity: pair(&m.velocity),
-            angular_velocity: m.angular_velocity,
-            centre: pair(&m.centre),
-            start: m.start,
-            stop: m.stop.unwrap_or(f64::INFINITY),
-        });
+        let motion = wall
+            .motion
+            .as_ref()
+            .map_or(RigidMotion::default(), |m| RigidMotion {
+                velocity: pair(&m.velocity),
+                angular_velocity: m.angular_velocity,
+                centre: pair(&m.centre),
+                start: m.start,
+                stop: m.stop.unwrap_or(f64::INFINITY),
+            });
         let surface = wall.velocity.as_ref();
         specs.push(WallSpec {
             polyline,
@@ -352,7 +361,10 @@ fn plan_stages<const D: usize>(
     .chain(choices.formulation.evolved().iter().map(|e| e.value.any()))
     .filter(|f| world.free.has(f.name))
     .collect();
-    let declared: Vec<&dyn Declares> = offered.iter().map(|s| s.as_ref() as &dyn Declares).collect();
+    let declared: Vec<&dyn Declares> = offered
+        .iter()
+        .map(|s| s.as_ref() as &dyn Declares)
+        .collect();
     let mut planned = plan(&declared, &goals, &sources)?;
     // Walls without γ still need their geometry checked, although nobody reads a field of it.
     if walls.is_some() && !planned.order.contains(&0) {
@@ -361,7 +373,11 @@ fn plan_stages<const D: usize>(
     }
     let pruned = planned.pruned.iter().map(|&k| offered[k].name()).collect();
     let mut slots: Vec<_> = offered.into_iter().map(Some).collect();
-    let stages = planned.order.iter().filter_map(|&k| slots[k].take()).collect();
+    let stages = planned
+        .order
+        .iter()
+        .filter_map(|&k| slots[k].take())
+        .collect();
     Ok((stages, pruned))
 }
 
@@ -387,17 +403,18 @@ fn viscosity_of(
     }
 }
 
-/// Largest η/ρ₀ over the phases, m²/s.
-fn largest_kinematic_viscosity(scene: &Scene, laws: &[Box<dyn sph_rheology::Rheology>]) -> f64 {
+/// η/ρ₀ of every phase, m²/s.
+fn kinematic_viscosities(scene: &Scene, laws: &[Box<dyn sph_rheology::Rheology>]) -> Vec<f64> {
     let phases = scene.phase.values().zip(laws);
-    let each = phases.map(|(phase, law)| law.largest_viscosity() / phase.density);
-    each.fold(0.0, f64::max)
+    phases
+        .map(|(phase, law)| law.largest_viscosity() / phase.density)
+        .collect()
 }
 
 fn limiters_of<const D: usize>(
-    scene: &Scene,
     choices: &Choices<D>,
     laws: &Arc<[Box<dyn BoundState>]>,
+    kinematic_viscosities: &[f64],
 ) -> Vec<Box<dyn Limiter<D>>> {
     let c = choices.integrator.coefficients();
     let mut limiters: Vec<Box<dyn Limiter<D>>> = vec![
@@ -409,7 +426,7 @@ fn limiters_of<const D: usize>(
             coefficient: c.force,
         }),
     ];
-    let kinematic = largest_kinematic_viscosity(scene, &choices.rheologies);
+    let kinematic = kinematic_viscosities.iter().copied().fold(0.0, f64::max);
     if kinematic > 0.0 {
         limiters.push(Box::new(ViscousLimit {
             coefficient: c.viscous / choices.viscous_operator.stiffness(),
@@ -453,7 +470,10 @@ fn allocate<const D: usize>(flow: &mut Flow<D>) {
 
 fn check_output_fields<const D: usize>(scene: &Scene, flow: &Flow<D>) -> Result<(), SolverError> {
     let names: Vec<&str> = flow.world.free.columns().map(|c| c.0).collect();
-    let lists = [("output.fields", &scene.output.fields), ("output.picture", &scene.output.picture)];
+    let lists = [
+        ("output.fields", &scene.output.fields),
+        ("output.picture", &scene.output.picture),
+    ];
     let mut problems = Vec::new();
     for (path, wanted) in lists {
         for name in wanted.iter().filter(|n| !names.contains(&n.as_str())) {

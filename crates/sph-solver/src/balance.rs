@@ -73,9 +73,10 @@ impl<const D: usize> Balance<D> {
         let density = free.get(fields::DENSITY)?;
         let phase = free.get(fields::PHASE).ok();
         let gravity = flow.world.gravity;
+        let laws = &flow.laws;
         let one = |i: usize| {
             let (m, u) = (mass[i], velocity[i]);
-            let law = &flow.laws[phase.map_or(0, |p| p[i] as usize)];
+            let law = &laws[phase.map_or(0, |p| p[i] as usize)];
             let speed = u.norm();
             let ratio = density[i] / law.reference().density;
             Balance {

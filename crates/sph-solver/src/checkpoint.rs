@@ -97,11 +97,14 @@ pub fn load<const D: usize, T: DeserializeOwned>(
     }
     for name in flow.state_columns() {
         let column = checkpoint.column(name);
-        let column = column.ok_or_else(|| refused(path, format!("it lacks the column `{name}`")))?;
+        let column =
+            column.ok_or_else(|| refused(path, format!("it lacks the column `{name}`")))?;
         match &column.data {
             ColumnData::F64(v) => flow.world.free.set_real(name, v)?,
             ColumnData::U32(v) => flow.world.free.set_index(name, v)?,
-            ColumnData::U64(_) => return Err(refused(path, format!("`{name}` has a foreign type"))),
+            ColumnData::U64(_) => {
+                return Err(refused(path, format!("`{name}` has a foreign type")));
+            }
         }
     }
     let positions = |name: &str| match checkpoint.column(name).map(|c| &c.data) {

@@ -107,10 +107,15 @@ impl<const D: usize> Choices<D> {
             };
         }
         let kernel = one!("kernel", KernelEntry, |e: &KernelEntry, t| (e.build)(t));
-        let formulation =
-            one!("formulation", FormulationEntry, |e: &FormulationEntry, t| e.build::<D>(t));
-        let integrator =
-            one!("integrator", IntegratorEntry, |e: &IntegratorEntry, t| (e.build)(t));
+        let formulation = one!(
+            "formulation",
+            FormulationEntry,
+            |e: &FormulationEntry, t| e.build::<D>(t)
+        );
+        let integrator = one!("integrator", IntegratorEntry, |e: &IntegratorEntry, t| (e
+            .build)(
+            t
+        ));
         let walls = match scene.wall.is_empty() {
             true => None,
             false => one!("walls", WallEntry, |e: &WallEntry, t| e.build::<D>(t)),
@@ -120,7 +125,8 @@ impl<const D: usize> Choices<D> {
             ViscousOperatorEntry,
             |e: &ViscousOperatorEntry, t| e.build::<D>(t)
         );
-        let smoother = one!("smoother", SmootherEntry, |e: &SmootherEntry, t| e.build::<D>(t));
+        let smoother = one!("smoother", SmootherEntry, |e: &SmootherEntry, t| e
+            .build::<D>(t));
         let terms = scene.terms();
         let terms = terms
             .iter()
@@ -132,9 +138,8 @@ impl<const D: usize> Choices<D> {
                 defaults::of("equation-of-state")
                     .map(|name| PluginChoice::default_of("equation-of-state", name))
             });
-            let eos = eos.and_then(|c| {
-                b.build::<EquationOfStateEntry, _>(&c, |e| (e.build)(&c.table))
-            });
+            let eos =
+                eos.and_then(|c| b.build::<EquationOfStateEntry, _>(&c, |e| (e.build)(&c.table)));
             equations_of_state.extend(eos);
             let law = scene.rheology(phase);
             let law = law.and_then(|c| b.build::<RheologyEntry, _>(&c, |e| (e.build)(&c.table)));

@@ -15,5 +15,8 @@ pub const SKIN: f64 = 0.1;
 
 /// The default plugin of a kind, if it has one.
 pub fn of(kind: &str) -> Option<&'static str> {
-    DEFAULTS.iter().find(|(k, _)| *k == kind).map(|(_, name)| *name)
+    DEFAULTS
+        .iter()
+        .find(|(k, _)| *k == kind)
+        .map(|(_, name)| *name)
 }

@@ -37,7 +37,11 @@ impl Estimate {
             (None, Some(every)) => (scene.run.end / every).floor() + 1.0,
             (None, None) => 2.0,
         };
-        let vtk = if scene.output.vtk { BYTES_PER_OUTPUT * particles } else { 0.0 };
+        let vtk = if scene.output.vtk {
+            BYTES_PER_OUTPUT * particles
+        } else {
+            0.0
+        };
         let pictures = 3e5 * scene.output.picture.len() as f64;
         let checkpoint = 80.0 * particles;
         Estimate {

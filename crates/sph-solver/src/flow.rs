@@ -30,6 +30,8 @@ pub struct Flow<const D: usize> {
     pub(crate) walls: Option<SharedWall<D>>,
     pub(crate) evolved: Vec<Evolved>,
     pub(crate) laws: std::sync::Arc<[Box<dyn BoundState>]>,
+    /// η/ρ₀ of every phase, m²/s.
+    pub(crate) kinematic_viscosities: Vec<f64>,
     pub(crate) timings: Vec<Timing>,
 }
 
@@ -41,7 +43,9 @@ const MOTION: usize = 1;
 impl<const D: usize> Flow<D> {
     pub(crate) fn reset_timings(&mut self) {
         let services = ["neighbour lists", "kick and drift"].map(String::from);
-        let names = services.into_iter().chain(self.stages.iter().map(|s| s.name()));
+        let names = services
+            .into_iter()
+            .chain(self.stages.iter().map(|s| s.name()));
         self.timings = names
             .map(|name| Timing {
                 name,
@@ -135,6 +139,45 @@ impl<const D: usize> System for Flow<D> {
 }
 
 impl<const D: usize> Flow<D> {
+    /// Largest extent of the particles along any axis, m.
+    pub(crate) fn extent(&self) -> f64 {
+        let Ok(position) = self.world.free.get(fields::POSITION) else {
+            return 0.0;
+        };
+        (0..D)
+            .map(|k| {
+                let all = || position.iter().map(|x| x[k]);
+                all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+            })
+            .fold(0.0, f64::max)
+    }
+
+    /// Particles behind a wall.
+    ///
+    /// # Errors
+    /// If there is no position column.
+    pub fn escaped(&self) -> Result<usize, StepError> {
+        let Some(walls) = &self.walls else {
+            return Ok(0);
+        };
+        let walls = lock(walls);
+        let position = self.world.free.get(fields::POSITION)?;
+        Ok(position.iter().filter(|x| !walls.contains(x)).count())
+    }
+
+    /// Least and largest K/ρ₀, if the formulation has a density constant.
+    pub(crate) fn density_constant_range(&self) -> Option<[f64; 2]> {
+        let constant = self.world.free.get(fields::DENSITY_CONSTANT).ok()?;
+        let phase = self.world.free.get(fields::PHASE).ok();
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for (i, k) in constant.iter().enumerate() {
+            let law = &self.laws[phase.map_or(0, |p| p[i] as usize)];
+            let ratio = k / law.reference().density;
+            range = [range[0].min(ratio), range[1].max(ratio)];
+        }
+        Some(range)
+    }
+
     /// Names of the columns that carry history, in order of allocation.
     pub(crate) fn state_columns(&self) -> Vec<&'static str> {
         let columns = self.world.free.columns();

@@ -12,10 +12,22 @@ fn first<T: Sync>(column: &[T], bad: impl Fn(usize, &T) -> bool + Sync) -> Optio
     let in_batch = |(b, batch): (usize, &[T])| {
         // A whole batch is tested without branches; only a bad one is searched.
         let base = b * BATCH;
-        let any = batch.iter().enumerate().fold(false, |any, (k, x)| any | bad(base + k, x));
-        any.then(|| base + batch.iter().enumerate().position(|(k, x)| bad(base + k, x)).unwrap_or(0))
+        let any = batch
+            .iter()
+            .enumerate()
+            .fold(false, |any, (k, x)| any | bad(base + k, x));
+        any.then(|| {
+            base + batch
+                .iter()
+                .enumerate()
+                .position(|(k, x)| bad(base + k, x))
+                .unwrap_or(0)
+        })
     };
-    column.par_chunks(BATCH).enumerate().find_map_first(in_batch)
+    column
+        .par_chunks(BATCH)
+        .enumerate()
+        .find_map_first(in_batch)
 }
 
 fn report<const D: usize>(
@@ -30,7 +42,11 @@ fn report<const D: usize>(
     StepError::Bad {
         quantity,
         particle: identity.unwrap_or(index as u32),
-        position: position.unwrap_or_else(|_| Vect::zeros()).iter().copied().collect(),
+        position: position
+            .unwrap_or_else(|_| Vect::zeros())
+            .iter()
+            .copied()
+            .collect(),
         value,
         reason,
     }
@@ -39,13 +55,17 @@ fn report<const D: usize>(
 /// Refuses positions that are not finite or outside the domain.
 pub fn positions<const D: usize>(world: &World<D>) -> Result<(), StepError> {
     let position = world.free.get(fields::POSITION)?;
-    let bad = first(position, |_, x| !world.domain.contains(x) || !x.sum().is_finite());
+    let bad = first(position, |_, x| {
+        !world.domain.contains(x) || !x.sum().is_finite()
+    });
     match bad {
         None => Ok(()),
         Some(i) => {
             let out = position[i];
             let axis = (0..D).find(|&a| {
-                !out[a].is_finite() || out[a] < world.domain.lower[a] || out[a] > world.domain.upper[a]
+                !out[a].is_finite()
+                    || out[a] < world.domain.lower[a]
+                    || out[a] > world.domain.upper[a]
             });
             let value = out[axis.unwrap_or(0)];
             let reason = match value.is_finite() {

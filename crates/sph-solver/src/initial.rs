@@ -85,10 +85,16 @@ fn through_a_wall<const D: usize>(
     walls: &dyn Wall<D>,
     spacing: f64,
 ) -> SceneProblem {
-    let at = x.iter().map(|c| format!("{c:.6}")).collect::<Vec<_>>().join(", ");
+    let at = x
+        .iter()
+        .map(|c| format!("{c:.6}"))
+        .collect::<Vec<_>>()
+        .join(", ");
     // The nearest wall, looked for ever farther out.
     let named = (0..12).find_map(|k| walls.clearance(x, spacing * f64::from(1 << k)));
-    let wall = named.map_or(String::from("the walls"), |(_, name)| format!("wall `{name}`"));
+    let wall = named.map_or(String::from("the walls"), |(_, name)| {
+        format!("wall `{name}`")
+    });
     SceneProblem::new(
         format!("body.{body}"),
         format!(
@@ -155,7 +161,12 @@ impl<'a, const D: usize> InitialState<'a, D> {
 
     /// Velocity, m/s, at a position.
     pub fn velocity(&self, x: &Vect<D>) -> Vect<D> {
-        let plain = || self.body.velocity.as_ref().map(|u| Vect::from_column_slice(u));
+        let plain = || {
+            self.body
+                .velocity
+                .as_ref()
+                .map(|u| Vect::from_column_slice(u))
+        };
         self.field
             .and_then(|f| f.velocity(x, 0.0))
             .or_else(plain)

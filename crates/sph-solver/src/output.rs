@@ -1,6 +1,5 @@
 //! Fields for ParaView and pictures.
 
-use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use sph_core::{Plain, fields};
@@ -61,7 +60,14 @@ impl Outputs {
         }
         for name in &self.pictures {
             let file = format!("pictures/{name}_{:04}.png", self.written);
-            picture(flow, &points, name, self.range, &self.title, &self.folder.join(file))?;
+            picture(
+                flow,
+                &points,
+                name,
+                self.range,
+                &self.title,
+                &self.folder.join(file),
+            )?;
         }
         self.written += 1;
         Ok(())
@@ -85,6 +91,21 @@ fn points<const D: usize>(flow: &Flow<D>) -> Result<Vec<[f64; 3]>, SolverError> 
     Ok(position.iter().map(padded).collect())
 }
 
+/// A vector field padded to three components.
+fn vectors<const D: usize>(
+    name: &'static str,
+    unit: &'static str,
+    values: &[sph_core::Vect<D>],
+) -> FieldData<'static> {
+    FieldData {
+        name: name.into(),
+        unit: unit.into(),
+        location: Location::Point,
+        components: 3,
+        data: FieldValues::F64(values.iter().flat_map(padded).collect()),
+    }
+}
+
 fn pieces<'a, const D: usize>(
     flow: &'a Flow<D>,
     points: &'a [[f64; 3]],
@@ -100,17 +121,14 @@ fn pieces<'a, const D: usize>(
         data.push(match values {
             Plain::Index(v) => FieldData::integer(name, v.to_vec()),
             Plain::Real(v) if components == 1 => FieldData::scalar(name, unit, v.into_owned()),
-            Plain::Real(v) => FieldData {
-                name: name.into(),
-                unit: unit.into(),
-                location: Location::Point,
-                components: 3,
-                data: FieldValues::F64(Cow::Owned(
-                    v.chunks(D)
-                        .flat_map(|c| [c[0], c[1], c.get(2).copied().unwrap_or(0.0)])
-                        .collect(),
-                )),
-            },
+            Plain::Real(v) => {
+                let vector = |c: &[f64]| sph_core::Vect::<D>::from_column_slice(c);
+                vectors(
+                    name,
+                    unit,
+                    &v.chunks_exact(D).map(vector).collect::<Vec<_>>(),
+                )
+            }
         });
     }
     let mut pieces = vec![Piece {
@@ -122,18 +140,16 @@ fn pieces<'a, const D: usize>(
     let walls = &world.walls;
     if !walls.is_empty() {
         let p = &walls.points;
-        let velocity: Vec<[f64; 3]> = p.velocity.iter().map(padded).collect();
         let mut data = vec![
             FieldData::scalar("pressure", "Pa", &p.pressure[..]),
             FieldData::scalar("share", "1", &p.share[..]),
-            FieldData::vector("velocity", "m/s", &velocity),
+            vectors("velocity", "m/s", &p.velocity),
             FieldData::integer("wall", &p.wall[..]),
         ];
         let elements = &walls.elements;
         let cells = match D {
             2 if !elements.corners.is_empty() => {
-                let normal: Vec<[f64; 3]> = elements.normal.iter().map(padded).collect();
-                data.push(FieldData::vector("normal", "1", &normal).at_cells());
+                data.push(vectors("normal", "1", &elements.normal).at_cells());
                 let pressure = FieldData::scalar("element_pressure", "Pa", &elements.pressure[..]);
                 data.push(pressure.at_cells());
                 let segments = elements.corners.iter().map(|c| [c[0], c[1]]);

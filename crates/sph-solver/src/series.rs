@@ -73,7 +73,10 @@ impl Series {
     /// What [`Series::open`] needs to go on.
     pub fn resume_point(&self) -> (u64, [f64; 4]) {
         let [low, high] = self.density_range;
-        (self.writer.position(), [low, high, self.energy_scale, self.momentum_scale])
+        (
+            self.writer.position(),
+            [low, high, self.energy_scale, self.momentum_scale],
+        )
     }
 
     /// Measures and appends a row.
@@ -101,7 +104,9 @@ impl Series {
         self.density_range[0] = self.density_range[0].min(balance.least_density);
         self.density_range[1] = self.density_range[1].max(balance.largest_density);
         let parts = [balance.kinetic, balance.potential, balance.internal];
-        let largest = parts.iter().fold(balance.energy().abs(), |m, e| m.max(e.abs()));
+        let largest = parts
+            .iter()
+            .fold(balance.energy().abs(), |m, e| m.max(e.abs()));
         self.energy_scale = self.energy_scale.max(largest);
         self.momentum_scale = self.momentum_scale.max(balance.momentum_scale);
         Ok(balance)
@@ -110,5 +115,7 @@ impl Series {
 
 /// Measures once without writing, so that a wrong probe is found before anything exists.
 pub fn rehearse<const D: usize>(flow: &Flow<D>, probes: &Probes<D>) -> Result<(), StepError> {
-    probes.iter().try_for_each(|(_, probe)| probe.measure(&flow.world).map(|_| ()))
+    probes
+        .iter()
+        .try_for_each(|(_, probe)| probe.measure(&flow.world).map(|_| ()))
 }

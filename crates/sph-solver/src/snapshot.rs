@@ -45,8 +45,10 @@ impl<const D: usize> Snapshot<D> {
             let order: Vec<u32> = self.identity.iter().map(|&id| place[id as usize]).collect();
             free.permute(&order);
         }
-        free.get_mut(fields::POSITION)?.copy_from_slice(&self.position);
-        free.get_mut(fields::VELOCITY)?.copy_from_slice(&self.velocity);
+        free.get_mut(fields::POSITION)?
+            .copy_from_slice(&self.position);
+        free.get_mut(fields::VELOCITY)?
+            .copy_from_slice(&self.velocity);
         for (copied, evolved) in self.evolved.iter().zip(&flow.evolved) {
             free.get_mut(evolved.value)?.copy_from_slice(copied);
         }

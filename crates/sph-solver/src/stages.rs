@@ -8,8 +8,11 @@ use sph_neighbours::{Interaction, World, interactions};
 use sph_rheology::{Inputs, Rheology};
 
 /// Stands for all that walls carry; not a column of the free particles.
-pub const WALL_STATE: Field<Scalar> =
-    Field::new("wall_state", "Pa", "pressure and volume at wall points and elements");
+pub const WALL_STATE: Field<Scalar> = Field::new(
+    "wall_state",
+    "Pa",
+    "pressure and volume at wall points and elements",
+);
 
 /// The wall plugin, shared by its two stages and the clock.
 pub type SharedWall<const D: usize> = Arc<Mutex<Box<dyn Wall<D>>>>;
@@ -126,14 +129,18 @@ impl<const D: usize> Declares for InteractionSweep<D> {
         format!("interactions ({})", names.join("; "))
     }
     fn access(&self) -> Access {
-        let mut access = Access::none().both(fields::POSITION).writes(fields::ACCELERATION);
+        let mut access = Access::none()
+            .both(fields::POSITION)
+            .writes(fields::ACCELERATION);
         if let Some(scalar) = self.scalar {
             access = access.writes(scalar);
         }
         if self.walls {
             access = access.here(WALL_STATE);
         }
-        self.terms.iter().fold(access, |access, t| access.and(t.access()))
+        self.terms
+            .iter()
+            .fold(access, |access, t| access.and(t.access()))
     }
 }
 

@@ -1,0 +1,255 @@
+//! Errors against the scene's references.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use sph_core::{Plain, Vect, fields};
+use sph_io::{Table, read_columns, read_table};
+use sph_probes::{Solution, norm};
+use sph_scene::{Norm, Reference, Scene};
+
+use crate::summary::ErrorEntry;
+use crate::{Flow, SolverError};
+
+type Solutions<const D: usize> = [(String, Box<dyn Solution<D>>)];
+
+/// Refuses references whose file cannot be read, before the run starts.
+pub fn readable(scene: &Scene) -> Result<(), SolverError> {
+    for (name, reference) in &scene.reference {
+        if let Some(path) = &reference.path {
+            let read = reference_table(reference, path);
+            read.map_err(|e| SolverError::at(format!("reference.{name}.file"), e.to_string()))?;
+        }
+    }
+    Ok(())
+}
+
+/// Every reference that can be compared; the others become warnings.
+pub fn errors<const D: usize>(
+    scene: &Scene,
+    flow: &Flow<D>,
+    solutions: &Solutions<D>,
+    series: &Path,
+    warnings: &mut Vec<String>,
+) -> Result<BTreeMap<String, ErrorEntry>, SolverError> {
+    let mut errors = BTreeMap::new();
+    let measured = match scene.reference.values().any(|r| r.probe.is_some()) {
+        true => Some(read_table(series)?),
+        false => None,
+    };
+    for (name, reference) in &scene.reference {
+        let solution = solutions.iter().find(|(n, _)| n == name).map(|(_, s)| &**s);
+        let entry = match (&reference.field, &reference.probe, &measured) {
+            (Some(field), _, _) => against_field(flow, reference, field, solution),
+            (None, Some(probe), Some(table)) => {
+                let column = table.column(probe).map(<[f64]>::to_vec);
+                let times = table.column("time").unwrap_or(&[]);
+                match column {
+                    Some(values) => against_series(reference, times, &values, solution)?,
+                    None => Err(format!("the series has no column `{probe}`")),
+                }
+            }
+            _ => Err("it names neither a field nor a probe".to_string()),
+        };
+        match entry {
+            Ok(entry) => {
+                errors.insert(name.clone(), entry);
+            }
+            Err(reason) => warnings.push(format!("reference `{name}` was not compared: {reason}")),
+        }
+    }
+    Ok(errors)
+}
+
+fn entry(value: f64, reference: &Reference, samples: usize, window: [f64; 2]) -> ErrorEntry {
+    let against = match (&reference.file, &reference.solution) {
+        (Some(file), _) => file.clone(),
+        (None, Some(solution)) => format!("solution {solution}"),
+        (None, None) => String::new(),
+    };
+    ErrorEntry {
+        value: value.is_finite().then_some(value),
+        norm: reference.norm().name().to_string(),
+        unit: "1".into(),
+        samples,
+        window,
+        against,
+    }
+}
+
+/// A field at the end of the run against a solution.
+fn against_field<const D: usize>(
+    flow: &Flow<D>,
+    reference: &Reference,
+    field: &str,
+    solution: Option<&dyn Solution<D>>,
+) -> Result<ErrorEntry, String> {
+    let solution = solution.ok_or("a field is compared with a `solution`")?;
+    let free = &flow.world.free;
+    let time = flow.world.time;
+    let text = |e: sph_core::FieldError| e.to_string();
+    let positions = free.get(fields::POSITION).map_err(text)?;
+    let volume = free.get(fields::VOLUME).map_err(text)?;
+    let found = free.columns().find(|(n, ..)| *n == field);
+    let Some((_, _, _, components, Plain::Real(values))) = found else {
+        return Err(format!(
+            "there is no field `{field}` of real numbers in this scene"
+        ));
+    };
+    let mut exact = Vec::with_capacity(values.len());
+    for x in positions {
+        match field {
+            "velocity" => {
+                let u: Vect<D> = solution
+                    .velocity(x, time)
+                    .ok_or("the solution has no velocity")?;
+                exact.extend(u.iter());
+            }
+            "pressure" => exact.push(
+                solution
+                    .pressure(x, time)
+                    .ok_or("the solution has no pressure")?,
+            ),
+            _ => return Err(format!("no solution gives the field `{field}`")),
+        }
+    }
+    let difference: Vec<f64> = values.iter().zip(&exact).map(|(u, e)| u - e).collect();
+    let (value, unit) = match reference.norm() {
+        Norm::L2 => (norm::l2(&values, &exact, volume, components), "1"),
+        Norm::L1 => (norm::l1(&values, &exact, components), "1"),
+        Norm::Linf => (norm::linf(&values, &exact, components), "1"),
+        Norm::Rms => (
+            norm::rms(&difference, volume, components, reference.scale_value),
+            "1",
+        ),
+        Norm::Absolute => (difference.iter().fold(0.0_f64, |m, d| m.max(d.abs())), ""),
+        other => return Err(format!("the norm `{}` is for probes", other.name())),
+    };
+    let mut entry = entry(value, reference, positions.len(), [time, time]);
+    entry.unit = unit.to_string();
+    Ok(entry)
+}
+
+/// A probe's series against a file or a solution's rate of decay.
+fn against_series<const D: usize>(
+    reference: &Reference,
+    times: &[f64],
+    values: &[f64],
+    solution: Option<&dyn Solution<D>>,
+) -> Result<Result<ErrorEntry, String>, SolverError> {
+    let counts = |t: f64| {
+        let inside = reference.window.is_none_or(|[a, b]| t >= a && t <= b);
+        inside && reference.exclude.is_none_or(|[a, b]| t < a || t > b)
+    };
+    if reference.norm() == Norm::DecayRate {
+        return Ok(decay(reference, times, values, solution, counts));
+    }
+    let Some(path) = &reference.path else {
+        return Ok(Err(
+            "a probe is compared with a `file`, or by the norm `decay-rate`".into(),
+        ));
+    };
+    let table = match reference_table(reference, path) {
+        Ok(table) => table,
+        Err(error) => return Err(error.into()),
+    };
+    let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
+        table.columns[k]
+            .values
+            .iter()
+            .map(|v| v * scale + offset)
+            .collect()
+    };
+    let at = scaled(0, reference.scale_time, reference.offset_time);
+    let value = |k: usize| scaled(k, reference.scale_value, reference.offset_value);
+    let low = value(1);
+    let high = (reference.norm() == Norm::Band && table.columns.len() > 2).then(|| value(2));
+    let mut differences = Vec::new();
+    let mut compared = Vec::new();
+    let mut outside = 0usize;
+    let mut last = None;
+    let mut window = [f64::INFINITY, f64::NEG_INFINITY];
+    for (k, &t) in at.iter().enumerate().filter(|(_, t)| counts(**t)) {
+        let Some(u) = norm::at(times, values, t).filter(|u| u.is_finite()) else {
+            continue;
+        };
+        window = [window[0].min(t), window[1].max(t)];
+        differences.push(u - low[k]);
+        compared.push(low[k]);
+        if let Some(high) = &high {
+            outside += usize::from(u < low[k] || u > high[k]);
+        }
+        if last.is_none_or(|(before, _)| t >= before) {
+            last = Some((t, ((u - low[k]) / low[k]).abs()));
+        }
+    }
+    let Some((_, last)) = last else {
+        return Ok(Err("no time of the reference lies within the run".into()));
+    };
+    let n = differences.len();
+    let largest = || differences.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+    let ones = vec![1.0; n];
+    let exact_plus = || -> Vec<f64> {
+        compared
+            .iter()
+            .zip(&differences)
+            .map(|(e, d)| e + d)
+            .collect()
+    };
+    let (value, unit) = match reference.norm() {
+        Norm::RmsOverRange => (norm::rms_over_range(&differences, &compared), "1"),
+        Norm::Band => (outside as f64 / n as f64, "1"),
+        Norm::Final => (last, "1"),
+        Norm::Absolute => (largest(), ""),
+        Norm::L2 => (norm::l2(&exact_plus(), &compared, &ones, 1), "1"),
+        Norm::L1 => (norm::l1(&exact_plus(), &compared, 1), "1"),
+        Norm::Linf => (norm::linf(&exact_plus(), &compared, 1), "1"),
+        Norm::Rms | Norm::DecayRate => return Ok(Err("this norm is for fields".into())),
+    };
+    let mut entry = entry(value, reference, n, window);
+    entry.unit = unit.to_string();
+    Ok(Ok(entry))
+}
+
+/// The reference's columns: time, value, and for a band the upper limit.
+fn reference_table(reference: &Reference, path: &Path) -> Result<Table, sph_io::IoError> {
+    if let (Norm::Band, Some(low), Some(high)) =
+        (reference.norm(), &reference.lower, &reference.upper)
+    {
+        let time = reference.columns.as_ref().map(|c| c[0].clone());
+        let time = match time {
+            Some(time) => time,
+            None => read_table(path)?.columns[0].name.clone(),
+        };
+        return read_columns(path, &[&time, low, high]);
+    }
+    match &reference.columns {
+        Some(columns) => {
+            let names: Vec<&str> = columns.iter().map(String::as_str).collect();
+            read_columns(path, &names)
+        }
+        None => read_table(path),
+    }
+}
+
+fn decay<const D: usize>(
+    reference: &Reference,
+    times: &[f64],
+    values: &[f64],
+    solution: Option<&dyn Solution<D>>,
+    counts: impl Fn(f64) -> bool,
+) -> Result<ErrorEntry, String> {
+    let exact = solution.and_then(|s| s.energy_rate());
+    let exact = exact.ok_or("the norm `decay-rate` needs a solution with a constant rate")?;
+    let pairs = times
+        .iter()
+        .zip(values)
+        .filter(|(t, v)| counts(**t) && **v > 0.0);
+    let (t, ln): (Vec<f64>, Vec<f64>) = pairs.map(|(t, v)| (*t, v.ln())).unzip();
+    if t.len() < 2 {
+        return Err("fewer than two rows of the series count".into());
+    }
+    let window = [t[0], t[t.len() - 1]];
+    let value = (norm::slope(&t, &ln) / exact - 1.0).abs();
+    Ok(entry(value, reference, t.len(), window))
+}

@@ -1,0 +1,478 @@
+//! The run: evaluate, write what is due, step; roll back what fails.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use serde::{Deserialize, Serialize};
+use sph_core::{StepError, StepLimit, System};
+use sph_scene::Scene;
+
+use crate::assemble::{Assembled, assemble};
+use crate::balance::Balance;
+use crate::driver::{Command, Observer, Progress};
+use crate::error::{Failure, SolverError};
+use crate::output::{Outputs, write_everything};
+use crate::series::Series;
+use crate::snapshot::Snapshot;
+use crate::summary::{Drift, SCHEMA_VERSION, Status, Summary};
+use crate::{checkpoint, guard, references};
+
+/// How a scene is run.
+#[derive(Clone, Debug)]
+pub struct RunOptions {
+    /// Folder of all files of the run; it is created.
+    pub out: PathBuf,
+    /// Go on from the folder's checkpoint.
+    pub resume: bool,
+    /// Threads; `None` for all cores.
+    pub threads: Option<usize>,
+    /// Text that identifies the scene with its overrides; a checkpoint belongs to one text.
+    pub identity: String,
+}
+
+/// Runs a scene.
+///
+/// # Errors
+/// A bad scene before anything is written; afterwards a failed step (with checkpoint and
+/// picture of the bad state), or a file that cannot be written.
+pub fn run(
+    scene: &Scene,
+    options: &RunOptions,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Summary, SolverError> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads.unwrap_or(0))
+        .build()
+        .map_err(|e| SolverError::at("--threads", e.to_string()))?;
+    pool.install(|| match scene.dimension {
+        3 => run_in::<3>(scene, options, observer),
+        _ => run_in::<2>(scene, options, observer),
+    })
+}
+
+/// What a resumed run must know besides the flow.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct Counters {
+    steps: u64,
+    rolled_back: u64,
+    outputs: usize,
+    next_output: Option<u64>,
+    rows: u64,
+    series_position: u64,
+    series_extrema: [u64; 4],
+    checkpoints: u64,
+    limited: BTreeMap<String, u64>,
+    wall_seconds: f64,
+    stage_seconds: BTreeMap<String, f64>,
+    initial: [u64; 2],
+    initial_momentum: Vec<u64>,
+    step_scale: u64,
+}
+
+struct Running<'a, const D: usize> {
+    scene: &'a Scene,
+    options: &'a RunOptions,
+    parts: Assembled<D>,
+    counters: Counters,
+    outputs: Outputs,
+    series: Series,
+    started: Instant,
+    output_seconds: f64,
+}
+
+fn run_in<const D: usize>(
+    scene: &Scene,
+    options: &RunOptions,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Summary, SolverError> {
+    let mut parts = assemble::<D>(scene)?;
+    crate::series::rehearse(&parts.flow, &parts.probes)?;
+    references::readable(scene)?;
+    sph_io::writable(&options.out)?;
+    sph_io::sweep_temporaries(&options.out)?;
+    let file = options.out.join(checkpoint::FILE);
+    let mut counters = Counters {
+        step_scale: 1f64.to_bits(),
+        ..Counters::default()
+    };
+    if options.resume {
+        counters = checkpoint::load(&mut parts.flow, &file, &options.identity)?;
+        observer.message(&format!(
+            "resuming at t = {:.6} s, step {}",
+            parts.flow.world.time, counters.steps
+        ));
+    } else if file.exists() {
+        // An old checkpoint must not be resumed into the files of this run.
+        std::fs::remove_file(&file).map_err(|source| sph_io::IoError::Write {
+            path: file.clone(),
+            source,
+        })?;
+    }
+    let resumed = options.resume.then_some(&counters);
+    let outputs = Outputs::open(scene, &options.out, resumed.map(|c| c.outputs))?;
+    let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
+    let series = Series::open(&options.out, &parts.probes, at)?;
+    for warning in &parts.warnings {
+        observer.message(&format!("note: {warning}"));
+    }
+    let mut running = Running {
+        scene,
+        options,
+        parts,
+        counters,
+        outputs,
+        series,
+        started: Instant::now(),
+        output_seconds: 0.0,
+    };
+    let status = running.go(observer)?;
+    running.finish(status)
+}
+
+/// Factor by which a rolled-back step recovers per good step.
+const RECOVERY: f64 = 1.05;
+
+impl<const D: usize> Running<'_, D> {
+    fn go(&mut self, observer: &mut (dyn Observer + Send)) -> Result<Status, SolverError> {
+        let end = self.scene.run.end;
+        let mut snapshot = Snapshot::default();
+        let mut have_snapshot = false;
+        let mut retries = 0;
+        if !self.options.resume {
+            self.counters.next_output = self.next_output(-1.0);
+        }
+        loop {
+            if let Err(cause) = self.evaluate() {
+                if !have_snapshot || retries >= self.scene.run.retries {
+                    return Err(self.fail(cause, have_snapshot.then_some(&snapshot), observer));
+                }
+                retries += 1;
+                self.counters.rolled_back += 1;
+                snapshot.restore(&mut self.parts.flow)?;
+                let scale = 0.5 * f64::from_bits(self.counters.step_scale);
+                self.counters.step_scale = scale.to_bits();
+                observer.message(&format!(
+                    "step {} failed ({cause}); going back to t = {:.6} s with {scale:.4} of the step",
+                    self.counters.steps, self.parts.flow.world.time
+                ));
+                continue;
+            }
+            if have_snapshot && f64::from_bits(self.counters.step_scale) >= 1.0 {
+                retries = 0;
+            }
+            let time = self.parts.flow.world.time;
+            self.write_what_is_due(time)?;
+            if time >= end {
+                return Ok(Status::Done);
+            }
+            if self
+                .scene
+                .run
+                .max_steps
+                .is_some_and(|m| self.counters.steps >= m)
+            {
+                observer.message("the largest number of steps is reached");
+                self.save()?;
+                return Ok(Status::Interrupted);
+            }
+            let limits = self.parts.flow.step_limits()?;
+            let (dt, limiter) = self.choose_step(&limits, time, end);
+            if self.scene.run.retries > 0 {
+                snapshot.take(&self.parts.flow)?;
+                have_snapshot = true;
+            }
+            self.parts.flow.world.dt = dt;
+            let stepped = self.parts.integrator.step(&mut self.parts.flow, dt);
+            if let Err(cause) = stepped {
+                return Err(self.fail(cause, Some(&snapshot), observer));
+            }
+            if time + dt >= end * (1.0 - 1e-12) {
+                self.parts.flow.world.time = end;
+            }
+            self.counters.steps += 1;
+            *self
+                .counters
+                .limited
+                .entry(limiter.to_string())
+                .or_default() += 1;
+            let scale = f64::from_bits(self.counters.step_scale);
+            self.counters.step_scale = (scale * RECOVERY).min(1.0).to_bits();
+            let command = observer.step(&Progress {
+                time: self.parts.flow.world.time,
+                end,
+                step: self.counters.steps,
+                dt,
+                limiter,
+                particles: self.parts.flow.world.free.len(),
+            });
+            let late = self
+                .scene
+                .run
+                .max_wall
+                .is_some_and(|m| self.wall_seconds() > m);
+            if command == Command::Stop || late {
+                // The rates belong to a state; a checkpoint is taken where they are fresh.
+                if let Err(cause) = self.evaluate() {
+                    return Err(self.fail(cause, Some(&snapshot), observer));
+                }
+                self.save()?;
+                return Ok(Status::Interrupted);
+            }
+        }
+    }
+
+    fn evaluate(&mut self) -> Result<(), StepError> {
+        let flow = &mut self.parts.flow;
+        flow.evaluate()?;
+        guard::rates(&flow.world, &flow.laws, self.scene.numerics.density_bounds)
+    }
+
+    fn wall_seconds(&self) -> f64 {
+        self.counters.wall_seconds + self.started.elapsed().as_secs_f64()
+    }
+
+    fn next_output(&self, time: f64) -> Option<u64> {
+        self.scene
+            .output
+            .next_after(time, self.scene.run.end)
+            .map(f64::to_bits)
+    }
+
+    /// The least limit, cut so that output times and the end are hit exactly.
+    fn choose_step(&self, limits: &[StepLimit], time: f64, end: f64) -> (f64, &'static str) {
+        let least = StepLimit::least(limits);
+        let scale = self.scene.run.safety * f64::from_bits(self.counters.step_scale);
+        let (dt, name) = least.map_or((end, "none"), |l| (l.dt * scale, l.name));
+        let target = self
+            .counters
+            .next_output
+            .map_or(end, f64::from_bits)
+            .min(end);
+        let left = target - time;
+        match left {
+            left if left <= dt => (left, name),
+            // Two even steps instead of a full one and a sliver.
+            left if left < 2.0 * dt => (0.5 * left, name),
+            _ => (dt, name),
+        }
+    }
+
+    fn write_what_is_due(&mut self, time: f64) -> Result<(), SolverError> {
+        let start = Instant::now();
+        let every = self.scene.output.series_interval(self.scene.run.end);
+        let end = self.scene.run.end;
+        let due = |rows: u64| rows as f64 * every;
+        if time >= due(self.counters.rows) || time >= end {
+            let dt = self.parts.flow.world.dt;
+            let balance = self.series.row(&self.parts.flow, &self.parts.probes, dt)?;
+            if self.counters.rows == 0 {
+                self.remember_start(&balance);
+            }
+            self.counters.rows = (time / every).floor() as u64 + 1;
+        }
+        if self
+            .counters
+            .next_output
+            .is_some_and(|t| time >= f64::from_bits(t))
+        {
+            self.outputs.write(&self.parts.flow)?;
+            self.counters.next_output = self.next_output(time);
+        }
+        let interval = self.scene.run.checkpoint_interval();
+        let number = (time / interval).floor() as u64;
+        if number > self.counters.checkpoints || time >= end {
+            self.counters.checkpoints = number;
+            self.save()?;
+        }
+        self.output_seconds += start.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    fn remember_start(&mut self, balance: &Balance<D>) {
+        self.counters.initial = [balance.mass.to_bits(), balance.energy().to_bits()];
+        self.counters.initial_momentum = balance.momentum.iter().map(|m| m.to_bits()).collect();
+    }
+
+    fn save(&mut self) -> Result<(), SolverError> {
+        let (position, extrema) = self.series.resume_point();
+        self.counters.series_position = position;
+        self.counters.series_extrema = extrema.map(f64::to_bits);
+        self.counters.outputs = self.outputs.written;
+        let counters = Counters {
+            wall_seconds: self.wall_seconds(),
+            stage_seconds: self.stage_seconds(),
+            ..self.counters.clone()
+        };
+        let path = self.options.out.join(checkpoint::FILE);
+        checkpoint::save(&self.parts.flow, &path, &self.options.identity, &counters)
+    }
+
+    fn stage_seconds(&self) -> BTreeMap<String, f64> {
+        let mut all = self.counters.stage_seconds.clone();
+        for timing in self.parts.flow.timings() {
+            *all.entry(timing.name.clone()).or_default() += timing.spent.as_secs_f64();
+        }
+        *all.entry("output".into()).or_default() += self.output_seconds;
+        all
+    }
+
+    /// Writes what a person needs to see why the run failed.
+    fn fail(
+        &mut self,
+        cause: StepError,
+        snapshot: Option<&Snapshot<D>>,
+        observer: &mut (dyn Observer + Send),
+    ) -> SolverError {
+        let (time, step) = (self.parts.flow.world.time, self.counters.steps);
+        let bad = self.options.out.join("bad_state.vtu");
+        let bad_state = write_everything(&self.parts.flow, &bad)
+            .is_ok()
+            .then_some(bad);
+        let mut checkpoint = None;
+        if let Some(snapshot) = snapshot {
+            let back = snapshot
+                .restore(&mut self.parts.flow)
+                .map_err(SolverError::from);
+            let saved = back
+                .and_then(|()| Ok(self.evaluate()?))
+                .and_then(|()| self.save());
+            if saved.is_ok() {
+                checkpoint = Some(self.options.out.join(checkpoint::FILE));
+            }
+        }
+        let failure = Failure {
+            time,
+            step,
+            advice: advice(&cause),
+            cause,
+            checkpoint,
+            bad_state,
+        };
+        if let Err(error) = self.write_summary(Status::Failed, Some(&failure)) {
+            observer.message(&format!("the summary could not be written: {error}"));
+        }
+        SolverError::Failed(Box::new(failure))
+    }
+
+    fn finish(&mut self, status: Status) -> Result<Summary, SolverError> {
+        self.write_summary(status, None)
+    }
+
+    fn write_summary(
+        &mut self,
+        status: Status,
+        failure: Option<&Failure>,
+    ) -> Result<Summary, SolverError> {
+        let flow = &self.parts.flow;
+        let world = &flow.world;
+        let mut warnings = self.parts.warnings.clone();
+        if let Some(failure) = failure {
+            warnings.push(failure.to_string());
+            warnings.extend(failure.advice.iter().cloned());
+        }
+        let series = self.options.out.join("series.csv");
+        let errors = match status {
+            Status::Failed => BTreeMap::new(),
+            _ => references::errors(
+                self.scene,
+                flow,
+                &self.parts.solutions,
+                &series,
+                &mut warnings,
+            )?,
+        };
+        let balance = Balance::of(flow)?;
+        let [mass, energy] = self.counters.initial.map(f64::from_bits);
+        let momentum: f64 = balance
+            .momentum
+            .iter()
+            .zip(&self.counters.initial_momentum)
+            .map(|(now, then)| (now - f64::from_bits(*then)).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        let over = |x: f64, scale: f64| if scale > 0.0 { x / scale } else { 0.0 };
+        let steps = self.counters.steps;
+        let particles = world.free.len();
+        let stage_seconds = self.stage_seconds();
+        let wall_seconds = self.wall_seconds();
+        let working = wall_seconds - stage_seconds.get("output").copied().unwrap_or(0.0);
+        let neighbours = world.mean_neighbours()?;
+        let work = particles as f64 * steps as f64;
+        let threads = rayon::current_num_threads();
+        let escaped = flow.escaped()?;
+        if escaped > 0 {
+            warnings.push(format!("{escaped} particles are behind a wall at the end"));
+        }
+        let summary = Summary {
+            schema_version: SCHEMA_VERSION,
+            scene: self.scene.title.clone(),
+            status,
+            version: env!("CARGO_PKG_VERSION").into(),
+            plugins: self.parts.plugins.clone(),
+            dimension: D,
+            particles,
+            wall_points: world.walls.points.position.len(),
+            neighbours,
+            steps,
+            steps_rolled_back: self.counters.rolled_back,
+            simulated_seconds: world.time,
+            wall_seconds,
+            wall_seconds_by_stage: stage_seconds,
+            threads,
+            particle_steps_per_second: over(work, working),
+            nanoseconds_per_pair: over(1e9 * working * threads as f64, work * neighbours),
+            bytes_per_particle: world.free.bytes_per_particle(),
+            list_builds: world.lists.builds,
+            dt_limiters: self
+                .counters
+                .limited
+                .iter()
+                .map(|(name, n)| (name.clone(), *n as f64 / steps.max(1) as f64))
+                .collect(),
+            drift: Drift {
+                mass: over(balance.mass - mass, mass),
+                momentum: over(momentum, self.series.momentum_scale),
+                energy: over(balance.energy() - energy, self.series.energy_scale),
+            },
+            kinetic_energy: balance.kinetic,
+            density_range: self.series.density_range,
+            density_constant_range: flow.density_constant_range(),
+            escaped,
+            errors,
+            warnings,
+            files: listing(&self.options.out),
+        };
+        sph_io::write_json(self.options.out.join("summary.json"), &summary)?;
+        Ok(summary)
+    }
+}
+
+fn listing(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> = entries
+        .filter_map(|e| e.file_name().into_string().ok())
+        .filter(|n| !n.starts_with('.'))
+        .collect();
+    names.sort();
+    names
+}
+
+/// What a person can change, by what went wrong.
+fn advice(cause: &StepError) -> Vec<String> {
+    let StepError::Bad { quantity, .. } = cause else {
+        return Vec::new();
+    };
+    let text: &[&str] = match *quantity {
+        "density" => &[
+            "particles are squeezed: raise `speed_of_sound` of the phase to ten times the largest \
+             speed, or give `velocity_scale`",
+            "if a splash folds the surface, `numerics.density_bounds` may be too narrow",
+        ],
+        "position" => &[
+            "a particle left the domain: close the wall it went through, or widen `numerics.domain`",
+        ],
+        _ => &["lower `run.safety`, or give the scene a smoother (`[smoother.brezzi-pitkaranta]`)"],
+    };
+    text.iter().map(|s| s.to_string()).collect()
+}
