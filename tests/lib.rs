@@ -1,1 +1,14 @@
-//! Whole-system tests of the workspace; see the files under `tests/tests`.
+//! What the whole-system tests share: a folder of their own, scenes, and the real binary.
+
+mod bench;
+mod state;
+
+pub use bench::{Bench, Outcome};
+pub use state::{FinalState, files_with_extension};
+
+/// A dam break in a box: 180 particles, some hundred steps, a fraction of a second.
+pub const DAM_BREAK: &str = include_str!("scenes/dam-break.toml");
+/// The same with a paddle that moves into the fluid.
+pub const PADDLE: &str = include_str!("scenes/paddle.toml");
+/// A fluid without walls, periodic in both directions.
+pub const PERIODIC: &str = include_str!("scenes/periodic.toml");

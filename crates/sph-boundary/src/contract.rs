@@ -88,6 +88,13 @@ pub trait Wall<const D: usize>: Send {
     /// If a column is missing.
     fn state(&mut self, world: &mut World<D>) -> Result<(), StepError>;
 
+    /// Corrects velocities that would carry particles through a wall within `dt`; called before
+    /// every drift.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError>;
+
     /// Remarks on the walls.
     fn warnings(&self) -> Vec<String>;
 }

@@ -6,8 +6,8 @@ use sph_core::{StepError, Vect, fields, register};
 use sph_neighbours::{Contacts, WallPoints, WallSet, World, shepard};
 
 use crate::layers::layers;
+use crate::near::NearLists;
 use crate::outline::Outline;
-use crate::usaw::stage_error;
 use crate::{BoundaryError, Wall, WallEntry, WallSetup};
 
 /// Layers of fixed particles behind the wall that take part in all sums like fluid particles.
@@ -34,6 +34,7 @@ struct SetUp {
     /// Positions of the particles as drawn, with their wall.
     drawn: Vec<(usize, [f64; 2])>,
     motions: Vec<crate::RigidMotion>,
+    near: NearLists,
 }
 
 register!(
@@ -75,6 +76,7 @@ impl Wall<2> for DummyParticles {
             outline,
             drawn,
             motions,
+            near: NearLists::default(),
         });
         Ok(WallSet {
             names,
@@ -86,7 +88,7 @@ impl Wall<2> for DummyParticles {
 
     fn contains(&self, point: &Vect<2>) -> bool {
         let set_up = self.set_up.as_ref();
-        set_up.is_none_or(|s| s.outline.mesh.contains([point[0], point[1]]))
+        set_up.is_none_or(|s| s.outline.contains(point))
     }
 
     fn clearance(&self, point: &Vect<2>, within: f64) -> Option<(f64, &str)> {
@@ -108,6 +110,7 @@ impl Wall<2> for DummyParticles {
             return Ok(());
         }
         set_up.outline.move_to(time)?;
+        set_up.near.expire();
         for (v, &(wall, drawn)) in set_up.drawn.iter().enumerate() {
             let position = set_up.motions[wall].pose(time).map()(drawn);
             walls.points.position[v] = position.into();
@@ -117,12 +120,16 @@ impl Wall<2> for DummyParticles {
     }
 
     fn geometry(&mut self, world: &mut World<2>) -> Result<(), StepError> {
+        match &mut self.set_up {
+            Some(set_up) => set_up.near.refresh(&set_up.outline, world),
+            None => Ok(()),
+        }
+    }
+
+    fn constrain(&mut self, world: &mut World<2>, dt: f64) -> Result<(), StepError> {
         match &self.set_up {
-            Some(s) if !s.outline.mesh.free_ends().is_empty() => s
-                .outline
-                .check_free_ends(world.free.get(fields::POSITION)?)
-                .map_err(stage_error),
-            _ => Ok(()),
+            Some(set_up) => set_up.near.constrain(&set_up.outline, world, dt),
+            None => Ok(()),
         }
     }
 

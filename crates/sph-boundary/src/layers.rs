@@ -37,7 +37,7 @@ pub(crate) fn layers(outline: &Outline, spacing: f64, support: f64) -> Vec<(usiz
                 let along = segment.length * 0.5 + k as f64 * spacing;
                 let p = [0, 1].map(|a| start[a] + tangent[a] * along - segment.normal[a] * depth);
                 let beyond = k != 0;
-                if !inside_period(p) || outline.mesh.contains(p) {
+                if !inside_period(p) || outline.contains(&p.into()) {
                     continue;
                 }
                 let clearance = outline.clearance(&p.into(), depth);

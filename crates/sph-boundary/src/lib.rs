@@ -37,6 +37,7 @@ mod inside;
 mod layers;
 mod mesh;
 mod motion;
+mod near;
 mod outline;
 mod periodic;
 mod plate;

@@ -66,6 +66,28 @@ impl Outline {
         Ok(true)
     }
 
+    /// Whether a point is on the fluid's side: of the nearest segment if a wall is near, else
+    /// of all walls together. Open walls have no inside, but they have a front.
+    pub fn contains(&self, point: &Vect<2>) -> bool {
+        let point = [point[0], point[1]];
+        let mut nearest = (f64::INFINITY, 0.0, 0.0);
+        for near in self.grid.near(&self.mesh, point, self.reach) {
+            let [start, end] = self.mesh.seen_from(point, near);
+            let distance2 = distance_squared(start, end);
+            let normal = self.mesh.segments()[near.segment].normal;
+            let height = -(start[0] * normal[0] + start[1] * normal[1]);
+            // Two segments at a corner are equally near; the one seen more from above decides.
+            let same = (distance2 - nearest.0).abs() <= 1e-9 * distance2;
+            if (same && height.abs() > nearest.1) || (!same && distance2 < nearest.0) {
+                nearest = (distance2, height.abs(), height);
+            }
+        }
+        match nearest.0.is_finite() {
+            true => nearest.2 >= 0.0,
+            false => self.mesh.contains(point),
+        }
+    }
+
     pub fn clearance(&self, point: &Vect<2>, within: f64) -> Option<(f64, &str)> {
         let point = [point[0], point[1]];
         let within = within.min(self.reach);

@@ -6,9 +6,10 @@ use serde::Deserialize;
 use sph_core::{StepError, Vect, fields, register};
 use sph_neighbours::{Contact, Contacts, WallPoints, WallSet, World};
 
+use crate::near::NearLists;
 use crate::outline::Outline;
 use crate::shepard::wall_means;
-use crate::{BoundaryError, GammaSum, NearSegment, Renormalisation2d, Wall, WallEntry, WallSetup};
+use crate::{BoundaryError, GammaSum, Renormalisation2d, Wall, WallEntry, WallSetup};
 
 /// Walls of segments with vertex particles; sums are renormalised by γ, the share of the kernel
 /// inside the walls, and completed by ∇γ. γ is geometry here (a closed form, no history).
@@ -36,15 +37,6 @@ struct SetUp {
     gamma: Renormalisation2d,
     spacing: f64,
     near: NearLists,
-}
-
-/// Segments that may be within the support of a particle until the lists are rebuilt.
-#[derive(Debug, Default)]
-struct NearLists {
-    built_for: u64,
-    particles: Vec<u32>,
-    starts: Vec<u32>,
-    segments: Vec<NearSegment>,
 }
 
 register!(
@@ -122,7 +114,7 @@ impl Wall<2> for Usaw {
 
     fn contains(&self, point: &Vect<2>) -> bool {
         let set_up = self.set_up.as_ref();
-        set_up.is_none_or(|s| s.outline.mesh.contains([point[0], point[1]]))
+        set_up.is_none_or(|s| s.outline.contains(point))
     }
 
     fn clearance(&self, point: &Vect<2>, within: f64) -> Option<(f64, &str)> {
@@ -145,7 +137,7 @@ impl Wall<2> for Usaw {
         }
         set_up.outline.move_to(time)?;
         // A moved wall changes which segments are near whom.
-        set_up.near.built_for = 0;
+        set_up.near.expire();
         let outline = &set_up.outline;
         let points = &mut walls.points;
         for (v, vertex) in outline.mesh.vertices().iter().enumerate() {
@@ -165,9 +157,7 @@ impl Wall<2> for Usaw {
 
     fn geometry(&mut self, world: &mut World<2>) -> Result<(), StepError> {
         let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
-        if set_up.near.built_for != world.lists.builds {
-            set_up.near = near_lists(&set_up.outline, world)?;
-        }
+        set_up.near.refresh(&set_up.outline, world)?;
         let mut renormalisation = world.free.take(fields::RENORMALISATION)?;
         renormalisation.fill(1.0);
         let positions = world.free.get(fields::POSITION)?;
@@ -182,8 +172,7 @@ impl Wall<2> for Usaw {
                 let x = positions[particle as usize];
                 let mut sum = GammaSum::default();
                 let mut contacts = Vec::new();
-                for place in near.starts[k]..near.starts[k + 1] {
-                    let near = near.segments[place as usize];
+                for &near in near.row(k) {
                     let segment = &mesh.segments()[near.segment];
                     let [start, end] = mesh.seen_from([x[0], x[1]], near);
                     let integral = gamma.segment(start, end, segment.normal);
@@ -217,6 +206,11 @@ impl Wall<2> for Usaw {
             }
         }
         Ok(world.free.put(fields::RENORMALISATION, renormalisation)?)
+    }
+
+    fn constrain(&mut self, world: &mut World<2>, dt: f64) -> Result<(), StepError> {
+        let set_up = self.ready()?;
+        set_up.near.constrain(&set_up.outline, world, dt)
     }
 
     fn state(&mut self, world: &mut World<2>) -> Result<(), StepError> {
@@ -257,36 +251,4 @@ impl Wall<2> for Usaw {
                 .collect()
         })
     }
-}
-
-fn near_lists(outline: &Outline, world: &World<2>) -> Result<NearLists, StepError> {
-    let positions = &world.lists.reference;
-    let reach = world.reach();
-    let rows: Vec<Vec<NearSegment>> = positions
-        .par_iter()
-        .with_min_len(256)
-        .map(|x| {
-            outline
-                .grid
-                .near(&outline.mesh, [x[0], x[1]], reach)
-                .collect()
-        })
-        .collect();
-    let mut near = NearLists {
-        built_for: world.lists.builds,
-        starts: vec![0],
-        ..NearLists::default()
-    };
-    for (particle, row) in rows.iter().enumerate().filter(|(_, row)| !row.is_empty()) {
-        near.particles.push(particle as u32);
-        near.segments.extend(row);
-        near.starts.push(near.segments.len() as u32);
-    }
-    let close: Vec<_> = near
-        .particles
-        .iter()
-        .map(|&p| positions[p as usize])
-        .collect();
-    outline.check_free_ends(&close).map_err(stage_error)?;
-    Ok(near)
 }

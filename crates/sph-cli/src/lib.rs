@@ -1,1 +1,35 @@
-//! The sph command: run, check, explain, plugins, schema, scenes, new
+//! The command line as a library, so that a binary with plugins of its own is two lines:
+//!
+//! ```no_run
+//! // use my_plugin as _;
+//! fn main() -> std::process::ExitCode {
+//!     sph_cli::main()
+//! }
+//! ```
+//!
+//! Every subcommand is one file; none of them knows a plugin by name. Exit codes: 0 done,
+//! 1 the run failed or was interrupted, 2 bad usage or a bad scene. With code 2 nothing has been
+//! written.
+
+mod app;
+mod arguments;
+mod check;
+mod console;
+mod diagnostics;
+mod explain;
+mod interrupt;
+mod layout;
+mod new;
+mod number;
+mod outcome;
+mod plugins;
+mod progress;
+mod run;
+mod scene_file;
+mod scenes;
+mod schema;
+mod shipped;
+mod trouble;
+mod written;
+
+pub use app::main;

@@ -11,6 +11,9 @@ use crate::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 /// Source: Ghaïtanellis 2017, Eq. 1.25 and 1.28. The background pressure must be the same in
 /// all phases; keep it zero where there is a free surface.
 ///
+/// A particle thrown out of the bulk sums a density far below ρ₀, and with it a tension of up
+/// to ρ₀c₀²/ξ that glues splashes together. `tension_limit = 0` lets the fluid tear instead.
+///
 /// ```toml
 /// [phase.water.equation-of-state.tait]
 /// exponent = 7
@@ -30,6 +33,10 @@ pub struct Tait {
         extend("unit" = "Pa", "source" = "Ghaïtanellis 2017, §5.1.2")
     )]
     pub background_pressure: f64,
+    /// Largest tension the fluid carries: p ≥ −tension_limit. No limit if left out; 0 for
+    /// splashing free surfaces.
+    #[schemars(range(min = 0.0), extend("unit" = "Pa", "source" = "ours"))]
+    pub tension_limit: Option<f64>,
 }
 
 impl Default for Tait {
@@ -37,6 +44,7 @@ impl Default for Tait {
         Tait {
             exponent: 7.0,
             background_pressure: 0.0,
+            tension_limit: None,
         }
     }
 }
@@ -72,6 +80,9 @@ impl BoundState for Bound {
             }
         } else {
             pairs.for_each(|(p, rho)| *p = b * ((rho * inverse).powf(exponent) - 1.0) + background);
+        }
+        if let Some(limit) = self.law.tension_limit {
+            pressure.iter_mut().for_each(|p| *p = p.max(-limit));
         }
     }
 
@@ -112,6 +123,22 @@ register!(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tension_is_cut_where_a_limit_is_given() {
+        let law = Tait {
+            tension_limit: Some(5.0),
+            ..Tait::default()
+        };
+        let law = law.bind(Reference {
+            density: 1000.0,
+            sound_speed: 30.0,
+        });
+        let mut p = [0.0; 3];
+        law.pressure(&[400.0, 999.999, 1001.0], &mut p);
+        assert_eq!(p[0], -5.0);
+        assert!(p[1] < 0.0 && p[1] > -5.0 && p[2] > 0.0, "{p:?}");
+    }
 
     #[test]
     fn density_inverts_pressure_and_sound_is_its_slope() {

@@ -93,6 +93,7 @@ pub fn examine(scene: &Scene, threads: usize) -> Result<Examination, SolverError
 fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examination, SolverError> {
     let assembled = assemble::<D>(scene)?;
     crate::series::rehearse(&assembled.flow, &assembled.probes)?;
+    crate::references::readable(scene)?;
     let flow = &assembled.flow;
     let world = &flow.world;
     let limits = flow.step_limits()?;

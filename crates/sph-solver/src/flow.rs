@@ -108,6 +108,9 @@ impl<const D: usize> System for Flow<D> {
 
     fn drift(&mut self, dt: f64) -> Result<(), StepError> {
         let start = Instant::now();
+        if let Some(walls) = &self.walls {
+            lock(walls).constrain(&mut self.world, dt)?;
+        }
         let mut position = self.world.free.take(fields::POSITION)?;
         let velocity = self.world.free.get(fields::VELOCITY)?;
         position

@@ -155,8 +155,17 @@ impl<'a, const D: usize> InitialState<'a, D> {
         });
         match (given, self.body.pressure) {
             (None, Pressure::Zero) => self.law.reference().density,
-            _ => self.law.density(pressure),
+            // Given pressures count from that of the reference density.
+            _ => self.law.density(pressure + self.background()),
         }
+    }
+
+    /// Pressure at the reference density, Pa.
+    fn background(&self) -> f64 {
+        let mut pressure = [0.0];
+        self.law
+            .pressure(&[self.law.reference().density], &mut pressure);
+        pressure[0]
     }
 
     /// Velocity, m/s, at a position.

@@ -1,0 +1,44 @@
+//! Compiles the shipped scenes and their data into the binary.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+fn main() {
+    let manifest = std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets the manifest's folder");
+    let scenes = Path::new(&manifest).join("../../scenes");
+    println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed={}", scenes.display());
+    println!("cargo:rerun-if-changed={}", scenes.join("data").display());
+    let mut code = String::new();
+    let tables = [
+        ("SCENES", scenes.clone(), "toml", ""),
+        ("DATA", scenes.join("data"), "csv", "data/"),
+    ];
+    for (table, folder, extension, prefix) in tables {
+        writeln!(code, "const {table}: &[(&str, &str)] = &[").expect("a string takes all");
+        for file in files(&folder, extension) {
+            println!("cargo:rerun-if-changed={}", file.display());
+            let name = file.file_name().and_then(|n| n.to_str()).unwrap_or("");
+            writeln!(
+                code,
+                "    ({:?}, include_str!({file:?})),",
+                format!("{prefix}{name}")
+            )
+            .expect("a string takes all");
+        }
+        code.push_str("];\n");
+    }
+    let out = std::env::var("OUT_DIR").expect("cargo sets the output folder");
+    std::fs::write(Path::new(&out).join("shipped.rs"), code).expect("the output folder is ours");
+}
+
+/// Files of a folder with an extension, sorted; none if there is no folder.
+fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut all: Vec<PathBuf> = entries
+        .map(|e| e.path())
+        .filter(|p| p.extension().is_some_and(|e| e == extension))
+        .collect();
+    all.sort();
+    all
+}

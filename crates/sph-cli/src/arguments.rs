@@ -1,0 +1,200 @@
+//! What the command line takes, and its help.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// Smoothed particle hydrodynamics from scene files.
+#[derive(Debug, Parser)]
+#[command(
+    name = "sph",
+    version,
+    propagate_version = true,
+    after_help = "\
+Examples:
+  sph scenes                              what is there to run
+  sph run dam-break-koshizuka             run a shipped scene into results/dam-break-koshizuka
+  sph new pool && sph check pool.toml     start a scene of your own
+  sph plugins rheology                    what can stand in [phase.NAME.rheology.…]
+
+Exit codes: 0 done, 1 the run failed or was interrupted, 2 bad usage or a bad scene
+(then nothing was written)."
+)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scene
+    #[command(after_help = "\
+Examples:
+  sph run scenes/couette-2d.toml
+  sph run pool.toml --set numerics.spacing='5 mm' --out results/fine --threads 4
+  sph run pool.toml --out results/fine --set numerics.spacing='5 mm' --resume
+
+Leaves behind in DIR:
+  pictures/*.png    pictures of the fields named in output.picture
+  fields.pvd        fields over time, for ParaView (fields/*.vtu belong to it)
+  series.csv        time, step, energies, momenta, extrema and probes
+  summary.json      what the run was, what it cost, errors against the references
+  checkpoint.sph    the last state, for --resume
+  bad_state.vtu     after a failure: the state in which it failed
+
+Ctrl-C writes a checkpoint and stops; a second Ctrl-C stops at once. A resumed run gives bit for
+bit what the uninterrupted one gives, also with another number of threads.
+
+Exit codes: 0 done, 1 failed or interrupted, 2 bad usage or a bad scene (nothing written).")]
+    Run(RunArguments),
+    /// Read, validate and assemble a scene without running it
+    #[command(after_help = "\
+Examples:
+  sph check pool.toml
+  sph check pool.toml --set numerics.spacing='1 mm' --threads 16    what would it cost?
+
+Prints what follows from the scene: smoothing length, speeds, dimensionless numbers, time steps,
+particles, and an estimate of time, memory and disk. Writes nothing.
+
+Exit codes: 0 the scene is good, 2 it is not.")]
+    Check(CheckArguments),
+    /// Show what a scene is made of: plugins, columns, stages, limits of the time step
+    #[command(after_help = "\
+Example:
+  sph explain dam-break-koshizuka
+
+A column or stage that is not listed does not exist in that scene and costs nothing.
+Writes nothing.")]
+    Explain(ExplainArguments),
+    /// List the plugins that scenes may name, with parameters, units and defaults
+    #[command(after_help = "\
+Examples:
+  sph plugins                                all kinds with their plugins
+  sph plugins rheology                       the plugins of one kind
+  sph plugins integrator symplectic-euler    parameters, and a snippet for a scene
+
+A plugin of another crate appears here if the binary mentions the crate: `use my_plugin as _;`.")]
+    Plugins(PluginArguments),
+    /// Print the JSON schema of scenes, for completion in editors
+    #[command(after_help = "\
+Example:
+  sph schema > scene.schema.json
+
+Then put `#:schema scene.schema.json` into the first line of a scene; editors with a TOML
+language server (taplo, Even Better TOML) complete and check it.")]
+    Schema,
+    /// List the shipped scenes
+    #[command(after_help = "\
+The scenes in ./scenes are listed if there are any, otherwise those compiled into the program.
+Their names can be given to run, check, explain and new --from.")]
+    Scenes(JsonArguments),
+    /// Write a commented starting scene
+    #[command(after_help = "\
+Examples:
+  sph new pool                              writes pool.toml, a dam break in a box
+  sph new pool --from hydrostatic-tank      writes pool.toml, a copy of a shipped scene
+                                            (and the data files it is compared with)
+
+Never overwrites a scene.")]
+    New(NewArguments),
+}
+
+impl Command {
+    /// Whether results and errors go to stdout as JSON.
+    pub fn json(&self) -> bool {
+        match self {
+            Command::Run(a) => a.json,
+            Command::Check(a) => a.json,
+            Command::Explain(a) => a.json,
+            Command::Plugins(a) => a.json,
+            Command::Scenes(a) => a.json,
+            Command::Schema | Command::New(_) => false,
+        }
+    }
+}
+
+/// A scene with values put on top.
+#[derive(Debug, Args)]
+pub struct SceneArguments {
+    /// Scene file, or the name of a shipped scene (see `sph scenes`)
+    pub scene: String,
+    /// Put a value on top of the scene: --set numerics.spacing=0.01 (may be repeated)
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+}
+
+/// Arguments of `sph run`.
+#[derive(Debug, Args)]
+pub struct RunArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Folder of the results [default: results/NAME of the scene file]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pub threads: Option<u16>,
+    /// Go on from the checkpoint in the folder of the results
+    #[arg(long)]
+    pub resume: bool,
+    /// Print summary.json on stdout; diagnostics as a JSON array if there are any
+    #[arg(long)]
+    pub json: bool,
+    /// No progress and no summary
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Arguments of `sph check`.
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Number of threads for the estimate [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pub threads: Option<u16>,
+    /// Print the result, or the diagnostics as an array, as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `sph explain`.
+#[derive(Debug, Args)]
+pub struct ExplainArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Print the result, or the diagnostics as an array, as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `sph plugins`.
+#[derive(Debug, Args)]
+pub struct PluginArguments {
+    /// Kind of plugin, for example `kernel` or `rheology`
+    pub kind: Option<String>,
+    /// Name of a plugin of that kind
+    pub name: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of commands that only list.
+#[derive(Debug, Args)]
+pub struct JsonArguments {
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `sph new`.
+#[derive(Debug, Args)]
+pub struct NewArguments {
+    /// Name of the scene; NAME.toml is written
+    pub name: PathBuf,
+    /// Start from this scene file or shipped scene
+    #[arg(long, value_name = "SCENE")]
+    pub from: Option<String>,
+}

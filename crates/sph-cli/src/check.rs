@@ -1,0 +1,114 @@
+//! `sph check`.
+
+use serde_json::{Value as Json, json};
+use sph_solver::{Examination, examine};
+
+use crate::arguments::CheckArguments;
+use crate::layout::{columns, remarks};
+use crate::scene_file::open;
+use crate::trouble::Trouble;
+use crate::{console, number};
+
+/// Above this Mach number the fluid is not nearly incompressible.
+const MACH: f64 = 0.1;
+
+/// Tells what follows from a scene, without running it.
+pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
+    let opened = open(&arguments.scene)?;
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = arguments.threads.map_or(cores, usize::from);
+    let examined = examine(&opened.loaded.scene, threads);
+    let mut examined = examined.map_err(|e| Trouble::of(e, &opened.loaded.source))?;
+    let too_fast = too_fast(&examined);
+    examined.warnings.extend(too_fast);
+    if arguments.json {
+        let mut all = serde_json::to_value(&examined).unwrap_or(Json::Null);
+        all["threads"] = json!(threads);
+        console::json(&all);
+    } else {
+        console::out(&text(&examined, opened.loaded.source.file(), threads));
+    }
+    Ok(())
+}
+
+/// A remark for every phase whose speed comes too near to that of sound.
+fn too_fast(examined: &Examination) -> Vec<String> {
+    let machs = examined.derived.iter();
+    let machs = machs.filter(|(name, value, _)| name.contains("Mach number") && *value > MACH);
+    let remark = |(name, value, _): &(String, f64, String)| {
+        let phase = name.split(':').next().unwrap_or_default();
+        format!(
+            "the Mach number of `{phase}` is {}, above {MACH}: density will vary by about {} ; \
+             raise `phase.{phase}.speed_of_sound`, or check `velocity_scale`",
+            number::plain(*value),
+            number::percent(value * value)
+        )
+        .replace(" ;", ";")
+    };
+    machs.map(remark).collect()
+}
+
+fn text(e: &Examination, file: &str, threads: usize) -> String {
+    let mut text = format!(
+        "{}\n{file} is a good scene in {} dimensions\n",
+        e.scene, e.dimension
+    );
+    let row = |name: &str, value: String| vec![name.to_string(), value];
+    let size = [
+        row("particles", number::count(e.particles as f64)),
+        row("wall points", number::count(e.wall_points as f64)),
+        row("wall elements", number::count(e.wall_elements as f64)),
+        row("neighbours of a particle", format!("{:.1}", e.neighbours)),
+        row(
+            "bytes per particle",
+            format!("{} in {} columns", e.bytes_per_particle, e.fields.len()),
+        ),
+    ];
+    let derived = e.derived.iter().map(|(name, value, unit)| {
+        let unit = if unit == "1" { "" } else { unit.as_str() };
+        row(name, format!("{} {unit}", number::plain(*value)))
+    });
+    let limits = e
+        .step_limits
+        .iter()
+        .map(|(name, dt)| row(name, seconds(*dt)));
+    let cost = &e.estimate;
+    let on = if threads == 1 {
+        "1 thread".to_string()
+    } else {
+        format!("{threads} threads")
+    };
+    let estimate = [
+        row("steps", number::count(cost.steps)),
+        row(
+            "wall time",
+            format!("about {} on {on}", number::duration(3600.0 * cost.hours)),
+        ),
+        row(
+            "memory",
+            format!("about {}", number::bytes(cost.memory_bytes)),
+        ),
+        row("disk", format!("about {}", number::bytes(cost.disk_bytes))),
+    ];
+    let parts = [
+        ("size", size.to_vec()),
+        ("derived", derived.collect()),
+        ("largest stable time step at the start", limits.collect()),
+        ("estimate", estimate.to_vec()),
+    ];
+    for (title, rows) in parts {
+        text.push_str(&format!("\n{title}\n{}", columns(2, &rows)));
+    }
+    if !e.warnings.is_empty() {
+        text.push_str(&format!("\nwarnings\n{}", remarks(&e.warnings)));
+    }
+    text
+}
+
+/// A step limit; one that does not bind is infinite.
+fn seconds(dt: f64) -> String {
+    match dt.is_finite() {
+        true => format!("{} s", number::plain(dt)),
+        false => "none".into(),
+    }
+}

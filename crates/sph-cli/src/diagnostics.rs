@@ -1,0 +1,115 @@
+//! Mistakes of a scene, shown in its text.
+
+use std::ops::Range;
+
+use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, sources};
+use serde_json::{Value as Json, json};
+use sph_scene::{Diagnostic, Source};
+
+/// Diagnostics shown one by one; of the others only the number.
+const MOST: usize = 20;
+
+/// A diagnostic with the text it points into.
+pub struct Located {
+    diagnostic: Diagnostic,
+    text: String,
+}
+
+/// Diagnostics with the texts they point into.
+pub fn located(source: &Source, diagnostics: &[Diagnostic]) -> Vec<Located> {
+    let with_text = |d: &Diagnostic| Located {
+        diagnostic: d.clone(),
+        text: source.text_of(d).to_string(),
+    };
+    diagnostics.iter().map(with_text).collect()
+}
+
+/// The diagnostics as a person wants them: the line, a mark under it, what was expected.
+pub fn render(all: &[Located], colour: bool) -> String {
+    let mut text = String::new();
+    for located in all.iter().take(MOST) {
+        text.push_str(&one(located, colour));
+    }
+    let more = all.len().saturating_sub(MOST);
+    let files = all.iter().map(|l| l.diagnostic.file.as_str());
+    let file = files
+        .clone()
+        .find(|f| *f != "--set")
+        .or(files.clone().next());
+    let count = match all.len() {
+        1 => "1 problem".to_string(),
+        n => format!("{n} problems"),
+    };
+    if more > 0 {
+        text.push_str(&format!("… and {more} more\n"));
+    }
+    text.push_str(&format!(
+        "{count} in {}; nothing was written\n",
+        file.unwrap_or("the scene")
+    ));
+    text
+}
+
+fn one(located: &Located, colour: bool) -> String {
+    let d = &located.diagnostic;
+    let plain = || format!("error: {d}\n");
+    // A problem of the scene as a whole has no line to be shown.
+    let Some(place) = visible(&located.text, &d.span) else {
+        return plain();
+    };
+    let span = |range: Range<usize>| (d.file.clone(), range);
+    let config = Config::new()
+        .with_color(colour)
+        .with_index_type(IndexType::Byte);
+    let label = match d.path.as_str() {
+        "" => "here",
+        path => path,
+    };
+    let label = Label::new(span(place.clone()))
+        .with_message(label)
+        .with_color(Color::Red);
+    // A kind of one's own is coloured even where colours are off.
+    let kind = match colour {
+        true => ReportKind::Custom("error", Color::Red),
+        false => ReportKind::Error,
+    };
+    let report = Report::build(kind, span(place))
+        .with_config(config)
+        .with_message(&d.message)
+        .with_label(label)
+        .finish();
+    let mut bytes = Vec::new();
+    let cache = sources([(d.file.clone(), located.text.as_str())]);
+    match report
+        .write(cache, &mut bytes)
+        .map(|()| String::from_utf8(bytes))
+    {
+        Ok(Ok(text)) => text.replacen("Error:", "error:", 1),
+        _ => plain(),
+    }
+}
+
+/// The span, or the character before an empty one; nothing at the start of the text.
+fn visible(text: &str, span: &Range<usize>) -> Option<Range<usize>> {
+    if !span.is_empty() {
+        return Some(span.clone());
+    }
+    let before = text.get(..span.start)?.trim_end();
+    let (last, _) = before.char_indices().next_back()?;
+    Some(last..before.len())
+}
+
+/// The diagnostics as a program wants them.
+pub fn json(all: &[Located]) -> Json {
+    let one = |l: &Located| {
+        let d = &l.diagnostic;
+        json!({
+            "file": d.file,
+            "line": d.line,
+            "column": d.column,
+            "path": d.path,
+            "message": d.message,
+        })
+    };
+    Json::Array(all.iter().map(one).collect())
+}

@@ -1,0 +1,70 @@
+//! Text in columns.
+
+/// Rows as columns with two spaces between; the last column is not padded.
+pub fn columns(indent: usize, rows: &[Vec<String>]) -> String {
+    let width = |k: usize| {
+        let cells = rows.iter().filter(|r| k + 1 < r.len());
+        cells
+            .filter_map(|r| Some(r.get(k)?.chars().count()))
+            .max()
+            .unwrap_or(0)
+    };
+    let mut text = String::new();
+    for row in rows {
+        let mut line = " ".repeat(indent);
+        for (k, cell) in row.iter().enumerate() {
+            line.push_str(cell);
+            if k + 1 < row.len() {
+                line.extend(std::iter::repeat_n(
+                    ' ',
+                    2 + width(k) - cell.chars().count(),
+                ));
+            }
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+/// A text broken between words, every line indented.
+pub fn paragraph(indent: usize, width: usize, text: &str) -> String {
+    let mut lines = String::new();
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        let long = indent + line.chars().count() + 1 + word.chars().count() > width;
+        if long && !line.is_empty() {
+            lines.push_str(&format!("{:indent$}{line}\n", ""));
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    if !line.is_empty() {
+        lines.push_str(&format!("{:indent$}{line}\n", ""));
+    }
+    lines
+}
+
+/// A list of remarks, each with a dash, broken between words.
+pub fn remarks(remarks: &[String]) -> String {
+    let item = |r: &String| {
+        let text = paragraph(4, 98, r);
+        format!("  - {}", text.trim_start())
+    };
+    remarks.iter().map(item).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_aligned_by_characters_and_paragraphs_broken_between_words() {
+        let rows = [["ρ", "1"], ["time", "2"]].map(|r| r.map(String::from).to_vec());
+        assert_eq!(columns(1, &rows), " ρ     1\n time  2\n");
+        assert_eq!(paragraph(2, 10, "one two three"), "  one two\n  three\n");
+    }
+}

@@ -1,0 +1,127 @@
+//! `sph run`.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value as Json;
+use sph_solver::{RunOptions, SolverError, Status, Summary, run};
+
+use crate::arguments::RunArguments;
+use crate::progress::Watcher;
+use crate::scene_file::{Opened, open};
+use crate::trouble::Trouble;
+use crate::{console, interrupt, outcome};
+
+/// Name of the checkpoint in a run's folder.
+const CHECKPOINT: &str = "checkpoint.sph";
+/// Name of the summary in a run's folder.
+const SUMMARY: &str = "summary.json";
+
+/// Runs a scene.
+pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
+    let opened = open(&arguments.scene)?;
+    let out = arguments.out.clone();
+    let out = out.unwrap_or_else(|| Path::new("results").join(&opened.stem));
+    look_before_writing(arguments, &out)?;
+    let options = RunOptions {
+        out: out.clone(),
+        resume: arguments.resume,
+        threads: arguments.threads.map(usize::from),
+        identity: opened.identity(),
+    };
+    let title = &opened.loaded.scene.title;
+    let start = format!("{title}: running into {}", out.display());
+    let mut watcher = Watcher::new(arguments.quiet, start, interrupt::flag());
+    let result = run(&opened.loaded.scene, &options, &mut watcher);
+    watcher.finish();
+    let summary = result.map_err(|error| trouble(error, &opened, &out))?;
+    conclude(arguments, &summary, &out)
+}
+
+/// What is refused, or worth saying, before the folder is touched.
+fn look_before_writing(arguments: &RunArguments, out: &Path) -> Result<(), Trouble> {
+    let checkpoint = out.join(CHECKPOINT).exists();
+    if arguments.resume && !checkpoint {
+        return Err(Trouble::usage(format!(
+            "there is no checkpoint in {} to resume from: start without --resume",
+            out.display()
+        )));
+    }
+    if checkpoint && !arguments.resume && !arguments.quiet {
+        console::err(&format!(
+            "note: the earlier run in {} is overwritten (--resume would have gone on with it)",
+            out.display()
+        ));
+    }
+    Ok(())
+}
+
+fn conclude(arguments: &RunArguments, summary: &Summary, out: &Path) -> Result<(), Trouble> {
+    if arguments.json {
+        console::json(&serde_json::to_value(summary).unwrap_or(Json::Null));
+    } else if !arguments.quiet {
+        console::out(&outcome::text(summary, out));
+    }
+    match summary.status {
+        Status::Done => Ok(()),
+        _ => {
+            console::err(&format!(
+                "interrupted at t = {:.6} s, step {}; go on with\n  {}",
+                summary.simulated_seconds,
+                summary.steps,
+                going_on(arguments, out)
+            ));
+            Err(Trouble::Interrupted)
+        }
+    }
+}
+
+/// The command that resumes the run.
+fn going_on(arguments: &RunArguments, out: &Path) -> String {
+    let mut words = vec!["sph".to_string(), "run".to_string()];
+    words.push(quoted(&arguments.scene.scene));
+    words.extend(["--out".to_string(), quoted(&out.display().to_string())]);
+    for set in &arguments.scene.set {
+        words.extend(["--set".to_string(), quoted(set)]);
+    }
+    words.push("--resume".to_string());
+    words.join(" ")
+}
+
+/// A word as a shell reads it back.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=,:+".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_string(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    }
+}
+
+fn trouble(error: SolverError, opened: &Opened, out: &Path) -> Trouble {
+    let ran = matches!(error, SolverError::Failed(_));
+    match Trouble::of(error, &opened.loaded.source) {
+        Trouble::Failed { error, .. } => Trouble::Failed {
+            error,
+            summary: ran.then(|| failed_summary(&out.join(SUMMARY))).flatten(),
+        },
+        other => other,
+    }
+}
+
+/// The summary that a failed run left; not one of an earlier run.
+fn failed_summary(path: &PathBuf) -> Option<Json> {
+    let text = std::fs::read_to_string(path).ok()?;
+    let summary: Json = serde_json::from_str(&text).ok()?;
+    (summary["status"] == "failed").then_some(summary)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn words_survive_a_shell() {
+        assert_eq!(quoted("results/a-1.toml"), "results/a-1.toml");
+        assert_eq!(quoted("run.end=1 s"), "'run.end=1 s'");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+    }
+}

@@ -1,0 +1,82 @@
+//! The scenes that come with the program.
+
+use std::path::{Path, PathBuf};
+
+include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
+
+/// Folder in which scenes are looked for before the compiled-in ones.
+const FOLDER: &str = "scenes";
+
+/// A shipped scene: a file in ./scenes, or a text in the program.
+#[derive(Clone, Debug)]
+pub struct Shipped {
+    /// Name without extension.
+    pub name: String,
+    /// The file, if it is one.
+    pub file: Option<PathBuf>,
+    /// Its text, if it is compiled in.
+    pub text: Option<&'static str>,
+}
+
+/// The scenes of ./scenes if there are any, else those compiled in; sorted by name.
+pub fn all() -> Vec<Shipped> {
+    let entries = std::fs::read_dir(FOLDER).into_iter().flatten().flatten();
+    let files = entries.map(|e| e.path());
+    let mut found: Vec<Shipped> = files
+        .filter(|p| p.extension().is_some_and(|e| e == "toml"))
+        .filter_map(|p| {
+            Some(Shipped {
+                name: p.file_stem()?.to_str()?.to_string(),
+                file: Some(p),
+                text: None,
+            })
+        })
+        .collect();
+    if found.is_empty() {
+        found = compiled_in();
+    }
+    found.sort_by(|a, b| a.name.cmp(&b.name));
+    found
+}
+
+fn compiled_in() -> Vec<Shipped> {
+    let scene = |(file, text): &(&str, &'static str)| Shipped {
+        name: file.trim_end_matches(".toml").to_string(),
+        file: None,
+        text: Some(*text),
+    };
+    SCENES.iter().map(scene).collect()
+}
+
+/// The shipped scene of that name, in ./scenes or compiled in.
+pub fn find(name: &str) -> Option<Shipped> {
+    let name = name.trim_end_matches(".toml");
+    let listed = all().into_iter().chain(compiled_in());
+    listed.into_iter().find(|s| s.name == name)
+}
+
+/// Compiled-in data files that a text mentions, with the path it mentions them by.
+pub fn data_of(text: &str) -> impl Iterator<Item = (&'static str, &'static str)> + '_ {
+    let mentioned = |(path, _): &&(&str, &str)| text.contains(&format!("\"{path}\""));
+    DATA.iter().filter(mentioned).copied()
+}
+
+/// Writes a compiled-in scene's data below a folder; returns what was written.
+///
+/// # Errors
+/// What the system says, with the file.
+pub fn unpack_data(text: &str, folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let mut written = Vec::new();
+    for (path, content) in data_of(text) {
+        let target = folder.join(path);
+        let told = |e: std::io::Error| format!("cannot write {}: {e}", target.display());
+        if let Some(parent) = target.parent() {
+            std::fs::create_dir_all(parent).map_err(told)?;
+        }
+        if !target.exists() {
+            std::fs::write(&target, content).map_err(told)?;
+            written.push(target);
+        }
+    }
+    Ok(written)
+}

@@ -1,0 +1,137 @@
+//! Everything that keeps a command from its end, and how it is told.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value as Json, json};
+use sph_core::SceneProblem;
+use sph_scene::{LoadError, Source};
+use sph_solver::{Failure, SolverError};
+
+use crate::diagnostics::{self, Located};
+use crate::{console, layout};
+
+/// Why a command did not do what it was asked for.
+pub enum Trouble {
+    /// The command line asks for something that cannot be.
+    Usage(String),
+    /// The scene has mistakes.
+    Scene(Vec<Located>),
+    /// The run failed; the summary it left, if it did.
+    Failed {
+        /// What happened.
+        error: SolverError,
+        /// Content of `summary.json`.
+        summary: Option<Json>,
+    },
+    /// The run stopped with a checkpoint; everything has been said.
+    Interrupted,
+}
+
+impl From<LoadError> for Trouble {
+    fn from(error: LoadError) -> Self {
+        match error {
+            LoadError::Refused(refused) => {
+                Trouble::Scene(diagnostics::located(&refused.source, &refused.diagnostics))
+            }
+            unreadable => Trouble::Usage(unreadable.to_string()),
+        }
+    }
+}
+
+impl Trouble {
+    /// A bad command line.
+    pub fn usage(message: impl Into<String>) -> Self {
+        Trouble::Usage(message.into())
+    }
+
+    /// What the solver says, with places in the scene where it is the scene's fault.
+    pub fn of(error: SolverError, source: &Source) -> Self {
+        let problems = match error {
+            SolverError::Scene(problems) => problems,
+            error if error.exit_code() == 2 => vec![SceneProblem::new("", error.to_string())],
+            error => {
+                return Trouble::Failed {
+                    error,
+                    summary: None,
+                };
+            }
+        };
+        Trouble::Scene(diagnostics::located(source, &source.diagnose(&problems)))
+    }
+
+    /// 1 for a run that failed or was interrupted, 2 for bad usage or a bad scene.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Trouble::Usage(_) | Trouble::Scene(_) => 2,
+            Trouble::Failed { .. } | Trouble::Interrupted => 1,
+        }
+    }
+
+    /// Tells a person on stderr, and with `json` a program on stdout.
+    pub fn report(&self, json: bool) {
+        match self {
+            Trouble::Usage(message) => {
+                console::err(&format!("error: {message}"));
+                if json {
+                    console::json(&json!([{ "message": message }]));
+                }
+            }
+            Trouble::Scene(all) => {
+                console::err(&diagnostics::render(all, console::terminal()));
+                if json {
+                    console::json(&diagnostics::json(all));
+                }
+            }
+            Trouble::Failed { error, summary } => {
+                console::err(&failed(error));
+                if json {
+                    let told = json!([{ "message": error.to_string() }]);
+                    console::json(summary.as_ref().unwrap_or(&told));
+                }
+            }
+            Trouble::Interrupted => {}
+        }
+    }
+}
+
+fn failed(error: &SolverError) -> String {
+    let mut text = format!("error: {error}\n");
+    match error {
+        SolverError::Failed(failure) => text.push_str(&traces(failure)),
+        SolverError::Resume { .. } => {}
+        SolverError::Io(sph_solver_io) if is_checkpoint(sph_solver_io.path()) => text.push_str(
+            "a checkpoint that cannot be read cannot be resumed: start again without --resume\n",
+        ),
+        _ => {}
+    }
+    text
+}
+
+fn is_checkpoint(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e == "sph")
+}
+
+/// What to try, and where to look.
+fn traces(failure: &Failure) -> String {
+    let mut text = String::new();
+    if !failure.advice.is_empty() {
+        text.push_str("what may help\n");
+        text.push_str(&layout::remarks(&failure.advice));
+    }
+    let left = |what: &str, path: &Option<PathBuf>| {
+        let path = path.as_ref()?;
+        Some(vec![what.to_string(), path.display().to_string()])
+    };
+    let rows: Vec<Vec<String>> = [
+        left("the bad state, for ParaView", &failure.bad_state),
+        left("the last good state, for --resume", &failure.checkpoint),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    if !rows.is_empty() {
+        text.push_str("written\n");
+        text.push_str(&layout::columns(2, &rows));
+    }
+    text
+}

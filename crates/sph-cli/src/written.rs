@@ -1,0 +1,42 @@
+//! The files of a run, with what they are for.
+
+use std::path::Path;
+
+/// Known files, in the order in which a person wants them.
+const KNOWN: [(&str, &str); 5] = [
+    ("fields.pvd", "fields over time: open it in ParaView"),
+    ("series.csv", "time series: energies, extrema, probes"),
+    ("summary.json", "all of the above and more, for scripts"),
+    ("checkpoint.sph", "the last state, for --resume"),
+    ("bad_state.vtu", "the state in which the run failed"),
+];
+
+/// Rows of name and meaning: pictures first.
+pub fn listing(folder: &Path) -> Vec<Vec<String>> {
+    let row = |name: String, what: &str| vec![name, what.to_string()];
+    let mut rows = Vec::new();
+    let pictures = names(&folder.join("pictures"), "png");
+    if let [first, .., last] = pictures.as_slice() {
+        let count = pictures.len();
+        rows.push(row(
+            format!("pictures/{first} … {last}"),
+            &format!("{count} pictures"),
+        ));
+    } else if let [only] = pictures.as_slice() {
+        rows.push(row(format!("pictures/{only}"), "a picture"));
+    }
+    let present = KNOWN.iter().filter(|(name, _)| folder.join(name).exists());
+    rows.extend(present.map(|(name, what)| row((*name).to_string(), what)));
+    rows
+}
+
+fn names(folder: &Path, extension: &str) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let files = entries.map(|e| e.path());
+    let mut names: Vec<String> = files
+        .filter(|p| p.extension().is_some_and(|e| e == extension))
+        .filter_map(|p| Some(p.file_name()?.to_str()?.to_string()))
+        .collect();
+    names.sort();
+    names
+}

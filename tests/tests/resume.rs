@@ -1,0 +1,113 @@
+//! A run that is killed or interrupted and resumed ends like the one that was not.
+#![cfg(unix)]
+
+use std::process::{Child, Command};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+
+/// Simulated time that `series.csv` has reached; zero before it is there.
+fn reached(bench: &Bench, out: &str) -> f64 {
+    let series = std::fs::read_to_string(bench.path(out).join("series.csv")).unwrap_or_default();
+    let times = series
+        .lines()
+        .filter_map(|l| l.split(',').next()?.parse().ok());
+    times.fold(0.0, f64::max)
+}
+
+/// Waits until a run has written a checkpoint and passed a simulated time.
+fn wait_for(child: &mut Child, bench: &Bench, out: &str, time: f64) {
+    let start = Instant::now();
+    let checkpoint = bench.path(out).join("checkpoint.sph");
+    while !(checkpoint.exists() && reached(bench, out) >= time) {
+        let ended = child.try_wait().expect("a child");
+        assert!(ended.is_none(), "the run ended before t = {time} s");
+        assert!(
+            start.elapsed() < Duration::from_secs(60),
+            "the run does not get on"
+        );
+        sleep(Duration::from_millis(1));
+    }
+}
+
+fn uninterrupted(bench: &Bench) -> FinalState {
+    bench.done("run scene.toml --quiet --out whole --threads 2");
+    FinalState::of(&bench.path("whole"))
+}
+
+/// Starts a run, kills it at a simulated time, resumes it with some number of threads.
+fn killed_and_resumed(bench: &Bench, time: f64, threads: u32) -> FinalState {
+    let out = format!("killed-{time}-{threads}");
+    let run = format!("run scene.toml --quiet --out {out}");
+    let mut child = bench
+        .command(&format!("{run} --threads 2"))
+        .spawn()
+        .expect("a run");
+    wait_for(&mut child, bench, &out, time);
+    child.kill().expect("SIGKILL");
+    let status = child.wait().expect("the end of the run");
+    assert_eq!(status.code(), None, "killed by a signal, not ended");
+    bench.done(&format!("{run} --resume --threads {threads}"));
+    FinalState::of(&bench.path(&out))
+}
+
+#[test]
+fn a_killed_run_resumes_bit_for_bit_from_several_moments() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let whole = uninterrupted(&bench);
+    for time in [0.03, 0.11, 0.29] {
+        let resumed = killed_and_resumed(&bench, time, 2);
+        whole.assert_same(&resumed, &format!("killed at t = {time} s"));
+    }
+}
+
+#[test]
+fn another_number_of_threads_resumes_it_too() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let whole = uninterrupted(&bench);
+    for threads in [1, 3] {
+        let resumed = killed_and_resumed(&bench, 0.15, threads);
+        whole.assert_same(&resumed, &format!("resumed with {threads} threads"));
+    }
+}
+
+#[test]
+fn a_run_with_a_moving_wall_resumes_while_it_moves_and_after() {
+    let bench = Bench::with(PROGRAM, PADDLE);
+    let whole = uninterrupted(&bench);
+    for time in [0.15, 0.32] {
+        let resumed = killed_and_resumed(&bench, time, 2);
+        whole.assert_same(&resumed, &format!("moving wall, killed at t = {time} s"));
+    }
+}
+
+#[test]
+fn ctrl_c_leaves_a_checkpoint_and_says_how_to_go_on() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let whole = uninterrupted(&bench);
+    let mut child = bench
+        .command("run scene.toml --out stopped")
+        .spawn()
+        .expect("a run");
+    wait_for(&mut child, &bench, "stopped", 0.1);
+    let pid = child.id().to_string();
+    let signal = Command::new("kill").args(["-INT", &pid]).status();
+    assert!(signal.expect("kill").success());
+    let output = child.wait_with_output().expect("the end of the run");
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(
+        err.contains("sph run scene.toml --out stopped --resume"),
+        "{err}"
+    );
+    let summary = bench.read("stopped/summary.json");
+    assert!(summary.contains("\"interrupted\""), "{summary}");
+    assert!(reached(&bench, "stopped") < 0.4, "it went on to the end");
+
+    bench.done("run scene.toml --quiet --out stopped --resume");
+    let resumed = FinalState::of(&bench.path("stopped"));
+    whole.assert_same(&resumed, "interrupted by Ctrl-C");
+}

@@ -1,0 +1,29 @@
+//! The number of threads changes the speed and not one bit of the result.
+
+use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+
+fn same_for_all_threads(scene: &str) {
+    let bench = Bench::with(PROGRAM, scene);
+    let state = |threads: u32| {
+        bench.done(&format!(
+            "run scene.toml --quiet --out r{threads} --threads {threads}"
+        ));
+        FinalState::of(&bench.path(&format!("r{threads}")))
+    };
+    let one = state(1);
+    for threads in [2, 4] {
+        one.assert_same(&state(threads), &format!("1 and {threads} threads"));
+    }
+}
+
+#[test]
+fn a_dam_break_gives_the_same_bits() {
+    same_for_all_threads(DAM_BREAK);
+}
+
+#[test]
+fn a_moving_wall_gives_the_same_bits() {
+    same_for_all_threads(PADDLE);
+}
