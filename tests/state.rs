@@ -14,8 +14,8 @@ pub struct FinalState {
     pub columns: BTreeMap<String, Vec<u64>>,
     /// The time series.
     pub series: String,
-    /// The last file of fields.
-    pub fields: Vec<u8>,
+    /// Every file of fields, by name.
+    pub fields: BTreeMap<PathBuf, Vec<u8>>,
 }
 
 impl FinalState {
@@ -32,13 +32,18 @@ impl FinalState {
             };
             (column.name.clone(), bits)
         });
-        let frames = files_with_extension(folder, "vtu");
-        let last = frames.last().expect("files of fields");
+        let frames = files_with_extension(folder, "vtu").into_iter().map(|path| {
+            let name = path
+                .strip_prefix(folder)
+                .expect("below the folder")
+                .to_path_buf();
+            (name, std::fs::read(path).expect("a file of fields"))
+        });
         FinalState {
             clock: [bits("time"), bits("dt")],
             columns: columns.collect(),
             series: std::fs::read_to_string(folder.join("series.csv")).expect("a series"),
-            fields: std::fs::read(last).expect("a file of fields"),
+            fields: frames.collect(),
         }
     }
 
@@ -67,10 +72,15 @@ impl FinalState {
             other.series.len(),
             "{what}: length of series.csv"
         );
-        assert!(
-            self.fields == other.fields,
-            "{what}: the last file of fields differs"
-        );
+        let names = |s: &Self| s.fields.keys().cloned().collect::<Vec<_>>();
+        assert_eq!(names(self), names(other), "{what}: files of fields");
+        for (name, bytes) in &self.fields {
+            assert!(
+                *bytes == other.fields[name],
+                "{what}: {} differs",
+                name.display()
+            );
+        }
     }
 }
 

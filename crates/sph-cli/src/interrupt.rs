@@ -14,7 +14,11 @@ pub fn flag() -> Arc<AtomicBool> {
             console::err("stopped at once; the last checkpoint stands");
             std::process::exit(1);
         }
-        console::err("stopping after this step with a checkpoint; Ctrl-C again stops at once");
+        // Away from the line of the bar.
+        let line = if console::terminal() { "\n" } else { "" };
+        console::err(&format!(
+            "{line}stopping after this step with a checkpoint; Ctrl-C again stops at once"
+        ));
     });
     if let Err(error) = handled {
         console::err(&format!(

@@ -43,7 +43,6 @@ pub fn count(x: f64) -> String {
 /// A rate per second or the like: `1.72 million`.
 pub fn rate(x: f64) -> String {
     match x {
-        x if x >= 1e9 => format!("{:.2} billion", x / 1e9),
         x if x >= 1e6 => format!("{:.2} million", x / 1e6),
         x => count(x),
     }

@@ -121,30 +121,31 @@ impl Observer for Watcher {
 
 fn bar() -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(DIVISIONS), ProgressDrawTarget::stderr());
-    let style = ProgressStyle::with_template("{bar:24} {percent:>3} %  {wide_msg}");
+    let style = ProgressStyle::with_template("{bar:12} {percent:>3} %  {wide_msg}");
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     bar
 }
 
 fn line(progress: &Progress, meter: &Meter) -> String {
     let speed = match meter.work_rate {
-        Some(rate) => format!("  {} particle-steps/s", number::rate(rate)),
-        None => format!("  {} particles", number::count(progress.particles as f64)),
+        Some(rate) => format!("{} particle-steps/s", number::rate(rate)),
+        None => format!("{} particles", number::count(progress.particles as f64)),
     };
     let left = match meter.time_rate {
         Some(rate) if rate > 0.0 => {
-            let seconds = (progress.end - progress.time) / rate;
-            format!("  {} left", number::duration(seconds))
+            let seconds = (progress.end - progress.time).max(0.0) / rate;
+            format!(", {} left", number::duration(seconds))
         }
         _ => String::new(),
     };
+    // What is wanted most comes first: a narrow terminal cuts the end.
     format!(
-        "t = {} of {} s  step {}  Δt {:.2e} s ({}){speed}{left}",
+        "t = {} of {} s{left}  Δt {:.1e} s ({})  {speed}  step {}",
         number::plain(progress.time),
         number::plain(progress.end),
-        progress.step,
         progress.dt,
         progress.limiter,
+        progress.step,
     )
 }
 

@@ -99,7 +99,7 @@ fn failed(error: &SolverError) -> String {
     match error {
         SolverError::Failed(failure) => text.push_str(&traces(failure)),
         SolverError::Resume { .. } => {}
-        SolverError::Io(sph_solver_io) if is_checkpoint(sph_solver_io.path()) => text.push_str(
+        SolverError::Io(io) if is_checkpoint(io.path()) => text.push_str(
             "a checkpoint that cannot be read cannot be resumed: start again without --resume\n",
         ),
         _ => {}

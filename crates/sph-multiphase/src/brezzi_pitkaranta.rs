@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
-use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, World};
+use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
 use crate::{Smoother, SmootherEntry};
 
@@ -62,7 +62,6 @@ impl<const D: usize> PairTerm<D> for BrezziPitkaranta {
         Ok(Bound {
             pressure: world.free.get(fields::PRESSURE)?,
             density: world.free.get(fields::DENSITY)?,
-            volume: world.free.get(fields::VOLUME)?,
             gravity: world.gravity,
             weight: 2.0 * self.strength * world.dt,
         })
@@ -73,7 +72,6 @@ impl<const D: usize> PairTerm<D> for BrezziPitkaranta {
 pub struct Bound<'a, const D: usize> {
     pressure: &'a [f64],
     density: &'a [f64],
-    volume: &'a [f64],
     gravity: Vect<D>,
     weight: f64,
 }
@@ -93,10 +91,10 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     }
 
     #[inline(always)]
-    fn free(&self, here: &(f64, f64), j: usize, pair: &Pair<D>, sum: &mut f64) {
-        let bracket = 2.0 * (here.0 - self.pressure[j]) / (here.1 + self.density[j])
+    fn free(&self, here: &(f64, f64), _j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
+        let bracket = 2.0 * (here.0 - there.pressure) / (here.1 + there.density)
             - self.gravity.dot(&pair.separation);
-        *sum += self.volume[j] * bracket * pair.factor;
+        *sum += there.volume * bracket * pair.factor;
     }
 
     #[inline(always)]

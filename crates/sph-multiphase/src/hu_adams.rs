@@ -5,7 +5,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, register};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, World, kernel_sums,
+    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
+    kernel_sums,
 };
 
 use crate::{Formulation, FormulationEntry};
@@ -159,8 +160,15 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     }
 
     #[inline(always)]
-    fn free(&self, here: &(f64, f64), j: usize, pair: &Pair<D>, sum: &mut Self::Sum) {
-        let there = self.pressure[j] * self.volume[j] * self.volume[j];
+    fn free(
+        &self,
+        here: &(f64, f64),
+        _j: usize,
+        there: &There<D>,
+        pair: &Pair<D>,
+        sum: &mut Self::Sum,
+    ) {
+        let there = there.pressure * there.volume * there.volume;
         *sum += pair.separation * ((here.0 + there) * pair.factor);
     }
 

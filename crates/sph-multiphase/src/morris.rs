@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, World,
+    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
 };
 
 use crate::viscosity::BoundViscosity;
@@ -65,7 +65,6 @@ impl<const D: usize, S: ViscositySource> PairTerm<D> for MorrisTerm<S> {
         let points = &world.walls.points;
         Ok(Bound {
             velocity: world.free.get(fields::VELOCITY)?,
-            volume: world.free.get(fields::VOLUME)?,
             density: world.free.get(fields::DENSITY)?,
             viscosity: self.0.bind(world)?,
             wall_velocity: &points.viscous_velocity,
@@ -81,7 +80,6 @@ impl<const D: usize, S: ViscositySource> PairTerm<D> for MorrisTerm<S> {
 /// [`MorrisTerm`] with its columns.
 pub struct Bound<'a, const D: usize, S> {
     velocity: &'a [Vect<D>],
-    volume: &'a [f64],
     density: &'a [f64],
     viscosity: S,
     wall_velocity: &'a [Vect<D>],
@@ -111,9 +109,16 @@ impl<const D: usize, S: BoundViscosity> BoundTerm<D> for Bound<'_, D, S> {
     }
 
     #[inline(always)]
-    fn free(&self, here: &Self::Here, j: usize, pair: &Pair<D>, sum: &mut Vect<D>) {
-        let weight = self.volume[j] * self.viscosity.mean(here.1, j) * pair.factor;
-        *sum += (here.0 - self.velocity[j]) * weight;
+    fn free(
+        &self,
+        here: &Self::Here,
+        j: usize,
+        there: &There<D>,
+        pair: &Pair<D>,
+        sum: &mut Vect<D>,
+    ) {
+        let weight = there.volume * self.viscosity.mean(here.1, j) * pair.factor;
+        *sum += (here.0 - there.velocity) * weight;
     }
 
     #[inline(always)]

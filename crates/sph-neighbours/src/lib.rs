@@ -28,7 +28,9 @@ pub use grid::CellGrid;
 pub use kernels::KernelEntry;
 pub use list::{CHUNK, NeighbourList};
 pub use row::{Neighbourhood, Row, Scratch};
-pub use sweep::{interactions, interactions_with, kernel_sums, shepard};
-pub use term::{BoundTerm, Fused, Interaction, Pair, PairTerm, Rates, RowTerm, Term, TermEntry};
+pub use sweep::{interactions, interactions_with, kernel_sums, pack, shepard};
+pub use term::{
+    BoundTerm, Fused, Interaction, Pair, PairTerm, Rates, RowTerm, Term, TermEntry, There,
+};
 pub use walls::{Contact, Contacts, Elements, WallPoints, WallSet};
 pub use world::{Lists, World};

@@ -44,26 +44,65 @@ impl NeighbourList {
             .enumerate()
             .for_each(|(b, block)| {
                 block.starts.clear();
-                block.candidates.clear();
                 block.starts.push(0);
+                let mut len = 0;
                 let from = b * CHUNK;
                 let to = (from + CHUNK).min(targets.len());
                 for (i, x) in targets[from..to].iter().enumerate() {
                     let own = if skip_self { from + i } else { usize::MAX };
                     let wraps = domain.near_periodic_face(x, reach);
                     grid.ranges(x, reach, |range| {
-                        if grid.is_sorted() && !wraps {
-                            push_sorted(&mut block.candidates, x, sources, range, reach2, own);
-                        } else {
-                            for &j in &grid.order()[range] {
-                                let d = domain.nearest_image(x - sources[j as usize]);
-                                if d.norm_squared() < reach2 && j as usize != own {
-                                    block.candidates.push(j);
-                                }
-                            }
+                        let room = len + range.len();
+                        if block.candidates.len() < room {
+                            block.candidates.resize(room.next_power_of_two(), 0);
                         }
+                        let slots = &mut block.candidates[len..room];
+                        len += if grid.is_sorted() && !wraps {
+                            keep_sorted(slots, x, sources, range, reach2, own)
+                        } else {
+                            let order = &grid.order()[range];
+                            keep(slots, order, own, |j| {
+                                domain.nearest_image(x - sources[j]).norm_squared() < reach2
+                            })
+                        };
                     });
-                    block.starts.push(block.candidates.len() as u32);
+                    block.starts.push(len as u32);
+                }
+            });
+    }
+
+    /// Fills `self` row by row in parallel, and one number per row along with it.
+    ///
+    /// `row` gets the target and room for `capacity(target)` entries, and returns how many it
+    /// wrote and the number.
+    pub(crate) fn fill_rows<S>(
+        &mut self,
+        numbers: &mut [f64],
+        capacity: impl Fn(usize) -> usize + Sync,
+        scratch: impl Fn() -> S + Sync + Send,
+        row: impl Fn(&mut S, usize, &mut [u32]) -> (usize, f64) + Sync,
+    ) {
+        self.len = numbers.len();
+        self.blocks
+            .resize_with(numbers.len().div_ceil(CHUNK), Block::default);
+        self.blocks
+            .par_iter_mut()
+            .zip(numbers.par_chunks_mut(CHUNK))
+            .enumerate()
+            .for_each_init(scratch, |scratch, (b, (block, numbers))| {
+                block.starts.clear();
+                block.starts.push(0);
+                let mut used = 0;
+                for (k, number) in numbers.iter_mut().enumerate() {
+                    let i = b * CHUNK + k;
+                    let room = used + capacity(i);
+                    if block.candidates.len() < room {
+                        block.candidates.resize(room.next_power_of_two(), 0);
+                    }
+                    let (written, value) = row(scratch, i, &mut block.candidates[used..room]);
+                    *number = value;
+                    used += written;
+                    block.starts.push(used as u32);
                 }
             });
     }
@@ -88,7 +127,8 @@ impl NeighbourList {
 
     /// Candidates over all targets, skin included.
     pub fn candidates(&self) -> usize {
-        self.blocks.iter().map(|b| b.candidates.len()).sum()
+        let last = |b: &Block| b.starts.last().copied().unwrap_or(0) as usize;
+        self.blocks.iter().map(last).sum()
     }
 
     /// Bytes held.
@@ -98,23 +138,32 @@ impl NeighbourList {
     }
 }
 
-/// Appends the members of a contiguous range that are near; branch-free in the distance test.
-fn push_sorted<const D: usize>(
-    out: &mut Vec<u32>,
+/// Writes the members of a contiguous range that are near; branch-free in the distance test.
+fn keep_sorted<const D: usize>(
+    slots: &mut [u32],
     x: &Vect<D>,
     sources: &[Vect<D>],
     range: std::ops::Range<usize>,
     reach2: f64,
     own: usize,
-) {
-    let base = out.len();
-    out.resize(base + range.len(), 0);
-    let slots = &mut out[base..];
+) -> usize {
     let mut n = 0;
     for (j, y) in range.clone().zip(&sources[range]) {
-        let near = (x - y).norm_squared() < reach2 && j != own;
+        let near = ((x - y).norm_squared() < reach2) & (j != own);
         slots[n] = j as u32;
         n += usize::from(near);
     }
-    out.truncate(base + n);
+    n
+}
+
+/// Writes the members of a list that are near.
+fn keep(slots: &mut [u32], members: &[u32], own: usize, near: impl Fn(usize) -> bool) -> usize {
+    let mut n = 0;
+    for &j in members {
+        if near(j as usize) && j as usize != own {
+            slots[n] = j;
+            n += 1;
+        }
+    }
+    n
 }

@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_kernels::Sampler;
 
-use crate::{Contact, Domain};
+use crate::{Contact, Domain, There};
 
 /// Pairs of one particle with one set of sources, inside the support only.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +25,8 @@ pub struct Neighbourhood<'a, const D: usize> {
     pub particle: usize,
     /// Its free neighbours.
     pub free: Row<'a, D>,
+    /// Packed states of all free particles, by index.
+    pub states: &'a [There<D>],
     /// Its wall points.
     pub wall: Row<'a, D>,
     /// Its wall elements with their share of ∇γ.
@@ -56,12 +58,15 @@ impl<const D: usize> Scratch<D> {
     }
 
     /// Keeps the candidates within the support and evaluates F for them.
+    ///
+    /// `pruned` says that all candidates are within the support already.
     #[inline]
     pub fn fill<K: Sampler + ?Sized>(
         &mut self,
         x: &Vect<D>,
         sources: &[Vect<D>],
         candidates: &[u32],
+        pruned: bool,
         domain: Option<&Domain<D>>,
         kernel: &K,
     ) {
@@ -74,14 +79,36 @@ impl<const D: usize> Scratch<D> {
             self.distance2.resize(n, 0.0);
             self.factor.resize(n, 0.0);
         }
-        self.len = match domain {
-            None => self.compress(x, sources, candidates, limit, |d| d),
-            Some(domain) => {
+        self.len = match (domain, pruned) {
+            (None, true) => self.gather(x, sources, candidates, |d| d),
+            (None, false) => self.compress(x, sources, candidates, limit, |d| d),
+            (Some(domain), _) => {
                 self.compress(x, sources, candidates, limit, |d| domain.nearest_image(d))
             }
         };
         let n = self.len;
         kernel.gradient_factor(&self.distance2[..n], &mut self.factor[..n]);
+    }
+
+    #[inline(always)]
+    fn gather(
+        &mut self,
+        x: &Vect<D>,
+        sources: &[Vect<D>],
+        candidates: &[u32],
+        image: impl Fn(Vect<D>) -> Vect<D>,
+    ) -> usize {
+        let m = candidates.len();
+        self.index[..m].copy_from_slice(candidates);
+        let rows = self.separation[..m]
+            .iter_mut()
+            .zip(&mut self.distance2[..m]);
+        for ((separation, distance2), &j) in rows.zip(candidates) {
+            let d = image(x - sources[j as usize]);
+            *separation = d;
+            *distance2 = d.norm_squared();
+        }
+        m
     }
 
     #[inline(always)]

@@ -5,7 +5,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
 
 use crate::list::CHUNK;
-use crate::term::{Interaction, Rates, RowTerm};
+use crate::term::{Interaction, Rates, RowTerm, There};
 use crate::{Domain, NeighbourList, Neighbourhood, Scratch, World};
 
 /// Sums all terms of all particles.
@@ -13,10 +13,13 @@ use crate::{Domain, NeighbourList, Neighbourhood, Scratch, World};
 /// `rates` receives accelerations, starting from gravity and driving; `scalar`, where the
 /// formulation evolves one, its rate. One virtual call per particle and unfused term.
 ///
+/// `states` is a buffer for the packed states.
+///
 /// # Errors
 /// If a term misses a column.
 pub fn interactions<const D: usize>(
     world: &World<D>,
+    states: &mut Vec<There<D>>,
     terms: &[Box<dyn Interaction<D>>],
     acceleration: &mut [Vect<D>],
     scalar: Option<&mut [f64]>,
@@ -25,16 +28,37 @@ pub fn interactions<const D: usize>(
         .iter()
         .map(|t| t.bind(world))
         .collect::<Result<Vec<_>, _>>()?;
+    pack(world, states);
+    let kernel = &*world.kernel;
     match &bound[..] {
-        [one] => interactions_with(world, &*world.kernel, &**one, acceleration, scalar),
+        [one] => interactions_with(world, states, kernel, &**one, acceleration, scalar),
         _ => interactions_with(
             world,
-            &*world.kernel,
+            states,
+            kernel,
             &Several(&bound),
             acceleration,
             scalar,
         ),
     }
+}
+
+/// Packs what most terms read of a neighbour.
+pub fn pack<const D: usize>(world: &World<D>, states: &mut Vec<There<D>>) {
+    let free = &world.free;
+    let velocity = free.get(fields::VELOCITY).unwrap_or(&[]);
+    let volume = free.get(fields::VOLUME).unwrap_or(&[]);
+    let pressure = free.get(fields::PRESSURE).unwrap_or(&[]);
+    let density = free.get(fields::DENSITY).unwrap_or(&[]);
+    let scalar = |column: &[f64], i: usize| column.get(i).copied().unwrap_or(0.0);
+    let one = |i: usize| There {
+        velocity: velocity.get(i).copied().unwrap_or_else(Vect::zeros),
+        volume: scalar(volume, i),
+        pressure: scalar(pressure, i),
+        density: scalar(density, i),
+    };
+    let all = (0..free.len()).into_par_iter().with_min_len(2048);
+    all.map(one).collect_into_vec(states);
 }
 
 struct Several<'a, 'b, const D: usize>(&'a [Box<dyn RowTerm<D> + 'b>]);
@@ -53,6 +77,7 @@ impl<const D: usize> RowTerm<D> for Several<'_, '_, D> {
 /// If the world has no positions.
 pub fn interactions_with<const D: usize, K, T>(
     world: &World<D>,
+    states: &[There<D>],
     kernel: &K,
     term: &T,
     acceleration: &mut [Vect<D>],
@@ -69,22 +94,27 @@ where
         scalar: 0.0,
     };
     let points = &world.walls.points.position[..];
+    let (list, pruned) = match &world.lists.pruned {
+        Some(list) => (list, true),
+        None => (&world.lists.free, false),
+    };
     let work = |from: usize, scratch: &mut [Scratch<D>; 2], i: usize| {
         let i = from + i;
         let x = &positions[i];
         let domain = wrapping(&world.domain, x, world.reach());
         let [free, wall] = scratch;
-        free.fill(x, positions, world.lists.free.row(i), domain, kernel);
+        free.fill(x, positions, list.row(i), pruned, domain, kernel);
         wall.clear();
         if !points.is_empty() {
             let candidates = world.lists.wall.row(i);
             if !candidates.is_empty() {
-                wall.fill(x, points, candidates, domain, kernel);
+                wall.fill(x, points, candidates, false, domain, kernel);
             }
         }
         let neighbourhood = Neighbourhood {
             particle: i,
             free: free.row(),
+            states,
             wall: wall.row(),
             contacts: world.walls.contacts.of(i),
             inverse_renormalisation: renormalisation.map_or(1.0, |g| 1.0 / g[i]),
@@ -129,36 +159,43 @@ fn wrapping<'a, const D: usize>(
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d.
 ///
+/// Since it looks at all distances, it also leaves the list without its skin in
+/// [`Lists::pruned`](crate::Lists::pruned) for the sweeps that follow at the same positions.
+///
 /// # Errors
 /// If the world has no positions.
-pub fn kernel_sums<const D: usize>(world: &World<D>, sums: &mut [f64]) -> Result<(), StepError> {
+pub fn kernel_sums<const D: usize>(
+    world: &mut World<D>,
+    sums: &mut [f64],
+) -> Result<(), StepError> {
+    let mut pruned = std::mem::take(&mut world.lists.spare);
     let positions = world.free.get(fields::POSITION)?;
     let points = &world.walls.points;
+    let list = &world.lists.free;
     let kernel = &*world.kernel;
     let own = kernel.value_at_zero();
-    sums.par_chunks_mut(CHUNK)
-        .enumerate()
-        .for_each_init(Values::default, |values, (c, sums)| {
-            for (k, sum) in sums.iter_mut().enumerate() {
-                let i = c * CHUNK + k;
-                let x = &positions[i];
-                let domain = wrapping(&world.domain, x, world.reach());
-                let w = values.fill(x, positions, world.lists.free.row(i), domain, kernel);
-                *sum = own + total(w);
-                if !points.position.is_empty() {
-                    let row = world.lists.wall.row(i);
-                    if !row.is_empty() {
-                        let w = values.fill(x, &points.position, row, domain, kernel);
-                        let shares = row.iter().map(|&v| points.share[v as usize]);
-                        *sum += w
-                            .iter()
-                            .zip(shares)
-                            .map(|(w, share)| w * share)
-                            .sum::<f64>();
-                    }
-                }
+    let limit = kernel.support_radius().powi(2);
+    let row = |values: &mut Values, i: usize, slots: &mut [u32]| {
+        let x = &positions[i];
+        let domain = wrapping(&world.domain, x, world.reach());
+        let (n, w) = values.prune(x, positions, list.row(i), limit, domain, kernel, slots);
+        let mut sum = own + total(w);
+        if !points.position.is_empty() {
+            let row = world.lists.wall.row(i);
+            if !row.is_empty() {
+                let w = values.fill(x, &points.position, row, domain, kernel);
+                let shares = row.iter().map(|&v| points.share[v as usize]);
+                sum += w
+                    .iter()
+                    .zip(shares)
+                    .map(|(w, share)| w * share)
+                    .sum::<f64>();
             }
-        });
+        }
+        (n, sum)
+    };
+    pruned.fill_rows(sums, |i| list.row(i).len(), Values::default, row);
+    world.lists.pruned = Some(pruned);
     Ok(())
 }
 
@@ -192,6 +229,43 @@ struct Values {
 }
 
 impl Values {
+    fn reserve(&mut self, n: usize) {
+        if self.value.len() < n {
+            self.distance2.resize(n.next_power_of_two(), 0.0);
+            self.value.resize(n.next_power_of_two(), 0.0);
+        }
+    }
+
+    /// Kernel values of the candidates within the support; their indices go to `slots`.
+    #[allow(clippy::too_many_arguments)]
+    fn prune<const D: usize>(
+        &mut self,
+        x: &Vect<D>,
+        sources: &[Vect<D>],
+        candidates: &[u32],
+        limit: f64,
+        domain: Option<&Domain<D>>,
+        kernel: &dyn Sampler,
+        slots: &mut [u32],
+    ) -> (usize, &[f64]) {
+        let m = candidates.len();
+        self.reserve(m);
+        let (distance2, slots) = (&mut self.distance2[..m], &mut slots[..m]);
+        let mut n = 0;
+        for &j in candidates {
+            let mut d = x - sources[j as usize];
+            if let Some(domain) = domain {
+                d = domain.nearest_image(d);
+            }
+            let r2 = d.norm_squared();
+            slots[n] = j;
+            distance2[n] = r2;
+            n += usize::from(r2 < limit);
+        }
+        kernel.value(&distance2[..n], &mut self.value[..n]);
+        (n, &self.value[..n])
+    }
+
     fn fill<const D: usize>(
         &mut self,
         x: &Vect<D>,
@@ -201,10 +275,7 @@ impl Values {
         kernel: &dyn Sampler,
     ) -> &[f64] {
         let n = candidates.len();
-        if self.value.len() < n {
-            self.distance2.resize(n.next_power_of_two(), 0.0);
-            self.value.resize(n.next_power_of_two(), 0.0);
-        }
+        self.reserve(n);
         let distance2 = &mut self.distance2[..n];
         match domain {
             None => {

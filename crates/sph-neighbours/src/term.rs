@@ -26,6 +26,21 @@ pub struct Pair<const D: usize> {
     pub factor: f64,
 }
 
+/// What most terms read of a neighbour, packed so that one load serves all of them.
+///
+/// Columns that a scene does not have are zero here.
+#[derive(Clone, Copy, Debug)]
+pub struct There<const D: usize> {
+    /// Velocity, m/s.
+    pub velocity: Vect<D>,
+    /// Volume, m^d.
+    pub volume: f64,
+    /// Pressure, Pa.
+    pub pressure: f64,
+    /// Density, kg/m³.
+    pub density: f64,
+}
+
 /// A term with its columns at hand.
 pub trait BoundTerm<const D: usize>: Sync {
     /// What is read once per particle.
@@ -36,8 +51,15 @@ pub trait BoundTerm<const D: usize>: Sync {
     fn here(&self, particle: usize) -> Self::Here;
     /// The empty sum.
     fn zero(&self) -> Self::Sum;
-    /// Adds a free neighbour.
-    fn free(&self, here: &Self::Here, neighbour: usize, pair: &Pair<D>, sum: &mut Self::Sum);
+    /// Adds a free neighbour; `there` is its packed state.
+    fn free(
+        &self,
+        here: &Self::Here,
+        neighbour: usize,
+        there: &There<D>,
+        pair: &Pair<D>,
+        sum: &mut Self::Sum,
+    );
     /// Adds a wall point.
     fn wall(&self, _here: &Self::Here, _point: usize, _pair: &Pair<D>, _sum: &mut Self::Sum) {}
     /// Adds a wall element.
@@ -126,7 +148,9 @@ impl<const D: usize, B: BoundTerm<D>> RowTerm<D> for Fused<B> {
         let term = &self.0;
         let here = term.here(n.particle);
         let mut sum = term.zero();
-        each(&n.free, |j, pair| term.free(&here, j, pair, &mut sum));
+        each(&n.free, |j, pair| {
+            term.free(&here, j, &n.states[j], pair, &mut sum)
+        });
         if !n.wall.index.is_empty() {
             each(&n.wall, |v, pair| term.wall(&here, v, pair, &mut sum));
         }
@@ -166,8 +190,8 @@ macro_rules! fused_tuple {
                 ($(self.$k.zero(),)+)
             }
             #[inline(always)]
-            fn free(&self, here: &Self::Here, j: usize, pair: &Pair<D>, sum: &mut Self::Sum) {
-                $(self.$k.free(&here.$k, j, pair, &mut sum.$k);)+
+            fn free(&self, here: &Self::Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Self::Sum) {
+                $(self.$k.free(&here.$k, j, there, pair, &mut sum.$k);)+
             }
             #[inline(always)]
             fn wall(&self, here: &Self::Here, v: usize, pair: &Pair<D>, sum: &mut Self::Sum) {

@@ -9,8 +9,12 @@ use crate::{CellGrid, Domain, NeighbourList, WallSet};
 /// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
 #[derive(Default)]
 pub struct Lists<const D: usize> {
-    /// Free particles around free particles.
+    /// Free particles around free particles, skin included.
     pub free: NeighbourList,
+    /// The same without the skin, at the present positions; filled by a sweep that looks at all
+    /// distances anyway ([`kernel_sums`](crate::kernel_sums)), `None` once somebody moved.
+    pub pruned: Option<NeighbourList>,
+    pub(crate) spare: NeighbourList,
     /// Wall points around free particles.
     pub wall: NeighbourList,
     /// Free particles around wall points.
@@ -188,6 +192,9 @@ impl<const D: usize> World<D> {
     /// # Errors
     /// If there is no position column.
     pub fn refresh_lists(&mut self) -> Result<bool, FieldError> {
+        if let Some(pruned) = self.lists.pruned.take() {
+            self.lists.spare = pruned;
+        }
         let expired = self.lists_expired()?;
         if expired {
             self.rebuild_lists()?;

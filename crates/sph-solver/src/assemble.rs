@@ -323,6 +323,7 @@ fn plan_stages<const D: usize>(
         terms: fuse_all(terms),
         scalar: scalar.filter(|_| changes_scalar),
         walls: walls.is_some(),
+        states: Vec::new(),
     };
 
     let mut offered: Stages<D> = Vec::new();

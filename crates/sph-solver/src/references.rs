@@ -149,10 +149,7 @@ fn against_series<const D: usize>(
             "a probe is compared with a `file`, or by the norm `decay-rate`".into(),
         ));
     };
-    let table = match reference_table(reference, path) {
-        Ok(table) => table,
-        Err(error) => return Err(error.into()),
-    };
+    let table = reference_table(reference, path)?;
     let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
         table.columns[k]
             .values

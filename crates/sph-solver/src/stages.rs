@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use sph_boundary::Wall;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields};
-use sph_neighbours::{Interaction, World, interactions};
+use sph_neighbours::{Interaction, There, World, interactions};
 use sph_rheology::{Inputs, Rheology};
 
 /// Stands for all that walls carry; not a column of the free particles.
@@ -121,6 +121,8 @@ pub struct InteractionSweep<const D: usize> {
     pub scalar: Option<Field<Scalar>>,
     /// Whether walls exist.
     pub walls: bool,
+    /// Buffer of the packed states.
+    pub states: Vec<There<D>>,
 }
 
 impl<const D: usize> Declares for InteractionSweep<D> {
@@ -150,10 +152,22 @@ impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
         match self.scalar {
             Some(field) => {
                 let mut scalar = world.free.take(field)?;
-                interactions(world, &self.terms, &mut acceleration, Some(&mut scalar))?;
+                interactions(
+                    world,
+                    &mut self.states,
+                    &self.terms,
+                    &mut acceleration,
+                    Some(&mut scalar),
+                )?;
                 world.free.put(field, scalar)?;
             }
-            None => interactions(world, &self.terms, &mut acceleration, None)?,
+            None => interactions(
+                world,
+                &mut self.states,
+                &self.terms,
+                &mut acceleration,
+                None,
+            )?,
         }
         Ok(world.free.put(fields::ACCELERATION, acceleration)?)
     }

@@ -1,0 +1,136 @@
+//! Crates are rooms with one-way doors.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::process::Command;
+
+use serde_json::Value;
+
+/// What a crate of the workspace may depend on within it; the tests may everything.
+const ALLOWED: [(&str, &[&str]); 12] = [
+    ("sph-kernels", &[]),
+    ("sph-core", &[]),
+    ("sph-neighbours", &["sph-core", "sph-kernels"]),
+    (
+        "sph-boundary",
+        &["sph-core", "sph-kernels", "sph-neighbours"],
+    ),
+    ("sph-rheology", &["sph-core"]),
+    (
+        "sph-multiphase",
+        &["sph-core", "sph-kernels", "sph-neighbours"],
+    ),
+    ("sph-implicit", &["sph-core", "sph-neighbours"]),
+    ("sph-integrators", &["sph-core", "sph-implicit"]),
+    ("sph-probes", &["sph-core", "sph-kernels", "sph-neighbours"]),
+    ("sph-io", &["sph-core"]),
+    ("sph-scene", &["sph-core"]),
+    (
+        "sph-cli",
+        &["sph-core", "sph-io", "sph-scene", "sph-solver"],
+    ),
+];
+
+/// Heavy crates, each with the one crate that may name it.
+const KEPT_IN: [(&str, &str); 5] = [
+    ("clap", "sph-cli"),
+    ("ariadne", "sph-cli"),
+    ("indicatif", "sph-cli"),
+    ("faer", "sph-implicit"),
+    ("hdf5", "sph-io"),
+];
+
+#[derive(Default)]
+struct Room {
+    /// Normal and build dependencies.
+    uses: BTreeSet<String>,
+    /// Those of its tests and benches.
+    tests_use: BTreeSet<String>,
+}
+
+fn rooms() -> BTreeMap<String, Room> {
+    let output = Command::new(env!("CARGO"))
+        .args([
+            "metadata",
+            "--no-deps",
+            "--offline",
+            "--format-version",
+            "1",
+        ])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("cargo metadata");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let metadata: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let packages = metadata["packages"].as_array().expect("packages");
+    let text = |v: &Value| v.as_str().unwrap_or_default().to_string();
+    let mut rooms: BTreeMap<String, Room> = BTreeMap::new();
+    for package in packages {
+        let room = rooms.entry(text(&package["name"])).or_default();
+        for dependency in package["dependencies"].as_array().into_iter().flatten() {
+            let name = text(&dependency["name"]);
+            match dependency["kind"].as_str() {
+                Some("dev") => room.tests_use.insert(name),
+                _ => room.uses.insert(name),
+            };
+        }
+    }
+    rooms
+}
+
+#[test]
+fn every_dependency_within_the_workspace_is_an_arrow_of_the_design() {
+    let rooms = rooms();
+    assert!(rooms.contains_key("sph-solver") && rooms.contains_key("sph-tests"));
+    for (name, room) in &rooms {
+        let own = room.uses.iter().filter(|d| rooms.contains_key(*d));
+        let allowed = ALLOWED.iter().find(|(n, _)| n == name).map(|(_, a)| *a);
+        for target in own {
+            let fine = match (name.as_str(), allowed) {
+                ("sph-tests", _) => true,
+                ("sph-solver", _) => target != "sph-cli" && target != "sph-tests",
+                (_, Some(allowed)) => allowed.contains(&target.as_str()),
+                (_, None) => target == "sph-core",
+            };
+            assert!(fine, "{name} must not depend on {target}");
+        }
+    }
+}
+
+#[test]
+fn nothing_but_the_command_line_and_these_tests_knows_the_solver() {
+    for (name, room) in rooms() {
+        let knows = room.uses.contains("sph-solver") || room.tests_use.contains("sph-solver");
+        let may = name == "sph-cli" || name == "sph-tests";
+        assert!(
+            !knows || may,
+            "{name} depends on sph-solver, if only for its tests"
+        );
+    }
+}
+
+#[test]
+fn crates_that_can_be_used_alone_are_tested_alone() {
+    for name in ["sph-kernels", "sph-core", "sph-rheology", "sph-io"] {
+        let room = &rooms()[name];
+        let others = room.tests_use.iter().filter(|d| d.starts_with("sph-"));
+        let others: Vec<_> = others.filter(|d| *d != "sph-core").collect();
+        assert!(others.is_empty(), "the tests of {name} need {others:?}");
+    }
+}
+
+#[test]
+fn heavy_crates_stay_in_their_room() {
+    for (name, room) in rooms() {
+        for (heavy, home) in KEPT_IN {
+            let knows = room.uses.contains(heavy) || room.tests_use.contains(heavy);
+            assert!(
+                !knows || name == home,
+                "{name} depends on {heavy}, which belongs to {home}"
+            );
+        }
+    }
+}

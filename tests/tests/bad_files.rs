@@ -1,0 +1,129 @@
+//! Files that fail a run: folders that cannot be written, full disks, damaged checkpoints.
+
+use std::path::Path;
+use std::process::Command;
+
+use sph_tests::{Bench, DAM_BREAK, files_with_extension};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+
+#[test]
+fn a_folder_that_cannot_be_written_is_named() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    for out in ["scene.toml/results", "/proc/self/results"] {
+        let outcome = bench.call(&format!("run scene.toml --out {out}"));
+        assert_eq!(outcome.code, Some(1), "{}", outcome.err);
+        assert!(outcome.err.contains(out), "{}", outcome.err);
+    }
+    assert_eq!(bench.read("scene.toml"), DAM_BREAK);
+}
+
+/// A run of a few steps, to have a checkpoint.
+fn short_run(bench: &Bench) {
+    bench.done("run scene.toml --quiet --out r --set run.end=0.02");
+}
+
+#[test]
+fn a_damaged_checkpoint_is_not_resumed() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    short_run(&bench);
+    let path = bench.path("r/checkpoint.sph");
+    let whole = std::fs::read(&path).expect("a checkpoint");
+    let series = bench.read("r/series.csv");
+    let mut flipped = whole.clone();
+    flipped[whole.len() / 2] ^= 1;
+    for (bytes, word) in [
+        (whole[..whole.len() / 2].to_vec(), "bytes instead of"),
+        (Vec::new(), "not a checkpoint"),
+        (flipped, "checksum"),
+        (vec![b'x'; 4096], "not a checkpoint"),
+    ] {
+        std::fs::write(&path, &bytes).expect("a damaged checkpoint");
+        let outcome = bench.call("run scene.toml --out r --set run.end=0.02 --resume");
+        assert_eq!(outcome.code, Some(1), "{}", outcome.err);
+        assert!(outcome.err.contains("checkpoint.sph"), "{}", outcome.err);
+        assert!(outcome.err.contains(word), "no `{word}` in {}", outcome.err);
+        assert!(outcome.err.contains("without --resume"), "{}", outcome.err);
+        assert_eq!(bench.read("r/series.csv"), series, "the series was touched");
+    }
+}
+
+#[test]
+fn a_checkpoint_of_another_scene_is_not_resumed() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    short_run(&bench);
+    let series = bench.read("r/series.csv");
+    for set in ["", "--set run.end=0.02 --set phase.water.density=999"] {
+        let outcome = bench.call(&format!("run scene.toml --out r --resume {set}"));
+        assert_eq!(outcome.code, Some(1), "{}", outcome.err);
+        assert!(outcome.err.contains("different scene"), "{}", outcome.err);
+        assert_eq!(bench.read("r/series.csv"), series, "the series was touched");
+    }
+    // Another number of threads is the same scene.
+    bench.done("run scene.toml --quiet --out r --set run.end=0.02 --resume --threads 1");
+}
+
+/// A file system of its own, unmounted in the end.
+struct Disk<'a>(&'a Path);
+
+impl<'a> Disk<'a> {
+    fn of(kilobytes: u32, at: &'a Path) -> Option<Self> {
+        std::fs::create_dir_all(at).ok()?;
+        let size = format!("size={kilobytes}k");
+        let mut mount = Command::new("mount");
+        mount.args(["-t", "tmpfs", "-o", &size, "tmpfs"]).arg(at);
+        let mounted = mount.output().ok()?;
+        mounted.status.success().then_some(Disk(at))
+    }
+}
+
+impl Drop for Disk<'_> {
+    fn drop(&mut self) {
+        let _ = Command::new("umount").arg(self.0).status();
+    }
+}
+
+#[test]
+fn a_full_disk_costs_the_last_output_and_no_other() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let at = bench.path("disk");
+    let Some(_disk) = Disk::of(160, &at) else {
+        println!("skipped: mounting a small file system is not permitted here");
+        return;
+    };
+    let set = "--set output.every=0.002 --set output.picture=pressure";
+    let outcome = bench.call(&format!("run scene.toml --out disk/r {set}"));
+    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
+    assert!(outcome.err.contains("disk full"), "{}", outcome.err);
+
+    let folder = bench.path("disk/r");
+    let ends = |extension: &str, end: &[u8]| {
+        for path in files_with_extension(&folder, extension) {
+            let bytes = std::fs::read(&path).expect("a file of the run");
+            assert!(bytes.ends_with(end), "{} is cut", path.display());
+        }
+    };
+    ends("vtu", b"</VTKFile>\n");
+    ends("pvd", b"</VTKFile>\n");
+    ends("png", b"IEND\xaeB`\x82");
+    ends("csv", b"\n");
+    ends("json", b"}\n");
+    assert!(
+        !files_with_extension(&folder, "vtu").is_empty(),
+        "nothing was written at all"
+    );
+    assert!(
+        files_with_extension(&folder, "tmp").is_empty(),
+        "a temporary was left"
+    );
+    let lines = bench.read("disk/r/series.csv");
+    let widths = lines
+        .lines()
+        .filter(|l| !l.starts_with('#'))
+        .map(|l| l.split(',').count());
+    let widths: Vec<usize> = widths.collect();
+    assert!(
+        widths.iter().all(|w| *w == widths[0]),
+        "a row of the series is cut"
+    );
+}

@@ -1,0 +1,289 @@
+//! The commands as a person or a script meets them.
+
+use std::path::Path;
+
+use serde_json::Value;
+use sph_tests::{Bench, DAM_BREAK, Outcome, PERIODIC};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+
+fn json(outcome: &Outcome) -> Value {
+    serde_json::from_str(&outcome.out).unwrap_or_else(|e| panic!("{e}\n{}", outcome.out))
+}
+
+fn text(value: &Value) -> &str {
+    value.as_str().unwrap_or_default()
+}
+
+#[test]
+fn every_command_has_help_with_what_it_leaves_behind() {
+    let bench = Bench::new(PROGRAM);
+    let all = bench.done("--help");
+    assert!(all.out.contains("Exit codes"), "{}", all.out);
+    for command in [
+        "run", "check", "explain", "plugins", "schema", "scenes", "new",
+    ] {
+        assert!(all.out.contains(command), "{command} is not in the help");
+        let help = bench.done(&format!("{command} --help"));
+        assert!(help.out.contains("Usage:"), "{}", help.out);
+    }
+    let run = bench.done("run --help").out;
+    for word in [
+        "series.csv",
+        "summary.json",
+        "checkpoint.sph",
+        "--resume",
+        "Exit codes",
+    ] {
+        assert!(run.contains(word), "{word} is not in the help of run");
+    }
+}
+
+#[test]
+fn plugins_are_listed_by_kind_and_shown_with_their_parameters() {
+    let bench = Bench::new(PROGRAM);
+    let kinds = json(&bench.done("plugins --json"));
+    for kind in kinds.as_array().expect("kinds") {
+        let kind_name = text(&kind["kind"]);
+        let list = bench.done(&format!("plugins {kind_name}")).out;
+        for plugin in kind["plugins"].as_array().expect("plugins") {
+            let name = text(&plugin["name"]);
+            assert!(list.contains(name) && list.contains(text(&plugin["provider"])));
+            let shown = bench.done(&format!("plugins {kind_name} {name}")).out;
+            for parameter in plugin["parameters"].as_array().expect("parameters") {
+                assert!(shown.contains(text(&parameter["name"])), "{shown}");
+                assert_ne!(
+                    text(&parameter["meaning"]),
+                    "",
+                    "{kind_name} {name}: {parameter}"
+                );
+            }
+        }
+    }
+    let tait = bench.done("plugins equation-of-state tait").out;
+    assert!(
+        tait.contains("[phase.NAME.equation-of-state.tait]"),
+        "{tait}"
+    );
+    let unknown = bench.call("plugins kernel wendland-c3");
+    assert_eq!(unknown.code, Some(2));
+    assert!(
+        unknown.err.contains("did you mean `wendland-c2`"),
+        "{}",
+        unknown.err
+    );
+    assert!(
+        bench
+            .call("plugins kernl")
+            .err
+            .contains("did you mean `kernel`")
+    );
+}
+
+#[test]
+fn the_schema_is_json_and_mentions_every_plugin() {
+    let bench = Bench::new(PROGRAM);
+    let schema = bench.done("schema");
+    assert!(json(&schema)["properties"]["numerics"].is_object());
+    for kind in json(&bench.done("plugins --json"))
+        .as_array()
+        .expect("kinds")
+    {
+        for plugin in kind["plugins"].as_array().expect("plugins") {
+            let quoted = format!("\"{}\"", text(&plugin["name"]));
+            assert!(
+                schema.out.contains(&quoted),
+                "{quoted} is not in the schema"
+            );
+        }
+    }
+}
+
+/// Files of the workspace's folder of scenes.
+fn shipped() -> Vec<std::path::PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let entries = std::fs::read_dir(folder).expect("the folder of scenes");
+    let files = entries.map(|e| e.expect("an entry").path());
+    files
+        .filter(|p| p.extension().is_some_and(|e| e == "toml"))
+        .collect()
+}
+
+#[test]
+fn every_shipped_scene_passes_check_as_a_file_and_from_the_program() {
+    let bench = Bench::new(PROGRAM);
+    assert!(!shipped().is_empty());
+    for file in shipped() {
+        bench.done(&format!("check {}", file.display()));
+        let name = file.file_stem().and_then(|s| s.to_str()).expect("a name");
+        bench.done(&format!("check {name}"));
+    }
+    assert_eq!(
+        std::fs::read_dir(bench.folder())
+            .expect("the folder")
+            .count(),
+        0
+    );
+}
+
+#[test]
+fn scenes_lists_every_shipped_scene_with_its_title() {
+    let bench = Bench::new(PROGRAM);
+    let listed = json(&bench.done("scenes --json"));
+    let listed = listed.as_array().expect("an array");
+    assert_eq!(listed.len(), shipped().len());
+    let lines = bench.done("scenes").out;
+    for scene in listed {
+        assert!(lines.contains(text(&scene["name"])), "{lines}");
+        assert!(lines.contains(text(&scene["title"])) && !text(&scene["title"]).is_empty());
+    }
+}
+
+#[test]
+fn a_new_scene_is_good_and_never_overwrites() {
+    let bench = Bench::new(PROGRAM);
+    bench.done("new pool");
+    bench.done("check pool.toml");
+    bench.done("run pool.toml --quiet --set run.end=0.05");
+    let again = bench.call("new pool.toml");
+    assert_eq!(again.code, Some(2));
+    assert!(again.err.contains("exists already"), "{}", again.err);
+    // A copy brings the data that it is compared with.
+    bench.done("new copy --from dam-break-koshizuka");
+    bench.done("check copy.toml");
+    assert_eq!(bench.call("new other --from nosuch").code, Some(2));
+    assert!(!bench.path("other.toml").exists());
+}
+
+#[test]
+fn a_run_tells_a_program_what_the_summary_says() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let outcome = bench.done("run scene.toml --json --set run.end=0.02");
+    let told = json(&outcome);
+    let keys = [
+        "schema_version",
+        "scene",
+        "status",
+        "plugins",
+        "dimension",
+        "particles",
+        "steps",
+        "simulated_seconds",
+        "wall_seconds",
+        "wall_seconds_by_stage",
+        "particle_steps_per_second",
+        "bytes_per_particle",
+        "dt_limiters",
+        "drift",
+        "errors",
+        "warnings",
+    ];
+    for key in keys {
+        assert!(!told[key].is_null(), "`{key}` is missing");
+    }
+    assert_eq!(told["status"], "done");
+    let shares: f64 = told["dt_limiters"]
+        .as_object()
+        .expect("a table")
+        .values()
+        .map(|v| v.as_f64().expect("a share"))
+        .sum();
+    assert!(
+        (shares - 1.0).abs() < 1e-12,
+        "the shares of the limiters sum to {shares}"
+    );
+    let written: Value =
+        serde_json::from_str(&bench.read("results/scene/summary.json")).expect("JSON");
+    assert_eq!(told, written);
+}
+
+#[test]
+fn a_run_tells_a_person_what_came_out_and_where_it_is() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let set = "--set run.end=0.02 --set output.picture=pressure";
+    let outcome = bench.done(&format!("run scene.toml {set}"));
+    for word in [
+        "done",
+        "Δt limited by",
+        "results/scene",
+        "series.csv",
+        "pictures/pressure_0000",
+    ] {
+        assert!(
+            outcome.out.contains(word),
+            "no `{word}` in\n{}",
+            outcome.out
+        );
+    }
+    assert!(
+        outcome.err.contains("100.0 %"),
+        "no last line of progress in\n{}",
+        outcome.err
+    );
+    let quiet = bench.done("run scene.toml --quiet --set run.end=0.02");
+    assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
+}
+
+#[test]
+fn check_counts_and_estimates_without_writing() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let told = json(&bench.done("check scene.toml --json --threads 3"));
+    assert_eq!(told["threads"], 3);
+    assert!(told["particles"].as_u64() > Some(100) && told["wall_points"].as_u64() > Some(50));
+    for key in ["steps", "hours", "memory_bytes", "disk_bytes"] {
+        assert!(told["estimate"][key].as_f64() > Some(0.0), "{told:#}");
+    }
+    let fast = bench
+        .done("check scene.toml --set phase.water.speed_of_sound=10")
+        .out;
+    assert!(fast.contains("Mach number of `water`"), "{fast}");
+    assert_eq!(
+        std::fs::read_dir(bench.folder())
+            .expect("the folder")
+            .count(),
+        1
+    );
+}
+
+#[test]
+fn explain_shows_that_nothing_unused_is_allocated() {
+    let bench = Bench::with(PROGRAM, PERIODIC);
+    let told = json(&bench.done("explain scene.toml --json"));
+    let columns: Vec<&str> = told["fields"]
+        .as_array()
+        .expect("columns")
+        .iter()
+        .map(|f| text(&f["name"]))
+        .collect();
+    for unused in [
+        "renormalisation",
+        "viscosity",
+        "phase",
+        "density_constant_rate",
+    ] {
+        assert!(
+            !columns.contains(&unused),
+            "a column `{unused}` that nothing needs"
+        );
+    }
+    let bytes: u64 = told["fields"]
+        .as_array()
+        .expect("columns")
+        .iter()
+        .map(|f| f["bytes"].as_u64().expect("a number"))
+        .sum();
+    assert_eq!(Some(bytes), told["bytes_per_particle"].as_u64());
+    let shown = bench.done("explain scene.toml").out;
+    assert!(
+        !shown.contains("renormalisation") && !shown.contains("wall"),
+        "{shown}"
+    );
+    for word in [
+        "Morris viscosity",
+        "reads at neighbours",
+        "limits of the time step",
+        "hu-adams",
+    ] {
+        assert!(shown.contains(word), "no `{word}` in\n{shown}");
+    }
+}

@@ -1,0 +1,205 @@
+//! Plugins from outside: a kernel, a force and a rheology that no crate of the workspace knows.
+//!
+//! Everything between the two lines could be a crate of its own. A binary that mentions it,
+//! `use my_plugins as _;`, and calls `sph_cli::main()` has the plugins in all its commands.
+
+use std::any::Any;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Access, StepError, fields, register};
+use sph_kernels::{Kernel, Sampler, ScalarSampler};
+use sph_neighbours::{Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, World};
+use sph_rheology::{Inputs, Needs, Rheology, RheologyEntry};
+
+// ------------------------------------------------------------------------------------------------
+
+/// f(q) = exp(−q²), cut at q = 3.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Gaussian {}
+
+impl Kernel for Gaussian {
+    fn name(&self) -> &str {
+        "gaussian"
+    }
+    fn source(&self) -> &str {
+        "Gingold & Monaghan (1977)"
+    }
+    fn support(&self) -> f64 {
+        3.0
+    }
+    fn value(&self, q: f64) -> f64 {
+        if q < 3.0 { (-q * q).exp() } else { 0.0 }
+    }
+    fn derivative(&self, q: f64) -> f64 {
+        -2.0 * q * self.value(q)
+    }
+    fn sampler(&self, dimension: usize, h: f64) -> Box<dyn Sampler> {
+        Box::new(ScalarSampler::new(self.clone(), dimension, h))
+    }
+}
+
+register!(
+    KernelEntry,
+    Gaussian,
+    "gaussian",
+    "a bell cut at 3h",
+    "Gingold & Monaghan (1977)"
+);
+
+/// du/dt = −u/τ.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct LinearDrag {
+    /// Time τ in which the velocity falls to 1/e.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    time: f64,
+}
+
+/// The drag with the column it reads.
+struct BoundDrag<'a, const D: usize> {
+    velocity: &'a [sph_core::Vect<D>],
+    rate: f64,
+}
+
+impl<const D: usize> RowTerm<D> for BoundDrag<'_, D> {
+    fn row(&self, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        rates.acceleration -= self.velocity[at.particle] * self.rate;
+    }
+}
+
+impl<const D: usize> Interaction<D> for LinearDrag {
+    fn name(&self) -> String {
+        "linear drag".into()
+    }
+    fn access(&self) -> Access {
+        Access::none().here(fields::VELOCITY)
+    }
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
+        Ok(Box::new(BoundDrag {
+            velocity: world.free.get(fields::VELOCITY)?,
+            rate: 1.0 / self.time,
+        }))
+    }
+    fn as_any_ref(&self) -> &dyn Any {
+        self
+    }
+    fn into_any(self: Box<Self>) -> Box<dyn Any> {
+        self
+    }
+}
+
+register!(TermEntry [2, 3], LinearDrag, "linear-drag", "a force against the velocity", "Stokes");
+
+/// τ = 2 η γ̇ with constant η, under another name.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Syrup {
+    /// Dynamic viscosity.
+    #[schemars(range(min = 0.0), extend("unit" = "Pa s"))]
+    thickness: f64,
+}
+
+impl Rheology for Syrup {
+    fn needs(&self) -> Needs {
+        Needs::default()
+    }
+    fn uniform_viscosity(&self) -> Option<f64> {
+        Some(self.thickness)
+    }
+    fn viscosity(&self, _inputs: &Inputs<'_>, viscosity: &mut [f64]) {
+        viscosity.fill(self.thickness);
+    }
+    fn largest_viscosity(&self) -> f64 {
+        self.thickness
+    }
+}
+
+register!(
+    RheologyEntry,
+    Syrup,
+    "syrup",
+    "constant viscosity",
+    "breakfast"
+);
+
+// ------------------------------------------------------------------------------------------------
+
+use sph_scene::parse;
+use sph_solver::{RunOptions, SolverError, Summary, run};
+use sph_tests::{DAM_BREAK, FinalState, PERIODIC};
+
+fn run_text(scene: &str) -> Result<(Summary, tempfile::TempDir), SolverError> {
+    let loaded = parse(scene, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let options = RunOptions {
+        out: folder.path().to_path_buf(),
+        resume: false,
+        threads: Some(2),
+        identity: scene.to_string(),
+    };
+    Ok((run(&loaded.scene, &options, &mut ())?, folder))
+}
+
+fn provider(summary: &Summary, name: &str) -> String {
+    let found = summary.plugins.iter().find(|p| p.name == name);
+    found.expect("the plugin is in force").provider.clone()
+}
+
+#[test]
+fn a_drag_of_ones_own_slows_a_uniform_flow_exponentially() {
+    let fine = PERIODIC.replace("end = 0.1", "end = 0.1\nsafety = 0.1");
+    let scene = format!("{fine}\n[term.linear-drag]\ntime = \"50 ms\"\n");
+    let (summary, _) = run_text(&scene).unwrap();
+    assert!(provider(&summary, "linear-drag").starts_with("sph-tests"));
+    // ½ m |u|² exp(−2t/τ) with m = 1000 kg, u² = 1.25 m²/s², t = 0.1 s.
+    let exact = 0.5 * 1000.0 * 1.25 * (-4.0f64).exp();
+    let error = (summary.kinetic_energy / exact - 1.0).abs();
+    assert!(
+        error < 0.02,
+        "t Δt/τ² = 0.016, first order in time: {error}"
+    );
+}
+
+#[test]
+fn a_kernel_of_ones_own_runs_where_there_are_no_walls() {
+    let (summary, _) = run_text(&format!("{PERIODIC}\n[kernel.gaussian]\n")).unwrap();
+    assert!(provider(&summary, "gaussian").starts_with("sph-tests"));
+    assert!(summary.drift.momentum.abs() < 1e-12, "{:?}", summary.drift);
+    // 36π neighbours in a support of 3h = 6δr, the particle itself not counted.
+    assert!((summary.neighbours - 36.0 * std::f64::consts::PI).abs() < 4.0);
+}
+
+#[test]
+fn walls_that_integrate_moments_refuse_it_and_say_why() {
+    let refused = run_text(&format!("{DAM_BREAK}\n[kernel.gaussian]\n")).unwrap_err();
+    assert!(matches!(refused, SolverError::Scene(_)));
+    let told = refused.to_string();
+    assert!(
+        told.contains("`gaussian` gives no radial moments"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_rheology_of_ones_own_is_as_good_as_a_built_in_one() {
+    let syrup = DAM_BREAK
+        .replace("rheology.newtonian", "rheology.syrup")
+        .replace("viscosity = \"1 mPa s\"", "thickness = \"1 mPa s\"");
+    let (_, ours) = run_text(&syrup).unwrap();
+    let (_, theirs) = run_text(DAM_BREAK).unwrap();
+    let state = |folder: &tempfile::TempDir| FinalState::of(folder.path());
+    state(&ours).assert_same(&state(&theirs), "syrup and a Newtonian fluid");
+}
+
+#[test]
+fn an_outside_plugin_is_in_the_schema_for_editors() {
+    let schema = sph_scene::schema().to_string();
+    for name in ["gaussian", "linear-drag", "syrup"] {
+        assert!(
+            schema.contains(&format!("\"{name}\"")),
+            "{name} is not in the schema"
+        );
+    }
+}
