@@ -1,6 +1,8 @@
 //! What the whole-system tests share: a folder of their own, scenes, and the real binary.
 
 mod bench;
+#[cfg(doctest)]
+mod readmes;
 mod state;
 
 pub use bench::{Bench, Outcome};

@@ -101,10 +101,10 @@ fn every_dependency_within_the_workspace_is_an_arrow_of_the_design() {
 }
 
 #[test]
-fn nothing_but_the_command_line_and_these_tests_knows_the_solver() {
+fn nothing_but_the_command_line_tests_and_benches_knows_the_solver() {
     for (name, room) in rooms() {
         let knows = room.uses.contains("sph-solver") || room.tests_use.contains("sph-solver");
-        let may = name == "sph-cli" || name == "sph-tests";
+        let may = ["sph-cli", "sph-tests", "sph-bench"].contains(&name.as_str());
         assert!(
             !knows || may,
             "{name} depends on sph-solver, if only for its tests"

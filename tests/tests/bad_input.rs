@@ -129,11 +129,14 @@ fn a_body_through_a_wall() {
 fn a_free_end_of_a_wall_within_reach() {
     let open = "polyline = [[0.0, 0.3], [0.0, 0.0], [0.6, 0.0], [0.6, 0.6]]\n";
     let from = "polyline = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6]]\nclosed = true\n";
+    // Another wall comes first, so that the right one must be pointed at.
+    let plate = "[wall.plate]\npolyline = [[0.4, 0.2], [0.5, 0.2]]\nthickness = 0.04\n[wall.tank]";
     let words = [
         "first end of wall `tank` at (0, 0.3) is free",
         "close the wall or extend it",
     ];
-    refused(&with(from, open), "[wall.tank]", &words);
+    let scene = with(from, open).replace("[wall.tank]", plate);
+    refused(&scene, "[wall.tank]", &words);
 }
 
 #[test]

@@ -202,3 +202,11 @@ impl std::fmt::Display for WallWarning {
         )
     }
 }
+
+/// A failure of the wall stages.
+pub(crate) fn stage_error(reason: impl ToString) -> sph_core::StepError {
+    sph_core::StepError::Stage {
+        stage: "walls".into(),
+        reason: reason.to_string(),
+    }
+}

@@ -6,10 +6,14 @@ use serde::Deserialize;
 use sph_core::{StepError, Vect, fields, register};
 use sph_neighbours::{Contact, Contacts, WallPoints, WallSet, World};
 
+use crate::error::stage_error;
 use crate::near::NearLists;
 use crate::outline::Outline;
 use crate::shepard::wall_means;
-use crate::{BoundaryError, GammaSum, Renormalisation2d, Wall, WallEntry, WallSetup};
+use crate::{
+    BoundaryError, GammaSum, NearSegment, Renormalisation2d, SegmentMesh, Wall, WallEntry,
+    WallSetup,
+};
 
 /// Walls of segments with vertex particles; sums are renormalised by γ, the share of the kernel
 /// inside the walls, and completed by ∇γ. γ is geometry here (a closed form, no history).
@@ -47,6 +51,46 @@ register!(
     "Ghaïtanellis 2017, Eq. 2.63–2.91; Ferrand et al. 2013"
 );
 
+/// Particles that one task works through.
+const BATCH: usize = 64;
+
+/// γ and contacts of a batch of particles.
+#[derive(Debug, Default)]
+struct Found {
+    gamma: Vec<f64>,
+    contacts: Vec<Contact<2>>,
+    /// Contacts up to and including each particle's.
+    ends: Vec<u32>,
+}
+
+impl Found {
+    fn particle(
+        &mut self,
+        point: [f64; 2],
+        row: &[NearSegment],
+        mesh: &SegmentMesh,
+        gamma: &Renormalisation2d,
+    ) {
+        let mut sum = GammaSum::default();
+        for &near in row {
+            let segment = &mesh.segments()[near.segment];
+            let [start, end] = mesh.seen_from(point, near);
+            let integral = gamma.segment(start, end, segment.normal);
+            sum.add(&integral, segment);
+            if integral.kernel != 0.0 {
+                let normal = Vect::from(segment.normal);
+                self.contacts.push(Contact {
+                    element: near.segment as u32,
+                    gradient: normal * integral.kernel,
+                    distance: -normal.dot(&Vect::from(start)),
+                });
+            }
+        }
+        self.gamma.push(sum.gamma());
+        self.ends.push(self.contacts.len() as u32);
+    }
+}
+
 impl Usaw {
     fn ready(&self) -> Result<&SetUp, StepError> {
         self.set_up.as_ref().ok_or_else(not_built)
@@ -55,13 +99,6 @@ impl Usaw {
 
 fn not_built() -> StepError {
     stage_error("the walls were not built")
-}
-
-pub(crate) fn stage_error(reason: impl ToString) -> StepError {
-    StepError::Stage {
-        stage: "walls".into(),
-        reason: reason.to_string(),
-    }
 }
 
 impl Wall<2> for Usaw {
@@ -163,30 +200,18 @@ impl Wall<2> for Usaw {
         let positions = world.free.get(fields::POSITION)?;
         let near = &set_up.near;
         let (mesh, gamma) = (&set_up.outline.mesh, &set_up.gamma);
-        let found: Vec<(f64, Vec<Contact<2>>)> = near
+        let found: Vec<Found> = near
             .particles
-            .par_iter()
+            .par_chunks(BATCH)
             .enumerate()
-            .with_min_len(64)
-            .map(|(k, &particle)| {
-                let x = positions[particle as usize];
-                let mut sum = GammaSum::default();
-                let mut contacts = Vec::new();
-                for &near in near.row(k) {
-                    let segment = &mesh.segments()[near.segment];
-                    let [start, end] = mesh.seen_from([x[0], x[1]], near);
-                    let integral = gamma.segment(start, end, segment.normal);
-                    sum.add(&integral, segment);
-                    if integral.kernel != 0.0 {
-                        let normal = Vect::from(segment.normal);
-                        contacts.push(Contact {
-                            element: near.segment as u32,
-                            gradient: normal * integral.kernel,
-                            distance: -normal.dot(&Vect::from(start)),
-                        });
-                    }
+            .map(|(b, batch)| {
+                let mut found = Found::default();
+                for (k, &particle) in batch.iter().enumerate() {
+                    let x = positions[particle as usize];
+                    let row = near.row(b * BATCH + k);
+                    found.particle([x[0], x[1]], row, mesh, gamma);
                 }
-                (sum.gamma(), contacts)
+                found
             })
             .collect();
         let contacts = &mut world.walls.contacts;
@@ -196,13 +221,17 @@ impl Wall<2> for Usaw {
         contacts.starts.push(0);
         contacts.place.clear();
         contacts.place.resize(positions.len(), u32::MAX);
-        for (&particle, (gamma, own)) in near.particles.iter().zip(found) {
-            renormalisation[particle as usize] = gamma;
-            if !own.is_empty() {
-                contacts.place[particle as usize] = contacts.particles.len() as u32;
-                contacts.particles.push(particle);
-                contacts.contacts.extend(own);
-                contacts.starts.push(contacts.contacts.len() as u32);
+        for (batch, found) in near.particles.chunks(BATCH).zip(&found) {
+            let offset = contacts.contacts.len() as u32;
+            contacts.contacts.extend_from_slice(&found.contacts);
+            let results = found.gamma.iter().zip(&found.ends);
+            for (&particle, (&gamma, &end)) in batch.iter().zip(results) {
+                renormalisation[particle as usize] = gamma;
+                if offset + end > *contacts.starts.last().unwrap_or(&0) {
+                    contacts.place[particle as usize] = contacts.particles.len() as u32;
+                    contacts.particles.push(particle);
+                    contacts.starts.push(offset + end);
+                }
             }
         }
         Ok(world.free.put(fields::RENORMALISATION, renormalisation)?)

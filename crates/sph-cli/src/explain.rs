@@ -86,7 +86,7 @@ fn fields(e: &Examination) -> Vec<Vec<String>> {
     };
     rows.extend(e.fields.iter().map(|f| {
         let written = match (f.written_by.is_empty(), f.state) {
-            (true, true) => "integrator or nobody".to_string(),
+            (true, true) => "start, integrator".to_string(),
             _ => list(&f.written_by),
         };
         let role = if f.state { "state" } else { "derived" };

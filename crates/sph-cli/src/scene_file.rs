@@ -52,7 +52,8 @@ pub fn open(arguments: &SceneArguments) -> Result<Opened, Trouble> {
         overrides.push(parsed.map_err(|p| Trouble::usage(format!("--set {text}: {}", p.message)))?);
     }
     let path = Path::new(&arguments.scene);
-    if path.is_file() {
+    // A pipe is as good as a file.
+    if path.exists() && !path.is_dir() {
         return from_file(path, &overrides);
     }
     match shipped::find(&arguments.scene) {

@@ -3,12 +3,11 @@
 use std::path::Path;
 
 /// Known files, in the order in which a person wants them.
-const KNOWN: [(&str, &str); 5] = [
+const KNOWN: [(&str, &str); 4] = [
     ("fields.pvd", "fields over time: open it in ParaView"),
     ("series.csv", "time series: energies, extrema, probes"),
     ("summary.json", "all of the above and more, for scripts"),
     ("checkpoint.sph", "the last state, for --resume"),
-    ("bad_state.vtu", "the state in which the run failed"),
 ];
 
 /// Rows of name and meaning: pictures first.

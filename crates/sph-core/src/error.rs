@@ -67,8 +67,8 @@ impl SceneProblem {
 pub enum RegistryError {
     /// No plugin of that kind has that name.
     #[error(
-        "there is no {kind} called `{name}`{hint}; registered: {known} \
-         (a plugin of another crate must be mentioned in your binary: `use my_plugin as _;`)"
+        "there is no {kind} called `{name}`{hint} (registered: {known}; \
+         a plugin of another crate must be mentioned in your binary: `use my_plugin as _;`)"
     )]
     Unknown {
         /// Kind of plugin.

@@ -1,9 +1,14 @@
 #!/usr/bin/env python3
-"""Reads what the example `write_sample` wrote through VTK, and compares.
+"""Reads a folder of VTK files through VTK.
 
     pip install vtk
     cargo run -p sph-io --example write_sample -- DIR
     python3 crates/sph-io/tests/read_back.py DIR
+
+The folder of the example holds `expected.json` and the written numbers as text: files and arrays
+are compared with both. Any other folder with a `fields.pvd`, such as that of a run, is held against
+its own list: every file can be read, its time is the listed one, its arrays are finite, and the
+particles keep their number and their arrays.
 
 Exits with 1 on any difference and on any complaint of VTK.
 """
@@ -99,13 +104,18 @@ def check_dump(grid, path):
     check(differing == 0, f"{path}: {differing} rows differ from the file")
 
 
-def check_list(folder, expected):
+def read_list(folder):
     listed = [
         (entry.get("file"), float(entry.get("timestep")), entry.get("name"), entry.get("part"))
         for entry in ElementTree.parse(folder / "fields.pvd").getroot().iter("DataSet")
     ]
     for file, *_ in listed:
         check((folder / file).is_file(), f"fields.pvd lists {file}, which is not there")
+    return listed
+
+
+def check_list(folder, expected):
+    listed = read_list(folder)
     wanted = [(entry["file"], entry["time"]) for entry in expected]
     check([entry[:2] for entry in listed] == wanted, f"fields.pvd lists {listed}")
     parts = {}
@@ -114,12 +124,16 @@ def check_list(folder, expected):
     check(len(set(parts.values())) == len(parts), f"part numbers are shared: {parts}")
 
 
-def main():
-    if len(sys.argv) != 2:
-        print(__doc__)
-        return 2
-    folder = Path(sys.argv[1])
-    vtkOutputWindow.GetInstance().AddObserver("ErrorEvent", observer("VTK"))
+def shape_of(grid):
+    """Numbers of points and cells, names and components of the arrays."""
+    shape = [grid.GetNumberOfPoints(), grid.GetNumberOfCells()]
+    for data in (grid.GetPointData(), grid.GetCellData()):
+        arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
+        shape.append({array.GetName(): array.GetNumberOfComponents() for array in arrays})
+    return shape
+
+
+def check_sample(folder):
     expected = json.loads((folder / "expected.json").read_text())
     check(len(expected) > 0, "nothing to check")
     dumps = 0
@@ -132,6 +146,38 @@ def main():
     check(dumps > 0, "no array was compared with a dump")
     check_list(folder, expected)
     print(f"{len(expected)} files read, {dumps} compared, {len(complaints)} complaints")
+
+
+def check_run(folder):
+    listed = read_list(folder)
+    check(len({time for _, time, *_ in listed}) > 1, "fewer than two output times")
+    shapes = {}
+    for file, time, name, _ in listed:
+        grid = read(folder / file)
+        found = grid.GetFieldData().GetArray("TimeValue")
+        check(found is not None and found.GetValue(0) == time, f"{file}: its time is not {time}")
+        shape = shape_of(grid)
+        check(shape[0] > 0, f"{file}: no points")
+        check(shapes.setdefault(name, shape) == shape, f"{file}: {shape} is not {shapes[name]}")
+        check(math.isfinite(grid.GetLength()), f"{file}: a position is not finite")
+        for data in (grid.GetPointData(), grid.GetCellData()):
+            for i in range(data.GetNumberOfArrays()):
+                values = vtk_to_numpy(data.GetArray(i)).ravel()
+                what = f"{file}: {data.GetArrayName(i)}"
+                check(all(map(math.isfinite, values)), f"{what} is not finite everywhere")
+    print(f"{len(listed)} files of a run read, {len(complaints)} complaints")
+
+
+def main():
+    if len(sys.argv) != 2:
+        print(__doc__)
+        return 2
+    folder = Path(sys.argv[1])
+    vtkOutputWindow.GetInstance().AddObserver("ErrorEvent", observer("VTK"))
+    if (folder / "expected.json").exists():
+        check_sample(folder)
+    else:
+        check_run(folder)
     return 1 if complaints else 0
 
 

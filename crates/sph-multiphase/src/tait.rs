@@ -146,6 +146,7 @@ mod tests {
             let law = Tait {
                 exponent,
                 background_pressure: 200.0,
+                ..Tait::default()
             };
             let law = law.bind(Reference {
                 density: 1000.0,

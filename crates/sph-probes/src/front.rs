@@ -1,14 +1,14 @@
 //! The foremost particle.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use sph_core::{StepError, fields, register};
 use sph_neighbours::World;
 
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Axis of a coordinate.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// First coordinate.

@@ -2,26 +2,23 @@
 
 use std::sync::{Arc, Mutex};
 
-use sph_boundary::{Condition, Polyline, RigidMotion, WallSetup, WallSpec, thin_plate};
-use sph_core::{Access, AnyField, Declares, Role, SceneProblem, Stage, Store, Vect, fields, plan};
+use sph_core::{AnyField, Role, SceneProblem, Store, fields};
 use sph_integrators::Integrator;
-use sph_kernels::Kernel;
-use sph_multiphase::{
-    BoundState, ForceLimit, Limiter, PressureStage, Reference, SoundLimit, Viscosity, ViscousLimit,
-};
-use sph_neighbours::{Domain, WallSet, World, fuse_all};
+use sph_multiphase::{BoundState, ForceLimit, Limiter, Reference, SoundLimit, ViscousLimit};
+use sph_neighbours::{WallSet, World};
 use sph_probes::{Probe, Solution};
 use sph_scene::Scene;
 
 use crate::choices::Choices;
 use crate::defaults;
+use crate::domain::{check_periods, domain_of, height};
 use crate::error::SolverError;
 use crate::flow::Flow;
 use crate::initial::{InitialState, place};
-use crate::stages::{
-    Also, InteractionSweep, SharedWall, ViscosityStage, WALL_STATE, WallGeometry, WallState,
-};
+use crate::planning::plan_stages;
+use crate::stages::{SharedWall, WALL_STATE};
 use crate::summary::PluginInForce;
+use crate::walls::{build_walls, wall_problem};
 
 /// A flow with everything a run needs besides.
 pub struct Assembled<const D: usize> {
@@ -64,7 +61,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     warnings.extend(placed.warnings);
     if let Some(walls) = &choices.walls {
         let ends = walls.check_free_ends(&placed.positions);
-        ends.map_err(|e| SolverError::at("wall", e.to_string()))?;
+        ends.map_err(|e| wall_problem(scene, &e))?;
     }
     let walls: Option<SharedWall<D>> = choices.walls.take().map(|w| Arc::new(Mutex::new(w)));
 
@@ -148,260 +145,6 @@ fn bind_laws<const D: usize>(
         }));
     }
     Ok(laws.into())
-}
-
-/// Extent of all bodies along gravity, m.
-pub(crate) fn height<const D: usize>(scene: &Scene) -> f64 {
-    let gravity = scene.gravity::<D>();
-    let Some(down) = gravity.try_normalize(0.0) else {
-        return 0.0;
-    };
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for region in scene.regions::<D>() {
-        let (lower, upper) = region.base.bounds();
-        for corner in 0..1 << D {
-            let along: f64 = (0..D)
-                .map(|k| {
-                    down[k]
-                        * if corner >> k & 1 == 0 {
-                            lower[k]
-                        } else {
-                            upper[k]
-                        }
-                })
-                .sum();
-            low = low.min(along);
-            high = high.max(along);
-        }
-    }
-    (high - low).max(0.0)
-}
-
-/// The scene's domain, or a box round walls and bodies with room to move.
-fn domain_of<const D: usize>(scene: &Scene) -> Domain<D> {
-    let mut lower = Vect::<D>::repeat(f64::INFINITY);
-    let mut upper = Vect::<D>::repeat(f64::NEG_INFINITY);
-    let mut include = |x: &[f64]| {
-        for k in 0..D.min(x.len()) {
-            lower[k] = lower[k].min(x[k]);
-            upper[k] = upper[k].max(x[k]);
-        }
-    };
-    for region in scene.regions::<D>() {
-        let (low, high) = region.base.bounds();
-        include(&low);
-        include(&high);
-    }
-    for wall in scene.wall.values() {
-        wall.polyline.iter().for_each(|p| include(p));
-    }
-    // Splashes rise over an open tank; without walls the flow may go far.
-    let room = match scene.wall.is_empty() {
-        true => 10.0,
-        false => 2.0,
-    };
-    let margin = Vect::repeat(room * (upper - lower).max());
-    let mut domain = Domain::open(lower - margin, upper + margin);
-    if let Some([low, high]) = &scene.numerics.domain {
-        domain = Domain::open(Vect::from_column_slice(low), Vect::from_column_slice(high));
-    }
-    for (axis, bounds) in scene.numerics.periodic.bounds::<D>().iter().enumerate() {
-        if let Some([low, high]) = bounds {
-            domain.lower[axis] = *low;
-            domain.upper[axis] = *high;
-            domain.periodic[axis] = true;
-        }
-    }
-    domain
-}
-
-/// A period must be so long that no particle sees another one twice.
-fn check_periods<const D: usize>(domain: &Domain<D>, reach: f64) -> Result<(), SolverError> {
-    for axis in (0..D).filter(|&a| domain.periodic[a]) {
-        if domain.length(axis) < 2.0 * reach {
-            let name = ["x", "y", "z"][axis];
-            return Err(SolverError::at(
-                format!("numerics.periodic.{name}"),
-                format!(
-                    "the period of {} m is shorter than two supports with their skin: at least {:.6} m",
-                    domain.length(axis),
-                    2.0 * reach
-                ),
-            ));
-        }
-    }
-    Ok(())
-}
-
-fn build_walls<const D: usize>(
-    scene: &Scene,
-    walls: &mut dyn sph_boundary::Wall<D>,
-    kernel: &dyn Kernel,
-    domain: &Domain<D>,
-    h: f64,
-) -> Result<WallSet<D>, SolverError> {
-    let mut specs = Vec::new();
-    for (name, wall) in &scene.wall {
-        let points: Vec<[f64; 2]> = wall.polyline.iter().map(|p| [p[0], p[1]]).collect();
-        let refused =
-            |e: sph_boundary::BoundaryError| SolverError::at(format!("wall.{name}"), e.to_string());
-        let polyline = match wall.thickness {
-            Some(thickness) => thin_plate(name.clone(), &points, thickness).map_err(refused)?,
-            None => Polyline {
-                name: name.clone(),
-                points,
-                closed: wall.closed,
-            },
-        };
-        let pair = |v: &Option<Vec<f64>>| v.as_ref().map_or([0.0; 2], |v| [v[0], v[1]]);
-        let motion = wall
-            .motion
-            .as_ref()
-            .map_or(RigidMotion::default(), |m| RigidMotion {
-                velocity: pair(&m.velocity),
-                angular_velocity: m.angular_velocity,
-                centre: pair(&m.centre),
-                start: m.start,
-                stop: m.stop.unwrap_or(f64::INFINITY),
-            });
-        let surface = wall.velocity.as_ref();
-        specs.push(WallSpec {
-            polyline,
-            condition: match wall.condition {
-                sph_scene::Condition::NoSlip => Condition::NoSlip,
-                sph_scene::Condition::FreeSlip => Condition::FreeSlip,
-            },
-            surface_velocity: surface.map_or_else(Vect::zeros, |v| Vect::from_column_slice(v)),
-            motion,
-        });
-    }
-    let setup = WallSetup {
-        walls: &specs,
-        spacing: scene.numerics.spacing,
-        smoothing_length: h,
-        kernel,
-        domain,
-    };
-    let built = walls.build(&setup);
-    built.map_err(|e| {
-        let text = e.to_string();
-        // The messages name the wall in backquotes: point at it if it is one of the scene's.
-        let named = scene.wall.keys().find(|n| text.contains(&format!("`{n}`")));
-        let path = named.map_or("wall".to_string(), |n| format!("wall.{n}"));
-        SolverError::at(path, text)
-    })
-}
-
-type Stages<const D: usize> = Vec<Box<dyn Stage<World<D>>>>;
-
-/// Offers all stages and keeps, in order, those that the goals need.
-fn plan_stages<const D: usize>(
-    scene: &Scene,
-    choices: &mut Choices<D>,
-    laws: &Arc<[Box<dyn BoundState>]>,
-    walls: Option<&SharedWall<D>>,
-    world: &World<D>,
-) -> Result<(Stages<D>, Vec<String>), SolverError> {
-    let renormalises = walls.is_some_and(|w| crate::stages::lock(w).renormalises());
-    let gamma = || match renormalises {
-        true => Access::none().here(fields::RENORMALISATION),
-        false => Access::none(),
-    };
-    let mut terms = vec![choices.formulation.pressure_term()];
-    let rheologies: Arc<[_]> = std::mem::take(&mut choices.rheologies).into();
-    let viscosity = viscosity_of(scene, &rheologies)?;
-    if viscosity != Viscosity::Uniform(0.0) {
-        terms.push(choices.viscous_operator.term(viscosity));
-    }
-    if let Some(smoother) = &choices.smoother {
-        terms.push(smoother.term());
-    }
-    terms.append(&mut choices.terms);
-    let scalar = choices.formulation.evolved().first().map(|e| e.rate);
-    let changes_scalar = choices.smoother.is_some();
-    let sweep = InteractionSweep {
-        terms: fuse_all(terms),
-        scalar: scalar.filter(|_| changes_scalar),
-        walls: walls.is_some(),
-        states: Vec::new(),
-    };
-
-    let mut offered: Stages<D> = Vec::new();
-    if let Some(walls) = walls {
-        offered.push(Box::new(WallGeometry(walls.clone())));
-    }
-    offered.push(Box::new(Also {
-        stage: choices.formulation.density_stage(),
-        access: gamma(),
-    }));
-    offered.push(Box::new(PressureStage { laws: laws.clone() }));
-    if let Some(walls) = walls {
-        offered.push(Box::new(WallState(walls.clone())));
-    }
-    offered.push(Box::new(ViscosityStage { laws: rheologies }));
-    offered.push(Box::new(Also {
-        stage: Box::new(sweep),
-        access: gamma(),
-    }));
-
-    let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
-    for stage in &offered {
-        let wanted = scene.output.fields.iter().chain(&scene.output.picture);
-        for name in wanted {
-            goals.extend(stage.access().writes.iter().filter(|f| f.name == name));
-        }
-    }
-    let sources: Vec<AnyField> = [
-        fields::POSITION.any(),
-        fields::VELOCITY.any(),
-        fields::MASS.any(),
-        fields::IDENTITY.any(),
-        fields::PHASE.any(),
-    ]
-    .into_iter()
-    .chain(choices.formulation.evolved().iter().map(|e| e.value.any()))
-    .filter(|f| world.free.has(f.name))
-    .collect();
-    let declared: Vec<&dyn Declares> = offered
-        .iter()
-        .map(|s| s.as_ref() as &dyn Declares)
-        .collect();
-    let mut planned = plan(&declared, &goals, &sources)?;
-    // Walls without γ still need their geometry checked, although nobody reads a field of it.
-    if walls.is_some() && !planned.order.contains(&0) {
-        planned.order.insert(0, 0);
-        planned.pruned.retain(|k| *k != 0);
-    }
-    let pruned = planned.pruned.iter().map(|&k| offered[k].name()).collect();
-    let mut slots: Vec<_> = offered.into_iter().map(Some).collect();
-    let stages = planned
-        .order
-        .iter()
-        .filter_map(|&k| slots[k].take())
-        .collect();
-    Ok((stages, pruned))
-}
-
-/// One viscosity for all, or a column.
-fn viscosity_of(
-    scene: &Scene,
-    laws: &[Box<dyn sph_rheology::Rheology>],
-) -> Result<Viscosity, SolverError> {
-    for (law, phase) in laws.iter().zip(scene.phase.keys()) {
-        if law.needs().strain_rate {
-            return Err(SolverError::at(
-                format!("phase.{phase}.rheology"),
-                "the law needs the strain rate, which no stage of this version provides",
-            ));
-        }
-    }
-    let uniform: Vec<_> = laws.iter().map(|l| l.uniform_viscosity()).collect();
-    match uniform.first() {
-        Some(Some(first)) if uniform.iter().all(|v| v == &Some(*first)) => {
-            Ok(Viscosity::Uniform(*first))
-        }
-        _ => Ok(Viscosity::PerParticle),
-    }
 }
 
 /// η/ρ₀ of every phase, m²/s.

@@ -6,7 +6,8 @@ use serde::Serialize;
 use sph_core::{Role, StepLimit};
 use sph_scene::Scene;
 
-use crate::assemble::{assemble, height};
+use crate::assemble::assemble;
+use crate::domain::height;
 use crate::summary::PluginInForce;
 use crate::{Estimate, SolverError};
 

@@ -26,6 +26,9 @@ pub struct Outputs {
 impl Outputs {
     /// Starts anew, or goes on after `written` outputs.
     pub fn open(scene: &Scene, folder: &Path, written: Option<usize>) -> Result<Self, IoError> {
+        if written.is_none() {
+            forget_earlier_run(folder);
+        }
         let path = folder.join("fields.pvd");
         let series = match (scene.output.vtk, written) {
             (false, _) => None,
@@ -72,6 +75,35 @@ impl Outputs {
         self.written += 1;
         Ok(())
     }
+}
+
+/// Removes the numbered files of an earlier run, which would pass for this one's.
+fn forget_earlier_run(folder: &Path) {
+    let numbered = |path: &Path| {
+        let stem = path
+            .file_stem()
+            .and_then(|s| s.to_str())
+            .unwrap_or_default();
+        let kind = path
+            .extension()
+            .and_then(|e| e.to_str())
+            .unwrap_or_default();
+        let number = stem.rsplit_once('_').map_or("", |(_, n)| n);
+        matches!(kind, "png" | "vtu")
+            && number.len() >= 4
+            && number.bytes().all(|b| b.is_ascii_digit())
+    };
+    for sub in ["pictures", "fields"] {
+        let entries = std::fs::read_dir(folder.join(sub))
+            .into_iter()
+            .flatten()
+            .flatten();
+        for path in entries.map(|e| e.path()).filter(|p| numbered(p)) {
+            // A file that cannot go is overwritten or stays; the run does not depend on it.
+            let _ = std::fs::remove_file(path);
+        }
+    }
+    let _ = std::fs::remove_file(folder.join("bad_state.vtu"));
 }
 
 /// A frame of all columns, for the state in which a run failed.

@@ -1,7 +1,7 @@
 //! The run: evaluate, write what is due, step; roll back what fails.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
@@ -13,9 +13,10 @@ use crate::balance::Balance;
 use crate::driver::{Command, Observer, Progress};
 use crate::error::{Failure, SolverError};
 use crate::output::{Outputs, write_everything};
+use crate::report::advice;
 use crate::series::Series;
 use crate::snapshot::Snapshot;
-use crate::summary::{Drift, SCHEMA_VERSION, Status, Summary};
+use crate::summary::{Status, Summary};
 use crate::{checkpoint, guard, references};
 
 /// How a scene is run.
@@ -53,32 +54,32 @@ pub fn run(
 
 /// What a resumed run must know besides the flow.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-struct Counters {
-    steps: u64,
-    rolled_back: u64,
-    outputs: usize,
-    next_output: Option<u64>,
-    rows: u64,
-    series_position: u64,
-    series_extrema: [u64; 4],
-    checkpoints: u64,
-    limited: BTreeMap<String, u64>,
-    wall_seconds: f64,
-    stage_seconds: BTreeMap<String, f64>,
-    initial: [u64; 2],
-    initial_momentum: Vec<u64>,
-    step_scale: u64,
+pub(crate) struct Counters {
+    pub(crate) steps: u64,
+    pub(crate) rolled_back: u64,
+    pub(crate) outputs: usize,
+    pub(crate) next_output: Option<u64>,
+    pub(crate) rows: u64,
+    pub(crate) series_position: u64,
+    pub(crate) series_extrema: [u64; 4],
+    pub(crate) checkpoints: u64,
+    pub(crate) limited: BTreeMap<String, u64>,
+    pub(crate) wall_seconds: f64,
+    pub(crate) stage_seconds: BTreeMap<String, f64>,
+    pub(crate) initial: [u64; 2],
+    pub(crate) initial_momentum: Vec<u64>,
+    pub(crate) step_scale: u64,
 }
 
-struct Running<'a, const D: usize> {
-    scene: &'a Scene,
-    options: &'a RunOptions,
-    parts: Assembled<D>,
-    counters: Counters,
-    outputs: Outputs,
-    series: Series,
-    started: Instant,
-    output_seconds: f64,
+pub(crate) struct Running<'a, const D: usize> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) options: &'a RunOptions,
+    pub(crate) parts: Assembled<D>,
+    pub(crate) counters: Counters,
+    pub(crate) outputs: Outputs,
+    pub(crate) series: Series,
+    pub(crate) started: Instant,
+    pub(crate) output_seconds: f64,
 }
 
 fn run_in<const D: usize>(
@@ -228,7 +229,7 @@ impl<const D: usize> Running<'_, D> {
         guard::rates(&flow.world, &flow.laws, self.scene.numerics.density_bounds)
     }
 
-    fn wall_seconds(&self) -> f64 {
+    pub(crate) fn wall_seconds(&self) -> f64 {
         self.counters.wall_seconds + self.started.elapsed().as_secs_f64()
     }
 
@@ -308,7 +309,7 @@ impl<const D: usize> Running<'_, D> {
         checkpoint::save(&self.parts.flow, &path, &self.options.identity, &counters)
     }
 
-    fn stage_seconds(&self) -> BTreeMap<String, f64> {
+    pub(crate) fn stage_seconds(&self) -> BTreeMap<String, f64> {
         let mut all = self.counters.stage_seconds.clone();
         for timing in self.parts.flow.timings() {
             *all.entry(timing.name.clone()).or_default() += timing.spent.as_secs_f64();
@@ -358,121 +359,4 @@ impl<const D: usize> Running<'_, D> {
     fn finish(&mut self, status: Status) -> Result<Summary, SolverError> {
         self.write_summary(status, None)
     }
-
-    fn write_summary(
-        &mut self,
-        status: Status,
-        failure: Option<&Failure>,
-    ) -> Result<Summary, SolverError> {
-        let flow = &self.parts.flow;
-        let world = &flow.world;
-        let mut warnings = self.parts.warnings.clone();
-        if let Some(failure) = failure {
-            warnings.push(failure.to_string());
-            warnings.extend(failure.advice.iter().cloned());
-        }
-        let series = self.options.out.join("series.csv");
-        let errors = match status {
-            Status::Failed => BTreeMap::new(),
-            _ => references::errors(
-                self.scene,
-                flow,
-                &self.parts.solutions,
-                &series,
-                &mut warnings,
-            )?,
-        };
-        let balance = Balance::of(flow)?;
-        let [mass, energy] = self.counters.initial.map(f64::from_bits);
-        let momentum: f64 = balance
-            .momentum
-            .iter()
-            .zip(&self.counters.initial_momentum)
-            .map(|(now, then)| (now - f64::from_bits(*then)).powi(2))
-            .sum::<f64>()
-            .sqrt();
-        let over = |x: f64, scale: f64| if scale > 0.0 { x / scale } else { 0.0 };
-        let steps = self.counters.steps;
-        let particles = world.free.len();
-        let stage_seconds = self.stage_seconds();
-        let wall_seconds = self.wall_seconds();
-        let working = wall_seconds - stage_seconds.get("output").copied().unwrap_or(0.0);
-        let neighbours = world.mean_neighbours()?;
-        let work = particles as f64 * steps as f64;
-        let threads = rayon::current_num_threads();
-        let escaped = flow.escaped()?;
-        if escaped > 0 {
-            warnings.push(format!("{escaped} particles are behind a wall at the end"));
-        }
-        let summary = Summary {
-            schema_version: SCHEMA_VERSION,
-            scene: self.scene.title.clone(),
-            status,
-            version: env!("CARGO_PKG_VERSION").into(),
-            plugins: self.parts.plugins.clone(),
-            dimension: D,
-            particles,
-            wall_points: world.walls.points.position.len(),
-            neighbours,
-            steps,
-            steps_rolled_back: self.counters.rolled_back,
-            simulated_seconds: world.time,
-            wall_seconds,
-            wall_seconds_by_stage: stage_seconds,
-            threads,
-            particle_steps_per_second: over(work, working),
-            nanoseconds_per_pair: over(1e9 * working * threads as f64, work * neighbours),
-            bytes_per_particle: world.free.bytes_per_particle(),
-            list_builds: world.lists.builds,
-            dt_limiters: self
-                .counters
-                .limited
-                .iter()
-                .map(|(name, n)| (name.clone(), *n as f64 / steps.max(1) as f64))
-                .collect(),
-            drift: Drift {
-                mass: over(balance.mass - mass, mass),
-                momentum: over(momentum, self.series.momentum_scale),
-                energy: over(balance.energy() - energy, self.series.energy_scale),
-            },
-            kinetic_energy: balance.kinetic,
-            density_range: self.series.density_range,
-            density_constant_range: flow.density_constant_range(),
-            escaped,
-            errors,
-            warnings,
-            files: listing(&self.options.out),
-        };
-        sph_io::write_json(self.options.out.join("summary.json"), &summary)?;
-        Ok(summary)
-    }
-}
-
-fn listing(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut names: Vec<String> = entries
-        .filter_map(|e| e.file_name().into_string().ok())
-        .filter(|n| !n.starts_with('.'))
-        .collect();
-    names.sort();
-    names
-}
-
-/// What a person can change, by what went wrong.
-fn advice(cause: &StepError) -> Vec<String> {
-    let StepError::Bad { quantity, .. } = cause else {
-        return Vec::new();
-    };
-    let text: &[&str] = match *quantity {
-        "density" => &[
-            "particles are squeezed: raise `speed_of_sound` of the phase to ten times the largest \
-             speed, or give `velocity_scale`",
-            "if a splash folds the surface, `numerics.density_bounds` may be too narrow",
-        ],
-        "position" => &[
-            "a particle left the domain: close the wall it went through, or widen `numerics.domain`",
-        ],
-        _ => &["lower `run.safety`, or give the scene a smoother (`[smoother.brezzi-pitkaranta]`)"],
-    };
-    text.iter().map(|s| s.to_string()).collect()
 }

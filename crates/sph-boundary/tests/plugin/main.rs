@@ -1,0 +1,10 @@
+//! The wall treatments as plugins: what a solver sees of them.
+
+mod bench;
+mod constrain;
+mod corners;
+mod dummy;
+mod motion;
+mod operators;
+mod pressure;
+mod refusals;

@@ -1,0 +1,46 @@
+//! One sweep over some terms.
+
+use sph_core::Vect;
+use sph_multiphase::{
+    BrezziPitkaranta, Formulation, HuAdams, Morris, Smoother, Viscosity, ViscousOperator,
+};
+use sph_neighbours::{Interaction, Terms, World, interactions};
+
+/// Accelerations and the rate of the density constant.
+pub fn rates<const D: usize>(world: &World<D>, terms: &Terms<D>) -> (Vec<Vect<D>>, Vec<f64>) {
+    let n = world.free.len();
+    let (mut acceleration, mut scalar) = (vec![Vect::zeros(); n], vec![0.0; n]);
+    let swept = interactions(
+        world,
+        &mut Vec::new(),
+        terms,
+        &mut acceleration,
+        Some(&mut scalar),
+    );
+    swept.expect("all columns");
+    (acceleration, scalar)
+}
+
+/// Accelerations by one term.
+pub fn acceleration<const D: usize>(
+    world: &World<D>,
+    term: Box<dyn Interaction<D>>,
+) -> Vec<Vect<D>> {
+    rates(world, &vec![term]).0
+}
+
+pub fn pressure<const D: usize>() -> Box<dyn Interaction<D>> {
+    HuAdams::default().pressure_term()
+}
+
+pub fn viscosity<const D: usize>(eta: f64) -> Box<dyn Interaction<D>> {
+    Morris::default().term(Viscosity::Uniform(eta))
+}
+
+pub fn viscosity_column<const D: usize>() -> Box<dyn Interaction<D>> {
+    Morris::default().term(Viscosity::PerParticle)
+}
+
+pub fn smoother<const D: usize>(strength: f64) -> Box<dyn Interaction<D>> {
+    BrezziPitkaranta { strength }.term()
+}

@@ -1,0 +1,155 @@
+//! The Brezzi–Pitkäranta smoother: blind to gravity, keen on noise, and a diffusion.
+
+use sph_core::{Vect, fields};
+use sph_neighbours::World;
+
+use crate::channel::Channel;
+use crate::evaluate::{rates, smoother};
+use crate::world::{Random, disorder, lattice, periodic, set, world};
+
+const GRAVITY: f64 = 9.81;
+
+fn rate<const D: usize>(world: &World<D>, strength: f64) -> Vec<f64> {
+    rates(world, &vec![smoother(strength)]).1
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m, v| m.max(v.abs()))
+}
+
+fn set_hydrostatic(world: &mut World<2>, density: f64) {
+    world.gravity = Vect::<2>::new(0.0, -GRAVITY);
+    set(world, fields::DENSITY, |_| density);
+    set(world, fields::PRESSURE, |x| {
+        density * GRAVITY * (5.0 - x[1])
+    });
+}
+
+#[test]
+fn a_hydrostatic_field_is_left_alone_to_rounding() {
+    let mut channel = Channel::open(9);
+    set_hydrostatic(&mut channel.world, 1000.0);
+    let balanced = largest(&rate(&channel.world, 1.0));
+    channel.world.gravity = Vect::zeros();
+    let unbalanced = largest(&rate(&channel.world, 1.0));
+    // Brackets of g δr against their rounding.
+    assert!(
+        balanced < 1e-13 * unbalanced,
+        "{balanced:e} of {unbalanced:e}"
+    );
+    assert!(
+        unbalanced > 1000.0,
+        "without its gravity part it would act: {unbalanced}"
+    );
+}
+
+#[test]
+fn a_chequerboard_is_pulled_flat_at_every_particle() {
+    let n = 20;
+    let mut board = world(lattice::<2>(n), periodic(), 1.0 / n as f64, 2.0);
+    let sign = |x: &Vect<2>| {
+        let index = [0, 1].map(|k| (x[k] * n as f64).floor() as i64);
+        if (index[0] + index[1]) % 2 == 0 {
+            1.0
+        } else {
+            -1.0
+        }
+    };
+    set(&mut board, fields::PRESSURE, sign);
+    let positions = board.free.get(fields::POSITION).unwrap();
+    let rates = rate(&board, 1.0);
+    for (x, rate) in positions.iter().zip(&rates) {
+        assert!(rate * sign(x) < 0.0, "at {x}: {rate}");
+    }
+    // A lattice is the same everywhere, so the board fades as a whole.
+    let size = largest(&rates);
+    assert!(
+        rates.iter().all(|r| (r.abs() / size - 1.0).abs() < 1e-9),
+        "{size}"
+    );
+}
+
+/// Σ V/ρ dρ/dt = −Σ dV/dt: what one particle gains in volume, another loses.
+#[test]
+fn the_total_volume_is_kept_to_1e_13_in_2d_and_3d() {
+    fn imbalance<const D: usize>(n: usize, ratio: f64) -> f64 {
+        let mut cloud = world(disorder::<D>(n, 0.3, 3), periodic(), 1.0 / n as f64, ratio);
+        cloud.gravity[1] = -GRAVITY;
+        let mut random = Random::new(4);
+        let cell = (n as f64).powi(-(D as i32));
+        set(&mut cloud, fields::VOLUME, |_| {
+            cell * random.between(0.8, 1.2)
+        });
+        set(&mut cloud, fields::DENSITY, |x| {
+            if x[0] < 0.5 { 1000.0 } else { 1.2 }
+        });
+        set(&mut cloud, fields::PRESSURE, |_| random.between(-3.0, 10.0));
+        let volume = cloud.free.get(fields::VOLUME).unwrap();
+        let density = cloud.free.get(fields::DENSITY).unwrap();
+        let rates = rate(&cloud, 0.1);
+        let shares = || (0..rates.len()).map(|i| volume[i] / density[i] * rates[i]);
+        let scale: f64 = shares().map(f64::abs).sum();
+        assert!(scale > 0.0);
+        shares().sum::<f64>().abs() / scale
+    }
+    for found in [imbalance::<2>(24, 2.0), imbalance::<3>(12, 1.3)] {
+        // Pairs cancel to rounding.
+        assert!(found < 1e-13, "{found:e}");
+    }
+}
+
+#[test]
+fn it_only_dissipates_elastic_energy() {
+    let mut cloud = world(disorder::<2>(24, 0.3, 5), periodic(), 1.0 / 24.0, 2.0);
+    let mut random = Random::new(6);
+    set(&mut cloud, fields::PRESSURE, |_| random.between(-3.0, 10.0));
+    let rates = rate(&cloud, 0.1);
+    let pressure = cloud.free.get(fields::PRESSURE).unwrap();
+    let work: f64 = pressure.iter().zip(&rates).map(|(p, r)| p * r).sum();
+    // Σ V p dρ/dt < 0 with V and ρ uniform: noise loses energy whatever its shape.
+    assert!(work < 0.0, "{work}");
+}
+
+#[test]
+fn it_is_linear_in_its_strength_and_the_step_and_zero_without_them() {
+    let mut cloud = world(disorder::<2>(20, 0.3, 5), periodic(), 0.05, 2.0);
+    set(&mut cloud, fields::PRESSURE, |x| (20.0 * x[0]).sin());
+    let whole = rate(&cloud, 1.0);
+    assert!(largest(&whole) > 0.0);
+    assert_eq!(largest(&rate(&cloud, 0.0)), 0.0, "no strength");
+    let half = rate(&cloud, 0.5);
+    assert!(
+        whole.iter().zip(&half).all(|(w, h)| *w == 2.0 * h),
+        "halving is exact"
+    );
+    cloud.dt = 0.25;
+    let quarter = rate(&cloud, 1.0);
+    assert!(whole.iter().zip(&quarter).all(|(w, q)| *w == 4.0 * q));
+    cloud.dt = 0.0;
+    assert_eq!(largest(&rate(&cloud, 1.0)), 0.0, "no step");
+}
+
+/// Two layers at rest, the heavy one below. 2/(ρ_a + ρ_b) balances pairs of mirror rows only.
+#[test]
+fn across_a_density_jump_the_balance_holds_for_mirror_rows() {
+    let jump = |ratio: f64| {
+        let mut channel = Channel::open(16);
+        let world = &mut channel.world;
+        world.gravity = Vect::<2>::new(0.0, -GRAVITY);
+        let (interface, light) = (4.25, 1.0 / ratio);
+        let density = move |y: f64| if y < interface { 1.0 } else { light };
+        set(world, fields::DENSITY, |x| density(x[1]));
+        set(world, fields::PRESSURE, |x| {
+            density(x[1]) * GRAVITY * (interface - x[1])
+        });
+        let rates = rate(world, 1.0);
+        let positions = world.free.get(fields::POSITION).unwrap();
+        let relative = positions.iter().zip(&rates).map(|(x, r)| r / density(x[1]));
+        let balanced = relative.fold(0.0f64, |m, r| m.max(r.abs()));
+        // As a scale: pressure without gravity at an interior row of the heavy layer.
+        world.gravity = Vect::zeros();
+        let still = rate(world, 1.0);
+        balanced / largest(&still)
+    };
+    println!("jump 2: {}, 842: {}", jump(2.0), jump(842.0));
+}

@@ -1,0 +1,114 @@
+//! The operators next to a flat semi-analytical wall, rows 1 to 4 of a lattice with h/δr = 2.
+
+use sph_core::{Vect, fields};
+
+use crate::channel::Channel;
+use crate::evaluate::{acceleration, pressure, viscosity};
+use crate::world::{at, set, set_velocity};
+
+/// The printed digits, half a unit of the last one.
+fn rows_are(values: [f64; 4], printed: [f64; 4], what: &str) {
+    for (k, (value, printed)) in values.into_iter().zip(printed).enumerate() {
+        let row = k + 1;
+        assert!(
+            (value - printed).abs() <= 0.5000001e-4,
+            "{what}, row {row}: {value:.6} is not {printed}"
+        );
+    }
+}
+
+/// Component `axis` of the acceleration at rows 1 to 4.
+fn at_rows(channel: &Channel, acceleration: &[Vect<2>], axis: usize) -> [f64; 4] {
+    [1, 2, 3, 4].map(|k| {
+        let place = Vect::<2>::new(4.0, 0.5 * f64::from(k));
+        acceleration[at(&channel.world, place)][axis]
+    })
+}
+
+fn viscous_response(profile: impl Fn(f64) -> f64) -> [f64; 4] {
+    let mut channel = Channel::open(10);
+    set_velocity(&mut channel.world, |x| Vect::<2>::new(profile(x[1]), 0.0));
+    at_rows(&channel, &acceleration(&channel.world, viscosity(1.0)), 0)
+}
+
+#[test]
+fn morris_of_y_is_minus_00070_00465_00194_00000() {
+    rows_are(
+        viscous_response(|y| y),
+        [-0.0070, 0.0465, 0.0194, 0.0],
+        "u = y",
+    );
+}
+
+#[test]
+fn morris_of_y_squared_is_20373_20649_20292_19984() {
+    rows_are(
+        viscous_response(|y| y * y),
+        [2.0373, 2.0649, 2.0292, 1.9984],
+        "u = y²",
+    );
+}
+
+#[test]
+fn the_gradient_of_1_plus_03_y_is_02986_03562_03238_02998() {
+    let mut channel = Channel::open(10);
+    set(&mut channel.world, fields::PRESSURE, |x| 1.0 + 0.3 * x[1]);
+    let walls = &mut channel.world.walls;
+    walls.points.pressure.fill(1.0);
+    walls.elements.pressure.fill(1.0);
+    let force = acceleration(&channel.world, pressure());
+    // Density 1: the acceleration is −∇p.
+    let gradient = at_rows(&channel, &force, 1).map(|a| -a);
+    rows_are(gradient, [0.2986, 0.3562, 0.3238, 0.2998], "p = 1 + 0.3 y");
+}
+
+/// The element term of viscosity is half of the wall's friction: without it row 1 is far off.
+#[test]
+fn without_the_element_term_the_first_row_would_be_half_a_unit_off() {
+    let mut channel = Channel::open(10);
+    channel.world.walls.contacts = Default::default();
+    set_velocity(&mut channel.world, |x| Vect::<2>::new(x[1], 0.0));
+    let force = acceleration(&channel.world, viscosity(1.0));
+    let first = at_rows(&channel, &force, 0)[0];
+    assert!(first.abs() > 0.5, "{first}");
+}
+
+#[test]
+fn a_wall_that_slips_freely_gives_no_friction_at_all() {
+    let mut channel = Channel::open(10);
+    channel.world.walls.points.grip.fill(0.0);
+    channel.world.walls.elements.grip.fill(0.0);
+    set_velocity(&mut channel.world, |_| Vect::<2>::new(3.0, 0.0));
+    let force = acceleration(&channel.world, viscosity(1.0));
+    assert!(force.iter().all(|a| *a == Vect::<2>::zeros()));
+    // The same wall with grip brakes the first row and leaves the fifth alone.
+    let mut rough = Channel::open(10);
+    set_velocity(&mut rough.world, |_| Vect::<2>::new(3.0, 0.0));
+    let force = acceleration(&rough.world, viscosity(1.0));
+    assert!(at_rows(&rough, &force, 0)[0] < -5.0);
+    assert_eq!(
+        force[at(&rough.world, Vect::<2>::new(4.0, 2.5))],
+        Vect::<2>::zeros()
+    );
+}
+
+#[test]
+fn the_friction_at_a_moving_wall_depends_on_relative_velocity_alone() {
+    let friction = |fluid: f64, wall: f64| {
+        let mut channel = Channel::open(10);
+        let walls = &mut channel.world.walls;
+        walls
+            .points
+            .viscous_velocity
+            .fill(Vect::<2>::new(wall, 0.0));
+        walls.elements.velocity.fill(Vect::<2>::new(wall, 0.0));
+        set_velocity(&mut channel.world, |x| {
+            Vect::<2>::new(fluid + x[1] * x[1], 0.0)
+        });
+        at_rows(&channel, &acceleration(&channel.world, viscosity(1.0)), 0)
+    };
+    let (still, moving) = (friction(0.0, 0.0), friction(2.0, 2.0));
+    for k in 0..4 {
+        assert!((still[k] - moving[k]).abs() < 1e-13, "{still:?} {moving:?}");
+    }
+}

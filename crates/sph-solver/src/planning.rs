@@ -1,0 +1,123 @@
+//! Which stages run, in which order.
+
+use std::sync::Arc;
+
+use sph_core::{Access, AnyField, Declares, Stage, fields, plan};
+use sph_multiphase::{BoundState, PressureStage, Viscosity};
+use sph_neighbours::{World, fuse_all};
+use sph_rheology::Rheology;
+use sph_scene::Scene;
+
+use crate::choices::Choices;
+use crate::error::SolverError;
+use crate::stages::{Also, InteractionSweep, SharedWall, ViscosityStage, WallGeometry, WallState};
+
+/// Stages of a flow.
+pub type Stages<const D: usize> = Vec<Box<dyn Stage<World<D>>>>;
+
+/// Offers all stages and keeps, in order, those that the goals need.
+pub fn plan_stages<const D: usize>(
+    scene: &Scene,
+    choices: &mut Choices<D>,
+    laws: &Arc<[Box<dyn BoundState>]>,
+    walls: Option<&SharedWall<D>>,
+    world: &World<D>,
+) -> Result<(Stages<D>, Vec<String>), SolverError> {
+    let renormalises = walls.is_some_and(|w| crate::stages::lock(w).renormalises());
+    let gamma = || match renormalises {
+        true => Access::none().here(fields::RENORMALISATION),
+        false => Access::none(),
+    };
+    let mut terms = vec![choices.formulation.pressure_term()];
+    let rheologies: Arc<[_]> = std::mem::take(&mut choices.rheologies).into();
+    let viscosity = viscosity_of(scene, &rheologies)?;
+    if viscosity != Viscosity::Uniform(0.0) {
+        terms.push(choices.viscous_operator.term(viscosity));
+    }
+    if let Some(smoother) = &choices.smoother {
+        terms.push(smoother.term());
+    }
+    terms.append(&mut choices.terms);
+    let scalar = choices.formulation.evolved().first().map(|e| e.rate);
+    let changes_scalar = choices.smoother.is_some();
+    let sweep = InteractionSweep {
+        terms: fuse_all(terms),
+        scalar: scalar.filter(|_| changes_scalar),
+        walls: walls.is_some(),
+        states: Vec::new(),
+    };
+
+    let mut offered: Stages<D> = Vec::new();
+    if let Some(walls) = walls {
+        offered.push(Box::new(WallGeometry(walls.clone())));
+    }
+    offered.push(Box::new(Also {
+        stage: choices.formulation.density_stage(),
+        access: gamma(),
+    }));
+    offered.push(Box::new(PressureStage { laws: laws.clone() }));
+    if let Some(walls) = walls {
+        offered.push(Box::new(WallState(walls.clone())));
+    }
+    offered.push(Box::new(ViscosityStage { laws: rheologies }));
+    offered.push(Box::new(Also {
+        stage: Box::new(sweep),
+        access: gamma(),
+    }));
+
+    let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
+    for stage in &offered {
+        let wanted = scene.output.fields.iter().chain(&scene.output.picture);
+        for name in wanted {
+            goals.extend(stage.access().writes.iter().filter(|f| f.name == name));
+        }
+    }
+    let sources: Vec<AnyField> = [
+        fields::POSITION.any(),
+        fields::VELOCITY.any(),
+        fields::MASS.any(),
+        fields::IDENTITY.any(),
+        fields::PHASE.any(),
+    ]
+    .into_iter()
+    .chain(choices.formulation.evolved().iter().map(|e| e.value.any()))
+    .filter(|f| world.free.has(f.name))
+    .collect();
+    let declared: Vec<&dyn Declares> = offered
+        .iter()
+        .map(|s| s.as_ref() as &dyn Declares)
+        .collect();
+    let mut planned = plan(&declared, &goals, &sources)?;
+    // Walls without γ still need their geometry checked, although nobody reads a field of it.
+    if walls.is_some() && !planned.order.contains(&0) {
+        planned.order.insert(0, 0);
+        planned.pruned.retain(|k| *k != 0);
+    }
+    let pruned = planned.pruned.iter().map(|&k| offered[k].name()).collect();
+    let mut slots: Vec<_> = offered.into_iter().map(Some).collect();
+    let stages = planned
+        .order
+        .iter()
+        .filter_map(|&k| slots[k].take())
+        .collect();
+    Ok((stages, pruned))
+}
+
+/// One viscosity for all, or a column.
+fn viscosity_of(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Result<Viscosity, SolverError> {
+    for (law, phase) in laws.iter().zip(scene.phase.keys()) {
+        if law.needs().strain_rate {
+            return Err(SolverError::at(
+                format!("phase.{phase}.rheology"),
+                "the law needs the strain rate, which no stage of this version provides",
+            ));
+        }
+    }
+    let uniform: Vec<_> = laws.iter().map(|l| l.uniform_viscosity()).collect();
+    match uniform.first() {
+        Some(Some(first)) if uniform.iter().all(|v| v == &Some(*first)) => {
+            Ok(Viscosity::Uniform(*first))
+        }
+        _ => Ok(Viscosity::PerParticle),
+    }
+}

@@ -1,0 +1,21 @@
+//! The examples of the README files are run as doctests here, so that no crate needs another one
+//! for its front page.
+
+macro_rules! readmes {
+    ($($name:ident $path:literal)+) => {
+        $(#[doc = include_str!($path)] struct $name;)+
+    };
+}
+
+readmes! {
+    Workspace "../README.md"
+    Boundary "../crates/sph-boundary/README.md"
+    Core "../crates/sph-core/README.md"
+    Integrators "../crates/sph-integrators/README.md"
+    Kernels "../crates/sph-kernels/README.md"
+    Multiphase "../crates/sph-multiphase/README.md"
+    Neighbours "../crates/sph-neighbours/README.md"
+    Probes "../crates/sph-probes/README.md"
+    Rheology "../crates/sph-rheology/README.md"
+    Solver "../crates/sph-solver/README.md"
+}

@@ -1,0 +1,76 @@
+//! What the documents show is what there is: quoted code, scenes, links.
+
+use std::path::{Path, PathBuf};
+
+const PLUGINS: &str = include_str!("../../docs/plugins.md");
+const QUOTED: &str = include_str!("outside_plugin.rs");
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The documents of the workspace: of its root, of `docs`, and the README of every crate.
+fn documents() -> Vec<(PathBuf, String)> {
+    let listed = |folder: PathBuf| {
+        let entries = std::fs::read_dir(&folder).unwrap_or_else(|e| panic!("{folder:?}: {e}"));
+        entries.map(|e| e.expect("an entry").path())
+    };
+    let crates = listed(root().join("crates")).map(|folder| folder.join("README.md"));
+    let pages = listed(root()).chain(listed(root().join("docs")));
+    let pages = pages.filter(|p| p.extension().is_some_and(|e| e == "md"));
+    let read = |p: PathBuf| {
+        let text = std::fs::read_to_string(&p).unwrap_or_else(|e| panic!("{p:?}: {e}"));
+        (p, text)
+    };
+    pages.chain(crates).map(read).collect()
+}
+
+/// The code blocks of one language.
+fn blocks<'t>(text: &'t str, language: &str) -> Vec<&'t str> {
+    let fence = format!("```{language}\n");
+    let after = text.split(&fence).skip(1);
+    after.map(|t| t.split("```").next().unwrap_or(t)).collect()
+}
+
+#[test]
+fn the_code_of_the_plugin_page_is_that_of_a_test() {
+    let (binary, quoted): (Vec<_>, Vec<_>) = blocks(PLUGINS, "rust")
+        .into_iter()
+        .partition(|block| block.starts_with("use my_plugins as _;"));
+    assert_eq!((binary.len(), quoted.len()), (1, 3));
+    for block in quoted {
+        assert!(QUOTED.contains(block), "not in outside_plugin.rs:\n{block}");
+    }
+}
+
+#[test]
+fn every_whole_scene_of_the_documents_can_be_assembled() {
+    let mut scenes = 0;
+    for (page, text) in documents() {
+        for block in blocks(&text, "toml") {
+            if block.starts_with("title = ") {
+                let loaded = sph_scene::parse(block, "scene.toml", &[]);
+                let loaded = loaded.unwrap_or_else(|e| panic!("{page:?}: {e}"));
+                let examined = sph_solver::examine(&loaded.scene, 1);
+                examined.unwrap_or_else(|e| panic!("{page:?}: {e}"));
+                scenes += 1;
+            }
+        }
+    }
+    assert!(scenes > 0, "the README shows a scene");
+}
+
+#[test]
+fn links_within_the_workspace_lead_somewhere() {
+    for (page, text) in documents() {
+        let folder = page.parent().expect("a folder");
+        let targets = text.split("](").skip(1);
+        for target in targets.filter_map(|t| t.split([')', '#']).next()) {
+            let inside = !target.is_empty() && !target.contains("://");
+            assert!(
+                !inside || folder.join(target).exists(),
+                "{page:?} links to {target}"
+            );
+        }
+    }
+}
