@@ -3,6 +3,11 @@
 //! `cargo bench -p sph-bench --features instructions --bench instructions`; it needs valgrind and
 //! `gungraun-runner` of the same version as the library.
 
+#![allow(
+    missing_docs,
+    reason = "the macros of gungraun make public items without"
+)]
+
 mod setup;
 
 use gungraun::{library_benchmark, library_benchmark_group, main};

@@ -75,21 +75,28 @@ impl SegmentMesh {
 
     /// Whether the fluid lies beyond all walls along the positive direction of an axis.
     fn fluid_beyond(&self, along: usize) -> bool {
-        let furthest = self
-            .vertices()
-            .iter()
-            .filter_map(|v| Some((v.position[along], v.previous?, v.next?)))
-            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let joined = || {
+            let vertices = self.vertices().iter();
+            vertices.filter_map(|v| Some((v.position[along], v.previous?, v.next?)))
+        };
+        let outward = |previous: usize, next: usize| {
+            self.segments()[previous].normal[along] + self.segments()[next].normal[along]
+        };
+        let top = joined().fold(f64::NEG_INFINITY, |top, (h, ..)| top.max(h));
+        let scale = joined().fold(0.0, |scale: f64, (h, ..)| scale.max(h.abs()));
+        // Both faces of a plate of zero thickness are as high; the upper one decides.
+        let furthest = joined()
+            .filter(|(h, ..)| *h >= top - SAME_HEIGHT * scale)
+            .max_by(|a, b| outward(a.1, a.2).total_cmp(&outward(b.1, b.2)));
         let Some((_, previous, next)) = furthest else {
             return true;
         };
-        let [before, after] = [previous, next].map(|s| &self.segments()[s]);
-        let outward = before.normal[along] + after.normal[along];
+        let outward = outward(previous, next);
         if self.domain().periodic == [true; 2] || outward != 0.0 {
             return self.domain().periodic == [true; 2] || outward > 0.0;
         }
         // A spike: the fluid is outside when it is travelled clockwise or folds back.
-        let [t, u] = [before, after].map(|s| s.tangent());
+        let [t, u] = [previous, next].map(|s| self.segments()[s].tangent());
         t[0] * u[1] - t[1] * u[0] <= 0.0
     }
 }

@@ -77,8 +77,15 @@ impl Outline {
             let normal = self.mesh.segments()[near.segment].normal;
             let height = -(start[0] * normal[0] + start[1] * normal[1]);
             // Two segments at a corner are equally near; the one seen more from above decides.
+            // Both faces of a plate of zero thickness are, too; the one seen from its front does.
             let same = (distance2 - nearest.0).abs() <= 1e-9 * distance2;
-            if (same && height.abs() > nearest.1) || (!same && distance2 < nearest.0) {
+            let faces = (height + nearest.2).abs() <= 1e-9 * nearest.1;
+            let decides = match (same, faces) {
+                (true, true) => height > 0.0,
+                (true, false) => height.abs() > nearest.1,
+                (false, _) => distance2 < nearest.0,
+            };
+            if decides {
                 nearest = (distance2, height.abs(), height);
             }
         }

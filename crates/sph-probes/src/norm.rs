@@ -58,6 +58,17 @@ pub fn at(times: &[f64], values: &[f64], t: f64) -> Option<f64> {
     Some(v0 + (v1 - v0) * (t - t0) / (t1 - t0))
 }
 
+/// Centred moving mean over a width in time; values that are not finite are left out.
+pub fn moving_mean(times: &[f64], values: &[f64], width: f64) -> Vec<f64> {
+    let mean = |t: &f64| {
+        let from = times.partition_point(|x| *x < t - 0.5 * width);
+        let to = times.partition_point(|x| *x <= t + 0.5 * width);
+        let finite = || values[from..to].iter().filter(|v| v.is_finite());
+        finite().sum::<f64>() / finite().count() as f64
+    };
+    times.iter().map(mean).collect()
+}
+
 /// Root mean square of the difference at the reference's times over the reference's range.
 pub fn rms_over_range(differences: &[f64], reference: &[f64]) -> f64 {
     let mean = differences.iter().map(|d| d * d).sum::<f64>() / differences.len() as f64;
@@ -97,6 +108,8 @@ mod tests {
         assert!((linf(&u, &e, 1) - 0.1).abs() < 1e-14);
         assert!((linf(&[3.0, 4.0], &[0.0, 1.0], 2) - 18f64.sqrt()).abs() < 1e-14);
         assert!((rms_over_range(&[0.1, -0.1], &[0.0, 2.0]) - 0.05).abs() < 1e-14);
+        let mean = moving_mean(&[0.0, 1.0, 2.0, 3.0], &[1.0, 3.0, 5.0, 40.0], 2.0);
+        assert_eq!(mean, [2.0, 3.0, 16.0, 22.5]);
         assert_eq!(at(&[0.0, 1.0], &[5.0, 7.0], 0.5), Some(6.0));
         assert_eq!(at(&[0.0, 1.0], &[5.0, 7.0], 1.5), None);
         assert_eq!(at(&[0.0, 1.0], &[5.0, 7.0], 0.0), Some(5.0));

@@ -47,6 +47,9 @@ pub struct Reference {
     #[serde(default)]
     #[schemars(extend("unit" = "1"))]
     pub offset_value: f64,
+    /// Width of the centred moving mean taken of the probe before it is compared, s: it removes the sound that a weakly compressible fluid adds. None if left out.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub average: Option<f64>,
     /// First and last time that counts, s; all times if left out.
     #[schemars(extend("unit" = "s"))]
     pub window: Option<[f64; 2]>,

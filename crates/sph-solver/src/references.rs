@@ -45,7 +45,13 @@ pub fn errors<const D: usize>(
                 let column = table.column(probe).map(<[f64]>::to_vec);
                 let times = table.column("time").unwrap_or(&[]);
                 match column {
-                    Some(values) => against_series(reference, times, &values, solution)?,
+                    Some(values) => {
+                        let values = match reference.average {
+                            Some(width) => norm::moving_mean(times, &values, width),
+                            None => values,
+                        };
+                        against_series(reference, times, &values, solution)?
+                    }
                     None => Err(format!("the series has no column `{probe}`")),
                 }
             }

@@ -7,8 +7,8 @@ use crate::bench::{Bench, Random, fixed, wide};
 
 const SPACING: f64 = 0.5;
 const SPEED: f64 = 10.0;
-/// Steps in which the particle flies 1/50 to 3 spacings; a step of the solver is below 1/10.
-const STEPS: [f64; 5] = [0.001, 0.005, 0.02, 0.06, 0.15];
+/// Steps in which the particle flies 1/17 to 3 spacings; a step of the solver is below 1/10.
+const STEPS: [f64; 5] = [0.003, 0.01, 0.03, 0.07, 0.15];
 const SHOTS: usize = 10_000;
 
 /// Whether the way from a to b crosses the stretch from c to d.

@@ -8,3 +8,4 @@ mod motion;
 mod operators;
 mod pressure;
 mod refusals;
+mod sides;

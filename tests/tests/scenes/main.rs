@@ -1,0 +1,9 @@
+//! The shipped scenes at test sizes, against their own references.
+//!
+//! Bounds are the acceptance numbers of the scenes; the measured numbers stand in the messages.
+
+mod channels;
+mod dam_breaks;
+mod shipped;
+mod tanks;
+mod vortices;
