@@ -1,4 +1,4 @@
-//! The symplectic Euler scheme of the seed.
+//! The symplectic Euler scheme of Ghaïtanellis (2017).
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -9,7 +9,7 @@ use crate::{Integrator, IntegratorEntry, LimitCoefficients};
 /// uⁿ⁺¹ = uⁿ + Δt aⁿ, then rⁿ⁺¹ = rⁿ + Δt uⁿ⁺¹, then the density from the new positions.
 ///
 /// First order, one evaluation per step, symplectic for a potential force. Undamped sound is
-/// stable up to c₀Δt/h ≈ 1.7 on a lattice with h = 2δr; the seed takes 0.4.
+/// stable up to c₀Δt/h ≈ 1.7 on a lattice with h = 2δr; the thesis takes 0.4.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 2.102 and 2.103–2.107.
 ///

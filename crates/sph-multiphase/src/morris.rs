@@ -1,4 +1,4 @@
-//! Morris's viscous operator with the wall term of the seed.
+//! Morris's viscous operator with the wall term of Ghaïtanellis (2017).
 
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -66,6 +66,20 @@ struct Bound {
     stiffness: f64,
 }
 
+impl Bound {
+    /// ∫ p/ρ² dρ of the uncut law from the reference state, J/kg.
+    fn elastic_energy(&self, density: f64) -> f64 {
+        let x = density / self.reference.density;
+        let xi = self.law.exponent;
+        let power = match xi {
+            1.0 => x.ln(),
+            _ => (x.powf(xi - 1.0) - 1.0) / (xi - 1.0),
+        };
+        let (b, background) = (self.stiffness, self.law.background_pressure);
+        (b * power + (b - background) * (1.0 / x - 1.0)) / self.reference.density
+    }
+}
+
 impl BoundState for Bound {
     fn pressure(&self, density: &[f64], pressure: &mut [f64]) {
         let inverse = 1.0 / self.reference.density;
@@ -97,14 +111,17 @@ impl BoundState for Bound {
     }
 
     fn internal_energy(&self, density: f64) -> f64 {
-        let x = density / self.reference.density;
-        let xi = self.law.exponent;
-        let power = match xi {
-            1.0 => x.ln(),
-            _ => (x.powf(xi - 1.0) - 1.0) / (xi - 1.0),
-        };
-        let (b, background) = (self.stiffness, self.law.background_pressure);
-        (b * power + (b - background) * (1.0 / x - 1.0)) / self.reference.density
+        let torn = self
+            .law
+            .tension_limit
+            .map(|limit| (limit, self.density(-limit)));
+        match torn {
+            // Where the tension is cut, the pressure is constant.
+            Some((limit, least)) if density < least => {
+                self.elastic_energy(least) + limit * (1.0 / density - 1.0 / least)
+            }
+            _ => self.elastic_energy(density),
+        }
     }
 
     fn reference(&self) -> Reference {
@@ -138,6 +155,13 @@ mod tests {
         law.pressure(&[400.0, 999.999, 1001.0], &mut p);
         assert_eq!(p[0], -5.0);
         assert!(p[1] < 0.0 && p[1] > -5.0 && p[2] > 0.0, "{p:?}");
+        // The energy stays the integral of p/ρ², also where the tension is cut.
+        for rho in [400.0, 900.0, 1010.0] {
+            let mut p = [0.0];
+            law.pressure(&[rho], &mut p);
+            let slope = (law.internal_energy(rho + 1e-3) - law.internal_energy(rho - 1e-3)) / 2e-3;
+            assert!((slope - p[0] / (rho * rho)).abs() < 1e-6 * slope.abs().max(1e-3));
+        }
     }
 
     #[test]

@@ -39,7 +39,7 @@ macro_rules! built_in {
 }
 
 built_in! {
-    wendland_c2, "wendland-c2", "Wendland C2, support 2h: no pairing, the seed's kernel",
+    wendland_c2, "wendland-c2", "Wendland C2, support 2h: no pairing",
         "Wendland 1995; Ghaïtanellis 2017, Eq. 2.17";
     wendland_c4, "wendland-c4", "Wendland C4, support 2h: smoother, wants more neighbours",
         "Wendland 1995; Dehnen & Aly 2012, Table 1";

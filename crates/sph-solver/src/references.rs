@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use sph_core::{Plain, Vect, fields};
-use sph_io::{Table, read_columns, read_table};
+use sph_io::{Plot, Series, Table, read_columns, read_table};
 use sph_probes::{Solution, norm};
 use sph_scene::{Norm, Reference, Scene};
 
@@ -212,6 +212,59 @@ fn against_series<const D: usize>(
     let mut entry = entry(value, reference, n, window);
     entry.unit = unit.to_string();
     Ok(Ok(entry))
+}
+
+/// A picture of every probe beside its reference, `plots/NAME.png`.
+pub fn plots(scene: &Scene, folder: &Path) -> Result<(), SolverError> {
+    let compared = scene.reference.iter().filter(|(_, r)| r.probe.is_some());
+    let compared: Vec<_> = compared.filter(|(_, r)| r.path.is_some()).collect();
+    if compared.is_empty() {
+        return Ok(());
+    }
+    let measured = read_table(folder.join("series.csv"))?;
+    let plots = folder.join("plots");
+    sph_io::writable(&plots)?;
+    for (name, reference) in compared {
+        let (Some(probe), Some(path)) = (&reference.probe, &reference.path) else {
+            continue;
+        };
+        let times = measured.column("time").unwrap_or(&[]);
+        let Some(values) = measured.column(probe) else {
+            continue;
+        };
+        let values = match reference.average {
+            Some(width) => norm::moving_mean(times, values, width),
+            None => values.to_vec(),
+        };
+        let unit = measured
+            .columns
+            .iter()
+            .find(|c| c.name == *probe)
+            .map(|c| c.unit.clone());
+        let table = reference_table(reference, path)?;
+        let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
+            let column = table.columns.get(k).map_or(&[][..], |c| &c.values);
+            column.iter().map(|v| v * scale + offset).collect()
+        };
+        let at = scaled(0, reference.scale_time, reference.offset_time);
+        let value = |k: usize| scaled(k, reference.scale_value, reference.offset_value);
+        let pairs = |x: &[f64], y: &[f64]| -> Vec<[f64; 2]> {
+            x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
+        };
+        let given = match reference.norm() {
+            Norm::Band => Series::band("reference band", pairs(&at, &value(1)), value(2)),
+            _ => Series::markers("reference", pairs(&at, &value(1))),
+        };
+        let plot = Plot {
+            title: format!("{}: {name}", scene.title),
+            x_label: "time [s]".into(),
+            y_label: format!("{probe} [{}]", unit.unwrap_or_default()),
+            series: vec![given, Series::line("this run", pairs(times, &values))],
+            ..Plot::default()
+        };
+        plot.save_png(plots.join(format!("{name}.png")))?;
+    }
+    Ok(())
 }
 
 /// The reference's columns: time, value, and for a band the upper limit.

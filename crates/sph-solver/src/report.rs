@@ -36,6 +36,12 @@ impl<const D: usize> Running<'_, D> {
                 &mut warnings,
             )?,
         };
+        if status != Status::Failed
+            && let Err(error) = references::plots(self.scene, &self.options.out)
+        {
+            // A plot is a convenience: its failure must not cost the result.
+            warnings.push(format!("the plots were not written: {error}"));
+        }
         let balance = Balance::of(flow)?;
         let [mass, energy] = self.counters.initial.map(f64::from_bits);
         let momentum: f64 = balance
