@@ -14,15 +14,23 @@ const KNOWN: [(&str, &str); 4] = [
 pub fn listing(folder: &Path) -> Vec<Vec<String>> {
     let row = |name: String, what: &str| vec![name, what.to_string()];
     let mut rows = Vec::new();
-    let pictures = names(&folder.join("pictures"), "png");
-    if let [first, .., last] = pictures.as_slice() {
-        let count = pictures.len();
-        rows.push(row(
-            format!("pictures/{first} … {last}"),
-            &format!("{count} pictures"),
-        ));
-    } else if let [only] = pictures.as_slice() {
-        rows.push(row(format!("pictures/{only}"), "a picture"));
+    for (sub, one, many) in [
+        ("pictures", "a picture", "pictures"),
+        (
+            "plots",
+            "a probe beside its reference",
+            "probes beside their references",
+        ),
+    ] {
+        let files = names(&folder.join(sub), "png");
+        match files.as_slice() {
+            [] => {}
+            [only] => rows.push(row(format!("{sub}/{only}"), one)),
+            [first, .., last] => rows.push(row(
+                format!("{sub}/{first} … {last}"),
+                &format!("{} {many}", files.len()),
+            )),
+        }
     }
     let present = KNOWN.iter().filter(|(name, _)| folder.join(name).exists());
     rows.extend(present.map(|(name, what)| row((*name).to_string(), what)));

@@ -9,10 +9,15 @@ fn the_front_of_koshizuka_and_oka_is_met_to_2_3_per_cent() {
         &["numerics.spacing=0.006", "run.end=0.3"],
     );
     run.error("front-mps", 0.03, 0.0228);
+    // What a person looks at first: the front beside each of its three references.
+    for name in ["front-mps", "front-experiment", "front-experiment-gate"] {
+        let plot = run.bytes(&format!("plots/{name}.png"));
+        assert!(plot.starts_with(b"\x89PNG") && plot.len() > 5_000, "{name}");
+    }
 }
 
 #[test]
-fn the_wave_of_lobovsky_strikes_at_2_43_where_2_45_was_seen() {
+fn the_wave_of_lobovsky_strikes_at_2_45_as_was_seen() {
     let run = finished(
         "dam-break-lobovsky",
         &["numerics.spacing=0.015", "run.end=0.5"],
@@ -26,7 +31,7 @@ fn the_wave_of_lobovsky_strikes_at_2_43_where_2_45_was_seen() {
         .zip(pressure)
         .find(|(_, p)| **p > 0.1 * 2934.17);
     let at = struck.expect("it strikes").0 / 0.174874;
-    assert!((at / 2.45 - 1.0).abs() < 0.1, "t* = {at}, measured 2.43");
+    assert!((at / 2.45 - 1.0).abs() < 0.1, "t* = {at}, measured 2.454");
     // No water in the air: the wall was dry before.
     let before = times
         .iter()

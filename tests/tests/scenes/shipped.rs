@@ -65,6 +65,11 @@ impl Finished {
         value
     }
 
+    /// A file of the run.
+    pub fn bytes(&self, name: &str) -> Vec<u8> {
+        std::fs::read(self.folder.path().join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    }
+
     /// The time series.
     pub fn series(&self) -> Table {
         read_table(self.folder.path().join("series.csv")).expect("a series")
