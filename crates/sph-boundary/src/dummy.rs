@@ -7,7 +7,7 @@ use sph_neighbours::{Contacts, WallPoints, WallSet, World, shepard};
 
 use crate::layers::layers;
 use crate::near::NearLists;
-use crate::outline::Outline;
+use crate::outline::{Outline, checks_by_outline};
 use crate::{BoundaryError, Wall, WallEntry, WallSetup};
 
 /// Layers of fixed particles behind the wall that take part in all sums like fluid particles.
@@ -86,21 +86,7 @@ impl Wall<2> for DummyParticles {
         })
     }
 
-    fn contains(&self, point: &Vect<2>) -> bool {
-        let set_up = self.set_up.as_ref();
-        set_up.is_none_or(|s| s.outline.contains(point))
-    }
-
-    fn clearance(&self, point: &Vect<2>, within: f64) -> Option<(f64, &str)> {
-        self.set_up.as_ref()?.outline.clearance(point, within)
-    }
-
-    fn check_free_ends(&self, points: &[Vect<2>]) -> Result<(), BoundaryError> {
-        match &self.set_up {
-            Some(set_up) => set_up.outline.check_free_ends(points),
-            None => Ok(()),
-        }
-    }
+    checks_by_outline!();
 
     fn move_to(&mut self, walls: &mut WallSet<2>, time: f64) -> Result<(), BoundaryError> {
         let Some(set_up) = &mut self.set_up else {
@@ -165,17 +151,5 @@ impl Wall<2> for DummyParticles {
             points.viscous_velocity[v] = velocity;
         }
         Ok(())
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        let set_up = self.set_up.as_ref();
-        set_up.map_or(Vec::new(), |s| {
-            s.outline
-                .mesh
-                .warnings()
-                .iter()
-                .map(ToString::to_string)
-                .collect()
-        })
     }
 }

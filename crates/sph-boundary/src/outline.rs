@@ -138,3 +138,34 @@ impl Outline {
         elements
     }
 }
+
+/// The methods of [`Wall<2>`](crate::Wall) that ask nothing but the outline of the walls; the
+/// plugin keeps it in `self.set_up`.
+macro_rules! checks_by_outline {
+    () => {
+        fn contains(&self, point: &Vect<2>) -> bool {
+            let set_up = self.set_up.as_ref();
+            set_up.is_none_or(|s| s.outline.contains(point))
+        }
+
+        fn clearance(&self, point: &Vect<2>, within: f64) -> Option<(f64, &str)> {
+            self.set_up.as_ref()?.outline.clearance(point, within)
+        }
+
+        fn check_free_ends(&self, points: &[Vect<2>]) -> Result<(), BoundaryError> {
+            match &self.set_up {
+                Some(set_up) => set_up.outline.check_free_ends(points),
+                None => Ok(()),
+            }
+        }
+
+        fn warnings(&self) -> Vec<String> {
+            let set_up = self.set_up.as_ref();
+            set_up.map_or(Vec::new(), |s| {
+                let all = s.outline.mesh.warnings().iter();
+                all.map(ToString::to_string).collect()
+            })
+        }
+    };
+}
+pub(crate) use checks_by_outline;
