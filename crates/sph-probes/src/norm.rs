@@ -77,6 +77,14 @@ pub fn rms_over_range(differences: &[f64], reference: &[f64]) -> f64 {
     mean.sqrt() / (high - low)
 }
 
+/// How much time each sample of a series stands for: half the gaps on both sides. A reference may
+/// be denser in some places; with these weights every moment counts alike.
+pub fn time_weights(times: &[f64]) -> Vec<f64> {
+    let last = times.len().saturating_sub(1);
+    let width = |k: usize| 0.5 * (times[(k + 1).min(last)] - times[k.saturating_sub(1)]).abs();
+    (0..times.len()).map(width).collect()
+}
+
 /// Least-squares slope of y over x.
 pub fn slope(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len() as f64;
@@ -108,6 +116,8 @@ mod tests {
         assert!((linf(&u, &e, 1) - 0.1).abs() < 1e-14);
         assert!((linf(&[3.0, 4.0], &[0.0, 1.0], 2) - 18f64.sqrt()).abs() < 1e-14);
         assert!((rms_over_range(&[0.1, -0.1], &[0.0, 2.0]) - 0.05).abs() < 1e-14);
+        assert_eq!(time_weights(&[0.0, 1.0, 3.0, 4.0]), [0.5, 1.5, 1.5, 0.5]);
+        assert_eq!(time_weights(&[]), [0.0; 0]);
         let mean = moving_mean(&[0.0, 1.0, 2.0, 3.0], &[1.0, 3.0, 5.0, 40.0], 2.0);
         assert_eq!(mean, [2.0, 3.0, 16.0, 22.5]);
         assert_eq!(at(&[0.0, 1.0], &[5.0, 7.0], 0.5), Some(6.0));

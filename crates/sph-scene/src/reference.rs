@@ -85,7 +85,7 @@ pub enum Norm {
     Absolute,
     /// Relative difference of the slopes of ln u and ln e over time: rates of decay.
     DecayRate,
-    /// Share of the reference's times at which u lies outside the columns `lower` and `upper`.
+    /// Share of the time, as the reference samples it, that u lies outside the columns `lower` and `upper`.
     Band,
 }
 

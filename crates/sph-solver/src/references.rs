@@ -169,7 +169,8 @@ fn against_series<const D: usize>(
     let high = (reference.norm() == Norm::Band && table.columns.len() > 2).then(|| value(2));
     let mut differences = Vec::new();
     let mut compared = Vec::new();
-    let mut outside = 0usize;
+    let weights = norm::time_weights(&at);
+    let (mut outside, mut whole) = (0.0, 0.0);
     let mut last = None;
     let mut window = [f64::INFINITY, f64::NEG_INFINITY];
     for (k, &t) in at.iter().enumerate().filter(|(_, t)| counts(**t)) {
@@ -180,7 +181,9 @@ fn against_series<const D: usize>(
         differences.push(u - low[k]);
         compared.push(low[k]);
         if let Some(high) = &high {
-            outside += usize::from(u < low[k] || u > high[k]);
+            let out = u < low[k] || u > high[k];
+            outside += if out { weights[k] } else { 0.0 };
+            whole += weights[k];
         }
         if last.is_none_or(|(before, _)| t >= before) {
             last = Some((t, ((u - low[k]) / low[k]).abs()));
@@ -201,7 +204,7 @@ fn against_series<const D: usize>(
     };
     let (value, unit) = match reference.norm() {
         Norm::RmsOverRange => (norm::rms_over_range(&differences, &compared), "1"),
-        Norm::Band => (outside as f64 / n as f64, "1"),
+        Norm::Band => (outside / whole, "1"),
         Norm::Final => (last, "1"),
         Norm::Absolute => (largest(), ""),
         Norm::L2 => (norm::l2(&exact_plus(), &compared, &ones, 1), "1"),
