@@ -12,7 +12,7 @@ use sph_core::{Contract, Field, Registry, Role, Scalar, Vect, fields};
 use sph_kernels::Sampler;
 use sph_multiphase::{
     BrezziPitkaranta, FormulationEntry, HuAdamsPressure, MorrisTerm, SmootherEntry, Uniform,
-    Viscosity, ViscousOperatorEntry,
+    Viscosity, ViscousOperatorEntry, WallTerm,
 };
 use sph_neighbours::{
     Domain, Fused, KernelEntry, PairTerm, Terms, There, World, fuse_all, interactions,
@@ -158,7 +158,11 @@ impl Sums {
     /// One sweep with kernel and terms as types.
     pub fn by_type(&mut self, world: &World<2>, kernel: &WendlandC2) {
         let smoother = BrezziPitkaranta { strength: STRENGTH };
-        let terms = (HuAdamsPressure, MorrisTerm(Uniform(VISCOSITY)), smoother);
+        let terms = (
+            HuAdamsPressure,
+            MorrisTerm(Uniform(VISCOSITY), WallTerm::Corrected),
+            smoother,
+        );
         let bound = Fused(column(PairTerm::<2>::bind(&terms, world)));
         pack(world, &mut self.states);
         let (acceleration, scalar) = (&mut self.acceleration, &mut self.scalar);

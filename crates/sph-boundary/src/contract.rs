@@ -4,29 +4,72 @@ use sph_core::{StepError, Vect, contract};
 use sph_kernels::Kernel;
 use sph_neighbours::{Domain, WallSet, World};
 
-use crate::{BoundaryError, Polyline, RigidMotion};
+use crate::{BoundaryError, Polyline, RigidMotion, Surface};
 
 /// How the fluid meets a wall.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Condition {
     /// The fluid sticks to the wall.
     #[default]
     NoSlip,
     /// The wall exerts no friction.
     FreeSlip,
+    /// The fluid slides as if it stuck to a wall this far behind the real one: u_t = λ ∂u_t/∂n
+    /// (Navier's condition).
+    PartialSlip {
+        /// Slip length λ, m.
+        length: f64,
+    },
 }
 
-/// One named wall.
+impl Condition {
+    /// 1 where the wall rubs, 0 where it slips freely.
+    pub fn grip(&self) -> f64 {
+        match self {
+            Self::FreeSlip => 0.0,
+            Self::NoSlip | Self::PartialSlip { .. } => 1.0,
+        }
+    }
+
+    /// Slip length, m; 0 if the fluid sticks.
+    pub fn slip_length(&self) -> f64 {
+        match self {
+            Self::PartialSlip { length } => *length,
+            Self::NoSlip | Self::FreeSlip => 0.0,
+        }
+    }
+}
+
+/// How a wall is drawn.
+#[derive(Clone, Debug)]
+pub enum Drawing {
+    /// In two dimensions.
+    Line(Polyline),
+    /// In three dimensions.
+    Surface(Surface),
+}
+
+impl Drawing {
+    /// Name of the wall.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Line(line) => &line.name,
+            Self::Surface(surface) => &surface.name,
+        }
+    }
+}
+
+/// One named wall; a wall drawn in several pieces is several of these with one name.
 #[derive(Clone, Debug)]
 pub struct WallSpec<const D: usize> {
-    /// Its line; the name is the wall's.
-    pub polyline: Polyline,
+    /// Its line or surface; the name is the wall's.
+    pub drawing: Drawing,
     /// How the fluid meets it.
     pub condition: Condition,
     /// Velocity of the surface where the wall itself stays (a belt), m/s.
     pub surface_velocity: Vect<D>,
     /// Motion of the wall.
-    pub motion: RigidMotion,
+    pub motion: RigidMotion<D>,
 }
 
 /// What a wall treatment needs to set itself up.
@@ -75,6 +118,9 @@ pub trait Wall<const D: usize>: Send {
     /// # Errors
     /// If a wall cannot follow.
     fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError>;
+
+    /// Lower and upper corner of the box around all walls, m.
+    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)>;
 
     /// Contacts and γ at the present positions; called after the lists are fresh.
     ///

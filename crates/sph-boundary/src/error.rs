@@ -1,6 +1,7 @@
 //! What can be wrong with a wall or with the kernel that looks at it.
 
 use crate::mesh::WallEnd;
+use crate::surface::SurfaceError;
 
 /// A refused wall, motion or kernel. Lengths are in metres, edges and points count from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -156,6 +157,27 @@ pub enum BoundaryError {
         /// Name of the wall.
         wall: String,
     },
+    /// A line in space or a surface in the plane.
+    #[error(
+        "wall `{wall}` is not drawn for {dimension} dimensions: a polyline is a wall of two, a surface one of three"
+    )]
+    Dimension {
+        /// Name of the wall.
+        wall: String,
+        /// Dimensions of the scene.
+        dimension: usize,
+    },
+    /// A motion with a number that is not finite or a table that does not ascend.
+    #[error(
+        "the motion of wall `{wall}` is not sound: all numbers must be finite, periods positive, an axis longer than zero, and the times of a table ascending"
+    )]
+    Motion {
+        /// Name of the wall.
+        wall: String,
+    },
+    /// A wall drawn as triangles.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
     /// A number that must be positive and finite.
     #[error("{name} must be positive and finite, got {value}")]
     NotPositive {
@@ -186,20 +208,43 @@ pub enum WallWarning {
         /// The spacing asked for, m.
         spacing: f64,
     },
+    /// A surface drawn with most of its triangles far smaller than the spacing: they stay so.
+    FineSurface {
+        /// Name of the wall.
+        wall: String,
+        /// Triangles with sides below a quarter of the spacing.
+        fine: usize,
+        /// All triangles of the wall.
+        all: usize,
+        /// The spacing asked for, m.
+        spacing: f64,
+    },
 }
 
 impl std::fmt::Display for WallWarning {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self::ShortEdge {
-            wall,
-            edge,
-            length,
-            spacing,
-        } = self;
-        write!(
-            f,
-            "edge {edge} of wall `{wall}` is {length} m long, far shorter than the spacing {spacing} m"
-        )
+        match self {
+            Self::ShortEdge {
+                wall,
+                edge,
+                length,
+                spacing,
+            } => write!(
+                f,
+                "edge {edge} of wall `{wall}` is {length} m long, far shorter than the spacing \
+                 {spacing} m"
+            ),
+            Self::FineSurface {
+                wall,
+                fine,
+                all,
+                spacing,
+            } => write!(
+                f,
+                "{fine} of the {all} triangles of wall `{wall}` are far smaller than the spacing \
+                 {spacing} m: draw it coarser"
+            ),
+        }
     }
 }
 

@@ -29,32 +29,50 @@
 
 mod checks;
 mod contract;
+mod course;
+mod cover;
 mod dummy;
 mod error;
 mod gamma;
 mod grid;
 mod inside;
+mod lattice_layers;
 mod layers;
 mod mesh;
 mod motion;
 mod near;
 mod outline;
 mod periodic;
+mod planar;
 mod plate;
 mod polyline;
 mod pose;
 mod shepard;
+mod spatial;
+mod spatial_walls;
+mod surface;
+mod touching;
 mod usaw;
+mod wall_mesh;
 
-pub use contract::{Condition, Wall, WallEntry, WallSetup, WallSpec};
+pub use contract::{Condition, Drawing, Wall, WallEntry, WallSetup, WallSpec};
+pub use course::{Course, Stage};
 pub use dummy::DummyParticles;
 pub use error::{BoundaryError, WallWarning};
 pub use gamma::{Contact, GammaSum, Renormalisation2d, SegmentIntegral};
 pub use grid::{NearSegment, SegmentGrid};
 pub use mesh::{FreeEnd, Segment, SegmentMesh, Vertex, WallEnd};
-pub use motion::RigidMotion;
+pub use motion::{Movement, RigidMotion, Rotation, Translation};
 pub use periodic::PeriodicBox;
+pub use planar::PlanarWalls;
 pub use plate::thin_plate;
 pub use polyline::Polyline;
 pub use pose::Pose;
+pub use spatial::{FacetIntegral, GammaSum3d, Renormalisation3d};
+pub use spatial_walls::SpatialWalls;
+pub use surface::{
+    Closest, Face, FaceEdge, Feature, FreeEdge, NearTriangle, Node, Opening, Surface, SurfaceError,
+    Triangle, TriangleGrid, TriangleMesh,
+};
 pub use usaw::Usaw;
+pub use wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};

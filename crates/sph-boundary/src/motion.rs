@@ -1,38 +1,95 @@
 //! Prescribed rigid motion of a wall.
 
-use crate::Pose;
+use sph_core::Vect;
 
-/// Constant velocity and spin between two times; at rest before and after.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RigidMotion {
-    /// Velocity, m/s.
-    pub velocity: [f64; 2],
-    /// Angular velocity, counter-clockwise, rad/s.
-    pub angular_velocity: f64,
-    /// Centre of rotation at time 0, m; it moves along.
-    pub centre: [f64; 2],
-    /// Start, s.
+use crate::{Course, Pose};
+
+/// A translation along a direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Translation<const D: usize> {
+    /// Displacement per unit of the course.
+    pub along: [f64; D],
+    /// The course, m where `along` is a unit vector.
+    pub course: Course,
+}
+
+/// A rotation about a centre that is carried by the translations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rotation<const D: usize> {
+    /// Centre at time 0, m.
+    pub centre: [f64; D],
+    /// Axis, right-hand rule; ignored in two dimensions, where angles go counter-clockwise.
+    pub axis: [f64; 3],
+    /// The course, rad.
+    pub course: Course,
+}
+
+/// Translations and a rotation between two times; at rest before and after.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidMotion<const D: usize = 2> {
+    /// Translations, added up.
+    pub translations: Vec<Translation<D>>,
+    /// Rotation.
+    pub rotation: Option<Rotation<D>>,
+    /// Start, s; the courses count from here.
     pub start: f64,
     /// Stop, s.
     pub stop: f64,
 }
 
-impl Default for RigidMotion {
+impl<const D: usize> Default for RigidMotion<D> {
     fn default() -> Self {
         RigidMotion {
-            velocity: [0.0; 2],
-            angular_velocity: 0.0,
-            centre: [0.0; 2],
+            translations: Vec::new(),
+            rotation: None,
             start: 0.0,
             stop: f64::INFINITY,
         }
     }
 }
 
-impl RigidMotion {
+/// Velocity and acceleration of a place of the wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Movement<const D: usize> {
+    /// Velocity, m/s.
+    pub velocity: Vect<D>,
+    /// Acceleration, m/s².
+    pub acceleration: Vect<D>,
+}
+
+impl<const D: usize> RigidMotion<D> {
+    /// A constant velocity, m/s.
+    pub fn steady(velocity: [f64; D]) -> Self {
+        RigidMotion {
+            translations: vec![Translation {
+                along: velocity,
+                course: Course::Steady { speed: 1.0 },
+            }],
+            ..Self::default()
+        }
+    }
+
     /// Whether the wall ever moves.
     pub fn moves(&self) -> bool {
-        self.velocity != [0.0; 2] || self.angular_velocity != 0.0
+        let shifts = |t: &Translation<D>| t.course.moves() && t.along != [0.0; D];
+        self.translations.iter().any(shifts)
+            || self.rotation.as_ref().is_some_and(|r| r.course.moves())
+    }
+
+    /// Whether all its numbers are finite and its courses sound.
+    pub fn is_sound(&self) -> bool {
+        let finite = |v: &[f64]| v.iter().all(|x| x.is_finite());
+        let sound = |t: &Translation<D>| t.course.is_sound() && finite(&t.along);
+        let turns = |r: &Rotation<D>| {
+            r.course.is_sound()
+                && finite(&r.centre)
+                && finite(&r.axis)
+                && (D == 2 || r.axis != [0.0; 3])
+        };
+        self.translations.iter().all(sound)
+            && self.rotation.iter().all(turns)
+            && self.start.is_finite()
+            && !self.stop.is_nan()
     }
 
     fn elapsed(&self, time: f64) -> f64 {
@@ -40,55 +97,173 @@ impl RigidMotion {
     }
 
     /// Where the wall is at a time, from where it was drawn.
-    pub fn pose(&self, time: f64) -> Pose {
+    pub fn pose(&self, time: f64) -> Pose<D> {
         let t = self.elapsed(time);
-        Pose {
-            translation: [t * self.velocity[0], t * self.velocity[1]],
-            angle: t * self.angular_velocity,
-            centre: self.centre,
+        let mut pose = match &self.rotation {
+            Some(rotation) => turned(rotation, rotation.course.at(t).value),
+            None => Pose::default(),
+        };
+        for shift in &self.translations {
+            let s = shift.course.at(t).value;
+            for k in 0..D {
+                pose.translation[k] += shift.along[k] * s;
+            }
         }
+        pose
     }
 
-    /// Velocity of a point of the wall at its present position, m/s.
-    pub fn velocity_at(&self, point: [f64; 2], time: f64) -> [f64; 2] {
+    /// Velocity and acceleration of a point of the wall at its present position.
+    pub fn movement(&self, point: [f64; D], time: f64) -> Movement<D> {
+        let mut movement = Movement {
+            velocity: Vect::zeros(),
+            acceleration: Vect::zeros(),
+        };
         if time < self.start || time >= self.stop {
-            return [0.0; 2];
+            return movement;
         }
         let t = self.elapsed(time);
-        let arm = [0, 1].map(|k| point[k] - self.centre[k] - t * self.velocity[k]);
-        [
-            self.velocity[0] - self.angular_velocity * arm[1],
-            self.velocity[1] + self.angular_velocity * arm[0],
-        ]
+        let mut shifted = Vect::<D>::zeros();
+        for shift in &self.translations {
+            let (along, stage) = (Vect::from(shift.along), shift.course.at(t));
+            shifted += along * stage.value;
+            movement.velocity += along * stage.rate;
+            movement.acceleration += along * stage.acceleration;
+        }
+        if let Some(rotation) = &self.rotation {
+            let stage = rotation.course.at(t);
+            let arm = Vect::from(point) - Vect::from(rotation.centre) - shifted;
+            let swept = |v: &Vect<D>| swept(rotation, v);
+            movement.velocity += swept(&arm) * stage.rate;
+            movement.acceleration +=
+                swept(&arm) * stage.acceleration + swept(&swept(&arm)) * (stage.rate * stage.rate);
+        }
+        movement
     }
+}
+
+/// e × v with the unit axis e.
+fn swept<const D: usize>(rotation: &Rotation<D>, v: &Vect<D>) -> Vect<D> {
+    let e = unit_axis(rotation);
+    let at = |k: usize| v.get(k).copied().unwrap_or(0.0);
+    let cross = [
+        e[1] * at(2) - e[2] * at(1),
+        e[2] * at(0) - e[0] * at(2),
+        e[0] * at(1) - e[1] * at(0),
+    ];
+    Vect::from_fn(|k, _| cross[k])
+}
+
+fn unit_axis<const D: usize>(rotation: &Rotation<D>) -> [f64; 3] {
+    match D {
+        2 => [0.0, 0.0, 1.0],
+        _ => Vect::from(rotation.axis)
+            .try_normalize(0.0)
+            .map_or([0.0; 3], Into::into),
+    }
+}
+
+/// R = cos φ I + sin φ [e]× + (1 − cos φ) e eᵀ about the rotation's centre.
+fn turned<const D: usize>(rotation: &Rotation<D>, angle: f64) -> Pose<D> {
+    if angle == 0.0 {
+        return Pose::default();
+    }
+    let e = unit_axis(rotation);
+    let (sine, cosine) = angle.sin_cos();
+    let mut pose = Pose {
+        centre: rotation.centre,
+        ..Pose::default()
+    };
+    for k in 0..D {
+        // The k-th column is the image of the k-th unit vector.
+        let unit = Vect::<D>::from_fn(|i, _| f64::from(u8::from(i == k)));
+        let cross = swept(rotation, &unit);
+        for i in 0..D {
+            let along = if D == 2 { 0.0 } else { e[i] * e[k] };
+            pose.rotation[i][k] = cosine * unit[i] + sine * cross[i] + (1.0 - cosine) * along;
+        }
+    }
+    pose
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_velocity_is_the_rate_of_the_pose() {
-        let motion = RigidMotion {
-            velocity: [0.3, -0.2],
-            angular_velocity: 1.7,
-            centre: [0.1, 0.4],
-            start: 0.5,
-            stop: 2.0,
-        };
-        let corner = [0.9, -0.3];
-        let at = |t: f64| motion.pose(t).map()(corner);
+    fn check<const D: usize>(motion: &RigidMotion<D>, corner: [f64; D]) {
+        assert!(motion.is_sound() && motion.moves());
+        let at = |t: f64| Vect::from(motion.pose(t).map()(corner));
         for t in [0.2, 0.9, 1.7, 2.5] {
-            let (before, after) = (at(t - 1e-6), at(t + 1e-6));
-            let velocity = motion.velocity_at(at(t), t);
-            for k in 0..2 {
-                let rate = (after[k] - before[k]) / 2e-6;
-                assert!(
-                    (rate - velocity[k]).abs() < 1e-8,
-                    "t = {t}: {rate} {}",
-                    velocity[k]
-                );
-            }
+            let h = 1e-5;
+            let now = motion.movement(at(t).into(), t);
+            let rate = (at(t + h) - at(t - h)) / (2.0 * h);
+            let velocity = |t: f64| motion.movement(at(t).into(), t).velocity;
+            let second = (velocity(t + h) - velocity(t - h)) / (2.0 * h);
+            assert!(
+                (rate - now.velocity).norm() < 1e-8,
+                "t = {t}: {rate} {now:?}"
+            );
+            assert!(
+                (second - now.acceleration).norm() < 1e-6,
+                "t = {t}: {second} {now:?}"
+            );
         }
+    }
+
+    #[test]
+    fn velocity_and_acceleration_are_those_of_the_pose() {
+        let sine = Course::Sine {
+            amplitude: 0.4,
+            period: 1.1,
+            phase: 0.3,
+            ramp: 0.6,
+        };
+        check(
+            &RigidMotion::<2> {
+                translations: vec![Translation {
+                    along: [0.3, -0.2],
+                    course: Course::Steady { speed: 1.0 },
+                }],
+                rotation: Some(Rotation {
+                    centre: [0.1, 0.4],
+                    axis: [0.0; 3],
+                    course: Course::Steady { speed: 1.7 },
+                }),
+                start: 0.5,
+                stop: 2.0,
+            },
+            [0.9, -0.3],
+        );
+        check(
+            &RigidMotion::<3> {
+                translations: vec![Translation {
+                    along: [0.0, 1.0, 1.0],
+                    course: sine.clone(),
+                }],
+                rotation: Some(Rotation {
+                    centre: [0.1, 0.4, -0.2],
+                    axis: [1.0, -2.0, 0.5],
+                    course: sine,
+                }),
+                start: 0.1,
+                stop: f64::INFINITY,
+            },
+            [0.9, -0.3, 0.2],
+        );
+    }
+
+    #[test]
+    fn both_ways_to_a_rotation_agree() {
+        let axis = [1.0, -2.0, 0.5];
+        let rotation = Rotation {
+            centre: [0.3, 0.2, 0.1],
+            axis,
+            course: Course::Steady { speed: 1.0 },
+        };
+        let (a, b) = (
+            turned(&rotation, 0.8),
+            Pose::about_axis(axis, 0.8, rotation.centre),
+        );
+        let apart = a.rotation.iter().flatten().zip(b.rotation.iter().flatten());
+        assert!(apart.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 1e-15);
     }
 }

@@ -1,12 +1,12 @@
-//! Which segments may be near which particle, kept while the neighbour lists stand.
+//! Which elements may be near which particle, kept while the neighbour lists stand.
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::World;
 
-use crate::NearSegment;
 use crate::error::stage_error;
 use crate::outline::Outline;
+use crate::wall_mesh::{Hindrance, WallMesh};
 
 /// A particle is not let nearer to a wall than this share of the spacing.
 ///
@@ -14,94 +14,121 @@ use crate::outline::Outline;
 /// constraint acts on lone particles only.
 const LEAST_CLEARANCE: f64 = 0.25;
 
-/// Rounds over the segments near a particle before a corner simply stops it.
+/// Rounds over the elements near a particle before a corner simply stops it.
 const TURNS: usize = 4;
 
-/// Segments that may be within the support of a particle until the lists are rebuilt.
-#[derive(Debug, Default)]
-pub(crate) struct NearLists {
+/// Elements that may be within the support of a particle until the lists are rebuilt.
+#[derive(Debug)]
+pub(crate) struct NearLists<N> {
     built_for: u64,
-    /// Particles with a segment near, ascending.
+    /// Counts what makes contacts old: new lists and moves of walls.
+    pub version: u64,
+    /// Particles with an element near, ascending.
     pub particles: Vec<u32>,
     starts: Vec<u32>,
-    segments: Vec<NearSegment>,
+    elements: Vec<N>,
 }
 
-impl NearLists {
+impl<N> Default for NearLists<N> {
+    fn default() -> Self {
+        NearLists {
+            built_for: 0,
+            version: 0,
+            particles: Vec::new(),
+            starts: Vec::new(),
+            elements: Vec::new(),
+        }
+    }
+}
+
+impl<N: Copy + Send + Sync> NearLists<N> {
     /// Forgets the lists: a wall moved.
     pub fn expire(&mut self) {
         self.built_for = 0;
     }
 
     /// Builds the lists anew if the neighbour lists were.
-    pub fn refresh(&mut self, outline: &Outline, world: &World<2>) -> Result<(), StepError> {
+    pub fn refresh<const D: usize, M: WallMesh<D, Near = N>>(
+        &mut self,
+        outline: &Outline<D, M>,
+        world: &World<D>,
+    ) -> Result<(), StepError> {
         if self.built_for == world.lists.builds {
             return Ok(());
         }
         let positions = &world.lists.reference;
         let reach = world.reach();
-        let rows: Vec<Vec<NearSegment>> = positions
+        let rows: Vec<Vec<N>> = positions
             .par_iter()
             .with_min_len(256)
-            .map(|x| {
-                outline
-                    .grid
-                    .near(&outline.mesh, [x[0], x[1]], reach)
-                    .collect()
-            })
+            .map(|x| outline.mesh.near(x, reach))
             .collect();
         self.built_for = world.lists.builds;
+        self.version += 1;
         self.particles.clear();
-        self.segments.clear();
+        self.elements.clear();
         self.starts.clear();
         self.starts.push(0);
         for (particle, row) in rows.iter().enumerate().filter(|(_, row)| !row.is_empty()) {
             self.particles.push(particle as u32);
-            self.segments.extend(row);
-            self.starts.push(self.segments.len() as u32);
+            self.elements.extend(row);
+            self.starts.push(self.elements.len() as u32);
         }
         let close: Vec<_> = self
             .particles
             .iter()
             .map(|&p| positions[p as usize])
             .collect();
-        outline.check_free_ends(&close).map_err(stage_error)
+        let checked = outline.mesh.check_free_ends(&close, outline.support);
+        checked.map_err(stage_error)
     }
 
-    /// The segments near the particle at a place of `particles`.
-    pub fn row(&self, place: usize) -> &[NearSegment] {
-        &self.segments[self.starts[place] as usize..self.starts[place + 1] as usize]
+    /// The elements near the particle at a place of `particles`.
+    pub fn row(&self, place: usize) -> &[N] {
+        &self.elements[self.starts[place] as usize..self.starts[place + 1] as usize]
     }
 
     /// Takes from the velocities what would carry a particle into a wall within `dt`.
     ///
-    /// With c the nearest point of a segment, e = (r − c)/|r − c| and d = |r − c|: if
+    /// With c the nearest point of an element, e = (r − c)/|r − c| and d = |r − c|: if
     /// d + Δt (u − u_w)·e falls below a quarter of a spacing, the velocity along e is raised to
     /// what ends there, at most to that of the wall. A plastic impact: the pressure of a lone
-    /// particle, whose density sum is far below ρ₀, would not stop it. What several segments
+    /// particle, whose density sum is far below ρ₀, would not stop it. What several elements
     /// ask is met in turns; a particle that a sharp corner still holds then goes with the wall.
-    pub fn constrain(
+    ///
+    /// `height` gives a lower bound of the distance of the particle at a place of `particles`
+    /// from any element in front of it, m; those out of danger are not looked at.
+    pub fn constrain<const D: usize, M: WallMesh<D, Near = N>>(
         &self,
-        outline: &Outline,
-        world: &mut World<2>,
+        outline: &Outline<D, M>,
+        world: &mut World<D>,
         dt: f64,
+        height: impl Fn(usize) -> f64 + Sync,
     ) -> Result<(), StepError> {
         let mut velocity = world.free.take(fields::VELOCITY)?;
         let position = world.free.get(fields::POSITION)?;
+        let walls = &world.walls;
+        let moving = walls.points.velocity.iter().chain(&walls.elements.velocity);
+        let fastest = moving.map(|u| u.norm_squared()).fold(0.0, f64::max).sqrt();
         let impact = Impact {
             outline,
             spacing: world.spacing,
             time: world.time,
             dt,
         };
-        let changed: Vec<(usize, Vect<2>)> = self
+        let changed: Vec<(usize, Vect<D>)> = self
             .particles
             .par_iter()
             .enumerate()
             .with_min_len(256)
             .filter_map(|(place, &p)| {
-                let p = p as usize;
-                let u = impact.corrected(&position[p], velocity[p], self.row(place));
+                let (p, u) = (p as usize, velocity[p as usize]);
+                let danger = LEAST_CLEARANCE * world.spacing + dt * (u.norm() + fastest);
+                // Not ">=": a height that is not a number is no safety.
+                if height(place) > 1.000_001 * danger {
+                    return None;
+                }
+                let u = impact.corrected(&position[p], u, self.row(place));
                 u.map(|u| (p, u))
             })
             .collect();
@@ -113,23 +140,30 @@ impl NearLists {
 }
 
 /// What a step would do to a particle next to a wall.
-struct Impact<'a> {
-    outline: &'a Outline,
+struct Impact<'a, const D: usize, M> {
+    outline: &'a Outline<D, M>,
     spacing: f64,
     time: f64,
     dt: f64,
 }
 
-impl Impact<'_> {
-    /// The velocity that no segment objects to; none if that is the present one.
-    fn corrected(&self, x: &Vect<2>, u: Vect<2>, row: &[NearSegment]) -> Option<Vect<2>> {
+impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
+    /// The velocity that no element objects to; none if that is the present one.
+    fn corrected(&self, x: &Vect<D>, u: Vect<D>, row: &[M::Near]) -> Option<Vect<D>> {
+        let mesh = &self.outline.mesh;
+        let mut hindrances = Vec::new();
+        mesh.hindrances(x, row, 4.0 * self.spacing, &mut hindrances);
+        if hindrances.is_empty() {
+            return None;
+        }
+        let walls: Vec<Vect<D>> = hindrances.iter().map(|h| self.wall_velocity(h)).collect();
         let mut new = u;
         for turn in 0..=TURNS {
             let mut held = None;
-            for &near in row {
-                if let Some((push, wall)) = self.push(x, &new, near) {
+            for (hindrance, wall) in hindrances.iter().zip(&walls) {
+                if let Some(push) = self.push(&new, hindrance, wall) {
                     new += push;
-                    held = Some(wall);
+                    held = Some(*wall);
                 }
             }
             match held {
@@ -141,56 +175,26 @@ impl Impact<'_> {
         None
     }
 
-    /// The change of velocity that a segment asks for, and the velocity of the wall.
-    fn push(&self, x: &Vect<2>, u: &Vect<2>, near: NearSegment) -> Option<(Vect<2>, Vect<2>)> {
-        let mesh = &self.outline.mesh;
-        let segment = &mesh.segments()[near.segment];
-        let [start, end] = mesh.seen_from([x[0], x[1]], near).map(Vect::from);
-        let normal = Vect::from(segment.normal);
-        // Only from the fluid's side: the far face of a plate is none of its business.
-        let height = -start.dot(&normal);
-        if height <= 0.0 || height > 4.0 * self.spacing {
-            return None;
-        }
-        let along = end - start;
-        let share = -start.dot(&along) / along.norm_squared();
-        let nearest = start + along * share.clamp(0.0, 1.0);
-        let wall = self
-            .outline
-            .velocity(segment.wall, (x + nearest).into(), self.time);
+    fn wall_velocity(&self, hindrance: &Hindrance<D>) -> Vect<D> {
+        let wall = hindrance.wall;
+        let movement = self.outline.movement(wall, &hindrance.place, self.time);
+        movement.velocity
+    }
+
+    /// The change of velocity that a hindrance asks for.
+    fn push(&self, u: &Vect<D>, hindrance: &Hindrance<D>, wall: &Vect<D>) -> Option<Vect<D>> {
         let least = LEAST_CLEARANCE * self.spacing;
         // What is missing of the velocity along e to end at the least clearance.
-        let missing = |e: &Vect<2>, distance: f64| {
+        let missing = |e: &Vect<D>, distance: f64| {
             let allowed = ((least - distance) / self.dt).min(0.0);
             let missing = allowed - (u - wall).dot(e);
             // Rounding of what was corrected already is no impact.
             (missing > 1e-12 * (u - wall).norm()).then_some(missing)
         };
-        if (0.0..=1.0).contains(&share) {
-            return missing(&normal, height).map(|m| (normal * m, wall));
+        if let Some((e, distance)) = &hindrance.only_if {
+            missing(e, *distance)?;
         }
-        let distance = nearest.norm();
-        let round = -nearest / distance;
-        let to_round = missing(&round, distance)?;
-        // Where the next segment at the vertex is nearer, it holds the particle back; the
-        // vertex is no bump on a straight wall. In a corner this one's plane counts as well.
-        let vertex = &mesh.vertices()[segment.vertices[usize::from(share > 1.0)]];
-        let next = match share > 1.0 {
-            true => vertex.next,
-            false => vertex.previous,
-        };
-        let over_next = next.is_some_and(|s| {
-            let ahead = -nearest.dot(&Vect::from(mesh.segments()[s].tangent()));
-            if share > 1.0 {
-                ahead > 0.0
-            } else {
-                ahead < 0.0
-            }
-        });
-        match over_next {
-            false => Some((round * to_round, wall)),
-            true if vertex.theta > 0.5 + 1e-9 => None,
-            true => missing(&normal, height).map(|m| (normal * m, wall)),
-        }
+        let m = missing(&hindrance.away, hindrance.distance)?;
+        Some(hindrance.away * m)
     }
 }

@@ -1,53 +1,61 @@
-//! What both wall treatments share: the mesh, the conditions, the motion, the checks.
+//! What all wall treatments share: the mesh, the conditions, the motion, the checks.
 
 use sph_core::Vect;
-use sph_neighbours::Elements;
+use sph_neighbours::{Elements, Frame, WallPoints};
 
-use crate::grid::distance_squared;
-use crate::{BoundaryError, Condition, PeriodicBox, SegmentGrid, SegmentMesh, WallSetup, WallSpec};
+use crate::cover::Cover;
+use crate::wall_mesh::WallMesh;
+use crate::{BoundaryError, Movement, PeriodicBox, Pose, WallSetup, WallSpec};
 
-/// The walls of a scene as segments, with what the scene says of each.
+/// The walls of a scene as a mesh, with what the scene says of each.
 #[derive(Debug)]
-pub(crate) struct Outline {
-    pub mesh: SegmentMesh,
-    pub grid: SegmentGrid,
-    pub reach: f64,
+pub(crate) struct Outline<const D: usize, M> {
+    pub mesh: M,
     pub support: f64,
-    specs: Vec<WallSpec<2>>,
+    poses: Vec<Pose<D>>,
+    /// Walls with the same number move together.
+    groups: Vec<usize>,
+    spacing: f64,
+    cover: Cover,
+    pub specs: Vec<WallSpec<D>>,
 }
 
-impl Outline {
-    pub fn new(setup: &WallSetup<'_, 2>, support: f64) -> Result<Self, BoundaryError> {
-        let lines: Vec<_> = setup.walls.iter().map(|w| w.polyline.clone()).collect();
-        let domain = PeriodicBox {
-            lower: setup.domain.lower.into(),
-            upper: setup.domain.upper.into(),
-            periodic: setup.domain.periodic,
-        };
-        let mesh = SegmentMesh::build(&lines, setup.spacing, &domain)?;
+impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
+    pub fn new(setup: &WallSetup<'_, D>, support: f64) -> Result<Self, BoundaryError> {
+        for spec in setup.walls {
+            if !spec.motion.is_sound() {
+                let wall = spec.drawing.name().to_string();
+                return Err(BoundaryError::Motion { wall });
+            }
+            let slip = spec.condition.slip_length();
+            if !(slip >= 0.0 && slip.is_finite()) {
+                let name = "slip length";
+                return Err(BoundaryError::NotPositive { name, value: slip });
+            }
+        }
         // Twice the support also serves the queries of filling and of a generous skin.
         let reach = 2.0 * support;
-        Ok(Outline {
-            grid: SegmentGrid::build(&mesh, reach),
+        let domain = PeriodicBox::of(setup.domain);
+        let mesh = M::build(setup.walls, setup.spacing, reach, &domain)?;
+        let mut outline = Outline {
             mesh,
-            reach,
             support,
+            poses: vec![Pose::default(); setup.walls.len()],
+            groups: groups(setup.walls),
+            spacing: setup.spacing,
+            cover: Cover::default(),
             specs: setup.walls.to_vec(),
-        })
+        };
+        outline.move_to(0.0)?;
+        Ok(outline)
     }
 
-    /// Velocity of the wall, m/s: its motion and that of its surface.
-    pub fn velocity(&self, wall: usize, point: [f64; 2], time: f64) -> Vect<2> {
+    /// Velocity and acceleration of the wall: its motion and the velocity of its surface.
+    pub fn movement(&self, wall: usize, point: &Vect<D>, time: f64) -> Movement<D> {
         let spec = &self.specs[wall];
-        Vect::from(spec.motion.velocity_at(point, time)) + spec.surface_velocity
-    }
-
-    /// 1 where the wall rubs, 0 where it slips freely.
-    pub fn grip(&self, wall: usize) -> f64 {
-        match self.specs[wall].condition {
-            Condition::NoSlip => 1.0,
-            Condition::FreeSlip => 0.0,
-        }
+        let mut movement = spec.motion.movement((*point).into(), time);
+        movement.velocity += spec.surface_velocity;
+        movement
     }
 
     /// Whether any wall ever moves.
@@ -55,116 +63,135 @@ impl Outline {
         self.specs.iter().any(|s| s.motion.moves())
     }
 
+    /// Shares of the nodes of which walls that move otherwise may take a part.
+    pub fn covered(&mut self) -> Vec<(usize, f64)> {
+        if self.groups.iter().all(|g| *g == self.groups[0]) {
+            return Vec::new();
+        }
+        let visible = self.cover.shares(&self.mesh, &self.groups, self.spacing);
+        let nodes: Vec<_> = self.mesh.points().collect();
+        let share = |(v, part): (usize, f64)| (v, part * nodes[v].theta * nodes[v].size);
+        visible.into_iter().map(share).collect()
+    }
+
+    /// Where the walls are; empty where none ever moves.
+    pub fn frames(&self) -> Vec<Frame<D>> {
+        let frame = |pose: &Pose<D>| Frame {
+            rotation: pose.rotation,
+            offset: pose.map()([0.0; D]).into(),
+        };
+        match self.moves() {
+            true => self.poses.iter().map(frame).collect(),
+            false => Vec::new(),
+        }
+    }
+
+    /// Whether any wall slips partly.
+    pub fn slips(&self) -> bool {
+        self.specs.iter().any(|s| s.condition.slip_length() > 0.0)
+    }
+
     /// Moves the mesh; says whether anything moved.
     pub fn move_to(&mut self, time: f64) -> Result<bool, BoundaryError> {
         let poses: Vec<_> = self.specs.iter().map(|s| s.motion.pose(time)).collect();
-        if poses == self.mesh.poses() {
+        if poses == self.poses {
             return Ok(false);
         }
         self.mesh.move_walls(&poses)?;
-        self.grid = SegmentGrid::build(&self.mesh, self.reach);
+        self.poses = poses;
         Ok(true)
     }
 
-    /// Whether a point is on the fluid's side: of the nearest segment if a wall is near, else
-    /// of all walls together. Open walls have no inside, but they have a front.
-    pub fn contains(&self, point: &Vect<2>) -> bool {
-        let point = [point[0], point[1]];
-        let mut nearest = (f64::INFINITY, 0.0, 0.0);
-        for near in self.grid.near(&self.mesh, point, self.reach) {
-            let [start, end] = self.mesh.seen_from(point, near);
-            let distance2 = distance_squared(start, end);
-            let normal = self.mesh.segments()[near.segment].normal;
-            let height = -(start[0] * normal[0] + start[1] * normal[1]);
-            // Two segments at a corner are equally near; the one seen more from above decides.
-            // Both faces of a plate of zero thickness are, too; the one seen from its front does.
-            let same = (distance2 - nearest.0).abs() <= 1e-9 * distance2;
-            let faces = (height + nearest.2).abs() <= 1e-9 * nearest.1;
-            let decides = match (same, faces) {
-                (true, true) => height > 0.0,
-                (true, false) => height.abs() > nearest.1,
-                (false, _) => distance2 < nearest.0,
-            };
-            if decides {
-                nearest = (distance2, height.abs(), height);
+    pub fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {
+        let (distance, wall) = self.mesh.nearest(point, within)?;
+        Some((distance, self.mesh.names()[wall].as_str()))
+    }
+
+    /// The nodes as wall points, at rest without fluid around.
+    pub fn points(&self, spacing: f64) -> WallPoints<D> {
+        let mut points = WallPoints::default();
+        let (moves, slips) = (self.moves(), self.slips());
+        for node in self.mesh.points() {
+            let condition = &self.specs[node.wall].condition;
+            points.position.push(node.position);
+            points.share.push(node.theta * node.size);
+            points.volume.push(spacing.powi(D as i32));
+            points.pressure.push(0.0);
+            points.grip.push(condition.grip());
+            points.wall.push(node.wall as u32);
+            points.velocity.push(Vect::zeros());
+            points.viscous_velocity.push(Vect::zeros());
+            if moves {
+                points.acceleration.push(Vect::zeros());
+            }
+            if slips {
+                points.slip.push((condition.slip_length(), node.normal));
             }
         }
-        match nearest.0.is_finite() {
-            true => nearest.2 >= 0.0,
-            false => self.mesh.contains(point),
-        }
+        points
     }
 
-    pub fn clearance(&self, point: &Vect<2>, within: f64) -> Option<(f64, &str)> {
-        let point = [point[0], point[1]];
-        let within = within.min(self.reach);
-        self.grid
-            .near(&self.mesh, point, within)
-            .map(|near| {
-                let [start, end] = self.mesh.seen_from(point, near);
-                (distance_squared(start, end), near.segment)
-            })
-            .min_by(|a, b| a.0.total_cmp(&b.0))
-            .map(|(d2, segment)| {
-                let wall = self.mesh.segments()[segment].wall;
-                (d2.sqrt(), self.mesh.walls()[wall].as_str())
-            })
-    }
-
-    pub fn check_free_ends(&self, points: &[Vect<2>]) -> Result<(), BoundaryError> {
-        if self.mesh.free_ends().is_empty() {
-            return Ok(());
-        }
-        let points: Vec<[f64; 2]> = points.iter().map(|p| [p[0], p[1]]).collect();
-        self.mesh.check_free_ends(&points, self.support)
-    }
-
-    /// Centres, normals, velocities and lengths of the segments at a time.
-    pub fn elements(&self, time: f64, spacing: f64) -> Elements<2> {
+    /// The elements, at rest without fluid around.
+    pub fn elements(&self, spacing: f64) -> Elements<D> {
         let mut elements = Elements::default();
-        for segment in self.mesh.segments() {
-            elements.centre.push(segment.centre.into());
-            elements.normal.push(segment.normal.into());
-            elements
-                .velocity
-                .push(self.velocity(segment.wall, segment.centre, time));
-            elements.measure.push(segment.length);
-            elements.volume.push(spacing * spacing);
+        let (moves, slips) = (self.moves(), self.slips());
+        for element in self.mesh.elements() {
+            let condition = &self.specs[element.wall].condition;
+            elements.centre.push(element.centre);
+            elements.normal.push(element.normal);
+            elements.velocity.push(Vect::zeros());
+            elements.measure.push(element.measure);
+            elements.volume.push(spacing.powi(D as i32));
             elements.pressure.push(0.0);
-            elements.grip.push(self.grip(segment.wall));
-            elements.wall.push(segment.wall as u32);
-            elements.corners.push(segment.vertices.map(|v| v as u32));
+            elements.grip.push(condition.grip());
+            elements.wall.push(element.wall as u32);
+            elements.corners.push(element.corners);
+            if moves {
+                elements.acceleration.push(Vect::zeros());
+            }
+            if slips {
+                elements.slip.push(condition.slip_length());
+            }
         }
         elements
     }
 }
 
-/// The methods of [`Wall<2>`](crate::Wall) that ask nothing but the outline of the walls; the
+/// For every wall the first one that moves as it does.
+pub(crate) fn groups<const D: usize>(walls: &[WallSpec<D>]) -> Vec<usize> {
+    let together = |w: &WallSpec<D>| walls.iter().position(|o| o.motion == w.motion);
+    walls.iter().filter_map(together).collect()
+}
+
+/// The methods of [`Wall`](crate::Wall) that ask nothing but the outline of the walls; the
 /// plugin keeps it in `self.set_up`.
 macro_rules! checks_by_outline {
     () => {
-        fn contains(&self, point: &Vect<2>) -> bool {
+        fn contains(&self, point: &Vect<D>) -> bool {
             let set_up = self.set_up.as_ref();
-            set_up.is_none_or(|s| s.outline.contains(point))
+            set_up.is_none_or(|s| s.outline.mesh.contains(point))
         }
 
-        fn clearance(&self, point: &Vect<2>, within: f64) -> Option<(f64, &str)> {
+        fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {
             self.set_up.as_ref()?.outline.clearance(point, within)
         }
 
-        fn check_free_ends(&self, points: &[Vect<2>]) -> Result<(), BoundaryError> {
+        fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
+            self.set_up.as_ref()?.outline.mesh.bounds()
+        }
+
+        fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {
             match &self.set_up {
-                Some(set_up) => set_up.outline.check_free_ends(points),
+                Some(SetUp { outline, .. }) => {
+                    outline.mesh.check_free_ends(points, outline.support)
+                }
                 None => Ok(()),
             }
         }
 
         fn warnings(&self) -> Vec<String> {
             let set_up = self.set_up.as_ref();
-            set_up.map_or(Vec::new(), |s| {
-                let all = s.outline.mesh.warnings().iter();
-                all.map(ToString::to_string).collect()
-            })
+            set_up.map_or(Vec::new(), |s| s.outline.mesh.warnings())
         }
     };
 }

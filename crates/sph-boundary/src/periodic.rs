@@ -4,28 +4,37 @@ use crate::error::BoundaryError;
 
 /// An axis-aligned box, each axis periodic or not.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PeriodicBox {
+pub struct PeriodicBox<const D: usize = 2> {
     /// Lower corner, m.
-    pub lower: [f64; 2],
+    pub lower: [f64; D],
     /// Upper corner, m.
-    pub upper: [f64; 2],
+    pub upper: [f64; D],
     /// Whether the two sides across an axis are the same place.
-    pub periodic: [bool; 2],
+    pub periodic: [bool; D],
 }
 
-impl PeriodicBox {
+impl<const D: usize> PeriodicBox<D> {
     /// No periodic direction.
     pub fn none() -> Self {
         Self {
-            lower: [0.0; 2],
-            upper: [0.0; 2],
-            periodic: [false; 2],
+            lower: [0.0; D],
+            upper: [0.0; D],
+            periodic: [false; D],
+        }
+    }
+
+    /// The box of a flow.
+    pub fn of(domain: &sph_neighbours::Domain<D>) -> Self {
+        Self {
+            lower: domain.lower.into(),
+            upper: domain.upper.into(),
+            periodic: domain.periodic,
         }
     }
 
     /// Periods in metres, 0 across an axis that is not periodic.
-    pub fn periods(&self) -> [f64; 2] {
-        [0, 1].map(|k| {
+    pub fn periods(&self) -> [f64; D] {
+        std::array::from_fn(|k| {
             if self.periodic[k] {
                 self.upper[k] - self.lower[k]
             } else {
@@ -36,7 +45,7 @@ impl PeriodicBox {
 
     /// Refuses a periodic axis without extent.
     pub(crate) fn check(&self) -> Result<(), BoundaryError> {
-        for k in 0..2 {
+        for k in 0..D {
             let period = self.upper[k] - self.lower[k];
             if self.periodic[k] && !(period > 0.0 && period.is_finite()) {
                 return Err(BoundaryError::NotPositive {
@@ -49,9 +58,9 @@ impl PeriodicBox {
     }
 
     /// The whole number of periods nearest to a displacement.
-    pub(crate) fn nearest_image(&self, displacement: [f64; 2]) -> [i32; 2] {
+    pub(crate) fn nearest_image(&self, displacement: [f64; D]) -> [i32; D] {
         let periods = self.periods();
-        [0, 1].map(|k| {
+        std::array::from_fn(|k| {
             if self.periodic[k] {
                 (displacement[k] / periods[k]).round() as i32
             } else {
@@ -61,9 +70,9 @@ impl PeriodicBox {
     }
 
     /// The displacement of an image, m.
-    pub(crate) fn shift(&self, image: [i32; 2]) -> [f64; 2] {
+    pub(crate) fn shift(&self, image: [i32; D]) -> [f64; D] {
         let periods = self.periods();
-        [0, 1].map(|k| f64::from(image[k]) * periods[k])
+        std::array::from_fn(|k| f64::from(image[k]) * periods[k])
     }
 
     /// Images of the interval [`low`, `high`] along `axis` that come within `margin` of the box.
@@ -110,6 +119,6 @@ mod tests {
             periodic: [true, false],
         };
         assert!(flat.check().is_err());
-        assert!(PeriodicBox::none().check().is_ok());
+        assert!(PeriodicBox::<2>::none().check().is_ok());
     }
 }

@@ -1,25 +1,23 @@
-//! Unified semi-analytical walls in two dimensions.
+//! Unified semi-analytical walls.
 
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{StepError, Vect, fields, register};
-use sph_neighbours::{Contact, Contacts, WallPoints, WallSet, World};
+use sph_neighbours::{Contact, Contacts, WallSet, World};
 
 use crate::error::stage_error;
 use crate::near::NearLists;
 use crate::outline::{Outline, checks_by_outline};
 use crate::shepard::wall_means;
-use crate::{
-    BoundaryError, GammaSum, NearSegment, Renormalisation2d, SegmentMesh, Wall, WallEntry,
-    WallSetup,
-};
+use crate::wall_mesh::WallMesh;
+use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup};
 
-/// Walls of segments with vertex particles; sums are renormalised by γ, the share of the kernel
-/// inside the walls, and completed by ∇γ. γ is geometry here (a closed form, no history).
+/// Walls of segments or triangles with vertex particles; sums are renormalised by γ, the share of
+/// the kernel inside the walls, and completed by ∇γ. γ is geometry here (a closed form, no history).
 ///
 /// Vertices carry the share θ_v of a particle's volume that is fluid; the pressure on vertices
-/// and segments is the Shepard mean of p + ρ g·(r_wall − r) over the fluid (∂p*/∂n = 0).
+/// and elements is the Shepard mean of p + ρ (g − a_w)·(r_wall − r) over the fluid (∂p*/∂n = 0).
 ///
 /// Source: Ghaïtanellis 2017, §2.5, Eq. 2.63–2.91; γ by the divergence theorem.
 ///
@@ -29,23 +27,25 @@ use crate::{
 /// polyline = [[0, 0.6], [0, 0], [1, 0], [1, 0.6]]
 /// ```
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Usaw {
+#[serde(deny_unknown_fields, bound = "")]
+#[schemars(rename = "Usaw", bound = "")]
+pub struct Usaw<const D: usize, M: WallMesh<D>> {
     #[serde(skip)]
-    set_up: Option<SetUp>,
+    set_up: Option<SetUp<D, M>>,
 }
 
 #[derive(Debug)]
-struct SetUp {
-    outline: Outline,
-    gamma: Renormalisation2d,
+struct SetUp<const D: usize, M: WallMesh<D>> {
+    outline: Outline<D, M>,
+    integrals: M::Integrals,
     spacing: f64,
-    near: NearLists,
+    near: NearLists<M::Near>,
+    /// Positions and version of the near lists for which the contacts were found.
+    found_for: (u64, Vec<Vect<D>>),
 }
 
 register!(
-    WallEntry[2],
-    Usaw,
+    WallEntry [2 => Usaw<2, PlanarWalls>, 3 => Usaw<3, SpatialWalls>],
     "usaw",
     "semi-analytical walls with exact renormalisation",
     "Ghaïtanellis 2017, Eq. 2.63–2.91; Ferrand et al. 2013"
@@ -55,44 +55,16 @@ register!(
 const BATCH: usize = 64;
 
 /// γ and contacts of a batch of particles.
-#[derive(Debug, Default)]
-struct Found {
+#[derive(Debug)]
+struct Found<const D: usize> {
     gamma: Vec<f64>,
-    contacts: Vec<Contact<2>>,
+    contacts: Vec<Contact<D>>,
     /// Contacts up to and including each particle's.
     ends: Vec<u32>,
 }
 
-impl Found {
-    fn particle(
-        &mut self,
-        point: [f64; 2],
-        row: &[NearSegment],
-        mesh: &SegmentMesh,
-        gamma: &Renormalisation2d,
-    ) {
-        let mut sum = GammaSum::default();
-        for &near in row {
-            let segment = &mesh.segments()[near.segment];
-            let [start, end] = mesh.seen_from(point, near);
-            let integral = gamma.segment(start, end, segment.normal);
-            sum.add(&integral, segment);
-            if integral.kernel != 0.0 {
-                let normal = Vect::from(segment.normal);
-                self.contacts.push(Contact {
-                    element: near.segment as u32,
-                    gradient: normal * integral.kernel,
-                    distance: -normal.dot(&Vect::from(start)),
-                });
-            }
-        }
-        self.gamma.push(sum.gamma());
-        self.ends.push(self.contacts.len() as u32);
-    }
-}
-
-impl Usaw {
-    fn ready(&self) -> Result<&SetUp, StepError> {
+impl<const D: usize, M: WallMesh<D>> Usaw<D, M> {
+    fn ready(&self) -> Result<&SetUp<D, M>, StepError> {
         self.set_up.as_ref().ok_or_else(not_built)
     }
 }
@@ -101,7 +73,75 @@ fn not_built() -> StepError {
     stage_error("the walls were not built")
 }
 
-impl Wall<2> for Usaw {
+impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
+    /// Positions, normals and movements of points and elements at a time.
+    fn place(&mut self, walls: &mut WallSet<D>, time: f64) {
+        for (v, share) in self.outline.covered() {
+            walls.points.share[v] = share;
+        }
+        let outline = &self.outline;
+        walls.frames = outline.frames();
+        let points = &mut walls.points;
+        for (v, node) in outline.mesh.points().enumerate() {
+            let movement = outline.movement(node.wall, &node.position, time);
+            points.position[v] = node.position;
+            points.velocity[v] = movement.velocity;
+            points.viscous_velocity[v] = movement.velocity;
+            if let Some(acceleration) = points.acceleration.get_mut(v) {
+                *acceleration = movement.acceleration;
+            }
+            if let Some((_, normal)) = points.slip.get_mut(v) {
+                *normal = node.normal;
+            }
+        }
+        let elements = &mut walls.elements;
+        for (s, element) in outline.mesh.elements().enumerate() {
+            let movement = outline.movement(element.wall, &element.centre, time);
+            elements.centre[s] = element.centre;
+            elements.normal[s] = element.normal;
+            elements.velocity[s] = movement.velocity;
+            if let Some(acceleration) = elements.acceleration.get_mut(s) {
+                *acceleration = movement.acceleration;
+            }
+        }
+    }
+
+    /// Whether the contacts were found for these very positions of particles and walls.
+    fn is_fresh(&mut self, positions: &[Vect<D>]) -> bool {
+        let here = || self.near.particles.iter().map(|p| positions[*p as usize]);
+        let (version, known) = &self.found_for;
+        if *version == self.near.version && here().eq(known.iter().copied()) {
+            return true;
+        }
+        let here: Vec<_> = here().collect();
+        self.found_for = (self.near.version, here);
+        false
+    }
+
+    fn find(&self, positions: &[Vect<D>]) -> Vec<Found<D>> {
+        let near = &self.near;
+        let batches = near.particles.par_chunks(BATCH).enumerate();
+        batches
+            .map(|(b, batch)| {
+                let mut found = Found {
+                    gamma: Vec::with_capacity(batch.len()),
+                    contacts: Vec::new(),
+                    ends: Vec::with_capacity(batch.len()),
+                };
+                for (k, &particle) in batch.iter().enumerate() {
+                    let (x, row) = (&positions[particle as usize], near.row(b * BATCH + k));
+                    let mesh = &self.outline.mesh;
+                    let gamma = mesh.gamma(&self.integrals, x, row, &mut found.contacts);
+                    found.gamma.push(gamma);
+                    found.ends.push(found.contacts.len() as u32);
+                }
+                found
+            })
+            .collect()
+    }
+}
+
+impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
     fn lattice_offset(&self) -> f64 {
         0.0
     }
@@ -110,7 +150,7 @@ impl Wall<2> for Usaw {
         true
     }
 
-    fn build(&mut self, setup: &WallSetup<'_, 2>) -> Result<WallSet<2>, BoundaryError> {
+    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
         let shape = setup
             .kernel
             .polynomial()
@@ -120,86 +160,56 @@ impl Wall<2> for Usaw {
                     setup.kernel.name()
                 ),
             })?;
-        let gamma = Renormalisation2d::new(shape, setup.smoothing_length)?;
-        let outline = Outline::new(setup, gamma.kernel_radius())?;
-        let mut points = WallPoints::default();
-        for vertex in outline.mesh.vertices() {
-            let velocity = outline.velocity(vertex.wall, vertex.position, 0.0);
-            points.position.push(vertex.position.into());
-            points.velocity.push(velocity);
-            points.viscous_velocity.push(velocity);
-            points.share.push(vertex.theta);
-            points.volume.push(setup.spacing.powi(2));
-            points.pressure.push(0.0);
-            points.grip.push(outline.grip(vertex.wall));
-            points.wall.push(vertex.wall as u32);
-        }
-        let walls = WallSet {
-            names: outline.mesh.walls().to_vec(),
-            points,
-            elements: outline.elements(0.0, setup.spacing),
+        let integrals = M::integrals(shape, setup.smoothing_length)?;
+        let support = setup.kernel.support() * setup.smoothing_length;
+        let outline = Outline::<D, M>::new(setup, support)?;
+        let mut walls = WallSet {
+            names: outline.mesh.names().to_vec(),
+            points: outline.points(setup.spacing),
+            elements: outline.elements(setup.spacing),
             contacts: Contacts::default(),
+            frames: Vec::new(),
+            forces: Vec::new(),
         };
-        self.set_up = Some(SetUp {
+        let mut set_up = SetUp {
             outline,
-            gamma,
+            integrals,
             spacing: setup.spacing,
             near: NearLists::default(),
-        });
+            found_for: (0, Vec::new()),
+        };
+        set_up.place(&mut walls, 0.0);
+        self.set_up = Some(set_up);
         Ok(walls)
     }
 
     checks_by_outline!();
 
-    fn move_to(&mut self, walls: &mut WallSet<2>, time: f64) -> Result<(), BoundaryError> {
+    fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError> {
         let Some(set_up) = &mut self.set_up else {
             return Ok(());
         };
         if !set_up.outline.moves() {
             return Ok(());
         }
-        set_up.outline.move_to(time)?;
-        // A moved wall changes which segments are near whom.
-        set_up.near.expire();
-        let outline = &set_up.outline;
-        let points = &mut walls.points;
-        for (v, vertex) in outline.mesh.vertices().iter().enumerate() {
-            let velocity = outline.velocity(vertex.wall, vertex.position, time);
-            points.position[v] = vertex.position.into();
-            points.velocity[v] = velocity;
-            points.viscous_velocity[v] = velocity;
+        if set_up.outline.move_to(time)? {
+            // A moved wall changes which elements are near whom.
+            set_up.near.expire();
         }
-        let elements = &mut walls.elements;
-        for (s, segment) in outline.mesh.segments().iter().enumerate() {
-            elements.centre[s] = segment.centre.into();
-            elements.normal[s] = segment.normal.into();
-            elements.velocity[s] = outline.velocity(segment.wall, segment.centre, time);
-        }
+        set_up.place(walls, time);
         Ok(())
     }
 
-    fn geometry(&mut self, world: &mut World<2>) -> Result<(), StepError> {
+    fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
         set_up.near.refresh(&set_up.outline, world)?;
+        if set_up.is_fresh(world.free.get(fields::POSITION)?) {
+            return Ok(());
+        }
         let mut renormalisation = world.free.take(fields::RENORMALISATION)?;
         renormalisation.fill(1.0);
         let positions = world.free.get(fields::POSITION)?;
-        let near = &set_up.near;
-        let (mesh, gamma) = (&set_up.outline.mesh, &set_up.gamma);
-        let found: Vec<Found> = near
-            .particles
-            .par_chunks(BATCH)
-            .enumerate()
-            .map(|(b, batch)| {
-                let mut found = Found::default();
-                for (k, &particle) in batch.iter().enumerate() {
-                    let x = positions[particle as usize];
-                    let row = near.row(b * BATCH + k);
-                    found.particle([x[0], x[1]], row, mesh, gamma);
-                }
-                found
-            })
-            .collect();
+        let found = set_up.find(positions);
         let contacts = &mut world.walls.contacts;
         contacts.particles.clear();
         contacts.contacts.clear();
@@ -207,7 +217,7 @@ impl Wall<2> for Usaw {
         contacts.starts.push(0);
         contacts.place.clear();
         contacts.place.resize(positions.len(), u32::MAX);
-        for (batch, found) in near.particles.chunks(BATCH).zip(&found) {
+        for (batch, found) in set_up.near.particles.chunks(BATCH).zip(&found) {
             let offset = contacts.contacts.len() as u32;
             contacts.contacts.extend_from_slice(&found.contacts);
             let results = found.gamma.iter().zip(&found.ends);
@@ -223,32 +233,46 @@ impl Wall<2> for Usaw {
         Ok(world.free.put(fields::RENORMALISATION, renormalisation)?)
     }
 
-    fn constrain(&mut self, world: &mut World<2>, dt: f64) -> Result<(), StepError> {
+    fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let set_up = self.ready()?;
-        set_up.near.constrain(&set_up.outline, world, dt)
+        // Heights over the planes of all elements in reach bound the distances from below.
+        let contacts = std::mem::take(&mut world.walls.contacts);
+        let near = &set_up.near;
+        let height = |place: usize| {
+            let of = contacts.of(near.particles[place] as usize);
+            let heights = of.iter().map(|c| c.distance).filter(|d| *d > 0.0);
+            heights.fold(f64::INFINITY, f64::min)
+        };
+        let result = near.constrain(&set_up.outline, world, dt, height);
+        world.walls.contacts = contacts;
+        result
     }
 
-    fn state(&mut self, world: &mut World<2>) -> Result<(), StepError> {
+    fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let spacing = self.ready()?.spacing;
-        let whole = spacing * spacing;
-        let points = wall_means(
+        let whole = spacing.powi(D as i32);
+        let (points, elements) = (&world.walls.points, &world.walls.elements);
+        let lists = &world.lists;
+        let at_points = wall_means(
             world,
-            &world.walls.points.position,
-            &world.lists.of_points,
+            &points.position,
+            &points.acceleration,
+            &lists.of_points,
             whole,
         )?;
-        let elements = wall_means(
+        let at_elements = wall_means(
             world,
-            &world.walls.elements.centre,
-            &world.lists.of_elements,
+            &elements.centre,
+            &elements.acceleration,
+            &lists.of_elements,
             whole,
         )?;
         let walls = &mut world.walls;
-        for (v, mean) in points.iter().enumerate() {
+        for (v, mean) in at_points.iter().enumerate() {
             walls.points.pressure[v] = mean.pressure;
             walls.points.volume[v] = mean.volume;
         }
-        for (s, mean) in elements.iter().enumerate() {
+        for (s, mean) in at_elements.iter().enumerate() {
             walls.elements.pressure[s] = mean.pressure;
             walls.elements.volume[s] = mean.volume;
         }

@@ -90,13 +90,33 @@ fn text(e: &Examination, file: &str, threads: usize) -> String {
         ),
         row("disk", format!("about {}", number::bytes(cost.disk_bytes))),
     ];
+    let percent = |part: f64| format!("{:.2} %", 100.0 * part);
+    let relaxation = e.relaxation.iter().flat_map(|r| {
+        [
+            row("steps", number::count(r.steps as f64)),
+            row(
+                "largest error",
+                format!("{} → {}", percent(r.largest_before), percent(r.largest)),
+            ),
+            row(
+                "rms error",
+                format!("{} → {}", percent(r.rms_before), percent(r.rms)),
+            ),
+            row(
+                "particles away from surfaces",
+                number::count(r.counted as f64),
+            ),
+        ]
+    });
+    let relaxation: Vec<_> = relaxation.collect();
     let parts = [
         ("size", size.to_vec()),
         ("derived", derived.collect()),
         ("largest stable time step at the start", limits.collect()),
+        ("relaxed density", relaxation),
         ("estimate", estimate.to_vec()),
     ];
-    for (title, rows) in parts {
+    for (title, rows) in parts.into_iter().filter(|(_, rows)| !rows.is_empty()) {
         text.push_str(&format!("\n{title}\n{}", columns(2, &rows)));
     }
     if !e.warnings.is_empty() {

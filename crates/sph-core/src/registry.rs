@@ -292,6 +292,16 @@ macro_rules! entry {
             build_3d: Some(|t| Ok(Box::new($crate::typed::<$ty>(t)?))),
         }
     };
+    ($entry:ident [2 => $planar:ty], $name:literal, $summary:literal, $source:literal) => {
+        $crate::entry!($entry [2], $planar, $name, $summary, $source)
+    };
+    ($entry:ident [2 => $planar:ty, 3 => $spatial:ty], $name:literal, $summary:literal, $source:literal) => {
+        $entry {
+            info: $crate::entry!(@info $planar, $name, $summary, $source, &[2, 3]),
+            build_2d: Some(|t| Ok(Box::new($crate::typed::<$planar>(t)?))),
+            build_3d: Some(|t| Ok(Box::new($crate::typed::<$spatial>(t)?))),
+        }
+    };
     ($entry:ident [2, 3], $ty:ty, $name:literal, $summary:literal, $source:literal) => {
         $entry {
             info: $crate::entry!(@info $ty, $name, $summary, $source, &[2, 3]),

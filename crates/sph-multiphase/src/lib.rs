@@ -27,7 +27,7 @@ pub use eos::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 pub use hu_adams::{HuAdams, HuAdamsPressure};
 pub use limits::{ForceLimit, Limiter, SoundLimit, ViscousLimit};
 pub use linear::Linear;
-pub use morris::{Morris, MorrisTerm};
+pub use morris::{Morris, MorrisTerm, WallTerm};
 pub use state::PressureStage;
 pub use tait::Tait;
 pub use viscosity::{PerParticle, Uniform, ViscositySource};

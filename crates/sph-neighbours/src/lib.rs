@@ -16,6 +16,7 @@ mod fuse;
 mod grid;
 mod kernels;
 mod list;
+mod reaction;
 mod row;
 mod sweep;
 mod term;
@@ -27,10 +28,11 @@ pub use fuse::{FusionEntry, Terms, fuse_all, fuse_three, fuse_two};
 pub use grid::CellGrid;
 pub use kernels::KernelEntry;
 pub use list::{CHUNK, NeighbourList};
+pub use reaction::{WallForce, cross, wall_forces};
 pub use row::{Neighbourhood, Row, Scratch};
 pub use sweep::{interactions, interactions_with, kernel_sums, pack, shepard};
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Rates, RowTerm, Term, TermEntry, There,
 };
-pub use walls::{Contact, Contacts, Elements, WallPoints, WallSet};
+pub use walls::{Contact, Contacts, Elements, Frame, WallPoints, WallSet};
 pub use world::{Lists, World};

@@ -147,6 +147,19 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
+    /// A copy of the row with the sources that count.
+    pub(crate) fn only(&self, counts: impl Fn(u32) -> bool) -> Self {
+        let mut kept = Scratch::new();
+        for k in (0..self.len).filter(|k| counts(self.index[*k])) {
+            kept.index.push(self.index[k]);
+            kept.separation.push(self.separation[k]);
+            kept.distance2.push(self.distance2[k]);
+            kept.factor.push(self.factor[k]);
+            kept.len += 1;
+        }
+        kept
+    }
+
     /// Forgets the row.
     #[inline(always)]
     pub fn clear(&mut self) {

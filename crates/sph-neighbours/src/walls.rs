@@ -4,7 +4,7 @@
 
 use sph_core::Vect;
 
-use crate::Domain;
+use crate::{Domain, WallForce};
 
 /// Wall points that take part in sums like particles: USAW vertices, dummy particles.
 #[derive(Clone, Debug, Default)]
@@ -15,14 +15,19 @@ pub struct WallPoints<const D: usize> {
     pub velocity: Vec<Vect<D>>,
     /// Velocities that viscous sums use, m/s; equal to `velocity` for USAW.
     pub viscous_velocity: Vec<Vect<D>>,
-    /// Share θ of a whole particle that is fluid: 1/2 for a vertex on a flat USAW wall.
+    /// Share θ of a whole particle that is fluid: 1/2 for a vertex on a flat USAW wall that is
+    /// cut at the particle spacing.
     pub share: Vec<f64>,
     /// Reference volume of a whole particle, m^d.
     pub volume: Vec<f64>,
     /// Pressure, Pa.
     pub pressure: Vec<f64>,
+    /// Accelerations of the wall there, m/s²; empty where no wall ever moves.
+    pub acceleration: Vec<Vect<D>>,
     /// 1 where the wall rubs, 0 where it slips freely.
     pub grip: Vec<f64>,
+    /// Slip length, m, and unit normal into the fluid; empty where no wall slips partly.
+    pub slip: Vec<(f64, Vect<D>)>,
     /// Which named wall the point belongs to.
     pub wall: Vec<u32>,
 }
@@ -42,8 +47,12 @@ pub struct Elements<const D: usize> {
     pub volume: Vec<f64>,
     /// Pressure, Pa.
     pub pressure: Vec<f64>,
+    /// Accelerations of the wall at the centres, m/s²; empty where no wall ever moves.
+    pub acceleration: Vec<Vect<D>>,
     /// 1 where the wall rubs, 0 where it slips freely.
     pub grip: Vec<f64>,
+    /// Slip length, m; empty where no wall slips partly.
+    pub slip: Vec<f64>,
     /// Which named wall the element belongs to.
     pub wall: Vec<u32>,
     /// Corner points of every element, for pictures: indices into the wall points.
@@ -99,10 +108,27 @@ impl<const D: usize> Contacts<D> {
     }
 }
 
+/// Where a moving wall is: x = R X + b, with X the place at which it was drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame<const D: usize> {
+    /// R, row by row.
+    pub rotation: [[f64; D]; D],
+    /// b, m.
+    pub offset: Vect<D>,
+}
+
+impl<const D: usize> Frame<D> {
+    /// The present place of a point of the wall, m.
+    pub fn present(&self, drawn: &Vect<D>) -> Vect<D> {
+        let row = |k: usize| (0..D).map(|i| self.rotation[k][i] * drawn[i]).sum::<f64>();
+        self.offset + Vect::from_fn(|k, _| row(k))
+    }
+}
+
 /// All that the pair loop knows of walls; empty where a scene has none.
 #[derive(Clone, Debug, Default)]
 pub struct WallSet<const D: usize> {
-    /// Names of the walls, as in the scene.
+    /// Names of the walls; one that is drawn in several pieces is there once per piece.
     pub names: Vec<String>,
     /// Points that take part in sums.
     pub points: WallPoints<D>,
@@ -110,6 +136,11 @@ pub struct WallSet<const D: usize> {
     pub elements: Elements<D>,
     /// Who touches which element.
     pub contacts: Contacts<D>,
+    /// Where every wall is, in the order of the names; empty where no wall ever moves.
+    pub frames: Vec<Frame<D>>,
+    /// Forces of the fluid on every wall, in the order of the names; measured only where a probe
+    /// asks for them, empty otherwise.
+    pub forces: Vec<WallForce<D>>,
 }
 
 impl<const D: usize> WallSet<D> {

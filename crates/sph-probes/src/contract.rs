@@ -26,6 +26,10 @@ impl ProbeColumn {
 pub trait Probe<const D: usize>: Send {
     /// The columns it adds.
     fn columns(&self) -> Vec<ProbeColumn>;
+    /// Whether it reads the forces on walls, which are measured for such probes only.
+    fn needs_wall_forces(&self) -> bool {
+        false
+    }
     /// Their values now; NaN where there is nothing to measure.
     ///
     /// # Errors

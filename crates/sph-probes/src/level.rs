@@ -5,7 +5,7 @@ use serde::Deserialize;
 use sph_core::{StepError, Vect, fields, register};
 use sph_neighbours::World;
 
-use crate::point::point;
+use crate::point::{carried, point};
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// The highest place over a point where Σ V w falls to one half.
@@ -21,6 +21,8 @@ pub struct Level {
     /// Horizontal coordinates: one in 2D, two in 3D.
     #[schemars(extend("unit" = "m"))]
     pub at: Vec<f64>,
+    /// Name of the moving wall that carries the gauge; it stands still if left out.
+    pub follows: Option<String>,
 }
 
 impl<const D: usize> Probe<D> for Level {
@@ -32,7 +34,9 @@ impl<const D: usize> Probe<D> for Level {
         let positions = world.free.get(fields::POSITION)?;
         let volume = world.free.get(fields::VOLUME)?;
         let radius = world.kernel.support_radius();
-        let foot = point::<D>(&self.at[..self.at.len().min(D - 1)]);
+        let drawn = point::<D>(&self.at[..self.at.len().min(D - 1)]);
+        let mut foot = carried(world, drawn, self.follows.as_deref())?;
+        foot[D - 1] = 0.0;
         // Only the particles whose support meets the vertical line matter.
         let near: Vec<(Vect<D>, f64)> = positions
             .iter()

@@ -85,6 +85,61 @@ pub fn time_weights(times: &[f64]) -> Vec<f64> {
     (0..times.len()).map(width).collect()
 }
 
+/// |range of the values / range of the reference − 1|: the error of a wave's height.
+pub fn range_error(values: &[f64], reference: &[f64]) -> f64 {
+    let range = |v: &[f64]| {
+        let high = v.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        high - v.iter().copied().fold(f64::INFINITY, f64::min)
+    };
+    (range(values) / range(reference) - 1.0).abs()
+}
+
+/// Time of the largest value; `None` without values.
+pub fn peak_time(times: &[f64], values: &[f64]) -> Option<f64> {
+    let pairs = times.iter().zip(values).filter(|(_, v)| v.is_finite());
+    pairs.max_by(|a, b| a.1.total_cmp(b.1)).map(|(t, _)| *t)
+}
+
+/// The delay τ in [−`most`, `most`] at which the series correlates best with a reference, s:
+/// positive where the series comes later. 400 delays are tried and the best refined by a parabola.
+///
+/// The correlation is that of the values at the reference's times plus τ, both less their means.
+pub fn lag([times, values]: [&[f64]; 2], [at, reference]: [&[f64]; 2], most: f64) -> Option<f64> {
+    const TRIED: i32 = 200;
+    let correlation = |tau: f64| -> Option<f64> {
+        let shifted = at.iter().map(|t| self::at(times, values, t + tau));
+        let pairs = shifted.zip(reference).filter_map(|(v, r)| Some((v?, *r)));
+        let pairs: Vec<(f64, f64)> = pairs.filter(|(v, _)| v.is_finite()).collect();
+        if 2 * pairs.len() < at.len() || pairs.len() < 3 {
+            return None;
+        }
+        let n = pairs.len() as f64;
+        let mean = |f: fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>() / n;
+        let (mv, mr) = (mean(|p| p.0), mean(|p| p.1));
+        let of = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
+            pairs.iter().map(|(v, r)| f(v - mv, r - mr)).sum()
+        };
+        Some(of(&|v, r| v * r) / (of(&|v, _| v * v) * of(&|_, r| r * r)).sqrt())
+    };
+    let step = most / f64::from(TRIED);
+    let delay = |k: i32| f64::from(k) * step;
+    let tried = (-TRIED..=TRIED).filter_map(|k| Some((k, correlation(delay(k))?)));
+    let (k, best) = tried.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let beside = (correlation(delay(k - 1)), correlation(delay(k + 1)));
+    let refined = match beside {
+        (Some(before), Some(after)) if k.abs() < TRIED => {
+            let bend = before - 2.0 * best + after;
+            if bend < 0.0 {
+                0.5 * (before - after) / bend
+            } else {
+                0.0
+            }
+        }
+        _ => 0.0,
+    };
+    Some(delay(k) + refined * step)
+}
+
 /// Least-squares slope of y over x.
 pub fn slope(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len() as f64;
@@ -123,6 +178,25 @@ mod tests {
         assert_eq!(at(&[0.0, 1.0], &[5.0, 7.0], 0.5), Some(6.0));
         assert_eq!(at(&[0.0, 1.0], &[5.0, 7.0], 1.5), None);
         assert_eq!(at(&[0.0, 1.0], &[5.0, 7.0], 0.0), Some(5.0));
+    }
+
+    #[test]
+    fn a_late_and_high_wave_is_told_so() {
+        let t: Vec<f64> = (0..500).map(|k| 0.01 * f64::from(k)).collect();
+        let wave = |late: f64, high: f64| -> Vec<f64> {
+            t.iter().map(|t| high * (4.0 * (t - late)).sin()).collect()
+        };
+        let (values, reference) = (wave(0.123, 1.1), wave(0.0, 1.0));
+        let middle = 100..400;
+        let rest = [&t[middle.clone()], &reference[middle.clone()]];
+        let found = lag([&t, &values], rest, 0.5).expect("a lag");
+        assert!((found - 0.123).abs() < 1e-4, "{found}");
+        assert!((range_error(&values, &reference) - 0.1).abs() < 1e-3);
+        assert_eq!(
+            peak_time(&[0.0, 1.0, 2.0], &[0.0, f64::NAN, -1.0]),
+            Some(0.0)
+        );
+        assert_eq!(lag([&t, &values], [&[9.0], &[1.0]], 0.5), None);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{StepError, Vect, register};
+use sph_core::{StepError, Vect, register, suggestion};
 use sph_neighbours::World;
 
 use crate::{Probe, ProbeColumn, ProbeEntry, interpolate};
@@ -33,6 +33,32 @@ pub struct PressureProbe {
     #[serde(default)]
     #[schemars(extend("unit" = "1"))]
     pub along: Vec<f64>,
+    /// Name of the moving wall that carries the sensor; it stands still if left out.
+    pub follows: Option<String>,
+}
+
+/// Where a point carried by a wall is now.
+///
+/// # Errors
+/// If there is no wall of that name.
+pub(crate) fn carried<const D: usize>(
+    world: &World<D>,
+    drawn: Vect<D>,
+    wall: Option<&str>,
+) -> Result<Vect<D>, StepError> {
+    let Some(wall) = wall else {
+        return Ok(drawn);
+    };
+    let names = &world.walls.names;
+    let Some(number) = names.iter().position(|n| n == wall) else {
+        let near = suggestion(wall, names.iter().map(String::as_str));
+        return Err(StepError::Stage {
+            stage: "probes".into(),
+            reason: format!("there is no wall `{wall}` to follow{near}"),
+        });
+    };
+    let frame = world.walls.frames.get(number);
+    Ok(frame.map_or(drawn, |frame| frame.present(&drawn)))
 }
 
 /// A point of D coordinates; missing ones are zero.
@@ -46,8 +72,9 @@ impl<const D: usize> Probe<D> for PressureProbe {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let centre = point::<D>(&self.at);
-        let along = point::<D>(&self.along);
+        let place = |drawn: Vect<D>| carried(world, drawn, self.follows.as_deref());
+        let centre = place(point::<D>(&self.at))?;
+        let along = place(point::<D>(&self.at) + point::<D>(&self.along))? - centre;
         if self.diameter == 0.0 || along.norm() == 0.0 {
             return Ok(vec![interpolate(world, &centre)?.pressure]);
         }

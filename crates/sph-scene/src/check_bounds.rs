@@ -27,6 +27,10 @@ pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems)
                 );
                 found.add(&path, message);
             }
+            // What fills the walls ends at them.
+            if body.fill.is_some() {
+                continue;
+            }
             let domain = scene.numerics.domain.as_ref().map(|d| [d[0][k], d[1][k]]);
             for (what, bounds) in [("periodic box", periods[k]), ("domain", domain)] {
                 let outside = |b: &[f64; 2]| lo[k] < b[0] - near || hi[k] > b[1] + near;

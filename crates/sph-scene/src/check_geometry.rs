@@ -1,11 +1,12 @@
 //! Vectors, shapes, walls and periodic boxes.
 
-use crate::body::ShapeKeys;
 use crate::check::Problems;
 use crate::check_bounds::within_bounds;
+use crate::check_shapes::body_geometry;
+use crate::check_walls::wall_geometry;
 use crate::polygon::crossing;
 use crate::vector::{array, point};
-use crate::{Body, Pressure, Scene, Shape, Wall};
+use crate::{Polygon, Scene, Shape};
 
 /// Chains longer than this are not searched for crossings.
 const SEARCHED: usize = 20_000;
@@ -29,12 +30,13 @@ pub(crate) fn check(scene: &Scene, found: &mut Problems) {
     }
 }
 
+/// The number of dimensions of the scene, against which vectors are held.
 #[derive(Clone, Copy)]
-struct Dimension(usize);
+pub(crate) struct Dimension(pub usize);
 
 impl Dimension {
     /// Whether a vector has one entry per dimension; if not, that is a problem.
-    fn vector(self, list: &[f64], path: &str, found: &mut Problems) -> bool {
+    pub fn vector(self, list: &[f64], path: &str, found: &mut Problems) -> bool {
         let right = list.len() == self.0;
         if !right {
             let message = format!(
@@ -48,13 +50,64 @@ impl Dimension {
         right
     }
 
-    fn optional(self, list: &Option<Vec<f64>>, path: &str, found: &mut Problems) {
+    /// Whether a vector has the right length and is not zero.
+    pub fn direction(self, list: &[f64], path: &str, found: &mut Problems) {
+        if self.vector(list, path, found) && list.iter().all(|c| *c == 0.0) {
+            found.add(path, "a direction of length 0 is none");
+        }
+    }
+
+    /// An axis is given in space, where it is `needed`, and in the plane there is none.
+    pub fn axis(self, axis: &Option<Vec<f64>>, needed: bool, path: &str, found: &mut Problems) {
+        match axis {
+            Some(_) if self.0 == 2 => {
+                let message = "a rotation in 2D has no axis: it is anticlockwise";
+                found.add(format!("{path}.axis"), message);
+            }
+            Some(axis) => self.direction(axis, &format!("{path}.axis"), found),
+            None if self.0 == 3 && needed => {
+                found.add(path, "the key `axis` is missing: axis of the rotation");
+            }
+            None => {}
+        }
+    }
+
+    /// Two points have the right length and differ.
+    pub fn apart(
+        self,
+        (first, a): (&str, &[f64]),
+        (second, b): (&str, &[f64]),
+        path: &str,
+        found: &mut Problems,
+    ) {
+        let right = self.vector(a, &format!("{path}.{first}"), found)
+            & self.vector(b, &format!("{path}.{second}"), found);
+        if right && a == b {
+            let message = format!("`{first}` and `{second}` must differ");
+            found.add(format!("{path}.{second}"), message);
+        }
+    }
+
+    /// Whether a shape of `dimension` can stand here.
+    pub fn is(self, dimension: usize, what: &str, path: &str, found: &mut Problems) -> bool {
+        let right = dimension == self.0;
+        if !right {
+            let message = format!(
+                "{what} is a shape of {dimension}D, and this scene is {}D",
+                self.0
+            );
+            found.add(path, message);
+        }
+        right
+    }
+
+    pub fn optional(self, list: &Option<Vec<f64>>, path: &str, found: &mut Problems) {
         if let Some(list) = list {
             self.vector(list, path, found);
         }
     }
 
-    fn corners(self, corners: &[Vec<f64>; 2], path: &str, found: &mut Problems) {
+    pub fn corners(self, corners: &[Vec<f64>; 2], path: &str, found: &mut Problems) {
         let right = [0, 1].map(|k| self.vector(&corners[k], &format!("{path}[{k}]"), found));
         if right != [true; 2] {
             return;
@@ -102,55 +155,17 @@ fn space(scene: &Scene, of: Dimension, found: &mut Problems) {
     }
 }
 
-fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {
-    if of.0 != 2 {
-        found.add(
-            path,
-            "a polyline is a wall of two dimensions, and this scene has three",
-        );
-        return;
-    }
-    of.optional(&wall.velocity, &format!("{path}.velocity"), found);
-    if let Some(motion) = &wall.motion {
-        of.optional(&motion.velocity, &format!("{path}.motion.velocity"), found);
-        of.optional(&motion.centre, &format!("{path}.motion.centre"), found);
-    }
-    if wall.closed && wall.thickness.is_some() {
-        found.add(
-            format!("{path}.thickness"),
-            "a closed wall has one face and no thickness",
-        );
-    }
-    let line = format!("{path}.polyline");
-    if wall.closed && wall.polyline.len() < 3 {
-        found.add(&line, "a closed wall needs at least 3 corners");
-        return;
-    }
-    if let Some(points) = chain(&wall.polyline, wall.closed, of, &line, found) {
-        let count = if wall.closed {
-            points.len()
-        } else {
-            points.len() - 1
-        };
-        let edges: Vec<_> = (0..count)
-            .map(|k| (points[k], points[(k + 1) % points.len()]))
-            .collect();
-        crossed(&edges, wall.closed, &line, found);
-    }
-}
-
 /// The corners, if each has two coordinates and differs from the one before.
-fn chain(
+pub(crate) fn chain(
     points: &[Vec<f64>],
     closed: bool,
-    of: Dimension,
     path: &str,
     found: &mut Problems,
 ) -> Option<Vec<[f64; 2]>> {
     let before = found.0.len();
     for (k, p) in points.iter().enumerate() {
         let place = format!("{path}[{k}]");
-        if !of.vector(p, &place, found) {
+        if !Dimension(2).vector(p, &place, found) {
             break;
         }
         let previous = match k {
@@ -167,7 +182,12 @@ fn chain(
     (found.0.len() == before).then(|| points.iter().map(|p| array(p)).collect())
 }
 
-fn crossed(edges: &[([f64; 2], [f64; 2])], closed: bool, path: &str, found: &mut Problems) {
+pub(crate) fn crossed(
+    edges: &[([f64; 2], [f64; 2])],
+    closed: bool,
+    path: &str,
+    found: &mut Problems,
+) {
     if edges.len() > SEARCHED {
         return;
     }
@@ -180,82 +200,12 @@ fn crossed(edges: &[([f64; 2], [f64; 2])], closed: bool, path: &str, found: &mut
     }
 }
 
-fn body_geometry(scene: &Scene, body: &Body, of: Dimension, path: &str, found: &mut Problems) {
-    shape(body.keys(), of, path, found);
-    for (k, cut) in body.subtract.iter().enumerate() {
-        shape(cut.keys(), of, &format!("{path}.subtract[{k}]"), found);
-    }
-    of.optional(&body.velocity, &format!("{path}.velocity"), found);
-    if body.velocity.is_some() && !body.initial.is_empty() {
-        found.add(
-            format!("{path}.velocity"),
-            "the velocity at the start is given here and by an `initial` plugin: choose one",
-        );
-    }
-    let weightless = scene.numerics.gravity.iter().flatten().all(|g| *g == 0.0);
-    match body.pressure {
-        Pressure::Hydrostatic if weightless => {
-            found.add(
-                format!("{path}.pressure"),
-                "a hydrostatic pressure needs `numerics.gravity`",
-            );
-        }
-        Pressure::Zero if body.surface.is_some() => found.add(
-            format!("{path}.surface"),
-            "the level of the surface is used for `pressure = \"hydrostatic\"` only",
-        ),
-        _ => {}
-    }
-}
-
-fn shape(keys: ShapeKeys<'_>, of: Dimension, path: &str, found: &mut Problems) {
-    let given = keys.given();
-    match given.as_slice() {
-        [] => {
-            let all = if of.0 == 2 {
-                "`box`, `polygon` or `disc`"
-            } else {
-                "`box` or `sphere`"
-            };
-            return found.add(path, format!("a shape is missing: {all}"));
-        }
-        [_] => {}
-        [_, .., last] => {
-            let message = format!("only one shape can stand here, found {}", given.join(", "));
-            return found.add(format!("{path}.{last}"), message);
-        }
-    }
-    let at = |key: &str| format!("{path}.{key}");
-    if let Some(corners) = keys.bounds {
-        of.corners(corners, &at("box"), found);
-    }
-    for (round, key, dimension) in [(keys.disc, "disc", 2), (keys.sphere, "sphere", 3)] {
-        let Some(round) = round else { continue };
-        if dimension != of.0 {
-            found.add(
-                at(key),
-                format!(
-                    "a {key} is a shape of {dimension}D, and this scene is {}D",
-                    of.0
-                ),
-            );
-        } else {
-            of.vector(&round.centre, &format!("{path}.{key}.centre"), found);
-        }
-    }
-    if let Some(points) = keys.polygon {
-        polygon(points, of, &at("polygon"), found);
-    }
-}
-
-fn polygon(points: &[Vec<f64>], of: Dimension, path: &str, found: &mut Problems) {
-    if of.0 != 2 {
-        return found.add(path, "a polygon is a shape of 2D, and this scene is 3D");
-    }
-    let Some(corners) = chain(points, true, of, path, found) else {
+/// A polygon has an area and does not cross itself.
+pub(crate) fn polygon(points: &[Vec<f64>], path: &str, found: &mut Problems) {
+    let Some(corners) = chain(points, true, path, found) else {
         return;
     };
-    let polygon = crate::Polygon::new(corners);
+    let polygon = Polygon::new(corners);
     let (lo, hi) = Shape::<2>::Polygon(polygon.clone()).bounds();
     let size = (hi[0] - lo[0]).max(hi[1] - lo[1]);
     let flat = (hi[0] - lo[0]).min(hi[1] - lo[1]) <= 1e-12 * size;

@@ -1,6 +1,7 @@
 //! Names: how they are spelt, and that what they name exists.
 
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 
 use sph_core::suggestion;
 use toml::{Table, Value};
@@ -80,12 +81,39 @@ pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problem
             let message = format!("there is no probe or gauge called `{probe}`{near}");
             found.add(format!("{path}.probe"), message);
         }
-        if let Some(file) = &reference.file {
-            let key = format!("{path}.file");
-            match source.resolve(&key, file) {
-                Ok(path) => reference.path = Some(path),
-                Err(why) => found.add(key, why.to_string()),
-            }
+        reference.path = located(&reference.file, &path, source, found);
+    }
+    for (name, wall) in &mut scene.wall {
+        let path = format!("wall.{name}");
+        wall.path = located(&wall.file, &path, source, found);
+        let Some(motion) = &mut wall.motion else {
+            continue;
+        };
+        let motion_path = format!("{path}.motion");
+        for k in 0..motion.translate.len() {
+            let path = motion.translate_path(&motion_path, k);
+            motion.translate[k].path = located(&motion.translate[k].file, &path, source, found);
+        }
+        if let Some(rotate) = &mut motion.rotate {
+            let path = format!("{motion_path}.rotate");
+            rotate.path = located(&rotate.file, &path, source, found);
+        }
+    }
+}
+
+/// The path of the file that a table names.
+fn located(
+    file: &Option<String>,
+    table: &str,
+    source: &Source,
+    found: &mut Problems,
+) -> Option<PathBuf> {
+    let key = format!("{table}.file");
+    match source.resolve(&key, file.as_ref()?) {
+        Ok(path) => Some(path),
+        Err(why) => {
+            found.add(key, why.to_string());
+            None
         }
     }
 }

@@ -8,7 +8,7 @@ const OUTPUTS: f64 = 1e6;
 /// Most rows of the series in a run.
 const ROWS: f64 = 1e9;
 
-/// Checks the times of outputs, walls and references, and the bounds of densities.
+/// Checks the times of outputs and references, and the bounds of densities.
 pub(crate) fn check(scene: &Scene, found: &mut Problems) {
     let end = scene.run.end;
     let output = &scene.output;
@@ -58,22 +58,6 @@ pub(crate) fn check(scene: &Scene, found: &mut Problems) {
         if let Some([start, _]) = reference.window.filter(|w| w[0] > end) {
             let message = format!("it begins at {start} s, after the run's end at {end} s");
             found.add(format!("reference.{name}.window"), message);
-        }
-    }
-    for (name, wall) in &scene.wall {
-        let Some(motion) = &wall.motion else { continue };
-        if motion.stop.is_some_and(|stop| stop <= motion.start) {
-            let path = format!("wall.{name}.motion.stop");
-            found.add(
-                path,
-                format!("it must be later than the start at {} s", motion.start),
-            );
-        }
-        if motion.angular_velocity != 0.0 && motion.centre.is_none() {
-            found.add(
-                format!("wall.{name}.motion"),
-                "the key `centre` is missing: centre of the rotation at the start",
-            );
         }
     }
 }

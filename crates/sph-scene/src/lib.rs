@@ -14,7 +14,9 @@
 //!    diagnostics through the same [`Source`].
 //! 3. [`Scene::regions`] gives the bodies as [`Region`]s; [`estimate`] counts their particles
 //!    without allocating any, [`fill`] places them, [`disturb`] displaces them.
-//! 4. [`schema`] is the JSON schema of scenes with all plugins of the binary, for editors.
+//! 4. [`Wall::lines`] and [`Wall::facets`] give the walls, from shapes and from files;
+//!    [`Motion::courses`] gives how they move.
+//! 5. [`schema`] is the JSON schema of scenes with all plugins of the binary, for editors.
 //!
 //! ```
 //! let text = r#"
@@ -48,40 +50,62 @@ mod body;
 mod check;
 mod check_bounds;
 mod check_geometry;
+mod check_motion;
 mod check_names;
+mod check_shapes;
 mod check_time;
+mod check_walls;
+mod columns;
+mod course;
 mod diagnostic;
 mod disorder;
+mod divide;
 mod estimate;
+mod facets;
 mod fill;
+mod geometry;
 mod limits;
 mod load;
 mod locate;
+mod motion;
 mod nodes;
 mod numerics;
+mod outlines;
 mod output;
 mod overlap;
 mod overrides;
 mod paths;
 mod phase;
 mod place;
+mod placing;
 mod plugins;
 mod polygon;
 mod reference;
+mod rows;
 mod scene;
 mod schema;
 mod shapes;
+mod solid;
 mod source;
+mod stl;
+mod svg;
+mod svg_path;
+mod triangulate;
 mod vector;
 mod wall;
+mod wall_shapes;
 
-pub use body::{Body, Cutout, Pressure, Round};
+pub use body::{Body, Cone, Cutout, Cylinder, Extrusion, Filling, Pressure, Round};
+pub use course::{Course, Courses, Turning};
 pub use diagnostic::{Diagnostic, Origin};
 pub use disorder::disturb;
 pub use estimate::estimate;
+pub use facets::Facets;
 pub use fill::{Filled, Offset, fill};
 pub use load::{LoadError, Loaded, Refused, load, parse};
-pub use numerics::{Numerics, Periodic, Run};
+pub use motion::{AngularRamp, AngularSine, Motion, Ramp, Rotation, Sine, Translate};
+pub use numerics::{Numerics, Periodic, Relax, Run};
+pub use outlines::Line;
 pub use output::Output;
 pub use overrides::Override;
 pub use paths::PathProblem;
@@ -93,4 +117,7 @@ pub use scene::Scene;
 pub use schema::schema;
 pub use shapes::{Region, Shape};
 pub use source::Source;
-pub use wall::{Condition, Motion, Wall};
+pub use wall::{Condition, Side, Wall};
+pub use wall_shapes::{
+    Axis, ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
+};

@@ -11,7 +11,7 @@ pub(crate) const WALL_CORNERS: usize = 1_000_000;
 pub(crate) const BODY_CORNERS: usize = 10_000;
 /// Most tables of one kind.
 pub(crate) const TABLES: usize = 1_000;
-/// Most output times.
+/// Most output times, and most rows of a course.
 pub(crate) const TIMES: usize = 1_000_000;
 
 /// Lists and tables that are too long.
@@ -32,8 +32,16 @@ pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
             let Value::Table(keys) = value else { continue };
             for (key, value) in keys {
                 let most = match (kind.as_str(), key.as_str()) {
-                    ("wall", "polyline") => WALL_CORNERS,
+                    ("wall", "polyline" | "polygon") => WALL_CORNERS,
                     ("body", "polygon") => BODY_CORNERS,
+                    (_, "extrusion") => {
+                        extrusion(value, &format!("{kind}.{name}.{key}"), &mut found);
+                        continue;
+                    }
+                    ("wall", "motion") => {
+                        motion(value, &format!("{kind}.{name}.{key}"), &mut found);
+                        continue;
+                    }
                     ("body", "subtract") => TABLES,
                     _ => continue,
                 };
@@ -49,6 +57,9 @@ pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
                             &mut found,
                         );
                     }
+                    if let Some(drawn) = cut.get("extrusion") {
+                        extrusion(drawn, &format!("{path}[{k}].extrusion"), &mut found);
+                    }
                 }
             }
         }
@@ -57,6 +68,28 @@ pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
         longer(times, TIMES, "output.times", &mut found);
     }
     found
+}
+
+fn extrusion(value: &Value, path: &str, found: &mut Vec<SceneProblem>) {
+    if let Some(polygon) = value.get("polygon") {
+        longer(polygon, BODY_CORNERS, &format!("{path}.polygon"), found);
+    }
+}
+
+fn motion(value: &Value, path: &str, found: &mut Vec<SceneProblem>) {
+    for key in ["translate", "rotate"] {
+        let Some(given) = value.get(key) else {
+            continue;
+        };
+        let path = format!("{path}.{key}");
+        longer(given, TABLES, &path, found);
+        let several = given.as_array().into_iter().flatten();
+        for one in several.chain([given]) {
+            if let Some(rows) = one.get("table") {
+                longer(rows, TIMES, &path, found);
+            }
+        }
+    }
 }
 
 fn longer(value: &Value, most: usize, path: &str, found: &mut Vec<SceneProblem>) {

@@ -11,7 +11,7 @@ use toml::{Table, Value};
 
 use crate::diagnostic::{Diagnostic, Origin};
 use crate::limits::{self, FILE_BYTES};
-use crate::{Override, Scene, Source, check};
+use crate::{Override, Scene, Source, check, columns};
 
 /// A valid scene and the text it came from.
 #[derive(Clone, Debug)]
@@ -104,13 +104,14 @@ pub fn parse(text: &str, name: &str, overrides: &[Override]) -> Result<Loaded, R
 }
 
 fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
-    let table = table(source)?;
+    let mut table = table(source)?;
     let diagnosed = |problems: Vec<SceneProblem>| source.diagnose(&problems);
     let mut problems = limits::check(&table);
     if !problems.is_empty() {
         return Err(diagnosed(problems));
     }
     problems.extend(check::tables(&table));
+    problems.extend(columns::convert(&mut table));
     let mut value = Value::Table(table);
     problems.extend(
         conform(&mut value, &schema_of::<Scene>())

@@ -74,6 +74,29 @@ pub struct Numerics {
     #[serde(default = "one_seed")]
     #[schemars(range(min = 0))]
     pub seed: u64,
+    /// Settling of the particles before the start; none if left out.
+    pub relax: Option<Relax>,
+}
+
+/// Settling of the first particles until their density is even.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Relax {
+    /// Largest number of steps.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub steps: u32,
+    /// Largest error of the density, relative to the reference density, at which it ends.
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
+    pub tolerance: f64,
+}
+
+impl Default for Relax {
+    fn default() -> Self {
+        Relax {
+            steps: 200,
+            tolerance: 0.01,
+        }
+    }
 }
 
 /// Lower and upper bound of every periodic direction, m.

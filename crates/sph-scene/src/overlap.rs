@@ -13,15 +13,20 @@ const ALONG: f64 = 256.0;
 const WORK: f64 = 2e7;
 
 /// Tries lattice points of what the boxes around two bodies have in common.
+///
+/// Bodies that walls clip or that fill them are left to whoever knows the walls.
 pub(crate) fn check<const D: usize>(scene: &Scene, found: &mut Problems) {
     let spacing = scene.numerics.spacing;
     let periods = scene.numerics.periodic.bounds::<D>();
-    let regions = scene.regions::<D>();
+    // What walls cut away may overlap; that shows once there are walls.
+    let whole = scene.body.iter().filter(|(_, b)| !b.needs_walls());
+    let (names, regions): (Vec<&String>, Vec<Region<D>>) = whole
+        .filter_map(|(name, body)| Some((name, Region::of(body)?)))
+        .unzip();
     let placed: Vec<_> = regions
         .iter()
         .map(|r| Placed::new(r, spacing, &periods))
         .collect();
-    let names: Vec<&String> = scene.body.keys().collect();
     let mut work = WORK;
     for (i, first) in placed.iter().enumerate() {
         for (j, second) in placed.iter().enumerate().skip(i + 1) {
@@ -44,7 +49,9 @@ pub(crate) fn check<const D: usize>(scene: &Scene, found: &mut Problems) {
 
 fn edges<const D: usize>(region: &Region<D>) -> f64 {
     let of = |shape: &crate::Shape<D>| match shape {
-        crate::Shape::Polygon(polygon) => polygon.points().len() as f64,
+        crate::Shape::Polygon(polygon) | crate::Shape::Extrusion { polygon, .. } => {
+            polygon.points().len() as f64
+        }
         _ => 1.0,
     };
     of(&region.base) + region.cuts.iter().map(of).sum::<f64>()

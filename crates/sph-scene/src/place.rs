@@ -1,6 +1,6 @@
 //! A region in a box that may be periodic: depths across the period, where lattices start.
 
-use crate::{Region, Shape};
+use crate::{Polygon, Region, Shape};
 
 /// A relative length that counts as rounding.
 pub(crate) const ROUNDING: f64 = 1e-6;
@@ -93,32 +93,36 @@ impl<const D: usize> Periodic<'_, D> {
                     .fold(f64::NEG_INFINITY, f64::max)
             }
             Shape::Polygon(polygon) if self.spans.contains(&true) => {
-                let (lo, hi) = self.shape.bounds();
-                let sealed = |a: [f64; 2], b: [f64; 2]| {
-                    (0..2.min(D)).any(|k| {
-                        let near = ROUNDING * (hi[k] - lo[k]);
-                        let on = |plane: f64| {
-                            (a[k] - plane).abs() <= near && (b[k] - plane).abs() <= near
-                        };
-                        self.spans[k] && (on(lo[k]) || on(hi[k]))
-                    })
+                self.across(polygon, [0, 1], x, shifts, periods)
+            }
+            Shape::Extrusion {
+                polygon,
+                axis,
+                ends,
+            } if self.spans.contains(&true) => {
+                let mut rest = (0..D).filter(|k| k != axis);
+                let axes = std::array::from_fn(|_| rest.next().unwrap_or(0));
+                let side = self.across(polygon, axes, x, shifts, periods);
+                let end = |s: &[f64; D]| {
+                    let at = x[*axis] - s[*axis];
+                    (at - ends[0]).min(ends[1] - at)
                 };
-                let flat = |x: [f64; D]| [x[0], x[1]];
-                let away = |s: &[f64; D]| polygon.distance(flat(moved(s)), |a, b| !sealed(a, b));
-                let away = shifts.iter().map(away).fold(f64::INFINITY, f64::min);
-                // A point on a plane that is no surface is judged just beside the plane.
-                let beside = std::array::from_fn(|k| match (self.spans[k], periods[k]) {
-                    (true, Some(_)) => {
-                        let step = ROUNDING * (hi[k] - lo[k]);
-                        x[k].clamp(lo[k] + step, hi[k] - step)
-                    }
-                    _ => x[k],
-                });
-                if polygon.contains(flat(beside)) {
-                    away
-                } else {
-                    -away
+                match self.spans[*axis] {
+                    true => side,
+                    false => side.min(shifts.iter().map(end).fold(f64::NEG_INFINITY, f64::max)),
                 }
+            }
+            Shape::Cylinder { from, to, radius } if self.spans.contains(&true) => {
+                let far = |a: &[f64; D], b: &[f64; D]| {
+                    std::array::from_fn(|k| a[k] + 4.0 * (a[k] - b[k]))
+                };
+                let open = Shape::Cylinder {
+                    from: far(from, to),
+                    to: far(to, from),
+                    radius: *radius,
+                };
+                let depths = shifts.iter().map(|s| open.depth(&moved(s)));
+                depths.fold(f64::NEG_INFINITY, f64::max)
             }
             shape => shifts
                 .iter()
@@ -126,9 +130,47 @@ impl<const D: usize> Periodic<'_, D> {
                 .fold(f64::NEG_INFINITY, f64::max),
         }
     }
+
+    /// Distance from the sides of a polygon in the plane of two axes that are no ends of the
+    /// period, positive inside.
+    fn across(
+        &self,
+        polygon: &Polygon,
+        axes: [usize; 2],
+        x: &[f64; D],
+        shifts: &[[f64; D]],
+        periods: &[Option<[f64; 2]>; D],
+    ) -> f64 {
+        let [lo, hi] = crate::outlines::bounds(polygon.points());
+        let sealed = |a: [f64; 2], b: [f64; 2]| {
+            (0..2).any(|k| {
+                let near = ROUNDING * (hi[k] - lo[k]);
+                let on = |plane: f64| (a[k] - plane).abs() <= near && (b[k] - plane).abs() <= near;
+                self.spans[axes[k]] && (on(lo[k]) || on(hi[k]))
+            })
+        };
+        let away = |s: &[f64; D]| {
+            let flat = axes.map(|k| x[k] - s[k]);
+            polygon.distance(flat, |a, b| !sealed(a, b))
+        };
+        let away = shifts.iter().map(away).fold(f64::INFINITY, f64::min);
+        // A point on a plane that is no surface is judged just beside the plane.
+        let beside = std::array::from_fn(|k| match (self.spans[axes[k]], periods[axes[k]]) {
+            (true, Some(_)) => {
+                let step = ROUNDING * (hi[k] - lo[k]);
+                x[axes[k]].clamp(lo[k] + step, hi[k] - step)
+            }
+            _ => x[axes[k]],
+        });
+        match polygon.contains(beside) {
+            true => away,
+            false => -away,
+        }
+    }
 }
 
-/// Axes along which a shape fills the period; a ball never does.
+/// Axes along which a shape fills the period; a ball never does, and a cylinder only along its
+/// own axis.
 pub(crate) fn spans<const D: usize>(
     shape: &Shape<D>,
     spacing: f64,
@@ -137,7 +179,10 @@ pub(crate) fn spans<const D: usize>(
     let (lo, hi) = shape.bounds();
     let near = ROUNDING * spacing;
     std::array::from_fn(|k| match (shape, periods[k]) {
-        (Shape::Ball { .. }, _) | (_, None) => false,
+        (Shape::Ball { .. } | Shape::Cone { .. }, _) | (_, None) => false,
+        (Shape::Cylinder { from, to, .. }, _) if (0..D).any(|j| j != k && from[j] != to[j]) => {
+            false
+        }
         (_, Some(period)) => lo[k] <= period[0] + near && hi[k] >= period[1] - near,
     })
 }

@@ -56,6 +56,9 @@ pub struct Reference {
     /// First and last time that does not count, s.
     #[schemars(extend("unit" = "s"))]
     pub exclude: Option<[f64; 2]>,
+    /// Period of the reference, s, for the norm `lag`.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub period: Option<f64>,
     /// How the difference becomes one number; `rms-over-range` for probes and `l2` for fields if left out.
     pub norm: Option<Norm>,
     /// The file with its folder, set when the scene is read.
@@ -85,13 +88,19 @@ pub enum Norm {
     Absolute,
     /// Relative difference of the slopes of ln u and ln e over time: rates of decay.
     DecayRate,
+    /// Relative difference of the ranges of u and e: wave heights.
+    Range,
+    /// Size of the delay at which u correlates best with e, over `period`: phases.
+    Lag,
+    /// Relative difference of the times at which u and e are largest.
+    PeakTime,
     /// Share of the time, as the reference samples it, that u lies outside the columns `lower` and `upper`.
     Band,
 }
 
 impl Norm {
     /// Every norm.
-    pub const ALL: [Norm; 9] = [
+    pub const ALL: [Norm; 12] = [
         Norm::RmsOverRange,
         Norm::L2,
         Norm::L1,
@@ -100,6 +109,9 @@ impl Norm {
         Norm::Final,
         Norm::Absolute,
         Norm::DecayRate,
+        Norm::Range,
+        Norm::Lag,
+        Norm::PeakTime,
         Norm::Band,
     ];
 
@@ -114,6 +126,9 @@ impl Norm {
             Norm::Final => "final",
             Norm::Absolute => "absolute",
             Norm::DecayRate => "decay-rate",
+            Norm::Range => "range",
+            Norm::Lag => "lag",
+            Norm::PeakTime => "peak-time",
             Norm::Band => "band",
         }
     }

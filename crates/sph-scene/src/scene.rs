@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::Vect;
+use sph_core::{SceneProblem, Vect};
 use toml::Value;
 
 use crate::plugins::{AnyPlugins, PluginChoice, Plugins, Probe, single};
@@ -91,8 +91,38 @@ impl Scene {
     }
 
     /// The bodies' shapes, in the order of `body`.
+    ///
+    /// A body that fills the walls has none unless a `box` bounds it and is left out: where
+    /// there is one ([`Scene::fills_walls`]), ask [`Scene::regions_within`].
     pub fn regions<const D: usize>(&self) -> Vec<Region<D>> {
         self.body.values().filter_map(Region::of).collect()
+    }
+
+    /// Whether a body fills what the walls enclose.
+    pub fn fills_walls(&self) -> bool {
+        self.body.values().any(|b| b.fill.is_some())
+    }
+
+    /// One region for every body, in the order of `body`; `bounds` is the box around all walls, m.
+    ///
+    /// The region of a body that fills the walls is that box, or the part of it in the body's
+    /// own `box`; its lattice counts from the lower corner. What is behind walls is to be taken
+    /// away by the caller, as it is of a body with `clip`.
+    ///
+    /// # Errors
+    /// If a body fills the walls and there are no bounds, or its box has nothing in common with
+    /// them.
+    pub fn regions_within<const D: usize>(
+        &self,
+        bounds: Option<([f64; D], [f64; D])>,
+    ) -> Result<Vec<Region<D>>, SceneProblem> {
+        let region = |(name, body): (&String, &Body)| match body.fill {
+            None => Region::of(body)
+                .ok_or_else(|| SceneProblem::new(format!("body.{name}"), "a shape is missing")),
+            Some(_) => Region::enclosed(body, bounds)
+                .map_err(|(key, why)| SceneProblem::new(format!("body.{name}.{key}"), why)),
+        };
+        self.body.iter().map(region).collect()
     }
 
     /// The plugin that the scene chooses for a kind of which it has one at most: `kernel`,

@@ -1,4 +1,4 @@
-//! Shapes: boxes, balls and polygons, and regions that are a shape less others.
+//! Shapes: boxes, balls, polygons, cylinders and so on, and regions that are a shape less others.
 
 use crate::body::Body;
 use crate::polygon::Polygon;
@@ -23,10 +23,40 @@ pub enum Shape<const D: usize> {
     },
     /// A polygon, in two dimensions.
     Polygon(Polygon),
+    /// A cylinder, in three dimensions.
+    Cylinder {
+        /// Centre of one end, m.
+        from: [f64; D],
+        /// Centre of the other end, m.
+        to: [f64; D],
+        /// Radius, m.
+        radius: f64,
+    },
+    /// A cone, in three dimensions.
+    Cone {
+        /// Centre of the base, m.
+        base: [f64; D],
+        /// Tip, m.
+        apex: [f64; D],
+        /// Radius of the base, m.
+        radius: f64,
+    },
+    /// A polygon drawn out along an axis, in three dimensions.
+    Extrusion {
+        /// The polygon, by the two coordinates across the axis in their order.
+        polygon: Polygon,
+        /// Number of the axis.
+        axis: usize,
+        /// Lower and upper end along the axis, m.
+        ends: [f64; 2],
+    },
 }
 
 impl<const D: usize> Shape<D> {
     /// Distance of a point from the surface, m, positive inside and negative outside.
+    ///
+    /// Exact inside; outside a cone or an extrusion it may be less than the true distance in
+    /// size, never in sign.
     pub fn depth(&self, x: &[f64; D]) -> f64 {
         match self {
             Shape::Cuboid { lo, hi } => {
@@ -44,6 +74,29 @@ impl<const D: usize> Shape<D> {
                 let away = polygon.distance(flat, |_, _| true);
                 if polygon.contains(flat) { away } else { -away }
             }
+            Shape::Cylinder { from, to, radius } => {
+                let (along, off, length) = about(from, to, x);
+                let (side, end) = (radius - off, along.min(length - along));
+                match side.min(end) {
+                    inside if inside >= 0.0 => inside,
+                    _ => -side.min(0.0).hypot(end.min(0.0)),
+                }
+            }
+            Shape::Cone { base, apex, radius } => {
+                let (along, off, height) = about(base, apex, x);
+                let slant = (radius * (height - along) - height * off) / radius.hypot(height);
+                slant.min(along)
+            }
+            Shape::Extrusion {
+                polygon,
+                axis,
+                ends,
+            } => {
+                let flat = across(x, *axis);
+                let away = polygon.distance(flat, |_, _| true);
+                let side = if polygon.contains(flat) { away } else { -away };
+                side.min(x[*axis] - ends[0]).min(ends[1] - x[*axis])
+            }
         }
     }
 
@@ -60,8 +113,54 @@ impl<const D: usize> Shape<D> {
                 let hi = |k: usize| axis(k).fold(f64::NEG_INFINITY, f64::max);
                 (std::array::from_fn(lo), std::array::from_fn(hi))
             }
+            Shape::Cylinder { from, to, radius } => {
+                let reach = rim(from, to, *radius);
+                let lo = |k: usize| from[k].min(to[k]) - reach[k];
+                let hi = |k: usize| from[k].max(to[k]) + reach[k];
+                (std::array::from_fn(lo), std::array::from_fn(hi))
+            }
+            Shape::Cone { base, apex, radius } => {
+                let reach = rim(base, apex, *radius);
+                let lo = |k: usize| apex[k].min(base[k] - reach[k]);
+                let hi = |k: usize| apex[k].max(base[k] + reach[k]);
+                (std::array::from_fn(lo), std::array::from_fn(hi))
+            }
+            Shape::Extrusion {
+                polygon,
+                axis,
+                ends,
+            } => {
+                let [low, high] = crate::outlines::bounds(polygon.points());
+                let of = |flat: [f64; 2], end: f64| {
+                    let side = |k: usize| flat[k - usize::from(k > *axis)];
+                    std::array::from_fn(|k| if k == *axis { end } else { side(k) })
+                };
+                (of(low, ends[0]), of(high, ends[1]))
+            }
         }
     }
+}
+
+/// Distance of a point along an axis and off it, and the length of the axis.
+fn about<const D: usize>(from: &[f64; D], to: &[f64; D], x: &[f64; D]) -> (f64, f64, f64) {
+    let length = distance(from, to);
+    let along = (0..D)
+        .map(|k| (x[k] - from[k]) * (to[k] - from[k]) / length)
+        .sum();
+    let foot = std::array::from_fn(|k| from[k] + along * (to[k] - from[k]) / length);
+    (along, distance(x, &foot), length)
+}
+
+/// How far a circle about an axis reaches along every coordinate.
+fn rim<const D: usize>(from: &[f64; D], to: &[f64; D], radius: f64) -> [f64; D] {
+    let length = distance(from, to);
+    std::array::from_fn(|k| radius * (1.0 - ((to[k] - from[k]) / length).powi(2)).max(0.0).sqrt())
+}
+
+/// The coordinates of a point across an axis, in their order.
+pub(crate) fn across<const D: usize>(x: &[f64; D], axis: usize) -> [f64; 2] {
+    let mut rest = (0..D).filter(|k| *k != axis).map(|k| x[k]);
+    std::array::from_fn(|_| rest.next().unwrap_or(0.0))
 }
 
 /// A shape less other shapes.
@@ -82,7 +181,7 @@ impl<const D: usize> Region<D> {
         }
     }
 
-    /// The region of a body, if the body gives a shape.
+    /// The region of a body, if the body gives a shape or bounds what it fills by a box.
     pub fn of(body: &Body) -> Option<Self> {
         Some(Region {
             base: body.keys().shape()?,
@@ -91,6 +190,29 @@ impl<const D: usize> Region<D> {
                 .iter()
                 .filter_map(|c| c.keys().shape())
                 .collect(),
+        })
+    }
+
+    /// The region of a body that fills the walls within these bounds, m; or the key that is
+    /// wrong and why.
+    pub(crate) fn enclosed(
+        body: &Body,
+        bounds: Option<([f64; D], [f64; D])>,
+    ) -> Result<Self, (&'static str, &'static str)> {
+        let (mut lo, mut hi) = bounds.ok_or(("fill", "there are no walls to fill"))?;
+        if let Some([least, most]) = &body.bounds {
+            for k in 0..D {
+                lo[k] = lo[k].max(least[k]);
+                hi[k] = hi[k].min(most[k]);
+            }
+        }
+        if (0..D).any(|k| lo[k] >= hi[k]) {
+            return Err(("box", "the box has nothing in common with the walls"));
+        }
+        let cuts = body.subtract.iter().filter_map(|c| c.keys().shape());
+        Ok(Region {
+            base: Shape::Cuboid { lo, hi },
+            cuts: cuts.collect(),
         })
     }
 
@@ -121,6 +243,35 @@ mod tests {
         };
         assert_eq!(ball.depth(&[1.0, 2.0]), 1.0);
         assert_eq!(ball.bounds(), ([-1.0; 2], [3.0; 2]));
+    }
+
+    #[test]
+    fn solids_have_exact_depths_inside_and_bounds() {
+        let rod = Shape::Cylinder {
+            from: [0.0; 3],
+            to: [0.0, 4.0, 0.0],
+            radius: 1.0,
+        };
+        assert_eq!(rod.depth(&[0.5, 2.0, 0.0]), 0.5);
+        assert_eq!(rod.depth(&[4.0, 8.0, 0.0]), -5.0);
+        assert_eq!(rod.bounds(), ([-1.0, 0.0, -1.0], [1.0, 4.0, 1.0]));
+        let tip = Shape::Cone {
+            base: [0.0; 3],
+            apex: [0.0, 0.0, 4.0],
+            radius: 3.0,
+        };
+        assert!((tip.depth(&[0.0, 0.0, 1.5]) - 1.5).abs() < 1e-12);
+        assert!((tip.depth(&[3.0, 0.0, 4.0]) + 2.4).abs() < 1e-12);
+        assert_eq!(tip.bounds(), ([-3.0, -3.0, 0.0], [3.0, 3.0, 4.0]));
+        let prism = Shape::Extrusion {
+            polygon: Polygon::new(vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]),
+            axis: 1,
+            ends: [5.0, 9.0],
+        };
+        assert_eq!(prism.depth(&[1.0, 7.0, 0.25]), 0.25);
+        assert_eq!(prism.depth(&[1.0, 5.125, 0.5]), 0.125);
+        assert!(prism.depth(&[0.5, 7.0, 1.5]) < 0.0);
+        assert_eq!(prism.bounds(), ([0.0, 5.0, 0.0], [2.0, 9.0, 1.0]));
     }
 
     #[test]

@@ -19,3 +19,13 @@ pub(crate) fn point(x: &[f64]) -> String {
         .collect();
     format!("({})", text.join(", "))
 }
+
+/// The unit vector of a direction, if it has one.
+pub(crate) fn unit(v: &[f64]) -> Option<Vec<f64>> {
+    let largest = v.iter().fold(0.0f64, |a, c| a.max(c.abs()));
+    if largest == 0.0 || !largest.is_finite() {
+        return None;
+    }
+    let square: f64 = v.iter().map(|c| (c / largest).powi(2)).sum();
+    Some(v.iter().map(|c| c / largest / square.sqrt()).collect())
+}

@@ -1,6 +1,6 @@
 //! Where particles stand.
 
-use sph_scene::{Filled, Offset, Polygon, Region, Shape, disturb, estimate, fill};
+use sph_scene::{Filled, Offset, Polygon, Region, Scene, Shape, disturb, estimate, fill, parse};
 
 fn cuboid<const D: usize>(lo: [f64; D], hi: [f64; D]) -> Shape<D> {
     Shape::Cuboid { lo, hi }
@@ -168,4 +168,106 @@ fn disorder_stays_in_the_period() {
     let inside = |x: &[f64; 2]| x.iter().all(|c| (0.0..1.0).contains(c));
     assert_eq!(counts(&filled), [100]);
     assert!(filled[0].positions.iter().all(inside));
+}
+
+fn scene(bodies: &str) -> Scene {
+    let text = format!(
+        "title = \"t\"\ndimension = 2\nrun.end = 1\nnumerics.spacing = 0.1\n\
+         phase.water = {{ density = 1, rheology.newtonian = {{}} }}\n\
+         wall.tank.box = [[0, 0], [1, 1]]\n{bodies}"
+    );
+    parse(&text, "x.toml", &[]).unwrap().scene
+}
+
+#[test]
+fn what_fills_the_walls_counts_from_their_box() {
+    let bodies = "body.a = { phase = \"water\", fill = \"walls\" }\n\
+                  body.b = { phase = \"water\", box = [[3, 3], [4, 4]] }\n\
+                  body.c = { phase = \"water\", fill = \"walls\", box = [[-9, -9], [9, 0.5]], \
+                  seed = [0.5, 0.1], subtract = [{ disc = { centre = [0, 0], radius = 0.1 } }] }";
+    let scene = scene(bodies);
+    assert!(scene.fills_walls() && scene.body["c"].needs_walls() && !scene.body["b"].needs_walls());
+    assert_eq!(scene.regions::<2>().len(), 2);
+    let regions = scene
+        .regions_within(Some(([0.05, 0.0], [1.05, 1.0])))
+        .unwrap();
+    assert_eq!(regions.len(), 3);
+    assert_eq!(regions[0].base, cuboid([0.05, 0.0], [1.05, 1.0]));
+    assert_eq!(regions[2].base, cuboid([0.05, 0.0], [1.05, 0.5]));
+    assert_eq!(regions[2].cuts.len(), 1);
+    let filled = fill(&regions[..1], 0.1, Offset::None, &[None; 2]);
+    assert_eq!(counts(&filled), [81]);
+    assert!((filled[0].positions[0][0] - 0.15).abs() < 1e-15);
+    let told = scene.regions_within::<2>(None).unwrap_err().to_string();
+    assert_eq!(told, "body.a.fill: there are no walls to fill");
+    let far = Some(([20.0; 2], [21.0; 2]));
+    let told = scene.regions_within(far).unwrap_err().to_string();
+    assert!(told.starts_with("body.c.box: the box has nothing in common"));
+}
+
+#[test]
+fn bodies_that_walls_clip_may_overlap() {
+    let bodies = "body.a = { phase = \"water\", box = [[0, 0], [1, 1]], clip = true }\n\
+                  body.b = { phase = \"water\", box = [[0, 0], [1, 1]] }";
+    assert_eq!(scene(bodies).regions::<2>().len(), 2);
+}
+
+#[test]
+fn solids_are_filled() {
+    let bodies = [
+        Shape::Cylinder {
+            from: [0.0; 3],
+            to: [2.0, 0.0, 0.0],
+            radius: 0.5,
+        },
+        Shape::Cone {
+            base: [0.0, 5.0, 0.0],
+            apex: [0.0, 5.0, 3.0],
+            radius: 0.5,
+        },
+        Shape::Extrusion {
+            polygon: Polygon::new(vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
+            axis: 2,
+            ends: [5.0, 6.0],
+        },
+    ];
+    let pi = std::f64::consts::PI;
+    for (body, volume) in bodies.into_iter().zip([0.5 * pi, 0.25 * pi, 0.5]) {
+        let body = [Region::whole(body)];
+        let filled = fill(&body, 0.05, Offset::Half, &[None; 3]);
+        let found = counts(&filled)[0] as f64 * 0.05f64.powi(3);
+        assert!((found / volume - 1.0).abs() < 0.06, "{found} {volume}");
+    }
+}
+
+#[test]
+fn solids_that_span_a_period_have_no_ends() {
+    let periodic = [Some([0.0, 2.0]), None, None];
+    let pipe = Region::whole(Shape::Cylinder {
+        from: [0.0, 1.0, 1.0],
+        to: [2.0, 1.0, 1.0],
+        radius: 0.55,
+    });
+    let corners = vec![[0.0, 0.0], [2.0, 0.0], [2.0, 0.5], [0.0, 0.5]];
+    let across = Region::whole(Shape::Extrusion {
+        polygon: Polygon::new(corners),
+        axis: 1,
+        ends: [0.0, 1.0],
+    });
+    let corners = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.0, 0.5]];
+    let along = Region::whole(Shape::Extrusion {
+        polygon: Polygon::new(corners),
+        axis: 0,
+        ends: [0.0, 2.0],
+    });
+    let at_the_end = |region: &Region<3>| {
+        let filled = fill(std::slice::from_ref(region), 0.1, Offset::None, &periodic);
+        let positions = &filled[0].positions;
+        let first = positions.iter().filter(|x| x[0] == 0.0).count();
+        assert_eq!(first * 20, positions.len());
+        first
+    };
+    assert!(at_the_end(&pipe) > 60);
+    assert_eq!(at_the_end(&across), 9 * 4);
+    assert_eq!(at_the_end(&along), 9 * 4);
 }

@@ -52,7 +52,7 @@ fn values_reach_the_scene() {
     ];
     let scene = with(&sets).unwrap().scene;
     assert_eq!(scene.run.end, 2.0);
-    assert_eq!(scene.wall["tank"].polyline[0], [0.0, 0.3]);
+    assert_eq!(scene.wall["tank"].polyline.as_ref().unwrap()[0], [0.0, 0.3]);
     assert_eq!(scene.choice("kernel").unwrap().name, "wendland-c4");
     let rheology = scene.rheology("water").unwrap();
     assert_eq!(rheology.name, "bingham");

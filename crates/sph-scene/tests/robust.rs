@@ -1,5 +1,7 @@
 //! No text and no override makes the reader panic.
 
+mod common;
+
 use proptest::prelude::*;
 use sph_scene::{Offset, Override, estimate, fill, parse};
 
@@ -88,6 +90,49 @@ proptest! {
         if let Ok(set) = Override::parse(&format!("{head}{path}={value}")) {
             read(GOOD[0], &[set]);
         }
+    }
+}
+
+const DRAWN: [&str; 24] = [
+    "M", "m", "L", "h", "V", "C", "s", "Q", "t", "A", "a", "Z", " 0", " 1", "-5", " 10", " 1e-200",
+    " 3e8", " 1e308", " 1e999", ",", "0.5", " 7", "x",
+];
+
+/// What a wall of a file is, of whatever the file holds.
+fn wall(name: &str, bytes: &[u8], dimension: usize) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join(name), bytes).unwrap();
+    let keys = format!("file = \"{name}\"");
+    for keys in [keys.clone(), format!("{keys}\nfluid = \"inside\"")] {
+        match dimension {
+            2 => drop(common::lines(folder.path(), &keys)),
+            _ => drop(common::facets(folder.path(), &keys)),
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_path_of_a_drawing(pieces in proptest::collection::vec(0..DRAWN.len(), 0..40)) {
+        let data: String = pieces.iter().map(|k| DRAWN[*k]).collect();
+        let svg = format!("<svg><path d='M0 0{data}'/><rect width='9' height='1' rx='{data}'/></svg>");
+        wall("x.svg", svg.as_bytes(), 2);
+        let svg = format!("<svg viewBox='{data}'><path transform='scale({data})' d='M0 0{data}'/></svg>");
+        wall("x.svg", svg.as_bytes(), 2);
+    }
+
+    #[test]
+    fn any_bytes_of_files(bytes in proptest::collection::vec(any::<u8>(), 0..300), count in 0u8..6) {
+        wall("x.svg", &bytes, 2);
+        wall("x.csv", &bytes, 2);
+        let mut stl = vec![0; 80];
+        stl.extend([count, 0, 0, 0]);
+        stl.extend(&bytes);
+        wall("x.stl", &stl, 3);
+        let text = String::from_utf8_lossy(&bytes);
+        wall("x.stl", format!("solid x\n{text}\nendsolid").as_bytes(), 3);
     }
 }
 

@@ -12,10 +12,13 @@ use sph_scene::Scene;
 use crate::choices::Choices;
 use crate::defaults;
 use crate::domain::{check_periods, domain_of, height};
+use crate::drawn::Drawn;
 use crate::error::SolverError;
 use crate::flow::Flow;
-use crate::initial::{InitialState, place};
+use crate::initial::InitialState;
+use crate::placed::place;
 use crate::planning::plan_stages;
+use crate::relax::{Relaxation, relax};
 use crate::stages::{SharedWall, WALL_STATE};
 use crate::summary::PluginInForce;
 use crate::walls::{build_walls, wall_problem};
@@ -34,6 +37,10 @@ pub struct Assembled<const D: usize> {
     pub plugins: Vec<PluginInForce>,
     /// Remarks for the summary.
     pub warnings: Vec<String>,
+    /// What relaxing the first particles did, if it was asked for.
+    pub relaxation: Option<Relaxation>,
+    /// Extent of all bodies along gravity, m.
+    pub height: f64,
 }
 
 /// Builds the plugins, the particles and the plan.
@@ -41,23 +48,32 @@ pub struct Assembled<const D: usize> {
 /// # Errors
 /// Every problem of the scene, with its path; nothing is written.
 pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverError> {
-    crate::estimate::refuse_the_absurd::<D>(scene)?;
+    let drawn = Drawn::<D>::of(scene)?;
+    crate::estimate::refuse_the_absurd(scene, &drawn)?;
     let mut choices = Choices::<D>::of(scene).map_err(SolverError::Scene)?;
-    let laws = bind_laws::<D>(scene, &choices)?;
+    let laws = bind_laws::<D>(scene, &drawn, &choices)?;
     let spacing = scene.numerics.spacing;
     let h = scene.numerics.smoothing_ratio * spacing;
     let sampler = choices.kernel.sampler(D, h);
     let skin = scene.numerics.skin.unwrap_or(defaults::SKIN);
-    let domain = domain_of::<D>(scene);
+    let domain = domain_of(scene, &drawn);
     check_periods(&domain, sampler.support_radius() * (1.0 + skin))?;
 
     let mut warnings = Vec::new();
     let mut wall_set = WallSet::default();
     if let Some(walls) = &mut choices.walls {
-        wall_set = build_walls(scene, &mut **walls, &*choices.kernel, &domain, h)?;
+        wall_set = build_walls(
+            scene,
+            &drawn.walls,
+            &mut **walls,
+            &*choices.kernel,
+            &domain,
+            h,
+        )?;
         warnings.extend(walls.warnings());
     }
-    let placed = place(scene, choices.walls.as_deref()).map_err(SolverError::Scene)?;
+    let placed =
+        place(scene, &drawn.regions, choices.walls.as_deref()).map_err(SolverError::Scene)?;
     warnings.extend(placed.warnings);
     if let Some(walls) = &choices.walls {
         let ends = walls.check_free_ends(&placed.positions);
@@ -96,11 +112,12 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
 
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
     let limiters = limiters_of(&choices, &laws, &kinematic_viscosities);
-    let (stages, pruned) = plan_stages(scene, &mut choices, &laws, walls.as_ref(), &world)?;
+    let planned = plan_stages(scene, &mut choices, &laws, walls.as_ref(), &world)?;
     let mut flow = Flow {
         world,
-        stages,
-        pruned,
+        stages: planned.stages,
+        pruned: planned.pruned,
+        terms: planned.terms,
         limiters,
         walls,
         evolved,
@@ -111,7 +128,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     flow.reset_timings();
     allocate(&mut flow);
     check_output_fields(scene, &flow)?;
-    start(scene, &choices, &mut flow, &placed.body)?;
+    let relaxation = start(scene, &drawn, &choices, &mut flow, &placed.body)?;
     Ok(Assembled {
         flow,
         integrator: choices.integrator,
@@ -119,18 +136,22 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         solutions: choices.solutions,
         plugins: choices.in_force,
         warnings,
+        relaxation,
+        height: height(scene, &drawn.regions),
     })
 }
 
 /// Equations of state with their reference states.
 fn bind_laws<const D: usize>(
     scene: &Scene,
+    drawn: &Drawn<D>,
     choices: &Choices<D>,
 ) -> Result<Arc<[Box<dyn BoundState>]>, SolverError> {
     let mut laws = Vec::new();
     for ((name, phase), eos) in scene.phase.iter().zip(&choices.equations_of_state) {
         let scale = phase.velocity_scale.unwrap_or(0.0);
-        let default = 10.0 * scale.max((height::<D>(scene) * scene.gravity::<D>().norm()).sqrt());
+        let default =
+            10.0 * scale.max((height(scene, &drawn.regions) * scene.gravity::<D>().norm()).sqrt());
         let sound_speed = phase.speed_of_sound.unwrap_or(default);
         if sound_speed <= 0.0 {
             return Err(SolverError::at(
@@ -238,20 +259,28 @@ fn check_output_fields<const D: usize>(scene: &Scene, flow: &Flow<D>) -> Result<
 /// Sorts the particles and gives them their initial state.
 fn start<const D: usize>(
     scene: &Scene,
+    drawn: &Drawn<D>,
     choices: &Choices<D>,
     flow: &mut Flow<D>,
     body_of: &[u32],
-) -> Result<(), SolverError> {
+) -> Result<Option<Relaxation>, SolverError> {
     let world = &mut flow.world;
     world.rebuild_lists()?;
+    let relaxation = relax(scene, drawn, world, flow.walls.as_ref())?;
     let phases: Vec<&String> = scene.phase.keys().collect();
     let mut states = Vec::new();
     let mut phase_of = Vec::new();
-    for (name, body) in &scene.body {
+    for ((name, body), region) in scene.body.iter().zip(&drawn.regions) {
         let phase = phases.iter().position(|p| **p == body.phase).unwrap_or(0);
         let field = choices.initial.iter().find(|(n, _)| n == name);
         let field = field.map(|(_, f)| &**f);
-        states.push(InitialState::new(scene, body, &*flow.laws[phase], field));
+        states.push(InitialState::new(
+            scene,
+            body,
+            region,
+            &*flow.laws[phase],
+            field,
+        ));
         phase_of.push(phase as u32);
     }
     let identity = world.free.get(fields::IDENTITY)?.to_vec();
@@ -275,5 +304,5 @@ fn start<const D: usize>(
     let limits = flow.step_limits()?;
     let least = sph_core::StepLimit::least(&limits).map_or(0.0, |l| l.dt);
     flow.world.dt = scene.run.safety * least;
-    Ok(())
+    Ok(relaxation)
 }

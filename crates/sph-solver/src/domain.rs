@@ -2,18 +2,19 @@
 
 use sph_core::Vect;
 use sph_neighbours::Domain;
-use sph_scene::Scene;
+use sph_scene::{Region, Scene};
 
+use crate::drawn::Drawn;
 use crate::error::SolverError;
 
 /// Extent of all bodies along gravity, m.
-pub fn height<const D: usize>(scene: &Scene) -> f64 {
+pub fn height<const D: usize>(scene: &Scene, regions: &[Region<D>]) -> f64 {
     let gravity = scene.gravity::<D>();
     let Some(down) = gravity.try_normalize(0.0) else {
         return 0.0;
     };
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for region in scene.regions::<D>() {
+    for region in regions {
         let (lower, upper) = region.base.bounds();
         for corner in 0..1 << D {
             let along: f64 = (0..D)
@@ -34,7 +35,7 @@ pub fn height<const D: usize>(scene: &Scene) -> f64 {
 }
 
 /// The scene's domain, or a box round walls and bodies with room to move.
-pub fn domain_of<const D: usize>(scene: &Scene) -> Domain<D> {
+pub fn domain_of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Domain<D> {
     let mut lower = Vect::<D>::repeat(f64::INFINITY);
     let mut upper = Vect::<D>::repeat(f64::NEG_INFINITY);
     let mut include = |x: &[f64]| {
@@ -43,13 +44,14 @@ pub fn domain_of<const D: usize>(scene: &Scene) -> Domain<D> {
             upper[k] = upper[k].max(x[k]);
         }
     };
-    for region in scene.regions::<D>() {
+    for region in &drawn.regions {
         let (low, high) = region.base.bounds();
         include(&low);
         include(&high);
     }
-    for wall in scene.wall.values() {
-        wall.polyline.iter().for_each(|p| include(p));
+    if let Some((low, high)) = &drawn.bounds {
+        include(low);
+        include(high);
     }
     // Splashes rise over an open tank; without walls the flow may go far.
     let room = match scene.wall.is_empty() {

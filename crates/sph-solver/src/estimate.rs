@@ -3,6 +3,7 @@
 use serde::Serialize;
 use sph_scene::{Scene, estimate};
 
+use crate::drawn::Drawn;
 use crate::error::SolverError;
 
 /// Bytes per particle of columns, lists and buffers together, a generous mean.
@@ -63,15 +64,13 @@ fn memory_available() -> Option<f64> {
 }
 
 /// Refuses a scene that cannot fit into memory, before any memory is touched.
-pub fn refuse_the_absurd<const D: usize>(scene: &Scene) -> Result<(), SolverError> {
-    let particles = estimate(&scene.regions::<D>(), scene.numerics.spacing);
-    let wall_length: f64 = scene
-        .wall
-        .values()
-        .flat_map(|w| w.polyline.windows(2))
-        .map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]))
-        .sum();
-    let points = wall_length / scene.numerics.spacing;
+pub fn refuse_the_absurd<const D: usize>(
+    scene: &Scene,
+    drawn: &Drawn<D>,
+) -> Result<(), SolverError> {
+    let spacing = scene.numerics.spacing;
+    let particles = estimate(&drawn.regions, spacing);
+    let points = drawn.measure / spacing.powi(D as i32 - 1);
     let needed = (particles + points) * BYTES_PER_PARTICLE[usize::from(D == 3)];
     let limit = memory_available().unwrap_or(64e9);
     // Indices are 32 bits wide.

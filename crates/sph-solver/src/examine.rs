@@ -7,9 +7,8 @@ use sph_core::{Role, StepLimit};
 use sph_scene::Scene;
 
 use crate::assemble::assemble;
-use crate::domain::height;
 use crate::summary::PluginInForce;
-use crate::{Estimate, SolverError};
+use crate::{Estimate, Relaxation, SolverError};
 
 /// A column with its cost.
 #[derive(Clone, Debug, Serialize)]
@@ -76,6 +75,8 @@ pub struct Examination {
     pub neighbours: f64,
     /// What it will cost.
     pub estimate: Estimate,
+    /// What relaxing the first particles did, if the scene asks for it.
+    pub relaxation: Option<Relaxation>,
     /// Remarks.
     pub warnings: Vec<String>,
 }
@@ -92,8 +93,8 @@ pub fn examine(scene: &Scene, threads: usize) -> Result<Examination, SolverError
 }
 
 fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examination, SolverError> {
-    let assembled = assemble::<D>(scene)?;
-    crate::series::rehearse(&assembled.flow, &assembled.probes)?;
+    let mut assembled = assemble::<D>(scene)?;
+    crate::series::rehearse(&mut assembled.flow, &assembled.probes)?;
     crate::references::readable(scene)?;
     let flow = &assembled.flow;
     let world = &flow.world;
@@ -139,7 +140,7 @@ fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examinati
     Ok(Examination {
         scene: scene.title.clone(),
         dimension: D,
-        derived: derived::<D>(scene, flow),
+        derived: derived::<D>(scene, flow, assembled.height),
         step_limits: limits.iter().map(|l| (l.name.to_string(), l.dt)).collect(),
         limit_formulas: flow.limiters.iter().map(|l| l.formula()).collect(),
         plugins: assembled.plugins,
@@ -151,13 +152,18 @@ fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examinati
         wall_elements: world.walls.elements.centre.len(),
         neighbours: world.mean_neighbours()?,
         estimate: Estimate::new(scene, particles as f64, dt, threads),
+        relaxation: assembled.relaxation,
         warnings: assembled.warnings,
         stages,
     })
 }
 
 /// Smoothing length, speeds and dimensionless numbers.
-fn derived<const D: usize>(scene: &Scene, flow: &crate::Flow<D>) -> Vec<(String, f64, String)> {
+fn derived<const D: usize>(
+    scene: &Scene,
+    flow: &crate::Flow<D>,
+    length: f64,
+) -> Vec<(String, f64, String)> {
     let world = &flow.world;
     let mut all = Vec::new();
     let mut say = |name: String, value: f64, unit: &str| {
@@ -171,7 +177,6 @@ fn derived<const D: usize>(scene: &Scene, flow: &crate::Flow<D>) -> Vec<(String,
         "m",
     );
     say("kernel support".into(), world.kernel.support_radius(), "m");
-    let length = height::<D>(scene);
     let g = world.gravity.norm();
     let fall = (g * length).sqrt();
     if g > 0.0 {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use sph_core::{Evolved, Role, Stage, StepError, StepLimit, System, fields};
 use sph_multiphase::{BoundState, Limiter};
-use sph_neighbours::World;
+use sph_neighbours::{Interaction, World, wall_forces};
 
 use crate::stages::{SharedWall, lock};
 
@@ -32,6 +32,8 @@ pub struct Flow<const D: usize> {
     pub(crate) laws: std::sync::Arc<[Box<dyn BoundState>]>,
     /// η/ρ₀ of every phase, m²/s.
     pub(crate) kinematic_viscosities: Vec<f64>,
+    /// The pair terms of the interaction sweep.
+    pub(crate) terms: std::sync::Arc<[Box<dyn Interaction<D>>]>,
     pub(crate) timings: Vec<Timing>,
 }
 
@@ -153,6 +155,18 @@ impl<const D: usize> Flow<D> {
                 all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
             })
             .fold(0.0, f64::max)
+    }
+
+    /// Measures the forces on all walls at the state of the last evaluation.
+    ///
+    /// # Errors
+    /// If a term misses a column.
+    pub fn measure_wall_forces(&mut self) -> Result<(), StepError> {
+        if !self.world.free.has(fields::ACCELERATION.name) || self.world.lists.builds == 0 {
+            return Ok(());
+        }
+        self.world.walls.forces = wall_forces(&self.world, &self.terms)?;
+        Ok(())
     }
 
     /// Particles behind a wall.

@@ -1,108 +1,9 @@
-//! Particles at time zero: where they are, and in what state.
+//! In what state the particles are at time zero.
 
-use sph_boundary::Wall;
-use sph_core::{SceneProblem, Vect};
+use sph_core::Vect;
 use sph_multiphase::BoundState;
 use sph_probes::Solution;
-use sph_scene::{Body, Offset, Pressure, Region, Scene, disturb, fill};
-
-/// A particle nearer to a wall than this share of a spacing is left out.
-const TOO_NEAR: f64 = 0.4;
-
-/// Positions with the number of their body, in the order of identities.
-pub struct Placed<const D: usize> {
-    /// Positions, m.
-    pub positions: Vec<Vect<D>>,
-    /// Number of the body, in the scene's order of names.
-    pub body: Vec<u32>,
-    /// Remarks.
-    pub warnings: Vec<String>,
-}
-
-/// Fills all bodies and holds them against the walls.
-pub fn place<const D: usize>(
-    scene: &Scene,
-    walls: Option<&dyn Wall<D>>,
-) -> Result<Placed<D>, Vec<SceneProblem>> {
-    let spacing = scene.numerics.spacing;
-    let offset = match walls.map_or(0.0, |w| w.lattice_offset()) {
-        x if x < 0.25 => Offset::None,
-        _ => Offset::Half,
-    };
-    let periodic = scene.numerics.periodic.bounds::<D>();
-    let mut filled = fill(&scene.regions::<D>(), spacing, offset, &periodic);
-    let n = &scene.numerics;
-    if n.disorder > 0.0 {
-        disturb(&mut filled, spacing, n.disorder, n.seed, &periodic);
-    }
-    let names: Vec<&String> = scene.body.keys().collect();
-    let mut placed = Placed {
-        positions: Vec::new(),
-        body: Vec::new(),
-        warnings: Vec::new(),
-    };
-    let mut problems = Vec::new();
-    for body in &filled {
-        let name = names[body.body];
-        let mut dropped = 0;
-        for position in &body.positions {
-            let x = Vect::from(*position);
-            if let Some(walls) = walls {
-                let near = walls.clearance(&x, TOO_NEAR * spacing);
-                if near.is_some() {
-                    dropped += 1;
-                    continue;
-                }
-                if !walls.contains(&x) {
-                    problems.push(through_a_wall(name, &x, walls, spacing));
-                    break;
-                }
-            }
-            placed.positions.push(x);
-            placed.body.push(body.body as u32);
-        }
-        if dropped > 0 {
-            placed.warnings.push(format!(
-                "{dropped} particles of body `{name}` were left out: nearer than {TOO_NEAR} spacings to a wall"
-            ));
-        }
-        if placed.body.last() != Some(&(body.body as u32)) && problems.is_empty() {
-            problems.push(SceneProblem::new(
-                format!("body.{name}"),
-                format!("the body is too small for a single particle at a spacing of {spacing} m"),
-            ));
-        }
-    }
-    match problems.is_empty() {
-        true => Ok(placed),
-        false => Err(problems),
-    }
-}
-
-fn through_a_wall<const D: usize>(
-    body: &str,
-    x: &Vect<D>,
-    walls: &dyn Wall<D>,
-    spacing: f64,
-) -> SceneProblem {
-    let at = x
-        .iter()
-        .map(|c| format!("{c:.6}"))
-        .collect::<Vec<_>>()
-        .join(", ");
-    // The nearest wall, looked for ever farther out.
-    let named = (0..12).find_map(|k| walls.clearance(x, spacing * f64::from(1 << k)));
-    let wall = named.map_or(String::from("the walls"), |(_, name)| {
-        format!("wall `{name}`")
-    });
-    SceneProblem::new(
-        format!("body.{body}"),
-        format!(
-            "the body reaches through {wall}: ({at}) is behind it; the fluid must be on the left \
-             of every wall's direction of travel"
-        ),
-    )
-}
+use sph_scene::{Body, Pressure, Region, Scene};
 
 /// Density and velocity of a body's particles at the start.
 pub struct InitialState<'a, const D: usize> {
@@ -119,20 +20,17 @@ impl<'a, const D: usize> InitialState<'a, D> {
     pub fn new(
         scene: &Scene,
         body: &'a Body,
+        region: &Region<D>,
         law: &'a dyn BoundState,
         field: Option<&'a dyn Solution<D>>,
     ) -> Self {
         let gravity = scene.gravity::<D>();
-        let top = Region::<D>::of(body).map_or(0.0, |region| {
-            let (lower, upper) = region.base.bounds();
-            (0..D)
-                .map(|k| match gravity[k] > 0.0 {
-                    true => -gravity[k] * lower[k],
-                    false => -gravity[k] * upper[k],
-                })
-                .sum::<f64>()
-                / gravity.norm().max(f64::MIN_POSITIVE)
+        let (lower, upper) = region.base.bounds();
+        let highest = (0..D).map(|k| match gravity[k] > 0.0 {
+            true => -gravity[k] * lower[k],
+            false => -gravity[k] * upper[k],
         });
+        let top = highest.sum::<f64>() / gravity.norm().max(f64::MIN_POSITIVE);
         InitialState {
             body,
             law,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sph_core::{Access, AnyField, Declares, Stage, fields, plan};
 use sph_multiphase::{BoundState, PressureStage, Viscosity};
-use sph_neighbours::{World, fuse_all};
+use sph_neighbours::{Interaction, World, fuse_all};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
 
@@ -15,6 +15,19 @@ use crate::stages::{Also, InteractionSweep, SharedWall, ViscosityStage, WallGeom
 /// Stages of a flow.
 pub type Stages<const D: usize> = Vec<Box<dyn Stage<World<D>>>>;
 
+/// Pair terms shared by the sweep and whoever measures with them.
+pub type SharedTerms<const D: usize> = Arc<[Box<dyn Interaction<D>>]>;
+
+/// What is run, what is not, and with which pair terms.
+pub struct Planned<const D: usize> {
+    /// Stages in order.
+    pub stages: Stages<D>,
+    /// Names of the stages nobody needs.
+    pub pruned: Vec<String>,
+    /// The pair terms.
+    pub terms: SharedTerms<D>,
+}
+
 /// Offers all stages and keeps, in order, those that the goals need.
 pub fn plan_stages<const D: usize>(
     scene: &Scene,
@@ -22,7 +35,7 @@ pub fn plan_stages<const D: usize>(
     laws: &Arc<[Box<dyn BoundState>]>,
     walls: Option<&SharedWall<D>>,
     world: &World<D>,
-) -> Result<(Stages<D>, Vec<String>), SolverError> {
+) -> Result<Planned<D>, SolverError> {
     let renormalises = walls.is_some_and(|w| crate::stages::lock(w).renormalises());
     let gamma = || match renormalises {
         true => Access::none().here(fields::RENORMALISATION),
@@ -40,8 +53,9 @@ pub fn plan_stages<const D: usize>(
     terms.append(&mut choices.terms);
     let scalar = choices.formulation.evolved().first().map(|e| e.rate);
     let changes_scalar = choices.smoother.is_some();
+    let terms: SharedTerms<D> = fuse_all(terms).into();
     let sweep = InteractionSweep {
-        terms: fuse_all(terms),
+        terms: terms.clone(),
         scalar: scalar.filter(|_| changes_scalar),
         walls: walls.is_some(),
         states: Vec::new(),
@@ -100,7 +114,11 @@ pub fn plan_stages<const D: usize>(
         .iter()
         .filter_map(|&k| slots[k].take())
         .collect();
-    Ok((stages, pruned))
+    Ok(Planned {
+        stages,
+        pruned,
+        terms,
+    })
 }
 
 /// One viscosity for all, or a column.

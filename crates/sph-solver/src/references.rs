@@ -169,6 +169,7 @@ fn against_series<const D: usize>(
     let high = (reference.norm() == Norm::Band && table.columns.len() > 2).then(|| value(2));
     let mut differences = Vec::new();
     let mut compared = Vec::new();
+    let mut instants = Vec::new();
     let weights = norm::time_weights(&at);
     let (mut outside, mut whole) = (0.0, 0.0);
     let mut last = None;
@@ -180,6 +181,7 @@ fn against_series<const D: usize>(
         window = [window[0].min(t), window[1].max(t)];
         differences.push(u - low[k]);
         compared.push(low[k]);
+        instants.push(t);
         if let Some(high) = &high {
             let out = u < low[k] || u > high[k];
             outside += if out { weights[k] } else { 0.0 };
@@ -210,6 +212,18 @@ fn against_series<const D: usize>(
         Norm::L2 => (norm::l2(&exact_plus(), &compared, &ones, 1), "1"),
         Norm::L1 => (norm::l1(&exact_plus(), &compared, 1), "1"),
         Norm::Linf => (norm::linf(&exact_plus(), &compared, 1), "1"),
+        Norm::Range => (norm::range_error(&exact_plus(), &compared), "1"),
+        Norm::PeakTime => {
+            let peak = |values: &[f64]| norm::peak_time(&instants, values).unwrap_or(f64::NAN);
+            ((peak(&exact_plus()) / peak(&compared) - 1.0).abs(), "1")
+        }
+        Norm::Lag => {
+            let Some(period) = reference.period else {
+                return Ok(Err("the norm `lag` needs the `period`".into()));
+            };
+            let found = norm::lag([times, values], [&instants, &compared], 0.5 * period);
+            (found.map_or(f64::NAN, |lag| lag.abs() / period), "1")
+        }
         Norm::Rms | Norm::DecayRate => return Ok(Err("this norm is for fields".into())),
     };
     let mut entry = entry(value, reference, n, window);

@@ -99,6 +99,7 @@ impl<const D: usize> Running<'_, D> {
             density_range: self.series.density_range,
             density_constant_range: flow.density_constant_range(),
             escaped,
+            relaxation: self.parts.relaxation,
             errors,
             warnings,
             files: listing(&self.options.out),

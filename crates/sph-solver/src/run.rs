@@ -88,7 +88,7 @@ fn run_in<const D: usize>(
     observer: &mut (dyn Observer + Send),
 ) -> Result<Summary, SolverError> {
     let mut parts = assemble::<D>(scene)?;
-    crate::series::rehearse(&parts.flow, &parts.probes)?;
+    crate::series::rehearse(&mut parts.flow, &parts.probes)?;
     references::readable(scene)?;
     sph_io::writable(&options.out)?;
     sph_io::sweep_temporaries(&options.out)?;
@@ -266,7 +266,9 @@ impl<const D: usize> Running<'_, D> {
         let due = |rows: u64| rows as f64 * every;
         if time >= due(self.counters.rows) || time >= end {
             let dt = self.parts.flow.world.dt;
-            let balance = self.series.row(&self.parts.flow, &self.parts.probes, dt)?;
+            let balance = self
+                .series
+                .row(&mut self.parts.flow, &self.parts.probes, dt)?;
             if self.counters.rows == 0 {
                 self.remember_start(&balance);
             }

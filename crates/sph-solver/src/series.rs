@@ -82,10 +82,11 @@ impl Series {
     /// Measures and appends a row.
     pub fn row<const D: usize>(
         &mut self,
-        flow: &Flow<D>,
+        flow: &mut Flow<D>,
         probes: &Probes<D>,
         dt: f64,
     ) -> Result<Balance<D>, SolverError> {
+        measure_walls(flow, probes)?;
         let balance = Balance::of(flow)?;
         let mut row = vec![flow.world.time, dt];
         row.extend(balance.momentum.iter());
@@ -114,8 +115,17 @@ impl Series {
 }
 
 /// Measures once without writing, so that a wrong probe is found before anything exists.
-pub fn rehearse<const D: usize>(flow: &Flow<D>, probes: &Probes<D>) -> Result<(), StepError> {
+pub fn rehearse<const D: usize>(flow: &mut Flow<D>, probes: &Probes<D>) -> Result<(), StepError> {
+    measure_walls(flow, probes)?;
     probes
         .iter()
         .try_for_each(|(_, probe)| probe.measure(&flow.world).map(|_| ()))
+}
+
+/// Measures the forces on walls if any probe reads them.
+fn measure_walls<const D: usize>(flow: &mut Flow<D>, probes: &Probes<D>) -> Result<(), StepError> {
+    match probes.iter().any(|(_, p)| p.needs_wall_forces()) {
+        true => flow.measure_wall_forces(),
+        false => Ok(()),
+    }
 }

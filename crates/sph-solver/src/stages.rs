@@ -116,7 +116,7 @@ impl<const D: usize> Stage<World<D>> for ViscosityStage {
 /// All pair terms in one walk.
 pub struct InteractionSweep<const D: usize> {
     /// The terms, fused where a fusion is registered.
-    pub terms: Vec<Box<dyn Interaction<D>>>,
+    pub terms: Arc<[Box<dyn Interaction<D>>]>,
     /// Rate of the formulation's evolved scalar, if anything changes it.
     pub scalar: Option<Field<Scalar>>,
     /// Whether walls exist.

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
+use crate::Relaxation;
+
 /// Version of the summary's layout.
 pub const SCHEMA_VERSION: u32 = 1;
 
@@ -116,6 +118,9 @@ pub struct Summary {
     pub density_constant_range: Option<[f64; 2]>,
     /// Particles behind a wall at the end.
     pub escaped: usize,
+    /// What relaxing the first particles did, if the scene asked for it.
+    #[serde(default)]
+    pub relaxation: Option<Relaxation>,
     /// Errors against the scene's references.
     pub errors: BTreeMap<String, ErrorEntry>,
     /// Things a person should know.

@@ -71,7 +71,7 @@ impl SegmentMesh {
                     y,
                 });
             }
-            if segment.end_image != [0; 2] && poses[segment.wall].angle != 0.0 {
+            if segment.end_image != [0; 2] && poses[segment.wall].turns() {
                 let wall = self.walls[segment.wall].clone();
                 return Err(BoundaryError::PeriodicWallRotated { wall });
             }

@@ -1,6 +1,8 @@
 //! A world of particles next to walls, built through the registry as a solver would.
 
-use sph_boundary::{Condition, Polyline, RigidMotion, Wall, WallEntry, WallSetup, WallSpec};
+use sph_boundary::{
+    Condition, Drawing, Polyline, RigidMotion, Wall, WallEntry, WallSetup, WallSpec,
+};
 use sph_core::{Registry, Role, Store, Vect, fields};
 use sph_kernels::{Kernel, wendland_c2};
 use sph_neighbours::{Domain, WallSet, World};
@@ -14,11 +16,19 @@ pub struct Bench {
 /// A wall that stands still and rubs.
 pub fn fixed(polyline: Polyline) -> WallSpec<2> {
     WallSpec {
-        polyline,
+        drawing: Drawing::Line(polyline),
         condition: Condition::NoSlip,
         surface_velocity: Vect::zeros(),
         motion: RigidMotion::default(),
     }
+}
+
+/// The line of a wall.
+pub fn line(spec: &WallSpec<2>) -> &Polyline {
+    let Drawing::Line(line) = &spec.drawing else {
+        unreachable!("walls here are lines")
+    };
+    line
 }
 
 /// A treatment by its name in scenes.

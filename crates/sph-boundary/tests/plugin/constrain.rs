@@ -1,9 +1,9 @@
 //! No lone particle gets through a wall, and nothing else is touched.
 
-use sph_boundary::{Polyline, WallSpec, thin_plate};
+use sph_boundary::{Polyline, RigidMotion, WallSpec, thin_plate};
 use sph_core::{Vect, fields};
 
-use crate::bench::{Bench, Random, fixed, wide};
+use crate::bench::{Bench, Random, fixed, line, wide};
 
 const SPACING: f64 = 0.5;
 const SPEED: f64 = 10.0;
@@ -43,7 +43,7 @@ fn lost(specs: &[WallSpec<2>], low: f64, high: f64) -> Vec<(f64, usize)> {
     let edges: Vec<[Vect<2>; 2]> = specs
         .iter()
         .flat_map(|s| {
-            s.polyline
+            line(s)
                 .edges()
                 .map(|e| e.map(Vect::from))
                 .collect::<Vec<_>>()
@@ -204,7 +204,7 @@ fn a_particle_at_rest_at_half_a_spacing_is_not_touched_by_a_bit() {
 fn a_wall_that_comes_takes_the_particle_along_at_its_own_speed() {
     let floor = Polyline::open("floor", vec![[-40.0, 0.0], [40.0, 0.0]]);
     let mut spec = fixed(floor);
-    spec.motion.velocity = [0.5, 2.0];
+    spec.motion = RigidMotion::steady([0.5, 2.0]);
     let place = vec![Vect::<2>::new(0.1, 0.25 * SPACING)];
     let mut bench = Bench::new("usaw", &[spec], SPACING, wide(), place);
     bench.wall.constrain(&mut bench.world, 1e-3).unwrap();

@@ -1,6 +1,6 @@
 //! Walls that move: where they are, how fast, and that γ is that of a wall drawn there.
 
-use sph_boundary::{Polyline, RigidMotion};
+use sph_boundary::{Course, Polyline, RigidMotion, Rotation};
 use sph_core::Vect;
 
 use crate::bench::{Bench, Random, fixed, wide};
@@ -13,11 +13,14 @@ fn block() -> Polyline {
 
 fn motion() -> RigidMotion {
     RigidMotion {
-        velocity: [0.3, -0.2],
-        angular_velocity: 0.7,
-        centre: [0.2, 0.1],
+        rotation: Some(Rotation {
+            centre: [0.2, 0.1],
+            axis: [0.0; 3],
+            course: Course::Steady { speed: 0.7 },
+        }),
         start: 0.5,
         stop: 3.0,
+        ..RigidMotion::steady([0.3, -0.2])
     }
 }
 

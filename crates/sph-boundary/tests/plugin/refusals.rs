@@ -1,10 +1,10 @@
 //! What a wall treatment refuses, by name.
 
-use sph_boundary::{BoundaryError, Polyline, WallSpec};
+use sph_boundary::{BoundaryError, Drawing, Polyline, WallSpec};
 use sph_core::Vect;
 use sph_kernels::{Kernel, Sampler, ScalarSampler, wendland_c2};
 
-use crate::bench::{fixed, setup, treatment, wide};
+use crate::bench::{fixed, line, setup, treatment, wide};
 
 /// f(q) = exp(−q²), cut at q = 3.
 #[derive(Clone, Debug)]
@@ -110,7 +110,7 @@ fn walls_that_cross_are_refused_with_both_names_and_the_place() {
 #[test]
 fn a_wall_drawn_the_wrong_way_round_has_its_fluid_outside() {
     let mut inside_out = square();
-    inside_out.polyline = inside_out.polyline.reversed();
+    inside_out.drawing = Drawing::Line(line(&inside_out).clone().reversed());
     let domain = wide();
     for (spec, fluid_inside) in [(square(), true), (inside_out, false)] {
         let mut wall = treatment("usaw");

@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 use sph_multiphase::{
-    BrezziPitkaranta, Formulation, HuAdams, Morris, Smoother, Viscosity, ViscousOperator,
+    BrezziPitkaranta, Formulation, HuAdams, Morris, Smoother, Viscosity, ViscousOperator, WallTerm,
 };
 use sph_neighbours::{Interaction, Terms, World, interactions};
 
@@ -35,6 +35,14 @@ pub fn pressure<const D: usize>() -> Box<dyn Interaction<D>> {
 
 pub fn viscosity<const D: usize>(eta: f64) -> Box<dyn Interaction<D>> {
     Morris::default().term(Viscosity::Uniform(eta))
+}
+
+/// Morris's operator with the wall term as printed.
+pub fn literal_viscosity<const D: usize>(eta: f64) -> Box<dyn Interaction<D>> {
+    let operator = Morris {
+        wall_term: WallTerm::Literal,
+    };
+    operator.term(Viscosity::Uniform(eta))
 }
 
 pub fn viscosity_column<const D: usize>() -> Box<dyn Interaction<D>> {

@@ -1,0 +1,249 @@
+//! Functions of time that prescribed motions follow.
+
+use std::f64::consts::TAU;
+
+/// A displacement (m) or an angle (rad) over time, 0 at time 0.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Course {
+    /// s = v t.
+    Steady {
+        /// v, m/s or rad/s.
+        speed: f64,
+    },
+    /// From rest to a speed with constant acceleration: s = v t²/(2T), from T on v (t − T/2).
+    Ramp {
+        /// v, m/s or rad/s.
+        speed: f64,
+        /// T, s.
+        over: f64,
+    },
+    /// s = a [r(t) sin(2πt/T + φ) − r(0) sin φ], r rising smoothly (6x⁵ − 15x⁴ + 10x³) from 0 to 1.
+    Sine {
+        /// a, m or rad.
+        amplitude: f64,
+        /// T, s.
+        period: f64,
+        /// φ, rad.
+        phase: f64,
+        /// Time in which r rises, s; 0 for r = 1 from the start.
+        ramp: f64,
+    },
+    /// Values at instants less the first value, joined by the cubic whose slopes are those of the
+    /// parabolas through three neighbouring values; at rest before the first and after the last.
+    Table {
+        /// Pairs of time, s, and value, ascending in time.
+        rows: Vec<[f64; 2]>,
+    },
+}
+
+/// Value, rate and second derivative of a course at one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stage {
+    /// s.
+    pub value: f64,
+    /// ds/dt.
+    pub rate: f64,
+    /// d²s/dt².
+    pub acceleration: f64,
+}
+
+impl Course {
+    /// Whether it is a course at all: finite, with positive periods and ascending instants.
+    pub fn is_sound(&self) -> bool {
+        match self {
+            Self::Steady { speed } => speed.is_finite(),
+            Self::Ramp { speed, over } => speed.is_finite() && *over > 0.0 && over.is_finite(),
+            Self::Sine {
+                amplitude,
+                period,
+                phase,
+                ramp,
+            } => {
+                let finite = [amplitude, period, phase, ramp]
+                    .iter()
+                    .all(|x| x.is_finite());
+                finite && *period > 0.0 && *ramp >= 0.0
+            }
+            Self::Table { rows } => {
+                rows.len() >= 2
+                    && rows.iter().flatten().all(|x| x.is_finite())
+                    && rows.windows(2).all(|w| w[0][0] < w[1][0])
+            }
+        }
+    }
+
+    /// Whether it ever leaves 0.
+    pub fn moves(&self) -> bool {
+        match self {
+            Self::Steady { speed } | Self::Ramp { speed, .. } => *speed != 0.0,
+            Self::Sine { amplitude, .. } => *amplitude != 0.0,
+            Self::Table { rows } => rows.windows(2).any(|w| w[0][1] != w[1][1]),
+        }
+    }
+
+    /// Value and derivatives at a time ≥ 0.
+    pub fn at(&self, t: f64) -> Stage {
+        match self {
+            Self::Steady { speed } => Stage {
+                value: speed * t,
+                rate: *speed,
+                acceleration: 0.0,
+            },
+            Self::Ramp { speed, over } if t < *over => Stage {
+                value: 0.5 * speed * t * t / over,
+                rate: speed * t / over,
+                acceleration: speed / over,
+            },
+            Self::Ramp { speed, over } => Stage {
+                value: speed * (t - 0.5 * over),
+                rate: *speed,
+                acceleration: 0.0,
+            },
+            Self::Sine {
+                amplitude,
+                period,
+                phase,
+                ramp,
+            } => {
+                let omega = TAU / period;
+                let (sine, cosine) = (omega * t + phase).sin_cos();
+                let [r, dr, ddr] = rise(t, *ramp);
+                let at_start = rise(0.0, *ramp)[0] * phase.sin();
+                Stage {
+                    value: amplitude * (r * sine - at_start),
+                    rate: amplitude * (dr * sine + r * omega * cosine),
+                    acceleration: amplitude
+                        * (ddr * sine + 2.0 * dr * omega * cosine - r * omega * omega * sine),
+                }
+            }
+            Self::Table { rows } => along(rows, t),
+        }
+    }
+}
+
+/// The smooth rise from 0 to 1 with its derivatives.
+fn rise(t: f64, over: f64) -> [f64; 3] {
+    if t >= over {
+        return [1.0, 0.0, 0.0];
+    }
+    let x = t / over;
+    [
+        x * x * x * (10.0 + x * (6.0 * x - 15.0)),
+        30.0 * x * x * (1.0 - x) * (1.0 - x) / over,
+        60.0 * x * (1.0 - x) * (1.0 - 2.0 * x) / (over * over),
+    ]
+}
+
+fn along(rows: &[[f64; 2]], t: f64) -> Stage {
+    let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
+        return Stage::default();
+    };
+    if t <= first[0] {
+        return Stage::default();
+    }
+    if t >= last[0] {
+        return Stage {
+            value: last[1] - first[1],
+            ..Stage::default()
+        };
+    }
+    let k = rows.partition_point(|row| row[0] <= t) - 1;
+    let ([t0, s0], [t1, s1]) = (rows[k], rows[k + 1]);
+    let (dt, x) = (t1 - t0, (t - t0) / (t1 - t0));
+    let (m0, m1) = (slope(rows, k) * dt, slope(rows, k + 1) * dt);
+    // s0 + m0 x + b x² + a x³ with the given slopes at both ends.
+    let rise = s1 - s0;
+    let b = 3.0 * rise - 2.0 * m0 - m1;
+    let a = m0 + m1 - 2.0 * rise;
+    Stage {
+        value: s0 - first[1] + x * (m0 + x * (b + x * a)),
+        rate: (m0 + x * (2.0 * b + x * 3.0 * a)) / dt,
+        acceleration: (2.0 * b + 6.0 * a * x) / (dt * dt),
+    }
+}
+
+/// Slope of the parabola through a row and its neighbours; 0 at both ends, where the rest begins.
+fn slope(rows: &[[f64; 2]], k: usize) -> f64 {
+    if k == 0 || k + 1 == rows.len() {
+        return 0.0;
+    }
+    let [before, here, after] = [rows[k - 1], rows[k], rows[k + 1]];
+    let (h0, h1) = (here[0] - before[0], after[0] - here[0]);
+    let (d0, d1) = ((here[1] - before[1]) / h0, (after[1] - here[1]) / h1);
+    (d0 * h1 + d1 * h0) / (h0 + h1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_are_those_of_the_value() {
+        let rows = vec![[0.0, 0.0], [0.3, 0.1], [0.5, 0.4], [1.2, 0.2], [2.0, 0.9]];
+        let courses = [
+            Course::Steady { speed: 0.7 },
+            Course::Ramp {
+                speed: -1.3,
+                over: 0.8,
+            },
+            Course::Sine {
+                amplitude: 0.2,
+                period: 1.3,
+                phase: 0.4,
+                ramp: 1.1,
+            },
+            Course::Table { rows },
+        ];
+        for course in &courses {
+            assert!(course.is_sound() && course.moves());
+            for t in [0.11, 0.41, 0.77, 0.95, 1.5, 1.93] {
+                let h = 1e-5;
+                let [before, here, after] = [t - h, t, t + h].map(|t| course.at(t));
+                let rate = (after.value - before.value) / (2.0 * h);
+                let acceleration = (after.rate - before.rate) / (2.0 * h);
+                assert!((rate - here.rate).abs() < 1e-8, "{course:?} at {t}");
+                assert!(
+                    (acceleration - here.acceleration).abs() < 1e-6,
+                    "{course:?} at {t}: {acceleration} {}",
+                    here.acceleration
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn courses_start_from_zero_and_tables_end_at_rest() {
+        let sine = Course::Sine {
+            amplitude: 2.0,
+            period: 1.0,
+            phase: 1.0,
+            ramp: 0.0,
+        };
+        assert_eq!(sine.at(0.0).value, 0.0);
+        let table = Course::Table {
+            rows: vec![[0.5, 0.0], [1.0, 3.0]],
+        };
+        assert_eq!(table.at(0.2), Stage::default());
+        assert_eq!(table.at(7.0).value, 3.0);
+        assert_eq!(table.at(7.0).rate, 0.0);
+        // A cubic is met exactly at its instants, a parabola everywhere between inner rows.
+        let parabola: Vec<[f64; 2]> = (0..6).map(|k| k as f64).map(|t| [t, t * t]).collect();
+        let table = Course::Table { rows: parabola };
+        assert!((table.at(2.25).value - 2.25 * 2.25).abs() < 1e-14);
+    }
+
+    #[test]
+    fn unsound_courses_are_told() {
+        let table = |rows: Vec<[f64; 2]>| Course::Table { rows };
+        assert!(!table(vec![[0.0, 0.0]]).is_sound());
+        assert!(!table(vec![[0.0, 0.0], [0.0, 1.0]]).is_sound());
+        assert!(
+            !Course::Ramp {
+                speed: 1.0,
+                over: 0.0
+            }
+            .is_sound()
+        );
+        assert!(!Course::Steady { speed: f64::NAN }.is_sound());
+    }
+}

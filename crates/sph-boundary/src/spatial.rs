@@ -1,0 +1,15 @@
+//! γ and ∇γ of planar wall facets in closed form.
+
+mod edge;
+mod facet;
+mod knot;
+mod renormalisation;
+mod sum;
+mod table;
+mod vector;
+mod weight;
+mod winding;
+
+pub use facet::FacetIntegral;
+pub use renormalisation::Renormalisation3d;
+pub use sum::GammaSum3d;

@@ -1,0 +1,142 @@
+//! One directed edge of a facet as the point sees it.
+
+use super::knot::End;
+use super::vector::{Vector, cross, dot, plus};
+use super::winding::Winding;
+
+/// Below this distance over h the logarithmic terms, of order A² ln A, are no longer counted.
+const NO_LOGARITHM: f64 = 1e-30;
+
+/// An edge in the frame of its line, everything over h.
+#[derive(Clone, Copy)]
+pub(super) struct Edge {
+    pub from: End,
+    pub to: End,
+    /// D: signed distance of the foot from the line, > 0 on the facet's side.
+    pub offset: f64,
+    /// A²: squared distance of the point from the line.
+    pub a2: f64,
+    /// a of the point over the plane, as this edge and the normal have it.
+    pub height: f64,
+    /// Squared distance of the point from the edge.
+    pub distance2: f64,
+}
+
+/// The part of an edge in the sphere of a knot.
+pub(super) enum Clip {
+    Inside,
+    Outside,
+    /// From the first to the second end, which may be those of the edge.
+    Between(End, End),
+}
+
+impl Edge {
+    /// Corners relative to the point, their squared distances, the edge's squared length.
+    ///
+    /// The perpendicular from the point to the line is the same bit for bit when the edge is
+    /// turned round. The angle between the two facets at the edge, as the point sees it, then comes
+    /// out exactly however close the point is.
+    #[inline]
+    pub fn seen(corners: [Vector; 2], r2: [f64; 2], along: Vector, l2: f64, n: Vector) -> Self {
+        let [r1, r2_] = corners;
+        let per_l = 1.0 / l2.sqrt();
+        let t = [along[0] * per_l, along[1] * per_l, along[2] * per_l];
+        let y = [dot(r1, t), dot(r2_, t)];
+        let first = r2[0] < r2[1] || (r2[0] == r2[1] && r1 < r2_);
+        let perpendicular = if first {
+            plus(r1, -y[0], t)
+        } else {
+            plus(r2_, -y[1], t)
+        };
+        let a2 = dot(perpendicular, perpendicular);
+        let (nearest, distance2) = if y[0] >= 0.0 {
+            (r1, r2[0])
+        } else if y[1] <= 0.0 {
+            (r2_, r2[1])
+        } else {
+            (perpendicular, a2)
+        };
+        Self {
+            from: End {
+                y: y[0],
+                q: r2[0].sqrt(),
+            },
+            to: End {
+                y: y[1],
+                q: r2[1].sqrt(),
+            },
+            offset: -dot(perpendicular, cross(n, t)),
+            a2,
+            height: -dot(nearest, n),
+            distance2,
+        }
+    }
+
+    #[inline]
+    pub fn clip(&self, radius: f64, radius_squared: f64) -> Clip {
+        let beyond = [self.from.q >= radius, self.to.q >= radius];
+        if !(beyond[0] || beyond[1]) {
+            return Clip::Inside;
+        }
+        let reach2 = radius_squared - self.a2;
+        if reach2 <= 0.0 || (beyond[0] && self.from.y >= 0.0) || (beyond[1] && self.to.y <= 0.0) {
+            return Clip::Outside;
+        }
+        let reach = reach2.sqrt();
+        let end = |y| End { y, q: radius };
+        let from = if beyond[0] { end(-reach) } else { self.from };
+        let to = if beyond[1] { end(reach) } else { self.to };
+        Clip::Between(from, to)
+    }
+
+    /// φ of the whole edge.
+    #[inline]
+    pub fn angle(&self) -> f64 {
+        let (y1, y2) = (self.from.y, self.to.y);
+        let cos = self.offset * self.offset + y1 * y2;
+        (self.offset * (y2 - y1)).atan2(cos)
+    }
+
+    /// φ of what a clip has cut off.
+    #[inline]
+    pub fn angle_outside(&self, from: End, to: End) -> f64 {
+        let d = self.offset;
+        let mut sum = Winding::NONE;
+        for (y1, y2) in [(self.from.y, from.y), (to.y, self.to.y)] {
+            if y2 > y1 {
+                sum.add(d * d + y1 * y2, d * (y2 - y1));
+            }
+        }
+        sum.angle()
+    }
+
+    /// Θ between two ends.
+    #[inline]
+    pub fn solid_angle(&self, from: End, to: End) -> f64 {
+        let (d, depth) = (self.offset, self.height.abs());
+        let d2 = d * d;
+        let sides = |end: End| {
+            let y2 = end.y * end.y;
+            let sin = d * end.y * (d2 + y2);
+            let cos = (d2 * end.q + depth * y2) * (end.q + depth);
+            [cos, sin]
+        };
+        let ([c1, s1], [c2, s2]) = (sides(from), sides(to));
+        (s2 * c1 - s1 * c2).atan2(c1 * c2 + s1 * s2)
+    }
+
+    /// asinh(y/A) between two ends, with one logarithm and without cancellation.
+    #[inline]
+    pub fn logarithm(&self, from: End, to: End) -> f64 {
+        let (far_from, far_to) = (from.y.abs() + from.q, to.y.abs() + to.q);
+        if from.y >= 0.0 {
+            (far_to / far_from).ln()
+        } else if to.y <= 0.0 {
+            (far_from / far_to).ln()
+        } else if self.a2 < NO_LOGARITHM * NO_LOGARITHM {
+            0.0
+        } else {
+            (far_to * far_from / self.a2).ln()
+        }
+    }
+}

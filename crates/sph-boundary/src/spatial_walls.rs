@@ -1,0 +1,281 @@
+//! Walls in space: triangles for the wall treatments.
+
+use sph_core::Vect;
+use sph_kernels::PiecewisePolynomial;
+use sph_neighbours::Contact;
+
+use crate::outline::groups;
+use crate::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
+use crate::{
+    BoundaryError, Closest, Drawing, Feature, GammaSum3d, NearTriangle, PeriodicBox, Pose,
+    Renormalisation3d, Surface, TriangleGrid, TriangleMesh, WallSpec,
+};
+
+/// Surfaces remeshed at the particle spacing, with the grid that finds their triangles.
+#[derive(Debug)]
+pub struct SpatialWalls {
+    mesh: TriangleMesh,
+    grid: TriangleGrid,
+    reach: f64,
+    domain: PeriodicBox<3>,
+}
+
+/// Two places nearer than this, relatively, are equally near.
+const EQUALLY_NEAR: f64 = 1.0 + 1e-9;
+/// A place is in a plane if it is this near to it, relatively.
+const SAME_PLANE: f64 = 1e-6;
+
+/// A triangle with its closest place, the vector there and its length.
+type Seen<'a> = (&'a NearTriangle, Closest, Vect<3>, f64);
+
+impl SpatialWalls {
+    /// The triangles of a sorted row by face and image, one group after the other.
+    fn faces<'a>(
+        &'a self,
+        row: &'a [NearTriangle],
+    ) -> impl Iterator<Item = &'a [NearTriangle]> + 'a {
+        let face = |near: &NearTriangle| self.mesh.triangles()[near.triangle as usize].face;
+        row.chunk_by(move |a, b| a.image == b.image && face(a) == face(b))
+    }
+}
+
+impl WallMesh<3> for SpatialWalls {
+    type Near = NearTriangle;
+    type Integrals = Renormalisation3d;
+
+    fn build(
+        walls: &[WallSpec<3>],
+        spacing: f64,
+        reach: f64,
+        domain: &PeriodicBox<3>,
+    ) -> Result<Self, BoundaryError> {
+        let mut surfaces: Vec<Surface> = Vec::new();
+        for spec in walls {
+            match &spec.drawing {
+                Drawing::Surface(surface) => surfaces.push(surface.clone()),
+                Drawing::Line(line) => {
+                    let wall = line.name.clone();
+                    return Err(BoundaryError::Dimension { wall, dimension: 3 });
+                }
+            }
+        }
+        let mesh = TriangleMesh::build(&surfaces, &groups(walls), spacing, domain)?;
+        Ok(SpatialWalls {
+            grid: TriangleGrid::build(&mesh, reach),
+            mesh,
+            reach,
+            domain: *domain,
+        })
+    }
+
+    fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation3d, BoundaryError> {
+        Renormalisation3d::new(shape, h)
+    }
+
+    fn names(&self) -> &[String] {
+        self.mesh.walls()
+    }
+
+    fn points(&self) -> impl Iterator<Item = MeshPoint<3>> + '_ {
+        let mut normals = vec![Vect::<3>::zeros(); self.mesh.nodes().len()];
+        for triangle in self.mesh.triangles() {
+            for node in triangle.nodes {
+                normals[node] += Vect::from(triangle.normal) * triangle.area;
+            }
+        }
+        let nodes = self.mesh.nodes().iter();
+        nodes.zip(normals).map(|(node, normal)| MeshPoint {
+            position: node.position.into(),
+            normal: normal.try_normalize(0.0).unwrap_or_else(Vect::zeros),
+            theta: node.theta,
+            size: node.size,
+            wall: node.wall,
+        })
+    }
+
+    fn elements(&self) -> impl Iterator<Item = MeshElement<3>> + '_ {
+        self.mesh.triangles().iter().map(|triangle| MeshElement {
+            centre: triangle.centre.into(),
+            normal: triangle.normal.into(),
+            measure: triangle.area,
+            wall: triangle.wall,
+            corners: triangle.nodes.map(|n| n as u32),
+        })
+    }
+
+    fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {
+        self.mesh.move_walls(poses)?;
+        self.grid = TriangleGrid::build(&self.mesh, self.reach);
+        Ok(())
+    }
+
+    fn near(&self, point: &Vect<3>, radius: f64) -> Vec<NearTriangle> {
+        let radius = radius.min(self.reach);
+        let near = self.grid.near(&self.mesh, (*point).into(), radius);
+        let mut near: Vec<_> = near.collect();
+        let triangles = self.mesh.triangles();
+        near.sort_unstable_by_key(|n| {
+            let face = triangles[n.triangle as usize].face;
+            (face, n.image, n.triangle)
+        });
+        near
+    }
+
+    /// γ and the sum of ∇γ are exact over every planar face; the sum is shared out to the face's
+    /// triangles by quadrature.
+    fn gamma(
+        &self,
+        integrals: &Renormalisation3d,
+        point: &Vect<3>,
+        row: &[NearTriangle],
+        contacts: &mut Vec<Contact<3>>,
+    ) -> f64 {
+        let x: [f64; 3] = (*point).into();
+        let radius = integrals.kernel_radius();
+        let mut sum = GammaSum3d::default();
+        for part in self.faces(row) {
+            let first = &self.mesh.triangles()[part[0].triangle as usize];
+            let normal = Vect::from(first.normal);
+            let corner = Vect::from(self.mesh.corners_from(x, part[0])[0]);
+            let height = -corner.dot(&normal);
+            if height.abs() >= radius {
+                continue;
+            }
+            let edges = self.mesh.face_edges_from(x, first.face, part[0].image);
+            let whole = integrals.polygon(height, first.normal, edges);
+            sum.add(&whole, first.normal);
+            if whole.kernel == 0.0 {
+                continue;
+            }
+            let from = contacts.len();
+            let mut total = 0.0;
+            for near in part {
+                let triangle = &self.mesh.triangles()[near.triangle as usize];
+                let corners = self.mesh.corners_from(x, *near);
+                let weight = integrals.weight(corners, triangle.normal, triangle.area);
+                if weight > 0.0 {
+                    total += weight;
+                    contacts.push(Contact {
+                        element: near.triangle,
+                        gradient: normal * weight,
+                        distance: height,
+                    });
+                }
+            }
+            let scale = whole.kernel / total;
+            let shares = contacts[from..].iter_mut();
+            shares.for_each(|c| c.gradient *= scale);
+        }
+        sum.gamma()
+    }
+
+    fn hindrances(
+        &self,
+        point: &Vect<3>,
+        row: &[NearTriangle],
+        reach: f64,
+        hindrances: &mut Vec<Hindrance<3>>,
+    ) {
+        let x: [f64; 3] = (*point).into();
+        let all: Vec<_> = row
+            .iter()
+            .map(|near| {
+                let closest = self.mesh.closest(x, *near);
+                let offset = Vect::from(closest.offset);
+                (near, closest, offset, offset.norm())
+            })
+            .filter(|(_, closest, _, distance)| closest.height > 0.0 && *distance <= reach)
+            .collect();
+        for (near, closest, offset, distance) in &all {
+            // A place on the rim of a triangle counts where it is the nearest of the wall around:
+            // on an edge that stands out, not where the plane beyond the rim is nearer.
+            let beyond = |other: &Seen| {
+                let normal = Vect::from(self.mesh.triangles()[other.0.triangle as usize].normal);
+                let apart = offset - other.2;
+                other.3 * EQUALLY_NEAR < *distance
+                    && apart.dot(&normal).abs() < SAME_PLANE * distance
+                    && apart.norm() < 2.0 * distance
+            };
+            if *distance == 0.0 || (closest.feature != Feature::Face && all.iter().any(beyond)) {
+                continue;
+            }
+            hindrances.push(Hindrance {
+                away: -offset / *distance,
+                distance: *distance,
+                only_if: None,
+                wall: self.mesh.triangles()[near.triangle as usize].wall,
+                place: point + offset,
+            });
+        }
+    }
+
+    fn contains(&self, point: &Vect<3>) -> bool {
+        self.mesh.contains((*point).into())
+    }
+
+    fn nearest(&self, point: &Vect<3>, within: f64) -> Option<(f64, usize)> {
+        let x: [f64; 3] = (*point).into();
+        let near = self.grid.near(&self.mesh, x, within.min(self.reach));
+        near.map(|near| {
+            let offset = Vect::from(self.mesh.closest(x, near).offset);
+            (offset.norm(), near.triangle)
+        })
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(d, triangle)| (d, self.mesh.triangles()[triangle as usize].wall))
+    }
+
+    fn signed_distance(
+        &self,
+        point: &Vect<3>,
+        within: f64,
+        of: &dyn Fn(usize) -> bool,
+    ) -> Option<f64> {
+        let x: [f64; 3] = (*point).into();
+        let mut nearest = (f64::INFINITY, 0.0_f64);
+        for near in self.grid.near(&self.mesh, x, within.min(self.reach)) {
+            if !of(self.mesh.triangles()[near.triangle as usize].wall) {
+                continue;
+            }
+            let closest = self.mesh.closest(x, near);
+            let distance = Vect::from(closest.offset).norm();
+            // Triangles at an edge are equally near; the one seen more from above decides, and of
+            // two that face each other the one seen from its front.
+            let same = (distance - nearest.0).abs() <= 1e-9 * distance;
+            let decides = match same {
+                true => {
+                    let (new, old) = (closest.height.abs(), nearest.1.abs());
+                    new > old * (1.0 + 1e-9) || (new >= old * (1.0 - 1e-9) && closest.height > 0.0)
+                }
+                false => distance < nearest.0,
+            };
+            if decides {
+                nearest = (distance, closest.height);
+            }
+        }
+        let sign = if nearest.1 >= 0.0 { 1.0 } else { -1.0 };
+        nearest.0.is_finite().then_some(sign * nearest.0)
+    }
+
+    fn bounds(&self) -> Option<(Vect<3>, Vect<3>)> {
+        let places = || self.mesh.nodes().iter().map(|n| Vect::from(n.position));
+        let low = places().reduce(|a, b| a.inf(&b))?;
+        Some((low, places().reduce(|a, b| a.sup(&b))?))
+    }
+
+    fn check_free_ends(&self, points: &[Vect<3>], radius: f64) -> Result<(), BoundaryError> {
+        if self.mesh.free_edges().is_empty() {
+            return Ok(());
+        }
+        let points: Vec<[f64; 3]> = points.iter().map(|p| (*p).into()).collect();
+        self.mesh.check_free_edges(&points, radius)
+    }
+
+    fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<3>)> {
+        crate::lattice_layers::layers(self, &self.domain, spacing, support)
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let all = self.mesh.warnings().iter();
+        all.map(ToString::to_string).collect()
+    }
+}

@@ -1,0 +1,268 @@
+//! Edges of the planar pieces, cut at the spacing alike for all pieces that share them.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::Surface;
+use super::error::SurfaceError;
+use super::patches::Patch;
+use super::places::{EdgeKey, Places, SAME_PLACE, Site, edge_key};
+use super::vector::{Point, along, bounds, dot, norm, sub};
+
+/// Nodes of the mesh while it is built.
+#[derive(Default)]
+pub(super) struct Nodes {
+    pub positions: Vec<Point>,
+    pub walls: Vec<usize>,
+    /// The node at each corner of a patch.
+    pub at_corner: HashMap<u32, u32>,
+    /// First of the nodes within each straight piece of an edge, and the number of equal parts.
+    within: HashMap<EdgeKey, (u32, u32)>,
+}
+
+impl Nodes {
+    pub fn push(&mut self, position: Point, wall: usize) -> u32 {
+        self.positions.push(position);
+        self.walls.push(wall);
+        self.positions.len() as u32 - 1
+    }
+
+    pub fn corner(&mut self, corner: Site, places: &Places, wall: usize) -> Site {
+        let id = match self.at_corner.get(&corner.id) {
+            Some(id) => *id,
+            None => {
+                let id = self.push(places.positions[corner.id as usize], wall);
+                self.at_corner.insert(corner.id, id);
+                id
+            }
+        };
+        Site { id, ..corner }
+    }
+
+    /// Nodes from `from` up to but without `to`, along a straight piece of an edge.
+    fn piece(
+        &mut self,
+        [from, to]: [Site; 2],
+        places: &Places,
+        wall: usize,
+        spacing: f64,
+    ) -> Vec<Site> {
+        let (key, forward, image) = edge_key(from, to);
+        let mut nodes = vec![self.corner(from, places, wall)];
+        let (first, parts) = match self.within.get(&key) {
+            Some(known) => *known,
+            None => {
+                let start = places.positions[key.first as usize];
+                let whole = sub(places.at(key.second), start);
+                let parts = ((norm(whole) / spacing).round() as u32).max(1);
+                let first = self.positions.len() as u32;
+                for k in 1..parts {
+                    let part = f64::from(k) / f64::from(parts);
+                    self.push(along(start, part, whole), wall);
+                }
+                self.within.insert(key, (first, parts));
+                (first, parts)
+            }
+        };
+        let site = |k: u32| Site {
+            id: first + k,
+            image,
+        };
+        if forward {
+            nodes.extend((0..parts - 1).map(site));
+        } else {
+            nodes.extend((0..parts - 1).rev().map(site));
+        }
+        nodes
+    }
+}
+
+/// Where every edge of the patches is cut by corners of the patches of its group.
+pub(super) struct Cuts {
+    /// Corners along the edge, both ends included, from the key's first end.
+    chains: HashMap<EdgeKey, Vec<Site>>,
+}
+
+impl Cuts {
+    pub fn new(patches: &[Patch], places: &Places, spacing: f64) -> Self {
+        let corners = CornerGrid::new(patches, places, spacing);
+        let mut chains = HashMap::new();
+        for edge in patches.iter().flat_map(|patch| &patch.boundary) {
+            let (key, ..) = edge_key(edge[0], edge[1]);
+            chains
+                .entry(key)
+                .or_insert_with(|| corners.along(&key, places));
+        }
+        Self { chains }
+    }
+
+    /// The corners along an edge in the direction in which it is travelled, both ends included.
+    pub fn along(&self, [from, to]: [Site; 2]) -> Vec<Site> {
+        let (key, forward, image) = edge_key(from, to);
+        let mut chain: Vec<Site> = self.chains[&key].iter().map(|c| c.moved(image)).collect();
+        if !forward {
+            chain.reverse();
+        }
+        chain
+    }
+
+    /// Nodes along an edge, both corners included.
+    pub fn nodes(
+        &self,
+        edge: [Site; 2],
+        places: &Places,
+        nodes: &mut Nodes,
+        wall: usize,
+        spacing: f64,
+    ) -> Vec<Site> {
+        let chain = self.along(edge);
+        let pieces = chain.windows(2);
+        let mut sites: Vec<Site> = pieces
+            .flat_map(|pair| nodes.piece([pair[0], pair[1]], places, wall, spacing))
+            .collect();
+        sites.push(nodes.corner(edge[1], places, wall));
+        sites
+    }
+}
+
+/// Corners of all patches, with the images that come near the walls, in cells.
+struct CornerGrid {
+    size: f64,
+    tolerance: f64,
+    cells: HashMap<[i64; 3], Vec<Site>>,
+}
+
+impl CornerGrid {
+    fn new(patches: &[Patch], places: &Places, spacing: f64) -> Self {
+        let corners = || patches.iter().flat_map(|p| p.boundary.iter().flatten());
+        let [low, high] = bounds(corners().map(|c| places.at(*c)));
+        let edges = || patches.iter().flat_map(|p| &p.boundary);
+        let length = |e: &[Site; 2]| norm(sub(places.at(e[1]), places.at(e[0])));
+        let mean = edges().map(length).sum::<f64>() / edges().count().max(1) as f64;
+        let mut grid = Self {
+            size: (2.0 * mean).max(SAME_PLACE * spacing),
+            // Corners left out of a straight edge lie off it by up to one tolerance.
+            tolerance: 2.0 * SAME_PLACE * spacing,
+            cells: HashMap::new(),
+        };
+        let mut ids: Vec<u32> = corners().map(|c| c.id).collect();
+        ids.sort_unstable();
+        ids.dedup();
+        let periods = places.domain.periods();
+        let images = |k: usize, x: f64| {
+            if !places.domain.periodic[k] {
+                return 0..=0;
+            }
+            // An edge starts from its key's first end, which may be drawn a period elsewhere.
+            let (low, high) = (low[k] - periods[k], high[k] + periods[k]);
+            ((low - x) / periods[k]).ceil() as i32..=((high - x) / periods[k]).floor() as i32
+        };
+        for id in ids {
+            let at = places.positions[id as usize];
+            for i in images(0, at[0]) {
+                for j in images(1, at[1]) {
+                    for k in images(2, at[2]) {
+                        let image = [i, j, k];
+                        let site = Site { id, image };
+                        let cell = places.at(site).map(|x| grid.cell(x));
+                        grid.cells.entry(cell).or_default().push(site);
+                    }
+                }
+            }
+        }
+        grid
+    }
+
+    fn cell(&self, x: f64) -> i64 {
+        (x / self.size).floor() as i64
+    }
+
+    /// Corners on an edge, from end to end.
+    fn along(&self, key: &EdgeKey, places: &Places) -> Vec<Site> {
+        let first = Site {
+            id: key.first,
+            image: [0; 3],
+        };
+        let [start, end] = [first, key.second].map(|c| places.at(c));
+        let whole = sub(end, start);
+        let length2 = dot(whole, whole);
+        let group = places.groups[key.first as usize];
+        let pieces = ((length2.sqrt() / self.size) as usize).max(1);
+        let mut met: Vec<(f64, Site)> = Vec::new();
+        for piece in 0..pieces {
+            let at = |k: usize| along(start, k as f64 / pieces as f64, whole);
+            let [low, high] = bounds([at(piece), at(piece + 1)]);
+            let range =
+                |k: usize| self.cell(low[k] - self.tolerance)..=self.cell(high[k] + self.tolerance);
+            for i in range(0) {
+                for j in range(1) {
+                    for k in range(2) {
+                        for corner in self.cells.get(&[i, j, k]).into_iter().flatten() {
+                            let to = sub(places.at(*corner), start);
+                            let part = dot(to, whole) / length2;
+                            let off = norm(along(to, -part, whole));
+                            let within = part > 0.0 && part < 1.0 && off <= self.tolerance;
+                            let same = places.groups[corner.id as usize] == group;
+                            if within && same && *corner != first && *corner != key.second {
+                                met.push((part, *corner));
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        met.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        met.dedup_by_key(|(_, corner)| *corner);
+        let between = met.into_iter().map(|(_, corner)| corner);
+        std::iter::once(first)
+            .chain(between)
+            .chain([key.second])
+            .collect()
+    }
+}
+
+/// Walls that travel a piece of an edge in one direction, each with its ends.
+type Travelled = Vec<(usize, [Site; 2])>;
+
+/// Ends of the straight pieces of edges that no other patch continues.
+///
+/// # Errors
+/// Walls that meet with the fluid on opposite sides.
+pub(super) fn free_pieces(
+    surfaces: &[Surface],
+    patches: &[Patch],
+    cuts: &Cuts,
+    places: &Places,
+) -> Result<Vec<[Site; 2]>, SurfaceError> {
+    // Of every piece: the walls that travel it with and against its key.
+    let mut walls: BTreeMap<EdgeKey, [Travelled; 2]> = BTreeMap::new();
+    for patch in patches {
+        for edge in &patch.boundary {
+            for pair in cuts.along(*edge).windows(2) {
+                let ends = [pair[0], pair[1]];
+                let (key, forward, _) = edge_key(ends[0], ends[1]);
+                let both = walls.entry(key).or_default();
+                both[usize::from(!forward)].push((patch.wall, ends));
+            }
+        }
+    }
+    let mut free = Vec::new();
+    for [with, against] in walls.values() {
+        let (more, fewer) = match with.len() > against.len() {
+            true => (with, against),
+            false => (against, with),
+        };
+        match more.len() - fewer.len() {
+            0 => {}
+            1 => free.push(more[0].1),
+            _ => {
+                let [a, b] = more[0].1.map(|c| places.at(c));
+                return Err(SurfaceError::Opposed {
+                    wall: surfaces[more[0].0].name.clone(),
+                    other: surfaces[more[1].0].name.clone(),
+                    at: std::array::from_fn(|k| 0.5 * (a[k] + b[k])),
+                });
+            }
+        }
+    }
+    Ok(free)
+}

@@ -1,0 +1,182 @@
+//! Triangles near a point.
+
+use super::closest::nearest_to_origin;
+use super::vector::{Point, add, bounds, dot};
+use super::{NearTriangle, TriangleMesh};
+
+/// Most cells per registered triangle: a grid over a vast empty box is made coarser.
+const CELLS_PER_ENTRY: usize = 8;
+
+/// Size of a cell over the reach.
+const PART_OF_REACH: f64 = 0.25;
+
+/// A uniform grid whose cells list the triangles with their centre in them.
+///
+/// Every image of a triangle that comes near the box is listed once, in 8 bytes. A query looks at
+/// all cells within its radius; one far from all walls finds nothing and costs nothing.
+#[derive(Clone, Debug)]
+pub struct TriangleGrid {
+    reach: f64,
+    /// Largest extent of a triangle from its centre along each axis, m.
+    margin: [f64; 3],
+    lower: [f64; 3],
+    per_cell: f64,
+    cells: [usize; 3],
+    /// Start of every cell's list, and the end of the last one.
+    starts: Vec<u32>,
+    entries: Vec<NearTriangle>,
+}
+
+impl TriangleGrid {
+    /// Lists for the present position of the walls and queries up to the radius `reach`, m.
+    ///
+    /// With periodic directions, points in the box or within `reach` of it are served.
+    pub fn build(mesh: &TriangleMesh, reach: f64) -> Self {
+        let mut margin = [0.0; 3];
+        for (t, triangle) in mesh.triangles().iter().enumerate() {
+            for corner in mesh.corners(t) {
+                margin = std::array::from_fn(|k: usize| {
+                    f64::max(margin[k], (corner[k] - triangle.centre[k]).abs())
+                });
+            }
+        }
+        // Rounding loses nothing.
+        let margin = margin.map(|x: f64| x * (1.0 + 1e-9));
+        let images = images(mesh, 2.0 * reach, margin);
+        let [lower, upper] = bounds(images.iter().map(|(_, centre)| *centre));
+        let extent: Point = std::array::from_fn(|k| (upper[k] - lower[k]).max(0.0));
+        let limit = (CELLS_PER_ENTRY * images.len()).max(1) as f64;
+        let mut size = (PART_OF_REACH * reach).max(f64::MIN_POSITIVE);
+        while extent.iter().map(|x| (x / size).ceil()).product::<f64>() > limit {
+            size *= 1.5;
+        }
+        let cells = extent.map(|width| (width / size) as usize + 1);
+        let mut grid = Self {
+            reach,
+            margin,
+            lower,
+            per_cell: 1.0 / size,
+            cells,
+            starts: vec![0; cells[0] * cells[1] * cells[2] + 1],
+            entries: vec![NearTriangle::default(); images.len()],
+        };
+        grid.fill(&images);
+        grid
+    }
+
+    /// Counts, then places: the order of `images` is kept in every cell.
+    fn fill(&mut self, images: &[(NearTriangle, Point)]) {
+        let cell = |grid: &Self, centre: Point| {
+            let [i, j, k] = [0, 1, 2].map(|axis| {
+                let x = (centre[axis] - grid.lower[axis]) * grid.per_cell;
+                (x as usize).min(grid.cells[axis] - 1)
+            });
+            grid.index([i, j, k])
+        };
+        for (_, centre) in images {
+            let cell = cell(self, *centre);
+            self.starts[cell + 1] += 1;
+        }
+        for cell in 1..self.starts.len() {
+            self.starts[cell] += self.starts[cell - 1];
+        }
+        let mut next = self.starts.clone();
+        for (near, centre) in images {
+            let cell = cell(self, *centre);
+            self.entries[next[cell] as usize] = *near;
+            next[cell] += 1;
+        }
+    }
+
+    fn index(&self, [i, j, k]: [usize; 3]) -> usize {
+        (k * self.cells[1] + j) * self.cells[0] + i
+    }
+
+    /// Images of triangles nearer than `radius` to a point, ascending by triangle, then image;
+    /// `radius` at most the reach of the grid.
+    pub fn near<'a>(
+        &'a self,
+        mesh: &'a TriangleMesh,
+        point: [f64; 3],
+        radius: f64,
+    ) -> impl Iterator<Item = NearTriangle> + 'a {
+        debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
+        let mut found = Vec::new();
+        if let Some([first, last]) = self.cells_within(point, radius) {
+            for k in first[2]..=last[2] {
+                for j in first[1]..=last[1] {
+                    let row = self.index([first[0], j, k])..=self.index([last[0], j, k]);
+                    let from = self.starts[*row.start()] as usize;
+                    let to = self.starts[*row.end() + 1] as usize;
+                    let near = |n: &&NearTriangle| {
+                        if self.is_far(mesh, point, **n, radius) {
+                            return false;
+                        }
+                        let (offset, _) = nearest_to_origin(mesh.corners_from(point, **n));
+                        dot(offset, offset) < radius * radius
+                    };
+                    found.extend(self.entries[from..to].iter().filter(near).copied());
+                }
+            }
+        }
+        found.sort_unstable();
+        found.into_iter()
+    }
+
+    /// Whether the centre alone says that a triangle is out of reach.
+    fn is_far(&self, mesh: &TriangleMesh, point: Point, near: NearTriangle, radius: f64) -> bool {
+        let mut centre = mesh.triangles()[near.triangle as usize].centre;
+        if near.image != [0; 3] {
+            centre = add(centre, mesh.domain().shift(near.image.map(i32::from)));
+        }
+        (0..3).any(|k| (centre[k] - point[k]).abs() > radius + self.margin[k])
+    }
+
+    /// First and last cell along each axis with centres of triangles that may be in reach.
+    fn cells_within(&self, point: [f64; 3], radius: f64) -> Option<[[usize; 3]; 2]> {
+        let mut range = [[0; 3]; 2];
+        for k in 0..3 {
+            let at = (point[k] - self.lower[k]) * self.per_cell;
+            let around = (radius + self.margin[k]) * self.per_cell;
+            let (low, high) = (at - around, at + around);
+            if self.entries.is_empty() || high < 0.0 || low >= self.cells[k] as f64 {
+                return None;
+            }
+            range[0][k] = low.max(0.0) as usize;
+            range[1][k] = (high as usize).min(self.cells[k] - 1);
+        }
+        Some(range)
+    }
+
+    /// Bytes that the grid holds.
+    pub fn memory(&self) -> usize {
+        size_of_val(self.starts.as_slice()) + size_of_val(self.entries.as_slice())
+    }
+}
+
+/// Every image of every triangle that comes within `reach` of the box, with its centre.
+fn images(mesh: &TriangleMesh, reach: f64, margin: [f64; 3]) -> Vec<(NearTriangle, Point)> {
+    let domain = mesh.domain();
+    let mut images = Vec::with_capacity(mesh.triangles().len());
+    for (t, triangle) in mesh.triangles().iter().enumerate() {
+        let centre = triangle.centre;
+        let range = |k: usize| {
+            let images = domain.images(k, centre[k], centre[k], reach + margin[k]);
+            // More images than a byte counts would be of a wall drawn far outside the box.
+            (*images.start()).max(-127) as i8..=(*images.end()).min(127) as i8
+        };
+        for i in range(0) {
+            for j in range(1) {
+                for k in range(2) {
+                    let near = NearTriangle {
+                        triangle: t as u32,
+                        image: [i, j, k],
+                    };
+                    let shift = domain.shift([i, j, k].map(i32::from));
+                    images.push((near, add(centre, shift)));
+                }
+            }
+        }
+    }
+    images
+}

@@ -1,0 +1,172 @@
+//! Edges that no other triangle continues.
+
+use std::collections::HashMap;
+
+use super::error::SurfaceError;
+use super::vector::{Point, add, along, bounds, dot, norm, sub};
+use super::{FreeEdge, Opening, TriangleMesh};
+use crate::error::BoundaryError;
+
+impl TriangleMesh {
+    /// Joins free edges that share a node; `pieces` are the first nodes of the straight pieces
+    /// around the openings.
+    pub(super) fn find_openings(&mut self, pieces: impl Iterator<Item = usize>) {
+        let mut at: HashMap<usize, Vec<usize>> = HashMap::new();
+        for (e, edge) in self.free_edges.iter().enumerate() {
+            for node in edge.nodes {
+                at.entry(node).or_default().push(e);
+            }
+        }
+        let mut reached = vec![false; self.free_edges.len()];
+        let mut opening_at: HashMap<usize, usize> = HashMap::new();
+        for first in 0..self.free_edges.len() {
+            if reached[first] {
+                continue;
+            }
+            reached[first] = true;
+            let mut edges = vec![first];
+            let mut next = 0;
+            while next < edges.len() {
+                for node in self.free_edges[edges[next]].nodes {
+                    opening_at.insert(node, self.openings.len());
+                    for e in &at[&node] {
+                        if !std::mem::replace(&mut reached[*e], true) {
+                            edges.push(*e);
+                        }
+                    }
+                }
+                next += 1;
+            }
+            let ends = edges
+                .iter()
+                .flat_map(|e| self.free_edge_ends(&self.free_edges[*e]));
+            let [low, high] = bounds(ends);
+            for e in edges {
+                self.free_edges[e].opening = self.openings.len();
+            }
+            self.openings.push(Opening {
+                wall: self.free_edges[first].wall,
+                edges: 0,
+                extent: norm(sub(high, low)),
+            });
+        }
+        for node in pieces {
+            if let Some(opening) = opening_at.get(&node) {
+                self.openings[*opening].edges += 1;
+            }
+        }
+    }
+
+    /// Both ends of a free edge, m.
+    pub fn free_edge_ends(&self, edge: &FreeEdge) -> [Point; 2] {
+        [0, 1].map(|k| self.node_at(edge.nodes[k], edge.images[k]))
+    }
+
+    /// Refuses a free edge within the kernel radius of any point, where γ is not defined.
+    ///
+    /// # Errors
+    /// Names the wall, its opening, the nearest point and the place next to it. Lengths in metres.
+    pub fn check_free_edges(
+        &self,
+        points: &[Point],
+        kernel_radius: f64,
+    ) -> Result<(), BoundaryError> {
+        if self.free_edges.is_empty() || points.is_empty() {
+            return Ok(());
+        }
+        let near = FreeEdgeGrid::new(self, bounds(points.iter().copied()), kernel_radius);
+        let nearest = points
+            .iter()
+            .enumerate()
+            .filter_map(|(particle, point)| Some((particle, near.nearest(*point)?)))
+            .min_by(|a, b| a.1.0.total_cmp(&b.1.0));
+        let Some((particle, (distance, edge, at))) = nearest else {
+            return Ok(());
+        };
+        let free = &self.free_edges[edge];
+        let opening = &self.openings[free.opening];
+        Err(SurfaceError::FreeEdgeInReach {
+            wall: self.walls[free.wall].clone(),
+            edges: opening.edges,
+            extent: opening.extent,
+            at,
+            particle,
+            distance,
+            radius: kernel_radius,
+        }
+        .into())
+    }
+}
+
+/// Images of the free edges in the cells that they come near to.
+struct FreeEdgeGrid {
+    radius: f64,
+    size: f64,
+    ends: Vec<(usize, [Point; 2])>,
+    cells: HashMap<[i64; 3], Vec<u32>>,
+}
+
+impl FreeEdgeGrid {
+    /// For points within some bounds.
+    fn new(mesh: &TriangleMesh, [lower, upper]: [Point; 2], radius: f64) -> Self {
+        let domain = mesh.domain();
+        let periods = domain.periods();
+        let mut grid = Self {
+            radius,
+            size: radius.max(2.0 * mesh.spacing()),
+            ends: Vec::new(),
+            cells: HashMap::new(),
+        };
+        for (e, edge) in mesh.free_edges.iter().enumerate() {
+            let ends = mesh.free_edge_ends(edge);
+            let [low, high] = bounds(ends);
+            let images = |k: usize| {
+                if !domain.periodic[k] {
+                    return 0..=0;
+                }
+                let first = ((lower[k] - radius - high[k]) / periods[k]).ceil() as i32;
+                first..=((upper[k] + radius - low[k]) / periods[k]).floor() as i32
+            };
+            for i in images(0) {
+                for j in images(1) {
+                    for k in images(2) {
+                        let shift = domain.shift([i, j, k]);
+                        grid.insert(e, ends.map(|p| add(p, shift)));
+                    }
+                }
+            }
+        }
+        grid
+    }
+
+    fn insert(&mut self, edge: usize, ends: [Point; 2]) {
+        let number = self.ends.len() as u32;
+        self.ends.push((edge, ends));
+        let [low, high] = bounds(ends);
+        let range = |k: usize| {
+            let cell = |x: f64| (x / self.size).floor() as i64;
+            cell(low[k] - self.radius)..=cell(high[k] + self.radius)
+        };
+        for i in range(0) {
+            for j in range(1) {
+                for k in range(2) {
+                    self.cells.entry([i, j, k]).or_default().push(number);
+                }
+            }
+        }
+    }
+
+    /// Distance, edge and place on it nearest to a point, if within the radius.
+    fn nearest(&self, point: Point) -> Option<(f64, usize, Point)> {
+        let cell = point.map(|x| (x / self.size).floor() as i64);
+        let edges = self.cells.get(&cell)?.iter().map(|n| {
+            let (edge, [a, b]) = self.ends[*n as usize];
+            let (t, to) = (sub(b, a), sub(point, a));
+            let part = (dot(to, t) / dot(t, t)).clamp(0.0, 1.0);
+            let at = along(a, part, t);
+            (norm(sub(point, at)), edge, at)
+        });
+        let nearest = edges.min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.filter(|(distance, ..)| *distance < self.radius)
+    }
+}

@@ -1,0 +1,129 @@
+//! Places where walls touch face to face are no boundary of the fluid.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay::{Overlay, ShapeType};
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::i_float::int::point::IntPoint;
+
+use super::crossing::Contact;
+use super::patches::{Patch, in_plane, in_space};
+use super::places::{Places, Site};
+use super::vector::sub;
+
+/// Bits of the whole numbers that span a patch: 2⁻⁴⁴ of its size is the resolution.
+const BITS: i32 = 44;
+
+/// Takes from every patch what patches of other walls cover with opposite normals.
+///
+/// The difference of polygons is taken in whole numbers; corners that come out of it are welded to
+/// those that are known, so that what is left of both walls meets in the same edges.
+pub(super) fn remove_contacts(
+    patches: &mut Vec<Patch>,
+    patch_of: &[u32],
+    contacts: &[Contact],
+    places: &mut Places,
+    groups: &[usize],
+) {
+    let mut covers: BTreeMap<u32, BTreeSet<(u32, [i32; 3])>> = BTreeMap::new();
+    for contact in contacts {
+        let [a, b] = [contact.triangle, contact.other].map(|t| patch_of[t as usize]);
+        covers.entry(a).or_default().insert((b, contact.image));
+        let back = contact.image.map(|n| -n);
+        covers.entry(b).or_default().insert((a, back));
+    }
+    if covers.is_empty() {
+        return;
+    }
+    let left: BTreeMap<u32, Vec<Patch>> = covers
+        .into_iter()
+        .map(|(p, others)| (p, difference(p as usize, &others, patches, places, groups)))
+        .collect();
+    *patches = std::mem::take(patches)
+        .into_iter()
+        .enumerate()
+        .flat_map(|(p, patch)| left.get(&(p as u32)).cloned().unwrap_or(vec![patch]))
+        .collect();
+}
+
+/// What is left of a patch without others, each moved by whole periods.
+fn difference(
+    patch: usize,
+    others: &BTreeSet<(u32, [i32; 3])>,
+    patches: &[Patch],
+    places: &mut Places,
+    groups: &[usize],
+) -> Vec<Patch> {
+    let whole = &patches[patch];
+    let [from, to] = whole.boundary[0].map(|c| places.at(c));
+    let axes = whole.axes(sub(to, from));
+    let flat = |site: Site, places: &Places| in_plane(places.at(site), whole.origin, &axes);
+    let loops_of = |other: &Patch, image: [i32; 3], places: &Places| -> Vec<Vec<[f64; 2]>> {
+        let point = |c: &Site| flat(c.moved(image), places);
+        let loops = other.loops();
+        loops
+            .iter()
+            .map(|l| l.iter().map(point).collect())
+            .collect()
+    };
+    let own = loops_of(whole, [0; 3], places);
+    let theirs: Vec<_> = others
+        .iter()
+        .flat_map(|(other, image)| loops_of(&patches[*other as usize], *image, places))
+        .collect();
+    let numbers = own.iter().chain(&theirs).flatten().flatten();
+    let size = numbers.fold(f64::MIN_POSITIVE, |m: f64, x| m.max(x.abs()));
+    // A power of two: no rounding but that to whole numbers.
+    let scale = f64::powi(2.0, BITS - size.log2().ceil() as i32);
+    let whole_numbers = |contour: &Vec<[f64; 2]>| -> Vec<IntPoint<i64>> {
+        let point = |x: &[f64; 2]| {
+            let [x, y] = x.map(|x| (x * scale).round() as i64);
+            IntPoint::new(x, y)
+        };
+        contour.iter().map(point).collect()
+    };
+    let count = own.iter().chain(&theirs).map(Vec::len).sum();
+    let mut overlay = Overlay::<i64>::new(count);
+    for contour in &own {
+        overlay.add_contour(&whole_numbers(contour), ShapeType::Subject);
+    }
+    for contour in &theirs {
+        overlay.add_contour(&whole_numbers(contour), ShapeType::Clip);
+    }
+    let shapes = overlay.overlay(OverlayRule::Difference, FillRule::NonZero);
+    let group = groups[whole.wall];
+    let mut left = Vec::new();
+    for shape in shapes {
+        let mut edges: BTreeMap<[Site; 2], i32> = BTreeMap::new();
+        for contour in &shape {
+            let corners: Vec<Site> = contour
+                .iter()
+                .map(|p| {
+                    let x = [p.x as f64 / scale, p.y as f64 / scale];
+                    places.find(in_space(x, whole.origin, &axes), group)
+                })
+                .collect();
+            for (k, a) in corners.iter().enumerate() {
+                let b = corners[(k + 1) % corners.len()];
+                // Slivers of rounding collapse: their edges run back and forth, or nowhere.
+                match edges.get_mut(&[b, *a]) {
+                    _ if *a == b => {}
+                    Some(back) if *back > 0 => *back -= 1,
+                    _ => *edges.entry([*a, b]).or_default() += 1,
+                }
+            }
+        }
+        let boundary: Vec<[Site; 2]> = edges
+            .into_iter()
+            .flat_map(|(edge, times)| std::iter::repeat_n(edge, times as usize))
+            .collect();
+        if boundary.len() >= 3 {
+            left.push(Patch {
+                boundary,
+                ..whole.clone()
+            });
+        }
+    }
+    left
+}

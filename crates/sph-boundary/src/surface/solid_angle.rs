@@ -1,0 +1,167 @@
+//! What a node stands for: the solid angle of the fluid around it and its share of the wall.
+
+use std::f64::consts::{PI, TAU};
+
+use rayon::prelude::*;
+
+use super::places::{EdgeKey, Site, edge_key};
+use super::vector::{Point, cross, dot, norm, sub};
+use super::{FreeEdge, TriangleMesh};
+
+/// Two triangles folded onto each other within this angle leave the fluid all around their edge.
+const FOLD: f64 = 1e-9;
+
+struct Half {
+    key: EdgeKey,
+    triangle: u32,
+    edge: u8,
+    forward: bool,
+}
+
+impl TriangleMesh {
+    /// Sets θ and the size of all nodes; returns the edges that no other triangle continues.
+    ///
+    /// The fluid at a node is a spherical polygon whose angles are those between triangles that
+    /// share an edge, measured in the fluid, β = π + δ. Its area is 2π + Σ δ (Gauss and Bonnet),
+    /// and θ = (2π + Σ δ) / 4π. Where several surfaces touch in a node their areas add up modulo
+    /// 4π. Around a node on a free edge the wall goes straight on: the folds that it has count
+    /// twice.
+    pub(super) fn weigh(&mut self) -> Vec<FreeEdge> {
+        let halves = self.halves();
+        let mut fans = Fans::new(3 * self.triangles.len());
+        let mut folds = vec![0.0; self.nodes.len()];
+        let mut open = vec![false; self.nodes.len()];
+        let mut free = Vec::new();
+        for run in halves.chunk_by(|a, b| a.key == b.key) {
+            let (with, against): (Vec<&Half>, Vec<&Half>) = run.iter().partition(|h| h.forward);
+            let mut rest = against;
+            for half in with {
+                // The fluid's sector beside a triangle ends at the next one around the edge.
+                let angle = |other: &Half| self.fold(half, other);
+                let next =
+                    (0..rest.len()).min_by(|a, b| angle(rest[*a]).total_cmp(&angle(rest[*b])));
+                let Some(next) = next else {
+                    free.push(self.free_edge(half));
+                    continue;
+                };
+                let other = rest.swap_remove(next);
+                let fold = angle(other);
+                for end in 0..2 {
+                    let corner = (half.edge as usize + end) % 3;
+                    let opposite = (other.edge as usize + 1 - end) % 3;
+                    folds[self.triangles[half.triangle as usize].nodes[corner]] += fold;
+                    let corners = [(half.triangle, corner), (other.triangle, opposite)];
+                    fans.join(corners.map(|(t, corner)| 3 * t as usize + corner));
+                }
+            }
+            free.extend(rest.into_iter().map(|half| self.free_edge(half)));
+        }
+        for edge in &free {
+            for node in edge.nodes {
+                open[node] = true;
+            }
+        }
+        let mut count = vec![0u32; self.nodes.len()];
+        let mut area = vec![0.0; self.nodes.len()];
+        for (t, triangle) in self.triangles.iter().enumerate() {
+            for (corner, node) in triangle.nodes.iter().enumerate() {
+                count[*node] += u32::from(fans.first(3 * t + corner) == 3 * t + corner);
+                area[*node] += triangle.area / 3.0;
+            }
+        }
+        for (n, node) in self.nodes.iter_mut().enumerate() {
+            let twice = if open[n] { 2.0 } else { 1.0 };
+            let angle = TAU * f64::from(count[n].max(1)) + twice * folds[n];
+            let theta = angle / (4.0 * PI);
+            node.theta = match count[n] {
+                0 | 1 => theta.clamp(0.0, 1.0),
+                _ => theta.rem_euclid(1.0),
+            };
+            node.size = area[n] / (self.spacing * self.spacing);
+        }
+        free
+    }
+
+    fn halves(&self) -> Vec<Half> {
+        let site = |t: usize, corner: usize| {
+            let triangle = &self.triangles[t];
+            Site {
+                id: triangle.nodes[corner] as u32,
+                image: triangle.images[corner],
+            }
+        };
+        let mut halves: Vec<Half> = (0..self.triangles.len())
+            .flat_map(|t| (0..3).map(move |edge| (t, edge)))
+            .map(|(t, edge)| {
+                let (key, forward, _) = edge_key(site(t, edge), site(t, (edge + 1) % 3));
+                Half {
+                    key,
+                    triangle: t as u32,
+                    edge: edge as u8,
+                    forward,
+                }
+            })
+            .collect();
+        halves.par_sort_unstable_by_key(|h| (h.key, h.triangle, h.edge));
+        halves
+    }
+
+    /// δ = β − π between two triangles along an edge of the first, positive where the fluid has
+    /// more than half the space; exactly 0 within one plane.
+    fn fold(&self, half: &Half, other: &Half) -> f64 {
+        let [a, b] = [half, other].map(|h| &self.triangles[h.triangle as usize]);
+        if a.face == b.face {
+            return 0.0;
+        }
+        let corners: [Point; 3] = self.corners(half.triangle as usize);
+        let from = half.edge as usize;
+        let edge = sub(corners[(from + 1) % 3], corners[from]);
+        let sine = dot(cross(a.normal, b.normal), edge) / norm(edge);
+        let cosine = dot(a.normal, b.normal);
+        if cosine < 0.0 && sine.abs() <= FOLD {
+            return PI;
+        }
+        sine.atan2(cosine)
+    }
+
+    fn free_edge(&self, half: &Half) -> FreeEdge {
+        let triangle = &self.triangles[half.triangle as usize];
+        let ends = [half.edge as usize, (half.edge as usize + 1) % 3];
+        FreeEdge {
+            nodes: ends.map(|k| triangle.nodes[k]),
+            images: ends.map(|k| triangle.images[k]),
+            wall: triangle.wall,
+            triangle: half.triangle as usize,
+            opening: 0,
+        }
+    }
+}
+
+/// Corners of triangles joined across edges: each set is one surface through a node.
+struct Fans {
+    parent: Vec<u32>,
+}
+
+impl Fans {
+    fn new(corners: usize) -> Self {
+        Self {
+            parent: (0..corners as u32).collect(),
+        }
+    }
+
+    fn first(&mut self, corner: usize) -> usize {
+        let mut at = corner as u32;
+        while self.parent[at as usize] != at {
+            let above = self.parent[at as usize];
+            self.parent[at as usize] = self.parent[above as usize];
+            at = above;
+        }
+        at as usize
+    }
+
+    fn join(&mut self, [a, b]: [usize; 2]) {
+        let (a, b) = (self.first(a), self.first(b));
+        let (low, high) = (a.min(b), a.max(b));
+        self.parent[high] = low as u32;
+    }
+}

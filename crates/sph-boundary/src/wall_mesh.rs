@@ -1,0 +1,145 @@
+//! What a wall treatment asks of the walls' geometry, in either dimension.
+
+use sph_core::Vect;
+use sph_kernels::PiecewisePolynomial;
+use sph_neighbours::Contact;
+
+use crate::{BoundaryError, PeriodicBox, Pose, WallSpec};
+
+/// A node of the mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshPoint<const D: usize> {
+    /// Position, m.
+    pub position: Vect<D>,
+    /// Unit normal into the fluid, the mean of those around.
+    pub normal: Vect<D>,
+    /// Fluid angle over 2π in the plane, fluid solid angle over 4π in space.
+    pub theta: f64,
+    /// Length or area of wall that the node answers for over δr^(d−1).
+    pub size: f64,
+    /// Index of the wall.
+    pub wall: usize,
+}
+
+/// An element of the mesh: a segment or a triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshElement<const D: usize> {
+    /// Centre, m.
+    pub centre: Vect<D>,
+    /// Unit normal into the fluid.
+    pub normal: Vect<D>,
+    /// Length or area, m^(d−1).
+    pub measure: f64,
+    /// Index of the wall.
+    pub wall: usize,
+    /// Its nodes.
+    pub corners: [u32; D],
+}
+
+/// A direction in which a wall keeps a particle off.
+#[derive(Clone, Copy, Debug)]
+pub struct Hindrance<const D: usize> {
+    /// Unit vector from the wall to the particle.
+    pub away: Vect<D>,
+    /// Distance along it, m.
+    pub distance: f64,
+    /// Direction and distance that must be hindered as well before this one counts.
+    pub only_if: Option<(Vect<D>, f64)>,
+    /// Index of the wall.
+    pub wall: usize,
+    /// The nearest place of the wall, m.
+    pub place: Vect<D>,
+}
+
+/// The walls of a scene as a mesh of elements of about the particle spacing.
+pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'static {
+    /// An element, or one of its periodic images, near a point.
+    type Near: Copy + Send + Sync + std::fmt::Debug;
+    /// The wall integrals of a kernel.
+    type Integrals: Send + Sync + std::fmt::Debug;
+
+    /// Meshes the walls; queries look up to `reach` metres far.
+    ///
+    /// # Errors
+    /// If a wall is refused; the message names it.
+    fn build(
+        walls: &[WallSpec<D>],
+        spacing: f64,
+        reach: f64,
+        domain: &PeriodicBox<D>,
+    ) -> Result<Self, BoundaryError>;
+
+    /// Integrals of a kernel shape with a smoothing length, m.
+    ///
+    /// # Errors
+    /// If the kernel cannot be integrated.
+    fn integrals(
+        shape: &PiecewisePolynomial,
+        smoothing_length: f64,
+    ) -> Result<Self::Integrals, BoundaryError>;
+
+    /// Names of the walls.
+    fn names(&self) -> &[String];
+    /// All nodes at the present position of the walls.
+    fn points(&self) -> impl Iterator<Item = MeshPoint<D>> + '_;
+    /// All elements at the present position of the walls.
+    fn elements(&self) -> impl Iterator<Item = MeshElement<D>> + '_;
+
+    /// Moves every wall to its pose.
+    ///
+    /// # Errors
+    /// If a wall cannot follow.
+    fn move_walls(&mut self, poses: &[Pose<D>]) -> Result<(), BoundaryError>;
+
+    /// Elements within a radius of a point, ascending.
+    fn near(&self, point: &Vect<D>, radius: f64) -> Vec<Self::Near>;
+
+    /// γ at a point from all elements that may be within the support; those that are become
+    /// contacts.
+    fn gamma(
+        &self,
+        integrals: &Self::Integrals,
+        point: &Vect<D>,
+        near: &[Self::Near],
+        contacts: &mut Vec<Contact<D>>,
+    ) -> f64;
+
+    /// Where the walls keep a particle off, among the places nearer than `reach` metres.
+    fn hindrances(
+        &self,
+        point: &Vect<D>,
+        near: &[Self::Near],
+        reach: f64,
+        hindrances: &mut Vec<Hindrance<D>>,
+    );
+
+    /// Whether a point is on the fluid's side of all walls.
+    fn contains(&self, point: &Vect<D>) -> bool;
+
+    /// Distance of the nearest wall, m, and its index, if nearer than `within`.
+    fn nearest(&self, point: &Vect<D>, within: f64) -> Option<(f64, usize)>;
+
+    /// Distance of the nearest of some walls, m, positive on its fluid's side; `None` if none of
+    /// them is nearer than `within`.
+    fn signed_distance(
+        &self,
+        point: &Vect<D>,
+        within: f64,
+        of: &dyn Fn(usize) -> bool,
+    ) -> Option<f64>;
+
+    /// Lower and upper corner of the box around all walls, m.
+    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)>;
+
+    /// Refuses points within a radius of the free end of an open wall.
+    ///
+    /// # Errors
+    /// Names the wall and the place.
+    fn check_free_ends(&self, points: &[Vect<D>], radius: f64) -> Result<(), BoundaryError>;
+
+    /// Places of dummy particles behind the walls with the index of their wall, m.
+    fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<D>)>;
+
+    /// Remarks on the walls.
+    fn warnings(&self) -> Vec<String>;
+}

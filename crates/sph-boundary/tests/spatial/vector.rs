@@ -1,0 +1,60 @@
+//! Vectors, rotations and reproducible numbers.
+
+pub type Vector = [f64; 3];
+
+pub fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub fn cross(a: Vector, b: Vector) -> Vector {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// a + s b
+pub fn plus(a: Vector, s: f64, b: Vector) -> Vector {
+    [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
+}
+
+pub fn minus(a: Vector, b: Vector) -> Vector {
+    plus(a, -1.0, b)
+}
+
+pub fn unit(a: Vector) -> Vector {
+    a.map(|x| x / dot(a, a).sqrt())
+}
+
+/// The unit normal of a triangle, counter-clockwise.
+pub fn normal([a, b, c]: [Vector; 3]) -> Vector {
+    unit(cross(minus(b, a), minus(c, a)))
+}
+
+/// A turn about the axis (1, 2, −1) by an angle.
+pub fn turned(v: Vector, angle: f64) -> Vector {
+    let axis = unit([1.0, 2.0, -1.0]);
+    let (sin, cos) = angle.sin_cos();
+    let along = plus(v.map(|x| x * cos), sin, cross(axis, v));
+    plus(along, (1.0 - cos) * dot(axis, v), axis)
+}
+
+/// A linear congruential generator (Knuth's MMIX), good enough for points.
+pub struct Random(pub u64);
+
+impl Random {
+    /// Uniform in [low, high).
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        low + (high - low) * (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Uniform in a cube around the origin.
+    pub fn vector(&mut self, half: f64) -> Vector {
+        [0; 3].map(|_| self.between(-half, half))
+    }
+}

@@ -1,0 +1,155 @@
+//! Triangles near a point, and the nearest place on them.
+
+use sph_boundary::{Feature, NearTriangle, TriangleGrid, TriangleMesh};
+
+use crate::shapes::*;
+
+fn sampled(corners: [Point; 3], n: usize) -> f64 {
+    let mut nearest = f64::INFINITY;
+    for i in 0..=n {
+        for j in 0..=n - i {
+            let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
+            let at = [0, 1, 2].map(|k| {
+                corners[0][k]
+                    + u * (corners[1][k] - corners[0][k])
+                    + v * (corners[2][k] - corners[0][k])
+            });
+            nearest = nearest.min(norm(at));
+        }
+    }
+    nearest
+}
+
+#[test]
+fn the_nearest_place_against_samples() {
+    let mesh = mesh(&[pyramid([0.0, 0.0], 1.0, 0.0, 1.3)], 0.4);
+    let mut random = Random(3);
+    let mut features = [0; 3];
+    let mut worst: f64 = 0.0;
+    for _ in 0..300 {
+        let point = random.point([-1.2, -1.2, -0.2], [1.2, 1.2, 1.4]);
+        for triangle in (0..mesh.triangles().len()).step_by(7) {
+            let near = NearTriangle {
+                triangle: triangle as u32,
+                image: [0; 3],
+            };
+            let closest = mesh.closest(point, near);
+            let corners = mesh.corners_from(point, near);
+            let samples = sampled(corners, 60);
+            // The samples are half a step of 0.4/60 off at most.
+            assert!(closest.distance() <= samples + 1e-12);
+            assert!(samples - closest.distance() < 0.006);
+            worst = worst.max(samples - closest.distance());
+            let normal = mesh.triangles()[triangle].normal;
+            assert!((closest.height + dot(corners[1], normal)).abs() < 1e-12);
+            match closest.feature {
+                Feature::Face => {
+                    assert!((closest.distance() - closest.height.abs()).abs() < 1e-12);
+                    features[0] += 1;
+                }
+                Feature::Edge(e) => {
+                    let e = e as usize;
+                    let edge = sub(corners[(e + 1) % 3], corners[e]);
+                    assert!(dot(closest.offset, edge).abs() < 1e-12);
+                    features[1] += 1;
+                }
+                Feature::Corner(c) => {
+                    assert_eq!(closest.offset, corners[c as usize]);
+                    features[2] += 1;
+                }
+            }
+        }
+    }
+    println!("faces, edges, corners: {features:?}; samples at most {worst:.2e} m farther");
+    assert!(features.iter().all(|n| *n > 50));
+}
+
+fn all_near(mesh: &TriangleMesh, point: Point, radius: f64) -> Vec<NearTriangle> {
+    let mut found = Vec::new();
+    let range = |k: usize| {
+        if mesh.domain().periodic[k] {
+            -2..=2i8
+        } else {
+            0..=0
+        }
+    };
+    for triangle in 0..mesh.triangles().len() as u32 {
+        for i in range(0) {
+            for j in range(1) {
+                for k in range(2) {
+                    let image = [i, j, k];
+                    let near = NearTriangle { triangle, image };
+                    if mesh.closest(point, near).distance() < radius {
+                        found.push(near);
+                    }
+                }
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn the_grid_finds_all_and_only_those() {
+    let pipe = prism("pipe", &polygon(12, 1.0), [0.0, 2.0], false).reversed();
+    let domain = periodic([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0], [true, false, true]);
+    let body = block("body", [1.25, -0.2, 0.5], [1.75, 0.2, 1.0]);
+    let mesh = mesh_in(&[pipe, body], 0.25, &domain);
+    assert_eq!(size_of::<NearTriangle>(), 8);
+    let mut random = Random(11);
+    let mut found = 0;
+    for reach in [0.1, 0.6, 1.1] {
+        let grid = TriangleGrid::build(&mesh, reach);
+        for radius in [reach, 0.7 * reach] {
+            for _ in 0..200 {
+                let point = random.point([-1.55, -1.8, -0.1], [1.55, 1.8, 2.1]);
+                let near: Vec<_> = grid.near(&mesh, point, radius).collect();
+                assert_eq!(near, all_near(&mesh, point, radius), "{point:?}");
+                found += near.len();
+            }
+        }
+    }
+    println!("{found} triangles found, as by brute force");
+    assert!(
+        TriangleGrid::build(&crate::shapes::mesh(&[], 1.0), 1.0)
+            .near(&crate::shapes::mesh(&[], 1.0), [0.0; 3], 1.0)
+            .next()
+            .is_none()
+    );
+}
+
+#[test]
+fn a_node_is_the_same_vector_in_all_triangles() {
+    let pipe = prism("pipe", &polygon(24, 1.0), [0.1, 2.1], false).reversed();
+    let domain = periodic([-1.5, -1.5, 0.1], [1.5, 1.5, 2.1], [false, false, true]);
+    let mesh = mesh_in(&[pipe], 0.25, &domain);
+    let grid = TriangleGrid::build(&mesh, 0.8);
+    let point = [0.41, 0.3, 0.2];
+    let mut seen = std::collections::HashMap::new();
+    let mut faces = std::collections::BTreeSet::new();
+    let mut repeated = 0;
+    for near in grid.near(&mesh, point, 0.8) {
+        let triangle = mesh.triangles()[near.triangle as usize];
+        faces.insert((triangle.face, near.image));
+        for (k, corner) in mesh.corners_from(point, near).iter().enumerate() {
+            let image = [0, 1, 2].map(|a| triangle.images[k][a] + i32::from(near.image[a]));
+            if let Some(before) = seen.insert((triangle.nodes[k], image), *corner) {
+                assert_eq!(before, *corner);
+                repeated += 1;
+            }
+        }
+    }
+    assert!(repeated > 100);
+    let corners: Vec<Point> = faces
+        .iter()
+        .flat_map(|(face, image)| mesh.face_edges_from(point, *face, *image).flatten())
+        .collect();
+    let known = corners
+        .iter()
+        .filter(|c| seen.values().any(|s| s == *c))
+        .count();
+    assert!(
+        known > 10,
+        "{known} corners of faces are corners of triangles"
+    );
+}

@@ -1,0 +1,214 @@
+//! What the fluid exerts on the walls.
+
+use rayon::prelude::*;
+use sph_core::{StepError, Vect, fields};
+
+use crate::row::Row;
+use crate::sweep::pack;
+use crate::term::Rates;
+use crate::{Contact, Interaction, Neighbourhood, Scratch, World};
+
+/// Force and moment of the fluid on one wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WallForce<const D: usize> {
+    /// F = −Σ m a_w over the particles, a_w being the part of the acceleration that the wall
+    /// contributes, N (N/m in two dimensions). The momentum of the fluid changes by the weight
+    /// and −ΣF, to rounding.
+    pub force: Vect<D>,
+    /// −Σ r × m a_w about the origin, N m; only the last component in two dimensions.
+    pub moment: [f64; 3],
+    /// −Σ p_s S_s n_s over the wall's elements, N: the pressure integral; 0 without elements.
+    pub pressure_force: Vect<D>,
+    /// −Σ r_s × p_s S_s n_s over the wall's elements, N m.
+    pub pressure_moment: [f64; 3],
+}
+
+impl<const D: usize> WallForce<D> {
+    /// No force.
+    pub fn zero() -> Self {
+        WallForce {
+            force: Vect::zeros(),
+            moment: [0.0; 3],
+            pressure_force: Vect::zeros(),
+            pressure_moment: [0.0; 3],
+        }
+    }
+}
+
+/// r × f; the third component alone in two dimensions.
+pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
+    let at = |v: &Vect<D>, k: usize| v.get(k).copied().unwrap_or(0.0);
+    [
+        at(r, 1) * at(f, 2) - at(r, 2) * at(f, 1),
+        at(r, 2) * at(f, 0) - at(r, 0) * at(f, 2),
+        at(r, 0) * at(f, 1) - at(r, 1) * at(f, 0),
+    ]
+}
+
+fn add(sum: &mut [f64; 3], more: [f64; 3]) {
+    sum.iter_mut().zip(more).for_each(|(s, m)| *s += m);
+}
+
+/// Forces on all walls, in the order of their names, at the state of the last sweep.
+///
+/// The walls' part of an acceleration is the whole less what the other particles would contribute
+/// with γ = 1, which is equal and opposite between two particles and leaves no momentum. Each
+/// wall has what its own points and elements add; what is left (the other particles' sums times
+/// 1/γ − 1, and what a term makes of several walls together) is shared as ∇γ is.
+///
+/// # Errors
+/// If a term misses a column.
+pub fn wall_forces<const D: usize>(
+    world: &World<D>,
+    terms: &[Box<dyn Interaction<D>>],
+) -> Result<Vec<WallForce<D>>, StepError> {
+    let bound = terms
+        .iter()
+        .map(|t| t.bind(world))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut states = Vec::new();
+    pack(world, &mut states);
+    let positions = world.free.get(fields::POSITION)?;
+    let mass = world.free.get(fields::MASS)?;
+    let gamma = world.free.get(fields::RENORMALISATION).ok();
+    let empty = Scratch::<D>::new();
+    let near_wall = |i: usize| {
+        let contacts = world.walls.contacts.of(i);
+        !contacts.is_empty() || !(world.lists.wall.is_empty() || world.lists.wall.row(i).is_empty())
+    };
+    let parts: Vec<Vec<(u32, Vect<D>)>> = (0..positions.len())
+        .into_par_iter()
+        .with_min_len(256)
+        .map_init(WallRow::default, |row, i| {
+            if !near_wall(i) {
+                return Vec::new();
+            }
+            row.gather(world, &positions[i], i);
+            let inverse = gamma.map_or(1.0, |g| 1.0 / g[i]);
+            let sum = |free: &Row<'_, D>, walls: &Row<'_, D>, contacts: &[Contact<D>], inverse| {
+                let neighbourhood = Neighbourhood {
+                    particle: i,
+                    free: *free,
+                    states: &states,
+                    wall: *walls,
+                    contacts,
+                    inverse_renormalisation: inverse,
+                };
+                let mut rates = Rates {
+                    acceleration: Vect::zeros(),
+                    scalar: 0.0,
+                };
+                bound.iter().for_each(|t| t.row(&neighbourhood, &mut rates));
+                rates.acceleration
+            };
+            let (none, free) = (empty.row(), row.free.row());
+            // A term may look at the free neighbours when it judges the wall's: they are there.
+            let fluid = sum(&free, &none, &[], inverse);
+            let mut rest =
+                sum(&free, &row.points.row(), &row.contacts, inverse) - sum(&free, &none, &[], 1.0);
+            let own = |wall: &u32| {
+                let (points, contacts) = row.of(world, *wall);
+                let own = sum(&free, &points.row(), &contacts, inverse) - fluid;
+                (*wall, own, row.share(&contacts))
+            };
+            let parts: Vec<_> = row.walls.iter().map(own).collect();
+            rest = parts.iter().fold(rest, |rest, (_, own, _)| rest - own);
+            let parts = parts.into_iter();
+            parts
+                .map(|(wall, own, share)| (wall, (own + rest * share) * -mass[i]))
+                .collect()
+        })
+        .collect();
+    let mut forces = vec![WallForce::zero(); world.walls.names.len()];
+    for (i, parts) in parts.iter().enumerate() {
+        for (wall, force) in parts {
+            let total = &mut forces[*wall as usize];
+            total.force += force;
+            add(&mut total.moment, cross(&positions[i], force));
+        }
+    }
+    let elements = &world.walls.elements;
+    for s in 0..elements.centre.len() {
+        let total = &mut forces[elements.wall[s] as usize];
+        let force = elements.normal[s] * (-elements.pressure[s] * elements.measure[s]);
+        total.pressure_force += force;
+        add(
+            &mut total.pressure_moment,
+            cross(&elements.centre[s], &force),
+        );
+    }
+    Ok(forces)
+}
+
+/// The neighbourhood of one particle, to be taken apart by wall.
+struct WallRow<const D: usize> {
+    free: Scratch<D>,
+    points: Scratch<D>,
+    contacts: Vec<Contact<D>>,
+    /// Σ |∇γ_as| over all contacts, 1/m.
+    gradient: f64,
+    walls: Vec<u32>,
+}
+
+impl<const D: usize> Default for WallRow<D> {
+    fn default() -> Self {
+        WallRow {
+            free: Scratch::new(),
+            points: Scratch::new(),
+            contacts: Vec::new(),
+            gradient: 0.0,
+            walls: Vec::new(),
+        }
+    }
+}
+
+fn sizes<const D: usize>(contacts: &[Contact<D>]) -> f64 {
+    contacts.iter().map(|c| c.gradient.norm()).sum()
+}
+
+impl<const D: usize> WallRow<D> {
+    fn gather(&mut self, world: &World<D>, x: &Vect<D>, i: usize) {
+        let set = &world.walls;
+        let kernel = &*world.kernel;
+        let domain = world.domain.any_periodic().then_some(&world.domain);
+        if let Ok(positions) = world.free.get(fields::POSITION) {
+            let candidates = world.lists.free.row(i);
+            self.free
+                .fill(x, positions, candidates, false, domain, kernel);
+        }
+        self.points.clear();
+        if !world.lists.wall.is_empty() {
+            let (candidates, sources) = (world.lists.wall.row(i), &set.points.position);
+            self.points
+                .fill(x, sources, candidates, false, domain, kernel);
+        }
+        self.contacts.clear();
+        self.contacts.extend_from_slice(set.contacts.of(i));
+        self.gradient = sizes(&self.contacts);
+        self.walls.clear();
+        let points = self.points.row();
+        let of_points = points.index.iter().map(|v| set.points.wall[*v as usize]);
+        let contacts = self.contacts.iter();
+        let of_contacts = contacts.map(|c| set.elements.wall[c.element as usize]);
+        self.walls.extend(of_points.chain(of_contacts));
+        self.walls.sort_unstable();
+        self.walls.dedup();
+    }
+
+    /// The points and contacts of one wall.
+    fn of(&self, world: &World<D>, wall: u32) -> (Scratch<D>, Vec<Contact<D>>) {
+        let set = &world.walls;
+        let points = self.points.only(|v| set.points.wall[v as usize] == wall);
+        let contacts = self.contacts.iter().copied();
+        let contacts = contacts.filter(|c| set.elements.wall[c.element as usize] == wall);
+        (points, contacts.collect())
+    }
+
+    /// The share of a wall with these contacts in what 1/γ adds.
+    fn share(&self, contacts: &[Contact<D>]) -> f64 {
+        match self.gradient > 0.0 {
+            true => sizes(contacts) / self.gradient,
+            false => 0.0,
+        }
+    }
+}

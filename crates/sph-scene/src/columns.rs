@@ -1,0 +1,58 @@
+//! Quantities in the columns of tables: `table = [["0 s", "5 cm"], [1.5, "10 deg"]]`.
+//!
+//! A schema gives a list one unit; here every column has its own, so that this comes first.
+
+use sph_core::{SceneProblem, parse_quantity};
+use toml::{Table, Value};
+
+/// Turns strings in the tables of motions into SI numbers.
+pub(crate) fn convert(scene: &mut Table) -> Vec<SceneProblem> {
+    let mut found = Vec::new();
+    let walls = scene.get_mut("wall").and_then(Value::as_table_mut);
+    for (name, wall) in walls.into_iter().flatten() {
+        let Some(motion) = wall.get_mut("motion") else {
+            continue;
+        };
+        let place = format!("wall.{name}.motion");
+        match motion.get_mut("translate") {
+            Some(Value::Array(several)) => {
+                let single = several.len() == 1;
+                for (k, one) in several.iter_mut().enumerate() {
+                    let number = if single {
+                        String::new()
+                    } else {
+                        format!("[{k}]")
+                    };
+                    course(one, "m", &format!("{place}.translate{number}"), &mut found);
+                }
+            }
+            Some(one) => course(one, "m", &format!("{place}.translate"), &mut found),
+            None => {}
+        }
+        if let Some(rotate) = motion.get_mut("rotate") {
+            course(rotate, "rad", &format!("{place}.rotate"), &mut found);
+        }
+    }
+    found
+}
+
+fn course(table: &mut Value, unit: &str, place: &str, found: &mut Vec<SceneProblem>) {
+    let rows = table.get_mut("table").and_then(Value::as_array_mut);
+    for (k, row) in rows.into_iter().flatten().enumerate() {
+        let cells = row.as_array_mut().into_iter().flatten();
+        for (n, (cell, unit)) in cells.zip(["s", unit]).enumerate() {
+            let Value::String(text) = &*cell else {
+                continue;
+            };
+            match parse_quantity(text, unit) {
+                Ok(x) => *cell = Value::Float(x),
+                Err(why) => {
+                    let path = format!("{place}.table[{k}][{n}]");
+                    found.push(SceneProblem::new(path, why));
+                    // The schema would complain once more.
+                    *cell = Value::Float(0.0);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! The table `[wall.NAME.motion]`: rigid motion over time.
+
+use std::path::PathBuf;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer};
+
+/// Rigid motion of a wall: translations, added up, and a rotation about a centre that they carry.
+///
+/// Courses count their time from `start` and hold what they reached at `stop`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Motion {
+    /// Constant velocity, m/s; none if left out.
+    #[schemars(extend("unit" = "m/s"))]
+    pub velocity: Option<Vec<f64>>,
+    /// Constant angular velocity, rad/s, anticlockwise; in 3D right-handed about `axis`.
+    #[serde(default)]
+    #[schemars(extend("unit" = "rad/s"))]
+    pub angular_velocity: f64,
+    /// Centre of the rotation at the start, m; needed where there is an `angular_velocity`.
+    #[schemars(extend("unit" = "m"))]
+    pub centre: Option<Vec<f64>>,
+    /// Axis of the `angular_velocity`; its length does not matter. Three dimensions only, and needed there.
+    #[schemars(extend("unit" = "1"))]
+    pub axis: Option<Vec<f64>>,
+    /// Translation, or a list of translations that are added up.
+    #[serde(default, deserialize_with = "one_or_many")]
+    #[schemars(with = "OneOrMany")]
+    pub translate: Vec<Translate>,
+    /// Rotation.
+    pub rotate: Option<Rotation>,
+    /// Time at which the motion starts, s.
+    #[serde(default)]
+    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    pub start: f64,
+    /// Time at which the motion stops, s; never if left out.
+    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    pub stop: Option<f64>,
+}
+
+/// Translation along a direction; exactly one of `speed`, `ramp`, `sine`, `table` and `file`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Translate {
+    /// Direction; its length does not matter.
+    #[schemars(extend("unit" = "1"))]
+    pub along: Vec<f64>,
+    /// Constant speed, m/s.
+    #[schemars(extend("unit" = "m/s"))]
+    pub speed: Option<f64>,
+    /// From rest to a speed with constant acceleration.
+    pub ramp: Option<Ramp>,
+    /// Oscillation.
+    pub sine: Option<Sine>,
+    /// Pairs of time, s, and displacement, m, from where the wall is drawn; times rise.
+    #[schemars(extend("unit" = "1"))]
+    pub table: Option<Vec<[f64; 2]>>,
+    /// CSV file of time, s, and displacement, m, relative to the scene's folder.
+    pub file: Option<String>,
+    /// The file with its folder, set when the scene is read.
+    #[serde(skip)]
+    pub path: Option<PathBuf>,
+}
+
+/// Rotation about a centre; exactly one of `speed`, `ramp`, `sine`, `table` and `file`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Rotation {
+    /// Centre at the start, m.
+    #[schemars(extend("unit" = "m"))]
+    pub centre: Vec<f64>,
+    /// Axis, right-handed; its length does not matter. Three dimensions only, and needed there.
+    #[schemars(extend("unit" = "1"))]
+    pub axis: Option<Vec<f64>>,
+    /// Constant angular speed, rad/s.
+    #[schemars(extend("unit" = "rad/s"))]
+    pub speed: Option<f64>,
+    /// From rest to an angular speed with constant acceleration.
+    pub ramp: Option<AngularRamp>,
+    /// Oscillation.
+    pub sine: Option<AngularSine>,
+    /// Pairs of time, s, and angle, rad, from where the wall is drawn; times rise.
+    #[schemars(extend("unit" = "1"))]
+    pub table: Option<Vec<[f64; 2]>>,
+    /// CSV file of time, s, and angle, rad, relative to the scene's folder.
+    pub file: Option<String>,
+    /// The file with its folder, set when the scene is read.
+    #[serde(skip)]
+    pub path: Option<PathBuf>,
+}
+
+/// From rest to a speed with constant acceleration.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ramp {
+    /// Speed that is reached, m/s.
+    #[schemars(extend("unit" = "m/s"))]
+    pub speed: f64,
+    /// Time in which it is reached, s.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub over: f64,
+}
+
+/// From rest to an angular speed with constant acceleration.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AngularRamp {
+    /// Angular speed that is reached, rad/s.
+    #[schemars(extend("unit" = "rad/s"))]
+    pub speed: f64,
+    /// Time in which it is reached, s.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub over: f64,
+}
+
+/// Oscillation: a·r(t)·sin(2πt/T + φ), less its value at t = 0.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sine {
+    /// Amplitude a of the displacement, m.
+    #[schemars(extend("unit" = "m"))]
+    pub amplitude: f64,
+    /// Period T, s.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub period: f64,
+    /// Phase φ, rad.
+    #[serde(default)]
+    #[schemars(extend("unit" = "rad"))]
+    pub phase: f64,
+    /// Time, s, over which r rises smoothly from 0 to 1; at once if 0.
+    #[serde(default)]
+    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    pub ramp: f64,
+}
+
+/// Oscillation: a·r(t)·sin(2πt/T + φ), less its value at t = 0.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AngularSine {
+    /// Amplitude a of the angle, rad.
+    #[schemars(extend("unit" = "rad"))]
+    pub amplitude: f64,
+    /// Period T, s.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub period: f64,
+    /// Phase φ, rad.
+    #[serde(default)]
+    #[schemars(extend("unit" = "rad"))]
+    pub phase: f64,
+    /// Time, s, over which r rises smoothly from 0 to 1; at once if 0.
+    #[serde(default)]
+    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    pub ramp: f64,
+}
+
+impl Motion {
+    /// Path of a translation below that of the motion; a single table has no number.
+    pub(crate) fn translate_path(&self, place: &str, k: usize) -> String {
+        match self.translate.len() {
+            1 => format!("{place}.translate"),
+            _ => format!("{place}.translate[{k}]"),
+        }
+    }
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum OneOrMany {
+    /// One translation.
+    One(Box<Translate>),
+    /// Several translations.
+    Many(Vec<Translate>),
+}
+
+fn one_or_many<'de, T: Deserializer<'de>>(from: T) -> Result<Vec<Translate>, T::Error> {
+    OneOrMany::deserialize(from).map(|given| match given {
+        OneOrMany::One(one) => vec![*one],
+        OneOrMany::Many(many) => many,
+    })
+}

@@ -1,0 +1,129 @@
+//! Text files of two columns of numbers.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// Longest text file, bytes.
+const BYTES: u64 = 64 << 20;
+
+/// Two numbers and the line they stand in, counted from 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Row {
+    pub line: usize,
+    pub values: [f64; 2],
+}
+
+/// Opens a plain file that is neither empty nor longer than `most` bytes; with its length.
+pub(crate) fn open(path: &Path, most: u64) -> Result<(File, u64), String> {
+    let name = path.display();
+    let refused = |e: std::io::Error| format!("cannot read `{name}`: {e}");
+    // Asked before it is opened: opening a pipe would wait for its writer.
+    let known = std::fs::metadata(path).map_err(refused)?;
+    if !known.is_file() {
+        return Err(format!("`{name}` is not a file"));
+    }
+    match known.len() {
+        0 => Err(format!("`{name}` is empty")),
+        n if n > most => Err(format!("`{name}` is longer than {} MiB", most >> 20)),
+        n => Ok((File::open(path).map_err(refused)?, n)),
+    }
+}
+
+/// The text of a file of UTF-8 that is neither empty nor too long.
+pub(crate) fn text(path: &Path) -> Result<String, String> {
+    let (file, _) = open(path, BYTES)?;
+    let mut text = String::new();
+    let read = file.take(BYTES).read_to_string(&mut text);
+    read.map_err(|e| format!("cannot read `{}`: {e}", path.display()))?;
+    Ok(text)
+}
+
+/// The rows of a file, in blocks separated by blank lines and comments; never none.
+pub(crate) fn read(path: &Path) -> Result<Vec<Vec<Row>>, String> {
+    let text = text(path)?;
+    let blocks = parse(&text).map_err(|why| format!("`{}`, {why}", path.display()))?;
+    match blocks.is_empty() {
+        true => Err(format!("`{}` holds no numbers", path.display())),
+        false => Ok(blocks),
+    }
+}
+
+/// Columns are separated by commas, semicolons or blanks; the first line may name them.
+fn parse(text: &str) -> Result<Vec<Vec<Row>>, String> {
+    let mut blocks: Vec<Vec<Row>> = Vec::new();
+    let mut begun = false;
+    let mut named = false;
+    for (k, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+        let content = line.split('#').next().unwrap_or("").trim();
+        if content.is_empty() {
+            begun = false;
+            continue;
+        }
+        let separator = |c: char| c == ',' || c == ';' || c.is_whitespace();
+        let fields: Vec<&str> = match content.contains([',', ';']) {
+            true => content.split([',', ';']).map(str::trim).collect(),
+            false => content.split(separator).filter(|f| !f.is_empty()).collect(),
+        };
+        let numbers: Vec<Option<f64>> = fields.iter().map(|f| f.parse().ok()).collect();
+        if blocks.is_empty() && !named && numbers.iter().all(Option::is_none) {
+            named = true;
+            continue;
+        }
+        let line = k + 1;
+        let [first, second] = numbers[..] else {
+            let found = fields.len();
+            return Err(format!(
+                "line {line}: expected 2 numbers with a comma between them, found {found} columns"
+            ));
+        };
+        let number = |n: Option<f64>, column: usize| match n {
+            Some(x) if x.is_finite() => Ok(x),
+            Some(x) => Err(format!("line {line}: expected a finite number, found {x}")),
+            None => Err(format!("line {line}: `{}` is not a number", fields[column])),
+        };
+        let values = [number(first, 0)?, number(second, 1)?];
+        if !begun {
+            blocks.push(Vec::new());
+            begun = true;
+        }
+        if let Some(block) = blocks.last_mut() {
+            block.push(Row { line, values });
+        }
+    }
+    Ok(blocks)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_are_separated_by_blank_lines_and_comments() {
+        let text = "x, y\n0,0\n1 , 2e-1 # corner\n\n3;4\n# next\n5 6\n";
+        let blocks = parse(text).unwrap();
+        let values: Vec<Vec<_>> = blocks
+            .iter()
+            .map(|b| b.iter().map(|r| r.values).collect())
+            .collect();
+        assert_eq!(
+            values,
+            [
+                vec![[0.0, 0.0], [1.0, 0.2]],
+                vec![[3.0, 4.0]],
+                vec![[5.0, 6.0]]
+            ]
+        );
+        assert_eq!(blocks[1][0].line, 5);
+    }
+
+    #[test]
+    fn mistakes_name_their_line() {
+        let refused = |text: &str| parse(text).unwrap_err();
+        assert!(refused("0,0\n1,2,3").starts_with("line 2: expected 2 numbers"));
+        assert!(refused("0,0\n1,b").contains("line 2: `b` is not a number"));
+        assert!(refused("0,inf").contains("finite"));
+        assert!(refused("x,y\nu,v").contains("`u` is not a number"));
+        assert_eq!(parse("x,y\n").unwrap(), Vec::<Vec<Row>>::new());
+    }
+}

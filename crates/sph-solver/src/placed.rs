@@ -1,0 +1,161 @@
+//! Where the particles are at time zero.
+
+use std::collections::HashMap;
+
+use sph_boundary::Wall;
+use sph_core::{SceneProblem, Vect};
+use sph_scene::{Body, Offset, Region, Scene, disturb, fill};
+
+/// A particle nearer to a wall than this share of a spacing is left out.
+const TOO_NEAR: f64 = 0.4;
+
+/// Positions with the number of their body, in the order of identities.
+pub struct Placed<const D: usize> {
+    /// Positions, m.
+    pub positions: Vec<Vect<D>>,
+    /// Number of the body, in the scene's order of names.
+    pub body: Vec<u32>,
+    /// Remarks.
+    pub warnings: Vec<String>,
+}
+
+/// Fills all bodies and holds them against the walls.
+pub fn place<const D: usize>(
+    scene: &Scene,
+    regions: &[Region<D>],
+    walls: Option<&dyn Wall<D>>,
+) -> Result<Placed<D>, Vec<SceneProblem>> {
+    let spacing = scene.numerics.spacing;
+    let offset = match walls.map_or(0.0, |w| w.lattice_offset()) {
+        x if x < 0.25 => Offset::None,
+        _ => Offset::Half,
+    };
+    let periodic = scene.numerics.periodic.bounds::<D>();
+    let mut filled = fill(regions, spacing, offset, &periodic);
+    let n = &scene.numerics;
+    if n.disorder > 0.0 {
+        disturb(&mut filled, spacing, n.disorder, n.seed, &periodic);
+    }
+    let bodies: Vec<(&String, &Body)> = scene.body.iter().collect();
+    let mut placed = Placed {
+        positions: Vec::new(),
+        body: Vec::new(),
+        warnings: Vec::new(),
+    };
+    let mut problems = Vec::new();
+    for filled in &filled {
+        let (name, body) = bodies[filled.body];
+        let clipped = body.clip || body.fill.is_some();
+        let (mut kept, mut dropped) = (Vec::new(), 0);
+        for position in &filled.positions {
+            let x = Vect::from(*position);
+            if let Some(walls) = walls {
+                if walls.clearance(&x, TOO_NEAR * spacing).is_some() {
+                    dropped += usize::from(!clipped);
+                    continue;
+                }
+                if !walls.contains(&x) {
+                    if clipped {
+                        continue;
+                    }
+                    problems.push(through_a_wall(name, &x, walls, spacing));
+                    break;
+                }
+            }
+            kept.push(x);
+        }
+        if let Some(seed) = &body.seed {
+            kept = connected(kept, &Vect::from_column_slice(seed), spacing);
+        }
+        if dropped > 0 {
+            placed.warnings.push(format!(
+                "{dropped} particles of body `{name}` were left out: nearer than {TOO_NEAR} spacings to a wall"
+            ));
+        }
+        if kept.is_empty() && problems.is_empty() {
+            problems.push(SceneProblem::new(
+                format!("body.{name}"),
+                nothing_left(body, spacing),
+            ));
+        }
+        placed.body.extend(kept.iter().map(|_| filled.body as u32));
+        placed.positions.extend(kept);
+    }
+    match problems.is_empty() {
+        true => Ok(placed),
+        false => Err(problems),
+    }
+}
+
+fn nothing_left(body: &Body, spacing: f64) -> String {
+    match (&body.seed, body.clip || body.fill.is_some()) {
+        (Some(_), _) => "no particle is within a spacing of the `seed`".to_string(),
+        (None, true) => format!(
+            "no particle is left on the fluid's side of the walls at a spacing of {spacing} m: \
+             are the walls drawn with the fluid on the right side?"
+        ),
+        (None, false) => {
+            format!("the body is too small for a single particle at a spacing of {spacing} m")
+        }
+    }
+}
+
+/// The particles that are joined to the seed by steps of at most 1½ spacings.
+fn connected<const D: usize>(all: Vec<Vect<D>>, seed: &Vect<D>, spacing: f64) -> Vec<Vect<D>> {
+    let reach = 1.5 * spacing;
+    let cell = |x: &Vect<D>| -> [i64; D] { std::array::from_fn(|k| (x[k] / reach).floor() as i64) };
+    let mut cells: HashMap<[i64; D], Vec<usize>> = HashMap::new();
+    for (i, x) in all.iter().enumerate() {
+        cells.entry(cell(x)).or_default().push(i);
+    }
+    let around = |x: &Vect<D>| -> Vec<usize> {
+        let middle = cell(x);
+        let neighbours = (0..3_usize.pow(D as u32)).flat_map(|n| {
+            let shifted: [i64; D] =
+                std::array::from_fn(|k| middle[k] + (n / 3_usize.pow(k as u32) % 3) as i64 - 1);
+            cells.get(&shifted).into_iter().flatten().copied()
+        });
+        neighbours
+            .filter(|i| (all[*i] - x).norm() <= reach)
+            .collect()
+    };
+    let mut reached = vec![false; all.len()];
+    let mut open = around(seed);
+    while let Some(i) = open.pop() {
+        if !reached[i] {
+            reached[i] = true;
+            open.extend(around(&all[i]).into_iter().filter(|j| !reached[*j]));
+        }
+    }
+    let kept = all.iter().zip(&reached).filter(|(_, reached)| **reached);
+    kept.map(|(x, _)| *x).collect()
+}
+
+fn through_a_wall<const D: usize>(
+    body: &str,
+    x: &Vect<D>,
+    walls: &dyn Wall<D>,
+    spacing: f64,
+) -> SceneProblem {
+    let at = x
+        .iter()
+        .map(|c| format!("{c:.6}"))
+        .collect::<Vec<_>>()
+        .join(", ");
+    // The nearest wall, looked for ever farther out.
+    let named = (0..12).find_map(|k| walls.clearance(x, spacing * f64::from(1 << k)));
+    let wall = named.map_or(String::from("the walls"), |(_, name)| {
+        format!("wall `{name}`")
+    });
+    let side = match D {
+        2 => "the fluid must be on the left of every wall's direction of travel",
+        _ => "the normals of every wall must point into the fluid",
+    };
+    SceneProblem::new(
+        format!("body.{body}"),
+        format!(
+            "the body reaches through {wall}: ({at}) is behind it; {side}. `clip = true` keeps \
+             only what is in front of the walls"
+        ),
+    )
+}
