@@ -11,17 +11,31 @@ fn main() {
     println!("cargo:rerun-if-changed={}", scenes.join("data").display());
     let mut code = String::new();
     let tables = [
-        ("SCENES", scenes.clone(), "toml", ""),
-        ("DATA", scenes.join("data"), "csv", "data/"),
+        (
+            "SCENES",
+            "&str",
+            "include_str",
+            scenes.clone(),
+            &["toml"][..],
+            "",
+        ),
+        (
+            "DATA",
+            "&[u8]",
+            "include_bytes",
+            scenes.join("data"),
+            &["csv", "stl", "svg"][..],
+            "data/",
+        ),
     ];
-    for (table, folder, extension, prefix) in tables {
-        writeln!(code, "const {table}: &[(&str, &str)] = &[").expect("a string takes all");
-        for file in files(&folder, extension) {
+    for (table, kind, include, folder, extensions, prefix) in tables {
+        writeln!(code, "const {table}: &[(&str, {kind})] = &[").expect("a string takes all");
+        for file in files(&folder, extensions) {
             println!("cargo:rerun-if-changed={}", file.display());
             let name = file.file_name().and_then(|n| n.to_str()).unwrap_or("");
             writeln!(
                 code,
-                "    ({:?}, include_str!({file:?})),",
+                "    ({:?}, {include}!({file:?})),",
                 format!("{prefix}{name}")
             )
             .expect("a string takes all");
@@ -32,12 +46,15 @@ fn main() {
     std::fs::write(Path::new(&out).join("shipped.rs"), code).expect("the output folder is ours");
 }
 
-/// Files of a folder with an extension, sorted; none if there is no folder.
-fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
+/// Files of a folder with one of these extensions, sorted; none if there is no folder.
+fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut all: Vec<PathBuf> = entries
         .map(|e| e.path())
-        .filter(|p| p.extension().is_some_and(|e| e == extension))
+        .filter(|p| {
+            p.extension()
+                .is_some_and(|e| extensions.iter().any(|x| e == *x))
+        })
         .collect();
     all.sort();
     all

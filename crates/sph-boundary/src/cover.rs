@@ -5,16 +5,17 @@ use sph_core::Vect;
 
 use crate::wall_mesh::WallMesh;
 
-/// Samples along a radius of the ball around a node.
+/// Samples along a radius of the ball around a node; half a sample from its centre is the first.
 const SAMPLES: i32 = 3;
 
 /// Nodes near walls that move otherwise than their own, and what is left of their fluid.
 ///
 /// A node stands for the fluid in a ball of half a spacing around it. Of that ball a wall that
 /// moves otherwise (a gate that stands on a floor, a piston that sweeps it) may take a part, which
-/// changes continuously with its position: the visible share is the mean over samples of the ball
-/// of H(d_own) H(d_other) over that of H(d_own), d being signed distances and H a ramp as wide as
-/// the samples are apart.
+/// changes continuously with its position, and what is within half a spacing of both walls is
+/// stood for by the nodes of both. The visible share is the mean over samples of the ball of
+/// H(d_own) [H(d_other) + H(d_other − δr/2)]/2 over that of H(d_own), d being signed distances and
+/// H a ramp as wide as the samples are apart.
 #[derive(Debug, Default)]
 pub(crate) struct Cover {
     /// Nodes within reach of other walls at the last search.
@@ -77,24 +78,37 @@ fn visible<const D: usize, M: WallMesh<D>>(
     spacing: f64,
 ) -> f64 {
     let apart = 0.5 * spacing / f64::from(SAMPLES);
-    let ramp = |distance: Option<f64>| match distance {
-        Some(d) => (0.5 + d / apart).clamp(0.0, 1.0),
-        None => 1.0,
+    let others = |w: usize| groups[w] != group;
+    // The distance changes by half a spacing at most within the ball.
+    let Some(distance) = mesh.signed_distance(x, 2.0 * spacing, &others) else {
+        return 1.0;
     };
+    if distance >= spacing + apart {
+        return 1.0;
+    }
+    if distance <= -(0.5 * spacing + apart) {
+        return 0.0;
+    }
+    let reach = [0.0, distance.abs()].map(|d| d + 0.5 * spacing + apart);
+    let ramp = |d: f64| (0.5 + d / apart).clamp(0.0, 1.0);
     let (mut own, mut both) = (0.0, 0.0);
-    let side = 2 * SAMPLES + 1;
+    // No sample is in a plane through the node, where a side would be undecided.
+    let side = 2 * SAMPLES;
+    let middle = f64::from(SAMPLES) - 0.5;
     for n in 0..side.pow(D as u32) {
-        let offset =
-            Vect::<D>::from_fn(|k, _| apart * f64::from(n / side.pow(k as u32) % side - SAMPLES));
-        if offset.norm() > 0.5 * spacing * (1.0 + 1e-9) {
+        let step = |k: usize| f64::from(n / side.pow(k as u32) % side) - middle;
+        let offset = Vect::<D>::from_fn(|k, _| apart * step(k));
+        if offset.norm() > 0.5 * spacing {
             continue;
         }
         let at = x + offset;
-        let reach = 2.0 * spacing;
-        let mine = ramp(mesh.signed_distance(&at, reach, &|w| groups[w] == group));
+        let mine = mesh.signed_distance(&at, reach[0], &|w| groups[w] == group);
+        let mine = mine.map_or(1.0, ramp);
         if mine > 0.0 {
+            let other = mesh.signed_distance(&at, reach[1], &others);
+            let left = other.map_or(1.0, |d| 0.5 * (ramp(d) + ramp(d - 0.5 * spacing)));
             own += mine;
-            both += mine * ramp(mesh.signed_distance(&at, reach, &|w| groups[w] != group));
+            both += mine * left;
         }
     }
     if own > 0.0 { both / own } else { 1.0 }

@@ -2,13 +2,18 @@
 //!
 //! The geometric half, usable without any solver:
 //!
-//! * [`Polyline`] is how a wall is drawn, [`thin_plate`] outlines a plate;
-//! * [`SegmentMesh`] is the wall cut into segments of about the particle spacing, with the fluid
-//!   angle at every vertex, closure across periodic sides, [motion](Pose) and the
-//!   [inside test](SegmentMesh::contains);
-//! * [`SegmentGrid`] finds the segments near a point;
-//! * [`Renormalisation2d`] gives γ and ∇γ in closed form for any piecewise-polynomial kernel.
+//! | | in two dimensions | in three |
+//! |---|---|---|
+//! | how a wall is drawn | [`Polyline`]; [`thin_plate`] outlines a plate | [`Surface`]: points and triangles |
+//! | cut at the particle spacing, checked, joined, [moved](Pose), with an inside | [`SegmentMesh`] | [`TriangleMesh`] |
+//! | finds what is near a point | [`SegmentGrid`] | [`TriangleGrid`] |
+//! | γ and ∇γ in closed form for any piecewise polynomial kernel | [`Renormalisation2d`] | [`Renormalisation3d`] |
 //!
+//! [`WallMesh`] is what the two have in common ([`PlanarWalls`], [`SpatialWalls`]); wall plugins
+//! are written once over it. [`Wall`] is the contract of a plugin, [`Usaw`] and [`DummyParticles`]
+//! fulfil it. [`RigidMotion`] moves a wall along [`Course`]s.
+//!
+//! # In the plane
 //! ```
 //! use sph_boundary::{PeriodicBox, Polyline, Renormalisation2d, SegmentGrid, SegmentMesh};
 //! use sph_kernels::PiecewisePolynomial;
@@ -24,6 +29,41 @@
 //! let grid = SegmentGrid::build(&mesh, renormalisation.kernel_radius());
 //! let at = renormalisation.at([4.0, 0.5], &mesh, &grid);
 //! assert!((at.gamma() - 0.823496914).abs() < 1e-9);
+//! # Ok::<(), sph_boundary::BoundaryError>(())
+//! ```
+//!
+//! # In space
+//! The fluid is on the side from which the corners of a triangle run anticlockwise.
+//! ```
+//! use sph_boundary::{
+//!     GammaSum3d, PeriodicBox, Renormalisation3d, Surface, TriangleGrid, TriangleMesh,
+//! };
+//! # use sph_kernels::PiecewisePolynomial;
+//! # let wendland = PiecewisePolynomial {
+//! #     breaks: vec![0.0, 2.0],
+//! #     pieces: vec![vec![1.0, 0.0, -2.5, 2.5, -0.9375, 0.125]],
+//! # };
+//!
+//! // The inside of a tetrahedron with three square corners.
+//! let tank = Surface {
+//!     name: "tank".into(),
+//!     points: vec![[0.0; 3], [24.0, 0.0, 0.0], [0.0, 24.0, 0.0], [0.0, 0.0, 24.0]],
+//!     triangles: vec![[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
+//! };
+//! let mesh = TriangleMesh::build(&[tank], &[0], 0.5, &PeriodicBox::none())?;
+//! let renormalisation = Renormalisation3d::new(&wendland, 1.0)?;
+//! let radius = renormalisation.kernel_radius();
+//! let grid = TriangleGrid::build(&mesh, radius);
+//! let gamma = |x: [f64; 3]| {
+//!     let mut sum = GammaSum3d::default();
+//!     for near in grid.near(&mesh, x, radius) {
+//!         let normal = mesh.triangles()[near.triangle as usize].normal;
+//!         sum.add(&renormalisation.triangle(mesh.corners_from(x, near), normal), normal);
+//!     }
+//!     sum.gamma()
+//! };
+//! assert!((gamma([4.0, 4.0, 0.5]) - 0.827583313).abs() < 1e-9); // half a length from the floor
+//! assert!((gamma([0.0; 3]) - 0.125).abs() < 1e-9); // in the corner, touching three walls
 //! # Ok::<(), sph_boundary::BoundaryError>(())
 //! ```
 

@@ -162,7 +162,7 @@ fn unit_axis<const D: usize>(rotation: &Rotation<D>) -> [f64; 3] {
     }
 }
 
-/// R = cos φ I + sin φ [e]× + (1 − cos φ) e eᵀ about the rotation's centre.
+/// R = cos φ I + sin φ E + (1 − cos φ) e eᵀ, E v = e × v, about the rotation's centre.
 fn turned<const D: usize>(rotation: &Rotation<D>, angle: f64) -> Pose<D> {
     if angle == 0.0 {
         return Pose::default();

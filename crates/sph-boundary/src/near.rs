@@ -14,6 +14,9 @@ use crate::wall_mesh::{Hindrance, WallMesh};
 /// constraint acts on lone particles only.
 const LEAST_CLEARANCE: f64 = 0.25;
 
+/// Particles whose elements one task looks for.
+const BATCH: usize = 256;
+
 /// Rounds over the elements near a particle before a corner simply stops it.
 const TURNS: usize = 4;
 
@@ -58,10 +61,17 @@ impl<N: Copy + Send + Sync> NearLists<N> {
         }
         let positions = &world.lists.reference;
         let reach = world.reach();
-        let rows: Vec<Vec<N>> = positions
-            .par_iter()
-            .with_min_len(256)
-            .map(|x| outline.mesh.near(x, reach))
+        let batches: Vec<(Vec<u32>, Vec<N>)> = positions
+            .par_chunks(BATCH)
+            .map(|batch| {
+                let (mut counts, mut elements) = (Vec::with_capacity(batch.len()), Vec::new());
+                for x in batch {
+                    let row = outline.mesh.near(x, reach);
+                    counts.push(row.len() as u32);
+                    elements.extend_from_slice(&row);
+                }
+                (counts, elements)
+            })
             .collect();
         self.built_for = world.lists.builds;
         self.version += 1;
@@ -69,10 +79,17 @@ impl<N: Copy + Send + Sync> NearLists<N> {
         self.elements.clear();
         self.starts.clear();
         self.starts.push(0);
-        for (particle, row) in rows.iter().enumerate().filter(|(_, row)| !row.is_empty()) {
-            self.particles.push(particle as u32);
-            self.elements.extend(row);
-            self.starts.push(self.elements.len() as u32);
+        let (mut particle, mut end) = (0, 0);
+        for (counts, elements) in &batches {
+            self.elements.extend_from_slice(elements);
+            for count in counts {
+                if *count > 0 {
+                    end += count;
+                    self.particles.push(particle);
+                    self.starts.push(end);
+                }
+                particle += 1;
+            }
         }
         let close: Vec<_> = self
             .particles

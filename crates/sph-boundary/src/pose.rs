@@ -76,7 +76,7 @@ impl Pose<2> {
 impl Pose<3> {
     /// A rotation by `angle` rad about an axis through `centre`, by the right-hand rule.
     ///
-    /// R = cos φ I + sin φ [e]× + (1 − cos φ) e eᵀ (Rodrigues); an axis without length turns nothing.
+    /// R = cos φ I + sin φ E + (1 − cos φ) e eᵀ, E v = e × v, (Rodrigues); an axis without length turns nothing.
     pub fn about_axis(axis: [f64; 3], angle: f64, centre: [f64; 3]) -> Self {
         let Some(e) = Vect::from(axis).try_normalize(0.0) else {
             return Self::default();

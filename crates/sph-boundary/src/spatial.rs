@@ -3,6 +3,7 @@
 mod edge;
 mod facet;
 mod knot;
+mod plane;
 mod renormalisation;
 mod sum;
 mod table;
@@ -11,5 +12,6 @@ mod weight;
 mod winding;
 
 pub use facet::FacetIntegral;
+pub(crate) use plane::{Foot, Patch, Plane};
 pub use renormalisation::Renormalisation3d;
 pub use sum::GammaSum3d;

@@ -5,10 +5,11 @@ use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::Contact;
 
 use crate::outline::groups;
+use crate::spatial::{Foot, Patch, Plane};
 use crate::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
 use crate::{
-    BoundaryError, Closest, Drawing, Feature, GammaSum3d, NearTriangle, PeriodicBox, Pose,
-    Renormalisation3d, Surface, TriangleGrid, TriangleMesh, WallSpec,
+    BoundaryError, Closest, Drawing, FaceEdge, Feature, GammaSum3d, NearTriangle, PeriodicBox,
+    Pose, Renormalisation3d, Surface, TriangleGrid, TriangleMesh, WallSpec,
 };
 
 /// Surfaces remeshed at the particle spacing, with the grid that finds their triangles.
@@ -16,8 +17,65 @@ use crate::{
 pub struct SpatialWalls {
     mesh: TriangleMesh,
     grid: TriangleGrid,
+    planes: Planes,
     reach: f64,
     domain: PeriodicBox<3>,
+}
+
+/// The faces as planes, and the triangles in them.
+#[derive(Debug, Default)]
+struct Planes {
+    planes: Vec<Plane>,
+    /// By face: one more than its last triangle.
+    ends: Vec<u32>,
+    /// By face: its edges, with the corners at hand.
+    edges: Vec<Vec<[Corner; 2]>>,
+    /// By triangle: its face.
+    faces: Vec<u32>,
+    /// By triangle.
+    patches: Vec<Patch>,
+}
+
+/// A corner of a face.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    /// Of its node, m.
+    position: Vect<3>,
+    /// Whole periods to add.
+    image: [i32; 3],
+}
+
+impl Corner {
+    fn new(mesh: &TriangleMesh, node: usize, image: [i32; 3]) -> Self {
+        let position = mesh.nodes()[node].position.into();
+        Corner { position, image }
+    }
+}
+
+impl Planes {
+    /// For the present position of the walls.
+    fn new(mesh: &TriangleMesh) -> Self {
+        let mut all = Self::default();
+        for face in mesh.faces() {
+            let corner = |e: &FaceEdge, k: usize| Corner::new(mesh, e.nodes[k], e.images[k]);
+            let edges = face.edges.iter().map(|e| [corner(e, 0), corner(e, 1)]);
+            all.edges.push(edges.collect());
+        }
+        // Triangles are stored face by face.
+        for (t, triangle) in mesh.triangles().iter().enumerate() {
+            let corners = mesh.corners(t);
+            if all.planes.len() <= triangle.face {
+                let plane = Plane::new(corners[0], triangle.normal);
+                all.planes.resize(triangle.face + 1, plane);
+                all.ends.resize(triangle.face + 1, t as u32);
+            }
+            all.ends[triangle.face] = t as u32 + 1;
+            let plane = &all.planes[triangle.face];
+            all.patches.push(Patch::new(plane, corners, triangle.area));
+            all.faces.push(triangle.face as u32);
+        }
+        all
+    }
 }
 
 /// Two places nearer than this, relatively, are equally near.
@@ -29,13 +87,31 @@ const SAME_PLANE: f64 = 1e-6;
 type Seen<'a> = (&'a NearTriangle, Closest, Vect<3>, f64);
 
 impl SpatialWalls {
-    /// The triangles of a sorted row by face and image, one group after the other.
+    /// The triangles of a row, sorted by image and triangle, by face and image.
     fn faces<'a>(
         &'a self,
-        row: &'a [NearTriangle],
+        mut row: &'a [NearTriangle],
     ) -> impl Iterator<Item = &'a [NearTriangle]> + 'a {
-        let face = |near: &NearTriangle| self.mesh.triangles()[near.triangle as usize].face;
-        row.chunk_by(move |a, b| a.image == b.image && face(a) == face(b))
+        std::iter::from_fn(move || {
+            let first = row.first()?;
+            let end = self.planes.ends[self.planes.faces[first.triangle as usize] as usize];
+            let same = |n: &NearTriangle| n.image == first.image && n.triangle < end;
+            let (part, rest) = row.split_at(row.partition_point(same));
+            row = rest;
+            Some(part)
+        })
+    }
+
+    /// A corner of an image of a face relative to a point, m: bitwise what
+    /// [`TriangleMesh::corners_from`] gives.
+    #[inline(always)]
+    fn seen(&self, corner: &Corner, image: [i8; 3], point: &Vect<3>) -> Vect<3> {
+        let from = corner.position - point;
+        if corner.image == [0; 3] && image == [0; 3] {
+            return from;
+        }
+        let shift = |k: usize| corner.image[k] + i32::from(image[k]);
+        from + Vect::from(self.domain.shift([shift(0), shift(1), shift(2)]))
     }
 }
 
@@ -62,6 +138,7 @@ impl WallMesh<3> for SpatialWalls {
         let mesh = TriangleMesh::build(&surfaces, &groups(walls), spacing, domain)?;
         Ok(SpatialWalls {
             grid: TriangleGrid::build(&mesh, reach),
+            planes: Planes::new(&mesh),
             mesh,
             reach,
             domain: *domain,
@@ -106,18 +183,16 @@ impl WallMesh<3> for SpatialWalls {
     fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {
         self.mesh.move_walls(poses)?;
         self.grid = TriangleGrid::build(&self.mesh, self.reach);
+        self.planes = Planes::new(&self.mesh);
         Ok(())
     }
 
+    /// Also those of which only the circle around them is in reach: to look closer costs more than
+    /// to see them left out by every γ.
     fn near(&self, point: &Vect<3>, radius: f64) -> Vec<NearTriangle> {
-        let radius = radius.min(self.reach);
-        let near = self.grid.near(&self.mesh, (*point).into(), radius);
-        let mut near: Vec<_> = near.collect();
-        let triangles = self.mesh.triangles();
-        near.sort_unstable_by_key(|n| {
-            let face = triangles[n.triangle as usize].face;
-            (face, n.image, n.triangle)
-        });
+        let mut near = self.grid.around((*point).into(), radius.min(self.reach));
+        // Face by face, as the triangles are.
+        near.sort_unstable_by_key(|n| (n.image, n.triangle));
         near
     }
 
@@ -130,29 +205,40 @@ impl WallMesh<3> for SpatialWalls {
         row: &[NearTriangle],
         contacts: &mut Vec<Contact<3>>,
     ) -> f64 {
-        let x: [f64; 3] = (*point).into();
         let radius = integrals.kernel_radius();
         let mut sum = GammaSum3d::default();
         for part in self.faces(row) {
+            let image = part[0].image;
             let first = &self.mesh.triangles()[part[0].triangle as usize];
             let normal = Vect::from(first.normal);
-            let corner = Vect::from(self.mesh.corners_from(x, part[0])[0]);
-            let height = -corner.dot(&normal);
+            let corner = Corner::new(&self.mesh, first.nodes[0], first.images[0]);
+            let height = -self.seen(&corner, image, point).dot(&normal);
             if height.abs() >= radius {
                 continue;
             }
-            let edges = self.mesh.face_edges_from(x, first.face, part[0].image);
+            let edges = self.planes.edges[first.face].iter().map(|[start, end]| {
+                let start = self.seen(start, image, point).into();
+                [start, self.seen(end, image, point).into()]
+            });
             let whole = integrals.polygon(height, first.normal, edges);
             sum.add(&whole, first.normal);
             if whole.kernel == 0.0 {
                 continue;
             }
+            let unshifted = match image {
+                [0, 0, 0] => *point,
+                _ => point - Vect::from(self.domain.shift(image.map(i32::from))),
+            };
+            let foot = Foot {
+                place: self.planes.planes[first.face].foot(unshifted.into()),
+                height,
+                reach: (radius * radius - height * height).sqrt(),
+            };
+            let patch = |n: &NearTriangle| &self.planes.patches[n.triangle as usize];
             let from = contacts.len();
             let mut total = 0.0;
             for near in part {
-                let triangle = &self.mesh.triangles()[near.triangle as usize];
-                let corners = self.mesh.corners_from(x, *near);
-                let weight = integrals.weight(corners, triangle.normal, triangle.area);
+                let weight = integrals.weight_of(patch(near), &foot);
                 if weight > 0.0 {
                     total += weight;
                     contacts.push(Contact {

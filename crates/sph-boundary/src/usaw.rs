@@ -42,6 +42,11 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     near: NearLists<M::Near>,
     /// Positions and version of the near lists for which the contacts were found.
     found_for: (u64, Vec<Vect<D>>),
+    /// What was found last, batch by batch; kept for its memory.
+    found: Vec<Found<D>>,
+    /// Least height of the particles of the near lists over the planes of their contacts, m; ∞ for
+    /// those on no plane's fluid side.
+    clearance: Vec<f64>,
 }
 
 register!(
@@ -55,12 +60,22 @@ register!(
 const BATCH: usize = 64;
 
 /// γ and contacts of a batch of particles.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Found<const D: usize> {
     gamma: Vec<f64>,
     contacts: Vec<Contact<D>>,
     /// Contacts up to and including each particle's.
     ends: Vec<u32>,
+    clearance: Vec<f64>,
+}
+
+impl<const D: usize> Found<D> {
+    fn clear(&mut self) {
+        self.gamma.clear();
+        self.contacts.clear();
+        self.ends.clear();
+        self.clearance.clear();
+    }
 }
 
 impl<const D: usize, M: WallMesh<D>> Usaw<D, M> {
@@ -118,26 +133,49 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         false
     }
 
-    fn find(&self, positions: &[Vect<D>]) -> Vec<Found<D>> {
-        let near = &self.near;
-        let batches = near.particles.par_chunks(BATCH).enumerate();
-        batches
-            .map(|(b, batch)| {
-                let mut found = Found {
-                    gamma: Vec::with_capacity(batch.len()),
-                    contacts: Vec::new(),
-                    ends: Vec::with_capacity(batch.len()),
-                };
-                for (k, &particle) in batch.iter().enumerate() {
-                    let (x, row) = (&positions[particle as usize], near.row(b * BATCH + k));
-                    let mesh = &self.outline.mesh;
-                    let gamma = mesh.gamma(&self.integrals, x, row, &mut found.contacts);
-                    found.gamma.push(gamma);
-                    found.ends.push(found.contacts.len() as u32);
-                }
-                found
+    /// Finds γ and contacts of all particles of the near lists.
+    fn find(&mut self, positions: &[Vect<D>]) {
+        let (near, mesh, integrals) = (&self.near, &self.outline.mesh, &self.integrals);
+        let batches = near.particles.par_chunks(BATCH);
+        self.found.resize_with(batches.len(), Found::default);
+        let batches = self.found.par_iter_mut().zip(batches).enumerate();
+        batches.for_each(|(b, (found, batch))| {
+            found.clear();
+            for (k, &particle) in batch.iter().enumerate() {
+                let (x, row) = (&positions[particle as usize], near.row(b * BATCH + k));
+                let from = found.contacts.len();
+                let gamma = mesh.gamma(integrals, x, row, &mut found.contacts);
+                let heights = found.contacts[from..].iter().map(|c| c.distance);
+                let least = heights.filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
+                found.gamma.push(gamma);
+                found.ends.push(found.contacts.len() as u32);
+                found.clearance.push(least);
+            }
+        });
+        self.clearance.clear();
+        let least = self.found.iter().flat_map(|f| &f.clearance);
+        self.clearance.extend(least);
+    }
+
+    /// Puts the contacts of all batches one behind the other.
+    fn join(&self, contacts: &mut Vec<Contact<D>>) {
+        let nothing = Contact {
+            element: 0,
+            gradient: Vect::zeros(),
+            distance: 0.0,
+        };
+        let total = self.found.iter().map(|f| f.contacts.len()).sum();
+        contacts.resize(total, nothing);
+        let mut rest = &mut contacts[..];
+        let places: Vec<_> = (self.found.iter())
+            .map(|found| {
+                let (place, after) = std::mem::take(&mut rest).split_at_mut(found.contacts.len());
+                rest = after;
+                (place, &found.contacts)
             })
-            .collect()
+            .collect();
+        let places = places.into_par_iter().with_min_len(4);
+        places.for_each(|(place, found)| place.copy_from_slice(found));
     }
 }
 
@@ -177,6 +215,8 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             spacing: setup.spacing,
             near: NearLists::default(),
             found_for: (0, Vec::new()),
+            found: Vec::new(),
+            clearance: Vec::new(),
         };
         set_up.place(&mut walls, 0.0);
         self.set_up = Some(set_up);
@@ -209,17 +249,16 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         let mut renormalisation = world.free.take(fields::RENORMALISATION)?;
         renormalisation.fill(1.0);
         let positions = world.free.get(fields::POSITION)?;
-        let found = set_up.find(positions);
+        set_up.find(positions);
         let contacts = &mut world.walls.contacts;
+        set_up.join(&mut contacts.contacts);
         contacts.particles.clear();
-        contacts.contacts.clear();
         contacts.starts.clear();
         contacts.starts.push(0);
         contacts.place.clear();
         contacts.place.resize(positions.len(), u32::MAX);
-        for (batch, found) in set_up.near.particles.chunks(BATCH).zip(&found) {
-            let offset = contacts.contacts.len() as u32;
-            contacts.contacts.extend_from_slice(&found.contacts);
+        let mut offset = 0;
+        for (batch, found) in set_up.near.particles.chunks(BATCH).zip(&set_up.found) {
             let results = found.gamma.iter().zip(&found.ends);
             for (&particle, (&gamma, &end)) in batch.iter().zip(results) {
                 renormalisation[particle as usize] = gamma;
@@ -229,6 +268,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
                     contacts.starts.push(offset + end);
                 }
             }
+            offset += found.contacts.len() as u32;
         }
         Ok(world.free.put(fields::RENORMALISATION, renormalisation)?)
     }
@@ -236,16 +276,8 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
     fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let set_up = self.ready()?;
         // Heights over the planes of all elements in reach bound the distances from below.
-        let contacts = std::mem::take(&mut world.walls.contacts);
-        let near = &set_up.near;
-        let height = |place: usize| {
-            let of = contacts.of(near.particles[place] as usize);
-            let heights = of.iter().map(|c| c.distance).filter(|d| *d > 0.0);
-            heights.fold(f64::INFINITY, f64::min)
-        };
-        let result = near.constrain(&set_up.outline, world, dt, height);
-        world.walls.contacts = contacts;
-        result
+        let clearance = |place: usize| set_up.clearance.get(place).copied().unwrap_or(0.0);
+        set_up.near.constrain(&set_up.outline, world, dt, clearance)
     }
 
     fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {

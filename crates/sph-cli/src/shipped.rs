@@ -56,8 +56,8 @@ pub fn find(name: &str) -> Option<Shipped> {
 }
 
 /// Compiled-in data files that a text mentions, with the path it mentions them by.
-pub fn data_of(text: &str) -> impl Iterator<Item = (&'static str, &'static str)> + '_ {
-    let mentioned = |(path, _): &&(&str, &str)| text.contains(&format!("\"{path}\""));
+pub fn data_of(text: &str) -> impl Iterator<Item = (&'static str, &'static [u8])> + '_ {
+    let mentioned = |(path, _): &&(&str, &[u8])| text.contains(&format!("\"{path}\""));
     DATA.iter().filter(mentioned).copied()
 }
 

@@ -286,7 +286,8 @@ fn start<const D: usize>(
     let identity = world.free.get(fields::IDENTITY)?.to_vec();
     let position = world.free.get(fields::POSITION)?.to_vec();
     let body = |k: usize| body_of[identity[k] as usize] as usize;
-    let whole = world.spacing.powi(D as i32);
+    let volume = relaxation.map_or(1.0, |r| r.volume);
+    let whole = volume * world.spacing.powi(D as i32);
     for k in 0..identity.len() {
         let state = &states[body(k)];
         let density = state.density(&position[k]);

@@ -77,11 +77,15 @@ pub fn refuse_the_absurd<const D: usize>(
     if needed < limit && particles + points < 4e9 {
         return Ok(());
     }
+    let advice = match points > particles {
+        true => "take a larger spacing, or are the walls drawn in another unit, such as \"mm\"?",
+        false => "take a larger spacing or smaller bodies",
+    };
     Err(SolverError::at(
         "numerics.spacing",
         format!(
             "about {particles:.1e} particles and {points:.1e} wall points would need {:.1e} GB of \
-             memory, and {:.1} GB are free: take a larger spacing or smaller bodies",
+             memory, and {:.1} GB are free: {advice}",
             needed / 1e9,
             limit / 1e9
         ),

@@ -94,7 +94,7 @@ pub fn examine(scene: &Scene, threads: usize) -> Result<Examination, SolverError
 
 fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examination, SolverError> {
     let mut assembled = assemble::<D>(scene)?;
-    crate::series::rehearse(&mut assembled.flow, &assembled.probes)?;
+    crate::series::rehearse(scene, &mut assembled.flow, &assembled.probes)?;
     crate::references::readable(scene)?;
     let flow = &assembled.flow;
     let world = &flow.world;

@@ -19,7 +19,7 @@ const STRIDE: f64 = 0.1;
 /// No particle is moved nearer to a wall than this share of the spacing.
 const CLEARANCE: f64 = 0.4;
 
-/// What relaxing did; errors are |Σ θ V w / γ − 1|.
+/// What relaxing did; errors are |Σ θ V w / γ − 1| with the volume V that a particle ends up with.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Relaxation {
     /// Steps taken.
@@ -35,6 +35,9 @@ pub struct Relaxation {
     pub rms_before: f64,
     /// Root mean square of the error after.
     pub rms: f64,
+    /// Volume of a particle over that of a cell of the lattice: what the fluid has per particle,
+    /// from the mean of Σ V w over the particles that see neither a wall nor a surface.
+    pub volume: f64,
 }
 
 /// Density sum over γ, and its gradient by the renormalised operator, 1/m.
@@ -116,8 +119,15 @@ fn settle<const D: usize>(
         let held = world.free.get(fields::IDENTITY)?.iter();
         let held: Vec<bool> = held.map(|id| held_by_identity[*id as usize]).collect();
         let all = concentrations(world)?;
-        let errors = all.iter().zip(&held).filter(|(_, held)| !**held);
-        let errors: Vec<f64> = errors.map(|(c, _)| (c.value - 1.0).abs()).collect();
+        let free = || all.iter().enumerate().zip(&held).filter(|(_, held)| !**held);
+        let contacts = &world.walls.contacts;
+        let inner = free().filter(|((i, _), _)| contacts.of(*i).is_empty());
+        let inner: Vec<f64> = inner.map(|((_, c), _)| c.value).collect();
+        let mean = match inner.len() {
+            0 => 1.0,
+            n => inner.iter().sum::<f64>() / n as f64,
+        };
+        let errors: Vec<f64> = free().map(|((_, c), _)| (c.value / mean - 1.0).abs()).collect();
         let largest = errors.iter().copied().fold(0.0, f64::max);
         let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len().max(1) as f64).sqrt();
         let so_far = result.get_or_insert(Relaxation {
@@ -127,8 +137,10 @@ fn settle<const D: usize>(
             largest,
             rms_before: rms,
             rms,
+            volume: 1.0,
         });
         (so_far.steps, so_far.largest, so_far.rms) = (step, largest, rms);
+        so_far.volume = 1.0 / mean;
         if step == most || largest < tolerance || errors.is_empty() {
             break;
         }

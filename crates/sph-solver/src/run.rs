@@ -88,7 +88,7 @@ fn run_in<const D: usize>(
     observer: &mut (dyn Observer + Send),
 ) -> Result<Summary, SolverError> {
     let mut parts = assemble::<D>(scene)?;
-    crate::series::rehearse(&mut parts.flow, &parts.probes)?;
+    crate::series::rehearse(scene, &mut parts.flow, &parts.probes)?;
     references::readable(scene)?;
     sph_io::writable(&options.out)?;
     sph_io::sweep_temporaries(&options.out)?;

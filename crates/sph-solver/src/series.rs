@@ -5,6 +5,7 @@ use std::path::Path;
 use sph_core::StepError;
 use sph_io::{IoError, SeriesWriter};
 use sph_probes::Probe;
+use sph_scene::Scene;
 
 use crate::balance::Balance;
 use crate::{Flow, SolverError};
@@ -115,11 +116,24 @@ impl Series {
 }
 
 /// Measures once without writing, so that a wrong probe is found before anything exists.
-pub fn rehearse<const D: usize>(flow: &mut Flow<D>, probes: &Probes<D>) -> Result<(), StepError> {
+pub fn rehearse<const D: usize>(
+    scene: &Scene,
+    flow: &mut Flow<D>,
+    probes: &Probes<D>,
+) -> Result<(), SolverError> {
     measure_walls(flow, probes)?;
-    probes
-        .iter()
-        .try_for_each(|(_, probe)| probe.measure(&flow.world).map(|_| ()))
+    for (name, probe) in probes {
+        let kind = match scene.gauge.contains_key(name) {
+            true => "gauge",
+            false => "probe",
+        };
+        let problem = |e: StepError| match e {
+            StepError::Stage { reason, .. } => SolverError::at(format!("{kind}.{name}"), reason),
+            other => other.into(),
+        };
+        probe.measure(&flow.world).map_err(problem)?;
+    }
+    Ok(())
 }
 
 /// Measures the forces on walls if any probe reads them.

@@ -1,18 +1,24 @@
 //! Triangles near a point.
 
 use super::closest::nearest_to_origin;
-use super::vector::{Point, add, bounds, dot};
+use super::vector::{Point, add, bounds, dot, norm, sub};
 use super::{NearTriangle, TriangleMesh};
 
 /// Most cells per registered triangle: a grid over a vast empty box is made coarser.
 const CELLS_PER_ENTRY: usize = 8;
 
 /// Size of a cell over the reach.
-const PART_OF_REACH: f64 = 0.25;
+const PART_OF_REACH: f64 = 0.5;
+
+/// Triangles that a list has room for at first.
+const USUAL: usize = 96;
+
+/// What rounding may do to a squared distance, relatively.
+const ROUNDING: f64 = 1e-9;
 
 /// A uniform grid whose cells list the triangles with their centre in them.
 ///
-/// Every image of a triangle that comes near the box is listed once, in 8 bytes. A query looks at
+/// Every image of a triangle that comes near the box is listed once, in 40 bytes. A query looks at
 /// all cells within its radius; one far from all walls finds nothing and costs nothing.
 #[derive(Clone, Debug)]
 pub struct TriangleGrid {
@@ -25,6 +31,15 @@ pub struct TriangleGrid {
     /// Start of every cell's list, and the end of the last one.
     starts: Vec<u32>,
     entries: Vec<NearTriangle>,
+    /// Around every entry.
+    spheres: Vec<Sphere>,
+}
+
+/// The sphere about the mean of a triangle's corners in which it is, m.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sphere {
+    centre: Point,
+    radius: f64,
 }
 
 impl TriangleGrid {
@@ -33,15 +48,17 @@ impl TriangleGrid {
     /// With periodic directions, points in the box or within `reach` of it are served.
     pub fn build(mesh: &TriangleMesh, reach: f64) -> Self {
         let mut margin = [0.0; 3];
+        let mut radii = Vec::with_capacity(mesh.triangles().len());
         for (t, triangle) in mesh.triangles().iter().enumerate() {
-            for corner in mesh.corners(t) {
-                margin = std::array::from_fn(|k: usize| {
-                    f64::max(margin[k], (corner[k] - triangle.centre[k]).abs())
-                });
+            let arms = mesh.corners(t).map(|corner| sub(corner, triangle.centre));
+            for arm in arms {
+                margin = std::array::from_fn(|k: usize| f64::max(margin[k], arm[k].abs()));
             }
+            let radius = arms.into_iter().map(norm).fold(0.0, f64::max);
+            radii.push(radius * (1.0 + ROUNDING));
         }
         // Rounding loses nothing.
-        let margin = margin.map(|x: f64| x * (1.0 + 1e-9));
+        let margin = margin.map(|x: f64| x * (1.0 + ROUNDING));
         let images = images(mesh, 2.0 * reach, margin);
         let [lower, upper] = bounds(images.iter().map(|(_, centre)| *centre));
         let extent: Point = std::array::from_fn(|k| (upper[k] - lower[k]).max(0.0));
@@ -59,13 +76,14 @@ impl TriangleGrid {
             cells,
             starts: vec![0; cells[0] * cells[1] * cells[2] + 1],
             entries: vec![NearTriangle::default(); images.len()],
+            spheres: vec![Sphere::default(); images.len()],
         };
-        grid.fill(&images);
+        grid.fill(&images, &radii);
         grid
     }
 
     /// Counts, then places: the order of `images` is kept in every cell.
-    fn fill(&mut self, images: &[(NearTriangle, Point)]) {
+    fn fill(&mut self, images: &[(NearTriangle, Point)], radii: &[f64]) {
         let cell = |grid: &Self, centre: Point| {
             let [i, j, k] = [0, 1, 2].map(|axis| {
                 let x = (centre[axis] - grid.lower[axis]) * grid.per_cell;
@@ -83,7 +101,12 @@ impl TriangleGrid {
         let mut next = self.starts.clone();
         for (near, centre) in images {
             let cell = cell(self, *centre);
-            self.entries[next[cell] as usize] = *near;
+            let place = next[cell] as usize;
+            self.entries[place] = *near;
+            self.spheres[place] = Sphere {
+                centre: *centre,
+                radius: radii[near.triangle as usize],
+            };
             next[cell] += 1;
         }
     }
@@ -100,36 +123,55 @@ impl TriangleGrid {
         point: [f64; 3],
         radius: f64,
     ) -> impl Iterator<Item = NearTriangle> + 'a {
-        debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
         let mut found = Vec::new();
-        if let Some([first, last]) = self.cells_within(point, radius) {
-            for k in first[2]..=last[2] {
-                for j in first[1]..=last[1] {
-                    let row = self.index([first[0], j, k])..=self.index([last[0], j, k]);
-                    let from = self.starts[*row.start()] as usize;
-                    let to = self.starts[*row.end() + 1] as usize;
-                    let near = |n: &&NearTriangle| {
-                        if self.is_far(mesh, point, **n, radius) {
-                            return false;
-                        }
-                        let (offset, _) = nearest_to_origin(mesh.corners_from(point, **n));
-                        dot(offset, offset) < radius * radius
-                    };
-                    found.extend(self.entries[from..to].iter().filter(near).copied());
-                }
+        self.visit(point, radius, |near, distance2| {
+            // The mean of the corners is in the triangle.
+            let surely = distance2 < radius * radius * (1.0 - ROUNDING);
+            if surely || {
+                let (offset, _) = nearest_to_origin(mesh.corners_from(point, near));
+                dot(offset, offset) < radius * radius
+            } {
+                found.push(near);
             }
-        }
+        });
         found.sort_unstable();
         found.into_iter()
     }
 
-    /// Whether the centre alone says that a triangle is out of reach.
-    fn is_far(&self, mesh: &TriangleMesh, point: Point, near: NearTriangle, radius: f64) -> bool {
-        let mut centre = mesh.triangles()[near.triangle as usize].centre;
-        if near.image != [0; 3] {
-            centre = add(centre, mesh.domain().shift(near.image.map(i32::from)));
+    /// Images of triangles that may be nearer than `radius` to a point, because the spheres around
+    /// them are; cell by cell. `radius` at most the reach of the grid.
+    pub(crate) fn around(&self, point: [f64; 3], radius: f64) -> Vec<NearTriangle> {
+        let mut found = Vec::new();
+        self.visit(point, radius, |near, _| {
+            if found.is_empty() {
+                found.reserve(USUAL);
+            }
+            found.push(near);
+        });
+        found
+    }
+
+    /// Calls `found` for every image whose sphere is in reach with its centre's squared distance.
+    #[inline]
+    fn visit(&self, point: Point, radius: f64, mut found: impl FnMut(NearTriangle, f64)) {
+        debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
+        let Some([first, last]) = self.cells_within(point, radius) else {
+            return;
+        };
+        for k in first[2]..=last[2] {
+            for j in first[1]..=last[1] {
+                let from = self.starts[self.index([first[0], j, k])] as usize;
+                let to = self.starts[self.index([last[0], j, k]) + 1] as usize;
+                let all = self.spheres[from..to].iter().zip(&self.entries[from..to]);
+                for (sphere, near) in all {
+                    let offset = sub(sphere.centre, point);
+                    let (distance2, limit) = (dot(offset, offset), radius + sphere.radius);
+                    if distance2 < limit * limit {
+                        found(*near, distance2);
+                    }
+                }
+            }
         }
-        (0..3).any(|k| (centre[k] - point[k]).abs() > radius + self.margin[k])
     }
 
     /// First and last cell along each axis with centres of triangles that may be in reach.
@@ -150,7 +192,9 @@ impl TriangleGrid {
 
     /// Bytes that the grid holds.
     pub fn memory(&self) -> usize {
-        size_of_val(self.starts.as_slice()) + size_of_val(self.entries.as_slice())
+        size_of_val(self.starts.as_slice())
+            + size_of_val(self.entries.as_slice())
+            + size_of_val(self.spheres.as_slice())
     }
 }
 

@@ -1,0 +1,95 @@
+//! The plane of a face, and its triangles in two coordinates.
+
+use super::vector::{Vector, cross, dot, plus};
+
+/// A plane with two axes in it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane {
+    origin: Vector,
+    axes: [Vector; 2],
+}
+
+impl Plane {
+    /// The plane through a place, m, across a unit normal.
+    pub fn new(origin: [f64; 3], normal: [f64; 3]) -> Self {
+        // The coordinate axis that is farthest from the normal.
+        let mut axis = [0.0; 3];
+        let flattest = (0..3).min_by(|i, j| normal[*i].abs().total_cmp(&normal[*j].abs()));
+        axis[flattest.unwrap_or(0)] = 1.0;
+        let first = plus(axis, -dot(axis, normal), normal);
+        let length = dot(first, first).sqrt();
+        let first = first.map(|x| x / length);
+        Self {
+            origin,
+            axes: [first, cross(normal, first)],
+        }
+    }
+
+    /// Coordinates of the foot of the perpendicular from a point, m.
+    #[inline]
+    pub fn foot(&self, point: [f64; 3]) -> [f64; 2] {
+        let from = plus(point, -1.0, self.origin);
+        [dot(from, self.axes[0]), dot(from, self.axes[1])]
+    }
+}
+
+/// A triangle in the coordinates of its plane, ready to be seen from many points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Patch {
+    /// Mean of the corners, m.
+    pub centre: [f64; 2],
+    /// The first two corners from there, m; the third makes their sum vanish.
+    pub arms: [[f64; 2]; 2],
+    /// Squared distances of the corners from there, m².
+    pub squares: [f64; 3],
+    /// Distance of the farthest corner from there, m.
+    pub radius: f64,
+    /// m².
+    pub area: f64,
+}
+
+impl Patch {
+    /// A triangle with corners in or close to a plane, m, and its area, m².
+    pub fn new(plane: &Plane, corners: [[f64; 3]; 3], area: f64) -> Self {
+        let [a, b, c] = corners.map(|corner| plane.foot(corner));
+        let centre = [0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0);
+        let arms = [a, b, c].map(|corner| [corner[0] - centre[0], corner[1] - centre[1]]);
+        let squares = arms.map(|arm| arm[0] * arm[0] + arm[1] * arm[1]);
+        Self {
+            centre,
+            arms: [arms[0], arms[1]],
+            squares,
+            // Rounding loses nothing.
+            radius: squares.into_iter().fold(0.0, f64::max).sqrt() * (1.0 + 1e-9),
+            area,
+        }
+    }
+}
+
+impl Patch {
+    /// Whether the circle around the triangle and the disc of the plane within the support meet.
+    #[inline(always)]
+    pub fn meets(&self, foot: &Foot) -> bool {
+        let [x, y] = self.from(foot);
+        let reach = foot.reach + self.radius;
+        x * x + y * y < reach * reach
+    }
+
+    /// The centre as seen from the foot, m.
+    #[inline(always)]
+    pub fn from(&self, foot: &Foot) -> [f64; 2] {
+        let (c, f) = (self.centre, foot.place);
+        [c[0] - f[0], c[1] - f[1]]
+    }
+}
+
+/// Where a point stands over a plane, and how much of the plane it sees.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Foot {
+    /// Coordinates of the foot of the perpendicular, m.
+    pub place: [f64; 2],
+    /// Signed distance from the plane, m.
+    pub height: f64,
+    /// Radius of the disc of the plane within the support, m.
+    pub reach: f64,
+}

@@ -1,0 +1,155 @@
+//! A world of particles next to walls in either dimension, built through the registry.
+
+use sph_boundary::{Condition, Drawing, RigidMotion, Wall, WallEntry, WallSetup, WallSpec};
+use sph_core::{Registry, Role, Store, Vect, fields};
+use sph_kernels::{Kernel, wendland_c2};
+use sph_neighbours::{Domain, WallSet, World};
+
+/// A wall treatment with its world; h = 2 δr with the Wendland C2 kernel.
+pub struct Bench<const D: usize> {
+    pub wall: Box<dyn Wall<D>>,
+    pub world: World<D>,
+}
+
+/// A wall that stands still and rubs.
+pub fn fixed<const D: usize>(drawing: Drawing) -> WallSpec<D> {
+    WallSpec {
+        drawing,
+        condition: Condition::NoSlip,
+        surface_velocity: Vect::zeros(),
+        motion: RigidMotion::default(),
+    }
+}
+
+/// A wall with a motion.
+pub fn moving<const D: usize>(drawing: Drawing, motion: RigidMotion<D>) -> WallSpec<D> {
+    WallSpec {
+        motion,
+        ..fixed(drawing)
+    }
+}
+
+/// A box that nothing wraps.
+pub fn wide<const D: usize>() -> Domain<D> {
+    Domain::open(Vect::repeat(-100.0), Vect::repeat(100.0))
+}
+
+impl<const D: usize> Bench<D> {
+    /// Walls of a treatment around particles of density 1 kg/m³, lists and geometry fresh.
+    pub fn new(
+        name: &str,
+        specs: &[WallSpec<D>],
+        spacing: f64,
+        domain: Domain<D>,
+        positions: Vec<Vect<D>>,
+    ) -> Self {
+        let kernel = wendland_c2();
+        let registry = Registry::<WallEntry>::discovered().expect("a registry");
+        let entry = registry.find(name).expect("a registered treatment");
+        let built = entry.build::<D>(&toml::Table::new());
+        let mut wall = built.expect("no parameters");
+        let walls = wall.build(&WallSetup {
+            walls: specs,
+            spacing,
+            smoothing_length: 2.0 * spacing,
+            kernel: &kernel,
+            domain: &domain,
+        });
+        let walls: WallSet<D> = walls.expect("walls that are accepted");
+        let mut free = Store::new(positions.len());
+        for field in [fields::POSITION, fields::VELOCITY] {
+            free.add(field, Role::State);
+        }
+        for field in [fields::DENSITY, fields::VOLUME, fields::PRESSURE] {
+            free.add(field, Role::State);
+        }
+        free.add(fields::RENORMALISATION, Role::Derived);
+        *free.get_mut(fields::POSITION).unwrap() = positions;
+        free.get_mut(fields::DENSITY).unwrap().fill(1.0);
+        let whole = spacing.powi(D as i32);
+        free.get_mut(fields::VOLUME).unwrap().fill(whole);
+        let mut bench = Bench {
+            wall,
+            world: World {
+                free,
+                walls,
+                lists: Default::default(),
+                domain,
+                kernel: kernel.sampler(D, 2.0 * spacing),
+                spacing,
+                skin: 0.1,
+                gravity: Vect::zeros(),
+                driving: Vect::zeros(),
+                time: 0.0,
+                dt: 0.0,
+            },
+        };
+        bench.refresh();
+        bench
+    }
+
+    /// Lists and geometry at the present positions.
+    pub fn refresh(&mut self) {
+        self.world.refresh_lists().expect("positions");
+        self.wall.geometry(&mut self.world).expect("geometry");
+    }
+
+    /// The walls at a time, geometry fresh.
+    pub fn move_to(&mut self, time: f64) {
+        self.world.time = time;
+        self.wall.move_to(&mut self.world.walls, time).unwrap();
+        self.refresh();
+    }
+
+    /// Positions of the particles, in the order of the store.
+    pub fn positions(&self) -> &[Vect<D>] {
+        self.world.free.get(fields::POSITION).unwrap()
+    }
+
+    /// γ of the particles.
+    pub fn gamma(&self) -> &[f64] {
+        self.world.free.get(fields::RENORMALISATION).unwrap()
+    }
+
+    /// ∇γ of a particle, 1/m.
+    pub fn gradient(&self, particle: usize) -> Vect<D> {
+        let contacts = self.world.walls.contacts.of(particle);
+        contacts.iter().map(|c| c.gradient).sum()
+    }
+
+    /// The particle nearest to a place.
+    pub fn at(&self, place: Vect<D>) -> usize {
+        let distance = |x: &Vect<D>| (x - place).norm();
+        let all = self.positions().iter().enumerate();
+        let nearest = all.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+        nearest.expect("a particle").0
+    }
+
+    /// Shares of all wall points nearer than 10⁻⁹ m to a place.
+    pub fn shares_at(&self, place: Vect<D>) -> Vec<f64> {
+        let points = &self.world.walls.points;
+        let all = points.position.iter().zip(&points.share);
+        let here = all.filter(|(x, _)| (*x - place).norm() < 1e-9);
+        here.map(|(_, share)| *share).collect()
+    }
+}
+
+/// Numbers in [0, 1) that are the same at every run.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
+    }
+
+    pub fn point<const D: usize>(&mut self, low: f64, high: f64) -> Vect<D> {
+        Vect::from_fn(|_, _| self.between(low, high))
+    }
+}

@@ -1,0 +1,106 @@
+//! Geometry is found once for a state of particles and walls, and anew for every other state.
+
+use sph_boundary::{RigidMotion, Surface};
+use sph_core::{Vect, fields};
+
+use crate::bench::{Bench, Random, moving, wide};
+use crate::shapes::{block, wall};
+
+const SPACING: f64 = 0.4;
+/// No γ is this.
+const MARK: f64 = -7.0;
+
+fn solid() -> Surface {
+    block("block", [-0.8; 3], [0.8; 3])
+}
+
+/// A block that begins to rise after one second, among particles.
+fn bench() -> Bench<3> {
+    let mut random = Random::new(9);
+    let places = (0..800).map(|_| random.point(-2.5, 2.5));
+    let places = places.filter(|x: &Vect<3>| x.amax() > 1.0).collect();
+    let motion = RigidMotion {
+        start: 1.0,
+        ..RigidMotion::steady([0.0, 0.0, 0.05])
+    };
+    Bench::new(
+        "usaw",
+        &[moving(wall(solid()), motion)],
+        SPACING,
+        wide(),
+        places,
+    )
+}
+
+/// Element, gradient and distance of every contact.
+fn contacts(bench: &Bench<3>) -> Vec<(u32, Vect<3>, f64)> {
+    let contacts = bench.world.walls.contacts.contacts.iter();
+    contacts
+        .map(|c| (c.element, c.gradient, c.distance))
+        .collect()
+}
+
+/// Marks γ; whoever finds it anew wipes the marks off.
+fn mark(bench: &mut Bench<3>) {
+    let gamma = bench.world.free.get_mut(fields::RENORMALISATION).unwrap();
+    gamma.fill(MARK);
+}
+
+#[test]
+fn where_nothing_moved_gamma_and_contacts_are_not_touched() {
+    let mut bench = bench();
+    let before = contacts(&bench);
+    assert!(before.len() > 1000);
+    mark(&mut bench);
+    bench.refresh();
+    // The clock alone is no motion.
+    bench.move_to(0.7);
+    assert!(bench.gamma().iter().all(|g| *g == MARK));
+    assert_eq!(contacts(&bench), before);
+}
+
+#[test]
+fn one_particle_that_moves_by_a_millionth_refreshes_it() {
+    let mut bench = bench();
+    let (before, gamma) = (contacts(&bench), bench.gamma().to_vec());
+    mark(&mut bench);
+    let i = bench.at(Vect::from([1.1, 0.0, 0.0]));
+    bench.world.free.get_mut(fields::POSITION).unwrap()[i][0] += 1e-6;
+    bench.refresh();
+    assert!(bench.gamma().iter().all(|g| *g != MARK));
+    assert_ne!(contacts(&bench), before);
+    let change = bench.gamma()[i] - gamma[i];
+    let expected = 1e-6 * bench.gradient(i)[0];
+    assert!(expected.abs() > 1e-9 && (change - expected).abs() < 1e-11);
+    let others = bench.gamma().iter().zip(&gamma).enumerate();
+    assert_eq!(others.filter(|(_, (a, b))| a != b).count(), 1);
+}
+
+#[test]
+fn a_wall_that_moves_by_a_millionth_refreshes_it() {
+    let mut bench = bench();
+    let (before, gamma) = (contacts(&bench), bench.gamma().to_vec());
+    mark(&mut bench);
+    bench.move_to(1.0 + 2e-5);
+    assert!(bench.gamma().iter().all(|g| *g != MARK));
+    assert_ne!(contacts(&bench), before);
+    let i = bench.at(Vect::from([0.0, 0.0, 1.1]));
+    let (change, expected) = (bench.gamma()[i] - gamma[i], -1e-6 * bench.gradient(i)[2]);
+    assert!(expected.abs() > 1e-9 && (change - expected).abs() < 1e-11);
+    // And rests again where the wall does.
+    mark(&mut bench);
+    bench.refresh();
+    assert!(bench.gamma().iter().all(|g| *g == MARK));
+}
+
+#[test]
+fn a_particle_out_of_reach_may_fly_without_anything_being_found_anew() {
+    let mut bench = bench();
+    let far = bench.at(Vect::repeat(2.5));
+    let start = bench.positions()[far];
+    assert!((start - Vect::repeat(0.8)).norm() > 2.0);
+    mark(&mut bench);
+    bench.world.free.get_mut(fields::POSITION).unwrap()[far][0] += 1e-3;
+    bench.refresh();
+    assert!(bench.gamma().iter().all(|g| *g == MARK));
+}

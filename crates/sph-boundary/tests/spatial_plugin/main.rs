@@ -1,0 +1,12 @@
+//! The wall treatments in three dimensions: what a solver sees of them.
+
+mod bench;
+mod caching;
+mod constrain;
+mod cover;
+mod dummy;
+mod gamma;
+mod joined;
+mod motion;
+mod shapes;
+mod shares;

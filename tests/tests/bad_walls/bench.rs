@@ -1,0 +1,81 @@
+//! Scenes with one mistake.
+
+use sph_tests::Bench;
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+
+/// A corner of a triangle.
+pub type Corner = [f64; 3];
+
+/// The cube from −½ to ½ as an obstacle: normals point out of it.
+pub fn cube() -> Vec<[Corner; 3]> {
+    let corner = |c: usize| [0, 1, 2].map(|k| if c >> k & 1 == 1 { 0.5 } else { -0.5 });
+    let quads = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let halves = |q: [usize; 4]| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]];
+    let triangles = quads.into_iter().flat_map(halves);
+    triangles.map(|t| t.map(corner)).collect()
+}
+
+/// A binary STL file; normals are left zero.
+pub fn binary(triangles: &[[Corner; 3]]) -> Vec<u8> {
+    let mut bytes = vec![b' '; 80];
+    bytes.extend((triangles.len() as u32).to_le_bytes());
+    for triangle in triangles {
+        bytes.extend([0_u8; 12]);
+        for x in triangle.iter().flatten() {
+            bytes.extend((*x as f32).to_le_bytes());
+        }
+        bytes.extend([0_u8; 2]);
+    }
+    bytes
+}
+
+const PHASE: &str = "[phase.water]\ndensity = 1000.0\nspeed_of_sound = 30.0\n\
+                     [phase.water.rheology.newtonian]\nviscosity = 1e-3\n";
+
+/// A body in a tank of three dimensions with further tables.
+pub fn in_space(more: &str, body: &str) -> String {
+    format!(
+        "title = \"bad\"\ndimension = 3\nrun.end = 0.01\n[numerics]\nspacing = 0.125\n[walls.usaw]\n\
+         [wall.tank]\nbox = [[-2.0, -2.0, -2.0], [2.0, 2.0, 2.0]]\n{PHASE}\
+         [body.water]\nphase = \"water\"\n{body}\n{more}\n"
+    )
+}
+
+/// A body in the plane with further tables.
+pub fn in_the_plane(more: &str, body: &str) -> String {
+    format!(
+        "title = \"bad\"\ndimension = 2\nrun.end = 0.01\n[numerics]\nspacing = 0.1\n[walls.usaw]\n\
+         {PHASE}[body.water]\nphase = \"water\"\n{body}\n{more}\n"
+    )
+}
+
+/// The scene with its files is refused by `run` and `check`; what is said has all the words.
+pub fn refused(scene: &str, files: &[(&str, &[u8])], words: &[&str]) -> String {
+    let bench = Bench::with(PROGRAM, scene);
+    for (name, bytes) in files {
+        std::fs::write(bench.path(name), bytes).expect("a file");
+    }
+    let mut told = String::new();
+    for command in ["check", "run"] {
+        let outcome = bench.call(&format!("{command} scene.toml"));
+        told = outcome.err;
+        println!("{told}");
+        assert_eq!(outcome.code, Some(2), "{command}: {told}");
+        assert!(!told.contains("panicked"), "{told}");
+        assert!(told.contains("scene.toml"), "no place in\n{told}");
+        for word in words {
+            assert!(told.contains(word), "no `{word}` in\n{told}");
+        }
+        let entries = std::fs::read_dir(bench.folder()).expect("the folder");
+        assert_eq!(entries.count(), files.len() + 1, "something was written");
+    }
+    told
+}

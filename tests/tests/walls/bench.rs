@@ -1,0 +1,96 @@
+//! Flows of scenes given as text.
+
+use sph_core::{StepLimit, System, Vect, fields};
+use sph_neighbours::WallForce;
+use sph_scene::parse;
+use sph_solver::{Assembled, assemble};
+
+/// A flow that is stepped by hand.
+pub struct Flowing<const D: usize>(pub Assembled<D>);
+
+/// The flow of a scene, evaluated at its start.
+pub fn flowing<const D: usize>(text: &str) -> Flowing<D> {
+    let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    let mut parts = assemble::<D>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    parts.flow.evaluate().expect("a state");
+    Flowing(parts)
+}
+
+impl<const D: usize> Flowing<D> {
+    /// One step of four fifths of the least limit, evaluated.
+    pub fn step(&mut self) -> f64 {
+        let parts = &mut self.0;
+        let limits = parts.flow.step_limits().expect("limits");
+        let dt = 0.8 * StepLimit::least(&limits).expect("a limit").dt;
+        parts.flow.world.dt = dt;
+        parts.integrator.step(&mut parts.flow, dt).expect("a step");
+        parts.flow.evaluate().expect("a state");
+        dt
+    }
+
+    pub fn steps(&mut self, count: usize) {
+        for _ in 0..count {
+            self.step();
+        }
+    }
+
+    pub fn until(&mut self, time: f64) {
+        while self.0.flow.world.time < time {
+            self.step();
+        }
+    }
+
+    pub fn positions(&self) -> &[Vect<D>] {
+        self.0.flow.world.free.get(fields::POSITION).unwrap()
+    }
+
+    pub fn velocities(&self) -> &[Vect<D>] {
+        self.0.flow.world.free.get(fields::VELOCITY).unwrap()
+    }
+
+    pub fn pressures(&self) -> &[f64] {
+        self.0.flow.world.free.get(fields::PRESSURE).unwrap()
+    }
+
+    fn masses(&self) -> &[f64] {
+        self.0.flow.world.free.get(fields::MASS).unwrap()
+    }
+
+    pub fn mass(&self) -> f64 {
+        self.masses().iter().sum()
+    }
+
+    /// Σ m a and Σ m |a|, N.
+    pub fn momentum_rate(&self) -> (Vect<D>, f64) {
+        let a = self.0.flow.world.free.get(fields::ACCELERATION).unwrap();
+        let all = || a.iter().zip(self.masses());
+        let sum = all().map(|(a, m)| a * *m).sum();
+        (sum, all().map(|(a, m)| a.norm() * m).sum())
+    }
+
+    /// Σ m u, kg m/s.
+    pub fn momentum(&self) -> Vect<D> {
+        let all = self.velocities().iter().zip(self.masses());
+        all.map(|(u, m)| u * *m).sum()
+    }
+
+    /// Forces of the fluid on the walls with their names.
+    pub fn forces(&mut self) -> Vec<(String, WallForce<D>)> {
+        self.0.flow.measure_wall_forces().expect("forces");
+        let walls = &self.0.flow.world.walls;
+        let all = walls.names.iter().cloned();
+        all.zip(walls.forces.iter().copied()).collect()
+    }
+
+    /// Force of the fluid on one wall.
+    pub fn force(&mut self, wall: &str) -> WallForce<D> {
+        let mut all = self.forces().into_iter();
+        all.find(|(name, _)| name == wall).expect("the wall").1
+    }
+
+    /// Weight and driving force of all the fluid, N.
+    pub fn weight(&self) -> Vect<D> {
+        let world = &self.0.flow.world;
+        (world.gravity + world.driving) * self.mass()
+    }
+}
