@@ -16,6 +16,10 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// −Σ p_s S_s n_s over the wall's elements (none with dummy particles). In two dimensions forces
 /// are per metre of depth.
 ///
+/// The reaction balances the particles, which begin half a spacing off the wall: under gravity it
+/// is that of a body larger by this half spacing: 1.30 times the buoyancy of the block of the
+/// tests, where the pressure integral gives 1.03. Take `.pressure` for buoyancy.
+///
 /// ```toml
 /// [probe.drag]
 /// kind = "wall-force"
