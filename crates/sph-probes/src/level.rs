@@ -8,7 +8,7 @@ use sph_neighbours::World;
 use crate::point::{carried, point};
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
-/// The highest place over a point where Σ V w falls to one half.
+/// The highest place over a point where Σ V w falls to one half, V being at most a cell δr^d.
 ///
 /// ```toml
 /// [gauge.H1]
@@ -34,6 +34,8 @@ impl<const D: usize> Probe<D> for Level {
         let positions = world.free.get(fields::POSITION)?;
         let volume = world.free.get(fields::VOLUME)?;
         let radius = world.kernel.support_radius();
+        // A drop alone has a small density and a volume of several cells: it is no surface.
+        let cell = world.spacing.powi(D as i32);
         let drawn = point::<D>(&self.at[..self.at.len().min(D - 1)]);
         let mut foot = carried(world, drawn, self.follows.as_deref())?;
         foot[D - 1] = 0.0;
@@ -41,7 +43,7 @@ impl<const D: usize> Probe<D> for Level {
         let near: Vec<(Vect<D>, f64)> = positions
             .iter()
             .zip(volume)
-            .map(|(x, v)| (world.domain.nearest_image(x - foot), *v))
+            .map(|(x, v)| (world.domain.nearest_image(x - foot), v.min(cell)))
             .filter(|(d, _)| (0..D - 1).map(|k| d[k] * d[k]).sum::<f64>() < radius * radius)
             .collect();
         let filling = |z: f64| -> f64 {
