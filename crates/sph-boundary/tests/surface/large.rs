@@ -49,7 +49,6 @@ fn a_ball_of_eighty_thousand_triangles() {
             mesh.triangles().len(),
             grid.memory(),
         );
-        assert!(built.as_secs_f64() < 5.0);
         let ball = 4.0 / 3.0 * std::f64::consts::PI / 2.4f64.powi(3);
         assert!((1.0 - fluid as f64 / 1e4 - ball).abs() < 0.015);
     }
