@@ -119,7 +119,12 @@ fn settle<const D: usize>(
         let held = world.free.get(fields::IDENTITY)?.iter();
         let held: Vec<bool> = held.map(|id| held_by_identity[*id as usize]).collect();
         let all = concentrations(world)?;
-        let free = || all.iter().enumerate().zip(&held).filter(|(_, held)| !**held);
+        let free = || {
+            all.iter()
+                .enumerate()
+                .zip(&held)
+                .filter(|(_, held)| !**held)
+        };
         let contacts = &world.walls.contacts;
         let inner = free().filter(|((i, _), _)| contacts.of(*i).is_empty());
         let inner: Vec<f64> = inner.map(|((_, c), _)| c.value).collect();
@@ -127,7 +132,9 @@ fn settle<const D: usize>(
             0 => 1.0,
             n => inner.iter().sum::<f64>() / n as f64,
         };
-        let errors: Vec<f64> = free().map(|((_, c), _)| (c.value / mean - 1.0).abs()).collect();
+        let errors: Vec<f64> = free()
+            .map(|((_, c), _)| (c.value / mean - 1.0).abs())
+            .collect();
         let largest = errors.iter().copied().fold(0.0, f64::max);
         let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len().max(1) as f64).sqrt();
         let so_far = result.get_or_insert(Relaxation {
