@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_core::Vect;
 
-use crate::wall_mesh::WallMesh;
+use crate::wall_mesh::{MeshPoint, WallMesh};
 
 /// Samples along a radius of the ball around a node; half a sample from its centre is the first.
 const SAMPLES: i32 = 3;
@@ -29,13 +29,12 @@ impl Cover {
     pub fn shares<const D: usize, M: WallMesh<D>>(
         &mut self,
         mesh: &M,
+        points: &[MeshPoint<D>],
         groups: &[usize],
         spacing: f64,
     ) -> Vec<(usize, f64)> {
-        let nodes: Vec<_> = mesh
-            .points()
-            .map(|p| (p.position, groups[p.wall]))
-            .collect();
+        let nodes = points.iter().map(|p| (p.position, groups[p.wall]));
+        let nodes: Vec<_> = nodes.collect();
         if self.outdated(&nodes, spacing) {
             let others = |(x, group): &(Vect<D>, usize)| {
                 let other = |wall: usize| groups[wall] != *group;

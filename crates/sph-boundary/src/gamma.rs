@@ -68,21 +68,7 @@ impl Renormalisation2d {
     /// A smoothing length that is not positive, or breaks and pieces that do not fit together or
     /// have no positive integral over the plane.
     pub fn new(shape: &PiecewisePolynomial, smoothing_length: f64) -> Result<Self, BoundaryError> {
-        if !(smoothing_length > 0.0 && smoothing_length.is_finite()) {
-            let name = "smoothing length";
-            return Err(BoundaryError::NotPositive {
-                name,
-                value: smoothing_length,
-            });
-        }
-        shape
-            .check()
-            .map_err(|reason| BoundaryError::Kernel { reason })?;
-        let sigma = shape.normalisation(2);
-        if !(sigma > 0.0 && sigma.is_finite()) {
-            let reason = "its integral over the plane is not positive".into();
-            return Err(BoundaryError::Kernel { reason });
-        }
+        let sigma = normalisation(shape, smoothing_length, 2)?;
         let (knots, rings) = primitives::tables(shape, sigma);
         let (per_h, support) = (1.0 / smoothing_length, shape.support());
         Ok(Self {
@@ -102,6 +88,35 @@ impl Renormalisation2d {
     /// Distance beyond which the kernel vanishes, m.
     pub fn kernel_radius(&self) -> f64 {
         self.support * self.smoothing_length
+    }
+}
+
+/// σ of a kernel shape that can be integrated, with a smoothing length h, m, that is one.
+///
+/// # Errors
+/// A smoothing length that is not positive, or breaks and pieces that do not fit together or have
+/// no positive integral.
+pub(crate) fn normalisation(
+    shape: &PiecewisePolynomial,
+    smoothing_length: f64,
+    dimension: usize,
+) -> Result<f64, BoundaryError> {
+    if !(smoothing_length > 0.0 && smoothing_length.is_finite()) {
+        let name = "smoothing length";
+        return Err(BoundaryError::NotPositive {
+            name,
+            value: smoothing_length,
+        });
+    }
+    shape
+        .check()
+        .map_err(|reason| BoundaryError::Kernel { reason })?;
+    let sigma = shape.normalisation(dimension);
+    match sigma > 0.0 && sigma.is_finite() {
+        true => Ok(sigma),
+        false => Err(BoundaryError::Kernel {
+            reason: format!("its integral in {dimension} dimensions is not positive"),
+        }),
     }
 }
 

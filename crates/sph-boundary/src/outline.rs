@@ -4,7 +4,7 @@ use sph_core::Vect;
 use sph_neighbours::{Elements, Frame, WallPoints};
 
 use crate::cover::Cover;
-use crate::wall_mesh::WallMesh;
+use crate::wall_mesh::{MeshPoint, WallMesh};
 use crate::{BoundaryError, Movement, PeriodicBox, Pose, WallSetup, WallSpec};
 
 /// The walls of a scene as a mesh, with what the scene says of each.
@@ -64,12 +64,13 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// Shares of the nodes of which walls that move otherwise may take a part.
-    pub fn covered(&mut self) -> Vec<(usize, f64)> {
+    pub fn covered(&mut self, nodes: &[MeshPoint<D>]) -> Vec<(usize, f64)> {
         if self.groups.iter().all(|g| *g == self.groups[0]) {
             return Vec::new();
         }
-        let visible = self.cover.shares(&self.mesh, &self.groups, self.spacing);
-        let nodes: Vec<_> = self.mesh.points().collect();
+        let visible = self
+            .cover
+            .shares(&self.mesh, nodes, &self.groups, self.spacing);
         let share = |(v, part): (usize, f64)| (v, part * nodes[v].theta * nodes[v].size);
         visible.into_iter().map(share).collect()
     }

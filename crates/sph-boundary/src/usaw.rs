@@ -91,13 +91,14 @@ fn not_built() -> StepError {
 impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     /// Positions, normals and movements of points and elements at a time.
     fn place(&mut self, walls: &mut WallSet<D>, time: f64) {
-        for (v, share) in self.outline.covered() {
+        let nodes: Vec<_> = self.outline.mesh.points().collect();
+        for (v, share) in self.outline.covered(&nodes) {
             walls.points.share[v] = share;
         }
         let outline = &self.outline;
         walls.frames = outline.frames();
         let points = &mut walls.points;
-        for (v, node) in outline.mesh.points().enumerate() {
+        for (v, node) in nodes.iter().enumerate() {
             let movement = outline.movement(node.wall, &node.position, time);
             points.position[v] = node.position;
             points.velocity[v] = movement.velocity;

@@ -151,7 +151,7 @@ pub struct Sum<const D: usize> {
     gradient: Vect<D>,
 }
 
-/// κ is left at 1 where |∇γ| h is below this: opposite walls, or the edge of the support.
+/// κ is left at 1 where |∇γ| δr is below this: opposite walls, or the edge of the support.
 const FAINT: f64 = 1e-3;
 /// Elements whose normals differ by less than 45° are one smooth wall.
 const ONE_WALL: f64 = 0.7;
@@ -262,7 +262,6 @@ impl<const D: usize, S: BoundViscosity> BoundTerm<D> for Bound<'_, D, S> {
     fn finish(&self, here: &Here<D>, sum: &Sum<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
         let mut correction = 1.0;
         let squared = sum.gradient.norm_squared();
-        // The support is some spacings wide: |∇γ| h is compared in spacings.
         if here.nearest.is_some() && squared * self.spacing * self.spacing > FAINT * FAINT {
             correction = (sum.discrete.dot(&sum.gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]);
         }

@@ -53,7 +53,7 @@ pub struct Translate {
     pub ramp: Option<Ramp>,
     /// Oscillation.
     pub sine: Option<Sine>,
-    /// Pairs of time, s, and displacement, m, from where the wall is drawn; times rise.
+    /// Pairs of time, s, and displacement, m; times rise, and the wall is where it is drawn until the first, from which displacements count.
     #[schemars(extend("unit" = "1"))]
     pub table: Option<Vec<[f64; 2]>>,
     /// CSV file of time, s, and displacement, m, relative to the scene's folder.
@@ -80,7 +80,7 @@ pub struct Rotation {
     pub ramp: Option<AngularRamp>,
     /// Oscillation.
     pub sine: Option<AngularSine>,
-    /// Pairs of time, s, and angle, rad, from where the wall is drawn; times rise.
+    /// Pairs of time, s, and angle, rad; times rise, and the wall is where it is drawn until the first, from which angles count.
     #[schemars(extend("unit" = "1"))]
     pub table: Option<Vec<[f64; 2]>>,
     /// CSV file of time, s, and angle, rad, relative to the scene's folder.

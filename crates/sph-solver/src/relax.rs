@@ -10,9 +10,7 @@ use sph_scene::Scene;
 use crate::drawn::Drawn;
 use crate::stages::{SharedWall, lock};
 
-/// Share of h² ∇C by which a particle moves in one step.
-///
-/// Lattices are stable up to about 0.6 for h = 2 δr; a third of it damps all waves.
+/// Share of h² ∇C by which a particle moves in one step; larger ones were not tried.
 const MOBILITY: f64 = 0.2;
 /// Largest displacement in one step over the spacing.
 const STRIDE: f64 = 0.1;

@@ -5,6 +5,7 @@ use sph_kernels::PiecewisePolynomial;
 use super::knot::{self, Knot};
 use super::table::Table;
 use crate::error::BoundaryError;
+use crate::gamma::normalisation;
 
 /// Exact wall integrals of one kernel in three dimensions.
 ///
@@ -75,21 +76,7 @@ impl Renormalisation3d {
     /// A smoothing length that is not positive, or breaks and pieces that do not fit together or
     /// have no positive integral over space.
     pub fn new(shape: &PiecewisePolynomial, smoothing_length: f64) -> Result<Self, BoundaryError> {
-        if !(smoothing_length > 0.0 && smoothing_length.is_finite()) {
-            let name = "smoothing length";
-            return Err(BoundaryError::NotPositive {
-                name,
-                value: smoothing_length,
-            });
-        }
-        shape
-            .check()
-            .map_err(|reason| BoundaryError::Kernel { reason })?;
-        let sigma = shape.normalisation(3);
-        if !(sigma > 0.0 && sigma.is_finite()) {
-            let reason = "its integral over space is not positive".into();
-            return Err(BoundaryError::Kernel { reason });
-        }
+        let sigma = normalisation(shape, smoothing_length, 3)?;
         Ok(Self {
             smoothing_length,
             per_h: 1.0 / smoothing_length,
