@@ -37,6 +37,30 @@ pub trait Kind: Copy + 'static {
     fn items_mut<const D: usize>(column: &mut Column<D>) -> Option<&mut Vec<Self::Item<D>>>;
     /// Real components per entry in D dimensions.
     fn components(dimension: usize) -> usize;
+    /// The type as a value.
+    const SHAPE: Shape;
+}
+
+/// The type of a column as a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Reals.
+    Scalar,
+    /// Vectors.
+    Vector,
+    /// Unsigned integers.
+    Index,
+}
+
+impl Shape {
+    /// A column of `n` zero entries.
+    pub fn column<const D: usize>(self, n: usize) -> Column<D> {
+        match self {
+            Shape::Scalar => Scalar::column(n),
+            Shape::Vector => Vector::column(n),
+            Shape::Index => Index::column(n),
+        }
+    }
 }
 
 macro_rules! kind {
@@ -60,6 +84,7 @@ macro_rules! kind {
                     _ => None,
                 }
             }
+            const SHAPE: Shape = Shape::$kind;
             fn components(dimension: usize) -> usize {
                 let components: fn(usize) -> usize = $components;
                 components(dimension)
@@ -101,6 +126,7 @@ impl<K: Kind> Field<K> {
             unit: self.unit,
             meaning: self.meaning,
             components: K::components,
+            shape: K::SHAPE,
         }
     }
 }
@@ -116,6 +142,8 @@ pub struct AnyField {
     pub meaning: &'static str,
     /// Real components per entry in the given dimension.
     pub components: fn(usize) -> usize,
+    /// Type of the column.
+    pub shape: Shape,
 }
 
 impl PartialEq for AnyField {

@@ -38,6 +38,26 @@ pub const DENSITY_CONSTANT_RATE: Field<Scalar> = Field::new(
     "kg/m³/s",
     "rate of change of the density constant",
 );
+/// Rate of change of the density, where a formulation integrates it and something else than
+/// motion changes it.
+pub const DENSITY_RATE: Field<Scalar> = Field::new(
+    "density_rate",
+    "kg/m³/s",
+    "rate of change of the density, from density diffusion",
+);
+/// Rate of change of the volume, where a formulation integrates it and something else than motion
+/// changes it.
+pub const VOLUME_RATE: Field<Scalar> = Field::new(
+    "volume_rate",
+    "m^d/s",
+    "rate of change of the volume, from density diffusion",
+);
+/// What moves particles besides their velocity, to keep their arrangement even.
+pub const SHIFT_VELOCITY: Field<Vector> = Field::new(
+    "shift_velocity",
+    "m/s",
+    "velocity of the shifting that keeps particles evenly spread",
+);
 /// Number of the phase in the scene's order of names.
 pub const PHASE: Field<Index> = Field::new("phase", "1", "number of the phase");
 /// Number given at filling; follows the particle through every sort.

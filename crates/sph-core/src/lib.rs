@@ -33,8 +33,8 @@ mod store;
 
 pub use conform::{conform, defaults};
 pub use error::{FieldError, PlanError, RegistryError, SceneProblem, StepError};
-pub use evolve::{Evolved, System};
-pub use field::{AnyField, Field, Index, Kind, Scalar, Vector};
+pub use evolve::{Evolved, Recall, System};
+pub use field::{AnyField, Field, Index, Kind, Scalar, Shape, Vector};
 pub use limit::StepLimit;
 pub use names::{nearest, suggestion};
 pub use plan::{Plan, plan};

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::field::Column;
+use crate::field::{AnyField, Column};
 use crate::{Field, FieldError, Kind, Vect};
 
 /// What happens to a column over a time step.
@@ -57,6 +57,11 @@ impl<const D: usize> Store<D> {
 
     /// Allocates a column of zeros unless it is there; a state column stays one.
     pub fn add<K: Kind>(&mut self, field: Field<K>, role: Role) {
+        self.add_any(field.any(), role);
+    }
+
+    /// The same for a field whose type is forgotten.
+    pub fn add_any(&mut self, field: AnyField, role: Role) {
         match self.entries.iter_mut().find(|e| e.name == field.name) {
             Some(entry) if role == Role::State => entry.role = Role::State,
             Some(_) => {}
@@ -64,7 +69,7 @@ impl<const D: usize> Store<D> {
                 name: field.name,
                 unit: field.unit,
                 role,
-                column: K::column::<D>(self.len),
+                column: field.shape.column(self.len),
             }),
         }
     }

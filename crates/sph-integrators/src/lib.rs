@@ -3,7 +3,15 @@
 //! An [`Integrator`] knows kicks, drifts and evaluations, and no particle.
 
 mod contract;
+mod leap_frog;
+mod predictor_corrector;
 mod symplectic;
+#[cfg(test)]
+mod trial;
+mod verlet;
 
 pub use contract::{Integrator, IntegratorEntry, LimitCoefficients};
+pub use leap_frog::LeapFrog;
+pub use predictor_corrector::PredictorCorrector;
 pub use symplectic::SymplecticEuler;
+pub use verlet::Verlet;

@@ -76,75 +76,23 @@ register!(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sph_core::StepLimit;
-
-    /// A harmonic oscillator of unit frequency.
-    struct Oscillator {
-        x: f64,
-        u: f64,
-        a: f64,
-        t: f64,
-    }
-    impl System for Oscillator {
-        fn evaluate(&mut self) -> Result<(), StepError> {
-            self.a = -self.x;
-            Ok(())
-        }
-        fn kick(&mut self, dt: f64) -> Result<(), StepError> {
-            self.u += dt * self.a;
-            Ok(())
-        }
-        fn drift(&mut self, dt: f64) -> Result<(), StepError> {
-            self.x += dt * self.u;
-            self.t += dt;
-            Ok(())
-        }
-        fn time(&self) -> f64 {
-            self.t
-        }
-        fn limits(&self) -> Vec<StepLimit> {
-            Vec::new()
-        }
-    }
-
-    fn error_after_one_turn(steps: usize) -> f64 {
-        let mut system = Oscillator {
-            x: 1.0,
-            u: 0.0,
-            a: 0.0,
-            t: 0.0,
-        };
-        let mut scheme = SymplecticEuler::default();
-        let dt = std::f64::consts::TAU * 0.8 / steps as f64;
-        for _ in 0..steps {
-            system.evaluate().unwrap();
-            scheme.step(&mut system, dt).unwrap();
-        }
-        let t = system.time();
-        (system.x - t.cos()).hypot(system.u + t.sin())
-    }
+    use crate::trial::{Trial, largest_step, order};
 
     #[test]
     fn the_observed_order_is_one() {
-        let order = (error_after_one_turn(400) / error_after_one_turn(800)).log2();
-        assert!((order - 1.0).abs() < 0.02, "observed order {order:.3}");
+        let found = order(&mut SymplecticEuler::default(), 0.0);
+        assert!((found - 1.0).abs() < 0.02, "observed order {found:.3}");
+    }
+
+    #[test]
+    fn it_is_stable_up_to_two_over_the_frequency() {
+        let limit = largest_step(&mut SymplecticEuler::default());
+        assert!((limit - 2.0).abs() < 0.01, "stable up to ωΔt = {limit:.3}");
     }
 
     #[test]
     fn energy_stays_bounded_over_ten_thousand_steps() {
-        let mut system = Oscillator {
-            x: 1.0,
-            u: 0.0,
-            a: 0.0,
-            t: 0.0,
-        };
-        let mut scheme = SymplecticEuler::default();
-        let mut worst: f64 = 0.0;
-        for _ in 0..10_000 {
-            system.evaluate().unwrap();
-            scheme.step(&mut system, 0.1).unwrap();
-            worst = worst.max((0.5 * (system.x.powi(2) + system.u.powi(2)) - 0.5).abs());
-        }
+        let worst = Trial::worst_energy(&mut SymplecticEuler::default(), 0.1, 10_000);
         assert!(
             worst < 0.06,
             "largest energy error {worst:.4} of 0.5 at dt = 0.1"
