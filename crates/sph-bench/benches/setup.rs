@@ -11,8 +11,8 @@ use std::fmt::Debug;
 use sph_core::{Contract, Field, Registry, Role, Scalar, Vect, fields};
 use sph_kernels::Sampler;
 use sph_multiphase::{
-    BrezziPitkaranta, FormulationEntry, HuAdamsPressure, MorrisTerm, SmootherEntry, Uniform,
-    Viscosity, ViscousOperatorEntry, WallTerm,
+    BrezziPitkaranta, Choice, FirstDifferences, FormulationEntry, HuAdamsPressure, SmootherEntry,
+    Uniform, Viscosity, ViscousOperatorEntry, ViscousTerm,
 };
 use sph_neighbours::{
     Domain, Fused, KernelEntry, PairTerm, Terms, There, World, fuse_all, interactions,
@@ -117,7 +117,7 @@ pub fn terms_by_name() -> Terms<2> {
     vec![
         column(formulation).pressure_term(),
         column(viscous).term(Viscosity::Uniform(VISCOSITY)),
-        column(smoother).term(),
+        column(smoother).term(&Vec::new().into()),
     ]
 }
 
@@ -160,7 +160,7 @@ impl Sums {
         let smoother = BrezziPitkaranta { strength: STRENGTH };
         let terms = (
             HuAdamsPressure,
-            MorrisTerm(Uniform(VISCOSITY), WallTerm::Corrected),
+            ViscousTerm(FirstDifferences, Uniform(VISCOSITY), Choice::default()),
             smoother,
         );
         let bound = Fused(column(PairTerm::<2>::bind(&terms, world)));

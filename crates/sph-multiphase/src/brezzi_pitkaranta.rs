@@ -5,7 +5,7 @@ use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
-use crate::{Smoother, SmootherEntry};
+use crate::{Laws, Smoother, SmootherEntry};
 
 /// dρ_a/dt += Λ 2ρ_aΔt/γ_a Σ_b V_b [2/(ρ_a+ρ_b) (p_a − p_b) − g·r_ab] F_ab, free neighbours only.
 ///
@@ -32,7 +32,7 @@ impl Default for BrezziPitkaranta {
 }
 
 impl<const D: usize> Smoother<D> for BrezziPitkaranta {
-    fn term(&self) -> Box<dyn Interaction<D>> {
+    fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
         Box::new(Term(*self))
     }
 }
@@ -99,8 +99,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     }
 
     #[inline(always)]
-    fn finish(&self, here: &(f64, f64), sum: &f64, _inverse_gamma: f64, rates: &mut Rates<D>) {
-        // γ dρ/dt: the term's own 1/γ cancels.
-        rates.scalar += self.weight * here.1 * sum;
+    fn finish(&self, here: &(f64, f64), sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
+        rates.scalar += self.weight * here.1 * sum * inverse_gamma;
     }
 }

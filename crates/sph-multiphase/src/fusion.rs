@@ -4,7 +4,8 @@ use sph_core::reexport::inventory;
 use sph_neighbours::{FusionEntry, fuse_three, fuse_two};
 
 use crate::{
-    BrezziPitkaranta as Smooth, HuAdamsPressure as Pressure, MorrisTerm, PerParticle, Uniform,
+    BrezziPitkaranta as Smooth, HuAdamsPressure as Pressure, InSeries, MorrisTerm, PerParticle,
+    Uniform,
 };
 
 macro_rules! fuse {
@@ -21,6 +22,7 @@ macro_rules! fuse {
 
 fuse!(3, fuse_three: Pressure, MorrisTerm<Uniform>, Smooth);
 fuse!(3, fuse_three: Pressure, MorrisTerm<PerParticle>, Smooth);
+fuse!(3, fuse_three: Pressure, MorrisTerm<InSeries>, Smooth);
 fuse!(2, fuse_two: Pressure, MorrisTerm<Uniform>);
 fuse!(2, fuse_two: Pressure, MorrisTerm<PerParticle>);
 fuse!(2, fuse_two: Pressure, Smooth);

@@ -9,7 +9,8 @@ use sph_neighbours::{
     kernel_sums,
 };
 
-use crate::{Formulation, FormulationEntry};
+use crate::divergence::{Divergence, OwnVolume};
+use crate::{Diffused, Formulation, FormulationEntry, Stages};
 
 /// Density from volumes, ρ_a = (K_a + m_a Σ_b θ_b w_ab)/γ_a, with the skew-adjoint gradient
 /// G_a = 1/(γ_a V_a) [Σ_b θ_b (p_aV_a² + p_bV_b²) ∇w_ab − Σ_s (p_aV_a² + p_sV_s²)/V_s ∇γ_as].
@@ -25,19 +26,26 @@ use crate::{Formulation, FormulationEntry};
 pub struct HuAdams {}
 
 impl<const D: usize> Formulation<D> for HuAdams {
-    fn evolved(&self) -> Vec<Evolved> {
-        vec![Evolved {
-            value: fields::DENSITY_CONSTANT,
-            rate: fields::DENSITY_CONSTANT_RATE,
-        }]
+    fn diffused(&self) -> Diffused {
+        Diffused {
+            evolved: Evolved {
+                value: fields::DENSITY_CONSTANT,
+                rate: fields::DENSITY_CONSTANT_RATE,
+            },
+            per_density: |_, _, gamma| gamma,
+        }
     }
 
-    fn density_stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(DensitySum)
+    fn stages(&self) -> Stages<D> {
+        vec![Box::new(DensitySum)]
     }
 
     fn pressure_term(&self) -> Box<dyn Interaction<D>> {
         Box::new(Term(HuAdamsPressure))
+    }
+
+    fn divergence(&self) -> Box<dyn Interaction<D>> {
+        Divergence::boxed(OwnVolume)
     }
 
     fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {

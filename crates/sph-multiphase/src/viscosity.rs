@@ -1,7 +1,9 @@
-//! Where pair terms read the viscosity: one number, or a column with harmonic means.
+//! Where pair terms read the viscosity: one number, or a column with means of pairs.
 
 use sph_core::{Access, StepError, fields};
 use sph_neighbours::World;
+
+use crate::interface_distance::INTERFACE_DISTANCE;
 
 /// A source of viscosities for a pair term.
 pub trait ViscositySource: Copy + Send + Sync + 'static {
@@ -18,10 +20,16 @@ pub trait ViscositySource: Copy + Send + Sync + 'static {
 
 /// Viscosities of particles and pairs.
 pub trait BoundViscosity: Copy + Sync {
-    /// η of a particle, Pa s.
-    fn at(&self, particle: usize) -> f64;
-    /// Harmonic mean 2 η_a η_b / (η_a + η_b), Ghaïtanellis 2017, Eq. 3.30.
-    fn mean(&self, here: f64, neighbour: usize) -> f64;
+    /// What is read once per particle.
+    type Here: Copy;
+    /// Reads the particle's own values.
+    fn here(&self, particle: usize) -> Self::Here;
+    /// η of the particle itself, Pa s.
+    fn own(&self, here: &Self::Here) -> f64;
+    /// η of a neighbour, Pa s.
+    fn at(&self, neighbour: usize) -> f64;
+    /// Mean of a pair, Pa s.
+    fn mean(&self, here: &Self::Here, neighbour: usize) -> f64;
 }
 
 /// The same viscosity everywhere, Pa s.
@@ -39,17 +47,24 @@ impl ViscositySource for Uniform {
 }
 
 impl BoundViscosity for Uniform {
+    type Here = ();
     #[inline(always)]
-    fn at(&self, _particle: usize) -> f64 {
+    fn here(&self, _particle: usize) {}
+    #[inline(always)]
+    fn own(&self, _here: &()) -> f64 {
         self.0
     }
     #[inline(always)]
-    fn mean(&self, here: f64, _neighbour: usize) -> f64 {
-        here
+    fn at(&self, _neighbour: usize) -> f64 {
+        self.0
+    }
+    #[inline(always)]
+    fn mean(&self, _here: &(), _neighbour: usize) -> f64 {
+        self.0
     }
 }
 
-/// The viscosity column.
+/// The viscosity column, with harmonic means 2 η_a η_b / (η_a + η_b), Ghaïtanellis 2017, Eq. 3.30.
 #[derive(Clone, Copy, Debug)]
 pub struct PerParticle;
 
@@ -68,19 +83,89 @@ impl ViscositySource for PerParticle {
 }
 
 impl BoundViscosity for Column<'_> {
+    type Here = f64;
     #[inline(always)]
-    fn at(&self, particle: usize) -> f64 {
+    fn here(&self, particle: usize) -> f64 {
         self.0[particle]
     }
     #[inline(always)]
-    fn mean(&self, here: f64, neighbour: usize) -> f64 {
-        let there = self.0[neighbour];
-        // Zero viscosity on either side means no friction, not 0/0.
-        let sum = here + there;
-        if sum > 0.0 {
-            2.0 * here * there / sum
-        } else {
-            0.0
+    fn own(&self, here: &f64) -> f64 {
+        *here
+    }
+    #[inline(always)]
+    fn at(&self, neighbour: usize) -> f64 {
+        self.0[neighbour]
+    }
+    #[inline(always)]
+    fn mean(&self, here: &f64, neighbour: usize) -> f64 {
+        in_series(1.0, *here, 1.0, self.0[neighbour])
+    }
+}
+
+/// The viscosity column, with means of two layers in series across interfaces:
+/// η̄ = (d_a + d_b)/(d_a/η_a + d_b/η_b) for particles of two phases at d from their interface.
+///
+/// With it a first difference of a velocity with continuous shear stress is τ r·n/η̄, whatever the
+/// place of the interface between the two; the harmonic mean has it in the middle. Ours.
+#[derive(Clone, Copy, Debug)]
+pub struct InSeries;
+
+/// The columns of [`InSeries`].
+#[derive(Clone, Copy, Debug)]
+pub struct SeriesColumns<'a> {
+    viscosity: &'a [f64],
+    phase: &'a [u32],
+    distance: &'a [f64],
+}
+
+impl ViscositySource for InSeries {
+    type Bound<'a> = SeriesColumns<'a>;
+    fn access(self) -> Access {
+        Access::none()
+            .both(fields::VISCOSITY)
+            .both(fields::PHASE)
+            .both(INTERFACE_DISTANCE)
+    }
+    fn bind<const D: usize>(self, world: &World<D>) -> Result<SeriesColumns<'_>, StepError> {
+        Ok(SeriesColumns {
+            viscosity: world.free.get(fields::VISCOSITY)?,
+            phase: world.free.get(fields::PHASE)?,
+            distance: world.free.get(INTERFACE_DISTANCE)?,
+        })
+    }
+}
+
+impl BoundViscosity for SeriesColumns<'_> {
+    /// Viscosity, phase, distance.
+    type Here = (f64, u32, f64);
+    #[inline(always)]
+    fn here(&self, i: usize) -> Self::Here {
+        (self.viscosity[i], self.phase[i], self.distance[i])
+    }
+    #[inline(always)]
+    fn own(&self, here: &Self::Here) -> f64 {
+        here.0
+    }
+    #[inline(always)]
+    fn at(&self, neighbour: usize) -> f64 {
+        self.viscosity[neighbour]
+    }
+    #[inline(always)]
+    fn mean(&self, here: &Self::Here, j: usize) -> f64 {
+        match here.1 == self.phase[j] {
+            true => in_series(1.0, here.0, 1.0, self.viscosity[j]),
+            false => in_series(here.2, here.0, self.distance[j], self.viscosity[j]),
         }
+    }
+}
+
+/// (d_a + d_b)/(d_a/η_a + d_b/η_b); zero viscosity on either side means no friction, not 0/0.
+#[inline(always)]
+fn in_series(here: f64, eta: f64, there: f64, other: f64) -> f64 {
+    let sum = here * other + there * eta;
+    if sum > 0.0 {
+        (here + there) * eta * other / sum
+    } else {
+        0.0
     }
 }

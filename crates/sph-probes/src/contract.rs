@@ -26,6 +26,13 @@ impl ProbeColumn {
 pub trait Probe<const D: usize>: Send {
     /// The columns it adds.
     fn columns(&self) -> Vec<ProbeColumn>;
+    /// Learns the scene's phases: their names in the order of their numbers.
+    ///
+    /// # Errors
+    /// If the probe names a phase that is not among them: what is wrong with its key `phase`.
+    fn name_phases(&mut self, _names: &[String]) -> Result<(), String> {
+        Ok(())
+    }
     /// Whether it reads the forces on walls, which are measured for such probes only.
     fn needs_wall_forces(&self) -> bool {
         false

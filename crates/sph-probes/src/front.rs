@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use sph_core::{StepError, fields, register};
 use sph_neighbours::World;
 
+use crate::phase::{self, Counted};
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Axis of a coordinate.
@@ -37,6 +38,10 @@ pub struct Front {
     /// Only particles whose last coordinate is below this height count.
     #[schemars(extend("unit" = "m"))]
     pub below: Option<f64>,
+    /// Name of the phase whose front is measured; that of all particles if left out.
+    pub phase: Option<String>,
+    #[serde(skip)]
+    number: Option<u32>,
 }
 
 impl<const D: usize> Probe<D> for Front {
@@ -44,12 +49,22 @@ impl<const D: usize> Probe<D> for Front {
         ProbeColumn::only("m")
     }
 
+    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+        if let Some(name) = &self.phase {
+            self.number = Some(phase::number(name, names)?);
+        }
+        Ok(())
+    }
+
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let axis = self.axis as usize;
         let below = self.below.unwrap_or(f64::INFINITY);
         let positions = world.free.get(fields::POSITION)?;
-        let counted = positions.iter().filter(|x| x[D - 1] < below);
-        let front = counted.map(|x| x[axis.min(D - 1)]).fold(f64::NAN, f64::max);
+        let phase = Counted::of(world, self.phase.as_deref(), self.number)?;
+        let all = positions.iter().enumerate();
+        let counted = all.filter(|(k, x)| x[D - 1] < below && phase.has(*k));
+        let along = counted.map(|(_, x)| x[axis.min(D - 1)]);
+        let front = along.fold(f64::NAN, f64::max);
         Ok(vec![front + 0.5 * world.spacing])
     }
 }

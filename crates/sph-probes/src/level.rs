@@ -1,14 +1,18 @@
-//! The height of the free surface over a point.
+//! The height of the free surface, or of the top of a phase, over a point.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{StepError, Vect, fields, register};
+use sph_core::{StepError, register};
 use sph_neighbours::World;
 
+use crate::phase::{self, Counted, column, share};
 use crate::point::{carried, point};
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// The highest place over a point where Σ V w falls to one half, V being at most a cell δr^d.
+///
+/// The sum is over the particles of `phase`, so that its top is found under another fluid, or over
+/// all particles.
 ///
 /// ```toml
 /// [gauge.H1]
@@ -23,6 +27,10 @@ pub struct Level {
     pub at: Vec<f64>,
     /// Name of the moving wall that carries the gauge; it stands still if left out.
     pub follows: Option<String>,
+    /// Name of the phase whose top is measured; the free surface of all of them if left out.
+    pub phase: Option<String>,
+    #[serde(skip)]
+    number: Option<u32>,
 }
 
 impl<const D: usize> Probe<D> for Level {
@@ -30,36 +38,24 @@ impl<const D: usize> Probe<D> for Level {
         ProbeColumn::only("m")
     }
 
+    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+        if let Some(name) = &self.phase {
+            self.number = Some(phase::number(name, names)?);
+        }
+        Ok(())
+    }
+
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let positions = world.free.get(fields::POSITION)?;
-        let volume = world.free.get(fields::VOLUME)?;
         let radius = world.kernel.support_radius();
-        // A drop alone has a small density and a volume of several cells: it is no surface.
-        let cell = world.spacing.powi(D as i32);
         let drawn = point::<D>(&self.at[..self.at.len().min(D - 1)]);
         let mut foot = carried(world, drawn, self.follows.as_deref())?;
         foot[D - 1] = 0.0;
+        let counted = Counted::of(world, self.phase.as_deref(), self.number)?;
         // Only the particles whose support meets the vertical line matter.
-        let near: Vec<(Vect<D>, f64)> = positions
-            .iter()
-            .zip(volume)
-            .map(|(x, v)| (world.domain.nearest_image(x - foot), v.min(cell)))
-            .filter(|(d, _)| (0..D - 1).map(|k| d[k] * d[k]).sum::<f64>() < radius * radius)
-            .collect();
-        let filling = |z: f64| -> f64 {
-            let w = |(d, v): &(Vect<D>, f64)| {
-                let mut d = *d;
-                d[D - 1] -= z;
-                let r = d.norm();
-                if r < radius {
-                    v * world.kernel.at(r).0
-                } else {
-                    0.0
-                }
-            };
-            near.iter().map(w).sum()
-        };
-        let heights = || near.iter().map(|(d, _)| d[D - 1]);
+        let mut near = column(world, &foot)?;
+        near.retain(|(_, _, k)| counted.has(*k));
+        let filling = |z: f64| -> f64 { near.iter().map(|(d, v, _)| share(world, d, *v, z)).sum() };
+        let heights = || near.iter().map(|(d, ..)| d[D - 1]);
         let top = heights().fold(f64::NEG_INFINITY, f64::max);
         let bottom = heights().fold(f64::INFINITY, f64::min);
         if near.is_empty() {
@@ -91,6 +87,6 @@ register!(
     ProbeEntry [2, 3],
     Level,
     "level",
-    "height of the free surface over a point",
+    "height of the free surface, or of a phase, over a point",
     "half-filling of the Shepard sum"
 );

@@ -1,39 +1,53 @@
 //! What a run measures and what it is compared with.
 //!
 //! * [`Probe`]: columns of the time series, from the state of the flow ([`Front`],
-//!   [`PressureProbe`], [`VelocityProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`]).
+//!   [`PressureProbe`], [`VelocityProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`]), and of
+//!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`]).
 //! * [`Solution`]: analytical flows, as references and as initial states.
 //! * [`norm`]: the norms in which errors are reported.
 
 mod angular_momentum;
+mod bifluid_poiseuille;
 mod contract;
 mod couette;
 mod energy;
+mod extent;
 mod front;
 mod hagen_poiseuille;
 mod hydrostatic;
+mod interface;
 mod interpolate;
 mod level;
 pub mod norm;
+mod phase;
+mod phase_energy;
+mod phase_volume;
 mod point;
 mod poiseuille;
 mod range;
 mod rigid_rotation;
+mod rotating_square;
 mod taylor_green;
 mod wall_force;
 
 pub use angular_momentum::AngularMomentum;
+pub use bifluid_poiseuille::BifluidPoiseuille;
 pub use contract::{Probe, ProbeColumn, ProbeEntry, Solution, SolutionEntry};
 pub use couette::Couette;
 pub use energy::KineticEnergy;
+pub use extent::Extent;
 pub use front::Front;
 pub use hagen_poiseuille::HagenPoiseuille;
 pub use hydrostatic::Hydrostatic;
+pub use interface::Interface;
 pub use interpolate::{Interpolated, interpolate};
 pub use level::Level;
+pub use phase_energy::PhaseEnergy;
+pub use phase_volume::PhaseVolume;
 pub use point::{PressureProbe, VelocityProbe};
 pub use poiseuille::Poiseuille;
 pub use range::FieldRange;
 pub use rigid_rotation::RigidRotation;
+pub use rotating_square::RotatingSquare;
 pub use taylor_green::TaylorGreen;
 pub use wall_force::WallForceProbe;

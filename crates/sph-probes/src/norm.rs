@@ -140,6 +140,45 @@ pub fn lag([times, values]: [&[f64]; 2], [at, reference]: [&[f64]; 2], most: f64
     Some(delay(k) + refined * step)
 }
 
+/// Mean over time by trapezia; the value itself if there is one only, `None` without values.
+pub fn mean(times: &[f64], values: &[f64]) -> Option<f64> {
+    let finite = times.iter().zip(values).filter(|(_, v)| v.is_finite());
+    let (times, values): (Vec<f64>, Vec<f64>) = finite.unzip();
+    if let [only] = values[..] {
+        return Some(only);
+    }
+    let weights = time_weights(&times);
+    let whole: f64 = weights.iter().sum();
+    let sum: f64 = values.iter().zip(&weights).map(|(v, w)| v * w).sum();
+    (whole > 0.0).then(|| sum / whole)
+}
+
+/// Period of an oscillation, s: the mean time between crossings of the mean in the same direction,
+/// interpolated linearly. `None` if there are not two of either direction.
+///
+/// Crossings upward and downward are counted by themselves, so that a mean that is a little off
+/// does no harm.
+pub fn period(times: &[f64], values: &[f64]) -> Option<f64> {
+    let mean = mean(times, values)?;
+    let finite = times.iter().zip(values).filter(|(_, v)| v.is_finite());
+    let about: Vec<(f64, f64)> = finite.map(|(t, v)| (*t, v - mean)).collect();
+    let crossings = |upward: bool| -> Vec<f64> {
+        let sign = if upward { 1.0 } else { -1.0 };
+        let pairs = about.windows(2);
+        let crossed = pairs.filter(|w| sign * w[0].1 < 0.0 && sign * w[1].1 >= 0.0);
+        let place = |w: &[(f64, f64)]| w[0].0 - w[0].1 * (w[1].0 - w[0].0) / (w[1].1 - w[0].1);
+        crossed.map(place).collect()
+    };
+    let (mut span, mut count) = (0.0, 0);
+    for found in [crossings(true), crossings(false)] {
+        if let [first, .., last] = found[..] {
+            span += last - first;
+            count += found.len() - 1;
+        }
+    }
+    (count > 0).then(|| span / count as f64)
+}
+
 /// Least-squares slope of y over x.
 pub fn slope(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len() as f64;
@@ -197,6 +236,25 @@ mod tests {
             Some(0.0)
         );
         assert_eq!(lag([&t, &values], [&[9.0], &[1.0]], 0.5), None);
+    }
+
+    #[test]
+    fn a_period_is_measured_off_the_mean_and_through_decay() {
+        let t: Vec<f64> = (0..900).map(|k| 0.01 * f64::from(k)).collect();
+        let wave: Vec<f64> = t
+            .iter()
+            .map(|t| 3.0 + (-0.1 * t).exp() * (4.0 * t).cos())
+            .collect();
+        let exact = std::f64::consts::TAU / 4.0;
+        let found = period(&t, &wave).expect("a period");
+        assert!((found / exact - 1.0).abs() < 2e-3, "{found}");
+        // One period and a bit has three crossings, half a one has not enough.
+        assert!(period(&t[..170], &wave[..170]).is_none_or(|p| (p / exact - 1.0).abs() < 0.1));
+        assert_eq!(period(&t[..50], &wave[..50]), None);
+        assert_eq!(period(&[], &[]), None);
+        assert_eq!(mean(&[0.0, 1.0, 3.0], &[1.0, 2.0, 4.0]), Some(7.5 / 3.0));
+        assert_eq!(mean(&[1.0], &[5.0]), Some(5.0));
+        assert_eq!(mean(&[1.0], &[f64::NAN]), None);
     }
 
     #[test]

@@ -3,11 +3,11 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::Shape;
+use crate::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 use crate::plugins::{AnyPlugins, Plugins};
 use crate::polygon::Polygon;
 use crate::vector::array;
-use crate::wall_shapes::Axis;
+use crate::{LevelSurface, Shape};
 
 /// A piece of a phase at the start: one shape, or what the walls enclose, less what is subtracted.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -24,6 +24,8 @@ pub struct Body {
     pub polygon: Option<Vec<Vec<f64>>>,
     /// Disc by centre and radius. Two dimensions only.
     pub disc: Option<Round>,
+    /// Ellipse by centre and semi-axes along x and y. Two dimensions only.
+    pub ellipse: Option<Ellipse>,
     /// Sphere by centre and radius. Three dimensions only.
     pub sphere: Option<Round>,
     /// Cylinder between two points. Three dimensions only.
@@ -43,6 +45,10 @@ pub struct Body {
     /// Shapes that are cut out.
     #[serde(default)]
     pub subtract: Vec<Cutout>,
+    /// Only what is above this surface is filled: bodies of one `box` with the same surface in `below` and `above` share a lattice.
+    pub above: Option<LevelSurface>,
+    /// Only what is below this surface is filled.
+    pub below: Option<LevelSurface>,
     /// Velocity at the start, m/s; at rest if left out.
     #[schemars(extend("unit" = "m/s"))]
     pub velocity: Option<Vec<f64>>,
@@ -53,7 +59,7 @@ pub struct Body {
     /// Pressure at the start.
     #[serde(default)]
     pub pressure: Pressure,
-    /// Level of the free surface against gravity, m, for a hydrostatic pressure; the top of the body if left out.
+    /// Level of the free surface against gravity, m, for a hydrostatic pressure. If left out, the top of the only body, or the weight of what stands over a place in all bodies.
     #[schemars(extend("unit" = "m"))]
     pub surface: Option<f64>,
 }
@@ -71,6 +77,8 @@ pub struct Cutout {
     pub polygon: Option<Vec<Vec<f64>>>,
     /// Disc by centre and radius. Two dimensions only.
     pub disc: Option<Round>,
+    /// Ellipse by centre and semi-axes along x and y. Two dimensions only.
+    pub ellipse: Option<Ellipse>,
     /// Sphere by centre and radius. Three dimensions only.
     pub sphere: Option<Round>,
     /// Cylinder between two points. Three dimensions only.
@@ -79,65 +87,6 @@ pub struct Cutout {
     pub cone: Option<Cone>,
     /// Polygon drawn out along an axis. Three dimensions only.
     pub extrusion: Option<Extrusion>,
-}
-
-/// A disc or a sphere.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Round {
-    /// Centre, m.
-    #[schemars(extend("unit" = "m"))]
-    pub centre: Vec<f64>,
-    /// Radius, m.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
-    pub radius: f64,
-}
-
-/// A cylinder.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Cylinder {
-    /// Centre of one end, m.
-    #[schemars(extend("unit" = "m"))]
-    pub from: Vec<f64>,
-    /// Centre of the other end, m.
-    #[schemars(extend("unit" = "m"))]
-    pub to: Vec<f64>,
-    /// Radius, m.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
-    pub radius: f64,
-}
-
-/// A cone.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Cone {
-    /// Centre of the base, m.
-    #[schemars(extend("unit" = "m"))]
-    pub base: Vec<f64>,
-    /// Tip, m.
-    #[schemars(extend("unit" = "m"))]
-    pub apex: Vec<f64>,
-    /// Radius of the base, m.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
-    pub radius: f64,
-}
-
-/// A polygon drawn out along an axis.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Extrusion {
-    /// Corners of the polygon in order, m, as the two coordinates across the axis: (y, z), (x, z) or (x, y).
-    #[schemars(length(min = 3), extend("unit" = "m"))]
-    pub polygon: Vec<Vec<f64>>,
-    /// Axis along which it is drawn out.
-    pub axis: Axis,
-    /// Coordinate of one end along the axis, m.
-    #[schemars(extend("unit" = "m"))]
-    pub from: f64,
-    /// Coordinate of the other end along the axis, m.
-    #[schemars(extend("unit" = "m"))]
-    pub to: f64,
 }
 
 /// What a body without a shape fills.
@@ -152,10 +101,10 @@ pub enum Filling {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Pressure {
-    /// No pressure.
+    /// No pressure: the particles start at the reference density.
     #[default]
     Zero,
-    /// Weight of the fluid between the particle and the free surface.
+    /// Weight of the fluid between the particle and the free surface; of several bodies, of all that is over it.
     Hydrostatic,
 }
 
@@ -165,6 +114,7 @@ pub(crate) struct ShapeKeys<'a> {
     pub bounds: Option<&'a [Vec<f64>; 2]>,
     pub polygon: Option<&'a [Vec<f64>]>,
     pub disc: Option<&'a Round>,
+    pub ellipse: Option<&'a Ellipse>,
     pub sphere: Option<&'a Round>,
     pub cylinder: Option<&'a Cylinder>,
     pub cone: Option<&'a Cone>,
@@ -178,6 +128,7 @@ impl ShapeKeys<'_> {
             ("box", self.bounds.is_some()),
             ("polygon", self.polygon.is_some()),
             ("disc", self.disc.is_some()),
+            ("ellipse", self.ellipse.is_some()),
             ("sphere", self.sphere.is_some()),
             ("cylinder", self.cylinder.is_some()),
             ("cone", self.cone.is_some()),
@@ -200,6 +151,12 @@ impl ShapeKeys<'_> {
         }
         if let Some(points) = self.polygon {
             return Some(Shape::Polygon(polygon(points)));
+        }
+        if let Some(e) = self.ellipse {
+            return Some(Shape::Ellipse {
+                centre: array(&e.centre),
+                semi_axes: e.semi_axes,
+            });
         }
         if let Some(c) = self.cylinder {
             return Some(Shape::Cylinder {
@@ -238,6 +195,7 @@ macro_rules! with_shape {
                     bounds: self.bounds.as_ref(),
                     polygon: self.polygon.as_deref(),
                     disc: self.disc.as_ref(),
+                    ellipse: self.ellipse.as_ref(),
                     sphere: self.sphere.as_ref(),
                     cylinder: self.cylinder.as_ref(),
                     cone: self.cone.as_ref(),

@@ -17,6 +17,17 @@ pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems)
         let key = body.keys().given()[0];
         let path = format!("body.{name}.{key}");
         let (lo, hi) = region.base.bounds();
+        let (bottom, top) = (region.bounds().0[D - 1], region.bounds().1[D - 1]);
+        for (given, key) in [(&body.above, "above"), (&body.below, "below")] {
+            if given.is_some() && bottom >= top {
+                let message = format!(
+                    "nothing of the body, which reaches from {} m to {} m, is {key} it",
+                    lo[D - 1],
+                    hi[D - 1]
+                );
+                found.add(format!("body.{name}.{key}"), message);
+            }
+        }
         let spanned = spans(&region.base, spacing, &periods);
         for (k, axis) in ["x", "y", "z"].iter().enumerate().take(D) {
             filled[k] |= spanned[k];

@@ -76,8 +76,11 @@ pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problem
     for (name, reference) in &mut scene.reference {
         let path = format!("reference.{name}");
         reference_keys(reference, &path, found);
-        if let Some(probe) = reference.probe.as_ref().filter(|p| !probes.contains(p)) {
-            let near = suggestion(probe, probes.iter().map(String::as_str));
+        // A probe of several columns is named with the column's suffix, `extent.highest`.
+        let name = |p: &String| p.split('.').next().map(String::from);
+        let named = reference.probe.as_ref().and_then(name);
+        if let Some(probe) = named.filter(|p| !probes.contains(p)) {
+            let near = suggestion(&probe, probes.iter().map(String::as_str));
             let message = format!("there is no probe or gauge called `{probe}`{near}");
             found.add(format!("{path}.probe"), message);
         }
@@ -130,7 +133,11 @@ fn reference_keys(reference: &Reference, path: &str, found: &mut Problems) {
         ),
         _ => {}
     }
+    measured(reference, path, found);
+    // The norms `mean` and `period` compare with a number of the reference itself.
+    let number = matches!(reference.norm(), Norm::Mean | Norm::Period);
     match (&reference.file, &reference.solution) {
+        (None, None) if number => {}
         (None, None) => {
             found.add(
                 path,
@@ -165,5 +172,46 @@ fn reference_keys(reference: &Reference, path: &str, found: &mut Problems) {
             format!("{path}.norm"),
             "the norm `band` needs the columns `lower` and `upper`",
         );
+    }
+}
+
+/// The norms that need a number, and the one that needs a field.
+fn measured(reference: &Reference, path: &str, found: &mut Problems) {
+    match (reference.norm(), reference.value, reference.period) {
+        (Norm::Mean, None | Some(0.0), _) => found.add(
+            format!("{path}.norm"),
+            "the norm `mean` needs a `value` other than 0",
+        ),
+        (Norm::Mean, ..) | (_, None, _) => {}
+        _ => found.add(
+            format!("{path}.value"),
+            "a value is compared by `norm = \"mean\"` only",
+        ),
+    }
+    if reference.norm() == Norm::Period && reference.period.is_none() {
+        let message = "the norm `period` needs the `period` of the reference";
+        found.add(format!("{path}.norm"), message);
+    }
+    let about = |norm: &str, what: &str| format!("the norm `{norm}` is for {what}");
+    match (reference.norm(), &reference.field, &reference.probe) {
+        (Norm::L2Mean, None, Some(_)) => {
+            found.add(format!("{path}.norm"), about("l2-mean", "fields"));
+        }
+        (norm @ (Norm::Mean | Norm::Period), Some(_), None) => {
+            found.add(format!("{path}.norm"), about(norm.name(), "probes"));
+        }
+        _ => {}
+    }
+    for (key, given) in [
+        ("file", reference.file.is_some()),
+        ("solution", reference.solution.is_some()),
+    ] {
+        if given && matches!(reference.norm(), Norm::Mean | Norm::Period) {
+            let message = format!(
+                "the norm `{}` compares with a number",
+                reference.norm().name()
+            );
+            found.add(format!("{path}.{key}"), message);
+        }
     }
 }

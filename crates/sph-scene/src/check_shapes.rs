@@ -3,7 +3,7 @@
 use crate::body::ShapeKeys;
 use crate::check::Problems;
 use crate::check_geometry::{Dimension, polygon};
-use crate::{Body, Pressure, Scene};
+use crate::{Body, LevelSurface, Pressure, Scene};
 
 /// Checks what a body gives in space.
 pub(crate) fn body_geometry(
@@ -27,6 +27,18 @@ pub(crate) fn body_geometry(
     if body.needs_walls() && scene.wall.is_empty() {
         let message = "the scene has no walls: a wall is a table [wall.NAME]";
         found.add(format!("{path}.{key}"), message);
+    }
+    for (key, surface) in [("above", &body.above), ("below", &body.below)] {
+        if let Some(LevelSurface {
+            amplitude,
+            wavelength: None,
+            ..
+        }) = surface
+            && *amplitude != 0.0
+        {
+            let message = "the key `wavelength` is missing: a wave has a length";
+            found.add(format!("{path}.{key}"), message);
+        }
     }
     for (k, cut) in body.subtract.iter().enumerate() {
         shape(cut.keys(), of, &format!("{path}.subtract[{k}]"), found);
@@ -84,7 +96,7 @@ fn shape(keys: ShapeKeys<'_>, of: Dimension, path: &str, found: &mut Problems) {
     match given.as_slice() {
         [] => {
             let all = if of.0 == 2 {
-                "`box`, `polygon` or `disc`"
+                "`box`, `polygon`, `disc` or `ellipse`"
             } else {
                 "`box`, `sphere`, `cylinder`, `cone` or `extrusion`"
             };
@@ -107,6 +119,15 @@ fn shape(keys: ShapeKeys<'_>, of: Dimension, path: &str, found: &mut Problems) {
         let Some(round) = round else { continue };
         if of.is(dimension, what, &at(key), found) {
             of.vector(&round.centre, &at(&format!("{key}.centre")), found);
+        }
+    }
+    if let Some(ellipse) = keys.ellipse
+        && of.is(2, "an ellipse", &at("ellipse"), found)
+    {
+        of.vector(&ellipse.centre, &at("ellipse.centre"), found);
+        if ellipse.semi_axes.contains(&0.0) {
+            let message = "the semi-axes must be more than 0 m";
+            found.add(at("ellipse.semi_axes"), message);
         }
     }
     if let Some(points) = keys.polygon

@@ -56,6 +56,8 @@ pub struct Numerics {
     /// Lower and upper bound of every periodic direction.
     #[serde(default)]
     pub periodic: Periodic,
+    /// ρ₀c₀² of all phases, Pa, which gives each its speed of sound c₀ = √(p_r/ρ₀); or "equal": that of the lightest phase. Phases keep their own speeds if left out (Krimi et al. 2018, Eq. 5 and 6).
+    pub reference_pressure: Option<ReferencePressure>,
     /// Skin of the neighbour lists as a fraction of the kernel's support; chosen by the solver if left out.
     #[schemars(extend("unit" = "1", "minimum" = 0.0, "maximum" = 2.0))]
     pub skin: Option<f64>,
@@ -76,6 +78,25 @@ pub struct Numerics {
     pub seed: u64,
     /// Settling of the particles before the start; none if left out.
     pub relax: Option<Relax>,
+}
+
+/// The pressure ρ₀c₀² that all phases have in common: they are equally compressible, and ρ/ρ₀ has
+/// no jump where the pressure has none.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ReferencePressure {
+    /// Its value, Pa.
+    Value(#[schemars(extend("unit" = "Pa", "exclusiveMinimum" = 0.0))] f64),
+    /// That of one of the phases.
+    Of(PressureOf),
+}
+
+/// Whose reference pressure all phases have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PressureOf {
+    /// That of the phase with the least density.
+    Equal,
 }
 
 /// Settling of the first particles until their density is even.

@@ -7,13 +7,14 @@ use toml::{Table, Value};
 const DEEPEST: usize = 32;
 
 /// Tables that hold exactly one plugin, as the segments that lead to them.
-const SINGLE: [&[&str]; 9] = [
+const SINGLE: [&[&str]; 10] = [
     &["kernel"],
     &["formulation"],
     &["integrator"],
     &["walls"],
     &["viscous-operator"],
     &["smoother"],
+    &["shifting"],
     &["phase", "*", "equation-of-state"],
     &["phase", "*", "rheology"],
     &["body", "*", "initial"],

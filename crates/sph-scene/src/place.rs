@@ -124,6 +124,8 @@ impl<const D: usize> Periodic<'_, D> {
                 let depths = shifts.iter().map(|s| open.depth(&moved(s)));
                 depths.fold(f64::NEG_INFINITY, f64::max)
             }
+            // It has no images: a wave that fits the period is its own.
+            Shape::Side { .. } => self.shape.depth(x),
             shape => shifts
                 .iter()
                 .map(|s| shape.depth(&moved(s)))
@@ -169,7 +171,7 @@ impl<const D: usize> Periodic<'_, D> {
     }
 }
 
-/// Axes along which a shape fills the period; a ball never does, and a cylinder only along its
+/// Axes along which a shape fills the period; a round one never does, and a cylinder only along its
 /// own axis.
 pub(crate) fn spans<const D: usize>(
     shape: &Shape<D>,
@@ -179,7 +181,7 @@ pub(crate) fn spans<const D: usize>(
     let (lo, hi) = shape.bounds();
     let near = ROUNDING * spacing;
     std::array::from_fn(|k| match (shape, periods[k]) {
-        (Shape::Ball { .. } | Shape::Cone { .. }, _) | (_, None) => false,
+        (Shape::Ball { .. } | Shape::Ellipse { .. } | Shape::Cone { .. }, _) | (_, None) => false,
         (Shape::Cylinder { from, to, .. }, _) if (0..D).any(|j| j != k && from[j] != to[j]) => {
             false
         }

@@ -72,6 +72,15 @@ impl PluginChoice {
     }
 }
 
+/// Every entry of a table of plugins, as choices.
+pub(crate) fn several(kind: &'static str, plugins: &Plugins) -> Vec<PluginChoice> {
+    let choice = |(name, table): (&String, &Table)| PluginChoice {
+        table: table.clone(),
+        ..PluginChoice::default_of(kind, name)
+    };
+    plugins.iter().map(choice).collect()
+}
+
 /// The only entry of a table of plugins, as a choice.
 pub(crate) fn single(kind: &'static str, plugins: &Plugins, parent: &str) -> Option<PluginChoice> {
     let (name, table) = plugins.first_key_value()?;

@@ -12,7 +12,7 @@ use crate::plugins::AnyTable;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Reference {
-    /// Name of the probe or gauge that is compared.
+    /// Name of the probe or gauge that is compared; with the suffix of the column where it has several, `drop.highest`.
     pub probe: Option<String>,
     /// Name of the field that is compared at the particles.
     pub field: Option<String>,
@@ -56,7 +56,9 @@ pub struct Reference {
     /// First and last time that does not count, s.
     #[schemars(extend("unit" = "s"))]
     pub exclude: Option<[f64; 2]>,
-    /// Period of the reference, s, for the norm `lag`.
+    /// Value of the reference in SI, for the norm `mean`.
+    pub value: Option<f64>,
+    /// Period of the reference, s, for the norms `lag` and `period`.
     #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
     pub period: Option<f64>,
     /// How the difference becomes one number; `rms-over-range` for probes and `l2` for fields if left out.
@@ -76,6 +78,8 @@ pub enum Norm {
     RmsOverRange,
     /// √(Σ V|u − e|² / Σ V|e|²).
     L2,
+    /// Mean of `l2` over the rows of the series in `window`; the series has it as `error.NAME`.
+    L2Mean,
     /// Σ |‖u‖ − ‖e‖| / Σ ‖e‖.
     L1,
     /// max |u − e| / max |e|.
@@ -92,6 +96,10 @@ pub enum Norm {
     Range,
     /// Size of the delay at which u correlates best with e, over `period`: phases.
     Lag,
+    /// |mean of u over `window` − `value`| / |`value`|.
+    Mean,
+    /// Relative difference of the period of u, from where it crosses its mean, and `period`.
+    Period,
     /// Relative difference of the times at which u and e are largest.
     PeakTime,
     /// Share of the time, as the reference samples it, that u lies outside the columns `lower` and `upper`.
@@ -100,9 +108,10 @@ pub enum Norm {
 
 impl Norm {
     /// Every norm.
-    pub const ALL: [Norm; 12] = [
+    pub const ALL: [Norm; 15] = [
         Norm::RmsOverRange,
         Norm::L2,
+        Norm::L2Mean,
         Norm::L1,
         Norm::Linf,
         Norm::Rms,
@@ -111,6 +120,8 @@ impl Norm {
         Norm::DecayRate,
         Norm::Range,
         Norm::Lag,
+        Norm::Mean,
+        Norm::Period,
         Norm::PeakTime,
         Norm::Band,
     ];
@@ -120,6 +131,7 @@ impl Norm {
         match self {
             Norm::RmsOverRange => "rms-over-range",
             Norm::L2 => "l2",
+            Norm::L2Mean => "l2-mean",
             Norm::L1 => "l1",
             Norm::Linf => "linf",
             Norm::Rms => "rms",
@@ -128,6 +140,8 @@ impl Norm {
             Norm::DecayRate => "decay-rate",
             Norm::Range => "range",
             Norm::Lag => "lag",
+            Norm::Mean => "mean",
+            Norm::Period => "period",
             Norm::PeakTime => "peak-time",
             Norm::Band => "band",
         }

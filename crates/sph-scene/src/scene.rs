@@ -7,7 +7,7 @@ use serde::Deserialize;
 use sph_core::{SceneProblem, Vect};
 use toml::Value;
 
-use crate::plugins::{AnyPlugins, PluginChoice, Plugins, Probe, single};
+use crate::plugins::{AnyPlugins, PluginChoice, Plugins, Probe, several, single};
 use crate::vector::array;
 use crate::{Body, Numerics, Output, Phase, Reference, Region, Run, Wall};
 
@@ -50,6 +50,14 @@ pub struct Scene {
     #[serde(default)]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
     pub smoother: Plugins,
+    /// What keeps the particles evenly spread, `[shifting.PLUGIN]`; none if left out.
+    #[serde(default)]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub shifting: Plugins,
+    /// What acts where phases meet, `[interface.PLUGIN]`, any number.
+    #[serde(default)]
+    #[schemars(with = "AnyPlugins")]
+    pub interface: Plugins,
     /// Further forces between particles, `[term.PLUGIN]`, any number.
     #[serde(default)]
     #[schemars(with = "AnyPlugins")]
@@ -126,7 +134,8 @@ impl Scene {
     }
 
     /// The plugin that the scene chooses for a kind of which it has one at most: `kernel`,
-    /// `formulation`, `integrator`, `walls`, `viscous-operator` or `smoother`.
+    /// `formulation`, `integrator`, `walls`, `viscous-operator`, `smoother` or
+    /// `shifting`.
     pub fn choice(&self, kind: &'static str) -> Option<PluginChoice> {
         let plugins = match kind {
             "kernel" => &self.kernel,
@@ -135,6 +144,7 @@ impl Scene {
             "walls" => &self.walls,
             "viscous-operator" => &self.viscous_operator,
             "smoother" => &self.smoother,
+            "shifting" => &self.shifting,
             _ => return None,
         };
         single(kind, plugins, kind)
@@ -142,11 +152,12 @@ impl Scene {
 
     /// The additional pair terms.
     pub fn terms(&self) -> Vec<PluginChoice> {
-        let choice = |(name, table): (&String, &toml::Table)| PluginChoice {
-            table: table.clone(),
-            ..PluginChoice::default_of("term", name)
-        };
-        self.term.iter().map(choice).collect()
+        several("term", &self.term)
+    }
+
+    /// What acts where phases meet.
+    pub fn interfaces(&self) -> Vec<PluginChoice> {
+        several("interface", &self.interface)
     }
 
     /// The equation of state of a phase, if the scene chooses one.

@@ -52,7 +52,7 @@ fn insert(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, Jso
             );
             solutions(root, contract, shared);
         }
-        kind if kind == "term" || SINGLE_KINDS.contains(&kind) => {
+        kind if ["term", "interface"].contains(&kind) || SINGLE_KINDS.contains(&kind) => {
             named(
                 root.pointer_mut(&format!("/properties/{kind}")),
                 contract,

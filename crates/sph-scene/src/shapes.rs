@@ -1,8 +1,8 @@
-//! Shapes: boxes, balls, polygons, cylinders and so on, and regions that are a shape less others.
+//! Shapes: boxes, balls, polygons, cylinders and so on.
 
-use crate::body::Body;
 use crate::polygon::Polygon;
 use crate::vector::distance;
+use crate::{LevelSurface, ellipse};
 
 /// A closed piece of space.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,20 @@ pub enum Shape<const D: usize> {
         centre: [f64; D],
         /// Radius, m.
         radius: f64,
+    },
+    /// An ellipse, in two dimensions.
+    Ellipse {
+        /// Centre, m.
+        centre: [f64; D],
+        /// Semi-axes along x and y, m.
+        semi_axes: [f64; 2],
+    },
+    /// All that is on one side of a level surface.
+    Side {
+        /// The surface.
+        surface: LevelSurface,
+        /// Whether it is what is above it.
+        above: bool,
     },
     /// A polygon, in two dimensions.
     Polygon(Polygon),
@@ -69,6 +83,13 @@ impl<const D: usize> Shape<D> {
                 -outside.sqrt()
             }
             Shape::Ball { centre, radius } => radius - distance(x, centre),
+            Shape::Ellipse { centre, semi_axes } => {
+                ellipse::depth(*semi_axes, [x[0] - centre[0], x[1] - centre[1]])
+            }
+            Shape::Side { surface, above } => match above {
+                true => surface.above(x),
+                false => -surface.above(x),
+            },
             Shape::Polygon(polygon) => {
                 let flat = [x[0], x[1]];
                 let away = polygon.distance(flat, |_, _| true);
@@ -100,12 +121,27 @@ impl<const D: usize> Shape<D> {
         }
     }
 
-    /// Lower and upper corner of the smallest box around it, m.
+    /// Lower and upper corner of the smallest box around it, m; infinite where it has no end.
     pub fn bounds(&self) -> ([f64; D], [f64; D]) {
         match self {
             Shape::Cuboid { lo, hi } => (*lo, *hi),
             Shape::Ball { centre, radius } => {
                 (centre.map(|c| c - radius), centre.map(|c| c + radius))
+            }
+            Shape::Ellipse { centre, semi_axes } => {
+                let reach = |k: usize| semi_axes.get(k).copied().unwrap_or(0.0);
+                (
+                    std::array::from_fn(|k| centre[k] - reach(k)),
+                    std::array::from_fn(|k| centre[k] + reach(k)),
+                )
+            }
+            Shape::Side { surface, above } => {
+                let (mut lo, mut hi) = ([f64::NEG_INFINITY; D], [f64::INFINITY; D]);
+                match above {
+                    true => lo[D - 1] = surface.level - surface.amplitude.abs(),
+                    false => hi[D - 1] = surface.level + surface.amplitude.abs(),
+                }
+                (lo, hi)
             }
             Shape::Polygon(polygon) => {
                 let axis = |k: usize| polygon.points().iter().map(move |p| p[k.min(1)]);
@@ -163,68 +199,6 @@ pub(crate) fn across<const D: usize>(x: &[f64; D], axis: usize) -> [f64; 2] {
     std::array::from_fn(|_| rest.next().unwrap_or(0.0))
 }
 
-/// A shape less other shapes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Region<const D: usize> {
-    /// What is filled.
-    pub base: Shape<D>,
-    /// What is cut out of it.
-    pub cuts: Vec<Shape<D>>,
-}
-
-impl<const D: usize> Region<D> {
-    /// A shape from which nothing is cut out.
-    pub fn whole(base: Shape<D>) -> Self {
-        Region {
-            base,
-            cuts: Vec::new(),
-        }
-    }
-
-    /// The region of a body, if the body gives a shape or bounds what it fills by a box.
-    pub fn of(body: &Body) -> Option<Self> {
-        Some(Region {
-            base: body.keys().shape()?,
-            cuts: body
-                .subtract
-                .iter()
-                .filter_map(|c| c.keys().shape())
-                .collect(),
-        })
-    }
-
-    /// The region of a body that fills the walls within these bounds, m; or the key that is
-    /// wrong and why.
-    pub(crate) fn enclosed(
-        body: &Body,
-        bounds: Option<([f64; D], [f64; D])>,
-    ) -> Result<Self, (&'static str, &'static str)> {
-        let (mut lo, mut hi) = bounds.ok_or(("fill", "there are no walls to fill"))?;
-        if let Some([least, most]) = &body.bounds {
-            for k in 0..D {
-                lo[k] = lo[k].max(least[k]);
-                hi[k] = hi[k].min(most[k]);
-            }
-        }
-        if (0..D).any(|k| lo[k] >= hi[k]) {
-            return Err(("box", "the box has nothing in common with the walls"));
-        }
-        let cuts = body.subtract.iter().filter_map(|c| c.keys().shape());
-        Ok(Region {
-            base: Shape::Cuboid { lo, hi },
-            cuts: cuts.collect(),
-        })
-    }
-
-    /// Distance of a point from the surface, m, positive inside and negative outside.
-    ///
-    /// Exact inside; outside it may be less than the true distance in size, never in sign.
-    pub fn depth(&self, x: &[f64; D]) -> f64 {
-        let cuts = self.cuts.iter().map(|c| -c.depth(x));
-        cuts.fold(self.base.depth(x), f64::min)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -272,22 +246,5 @@ mod tests {
         assert_eq!(prism.depth(&[1.0, 5.125, 0.5]), 0.125);
         assert!(prism.depth(&[0.5, 7.0, 1.5]) < 0.0);
         assert_eq!(prism.bounds(), ([0.0, 5.0, 0.0], [2.0, 9.0, 1.0]));
-    }
-
-    #[test]
-    fn a_cut_takes_away_and_bounds_what_is_left() {
-        let region = Region {
-            base: Shape::Cuboid {
-                lo: [0.0; 2],
-                hi: [4.0; 2],
-            },
-            cuts: vec![Shape::Ball {
-                centre: [2.0; 2],
-                radius: 1.0,
-            }],
-        };
-        assert_eq!(region.depth(&[2.0, 2.0]), -1.0);
-        assert_eq!(region.depth(&[2.0, 3.25]), 0.25);
-        assert_eq!(region.depth(&[2.0, 3.75]), 0.25);
     }
 }

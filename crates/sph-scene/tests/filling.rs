@@ -125,6 +125,52 @@ fn a_drop_in_a_bath_leaves_no_ring_empty() {
 }
 
 #[test]
+fn layers_of_one_box_share_its_lattice() {
+    let layers = |surface: &str| {
+        let bodies = format!(
+            "body.heavy = {{ phase = \"water\", box = [[0, -0.5], [1, 0.5]], below = {surface} }}\n\
+             body.light = {{ phase = \"water\", box = [[0, -0.5], [1, 0.5]], above = {surface} }}"
+        );
+        scene(&bodies).regions::<2>()
+    };
+    let periodic = [Some([0.0, 1.0]), None];
+    // 25 spacings across: 24 rows, the interface midway between two of them.
+    let flat = layers("{ level = 0 }");
+    assert_eq!(
+        counts(&fill(&flat, 0.04, Offset::None, &periodic)),
+        [25 * 12; 2]
+    );
+    // A row on the interface is there once.
+    let odd = fill(&flat, 0.05, Offset::None, &periodic);
+    assert_eq!(counts(&odd), [20 * 10, 20 * 9]);
+    let wave = layers("{ level = 0, amplitude = 0.2, wavelength = 1 }");
+    for offset in [Offset::None, Offset::Half] {
+        let filled = fill(&wave, 0.05, offset, &periodic);
+        let rows = if offset == Offset::None { 19 } else { 20 };
+        assert_eq!(counts(&filled).iter().sum::<usize>(), 20 * rows);
+        assert!(nearest(&filled) > 0.0499);
+        let height = |x: f64| 0.2 * (std::f64::consts::TAU * x).cos();
+        let below = |x: &[f64; 2]| x[1] <= height(x[0]) + 1e-9;
+        assert!(filled[0].positions.iter().all(below));
+    }
+}
+
+#[test]
+fn an_ellipse_has_its_area() {
+    let ellipse = Shape::Ellipse {
+        centre: [1.0, 2.0],
+        semi_axes: [0.5, 0.3],
+    };
+    assert_eq!(ellipse.bounds(), ([0.5, 1.7], [1.5, 2.3]));
+    let filled = fill(&[Region::whole(ellipse)], 0.02, Offset::Half, &[None; 2]);
+    let area = counts(&filled)[0] as f64 * 4e-4;
+    assert!(
+        (area / (0.15 * std::f64::consts::PI) - 1.0).abs() < 0.02,
+        "{area}"
+    );
+}
+
+#[test]
 fn a_ball_keeps_its_distance_from_its_surface() {
     let body = [Region::whole(Shape::Ball {
         centre: [0.0; 3],

@@ -2,23 +2,31 @@
 
 use std::sync::{Arc, Mutex};
 
-use sph_core::{AnyField, Role, SceneProblem, Store, fields};
+use sph_core::{AnyField, Field, Role, Scalar, SceneProblem, Store, fields};
 use sph_integrators::Integrator;
-use sph_multiphase::{BoundState, ForceLimit, Limiter, Reference, SoundLimit, ViscousLimit};
+use sph_multiphase::{
+    BoundState, Compressed, Diffused, ForceLimit, Limiter, Reference, SoundLimit, ViscousLimit,
+};
 use sph_neighbours::{WallSet, World};
 use sph_probes::{Probe, Solution};
 use sph_scene::Scene;
 
 use crate::choices::Choices;
 use crate::defaults;
+use crate::dilatation::Dilatation;
 use crate::domain::{check_periods, domain_of, height};
 use crate::drawn::Drawn;
 use crate::error::SolverError;
+use crate::field_error;
 use crate::flow::Flow;
 use crate::initial::InitialState;
+use crate::layers::Layers;
+use crate::measured;
 use crate::placed::place;
 use crate::planning::plan_stages;
 use crate::relax::{Relaxation, relax};
+use crate::snapshot::Snapshot;
+use crate::sound::sound_speeds;
 use crate::stages::{SharedWall, WALL_STATE};
 use crate::summary::PluginInForce;
 use crate::walls::{build_walls, wall_problem};
@@ -51,6 +59,8 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     let drawn = Drawn::<D>::of(scene)?;
     crate::estimate::refuse_the_absurd(scene, &drawn)?;
     let mut choices = Choices::<D>::of(scene).map_err(SolverError::Scene)?;
+    choices.probes.extend(field_error::probes(scene)?);
+    measured::prepare(scene, &mut choices.probes)?;
     let laws = bind_laws::<D>(scene, &drawn, &choices)?;
     let spacing = scene.numerics.spacing;
     let h = scene.numerics.smoothing_ratio * spacing;
@@ -89,9 +99,11 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     if scene.phase.len() > 1 {
         free.add(fields::PHASE, Role::State);
     }
-    let evolved = choices.formulation.evolved();
-    for scalar in &evolved {
-        free.add(scalar.value, Role::State);
+    let diffused = choices.formulation.diffused();
+    let compressed = choices.formulation.compressed();
+    free.add(diffused.evolved.value, Role::State);
+    if let Some(compressed) = &compressed {
+        free.add(compressed.value, Role::State);
     }
     *free.get_mut(fields::POSITION)? = placed.positions;
     let count = free.len() as u32;
@@ -120,7 +132,11 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         terms: planned.terms,
         limiters,
         walls,
-        evolved,
+        evolved: vec![diffused.evolved],
+        integrated: integrated(&diffused, compressed.as_ref()),
+        dilatation: compressed.map(|c| Dilatation::new(c, choices.formulation.divergence())),
+        kept: Snapshot::default(),
+        kept_rates: Vec::new(),
         laws,
         kinematic_viscosities,
         timings: Vec::new(),
@@ -147,25 +163,15 @@ fn bind_laws<const D: usize>(
     drawn: &Drawn<D>,
     choices: &Choices<D>,
 ) -> Result<Arc<[Box<dyn BoundState>]>, SolverError> {
-    let mut laws = Vec::new();
-    for ((name, phase), eos) in scene.phase.iter().zip(&choices.equations_of_state) {
-        let scale = phase.velocity_scale.unwrap_or(0.0);
-        let default =
-            10.0 * scale.max((height(scene, &drawn.regions) * scene.gravity::<D>().norm()).sqrt());
-        let sound_speed = phase.speed_of_sound.unwrap_or(default);
-        if sound_speed <= 0.0 {
-            return Err(SolverError::at(
-                format!("phase.{name}"),
-                "without gravity the speed of sound cannot be guessed: give `speed_of_sound`, or \
-                 `velocity_scale`, the largest speed you expect",
-            ));
-        }
-        laws.push(eos.bind(Reference {
-            density: phase.density,
-            sound_speed,
-        }));
-    }
-    Ok(laws.into())
+    let fall = (height(scene, &drawn.regions) * scene.gravity::<D>().norm()).sqrt();
+    let speeds = sound_speeds(scene, fall)?;
+    let phases = scene.phase.values().zip(speeds);
+    let reference = phases.map(|(phase, sound_speed)| Reference {
+        density: phase.density,
+        sound_speed,
+    });
+    let laws = choices.equations_of_state.iter().zip(reference);
+    Ok(laws.map(|(eos, reference)| eos.bind(reference)).collect())
 }
 
 /// η/ρ₀ of every phase, m²/s.
@@ -198,20 +204,21 @@ fn limiters_of<const D: usize>(
             kinematic_viscosity: kinematic,
         }));
     }
+    limiters.extend(choices.interfaces.iter().filter_map(|i| i.limiter()));
     limiters
+}
+
+/// What the integrator changes besides positions and velocities.
+fn integrated(diffused: &Diffused, compressed: Option<&Compressed>) -> Vec<Field<Scalar>> {
+    let mut all = vec![diffused.evolved.value];
+    if let Some(c) = compressed.filter(|c| c.value != diffused.evolved.value) {
+        all.push(c.value);
+    }
+    all
 }
 
 /// Allocates every column that a planned stage touches.
 fn allocate<const D: usize>(flow: &mut Flow<D>) {
-    use fields::*;
-    let scalars = [
-        DENSITY,
-        VOLUME,
-        PRESSURE,
-        VISCOSITY,
-        RENORMALISATION,
-        DENSITY_CONSTANT_RATE,
-    ];
     let touched: Vec<AnyField> = flow
         .stages
         .iter()
@@ -220,14 +227,17 @@ fn allocate<const D: usize>(flow: &mut Flow<D>) {
             let reads = access.reads();
             access.writes.into_iter().chain(reads)
         })
-        .filter(|f| f.name != WALL_STATE.name)
+        .filter(|f| f.name != WALL_STATE.name && f.name != fields::PHASE.name)
         .collect();
-    for field in scalars {
-        if touched.contains(&field.any()) {
-            flow.world.free.add(field, Role::Derived);
-        }
+    for field in touched {
+        // Drifts may sort particles between their halves: the shift must be sorted, too.
+        let role = match field.name == fields::SHIFT_VELOCITY.name {
+            true => Role::State,
+            false => Role::Derived,
+        };
+        flow.world.free.add_any(field, role);
     }
-    flow.world.free.add(ACCELERATION, Role::Derived);
+    flow.world.free.add(fields::ACCELERATION, Role::Derived);
     // An evolved scalar that nothing changes is a constant: it needs no rate and no kick.
     let free = &flow.world.free;
     flow.evolved.retain(|e| free.has(e.rate.name));
@@ -268,6 +278,7 @@ fn start<const D: usize>(
     world.rebuild_lists()?;
     let relaxation = relax(scene, drawn, world, flow.walls.as_ref())?;
     let phases: Vec<&String> = scene.phase.keys().collect();
+    let layers = Layers::of(scene, &drawn.regions);
     let mut states = Vec::new();
     let mut phase_of = Vec::new();
     for ((name, body), region) in scene.body.iter().zip(&drawn.regions) {
@@ -280,6 +291,7 @@ fn start<const D: usize>(
             region,
             &*flow.laws[phase],
             field,
+            layers.as_ref(),
         ));
         phase_of.push(phase as u32);
     }

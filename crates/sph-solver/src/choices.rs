@@ -6,8 +6,9 @@ use sph_core::{Contract, PluginInfo, Registry, RegistryError, SceneProblem};
 use sph_integrators::{Integrator, IntegratorEntry};
 use sph_kernels::Kernel;
 use sph_multiphase::{
-    EquationOfState, EquationOfStateEntry, Formulation, FormulationEntry, Smoother, SmootherEntry,
-    ViscousOperator, ViscousOperatorEntry,
+    EquationOfState, EquationOfStateEntry, Formulation, FormulationEntry, InterfaceEntry,
+    InterfaceModel, Shifting, ShiftingEntry, Smoother, SmootherEntry, ViscousOperator,
+    ViscousOperatorEntry,
 };
 use sph_neighbours::{Interaction, KernelEntry, TermEntry};
 use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry};
@@ -25,6 +26,8 @@ pub struct Choices<const D: usize> {
     pub walls: Option<Box<dyn Wall<D>>>,
     pub viscous_operator: Box<dyn ViscousOperator<D>>,
     pub smoother: Option<Box<dyn Smoother<D>>>,
+    pub shifting: Option<Box<dyn Shifting<D>>>,
+    pub interfaces: Vec<Box<dyn InterfaceModel<D>>>,
     pub terms: Vec<Box<dyn Interaction<D>>>,
     /// In the order of the phase numbers.
     pub equations_of_state: Vec<Box<dyn EquationOfState>>,
@@ -127,6 +130,13 @@ impl<const D: usize> Choices<D> {
         );
         let smoother = one!("smoother", SmootherEntry, |e: &SmootherEntry, t| e
             .build::<D>(t));
+        let shifting = one!("shifting", ShiftingEntry, |e: &ShiftingEntry, t| e
+            .build::<D>(t));
+        let interfaces = scene.interfaces();
+        let interfaces = interfaces
+            .iter()
+            .filter_map(|c| b.build::<InterfaceEntry, _>(c, |e| e.build::<D>(&c.table)));
+        let interfaces = interfaces.collect();
         let terms = scene.terms();
         let terms = terms
             .iter()
@@ -174,6 +184,8 @@ impl<const D: usize> Choices<D> {
                     walls,
                     viscous_operator,
                     smoother,
+                    shifting,
+                    interfaces,
                     terms,
                     equations_of_state,
                     rheologies,

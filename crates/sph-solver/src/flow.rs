@@ -3,10 +3,15 @@
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
-use sph_core::{Evolved, Role, Stage, StepError, StepLimit, System, fields};
+use sph_core::{
+    Access, Evolved, Field, Recall, Role, Scalar, Stage, StepError, StepLimit, System, fields,
+};
 use sph_multiphase::{BoundState, Limiter};
 use sph_neighbours::{Interaction, World, wall_forces};
 
+use crate::dilatation::Dilatation;
+use crate::kept::Kept;
+use crate::snapshot::Snapshot;
 use crate::stages::{SharedWall, lock};
 
 /// Wall-clock time of one kind of work.
@@ -29,6 +34,14 @@ pub struct Flow<const D: usize> {
     pub(crate) limiters: Vec<Box<dyn Limiter<D>>>,
     pub(crate) walls: Option<SharedWall<D>>,
     pub(crate) evolved: Vec<Evolved>,
+    /// All scalars that the integrator changes.
+    pub(crate) integrated: Vec<Field<Scalar>>,
+    /// What motion compresses.
+    pub(crate) dilatation: Option<Dilatation<D>>,
+    /// The state that an integrator keeps within a step.
+    pub(crate) kept: Snapshot<D>,
+    /// Accelerations and scalar rates of the kept state.
+    pub(crate) kept_rates: Vec<Kept<D>>,
     pub(crate) laws: std::sync::Arc<[Box<dyn BoundState>]>,
     /// η/ρ₀ of every phase, m²/s.
     pub(crate) kinematic_viscosities: Vec<f64>,
@@ -72,16 +85,31 @@ impl<const D: usize> Flow<D> {
 
 impl<const D: usize> System for Flow<D> {
     fn evaluate(&mut self) -> Result<(), StepError> {
-        let start = Instant::now();
-        crate::guard::positions(&self.world)?;
-        self.world.refresh_lists()?;
-        self.timings[LISTS].spent += start.elapsed();
-        for (k, stage) in self.stages.iter_mut().enumerate() {
-            let start = Instant::now();
-            stage.run(&mut self.world)?;
-            self.timings[MOTION + 1 + k].spent += start.elapsed();
-        }
+        self.run_stages(|_| true)
+    }
+
+    fn evaluate_forces(&mut self) -> Result<(), StepError> {
+        let state = [fields::DENSITY, fields::VOLUME, fields::PRESSURE].map(|f| f.any());
+        let gives_state = |a: &Access| a.writes.iter().any(|f| state.contains(f));
+        self.run_stages(|stage| !gives_state(&stage.access()))
+    }
+
+    fn keep(&mut self) -> Result<(), StepError> {
+        let mut kept = std::mem::take(&mut self.kept);
+        kept.take(self)?;
+        self.kept = kept;
+        self.keep_rates()
+    }
+
+    fn recall(&mut self, what: Recall) -> Result<(), StepError> {
+        let kept = std::mem::take(&mut self.kept);
+        kept.recall(self, what)?;
+        self.kept = kept;
         Ok(())
+    }
+
+    fn average_rates(&mut self) -> Result<(), StepError> {
+        self.average_with_kept()
     }
 
     fn kick(&mut self, dt: f64) -> Result<(), StepError> {
@@ -113,22 +141,16 @@ impl<const D: usize> System for Flow<D> {
         if let Some(walls) = &self.walls {
             lock(walls).constrain(&mut self.world, dt)?;
         }
-        let mut position = self.world.free.take(fields::POSITION)?;
-        let velocity = self.world.free.get(fields::VELOCITY)?;
-        position
-            .par_iter_mut()
-            .zip(velocity)
-            .with_min_len(2048)
-            .for_each(|(x, u)| *x += u * dt);
-        self.world.free.put(fields::POSITION, position)?;
-        self.world.time += dt;
-        if let Some(walls) = &self.walls {
-            let time = self.world.time;
-            let moved = lock(walls).move_to(&mut self.world.walls, time);
-            moved.map_err(|e| StepError::Stage {
-                stage: "wall motion".into(),
-                reason: e.to_string(),
-            })?;
+        match self.dilatation.take() {
+            None => self.advance(dt)?,
+            Some(mut dilatation) => {
+                // The divergence of the middle of the drift: second order.
+                self.advance(0.5 * dt)?;
+                let applied = self.compress(&mut dilatation, dt);
+                self.dilatation = Some(dilatation);
+                applied?;
+                self.advance(0.5 * dt)?;
+            }
         }
         self.timings[MOTION].spent += start.elapsed();
         Ok(())
@@ -144,6 +166,56 @@ impl<const D: usize> System for Flow<D> {
 }
 
 impl<const D: usize> Flow<D> {
+    fn run_stages(
+        &mut self,
+        wanted: impl Fn(&dyn Stage<World<D>>) -> bool,
+    ) -> Result<(), StepError> {
+        let start = Instant::now();
+        crate::guard::positions(&self.world)?;
+        self.world.refresh_lists()?;
+        self.timings[LISTS].spent += start.elapsed();
+        for (k, stage) in self.stages.iter_mut().enumerate() {
+            if !wanted(&**stage) {
+                continue;
+            }
+            let start = Instant::now();
+            stage.run(&mut self.world)?;
+            self.timings[MOTION + 1 + k].spent += start.elapsed();
+        }
+        Ok(())
+    }
+
+    /// Particles and walls follow their velocities for a time.
+    fn advance(&mut self, dt: f64) -> Result<(), StepError> {
+        let mut position = self.world.free.take(fields::POSITION)?;
+        let velocity = self.world.free.get(fields::VELOCITY)?;
+        let all = position.par_iter_mut().zip(velocity).with_min_len(2048);
+        match self.world.free.get(fields::SHIFT_VELOCITY) {
+            Err(_) => all.for_each(|(x, u)| *x += u * dt),
+            Ok(shift) => all.zip(shift).for_each(|((x, u), s)| *x += (u + s) * dt),
+        }
+        self.world.free.put(fields::POSITION, position)?;
+        self.world.time += dt;
+        if let Some(walls) = &self.walls {
+            let time = self.world.time;
+            let moved = lock(walls).move_to(&mut self.world.walls, time);
+            moved.map_err(|e| StepError::Stage {
+                stage: "wall motion".into(),
+                reason: e.to_string(),
+            })?;
+        }
+        Ok(())
+    }
+
+    fn compress(&mut self, dilatation: &mut Dilatation<D>, dt: f64) -> Result<(), StepError> {
+        crate::guard::positions(&self.world)?;
+        self.world.refresh_lists()?;
+        if let Some(walls) = &self.walls {
+            lock(walls).geometry(&mut self.world)?;
+        }
+        dilatation.apply(&mut self.world, dt)
+    }
+
     /// Largest extent of the particles along any axis, m.
     pub(crate) fn extent(&self) -> f64 {
         let Ok(position) = self.world.free.get(fields::POSITION) else {

@@ -5,11 +5,15 @@ use sph_multiphase::BoundState;
 use sph_probes::Solution;
 use sph_scene::{Body, Pressure, Region, Scene};
 
+use crate::layers::Layers;
+
 /// Density and velocity of a body's particles at the start.
 pub struct InitialState<'a, const D: usize> {
     body: &'a Body,
     law: &'a dyn BoundState,
     field: Option<&'a dyn Solution<D>>,
+    /// The bodies whose weight is over it, if the scene gives no surface.
+    layers: Option<&'a Layers<'a, D>>,
     gravity: Vect<D>,
     /// Height of the free surface along −gravity, m.
     surface: f64,
@@ -23,6 +27,7 @@ impl<'a, const D: usize> InitialState<'a, D> {
         region: &Region<D>,
         law: &'a dyn BoundState,
         field: Option<&'a dyn Solution<D>>,
+        layers: Option<&'a Layers<'a, D>>,
     ) -> Self {
         let gravity = scene.gravity::<D>();
         let (lower, upper) = region.base.bounds();
@@ -35,6 +40,7 @@ impl<'a, const D: usize> InitialState<'a, D> {
             body,
             law,
             field,
+            layers: layers.filter(|_| body.surface.is_none()),
             gravity,
             surface: body.surface.unwrap_or(top),
         }
@@ -45,6 +51,9 @@ impl<'a, const D: usize> InitialState<'a, D> {
         let given = self.field.and_then(|f| f.pressure(x, 0.0));
         let pressure = given.unwrap_or_else(|| match self.body.pressure {
             Pressure::Zero => 0.0,
+            Pressure::Hydrostatic if self.layers.is_some() => {
+                self.layers.map_or(0.0, |layers| layers.weight(x))
+            }
             Pressure::Hydrostatic => {
                 let g = self.gravity.norm();
                 let height = -self.gravity.dot(x) / g.max(f64::MIN_POSITIVE);

@@ -44,19 +44,26 @@ pub fn plan_stages<const D: usize>(
     let mut terms = vec![choices.formulation.pressure_term()];
     let rheologies: Arc<[_]> = std::mem::take(&mut choices.rheologies).into();
     let viscosity = viscosity_of(scene, &rheologies)?;
+    let mut friction = Vec::new();
     if viscosity != Viscosity::Uniform(0.0) {
         terms.push(choices.viscous_operator.term(viscosity));
+        friction = choices.viscous_operator.stages(viscosity);
     }
     if let Some(smoother) = &choices.smoother {
-        terms.push(smoother.term());
+        terms.push(smoother.term(laws));
     }
+    refuse_interfaces_of_one(scene)?;
+    terms.extend(choices.interfaces.iter().map(|i| i.term()));
+    let summed = choices.formulation.compressed().is_none();
+    let transport = choices.shifting.iter().find_map(|s| s.term(summed));
+    let density_changes = choices.smoother.is_some() || transport.is_some();
+    terms.extend(transport);
     terms.append(&mut choices.terms);
-    let scalar = choices.formulation.evolved().first().map(|e| e.rate);
-    let changes_scalar = choices.smoother.is_some();
+    let diffused = choices.formulation.diffused();
     let terms: SharedTerms<D> = fuse_all(terms).into();
     let sweep = InteractionSweep {
         terms: terms.clone(),
-        scalar: scalar.filter(|_| changes_scalar),
+        diffused: density_changes.then_some(diffused),
         walls: walls.is_some(),
         states: Vec::new(),
     };
@@ -65,21 +72,33 @@ pub fn plan_stages<const D: usize>(
     if let Some(walls) = walls {
         offered.push(Box::new(WallGeometry(walls.clone())));
     }
-    offered.push(Box::new(Also {
-        stage: choices.formulation.density_stage(),
-        access: gamma(),
-    }));
+    let with_gamma = |stage| -> Box<dyn Stage<World<D>>> {
+        Box::new(Also {
+            stage,
+            access: gamma(),
+        })
+    };
+    offered.extend(choices.formulation.stages().into_iter().map(with_gamma));
     offered.push(Box::new(PressureStage { laws: laws.clone() }));
     if let Some(walls) = walls {
         offered.push(Box::new(WallState(walls.clone())));
     }
     offered.push(Box::new(ViscosityStage { laws: rheologies }));
-    offered.push(Box::new(Also {
-        stage: Box::new(sweep),
-        access: gamma(),
-    }));
+    let smoother = choices.smoother.iter().flat_map(|s| s.stages(laws));
+    let interfaces = choices.interfaces.iter().flat_map(|i| i.stages());
+    let shifting = choices.shifting.iter().flat_map(|s| s.stages());
+    let extra = friction
+        .into_iter()
+        .chain(smoother)
+        .chain(interfaces)
+        .chain(shifting);
+    offered.extend(extra.map(with_gamma));
+    offered.push(with_gamma(Box::new(sweep)));
 
     let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
+    if choices.shifting.is_some() {
+        goals.push(fields::SHIFT_VELOCITY.any());
+    }
     for stage in &offered {
         let wanted = scene.output.fields.iter().chain(&scene.output.picture);
         for name in wanted {
@@ -94,7 +113,8 @@ pub fn plan_stages<const D: usize>(
         fields::PHASE.any(),
     ]
     .into_iter()
-    .chain(choices.formulation.evolved().iter().map(|e| e.value.any()))
+    .chain([diffused.evolved.value.any()])
+    .chain(choices.formulation.compressed().map(|c| c.value.any()))
     .filter(|f| world.free.has(f.name))
     .collect();
     let declared: Vec<&dyn Declares> = offered
@@ -121,6 +141,18 @@ pub fn plan_stages<const D: usize>(
     })
 }
 
+/// An interface needs two phases.
+fn refuse_interfaces_of_one(scene: &Scene) -> Result<(), SolverError> {
+    match scene.interfaces().first() {
+        Some(first) if scene.phase.len() < 2 => Err(SolverError::at(
+            first.path.clone(),
+            "the scene has one phase, and interfaces are between two: take this table out, or add \
+             a phase",
+        )),
+        _ => Ok(()),
+    }
+}
+
 /// One viscosity for all, or a column.
 fn viscosity_of(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Result<Viscosity, SolverError> {
     for (law, phase) in laws.iter().zip(scene.phase.keys()) {
@@ -136,6 +168,7 @@ fn viscosity_of(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Result<Viscosity, 
         Some(Some(first)) if uniform.iter().all(|v| v == &Some(*first)) => {
             Ok(Viscosity::Uniform(*first))
         }
+        _ if laws.len() > 1 => Ok(Viscosity::PerPhase),
         _ => Ok(Viscosity::PerParticle),
     }
 }

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use sph_core::{Plain, Vect, fields};
+use sph_core::fields;
 use sph_io::{Plot, Series, Table, read_columns, read_table};
 use sph_probes::{Solution, norm};
 use sph_scene::{Norm, Reference, Scene};
 
+use crate::field_error::{self, Compared};
 use crate::summary::ErrorEntry;
 use crate::{Flow, SolverError};
 
@@ -33,13 +34,20 @@ pub fn errors<const D: usize>(
     warnings: &mut Vec<String>,
 ) -> Result<BTreeMap<String, ErrorEntry>, SolverError> {
     let mut errors = BTreeMap::new();
-    let measured = match scene.reference.values().any(|r| r.probe.is_some()) {
+    let in_series = |r: &Reference| r.probe.is_some() || r.norm() == Norm::L2Mean;
+    let measured = match scene.reference.values().any(in_series) {
         true => Some(read_table(series)?),
         false => None,
     };
     for (name, reference) in &scene.reference {
         let solution = solutions.iter().find(|(n, _)| n == name).map(|(_, s)| &**s);
         let entry = match (&reference.field, &reference.probe, &measured) {
+            (Some(_), _, Some(table)) if reference.norm() == Norm::L2Mean => {
+                let times = table.column("time").unwrap_or(&[]);
+                let column = field_error::column(name);
+                let values = table.column(&column).ok_or_else(|| absent(&column));
+                values.and_then(|values| averaged(reference, times, values))
+            }
             (Some(field), _, _) => against_field(flow, reference, field, solution),
             (None, Some(probe), Some(table)) => {
                 let column = table.column(probe).map(<[f64]>::to_vec);
@@ -52,7 +60,7 @@ pub fn errors<const D: usize>(
                         };
                         against_series(reference, times, &values, solution)?
                     }
-                    None => Err(format!("the series has no column `{probe}`")),
+                    None => Err(absent(probe)),
                 }
             }
             _ => Err("it names neither a field nor a probe".to_string()),
@@ -67,11 +75,19 @@ pub fn errors<const D: usize>(
     Ok(errors)
 }
 
+fn absent(column: &str) -> String {
+    format!("the series has no column `{column}`")
+}
+
 fn entry(value: f64, reference: &Reference, samples: usize, window: [f64; 2]) -> ErrorEntry {
     let against = match (&reference.file, &reference.solution) {
         (Some(file), _) => file.clone(),
         (None, Some(solution)) => format!("solution {solution}"),
-        (None, None) => String::new(),
+        (None, None) => match (reference.norm(), reference.value, reference.period) {
+            (Norm::Mean, Some(value), _) => format!("value {value}"),
+            (Norm::Period, _, Some(period)) => format!("period {period} s"),
+            _ => String::new(),
+        },
     };
     ErrorEntry {
         value: value.is_finite().then_some(value),
@@ -91,34 +107,14 @@ fn against_field<const D: usize>(
     solution: Option<&dyn Solution<D>>,
 ) -> Result<ErrorEntry, String> {
     let solution = solution.ok_or("a field is compared with a `solution`")?;
-    let free = &flow.world.free;
     let time = flow.world.time;
-    let text = |e: sph_core::FieldError| e.to_string();
-    let positions = free.get(fields::POSITION).map_err(text)?;
-    let volume = free.get(fields::VOLUME).map_err(text)?;
-    let found = free.columns().find(|(n, ..)| *n == field);
-    let Some((_, _, _, components, Plain::Real(values))) = found else {
-        return Err(format!(
-            "there is no field `{field}` of real numbers in this scene"
-        ));
-    };
-    let mut exact = Vec::with_capacity(values.len());
-    for x in positions {
-        match field {
-            "velocity" => {
-                let u: Vect<D> = solution
-                    .velocity(x, time)
-                    .ok_or("the solution has no velocity")?;
-                exact.extend(u.iter());
-            }
-            "pressure" => exact.push(
-                solution
-                    .pressure(x, time)
-                    .ok_or("the solution has no pressure")?,
-            ),
-            _ => return Err(format!("no solution gives the field `{field}`")),
-        }
-    }
+    let volume = flow.world.free.get(fields::VOLUME);
+    let volume = volume.map_err(|e| e.to_string())?;
+    let Compared {
+        values,
+        exact,
+        components,
+    } = Compared::of(&flow.world, field, solution)?;
     let difference: Vec<f64> = values.iter().zip(&exact).map(|(u, e)| u - e).collect();
     let (value, unit) = match reference.norm() {
         Norm::L2 => (norm::l2(&values, &exact, volume, components), "1"),
@@ -131,9 +127,36 @@ fn against_field<const D: usize>(
         Norm::Absolute => (difference.iter().fold(0.0_f64, |m, d| m.max(d.abs())), ""),
         other => return Err(format!("the norm `{}` is for probes", other.name())),
     };
-    let mut entry = entry(value, reference, positions.len(), [time, time]);
+    let mut entry = entry(value, reference, volume.len(), [time, time]);
     entry.unit = unit.to_string();
     Ok(entry)
+}
+
+/// Whether a time counts.
+fn counts(reference: &Reference, t: f64) -> bool {
+    let inside = reference.window.is_none_or(|[a, b]| t >= a && t <= b);
+    inside && reference.exclude.is_none_or(|[a, b]| t < a || t > b)
+}
+
+/// What is averaged over the rows that count: the error itself, the value, the period.
+fn averaged(reference: &Reference, times: &[f64], values: &[f64]) -> Result<ErrorEntry, String> {
+    let rows = times.iter().zip(values);
+    let rows = rows.filter(|(t, v)| counts(reference, **t) && v.is_finite());
+    let (times, values): (Vec<f64>, Vec<f64>) = rows.unzip();
+    let (Some(first), Some(last)) = (times.first(), times.last()) else {
+        return Err("no row of the series counts".into());
+    };
+    let mean = || norm::mean(&times, &values).unwrap_or(f64::NAN);
+    let value = match (reference.norm(), reference.value, reference.period) {
+        (Norm::Mean, Some(exact), _) => ((mean() - exact) / exact).abs(),
+        (Norm::Period, _, Some(exact)) => {
+            let found = norm::period(&times, &values);
+            let found = found.ok_or("the series crosses its mean too seldom for a period")?;
+            (found / exact - 1.0).abs()
+        }
+        _ => mean(),
+    };
+    Ok(entry(value, reference, times.len(), [*first, *last]))
 }
 
 /// A probe's series against a file or a solution's rate of decay.
@@ -143,12 +166,11 @@ fn against_series<const D: usize>(
     values: &[f64],
     solution: Option<&dyn Solution<D>>,
 ) -> Result<Result<ErrorEntry, String>, SolverError> {
-    let counts = |t: f64| {
-        let inside = reference.window.is_none_or(|[a, b]| t >= a && t <= b);
-        inside && reference.exclude.is_none_or(|[a, b]| t < a || t > b)
-    };
-    if reference.norm() == Norm::DecayRate {
-        return Ok(decay(reference, times, values, solution, counts));
+    let counts = |t: f64| counts(reference, t);
+    match reference.norm() {
+        Norm::DecayRate => return Ok(decay(reference, times, values, solution, counts)),
+        Norm::Mean | Norm::Period => return Ok(averaged(reference, times, values)),
+        _ => {}
     }
     let Some(path) = &reference.path else {
         return Ok(Err(
@@ -224,7 +246,9 @@ fn against_series<const D: usize>(
             let found = norm::lag([times, values], [&instants, &compared], 0.5 * period);
             (found.map_or(f64::NAN, |lag| lag.abs() / period), "1")
         }
-        Norm::Rms | Norm::DecayRate => return Ok(Err("this norm is for fields".into())),
+        Norm::Rms | Norm::DecayRate | Norm::L2Mean | Norm::Mean | Norm::Period => {
+            return Ok(Err("this norm is for fields".into()));
+        }
     };
     let mut entry = entry(value, reference, n, window);
     entry.unit = unit.to_string();

@@ -1,6 +1,6 @@
 //! The state before a step, to fall back on when the step fails.
 
-use sph_core::{FieldError, Vect, fields};
+use sph_core::{FieldError, Recall, Vect, fields};
 
 use crate::Flow;
 
@@ -25,38 +25,82 @@ impl<const D: usize> Snapshot<D> {
         copy(&mut self.identity, free.get(fields::IDENTITY)?);
         copy(&mut self.position, free.get(fields::POSITION)?);
         copy(&mut self.velocity, free.get(fields::VELOCITY)?);
-        self.evolved.resize(flow.evolved.len(), Vec::new());
-        for (copied, evolved) in self.evolved.iter_mut().zip(&flow.evolved) {
-            copy(copied, free.get(evolved.value)?);
+        self.evolved.resize(flow.integrated.len(), Vec::new());
+        for (copied, field) in self.evolved.iter_mut().zip(&flow.integrated) {
+            copy(copied, free.get(*field)?);
         }
         self.time = flow.world.time;
         Ok(())
     }
 
-    /// Puts the state back. If the particles were sorted meanwhile, they return to their order.
-    pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), FieldError> {
-        let free = &mut flow.world.free;
-        let now = free.get(fields::IDENTITY)?;
-        if now != self.identity {
-            let mut place = vec![0u32; now.len()];
-            for (k, &id) in now.iter().enumerate() {
-                place[id as usize] = k as u32;
+    /// Where every particle of now is in the copy; `None` if the order is the same.
+    pub fn places(&self, flow: &Flow<D>) -> Result<Option<Vec<u32>>, FieldError> {
+        let now = flow.world.free.get(fields::IDENTITY)?;
+        if now == self.identity {
+            return Ok(None);
+        }
+        let mut place = vec![0u32; now.len()];
+        for (k, &id) in self.identity.iter().enumerate() {
+            place[id as usize] = k as u32;
+        }
+        Ok(Some(now.iter().map(|&id| place[id as usize]).collect()))
+    }
+
+    /// Puts part of the state back, whatever order the particles are in now.
+    pub fn recall(&self, flow: &mut Flow<D>, what: Recall) -> Result<(), FieldError> {
+        fn put<T: Copy>(to: &mut [T], from: &[T], places: Option<&[u32]>) {
+            match places {
+                None => to.copy_from_slice(from),
+                Some(places) => {
+                    let from = places.iter().map(|&p| from[p as usize]);
+                    to.iter_mut().zip(from).for_each(|(to, from)| *to = from);
+                }
             }
-            let order: Vec<u32> = self.identity.iter().map(|&id| place[id as usize]).collect();
-            free.permute(&order);
         }
-        free.get_mut(fields::POSITION)?
-            .copy_from_slice(&self.position);
-        free.get_mut(fields::VELOCITY)?
-            .copy_from_slice(&self.velocity);
-        for (copied, evolved) in self.evolved.iter().zip(&flow.evolved) {
-            free.get_mut(evolved.value)?.copy_from_slice(copied);
+        let places = self.places(flow)?;
+        let places = places.as_deref();
+        let free = &mut flow.world.free;
+        for (copied, field) in self.evolved.iter().zip(&flow.integrated) {
+            put(free.get_mut(*field)?, copied, places);
         }
-        flow.world.time = self.time;
+        if what == Recall::Scalars {
+            return Ok(());
+        }
+        put(free.get_mut(fields::VELOCITY)?, &self.velocity, places);
+        if what == Recall::State {
+            put(free.get_mut(fields::POSITION)?, &self.position, places);
+            flow.world.time = self.time;
+            self.walls_back(flow);
+        }
+        Ok(())
+    }
+
+    fn walls_back(&self, flow: &mut Flow<D>) {
         if let Some(walls) = &flow.walls {
             // The walls accepted this time before, so they accept it again.
             let _ = crate::stages::lock(walls).move_to(&mut flow.world.walls, self.time);
         }
+    }
+
+    /// Puts the state back. If the particles were sorted meanwhile, they return to their order.
+    pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), FieldError> {
+        if let Some(places) = self.places(flow)? {
+            let mut order = vec![0u32; places.len()];
+            for (k, &p) in places.iter().enumerate() {
+                order[p as usize] = k as u32;
+            }
+            flow.world.free.permute(&order);
+        }
+        let free = &mut flow.world.free;
+        free.get_mut(fields::POSITION)?
+            .copy_from_slice(&self.position);
+        free.get_mut(fields::VELOCITY)?
+            .copy_from_slice(&self.velocity);
+        for (copied, field) in self.evolved.iter().zip(&flow.integrated) {
+            free.get_mut(*field)?.copy_from_slice(copied);
+        }
+        flow.world.time = self.time;
+        self.walls_back(flow);
         flow.world.rebuild_lists()
     }
 }

@@ -2,8 +2,10 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use rayon::prelude::*;
 use sph_boundary::Wall;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields};
+use sph_multiphase::Diffused;
 use sph_neighbours::{Interaction, There, World, interactions};
 use sph_rheology::{Inputs, Rheology};
 
@@ -117,8 +119,8 @@ impl<const D: usize> Stage<World<D>> for ViscosityStage {
 pub struct InteractionSweep<const D: usize> {
     /// The terms, fused where a fusion is registered.
     pub terms: Arc<[Box<dyn Interaction<D>>]>,
-    /// Rate of the formulation's evolved scalar, if anything changes it.
-    pub scalar: Option<Field<Scalar>>,
+    /// What density diffusion changes, if there is any.
+    pub diffused: Option<Diffused>,
     /// Whether walls exist.
     pub walls: bool,
     /// Buffer of the packed states.
@@ -134,8 +136,11 @@ impl<const D: usize> Declares for InteractionSweep<D> {
         let mut access = Access::none()
             .both(fields::POSITION)
             .writes(fields::ACCELERATION);
-        if let Some(scalar) = self.scalar {
-            access = access.writes(scalar);
+        if let Some(diffused) = &self.diffused {
+            access = access
+                .here(fields::DENSITY)
+                .here(fields::VOLUME)
+                .writes(diffused.evolved.rate);
         }
         if self.walls {
             access = access.here(WALL_STATE);
@@ -149,8 +154,9 @@ impl<const D: usize> Declares for InteractionSweep<D> {
 impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut acceleration = world.free.take(fields::ACCELERATION)?;
-        match self.scalar {
-            Some(field) => {
+        match self.diffused {
+            Some(diffused) => {
+                let field = diffused.evolved.rate;
                 let mut scalar = world.free.take(field)?;
                 interactions(
                     world,
@@ -159,6 +165,14 @@ impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
                     &mut acceleration,
                     Some(&mut scalar),
                 )?;
+                let free = &world.free;
+                let density = free.get(fields::DENSITY)?;
+                let volume = free.get(fields::VOLUME)?;
+                let gamma = free.get(fields::RENORMALISATION).ok();
+                let rates = scalar.par_iter_mut().zip(density).zip(volume).enumerate();
+                rates.with_min_len(2048).for_each(|(i, ((rate, rho), v))| {
+                    *rate *= (diffused.per_density)(*rho, *v, gamma.map_or(1.0, |g| g[i]));
+                });
                 world.free.put(field, scalar)?;
             }
             None => interactions(

@@ -7,7 +7,7 @@ use crate::evaluate::{acceleration, pressure, viscosity, viscosity_column};
 use crate::world::{Random, disorder, periodic, set, set_velocity, world};
 
 /// Σ m a over Σ m |a|.
-fn imbalance<const D: usize>(world: &World<D>, acceleration: &[Vect<D>]) -> f64 {
+pub fn imbalance<const D: usize>(world: &World<D>, acceleration: &[Vect<D>]) -> f64 {
     let mass = world.free.get(fields::MASS).unwrap();
     let forces = || acceleration.iter().zip(mass).map(|(a, m)| a * *m);
     let scale: f64 = forces().map(|f| f.norm()).sum();
@@ -16,7 +16,7 @@ fn imbalance<const D: usize>(world: &World<D>, acceleration: &[Vect<D>]) -> f64 
 }
 
 /// Shaken particles of two densities with random pressures, volumes, velocities, viscosities.
-fn cloud<const D: usize>(n: usize, ratio: f64, seed: u64) -> World<D> {
+pub fn cloud<const D: usize>(n: usize, ratio: f64, seed: u64) -> World<D> {
     let positions = disorder::<D>(n, 0.3, seed);
     let mut cloud = world(positions, periodic(), 1.0 / n as f64, ratio);
     let mut random = Random::new(seed + 1);

@@ -12,7 +12,9 @@ fn density<const D: usize>(world: &World<D>) -> Vec<f64> {
 }
 
 fn sum_up<const D: usize>(world: &mut World<D>) {
-    HuAdams::default().density_stage().run(world).unwrap();
+    Formulation::<D>::stages(&HuAdams::default())[0]
+        .run(world)
+        .unwrap();
 }
 
 /// Largest relative difference of two columns.

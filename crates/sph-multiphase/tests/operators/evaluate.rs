@@ -2,7 +2,8 @@
 
 use sph_core::Vect;
 use sph_multiphase::{
-    BrezziPitkaranta, Formulation, HuAdams, Morris, Smoother, Viscosity, ViscousOperator, WallTerm,
+    BrezziPitkaranta, Formulation, HuAdams, Morris, OnLattice, Smoother, Viscosity,
+    ViscousOperator, WallTerm,
 };
 use sph_neighbours::{Interaction, Terms, World, interactions};
 
@@ -33,14 +34,21 @@ pub fn pressure<const D: usize>() -> Box<dyn Interaction<D>> {
     HuAdams::default().pressure_term()
 }
 
+/// Morris's operator, not scaled on the lattice: the numbers of the theory are of this one.
 pub fn viscosity<const D: usize>(eta: f64) -> Box<dyn Interaction<D>> {
-    Morris::default().term(Viscosity::Uniform(eta))
+    let operator = Morris {
+        on_lattice: OnLattice::Literal,
+        ..Morris::default()
+    };
+    operator.term(Viscosity::Uniform(eta))
 }
 
 /// Morris's operator with the wall term as printed.
 pub fn literal_viscosity<const D: usize>(eta: f64) -> Box<dyn Interaction<D>> {
     let operator = Morris {
         wall_term: WallTerm::Literal,
+        on_lattice: OnLattice::Literal,
+        ..Morris::default()
     };
     operator.term(Viscosity::Uniform(eta))
 }
@@ -50,5 +58,5 @@ pub fn viscosity_column<const D: usize>() -> Box<dyn Interaction<D>> {
 }
 
 pub fn smoother<const D: usize>(strength: f64) -> Box<dyn Interaction<D>> {
-    BrezziPitkaranta { strength }.term()
+    BrezziPitkaranta { strength }.term(&Vec::new().into())
 }

@@ -1,0 +1,73 @@
+//! The formulation of Colagrossi and Landrini.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Evolved, StepError, fields, register};
+use sph_neighbours::{Interaction, World};
+
+use crate::divergence::{Divergence, TheirVolume};
+use crate::gradient::{PressureGradient, SumOfPressures};
+use crate::volume::VolumeStage;
+use crate::{Compressed, Diffused, Formulation, FormulationEntry, Stages};
+
+/// dρ_a/dt = −ρ_a D_a{u}, V = m/ρ, with
+/// D_a{u} = −1/γ_a [Σ_b θ_b V_b u_ab·∇w_ab − Σ_s u_as·∇γ_as] and its adjoint
+/// G_a{p} = 1/γ_a [Σ_b θ_b V_b (p_a + p_b) ∇w_ab − Σ_s (p_a + p_s) ∇γ_as].
+///
+/// Density is integrated, so a free surface needs nothing; in return it drifts with the error of
+/// the time scheme. One more walk over the neighbours per drift (at its middle), none for the
+/// density.
+///
+/// Source: Ghaïtanellis 2017, Eq. 3.2–3.5; Colagrossi & Landrini 2003; walls as in Eq. 2.75 with
+/// k = 0.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ColagrossiLandrini {}
+
+impl<const D: usize> Formulation<D> for ColagrossiLandrini {
+    fn diffused(&self) -> Diffused {
+        integrated_density()
+    }
+    fn compressed(&self) -> Option<Compressed> {
+        Some(compressed_density())
+    }
+    fn stages(&self) -> Stages<D> {
+        vec![Box::new(VolumeStage)]
+    }
+    fn pressure_term(&self) -> Box<dyn Interaction<D>> {
+        PressureGradient::boxed(SumOfPressures)
+    }
+    fn divergence(&self) -> Box<dyn Interaction<D>> {
+        Divergence::boxed(TheirVolume)
+    }
+    fn rebase(&self, _world: &mut World<D>) -> Result<(), StepError> {
+        Ok(())
+    }
+}
+
+register!(
+    FormulationEntry [2, 3],
+    ColagrossiLandrini,
+    "colagrossi-landrini",
+    "integrated densities, volumes as weights; simple and robust at free surfaces",
+    "Ghaïtanellis 2017, Eq. 3.2–3.5; Colagrossi & Landrini 2003"
+);
+
+/// Density diffusion of a formulation that integrates the density itself.
+pub(crate) fn integrated_density() -> Diffused {
+    Diffused {
+        evolved: Evolved {
+            value: fields::DENSITY,
+            rate: fields::DENSITY_RATE,
+        },
+        per_density: |_, _, _| 1.0,
+    }
+}
+
+/// d ln ρ/dt = −D{u}.
+pub(crate) fn compressed_density() -> Compressed {
+    Compressed {
+        value: fields::DENSITY,
+        exponent: -1.0,
+    }
+}

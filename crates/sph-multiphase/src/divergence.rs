@@ -1,0 +1,150 @@
+//! Discrete divergences of the velocity.
+
+use sph_core::{Access, StepError, Vect, fields};
+use sph_neighbours::{
+    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
+};
+
+/// Which weight a pair has in D_a{u} = −1/γ_a [Σ_b θ_b W_ab u_ab·∇w_ab − Σ_s W_as/V_s u_as·∇γ_as].
+pub trait DivergenceWeight: Copy + Send + Sync + 'static {
+    /// Name in plans.
+    const NAME: &'static str;
+    /// W from the volumes and densities here and there.
+    fn weight(self, volume: f64, density: f64, there: f64, there_density: f64) -> f64;
+}
+
+/// W = V_a: belongs to [`HuAdams`](crate::HuAdams), Ghaïtanellis 2017, Eq. 3.26.
+#[derive(Clone, Copy, Debug)]
+pub struct OwnVolume;
+
+impl DivergenceWeight for OwnVolume {
+    const NAME: &'static str = "Hu–Adams divergence";
+    #[inline(always)]
+    fn weight(self, volume: f64, _: f64, _: f64, _: f64) -> f64 {
+        volume
+    }
+}
+
+/// W = V_b: belongs to [`ColagrossiLandrini`](crate::ColagrossiLandrini), Ghaïtanellis 2017, Eq. 3.4.
+#[derive(Clone, Copy, Debug)]
+pub struct TheirVolume;
+
+impl DivergenceWeight for TheirVolume {
+    const NAME: &'static str = "Colagrossi–Landrini divergence";
+    #[inline(always)]
+    fn weight(self, _: f64, _: f64, there: f64, _: f64) -> f64 {
+        there
+    }
+}
+
+/// W = (V_a² + V_b²)/V_a · ρ_b/(ρ_a + ρ_b): the adjoint of the gradient of
+/// [`Krimi`](crate::Krimi); derived here.
+#[derive(Clone, Copy, Debug)]
+pub struct DensityWeighted;
+
+impl DivergenceWeight for DensityWeighted {
+    const NAME: &'static str = "Krimi divergence";
+    #[inline(always)]
+    fn weight(self, volume: f64, density: f64, there: f64, there_density: f64) -> f64 {
+        (volume * volume + there * there) / volume * there_density / (density + there_density)
+    }
+}
+
+/// The term of D{u} with a weight.
+#[derive(Clone, Copy, Debug)]
+pub struct Divergence<W>(pub W);
+
+impl<W: DivergenceWeight> Divergence<W> {
+    /// As a term of a sweep.
+    pub fn boxed<const D: usize>(weight: W) -> Box<dyn Interaction<D>> {
+        Box::new(Term(Divergence(weight)))
+    }
+}
+
+impl<const D: usize, W: DivergenceWeight> PairTerm<D> for Divergence<W> {
+    type Bound<'a> = Bound<'a, D, W>;
+
+    fn name(&self) -> String {
+        W::NAME.into()
+    }
+
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::VELOCITY)
+            .both(fields::VOLUME)
+            .both(fields::DENSITY)
+    }
+
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D, W>, StepError> {
+        let points = &world.walls.points;
+        Ok(Bound {
+            weight: self.0,
+            velocity: world.free.get(fields::VELOCITY)?,
+            volume: world.free.get(fields::VOLUME)?,
+            density: world.free.get(fields::DENSITY)?,
+            wall_velocity: &points.velocity,
+            wall_volume: &points.volume,
+            wall_share: &points.share,
+            elements: &world.walls.elements,
+        })
+    }
+}
+
+/// [`Divergence`] with its columns.
+pub struct Bound<'a, const D: usize, W> {
+    weight: W,
+    velocity: &'a [Vect<D>],
+    volume: &'a [f64],
+    density: &'a [f64],
+    wall_velocity: &'a [Vect<D>],
+    wall_volume: &'a [f64],
+    wall_share: &'a [f64],
+    elements: &'a Elements<D>,
+}
+
+impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for Bound<'_, D, W> {
+    /// Velocity, volume, density.
+    type Here = (Vect<D>, f64, f64);
+    type Sum = f64;
+
+    #[inline(always)]
+    fn here(&self, i: usize) -> Self::Here {
+        (self.velocity[i], self.volume[i], self.density[i])
+    }
+
+    #[inline(always)]
+    fn zero(&self) -> f64 {
+        0.0
+    }
+
+    #[inline(always)]
+    fn free(&self, here: &Self::Here, _j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
+        let weight = self
+            .weight
+            .weight(here.1, here.2, there.volume, there.density);
+        let apart = (here.0 - there.velocity).dot(&pair.separation);
+        *sum -= weight * apart * pair.factor;
+    }
+
+    #[inline(always)]
+    fn wall(&self, here: &Self::Here, v: usize, pair: &Pair<D>, sum: &mut f64) {
+        let weight = self
+            .weight
+            .weight(here.1, here.2, self.wall_volume[v], here.2);
+        let apart = (here.0 - self.wall_velocity[v]).dot(&pair.separation);
+        *sum -= self.wall_share[v] * weight * apart * pair.factor;
+    }
+
+    #[inline(always)]
+    fn element(&self, here: &Self::Here, contact: &Contact<D>, sum: &mut f64) {
+        let s = contact.element as usize;
+        let volume = self.elements.volume[s];
+        let weight = self.weight.weight(here.1, here.2, volume, here.2) / volume;
+        *sum += weight * (here.0 - self.elements.velocity[s]).dot(&contact.gradient);
+    }
+
+    #[inline(always)]
+    fn finish(&self, _: &Self::Here, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
+        rates.scalar += sum * inverse_gamma;
+    }
+}

@@ -1,0 +1,172 @@
+//! Pressure gradients that are sums over pairs with a symmetric weight.
+
+use sph_core::{Access, StepError, Vect, fields};
+use sph_neighbours::{
+    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
+};
+
+/// Pressure, volume and density of one side of a pair.
+#[derive(Clone, Copy, Debug)]
+pub struct Side {
+    /// p, Pa.
+    pub pressure: f64,
+    /// V, m^d.
+    pub volume: f64,
+    /// ρ, kg/m³.
+    pub density: f64,
+}
+
+/// The weight P_ab of a pair in m_a a = −1/γ_a [Σ_b θ_b P_ab ∇w_ab − Σ_s P_as/V_s ∇γ_as].
+pub trait PairPressure: Copy + Send + Sync + 'static {
+    /// Name in plans.
+    const NAME: &'static str;
+    /// P_ab = P_ba, Pa m^2d.
+    fn pair(self, here: Side, there: Side) -> f64;
+}
+
+/// P_ab = V_a V_b (p_a + p_b): [`ColagrossiLandrini`](crate::ColagrossiLandrini).
+#[derive(Clone, Copy, Debug)]
+pub struct SumOfPressures;
+
+impl PairPressure for SumOfPressures {
+    const NAME: &'static str = "Colagrossi–Landrini pressure gradient";
+    #[inline(always)]
+    fn pair(self, here: Side, there: Side) -> f64 {
+        here.volume * there.volume * (here.pressure + there.pressure)
+    }
+}
+
+/// P_ab = (V_a² + V_b²)(ρ_b p_a + ρ_a p_b)/(ρ_a + ρ_b): [`Krimi`](crate::Krimi).
+#[derive(Clone, Copy, Debug)]
+pub struct BetweenParticles;
+
+impl PairPressure for BetweenParticles {
+    const NAME: &'static str = "Krimi pressure gradient";
+    #[inline(always)]
+    fn pair(self, here: Side, there: Side) -> f64 {
+        let between = there.density * here.pressure + here.density * there.pressure;
+        let volumes = here.volume * here.volume + there.volume * there.volume;
+        volumes * between / (here.density + there.density)
+    }
+}
+
+/// The pressure term with a weight.
+#[derive(Clone, Copy, Debug)]
+pub struct PressureGradient<P>(pub P);
+
+impl<P: PairPressure> PressureGradient<P> {
+    /// As a term of a sweep.
+    pub fn boxed<const D: usize>(weight: P) -> Box<dyn Interaction<D>> {
+        Box::new(Term(PressureGradient(weight)))
+    }
+}
+
+impl<const D: usize, P: PairPressure> PairTerm<D> for PressureGradient<P> {
+    type Bound<'a> = Bound<'a, D, P>;
+
+    fn name(&self) -> String {
+        P::NAME.into()
+    }
+
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::PRESSURE)
+            .both(fields::VOLUME)
+            .both(fields::DENSITY)
+            .here(fields::MASS)
+    }
+
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D, P>, StepError> {
+        let points = &world.walls.points;
+        Ok(Bound {
+            weight: self.0,
+            pressure: world.free.get(fields::PRESSURE)?,
+            volume: world.free.get(fields::VOLUME)?,
+            density: world.free.get(fields::DENSITY)?,
+            mass: world.free.get(fields::MASS)?,
+            wall_pressure: &points.pressure,
+            wall_volume: &points.volume,
+            wall_share: &points.share,
+            elements: &world.walls.elements,
+        })
+    }
+}
+
+/// [`PressureGradient`] with its columns.
+pub struct Bound<'a, const D: usize, P> {
+    weight: P,
+    pressure: &'a [f64],
+    volume: &'a [f64],
+    density: &'a [f64],
+    mass: &'a [f64],
+    wall_pressure: &'a [f64],
+    wall_volume: &'a [f64],
+    wall_share: &'a [f64],
+    elements: &'a Elements<D>,
+}
+
+impl<const D: usize, P: PairPressure> BoundTerm<D> for Bound<'_, D, P> {
+    /// The particle's side and 1/m.
+    type Here = (Side, f64);
+    type Sum = Vect<D>;
+
+    #[inline(always)]
+    fn here(&self, i: usize) -> Self::Here {
+        let side = Side {
+            pressure: self.pressure[i],
+            volume: self.volume[i],
+            density: self.density[i],
+        };
+        (side, 1.0 / self.mass[i])
+    }
+
+    #[inline(always)]
+    fn zero(&self) -> Vect<D> {
+        Vect::zeros()
+    }
+
+    #[inline(always)]
+    fn free(
+        &self,
+        here: &Self::Here,
+        _j: usize,
+        there: &There<D>,
+        pair: &Pair<D>,
+        sum: &mut Vect<D>,
+    ) {
+        let there = Side {
+            pressure: there.pressure,
+            volume: there.volume,
+            density: there.density,
+        };
+        *sum += pair.separation * (self.weight.pair(here.0, there) * pair.factor);
+    }
+
+    #[inline(always)]
+    fn wall(&self, here: &Self::Here, v: usize, pair: &Pair<D>, sum: &mut Vect<D>) {
+        // A wall has no density of its own: it is that of whoever looks at it.
+        let there = Side {
+            pressure: self.wall_pressure[v],
+            volume: self.wall_volume[v],
+            density: here.0.density,
+        };
+        let weight = self.wall_share[v] * self.weight.pair(here.0, there);
+        *sum += pair.separation * (weight * pair.factor);
+    }
+
+    #[inline(always)]
+    fn element(&self, here: &Self::Here, contact: &Contact<D>, sum: &mut Vect<D>) {
+        let s = contact.element as usize;
+        let there = Side {
+            pressure: self.elements.pressure[s],
+            volume: self.elements.volume[s],
+            density: here.0.density,
+        };
+        *sum -= contact.gradient * (self.weight.pair(here.0, there) / there.volume);
+    }
+
+    #[inline(always)]
+    fn finish(&self, here: &Self::Here, sum: &Vect<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
+        rates.acceleration -= sum * (here.1 * inverse_gamma);
+    }
+}

@@ -1,0 +1,270 @@
+//! The formulation of Grenier et al. (2009).
+
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{
+    Access, Declares, Evolved, Field, Scalar, Stage, StepError, Vect, fields, register,
+};
+use sph_neighbours::{
+    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World, shepard,
+};
+
+use crate::{Compressed, Diffused, Formulation, FormulationEntry, Stages};
+
+/// d_a = 1/γ_a Σ_b θ_b V_b w_ab: how full the support is.
+pub const FILLING: Field<Scalar> = Field::new("filling", "1", "Σ θ V w / γ");
+
+/// d ln V/dt = D{u}, ρ_a = Σ m_b w_ab / Σ V_b w_ab over the particle's own phase, with
+/// D_a{u} = −1/(γ_a d_a) [Σ_b θ_b V_b u_ab·∇w_ab − Σ_s u_as·∇γ_as],
+/// G_a{p} = 1/γ_a [Σ_b θ_b V_b (p_a/d_a + p_b/d_b) ∇w_ab − Σ_s (p_a + p_s)/d_a ∇γ_as] and
+/// d_a = 1/γ_a Σ_b θ_b V_b w_ab.
+///
+/// Volumes are integrated; densities are means over the phase and jump where it ends. G is the
+/// adjoint of D, but D does not follow from the density: energy is conserved only as far as the
+/// mean density is the particle's m/V. Walls have the d of whoever looks at them.
+///
+/// Source: Ghaïtanellis 2017, Eq. 3.14–3.18; Grenier et al. 2009; the wall terms are ours.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Grenier {}
+
+impl<const D: usize> Formulation<D> for Grenier {
+    fn diffused(&self) -> Diffused {
+        Diffused {
+            evolved: Evolved {
+                value: fields::VOLUME,
+                rate: fields::VOLUME_RATE,
+            },
+            per_density: |density, volume, _| -volume / density,
+        }
+    }
+    fn compressed(&self) -> Option<Compressed> {
+        Some(Compressed {
+            value: fields::VOLUME,
+            exponent: 1.0,
+        })
+    }
+    fn stages(&self) -> Stages<D> {
+        vec![Box::new(PhaseDensity)]
+    }
+    fn pressure_term(&self) -> Box<dyn Interaction<D>> {
+        Box::new(Term(FilledPressure))
+    }
+    fn divergence(&self) -> Box<dyn Interaction<D>> {
+        Box::new(Term(FilledDivergence))
+    }
+    fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut volume = world.free.take(fields::VOLUME)?;
+        let mass = world.free.get(fields::MASS)?;
+        let density = world.free.get(fields::DENSITY)?;
+        let pairs = mass.iter().zip(density);
+        volume
+            .iter_mut()
+            .zip(pairs)
+            .for_each(|(v, (m, rho))| *v = m / rho);
+        Ok(world.free.put(fields::VOLUME, volume)?)
+    }
+}
+
+register!(
+    FormulationEntry [2, 3],
+    Grenier,
+    "grenier",
+    "integrated volumes, densities averaged within the phase",
+    "Ghaïtanellis 2017, Eq. 3.14–3.18; Grenier et al. 2009"
+);
+
+/// Densities by phase, and how full the supports are.
+struct PhaseDensity;
+
+impl Declares for PhaseDensity {
+    fn name(&self) -> String {
+        "density by phase".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::POSITION)
+            .both(fields::MASS)
+            .both(fields::VOLUME)
+            .writes(fields::DENSITY)
+            .writes(FILLING)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for PhaseDensity {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut density = world.free.take(fields::DENSITY)?;
+        let mut filling = world.free.take(FILLING)?;
+        let free = &world.free;
+        let positions = free.get(fields::POSITION)?;
+        let mass = free.get(fields::MASS)?;
+        let volume = free.get(fields::VOLUME)?;
+        let phase = free.get(fields::PHASE).ok();
+        let gamma = free.get(fields::RENORMALISATION).ok();
+        let own = world.kernel.value_at_zero();
+        let sums = shepard(world, positions, &world.lists.free, |i, row, w| {
+            let mut sums = [mass[i] * own, volume[i] * own, volume[i] * own];
+            for (&j, w) in row.iter().zip(w) {
+                let j = j as usize;
+                sums[2] += volume[j] * w;
+                if phase.is_none_or(|p| p[i] == p[j]) {
+                    sums[0] += mass[j] * w;
+                    sums[1] += volume[j] * w;
+                }
+            }
+            sums
+        })?;
+        let points = &world.walls.points;
+        let at_walls = match points.position.is_empty() {
+            true => Vec::new(),
+            false => sph_neighbours::wall_sums(world, |v| points.share[v] * points.volume[v])?,
+        };
+        let results = density.par_iter_mut().zip(filling.par_iter_mut());
+        results
+            .enumerate()
+            .with_min_len(1024)
+            .for_each(|(i, (rho, d))| {
+                *rho = sums[i][0] / sums[i][1];
+                let wall = at_walls.get(i).copied().unwrap_or(0.0);
+                *d = (sums[i][2] + wall) / gamma.map_or(1.0, |g| g[i]);
+            });
+        world.free.put(FILLING, filling)?;
+        Ok(world.free.put(fields::DENSITY, density)?)
+    }
+}
+
+macro_rules! columns {
+    ($term:ident, $bound:ident, $name:literal) => {
+        impl<const D: usize> PairTerm<D> for $term {
+            type Bound<'a> = $bound<'a, D>;
+            fn name(&self) -> String {
+                $name.into()
+            }
+            fn access(&self) -> Access {
+                Access::none()
+                    .both(fields::PRESSURE)
+                    .both(fields::VOLUME)
+                    .both(FILLING)
+                    .both(fields::VELOCITY)
+                    .here(fields::MASS)
+            }
+            fn bind<'a>(&'a self, world: &'a World<D>) -> Result<$bound<'a, D>, StepError> {
+                Ok($bound(Columns {
+                    pressure: world.free.get(fields::PRESSURE)?,
+                    volume: world.free.get(fields::VOLUME)?,
+                    filling: world.free.get(FILLING)?,
+                    velocity: world.free.get(fields::VELOCITY)?,
+                    mass: world.free.get(fields::MASS)?,
+                    wall_pressure: &world.walls.points.pressure,
+                    wall_volume: &world.walls.points.volume,
+                    wall_velocity: &world.walls.points.velocity,
+                    wall_share: &world.walls.points.share,
+                    elements: &world.walls.elements,
+                }))
+            }
+        }
+    };
+}
+
+/// Columns of both terms.
+struct Columns<'a, const D: usize> {
+    pressure: &'a [f64],
+    volume: &'a [f64],
+    filling: &'a [f64],
+    velocity: &'a [Vect<D>],
+    mass: &'a [f64],
+    wall_pressure: &'a [f64],
+    wall_volume: &'a [f64],
+    wall_velocity: &'a [Vect<D>],
+    wall_share: &'a [f64],
+    elements: &'a Elements<D>,
+}
+
+/// The pressure term of [`Grenier`].
+pub struct FilledPressure;
+/// [`FilledPressure`] with its columns.
+pub struct BoundPressure<'a, const D: usize>(Columns<'a, D>);
+columns!(FilledPressure, BoundPressure, "Grenier pressure gradient");
+
+/// The divergence of [`Grenier`].
+pub struct FilledDivergence;
+/// [`FilledDivergence`] with its columns.
+pub struct BoundDivergence<'a, const D: usize>(Columns<'a, D>);
+columns!(FilledDivergence, BoundDivergence, "Grenier divergence");
+
+impl<const D: usize> BoundTerm<D> for BoundPressure<'_, D> {
+    /// p/d, p, 1/d and 1/ρ.
+    type Here = [f64; 4];
+    type Sum = Vect<D>;
+
+    #[inline(always)]
+    fn here(&self, i: usize) -> Self::Here {
+        let (c, d) = (&self.0, self.0.filling[i]);
+        [
+            c.pressure[i] / d,
+            c.pressure[i],
+            1.0 / d,
+            c.volume[i] / c.mass[i],
+        ]
+    }
+    #[inline(always)]
+    fn zero(&self) -> Vect<D> {
+        Vect::zeros()
+    }
+    #[inline(always)]
+    fn free(&self, here: &[f64; 4], j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Vect<D>) {
+        let weight = there.volume * (here[0] + there.pressure / self.0.filling[j]);
+        *sum += pair.separation * (weight * pair.factor);
+    }
+    #[inline(always)]
+    fn wall(&self, here: &[f64; 4], v: usize, pair: &Pair<D>, sum: &mut Vect<D>) {
+        let c = &self.0;
+        let pressure = (here[1] + c.wall_pressure[v]) * here[2];
+        *sum += pair.separation * (c.wall_share[v] * c.wall_volume[v] * pressure * pair.factor);
+    }
+    #[inline(always)]
+    fn element(&self, here: &[f64; 4], contact: &Contact<D>, sum: &mut Vect<D>) {
+        let there = self.0.elements.pressure[contact.element as usize];
+        *sum -= contact.gradient * ((here[1] + there) * here[2]);
+    }
+    #[inline(always)]
+    fn finish(&self, here: &[f64; 4], sum: &Vect<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
+        rates.acceleration -= sum * (here[3] * inverse_gamma);
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for BoundDivergence<'_, D> {
+    /// Velocity and 1/d.
+    type Here = (Vect<D>, f64);
+    type Sum = f64;
+
+    #[inline(always)]
+    fn here(&self, i: usize) -> Self::Here {
+        (self.0.velocity[i], 1.0 / self.0.filling[i])
+    }
+    #[inline(always)]
+    fn zero(&self) -> f64 {
+        0.0
+    }
+    #[inline(always)]
+    fn free(&self, here: &Self::Here, _j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
+        let apart = (here.0 - there.velocity).dot(&pair.separation);
+        *sum -= there.volume * apart * pair.factor;
+    }
+    #[inline(always)]
+    fn wall(&self, here: &Self::Here, v: usize, pair: &Pair<D>, sum: &mut f64) {
+        let c = &self.0;
+        let apart = (here.0 - c.wall_velocity[v]).dot(&pair.separation);
+        *sum -= c.wall_share[v] * c.wall_volume[v] * apart * pair.factor;
+    }
+    #[inline(always)]
+    fn element(&self, here: &Self::Here, contact: &Contact<D>, sum: &mut f64) {
+        let wall = self.0.elements.velocity[contact.element as usize];
+        *sum += (here.0 - wall).dot(&contact.gradient);
+    }
+    #[inline(always)]
+    fn finish(&self, here: &Self::Here, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
+        rates.scalar += sum * here.1 * inverse_gamma;
+    }
+}

@@ -1,0 +1,66 @@
+//! The force against micro-mixing.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::register;
+use sph_neighbours::Interaction;
+
+use crate::repulsion::{Repelling, Repulsion};
+use crate::{InterfaceEntry, InterfaceModel};
+
+/// m_a a = −ε Σ_{b of other phases} (|p_a| V_a² + |p_b| V_b²) ∇w_ab: a share ε of the pressure
+/// gradient between phases, always repulsive.
+///
+/// Symbols: ε number; p pressure (Pa); V volume (m^d). Conserves momentum to rounding. It does
+/// nothing where there is no pressure, and depends on the level of the pressure. Thickens the gap between the
+/// phases by about ε: it is a numerical force, not surface tension.
+///
+/// Source: Ghaïtanellis 2017, Eq. 3.32, corrected: Eq. 3.33 and 4.124 print the sign of an attraction.
+///
+/// ```toml
+/// [interface.bed]
+/// kind = "micro-mixing"
+/// strength = 0.01
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct MicroMixing {
+    /// Strength ε.
+    #[schemars(
+        range(min = 0.0, max = 1.0),
+        extend("unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 3.32: 0.005 to 0.015")
+    )]
+    pub strength: f64,
+}
+
+impl Default for MicroMixing {
+    fn default() -> Self {
+        MicroMixing { strength: 0.01 }
+    }
+}
+
+/// |p_a| V_a² + |p_b| V_b².
+#[derive(Clone, Copy, Debug)]
+struct OwnVolumes;
+
+impl Repulsion for OwnVolumes {
+    const NAME: &'static str = "micro-mixing force";
+    #[inline(always)]
+    fn weight(pressure: f64, volume: f64, there: f64, there_volume: f64) -> f64 {
+        pressure.abs() * volume * volume + there.abs() * there_volume * there_volume
+    }
+}
+
+impl<const D: usize> InterfaceModel<D> for MicroMixing {
+    fn term(&self) -> Box<dyn Interaction<D>> {
+        Repelling::<OwnVolumes>::boxed(self.strength)
+    }
+}
+
+register!(
+    InterfaceEntry [2, 3],
+    MicroMixing,
+    "micro-mixing",
+    "repulsion between phases against micro-mixing",
+    "Ghaïtanellis 2017, Eq. 3.32"
+);

@@ -1,0 +1,259 @@
+//! Shifting: nothing to do on a lattice, at rest and across surfaces; evens out the rest.
+
+use sph_core::{Role, Vect, fields};
+use sph_multiphase::{Fickian, Formulation, HuAdams, Shifting, Transport};
+use sph_neighbours::{Domain, World};
+
+use crate::evaluate::rates;
+use crate::world::{Random, disorder, lattice, periodic, set, set_velocity, world};
+
+fn shift<const D: usize>(world: &mut World<D>, shifting: Fickian) -> Vec<Vect<D>> {
+    world.free.add(fields::SHIFT_VELOCITY, Role::State);
+    // So short that the bound of an explicit diffusion does not count.
+    world.dt = 1e-4;
+    for mut stage in Shifting::<D>::stages(&shifting) {
+        stage.run(world).unwrap();
+    }
+    world.free.get(fields::SHIFT_VELOCITY).unwrap().to_vec()
+}
+
+fn largest<const D: usize>(vectors: &[Vect<D>]) -> f64 {
+    vectors.iter().map(|v| v.norm()).fold(0.0, f64::max)
+}
+
+fn stir<const D: usize>(world: &mut World<D>) {
+    let turn = std::f64::consts::TAU;
+    set_velocity(world, |x| {
+        let mut u = Vect::zeros();
+        u[0] = (turn * x[1]).sin();
+        u
+    });
+}
+
+fn open<const D: usize>() -> Domain<D> {
+    Domain::open(Vect::repeat(-9.0), Vect::repeat(9.0))
+}
+
+#[test]
+fn a_lattice_stays_as_it_is() {
+    let mut plane = world(lattice::<2>(20), periodic(), 0.05, 2.0);
+    stir(&mut plane);
+    // Terms of 1/h that cancel to rounding.
+    let found = largest(&shift(&mut plane, Fickian::default()));
+    assert!(found < 1e-12, "{found:e}");
+    let mut space = world(lattice::<3>(10), periodic(), 0.1, 1.3);
+    stir(&mut space);
+    let found = largest(&shift(&mut space, Fickian::default()));
+    assert!(found < 1e-12, "{found:e}");
+}
+
+#[test]
+fn at_rest_and_in_a_uniform_wind_nothing_is_shifted() {
+    let mut cloud = world(disorder::<2>(20, 0.3, 1), periodic(), 0.05, 2.0);
+    assert_eq!(largest(&shift(&mut cloud, Fickian::default())), 0.0);
+    set_velocity(&mut cloud, |_| Vect::<2>::new(3.1, -0.7));
+    assert_eq!(largest(&shift(&mut cloud, Fickian::default())), 0.0);
+    stir(&mut cloud);
+    let shifts = shift(&mut cloud, Fickian::default());
+    let most = Fickian::default().limit;
+    assert!(largest(&shifts) > 0.0);
+    // U is the largest speed against the mean, which is not quite 0 in disorder.
+    assert!(largest(&shifts) <= most * 1.01, "{}", largest(&shifts));
+}
+
+/// Root mean square of the gradient of the concentration, from the shift without limits.
+#[test]
+fn disorder_is_evened_out() {
+    let mut cloud = world(disorder::<2>(20, 0.2, 1), periodic(), 0.05, 2.0);
+    stir(&mut cloud);
+    let unevenness = |shifts: &[Vect<2>]| shifts.iter().map(|s| s.norm_squared()).sum::<f64>();
+    let shifting = Fickian {
+        tensile: 0.0,
+        ..Fickian::default()
+    };
+    let before = unevenness(&shift(&mut cloud, shifting));
+    let mut after = before;
+    for _ in 0..40 {
+        let shifts = shift(&mut cloud, shifting);
+        after = unevenness(&shifts);
+        // A step of δr/20 at U = 1.
+        let positions = cloud.free.get_mut(fields::POSITION).unwrap();
+        positions
+            .iter_mut()
+            .zip(&shifts)
+            .for_each(|(x, s)| *x += s * 0.0025);
+        cloud.refresh_lists().unwrap();
+        stir(&mut cloud);
+    }
+    assert!(after < 0.03 * before, "{after} of {before}");
+}
+
+/// A patch with free sides: its outer rows keep their distance from them, its corners stay.
+#[test]
+fn at_a_free_surface_nothing_leaves_along_the_normal() {
+    let n = 16;
+    for ratio in [1.3, 2.0, 3.0] {
+        let mut patch = world(lattice::<2>(n), open(), 1.0 / n as f64, ratio);
+        // A turn as a whole.
+        set_velocity(&mut patch, |x| Vect::<2>::new(0.5 - x[1], x[0] - 0.5));
+        let shifts = shift(&mut patch, Fickian::default());
+        let positions = patch.free.get(fields::POSITION).unwrap();
+        let reach = (2.0 * ratio).ceil() / n as f64;
+        for (x, s) in positions.iter().zip(&shifts) {
+            let corner = (0..2).all(|k| (x[k] - 0.5).abs() > 0.5 - 2.0 * reach);
+            let depth = (0..2).map(|k| 0.5 - (x[k] - 0.5).abs()).fold(1.0, f64::min);
+            // Along a side all rows are the same; the rows below it do not rise either.
+            if !corner {
+                assert!(s.norm() < 1e-12, "h/δr = {ratio}: {s} at {x}");
+            }
+            if corner && depth < 1.0 / n as f64 {
+                // Outward is what would lose the surface.
+                let outward = s.dot(&(x - Vect::repeat(0.5)).normalize());
+                assert!(outward < 0.1, "h/δr = {ratio}: {outward} at {x}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_disordered_round_patch_keeps_its_rim() {
+    let n = 30;
+    let middle = Vect::<2>::repeat(0.5);
+    let places = disorder::<2>(n, 0.2, 7).into_iter();
+    let mut patch = world(
+        places.filter(|x| (x - middle).norm() < 0.4).collect(),
+        open(),
+        1.0 / n as f64,
+        2.0,
+    );
+    set_velocity(&mut patch, |x| Vect::<2>::new(0.5 - x[1], x[0] - 0.5));
+    let shifts = shift(&mut patch, Fickian::default());
+    let without = Fickian {
+        surface: 0.0,
+        ..Fickian::default()
+    };
+    let loose = shift(&mut patch, without);
+    let positions = patch.free.get(fields::POSITION).unwrap();
+    let rim = |shifts: &[Vect<2>]| {
+        let all = positions.iter().zip(shifts);
+        let outward = all.filter(|(x, _)| (*x - middle).norm() > 0.4 - 1.0 / n as f64);
+        let outward = outward.map(|(x, s)| s.dot(&(x - middle).normalize()));
+        let (sum, count) = outward.fold((0.0, 0), |(sum, k), s| (sum + s, k + 1));
+        sum / count as f64
+    };
+    // Measured: the normals of a ragged rim differ from the radius.
+    assert!(
+        rim(&shifts).abs() < 0.02 * rim(&loose),
+        "{} of {}",
+        rim(&shifts),
+        rim(&loose)
+    );
+}
+
+#[test]
+fn a_lone_row_and_a_lone_particle_stay() {
+    let row = (0..10).map(|k| Vect::<2>::new(0.05 * k as f64, 0.0));
+    let mut row = world(
+        row.chain([Vect::<2>::new(3.0, 3.0)]).collect(),
+        open(),
+        0.05,
+        2.0,
+    );
+    let mut random = Random::new(1);
+    set_velocity(&mut row, |_| Vect::<2>::new(random.next(), random.next()));
+    let shifts = shift(&mut row, Fickian::default());
+    assert!(shifts.iter().all(|s| s.norm() < 1e-12), "{shifts:?}");
+}
+
+#[test]
+fn across_an_interface_nothing_is_shifted() {
+    let n = 20;
+    let mut layers = world(disorder::<2>(n, 0.2, 3), periodic(), 0.05, 2.0);
+    stir(&mut layers);
+    layers.free.add(fields::PHASE, Role::State);
+    // The phases stand in columns of the lattice: a flat interface.
+    let phases = layers.free.get(fields::POSITION).unwrap().iter();
+    let phases = phases.map(|x| u32::from(x[1] < 0.5)).collect();
+    *layers.free.get_mut(fields::PHASE).unwrap() = phases;
+    let shifts = shift(&mut layers, Fickian::default());
+    let positions = layers.free.get(fields::POSITION).unwrap();
+    let near = || {
+        let all = positions.iter().zip(&shifts);
+        all.filter(|(x, _)| (x[1] - 0.5).abs() < 0.05)
+    };
+    let across: f64 = near().map(|(_, s)| s[1].abs()).sum();
+    let along: f64 = near().map(|(_, s)| s[0].abs()).sum();
+    // Measured: disorder tilts the normals.
+    assert!(across < 0.25 * along, "{across} of {along}");
+}
+
+/// ρ = (K + mΣw)/γ after a small shift with K̇: the error is of second order.
+#[test]
+fn a_summed_density_does_not_notice_the_shift() {
+    let errors = [1e-3, 5e-4].map(|step| {
+        let mut cloud = world(disorder::<2>(20, 0.3, 1), periodic(), 0.05, 2.0);
+        stir(&mut cloud);
+        let formulation = HuAdams::default();
+        Formulation::<2>::rebase(&formulation, &mut cloud).unwrap();
+        let shifting = Fickian::default();
+        let shifts = shift(&mut cloud, shifting);
+        let term = Shifting::<2>::term(&shifting, true).expect("a term");
+        let rate = rates(&cloud, &vec![term]).1;
+        let constant = cloud.free.get_mut(fields::DENSITY_CONSTANT).unwrap();
+        constant
+            .iter_mut()
+            .zip(&rate)
+            .for_each(|(k, r)| *k += step * r);
+        let positions = cloud.free.get_mut(fields::POSITION).unwrap();
+        positions
+            .iter_mut()
+            .zip(&shifts)
+            .for_each(|(x, s)| *x += s * step);
+        cloud.lists.pruned = None;
+        for mut stage in Formulation::<2>::stages(&formulation) {
+            stage.run(&mut cloud).unwrap();
+        }
+        let density = cloud.free.get(fields::DENSITY).unwrap();
+        density
+            .iter()
+            .map(|rho| (rho - 1.0).abs())
+            .fold(0.0, f64::max)
+    });
+    let ratio = errors[0] / errors[1];
+    assert!(
+        errors[0] < 1e-3 && (ratio - 4.0).abs() < 0.3,
+        "{errors:?}: {ratio}"
+    );
+}
+
+#[test]
+fn what_a_particle_carries_follows_the_fluid() {
+    let mut cloud = world(disorder::<2>(20, 0.1, 1), open(), 0.05, 2.0);
+    set_velocity(&mut cloud, |x| Vect::<2>::new(3.0 * x[1], x[0]));
+    set(&mut cloud, fields::DENSITY, |x| 1000.0 + 2.0 * x[1]);
+    let shifting = Fickian::default();
+    let shifts = shift(&mut cloud, shifting);
+    // Integrated densities: s·∇ρ alone.
+    let term = Shifting::<2>::term(&shifting, false).expect("a term");
+    let (acceleration, rate) = rates(&cloud, &vec![term]);
+    let positions = cloud.free.get(fields::POSITION).unwrap();
+    let inner =
+        (0..positions.len()).filter(|i| (0..2).all(|k| (positions[*i][k] - 0.5).abs() < 0.25));
+    let (mut size, mut error) = (0.0, 0.0);
+    for i in inner {
+        let s = shifts[i];
+        let exact = [3.0 * s[1], s[0], 2.0 * s[1]];
+        let found = [acceleration[i][0], acceleration[i][1], rate[i]];
+        for (f, e) in found.iter().zip(exact) {
+            size += e * e;
+            error += (f - e) * (f - e);
+        }
+    }
+    // Plain gradients of linear fields in 10 % disorder.
+    assert!(size > 0.0 && error < 0.01 * size, "{error} of {size}");
+    let nothing = Fickian {
+        transport: Transport::Nothing,
+        ..shifting
+    };
+    assert!(Shifting::<2>::term(&nothing, true).is_none());
+}

@@ -1,0 +1,88 @@
+//! Which particles a probe counts: those of one phase, or all.
+
+use sph_core::{StepError, Vect, fields, suggestion};
+use sph_neighbours::World;
+
+/// Number of the phase called `name`, in the scene's order of names.
+///
+/// # Errors
+/// If no phase is called so.
+pub(crate) fn number(name: &str, names: &[String]) -> Result<u32, String> {
+    let found = names.iter().position(|n| n == name);
+    found.map(|k| k as u32).ok_or_else(|| {
+        let near = suggestion(name, names.iter().map(String::as_str));
+        format!("there is no phase called `{name}`{near}")
+    })
+}
+
+/// The particles of one phase, or all of them.
+pub(crate) enum Counted<'a> {
+    /// All particles.
+    All,
+    /// None: the phase has no particles' numbers to compare with.
+    None,
+    /// Those whose phase has this number.
+    Of(&'a [u32], u32),
+}
+
+impl<'a> Counted<'a> {
+    /// Those of the phase `name` with its `number` as [`Probe::name_phases`](crate::Probe) found it.
+    ///
+    /// # Errors
+    /// If the phase is named and nobody told its number.
+    pub fn of<const D: usize>(
+        world: &'a World<D>,
+        name: Option<&str>,
+        number: Option<u32>,
+    ) -> Result<Self, StepError> {
+        match (name, number) {
+            (None, _) => Ok(Counted::All),
+            // A scene of one phase has no column of phases.
+            (_, Some(0)) if !world.free.has(fields::PHASE.name) => Ok(Counted::All),
+            (_, Some(_)) if !world.free.has(fields::PHASE.name) => Ok(Counted::None),
+            (_, Some(k)) => Ok(Counted::Of(world.free.get(fields::PHASE)?, k)),
+            (Some(name), None) => Err(StepError::Stage {
+                stage: "probes".into(),
+                reason: format!("the number of the phase `{name}` is not known yet"),
+            }),
+        }
+    }
+
+    /// Whether particle `k` counts.
+    pub fn has(&self, k: usize) -> bool {
+        match self {
+            Counted::All => true,
+            Counted::None => false,
+            Counted::Of(phases, number) => phases[k] == *number,
+        }
+    }
+}
+
+/// Particles around a vertical line: place from the line's foot, volume, number.
+///
+/// Volumes are at most a cell δr^d: a drop alone has a small density and a volume of several
+/// cells, and is no surface.
+pub(crate) fn column<const D: usize>(
+    world: &World<D>,
+    foot: &Vect<D>,
+) -> Result<Vec<(Vect<D>, f64, usize)>, StepError> {
+    let positions = world.free.get(fields::POSITION)?;
+    let volume = world.free.get(fields::VOLUME)?;
+    let radius = world.kernel.support_radius();
+    let cell = world.spacing.powi(D as i32);
+    let all = positions.iter().zip(volume).enumerate();
+    let placed = all.map(|(k, (x, v))| (world.domain.nearest_image(x - foot), v.min(cell), k));
+    let near = |d: &Vect<D>| (0..D - 1).map(|k| d[k] * d[k]).sum::<f64>() < radius * radius;
+    Ok(placed.filter(|(d, ..)| near(d)).collect())
+}
+
+/// V w at height z of the line for one of its particles.
+pub(crate) fn share<const D: usize>(world: &World<D>, d: &Vect<D>, v: f64, z: f64) -> f64 {
+    let mut d = *d;
+    d[D - 1] -= z;
+    let r = d.norm();
+    match r < world.kernel.support_radius() {
+        true => v * world.kernel.at(r).0,
+        false => 0.0,
+    }
+}
