@@ -15,7 +15,8 @@ const DT: f64 = 0.004;
 
 fn vortices(overrides: &[&str]) -> Assembled<2> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/taylor-green-2d.toml");
-    let all = ["numerics.spacing=0.04"].iter().chain(overrides);
+    let base = ["numerics.spacing=0.04", "numerics.disorder=0.2"];
+    let all = base.iter().chain(overrides);
     let overrides: Vec<_> = all.map(|text| Override::parse(text).unwrap()).collect();
     let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
     assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"))

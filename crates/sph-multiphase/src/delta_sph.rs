@@ -19,7 +19,7 @@ use crate::{Laws, Smoother, SmootherEntry, Stages};
 /// Neighbours of other phases do not count, as in Fourtakas & Rogers (2016), so each phase sees the interface as a free
 /// surface; [`DeltaMultiphase`](crate::DeltaMultiphase) looks across.
 ///
-/// Source: Molteni & Colagrossi 2009 (plain); Antuono et al. 2010, Eq. 10–12 (renormalised).
+/// Source: Molteni & Colagrossi 2009 (plain); Antuono et al. 2010 (renormalised).
 ///
 /// ```toml
 /// [smoother.delta-sph]
@@ -80,7 +80,7 @@ register!(
     DeltaSph,
     "delta-sph",
     "density diffusion within each phase",
-    "Molteni & Colagrossi 2009; Antuono et al. 2010, Eq. 10–12"
+    "Molteni & Colagrossi 2009; Antuono et al. 2010"
 );
 
 /// Renormalised gradient of the density within the phase.

@@ -31,7 +31,7 @@ use crate::{Shifting, ShiftingEntry, Stages};
 /// With a free surface and gravity a transported density lets the fluid swell: the energy of a
 /// collapsing column rose by 6 % where it fell by 3 % without shifting and rose by 1 % with `nothing`.
 ///
-/// Source: Lind et al. 2012, Eq. 24–27 (form, R, n); Sun et al. 2017, Eq. 9–11 (scale U, limit,
+/// Source: Lind et al. 2012 (form, R, n); Sun et al. 2017 (scale U, limit,
 /// surfaces); Sun et al. 2019 (transport). A is ours: 50² Taylor–Green vortices that start from a
 /// lattice have an error of 0.037, 0.0068 and 0.0036 with A = 2, 4 and 6.
 ///
@@ -63,7 +63,7 @@ pub struct Fickian {
     /// Largest |s| over U.
     #[schemars(
         range(min = 0.0, max = 1.0),
-        extend("unit" = "1", "source" = "Sun et al. 2017, Eq. 11")
+        extend("unit" = "1", "source" = "Sun et al. 2017")
     )]
     pub limit: f64,
     /// Share of a full support, ΣθVw/γ, below which a particle is at a free surface.
@@ -121,7 +121,7 @@ register!(
     Fickian,
     "fickian",
     "particles move down the gradient of their concentration",
-    "Lind et al. 2012, Eq. 24–27; Sun et al. 2017, Eq. 9–11"
+    "Lind et al. 2012; Sun et al. 2017"
 );
 
 /// The shift velocity.

@@ -124,6 +124,7 @@ impl<const D: usize, F: PairFriction<D>, S: ViscositySource> PairTerm<D> for Vis
             .both(fields::VELOCITY)
             .both(fields::VOLUME)
             .both(fields::DENSITY)
+            .here(fields::MASS)
             .and(self.1.access())
     }
 
@@ -134,6 +135,7 @@ impl<const D: usize, F: PairFriction<D>, S: ViscositySource> PairTerm<D> for Vis
             velocity: world.free.get(fields::VELOCITY)?,
             volume: world.free.get(fields::VOLUME)?,
             density: world.free.get(fields::DENSITY)?,
+            mass: world.free.get(fields::MASS)?,
             viscosity: self.1.bind(world)?,
             wall_velocity: &points.viscous_velocity,
             wall_volume: &points.volume,
@@ -158,6 +160,7 @@ pub struct Bound<'a, const D: usize, F, S> {
     velocity: &'a [Vect<D>],
     volume: &'a [f64],
     density: &'a [f64],
+    mass: &'a [f64],
     viscosity: S,
     wall_velocity: &'a [Vect<D>],
     wall_volume: &'a [f64],
@@ -179,6 +182,8 @@ pub struct Here<const D: usize, V> {
     own_viscosity: f64,
     volume: f64,
     density: f64,
+    /// V/m, which a formulation may keep apart from 1/ρ.
+    specific_volume: f64,
     /// Unit vector along the slip past the nearest wall.
     along: Vect<D>,
     /// Normal and distance of the nearest element, where the wall term is to be corrected.
@@ -303,6 +308,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
             own_viscosity: self.viscosity.own(&viscosity),
             volume: self.volume[i],
             density: self.density[i],
+            specific_volume: self.volume[i] / self.mass[i],
             along,
             nearest: nearest.map(|c| (self.elements.normal[c.element as usize], c.distance)),
         }
@@ -385,6 +391,6 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
             correction = (sum.discrete.dot(&sum.gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]);
         }
         let total = sum.force - sum.flux * correction;
-        rates.acceleration += total * (self.scale * inverse_gamma / here.density);
+        rates.acceleration += total * (self.scale * inverse_gamma * here.specific_volume);
     }
 }

@@ -14,11 +14,10 @@ use crate::{InterfaceEntry, InterfaceModel};
 /// divides p by the filling of the formulation it belongs to ([`Grenier`](crate::Grenier)), which is
 /// 1 up to noise at an interface and left out here, so that it serves every formulation.
 ///
-/// Source: Grenier et al. 2009, Eq. 30; ε from 0.01 to 0.1.
+/// Source: Grenier et al. 2009; ε from 0.01 to 0.1.
 ///
 /// ```toml
-/// [interface.surface]
-/// kind = "grenier"
+/// [interface.grenier]
 /// strength = 0.08
 /// ```
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
@@ -61,5 +60,5 @@ register!(
     GrenierInterface,
     "grenier",
     "repulsion between phases that keeps interfaces sharp",
-    "Grenier et al. 2009, Eq. 30"
+    "Grenier et al. 2009"
 );

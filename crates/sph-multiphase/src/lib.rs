@@ -66,7 +66,7 @@ pub use hu_adams_viscosity::HuAdamsViscosity;
 pub use interface_distance::INTERFACE_DISTANCE;
 pub use krimi::{Continuity, Krimi};
 pub use krimi_viscosity::{KrimiViscosity, Strength};
-pub use limits::{ForceLimit, Limiter, SoundLimit, ViscousLimit};
+pub use limits::{ForceLimit, InterfaceLimit, Limiter, SoundLimit, ViscousLimit};
 pub use linear::Linear;
 pub use micro_mixing::MicroMixing;
 pub use monaghan_gingold::MonaghanGingold;

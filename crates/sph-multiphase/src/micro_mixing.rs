@@ -18,8 +18,7 @@ use crate::{InterfaceEntry, InterfaceModel};
 /// Source: Ghaïtanellis 2017, Eq. 3.32, corrected: Eq. 3.33 and 4.124 print the sign of an attraction.
 ///
 /// ```toml
-/// [interface.bed]
-/// kind = "micro-mixing"
+/// [interface.micro-mixing]
 /// strength = 0.01
 /// ```
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]

@@ -10,7 +10,7 @@ use sph_neighbours::{BoundTerm, Contact, Elements, Pair, PairTerm, Rates, There,
 /// over positions (ρ = (K + mΣθw)/γ), the move changes the sum by
 /// 1/γ_a [m_a Σ_b θ_b (s_a − s_b)·∇w_ab − ρ_a s_a·Σ_s ∇γ_as], which is taken back.
 ///
-/// Source: Sun et al. 2019, Eq. 10, with differences instead of products; the sum is ours.
+/// Source: Sun et al. 2019, with differences instead of products; the sum is ours.
 #[derive(Clone, Copy, Debug)]
 pub struct ShiftTransport {
     /// Whether the velocity is taken up, besides the density.

@@ -27,11 +27,10 @@ use crate::{InterfaceEntry, InterfaceModel, Limiter, Stages};
 /// Limits: Δt ≤ ¼ √(ρ h³/2πσ) with the least density; a radius below about 3 h is not resolved; the
 /// same tension between all phases; no contact angle at walls (theirs is whatever ∇c cut by the wall gives).
 ///
-/// Source: Hu & Adams 2006, Eq. 22–26, with the isotropic part of Lafaurie et al. 1994; the limit of Brackbill et al. 1992 with ¼.
+/// Source: Hu & Adams 2006, with the isotropic part of Lafaurie et al. 1994; the limit of Brackbill et al. 1992 with ¼.
 ///
 /// ```toml
-/// [interface.drop]
-/// kind = "surface-tension"
+/// [interface.surface-tension]
 /// tension = 0.072
 /// ```
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
@@ -40,12 +39,12 @@ pub struct SurfaceTension {
     /// Surface tension σ.
     #[schemars(
         range(min = 0.0),
-        extend("unit" = "N/m", "source" = "Hu & Adams 2006, Eq. 22")
+        extend("unit" = "N/m", "source" = "Hu & Adams 2006")
     )]
     pub tension: f64,
     /// Which isotropic part the stress has.
     #[serde(default)]
-    #[schemars(extend("source" = "Lafaurie et al. 1994; Hu & Adams 2006, Eq. 22"))]
+    #[schemars(extend("source" = "Lafaurie et al. 1994; Hu & Adams 2006"))]
     pub stress: SurfaceStress,
 }
 
@@ -77,7 +76,7 @@ register!(
     SurfaceTension,
     "surface-tension",
     "surface tension between phases as a surface stress",
-    "Hu & Adams 2006, Eq. 22–26"
+    "Hu & Adams 2006"
 );
 
 /// Gradient of the colour of all other phases.

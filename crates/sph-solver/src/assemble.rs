@@ -5,7 +5,8 @@ use std::sync::{Arc, Mutex};
 use sph_core::{AnyField, Field, Role, Scalar, SceneProblem, Store, fields};
 use sph_integrators::Integrator;
 use sph_multiphase::{
-    BoundState, Compressed, Diffused, ForceLimit, Limiter, Reference, SoundLimit, ViscousLimit,
+    BoundState, Compressed, Diffused, ForceLimit, InterfaceLimit, Limiter, Reference, SoundLimit,
+    ViscousLimit,
 };
 use sph_neighbours::{WallSet, World};
 use sph_probes::{Probe, Solution};
@@ -203,6 +204,9 @@ fn limiters_of<const D: usize>(
             coefficient: c.viscous / choices.viscous_operator.stiffness(),
             kinematic_viscosity: kinematic,
         }));
+    }
+    if laws.len() > 1 {
+        limiters.push(Box::new(InterfaceLimit { laws: laws.clone() }));
     }
     limiters.extend(choices.interfaces.iter().filter_map(|i| i.limiter()));
     limiters
