@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Access, StepError, fields, register};
+use sph_core::{Access, StepError, Vect, fields, register};
 use sph_neighbours::{BoundTerm, Contact, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
 use crate::phases::PerPhase;
@@ -17,16 +17,19 @@ use crate::{Laws, Smoother, SmootherEntry};
 /// the β at which the own phase has the wall's pressure, and a point the volume V_a of whoever
 /// looks at it; without `walls` a hydrostatic density has a source at a bottom.
 ///
-/// Limits: at a free surface a hydrostatic density has a source of about δ ρ₀ g/c; across an
-/// interface β has a kink at rest, because ρ₀g/(ρ₀c²) jumps unless c is the same; the volume
-/// that a pair of phases exchanges balances only if c is the same.
+/// Limits: as printed, a hydrostatic density has a source of about δ ρ₀ g/c at a free surface, and
+/// across an interface, where β has a kink at rest, because ρ₀g/(ρ₀c²) jumps unless c is the same: two
+/// layers at rest have 6 to 8 % too much pressure between them. `balance = "hydrostatic"` takes
+/// (ρ_a + ρ_b)/2 g·r_ab/(ρ₀_a c_a²) from every difference, as the Brezzi–Pitkäranta smoother does,
+/// and nothing is left to diffuse at rest. The volume that a pair of phases exchanges balances only
+/// if c is the same.
 ///
 /// Source: Krimi et al. 2018, Eq. 30–31; c of the own phase and the walls are ours.
 ///
 /// ```toml
 /// [smoother.delta-msph]
 /// strength = 0.1
-/// walls = true
+/// balance = "hydrostatic"
 /// ```
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -40,6 +43,20 @@ pub struct DeltaMultiphase {
     /// Whether walls count.
     #[schemars(extend("source" = "ours"))]
     pub walls: bool,
+    /// What is not to be diffused.
+    #[schemars(extend("source" = "ours; literal: Krimi et al. 2018, Eq. 30"))]
+    pub balance: Balance,
+}
+
+/// What is not to be diffused.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Balance {
+    /// The compression of a fluid at rest.
+    #[default]
+    Hydrostatic,
+    /// Nothing: as printed.
+    Literal,
 }
 
 impl Default for DeltaMultiphase {
@@ -47,6 +64,7 @@ impl Default for DeltaMultiphase {
         DeltaMultiphase {
             strength: 0.1,
             walls: true,
+            balance: Balance::default(),
         }
     }
 }
@@ -117,7 +135,11 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
             wall_share: &points.share,
             at_points: beside_walls(&points.pressure),
             at_elements: beside_walls(&elements.pressure),
-            elements: elements.pressure.len(),
+            normals: &elements.normal,
+            gravity: match self.smoother.balance {
+                Balance::Hydrostatic => world.gravity,
+                Balance::Literal => Vect::zeros(),
+            },
             nearest: 0.5 * world.spacing,
             weight: 2.0 * self.smoother.strength * world.kernel.smoothing_length(),
         })
@@ -134,7 +156,8 @@ pub struct Bound<'a, const D: usize> {
     /// β of every phase at the points' pressures; empty where walls do not count.
     at_points: Vec<f64>,
     at_elements: Vec<f64>,
-    elements: usize,
+    normals: &'a [Vect<D>],
+    gravity: Vect<D>,
     nearest: f64,
     weight: f64,
 }
@@ -143,8 +166,11 @@ pub struct Bound<'a, const D: usize> {
 #[derive(Clone, Copy)]
 pub struct Own {
     compression: f64,
+    density: f64,
     volume: f64,
     phase: u32,
+    /// 1/(ρ₀c²).
+    compressibility: f64,
 }
 
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
@@ -154,10 +180,13 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     #[inline(always)]
     fn here(&self, i: usize) -> Own {
         let phase = self.phase.map_or(0, |p| p[i]);
+        let (rest, c) = (self.term.density.at(phase), self.term.sound_speed.at(phase));
         Own {
-            compression: self.density[i] / self.term.density.at(phase),
+            compression: self.density[i] / rest,
+            density: self.density[i],
             volume: self.volume[i],
             phase,
+            compressibility: 1.0 / (rest * c * c),
         }
     }
 
@@ -170,7 +199,9 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     fn free(&self, own: &Own, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
         let phase = self.phase.map_or(0, |p| p[j]);
         let compression = there.density / self.term.density.at(phase);
-        *sum += there.volume * (own.compression - compression) * pair.factor;
+        let mean = 0.5 * (own.density + there.density);
+        let at_rest = mean * self.gravity.dot(&pair.separation) * own.compressibility;
+        *sum += there.volume * (own.compression - compression - at_rest) * pair.factor;
     }
 
     #[inline(always)]
@@ -178,7 +209,8 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         if !self.at_points.is_empty() {
             let there = self.at_points[own.phase as usize * self.wall_share.len() + v];
             let weight = self.wall_share[v] * own.volume;
-            *sum += weight * (own.compression - there) * pair.factor;
+            let at_rest = own.density * self.gravity.dot(&pair.separation) * own.compressibility;
+            *sum += weight * (own.compression - there - at_rest) * pair.factor;
         }
     }
 
@@ -186,9 +218,11 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     fn element(&self, own: &Own, contact: &Contact<D>, sum: &mut f64) {
         if !self.at_elements.is_empty() {
             let s = contact.element as usize;
-            let there = self.at_elements[own.phase as usize * self.elements + s];
-            let slope = (own.compression - there) / contact.distance.max(self.nearest);
-            *sum -= slope * contact.gradient.norm();
+            let there = self.at_elements[own.phase as usize * self.normals.len() + s];
+            let apart = contact.distance.max(self.nearest);
+            let slope = (own.compression - there) / apart;
+            let at_rest = own.density * self.gravity.dot(&self.normals[s]) * own.compressibility;
+            *sum -= (slope - at_rest) * contact.gradient.norm();
         }
     }
 

@@ -51,7 +51,7 @@ pub use contract::{
     Shifting, ShiftingEntry, Smoother, SmootherEntry, Stages, Viscosity, ViscousOperator,
     ViscousOperatorEntry,
 };
-pub use delta_multiphase::DeltaMultiphase;
+pub use delta_multiphase::{Balance, DeltaMultiphase};
 pub use delta_sph::{DENSITY_GRADIENT, DeltaForm, DeltaSph};
 pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, OwnVolume, TheirVolume};
 pub use eos::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
