@@ -18,6 +18,7 @@ mod dilatation;
 mod domain;
 mod drawn;
 mod driver;
+mod edges;
 mod error;
 mod estimate;
 mod examine;

@@ -9,6 +9,7 @@ use sph_io::{
 };
 use sph_scene::Scene;
 
+use crate::edges::wall_lines;
 use crate::{Flow, SolverError};
 
 /// Writes frames and pictures into a run's folder.
@@ -221,13 +222,12 @@ fn picture<const D: usize>(
             .map(|c| c.iter().map(|x| x * x).sum::<f64>().sqrt())
             .collect(),
     };
-    let elements = &world.walls.elements;
-    // A segment whose corners are a period apart is drawn at neither side.
+    // A line whose ends are a period apart is drawn at neither side.
     let longest = 3.0 * world.spacing;
-    let walls: Vec<[[f64; 3]; 2]> = elements
-        .corners
-        .iter()
-        .map(|c| [0, 1].map(|k| padded(&world.walls.points.position[c[k] as usize])))
+    let points_of_walls = &world.walls.points.position;
+    let walls: Vec<[[f64; 3]; 2]> = wall_lines(world)
+        .into_iter()
+        .map(|ends| ends.map(|c| padded(&points_of_walls[c as usize])))
         .filter(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1]) < longest)
         .collect();
     let label = match unit {
