@@ -11,8 +11,8 @@ use std::fmt::Debug;
 use sph_core::{Contract, Field, Registry, Role, Scalar, Vect, fields};
 use sph_kernels::Sampler;
 use sph_multiphase::{
-    BrezziPitkaranta, Choice, FirstDifferences, FormulationEntry, HuAdamsPressure, SmootherEntry,
-    Uniform, Viscosity, ViscousOperatorEntry, ViscousTerm,
+    BrezziPitkaranta, Choice, FirstDifferences, FormulationEntry, PressureGradient, SmootherEntry,
+    SquaredVolumes, Uniform, Viscosity, ViscousOperatorEntry, ViscousTerm,
 };
 use sph_neighbours::{
     Domain, Fused, KernelEntry, PairTerm, Terms, There, World, fuse_all, interactions,
@@ -159,7 +159,7 @@ impl Sums {
     pub fn by_type(&mut self, world: &World<2>, kernel: &WendlandC2) {
         let smoother = BrezziPitkaranta { strength: STRENGTH };
         let terms = (
-            HuAdamsPressure,
+            PressureGradient(SquaredVolumes),
             ViscousTerm(FirstDifferences, Uniform(VISCOSITY), Choice::default()),
             smoother,
         );

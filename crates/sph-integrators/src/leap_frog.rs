@@ -82,34 +82,17 @@ register!(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trial::{Trial, largest_step, order};
+    use crate::trial::Promise;
 
     #[test]
-    fn the_observed_orders_are_as_stated() {
-        let free = order(&mut LeapFrog::default(), 0.0);
-        assert!(
-            (free - 2.0).abs() < 0.05,
-            "oscillator: observed order {free:.3}"
-        );
-        let damped = order(&mut LeapFrog::default(), 0.5);
-        assert!(
-            (damped - 2.0).abs() < 0.05,
-            "damped: observed order {damped:.3}"
-        );
-    }
-
-    #[test]
-    fn the_stability_limit_is_as_stated() {
-        let limit = largest_step(&mut LeapFrog::default());
-        assert!((limit - 2.0).abs() < 0.01, "stable up to ωΔt = {limit:.3}");
-    }
-
-    #[test]
-    fn energy_stays_bounded_over_ten_thousand_steps() {
-        let worst = Trial::worst_energy(&mut LeapFrog::default(), 0.1, 10_000);
-        assert!(
-            worst < 2e-3,
-            "largest energy error {worst:.2e} of 0.5 at dt = 0.1"
-        );
+    fn orders_stability_and_energy_are_as_stated() {
+        let promise = Promise {
+            sound: 2.0,
+            both: 2.0,
+            friction: 2.0,
+            stable: 2.0,
+            energy: 2e-3,
+        };
+        promise.check(&mut LeapFrog::default());
     }
 }

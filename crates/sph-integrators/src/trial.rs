@@ -13,6 +13,7 @@ pub struct Trial {
     p: f64,
     a: f64,
     t: f64,
+    spring: f64,
     damping: f64,
     kept: [f64; 4],
 }
@@ -25,6 +26,7 @@ impl Trial {
             p: 1.0,
             a: 0.0,
             t: 0.0,
+            spring: 1.0,
             damping,
             kept: [0.0; 4],
         }
@@ -38,22 +40,22 @@ impl Trial {
         }
         system
     }
+}
 
-    /// Largest departure of the energy from 1/2 without damping.
-    pub fn worst_energy(scheme: &mut dyn Integrator, dt: f64, steps: usize) -> f64 {
-        let mut system = Trial::new(0.0);
-        let mut worst: f64 = 0.0;
-        for _ in 0..steps {
-            system.evaluate().unwrap();
-            scheme.step(&mut system, dt).unwrap();
-            worst = worst.max((0.5 * (system.x.powi(2) + system.u.powi(2)) - 0.5).abs());
-        }
-        worst
+/// Largest departure of the energy from 1/2 without damping.
+fn worst_energy(scheme: &mut dyn Integrator, dt: f64, steps: usize) -> f64 {
+    let mut system = Trial::new(0.0);
+    let mut worst: f64 = 0.0;
+    for _ in 0..steps {
+        system.evaluate().unwrap();
+        scheme.step(&mut system, dt).unwrap();
+        worst = worst.max((0.5 * (system.x.powi(2) + system.u.powi(2)) - 0.5).abs());
     }
+    worst
 }
 
 /// Observed order at t = 5 with a damping.
-pub fn order(scheme: &mut dyn Integrator, damping: f64) -> f64 {
+fn order(scheme: &mut dyn Integrator, damping: f64) -> f64 {
     let mut error = |steps: usize| {
         let end = Trial::after(scheme, damping, 5.0 / steps as f64, steps);
         let (decay, t) = (0.5 * damping, end.t);
@@ -66,8 +68,25 @@ pub fn order(scheme: &mut dyn Integrator, damping: f64) -> f64 {
     (error(400) / error(800)).log2()
 }
 
+/// Observed order of u = exp(−t) at t = 2.
+fn friction_order(scheme: &mut dyn Integrator) -> f64 {
+    let mut error = |steps: usize| {
+        let mut system = Trial {
+            u: 1.0,
+            spring: 0.0,
+            ..Trial::new(1.0)
+        };
+        for _ in 0..steps {
+            system.evaluate().unwrap();
+            scheme.step(&mut system, 2.0 / steps as f64).unwrap();
+        }
+        (system.u - (-2.0f64).exp()).abs()
+    };
+    (error(400) / error(800)).log2()
+}
+
 /// Largest ωΔt without growth over a thousand steps, by bisection.
-pub fn largest_step(scheme: &mut dyn Integrator) -> f64 {
+fn largest_step(scheme: &mut dyn Integrator) -> f64 {
     let (mut stable, mut unstable) = (0.1, 4.0);
     for _ in 0..20 {
         let dt = 0.5 * (stable + unstable);
@@ -86,7 +105,7 @@ impl System for Trial {
         self.evaluate_forces()
     }
     fn evaluate_forces(&mut self) -> Result<(), StepError> {
-        self.a = -self.p - self.damping * self.u;
+        self.a = -self.spring * self.p - self.damping * self.u;
         Ok(())
     }
     fn keep(&mut self) -> Result<(), StepError> {
@@ -121,5 +140,50 @@ impl System for Trial {
     }
     fn limits(&self) -> Vec<StepLimit> {
         Vec::new()
+    }
+}
+
+/// What a scheme promises on the oscillator.
+pub struct Promise {
+    /// Order without damping.
+    pub sound: f64,
+    /// Order with spring and damping together.
+    pub both: f64,
+    /// Order of the velocity under damping alone.
+    pub friction: f64,
+    /// Largest stable ωΔt.
+    pub stable: f64,
+    /// Largest error of the energy 1/2 over ten thousand steps of ωΔt = 0.1.
+    pub energy: f64,
+}
+
+impl Promise {
+    /// Holds the scheme to it.
+    pub fn check(&self, scheme: &mut dyn Integrator) {
+        let sound = order(scheme, 0.0);
+        assert!(
+            (sound - self.sound).abs() < 0.02,
+            "oscillator: observed order {sound:.3}"
+        );
+        let both = order(scheme, 0.5);
+        assert!(
+            (both - self.both).abs() < 0.05,
+            "damped: observed order {both:.3}"
+        );
+        let friction = friction_order(scheme);
+        assert!(
+            (friction - self.friction).abs() < 0.02,
+            "friction alone: observed order {friction:.3}"
+        );
+        let limit = largest_step(scheme);
+        assert!(
+            (limit - self.stable).abs() < 0.01,
+            "stable up to ωΔt = {limit:.3}"
+        );
+        let worst = worst_energy(scheme, 0.1, 10_000);
+        assert!(
+            worst < self.energy,
+            "largest energy error {worst:.2e} of 0.5 at dt = 0.1"
+        );
     }
 }

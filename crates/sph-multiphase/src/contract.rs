@@ -112,9 +112,9 @@ pub trait InterfaceModel<const D: usize>: Send {
         Vec::new()
     }
     /// The term of the interaction sweep; it may read the phase column.
-    fn term(&self) -> Box<dyn Interaction<D>>;
+    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>>;
     /// Its bound on the step, if it has one.
-    fn limiter(&self) -> Option<Box<dyn Limiter<D>>> {
+    fn limiter(&self, _laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         None
     }
 }

@@ -8,6 +8,7 @@ use sph_neighbours::{
 };
 
 use crate::interface_distance::InterfaceDistance;
+use crate::lattice::lattice_sum;
 use crate::viscosity::BoundViscosity;
 use crate::{InSeries, PerParticle, Stages, Uniform, Viscosity, ViscositySource};
 
@@ -41,7 +42,7 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
     fn mean<S: BoundViscosity>(self, viscosity: &S, here: &S::Here, j: usize, _: [f64; 2]) -> f64 {
         viscosity.mean(here, j)
     }
-    /// Factor of the friction on an element, from the volumes of particle and element.
+    /// Factor of the literal friction on an element, from the volumes of particle and element.
     #[inline(always)]
     fn at_element(self, _volume: f64, _there: f64) -> f64 {
         1.0
@@ -205,27 +206,12 @@ pub struct Sum<const D: usize> {
 
 /// What u = (y², 0, …) gives on a lattice with the scene's spacing and kernel, over the exact 2.
 fn lattice_response<const D: usize, F: PairFriction<D>>(friction: F, world: &World<D>) -> f64 {
-    let (spacing, radius) = (world.spacing, world.kernel.support_radius());
-    let reach = (radius / spacing).ceil() as i64;
-    let side = (2 * reach + 1) as usize;
-    let cell = spacing.powi(D as i32);
-    let mut sum = 0.0;
-    for k in 0..side.pow(D as u32) {
-        let place = |axis: usize| ((k / side.pow(axis as u32)) % side) as i64 - reach;
-        let separation = Vect::<D>::from_fn(|axis, _| place(axis) as f64 * spacing);
-        let distance2 = separation.norm_squared();
-        if distance2 == 0.0 || distance2 >= radius * radius {
-            continue;
-        }
-        let pair = Pair {
-            separation,
-            distance2,
-            factor: world.kernel.at(distance2.sqrt()).1,
-        };
+    let cell = world.spacing.powi(D as i32);
+    let sum = lattice_sum(world, |pair| {
         let mut relative = Vect::zeros();
-        relative[0] = -separation[1] * separation[1];
-        sum += friction.force(cell, cell, &relative, &pair)[0];
-    }
+        relative[0] = -pair.separation[1] * pair.separation[1];
+        friction.force(cell, cell, &relative, pair)[0]
+    });
     match sum > 0.0 {
         true => 0.5 * sum,
         // A support smaller than the spacing: there is nothing to scale.
@@ -374,9 +360,13 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
         let tangential = relative - normal * relative.dot(normal);
         let slip = self.elements.slip.get(s).copied().unwrap_or(0.0);
         let distance = self.distance(here, contact, normal) + slip;
-        let factor = self
-            .friction
-            .at_element(here.volume, self.elements.volume[s]);
+        // κ holds whatever the pair formula makes of volumes and strength.
+        let factor = match here.nearest {
+            Some(_) => 1.0,
+            None => self
+                .friction
+                .at_element(here.volume, self.elements.volume[s]),
+        };
         let weight =
             self.elements.grip[s] * here.own_viscosity * contact.gradient.norm() / distance;
         sum.flux += tangential * (2.0 * factor * weight);

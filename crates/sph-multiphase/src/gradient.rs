@@ -20,8 +20,23 @@ pub struct Side {
 pub trait PairPressure: Copy + Send + Sync + 'static {
     /// Name in plans.
     const NAME: &'static str;
+    /// Whether P_ab looks at the densities.
+    const DENSITY: bool;
     /// P_ab = P_ba, Pa m^2d.
     fn pair(self, here: Side, there: Side) -> f64;
+}
+
+/// P_ab = p_a V_a² + p_b V_b²: [`HuAdams`](crate::HuAdams), Ghaïtanellis 2017, Eq. 3.25.
+#[derive(Clone, Copy, Debug)]
+pub struct SquaredVolumes;
+
+impl PairPressure for SquaredVolumes {
+    const NAME: &'static str = "Hu–Adams pressure gradient";
+    const DENSITY: bool = false;
+    #[inline(always)]
+    fn pair(self, here: Side, there: Side) -> f64 {
+        here.pressure * here.volume * here.volume + there.pressure * there.volume * there.volume
+    }
 }
 
 /// P_ab = V_a V_b (p_a + p_b): [`ColagrossiLandrini`](crate::ColagrossiLandrini).
@@ -30,6 +45,7 @@ pub struct SumOfPressures;
 
 impl PairPressure for SumOfPressures {
     const NAME: &'static str = "Colagrossi–Landrini pressure gradient";
+    const DENSITY: bool = false;
     #[inline(always)]
     fn pair(self, here: Side, there: Side) -> f64 {
         here.volume * there.volume * (here.pressure + there.pressure)
@@ -42,6 +58,7 @@ pub struct BetweenParticles;
 
 impl PairPressure for BetweenParticles {
     const NAME: &'static str = "Krimi pressure gradient";
+    const DENSITY: bool = true;
     #[inline(always)]
     fn pair(self, here: Side, there: Side) -> f64 {
         let between = there.density * here.pressure + here.density * there.pressure;
@@ -69,11 +86,14 @@ impl<const D: usize, P: PairPressure> PairTerm<D> for PressureGradient<P> {
     }
 
     fn access(&self) -> Access {
-        Access::none()
+        let access = Access::none()
             .both(fields::PRESSURE)
             .both(fields::VOLUME)
-            .both(fields::DENSITY)
-            .here(fields::MASS)
+            .here(fields::MASS);
+        match P::DENSITY {
+            true => access.both(fields::DENSITY),
+            false => access,
+        }
     }
 
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D, P>, StepError> {
@@ -82,7 +102,10 @@ impl<const D: usize, P: PairPressure> PairTerm<D> for PressureGradient<P> {
             weight: self.0,
             pressure: world.free.get(fields::PRESSURE)?,
             volume: world.free.get(fields::VOLUME)?,
-            density: world.free.get(fields::DENSITY)?,
+            density: match P::DENSITY {
+                true => world.free.get(fields::DENSITY)?,
+                false => &[],
+            },
             mass: world.free.get(fields::MASS)?,
             wall_pressure: &points.pressure,
             wall_volume: &points.volume,
@@ -115,7 +138,7 @@ impl<const D: usize, P: PairPressure> BoundTerm<D> for Bound<'_, D, P> {
         let side = Side {
             pressure: self.pressure[i],
             volume: self.volume[i],
-            density: self.density[i],
+            density: if P::DENSITY { self.density[i] } else { 0.0 },
         };
         (side, 1.0 / self.mass[i])
     }

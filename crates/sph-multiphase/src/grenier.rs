@@ -7,9 +7,10 @@ use sph_core::{
     Access, Declares, Evolved, Field, Scalar, Stage, StepError, Vect, fields, register,
 };
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World, shepard,
+    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
 };
 
+use crate::walk::{Values, walk};
 use crate::{Compressed, Diffused, Formulation, FormulationEntry, Stages};
 
 /// d_a = 1/γ_a Σ_b θ_b V_b w_ab: how full the support is.
@@ -97,15 +98,15 @@ impl<const D: usize> Stage<World<D>> for PhaseDensity {
         let mut density = world.free.take(fields::DENSITY)?;
         let mut filling = world.free.take(FILLING)?;
         let free = &world.free;
-        let positions = free.get(fields::POSITION)?;
         let mass = free.get(fields::MASS)?;
         let volume = free.get(fields::VOLUME)?;
         let phase = free.get(fields::PHASE).ok();
-        let gamma = free.get(fields::RENORMALISATION).ok();
+        let points = &world.walls.points;
         let own = world.kernel.value_at_zero();
-        let sums = shepard(world, positions, &world.lists.free, |i, row, w| {
+        let sums = walk(world, Values::Both, |around| {
+            let (rows, i) = (&around.rows, around.rows.particle);
             let mut sums = [mass[i] * own, volume[i] * own, volume[i] * own];
-            for (&j, w) in row.iter().zip(w) {
+            for (&j, w) in rows.free.index.iter().zip(around.free) {
                 let j = j as usize;
                 sums[2] += volume[j] * w;
                 if phase.is_none_or(|p| p[i] == p[j]) {
@@ -113,22 +114,18 @@ impl<const D: usize> Stage<World<D>> for PhaseDensity {
                     sums[1] += volume[j] * w;
                 }
             }
-            sums
+            for (&v, w) in rows.wall.index.iter().zip(around.wall) {
+                sums[2] += points.share[v as usize] * points.volume[v as usize] * w;
+            }
+            [sums[0] / sums[1], sums[2] * rows.inverse_renormalisation]
         })?;
-        let points = &world.walls.points;
-        let at_walls = match points.position.is_empty() {
-            true => Vec::new(),
-            false => sph_neighbours::wall_sums(world, |v| points.share[v] * points.volume[v])?,
-        };
-        let results = density.par_iter_mut().zip(filling.par_iter_mut());
+        let results = density
+            .par_iter_mut()
+            .zip(filling.par_iter_mut())
+            .zip(&sums);
         results
-            .enumerate()
             .with_min_len(1024)
-            .for_each(|(i, (rho, d))| {
-                *rho = sums[i][0] / sums[i][1];
-                let wall = at_walls.get(i).copied().unwrap_or(0.0);
-                *d = (sums[i][2] + wall) / gamma.map_or(1.0, |g| g[i]);
-            });
+            .for_each(|((rho, d), sums)| [*rho, *d] = *sums);
         world.free.put(FILLING, filling)?;
         Ok(world.free.put(fields::DENSITY, density)?)
     }

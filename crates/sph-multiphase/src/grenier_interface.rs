@@ -6,7 +6,7 @@ use sph_core::register;
 use sph_neighbours::Interaction;
 
 use crate::repulsion::{Repelling, Repulsion};
-use crate::{InterfaceEntry, InterfaceModel};
+use crate::{InterfaceEntry, InterfaceModel, Laws};
 
 /// ρ_a a = −ε Σ_{b of other phases} V_b (|p_a| + |p_b|) ∇w_ab.
 ///
@@ -50,7 +50,7 @@ impl Repulsion for BothVolumes {
 }
 
 impl<const D: usize> InterfaceModel<D> for GrenierInterface {
-    fn term(&self) -> Box<dyn Interaction<D>> {
+    fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
         Repelling::<BothVolumes>::boxed(self.strength)
     }
 }

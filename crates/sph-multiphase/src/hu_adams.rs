@@ -4,12 +4,10 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, register};
-use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
-    kernel_sums,
-};
+use sph_neighbours::{Interaction, World, kernel_sums};
 
 use crate::divergence::{Divergence, OwnVolume};
+use crate::gradient::{PressureGradient, SquaredVolumes};
 use crate::{Diffused, Formulation, FormulationEntry, Stages};
 
 /// Density from volumes, ρ_a = (K_a + m_a Σ_b θ_b w_ab)/γ_a, with the skew-adjoint gradient
@@ -41,7 +39,7 @@ impl<const D: usize> Formulation<D> for HuAdams {
     }
 
     fn pressure_term(&self) -> Box<dyn Interaction<D>> {
-        Box::new(Term(HuAdamsPressure))
+        PressureGradient::boxed(SquaredVolumes)
     }
 
     fn divergence(&self) -> Box<dyn Interaction<D>> {
@@ -120,94 +118,4 @@ impl<const D: usize> Stage<World<D>> for DensitySum {
 }
 
 /// The pressure term of [`HuAdams`].
-pub struct HuAdamsPressure;
-
-impl<const D: usize> PairTerm<D> for HuAdamsPressure {
-    type Bound<'a> = Bound<'a, D>;
-
-    fn name(&self) -> String {
-        "Hu–Adams pressure gradient".into()
-    }
-
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::PRESSURE)
-            .both(fields::VOLUME)
-            .here(fields::MASS)
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
-        let points = &world.walls.points;
-        Ok(Bound {
-            pressure: world.free.get(fields::PRESSURE)?,
-            volume: world.free.get(fields::VOLUME)?,
-            mass: world.free.get(fields::MASS)?,
-            wall_pressure: &points.pressure,
-            wall_volume: &points.volume,
-            wall_share: &points.share,
-            elements: &world.walls.elements,
-        })
-    }
-}
-
-/// [`HuAdamsPressure`] with its columns.
-pub struct Bound<'a, const D: usize> {
-    pressure: &'a [f64],
-    volume: &'a [f64],
-    mass: &'a [f64],
-    wall_pressure: &'a [f64],
-    wall_volume: &'a [f64],
-    wall_share: &'a [f64],
-    elements: &'a Elements<D>,
-}
-
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    /// p_a V_a² and 1/m_a.
-    type Here = (f64, f64);
-    type Sum = sph_core::Vect<D>;
-
-    #[inline(always)]
-    fn here(&self, i: usize) -> (f64, f64) {
-        (
-            self.pressure[i] * self.volume[i] * self.volume[i],
-            1.0 / self.mass[i],
-        )
-    }
-
-    #[inline(always)]
-    fn zero(&self) -> Self::Sum {
-        Self::Sum::zeros()
-    }
-
-    #[inline(always)]
-    fn free(
-        &self,
-        here: &(f64, f64),
-        _j: usize,
-        there: &There<D>,
-        pair: &Pair<D>,
-        sum: &mut Self::Sum,
-    ) {
-        let there = there.pressure * there.volume * there.volume;
-        *sum += pair.separation * ((here.0 + there) * pair.factor);
-    }
-
-    #[inline(always)]
-    fn wall(&self, here: &(f64, f64), v: usize, pair: &Pair<D>, sum: &mut Self::Sum) {
-        let there = self.wall_pressure[v] * self.wall_volume[v] * self.wall_volume[v];
-        *sum += pair.separation * (self.wall_share[v] * (here.0 + there) * pair.factor);
-    }
-
-    #[inline(always)]
-    fn element(&self, here: &(f64, f64), contact: &Contact<D>, sum: &mut Self::Sum) {
-        let s = contact.element as usize;
-        let volume = self.elements.volume[s];
-        let there = self.elements.pressure[s] * volume * volume;
-        *sum -= contact.gradient * ((here.0 + there) / volume);
-    }
-
-    #[inline(always)]
-    fn finish(&self, here: &(f64, f64), sum: &Self::Sum, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.acceleration -= sum * (here.1 * inverse_gamma);
-    }
-}
+pub type HuAdamsPressure = PressureGradient<SquaredVolumes>;

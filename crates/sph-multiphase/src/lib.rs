@@ -26,8 +26,10 @@ mod grenier_interface;
 mod hu_adams;
 mod hu_adams_viscosity;
 mod interface_distance;
+mod interface_friction;
 mod krimi;
 mod krimi_viscosity;
+mod lattice;
 mod limits;
 mod linear;
 mod micro_mixing;
@@ -58,12 +60,15 @@ pub use eos::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 pub use espanol_revenga::EspanolRevenga;
 pub use fickian::{Fickian, Transport};
 pub use friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm};
-pub use gradient::{BetweenParticles, PairPressure, PressureGradient, Side, SumOfPressures};
+pub use gradient::{
+    BetweenParticles, PairPressure, PressureGradient, Side, SquaredVolumes, SumOfPressures,
+};
 pub use grenier::Grenier;
 pub use grenier_interface::GrenierInterface;
 pub use hu_adams::{HuAdams, HuAdamsPressure};
 pub use hu_adams_viscosity::HuAdamsViscosity;
 pub use interface_distance::INTERFACE_DISTANCE;
+pub use interface_friction::InterfaceFriction;
 pub use krimi::{Continuity, Krimi};
 pub use krimi_viscosity::{KrimiViscosity, Strength};
 pub use limits::{ForceLimit, InterfaceLimit, Limiter, SoundLimit, ViscousLimit};

@@ -6,7 +6,7 @@ use sph_core::register;
 use sph_neighbours::Interaction;
 
 use crate::repulsion::{Repelling, Repulsion};
-use crate::{InterfaceEntry, InterfaceModel};
+use crate::{InterfaceEntry, InterfaceModel, Laws};
 
 /// m_a a = −ε Σ_{b of other phases} (|p_a| V_a² + |p_b| V_b²) ∇w_ab: a share ε of the pressure
 /// gradient between phases, always repulsive.
@@ -51,7 +51,7 @@ impl Repulsion for OwnVolumes {
 }
 
 impl<const D: usize> InterfaceModel<D> for MicroMixing {
-    fn term(&self) -> Box<dyn Interaction<D>> {
+    fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
         Repelling::<OwnVolumes>::boxed(self.strength)
     }
 }

@@ -8,7 +8,7 @@ use sph_core::{
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
 use crate::walk::{Around, Values, walk};
-use crate::{InterfaceEntry, InterfaceModel, Limiter, Stages};
+use crate::{InterfaceEntry, InterfaceModel, Laws, Limiter, Stages};
 
 /// m_a a = Σ_b (V_a² Π_a + V_b² Π_b)·∇w_ab with the surface stress
 /// Π = σ/|∇c| (|∇c|² ι I − ∇c ∇c) and the gradient of the colour of all other phases,
@@ -63,10 +63,10 @@ impl<const D: usize> InterfaceModel<D> for SurfaceTension {
     fn stages(&self) -> Stages<D> {
         vec![Box::new(ColourGradient)]
     }
-    fn term(&self) -> Box<dyn Interaction<D>> {
+    fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
         Box::new(Term(*self))
     }
-    fn limiter(&self) -> Option<Box<dyn Limiter<D>>> {
+    fn limiter(&self, _laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         (self.tension > 0.0).then(|| Box::new(CapillaryLimit(self.tension)) as _)
     }
 }

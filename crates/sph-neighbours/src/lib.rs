@@ -30,7 +30,7 @@ pub use kernels::KernelEntry;
 pub use list::{CHUNK, NeighbourList};
 pub use reaction::{WallForce, cross, wall_forces};
 pub use row::{Neighbourhood, Row, Scratch};
-pub use sweep::{interactions, interactions_with, kernel_sums, pack, shepard, wall_sums};
+pub use sweep::{interactions, interactions_with, kernel_sums, pack, shepard};
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Rates, RowTerm, Term, TermEntry, There,
 };

@@ -222,36 +222,6 @@ pub fn shepard<const D: usize, R: Send>(
         .collect())
 }
 
-/// Σ_v c_v w_av over the wall points around every free particle, with a weight per point.
-///
-/// # Errors
-/// If the world has no positions.
-pub fn wall_sums<const D: usize>(
-    world: &World<D>,
-    weight: impl Fn(usize) -> f64 + Sync,
-) -> Result<Vec<f64>, StepError> {
-    let positions = world.free.get(fields::POSITION)?;
-    let points = &world.walls.points.position;
-    let kernel = &*world.kernel;
-    Ok(positions
-        .par_iter()
-        .enumerate()
-        .with_min_len(CHUNK)
-        .map_init(Values::default, |values, (i, x)| {
-            let row = world.lists.wall.row(i);
-            if row.is_empty() {
-                return 0.0;
-            }
-            let domain = wrapping(&world.domain, x, world.reach());
-            let w = values.fill(x, points, row, domain, kernel);
-            row.iter()
-                .zip(w)
-                .map(|(&v, w)| weight(v as usize) * w)
-                .sum()
-        })
-        .collect())
-}
-
 #[derive(Default)]
 struct Values {
     distance2: Vec<f64>,

@@ -208,7 +208,7 @@ fn limiters_of<const D: usize>(
     if laws.len() > 1 {
         limiters.push(Box::new(InterfaceLimit { laws: laws.clone() }));
     }
-    limiters.extend(choices.interfaces.iter().filter_map(|i| i.limiter()));
+    limiters.extend(choices.interfaces.iter().filter_map(|i| i.limiter(laws)));
     limiters
 }
 

@@ -53,7 +53,7 @@ pub fn plan_stages<const D: usize>(
         terms.push(smoother.term(laws));
     }
     refuse_interfaces_of_one(scene)?;
-    terms.extend(choices.interfaces.iter().map(|i| i.term()));
+    terms.extend(choices.interfaces.iter().map(|i| i.term(laws)));
     let summed = choices.formulation.compressed().is_none();
     let transport = choices.shifting.iter().find_map(|s| s.term(summed));
     let density_changes = choices.smoother.is_some() || transport.is_some();

@@ -4,6 +4,7 @@
 
 mod channels;
 mod dam_breaks;
+mod drops;
 mod shipped;
 mod tanks;
 mod vortices;

@@ -2,12 +2,13 @@
 
 use sph_core::{Role, Vect, fields};
 use sph_multiphase::{
-    COLOUR_GRADIENT, GrenierInterface, InterfaceModel, MicroMixing, SurfaceStress, SurfaceTension,
+    COLOUR_GRADIENT, EquationOfState, GrenierInterface, InterfaceFriction, InterfaceModel, Laws,
+    Linear, MicroMixing, Reference, SurfaceStress, SurfaceTension,
 };
 use sph_neighbours::{Domain, World};
 
 use crate::evaluate::acceleration;
-use crate::world::{Random, disorder, lattice, periodic, set, world};
+use crate::world::{Random, disorder, lattice, periodic, set, set_velocity, world};
 
 const TENSION: f64 = 0.07;
 
@@ -18,11 +19,26 @@ fn tension(tension: f64) -> SurfaceTension {
     }
 }
 
-fn all<const D: usize>() -> [(&'static str, Box<dyn InterfaceModel<D>>); 3] {
+/// A heavy phase 0 and a light phase 1.
+fn laws() -> Laws {
+    let law = |density: f64| {
+        Linear::default().bind(Reference {
+            density,
+            sound_speed: 30.0,
+        })
+    };
+    vec![law(1000.0), law(1.2)].into()
+}
+
+fn all<const D: usize>() -> [(&'static str, Box<dyn InterfaceModel<D>>); 4] {
     [
         ("micro-mixing", Box::new(MicroMixing::default())),
         ("grenier", Box::new(GrenierInterface::default())),
         ("surface-tension", Box::new(tension(TENSION))),
+        (
+            "artificial-viscosity",
+            Box::new(InterfaceFriction::default()),
+        ),
     ]
 }
 
@@ -32,7 +48,7 @@ fn force<const D: usize>(world: &mut World<D>, model: &dyn InterfaceModel<D>) ->
         stage.run(world).unwrap();
     }
     let mass = world.free.get(fields::MASS).unwrap().to_vec();
-    let acceleration = acceleration(world, model.term());
+    let acceleration = acceleration(world, model.term(&laws()));
     acceleration
         .iter()
         .zip(&mass)
@@ -60,6 +76,9 @@ fn momentum_is_kept<const D: usize>(n: usize, ratio: f64) {
     });
     set_phase(&mut cloud, |x| {
         u32::from((x - Vect::repeat(0.5)).norm() < 0.3)
+    });
+    set_velocity(&mut cloud, |x| {
+        Vect::from_fn(|k, _| (7.0 * x[k] + x[(k + 1) % D]).sin())
     });
     for (name, model) in all::<D>() {
         let forces = force(&mut cloud, &*model);
@@ -180,7 +199,7 @@ fn the_capillary_limit_has_the_least_density() {
         if x[0] < 0.5 { 1000.0 } else { 4.0 }
     });
     let model = tension(TENSION);
-    let limiter = InterfaceModel::<2>::limiter(&model).expect("a limiter");
+    let limiter = InterfaceModel::<2>::limiter(&model, &laws()).expect("a limiter");
     let limit = limiter.limit(&drop).unwrap();
     let exact = 0.25 * (4.0 * 0.2_f64.powi(3) / (std::f64::consts::TAU * TENSION)).sqrt();
     assert!(
@@ -189,5 +208,59 @@ fn the_capillary_limit_has_the_least_density() {
         limit.dt
     );
     let none = tension(0.0);
-    assert!(InterfaceModel::<2>::limiter(&none).is_none());
+    assert!(InterfaceModel::<2>::limiter(&none, &laws()).is_none());
+}
+
+/// A lone light particle moves at 1 m/s through heavy ones at rest: it is stopped at the rate whose inverse
+/// bounds the step.
+#[test]
+fn artificial_viscosity_stops_a_light_particle_at_the_rate_of_its_limit() {
+    let n = 20;
+    let mut cloud = world(lattice::<2>(n), periodic(), 1.0 / n as f64, 2.0);
+    let middle = crate::world::at(&cloud, Vect::repeat(0.5));
+    let place = cloud.free.get(fields::POSITION).unwrap()[middle];
+    let cell = (n as f64).powi(-2);
+    let density = |x: &Vect<2>| if *x == place { 1.2 } else { 1000.0 };
+    set(&mut cloud, fields::DENSITY, density);
+    set(&mut cloud, fields::VOLUME, |_| cell);
+    set(&mut cloud, fields::MASS, |x| cell * density(x));
+    set_phase(&mut cloud, |x| u32::from(*x == place));
+    let model = InterfaceFriction::default();
+    let limit = InterfaceModel::<2>::limiter(&model, &laws()).expect("it has a limit");
+    let inverse_limit = 1.0 / limit.limit(&cloud).unwrap().dt;
+    cloud.free.get_mut(fields::VELOCITY).unwrap()[middle][0] = 1.0;
+    let slowed = -acceleration(&cloud, InterfaceModel::<2>::term(&model, &laws()))[middle][0];
+    // α c̄ = 60 m/s, β at the closing half of the pairs less than 1 m/s; the limit has α + β.
+    let alone = slowed * (model.strength + model.shocks) / model.strength;
+    let ratio = alone / inverse_limit;
+    assert!(
+        (1.0..1.1).contains(&ratio),
+        "{slowed:.1}/s against 1/limit = {inverse_limit:.1}/s: {ratio:.3} without β"
+    );
+}
+
+/// Pairs of the heaviest phase are left alone; nothing ever gains energy.
+#[test]
+fn artificial_viscosity_only_takes_energy_and_leaves_the_heavy_phase_alone() {
+    let n = 24;
+    let mut cloud = world(disorder::<2>(n, 0.3, 5), periodic(), 1.0 / n as f64, 2.0);
+    let cell = (n as f64).powi(-2);
+    let light = |x: &Vect<2>| x[0] > 0.5;
+    let density = |x: &Vect<2>| if light(x) { 1.2 } else { 1000.0 };
+    set(&mut cloud, fields::DENSITY, density);
+    set(&mut cloud, fields::MASS, |x| cell * density(x));
+    set_phase(&mut cloud, |x| u32::from(light(x)));
+    let mut random = Random::new(9);
+    let mut draw = || 40.0 * (random.next() - 0.5);
+    let moving: Vec<_> = (0..cloud.free.len())
+        .map(|_| Vect::<2>::new(draw(), draw()))
+        .collect();
+    *cloud.free.get_mut(fields::VELOCITY).unwrap() = moving.clone();
+    let place = cloud.free.get(fields::POSITION).unwrap().to_vec();
+    let forces = force(&mut cloud, &InterfaceFriction::default());
+    let power: f64 = forces.iter().zip(&moving).map(|(f, u)| f.dot(u)).sum();
+    assert!(power < 0.0, "{power} W");
+    let far = place.iter().zip(&forces);
+    let far = far.filter(|(x, _)| x[0] > 0.2 && x[0] < 0.3);
+    assert!(far.map(|(_, f)| f.norm()).fold(0.0, f64::max) == 0.0);
 }

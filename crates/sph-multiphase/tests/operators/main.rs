@@ -9,6 +9,7 @@ mod friction;
 mod fusing;
 mod interfaces;
 mod lattice;
+mod limits;
 mod shifting;
 mod smoother;
 mod smoothers;

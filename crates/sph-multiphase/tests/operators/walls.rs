@@ -1,6 +1,10 @@
 //! The operators next to a flat semi-analytical wall, rows 1 to 4 of a lattice with h/δr = 2.
 
 use sph_core::{Vect, fields};
+use sph_multiphase::{
+    EspanolRevenga, HuAdamsViscosity, KrimiViscosity, MonaghanGingold, Morris, Strength, Viscosity,
+    ViscousOperator,
+};
 use sph_neighbours::Interaction;
 
 use crate::channel::Channel;
@@ -56,6 +60,43 @@ fn corrected_morris_of_y_is_nothing_and_of_y_squared_within_2_percent() {
     assert!(linear.iter().all(|a| a.abs() < 1e-13), "{linear:?}");
     let square = viscous_response(viscosity(1.0), |y| y * y);
     rows_are(square, [2.0408, 2.0184, 2.0001, 1.9984], "u = y²");
+}
+
+/// Whatever the pair formula, its strength and the volumes of the wall: κ makes up for it.
+#[test]
+fn every_corrected_operator_gives_nothing_for_y() {
+    let literal = KrimiViscosity {
+        strength: Strength::Literal,
+        ..KrimiViscosity::default()
+    };
+    let operators: [(&str, Box<dyn ViscousOperator<2>>); 6] = [
+        ("morris", Box::new(Morris::default())),
+        ("hu-adams", Box::new(HuAdamsViscosity::default())),
+        ("espanol-revenga", Box::new(EspanolRevenga::default())),
+        ("monaghan-gingold", Box::new(MonaghanGingold::default())),
+        ("krimi", Box::new(KrimiViscosity::default())),
+        ("krimi, literal strength", Box::new(literal)),
+    ];
+    for (name, operator) in operators {
+        for swelling in [1.0, 1.3] {
+            let mut channel = Channel::open(10);
+            let walls = &mut channel.world.walls;
+            walls.points.volume.iter_mut().for_each(|v| *v *= swelling);
+            walls
+                .elements
+                .volume
+                .iter_mut()
+                .for_each(|v| *v *= swelling);
+            set_velocity(&mut channel.world, |x| Vect::<2>::new(x[1], 0.0));
+            let term = operator.term(Viscosity::Uniform(1.0));
+            let linear = at_rows(&channel, &acceleration(&channel.world, term), 0);
+            // ν u'/δr is 2; what is left is rounding.
+            assert!(
+                linear.iter().all(|a| a.abs() < 1e-12),
+                "{name}, wall volumes times {swelling}: {linear:?}"
+            );
+        }
+    }
 }
 
 #[test]
