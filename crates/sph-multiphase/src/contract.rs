@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sph_core::{Evolved, Field, Scalar, Stage, StepError, contract};
 use sph_neighbours::{Interaction, World};
 
-use crate::{BoundState, Limiter};
+use crate::{BoundState, Coupling, Limiter};
 
 /// The equations of state with their reference states, in the order of the phase numbers.
 pub type Laws = Arc<[Box<dyn BoundState>]>;
@@ -80,6 +80,8 @@ pub trait ViscousOperator<const D: usize>: Send {
     fn stages(&self, _viscosity: Viscosity) -> Stages<D> {
         Vec::new()
     }
+    /// The same friction as rows of a matrix, for implicit schemes.
+    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>>;
     /// How much stiffer than Morris's operator it is: divides the viscous step limit.
     fn stiffness(&self) -> f64;
 }

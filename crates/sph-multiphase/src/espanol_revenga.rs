@@ -6,7 +6,7 @@ use sph_core::{Vect, register};
 use sph_neighbours::{Interaction, Pair};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
-use crate::{Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
+use crate::{Coupling, Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
 
 /// L_a = 1/γ_a Σ_b θ_b V_b η̄_ab F_ab [(d + 2)(u_ab·e)e + u_ab] plus the wall's friction, as of
 /// [`Morris`](crate::Morris): div(η(∇u + ∇uᵀ)) for constant η and div u = 0.
@@ -48,6 +48,9 @@ impl EspanolRevenga {
 impl<const D: usize> ViscousOperator<D> for EspanolRevenga {
     fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
         self.choice().term(WithTransposed, viscosity)
+    }
+    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
+        self.choice().coupling(WithTransposed, viscosity)
     }
     fn stages(&self, viscosity: Viscosity) -> Stages<D> {
         self.choice().stages(viscosity)

@@ -10,7 +10,9 @@ use sph_neighbours::{
 use crate::interface_distance::InterfaceDistance;
 use crate::lattice::lattice_sum;
 use crate::viscosity::BoundViscosity;
-use crate::{InSeries, PerParticle, Stages, Uniform, Viscosity, ViscositySource};
+use crate::{Coupling, InSeries, PerParticle, Stages, Uniform, Viscosity, ViscositySource};
+
+mod coupling;
 
 /// Friction at semi-analytical walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
@@ -101,6 +103,21 @@ impl Choice {
                 Box::new(Term(ViscousTerm(friction, InSeries, self)))
             }
             _ => Box::new(Term(ViscousTerm(friction, PerParticle, self))),
+        }
+    }
+
+    /// The same friction as rows of a matrix.
+    pub fn coupling<const D: usize, F: PairFriction<D>>(
+        self,
+        friction: F,
+        viscosity: Viscosity,
+    ) -> Box<dyn Coupling<D>> {
+        match (viscosity, self.across) {
+            (Viscosity::Uniform(eta), _) => Box::new(ViscousTerm(friction, Uniform(eta), self)),
+            (Viscosity::PerPhase, Across::Series) => {
+                Box::new(ViscousTerm(friction, InSeries, self))
+            }
+            _ => Box::new(ViscousTerm(friction, PerParticle, self)),
         }
     }
 
@@ -261,6 +278,45 @@ impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
         slip.try_normalize(0.0).unwrap_or_else(Vect::zeros)
     }
 
+    /// Friction per tangential velocity at an element, before κ: 2 η |∇γ_as|/δr.
+    #[inline(always)]
+    fn weight<V>(&self, here: &Here<D, V>, contact: &Contact<D>) -> f64 {
+        let s = contact.element as usize;
+        let slip = self.elements.slip.get(s).copied().unwrap_or(0.0);
+        let distance = self.distance(here, contact, &self.elements.normal[s]) + slip;
+        // κ holds whatever the pair formula makes of volumes and strength.
+        let factor = match here.nearest {
+            Some(_) => 1.0,
+            None => self
+                .friction
+                .at_element(here.volume, self.elements.volume[s]),
+        };
+        let grip = self.elements.grip[s];
+        2.0 * factor * grip * here.own_viscosity * contact.gradient.norm() / distance
+    }
+
+    /// Share of a wall point's friction that counts.
+    #[inline(always)]
+    fn rubbing(&self, v: usize, pair: &Pair<D>) -> f64 {
+        let mut rubbing = self.wall_share[v] * self.wall_grip[v];
+        if let Some((slip, normal)) = self.wall_slip.get(v) {
+            // At the wall the fluid goes with the share λ/(d + λ) of the velocity at d.
+            let distance = pair.separation.dot(normal).max(self.spacing);
+            rubbing *= distance / (distance + slip);
+        }
+        rubbing
+    }
+
+    /// κ.
+    #[inline(always)]
+    fn correction<V>(&self, here: &Here<D, V>, sum: &Sum<D>) -> f64 {
+        let squared = sum.gradient.norm_squared();
+        match here.nearest.is_some() && squared * self.spacing * self.spacing > FAINT * FAINT {
+            true => (sum.discrete.dot(&sum.gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]),
+            false => 1.0,
+        }
+    }
+
     /// Over which the velocity falls to that of an element.
     #[inline(always)]
     fn distance<V>(&self, here: &Here<D, V>, contact: &Contact<D>, normal: &Vect<D>) -> f64 {
@@ -339,12 +395,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
     #[inline(always)]
     fn wall(&self, here: &Self::Here, v: usize, pair: &Pair<D>, sum: &mut Sum<D>) {
         let (share, volume) = (self.wall_share[v], self.wall_volume[v]);
-        let mut rubbing = share * self.wall_grip[v];
-        if let Some((slip, normal)) = self.wall_slip.get(v) {
-            // At the wall the fluid goes with the share λ/(d + λ) of the velocity at d.
-            let distance = pair.separation.dot(normal).max(self.spacing);
-            rubbing *= distance / (distance + slip);
-        }
+        let rubbing = self.rubbing(v, pair);
         let relative = here.velocity - self.wall_velocity[v];
         let force = self.friction.force(here.volume, volume, &relative, pair);
         sum.force += force * (rubbing * here.own_viscosity);
@@ -358,29 +409,13 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
         let normal = &self.elements.normal[s];
         let relative = here.velocity - self.elements.velocity[s];
         let tangential = relative - normal * relative.dot(normal);
-        let slip = self.elements.slip.get(s).copied().unwrap_or(0.0);
-        let distance = self.distance(here, contact, normal) + slip;
-        // κ holds whatever the pair formula makes of volumes and strength.
-        let factor = match here.nearest {
-            Some(_) => 1.0,
-            None => self
-                .friction
-                .at_element(here.volume, self.elements.volume[s]),
-        };
-        let weight =
-            self.elements.grip[s] * here.own_viscosity * contact.gradient.norm() / distance;
-        sum.flux += tangential * (2.0 * factor * weight);
+        sum.flux += tangential * self.weight(here, contact);
         sum.gradient += contact.gradient;
     }
 
     #[inline(always)]
     fn finish(&self, here: &Self::Here, sum: &Sum<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
-        let mut correction = 1.0;
-        let squared = sum.gradient.norm_squared();
-        if here.nearest.is_some() && squared * self.spacing * self.spacing > FAINT * FAINT {
-            correction = (sum.discrete.dot(&sum.gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]);
-        }
-        let total = sum.force - sum.flux * correction;
+        let total = sum.force - sum.flux * self.correction(here, sum);
         rates.acceleration += total * (self.scale * inverse_gamma * here.specific_volume);
     }
 }

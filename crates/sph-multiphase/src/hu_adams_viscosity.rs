@@ -6,7 +6,7 @@ use sph_core::{Vect, register};
 use sph_neighbours::{Interaction, Pair};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
-use crate::{Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
+use crate::{Coupling, Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
 
 /// L_a = 1/γ_a Σ_b θ_b (V_a² + V_b²)/V_a η̄_ab u_ab F_ab plus the wall's friction, as of
 /// [`Morris`](crate::Morris) times (V_a² + V_s²)/(2 V_a V_s).
@@ -46,6 +46,9 @@ impl HuAdamsViscosity {
 impl<const D: usize> ViscousOperator<D> for HuAdamsViscosity {
     fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
         self.choice().term(BothVolumes, viscosity)
+    }
+    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
+        self.choice().coupling(BothVolumes, viscosity)
     }
     fn stages(&self, viscosity: Viscosity) -> Stages<D> {
         self.choice().stages(viscosity)

@@ -7,7 +7,7 @@ use sph_neighbours::{Interaction, Pair};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
 use crate::viscosity::BoundViscosity;
-use crate::{Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
+use crate::{Coupling, Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
 
 /// L_a = c/γ_a Σ_b θ_b (V_a² + V_b²)/V_a η̃_ab F_ab [u_ab + (u_ab·e)e] plus the wall's friction, as
 /// of [`Morris`](crate::Morris), with η̃_ab = (ρ_a η_b + ρ_b η_a)/(ρ_a + ρ_b).
@@ -64,6 +64,10 @@ impl<const D: usize> ViscousOperator<D> for KrimiViscosity {
     fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
         self.choice()
             .term(BetweenStresses(self.strength), viscosity)
+    }
+    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
+        self.choice()
+            .coupling(BetweenStresses(self.strength), viscosity)
     }
     fn stages(&self, viscosity: Viscosity) -> Stages<D> {
         self.choice().stages(viscosity)

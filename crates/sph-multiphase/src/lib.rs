@@ -11,6 +11,7 @@
 mod brezzi_pitkaranta;
 mod colagrossi_landrini;
 mod contract;
+mod coupling;
 mod delta_multiphase;
 mod delta_sph;
 mod divergence;
@@ -53,6 +54,7 @@ pub use contract::{
     Shifting, ShiftingEntry, Smoother, SmootherEntry, Stages, Viscosity, ViscousOperator,
     ViscousOperatorEntry,
 };
+pub use coupling::{BoundCoupling, Coupling, CouplingRow};
 pub use delta_multiphase::{Balance, DeltaMultiphase};
 pub use delta_sph::{DENSITY_GRADIENT, DeltaForm, DeltaSph};
 pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, OwnVolume, TheirVolume};

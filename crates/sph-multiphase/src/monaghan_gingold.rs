@@ -6,7 +6,7 @@ use sph_core::{Vect, register};
 use sph_neighbours::{Interaction, Pair};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
-use crate::{Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
+use crate::{Coupling, Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
 
 /// L_a = 2(d + 2)/γ_a Σ_b θ_b V_b η̄_ab F_ab (u_ab·e)e plus the wall's friction, as of
 /// [`Morris`](crate::Morris): div(η(∇u + ∇uᵀ)) + ∇(η div u), also for variable η.
@@ -46,6 +46,9 @@ impl MonaghanGingold {
 impl<const D: usize> ViscousOperator<D> for MonaghanGingold {
     fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
         self.choice().term(Central, viscosity)
+    }
+    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
+        self.choice().coupling(Central, viscosity)
     }
     fn stages(&self, viscosity: Viscosity) -> Stages<D> {
         self.choice().stages(viscosity)

@@ -6,7 +6,7 @@ use sph_core::{Vect, register};
 use sph_neighbours::{Interaction, Pair};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm};
-use crate::{Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
+use crate::{Coupling, Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
 
 /// L_a = 2/γ_a Σ_b θ_b V_b η̄_ab u_ab F_ab − 2κ_a/γ_a Σ_s η_a u_t,as/δr_as |∇γ_as|.
 ///
@@ -58,6 +58,9 @@ impl Morris {
 impl<const D: usize> ViscousOperator<D> for Morris {
     fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
         self.choice().term(FirstDifferences, viscosity)
+    }
+    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
+        self.choice().coupling(FirstDifferences, viscosity)
     }
     fn stages(&self, viscosity: Viscosity) -> Stages<D> {
         self.choice().stages(viscosity)

@@ -60,7 +60,7 @@ fn add(sum: &mut [f64; 3], more: [f64; 3]) {
 /// If a term misses a column.
 pub fn wall_forces<const D: usize>(
     world: &World<D>,
-    terms: &[Box<dyn Interaction<D>>],
+    terms: &[&dyn Interaction<D>],
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let bound = terms
         .iter()

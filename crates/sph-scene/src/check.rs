@@ -6,12 +6,14 @@ use toml::{Table, Value};
 use crate::{Scene, Source, check_geometry, check_names, check_time, overlap};
 
 /// Kinds of which a scene has one plugin at most.
-pub(crate) const SINGLE_KINDS: [&str; 7] = [
+pub(crate) const SINGLE_KINDS: [&str; 9] = [
     "kernel",
     "formulation",
     "integrator",
     "walls",
     "viscous-operator",
+    "implicit-viscosity",
+    "linear-solver",
     "smoother",
     "shifting",
 ];

@@ -7,12 +7,14 @@ use toml::{Table, Value};
 const DEEPEST: usize = 32;
 
 /// Tables that hold exactly one plugin, as the segments that lead to them.
-const SINGLE: [&[&str]; 10] = [
+const SINGLE: [&[&str]; 12] = [
     &["kernel"],
     &["formulation"],
     &["integrator"],
     &["walls"],
     &["viscous-operator"],
+    &["implicit-viscosity"],
+    &["linear-solver"],
     &["smoother"],
     &["shifting"],
     &["phase", "*", "equation-of-state"],

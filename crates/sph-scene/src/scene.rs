@@ -46,6 +46,14 @@ pub struct Scene {
     #[serde(default, rename = "viscous-operator")]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
     pub viscous_operator: Plugins,
+    /// Viscosity taken from the end of the step, `[implicit-viscosity.PLUGIN]`; explicit if left out.
+    #[serde(default, rename = "implicit-viscosity")]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub implicit_viscosity: Plugins,
+    /// What solves sparse systems, `[linear-solver.PLUGIN]`; chosen by the solver if left out.
+    #[serde(default, rename = "linear-solver")]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub linear_solver: Plugins,
     /// Smoothing of the density, `[smoother.PLUGIN]`; none if left out.
     #[serde(default)]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
@@ -134,8 +142,8 @@ impl Scene {
     }
 
     /// The plugin that the scene chooses for a kind of which it has one at most: `kernel`,
-    /// `formulation`, `integrator`, `walls`, `viscous-operator`, `smoother` or
-    /// `shifting`.
+    /// `formulation`, `integrator`, `walls`, `viscous-operator`, `implicit-viscosity`, `linear-solver`,
+    /// `smoother` or `shifting`.
     pub fn choice(&self, kind: &'static str) -> Option<PluginChoice> {
         let plugins = match kind {
             "kernel" => &self.kernel,
@@ -143,6 +151,8 @@ impl Scene {
             "integrator" => &self.integrator,
             "walls" => &self.walls,
             "viscous-operator" => &self.viscous_operator,
+            "implicit-viscosity" => &self.implicit_viscosity,
+            "linear-solver" => &self.linear_solver,
             "smoother" => &self.smoother,
             "shifting" => &self.shifting,
             _ => return None,

@@ -20,6 +20,7 @@ use crate::drawn::Drawn;
 use crate::error::SolverError;
 use crate::field_error;
 use crate::flow::Flow;
+use crate::implicit::{ImplicitViscosity, Solves};
 use crate::initial::InitialState;
 use crate::layers::Layers;
 use crate::measured;
@@ -126,11 +127,27 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
     let limiters = limiters_of(&choices, &laws, &kinematic_viscosities);
     let planned = plan_stages(scene, &mut choices, &laws, walls.as_ref(), &world)?;
+    let scheme = choices.implicit_viscosity.take();
+    let implicit = planned.friction.zip(scheme);
+    let (implicit, solved) = match implicit {
+        None => (None, None),
+        Some((friction, (scheme, solver))) => {
+            let implicit = ImplicitViscosity {
+                coupling: friction.coupling,
+                scheme,
+                solver,
+                solves: Solves::default(),
+            };
+            (Some(implicit), Some(friction.term))
+        }
+    };
     let mut flow = Flow {
         world,
         stages: planned.stages,
         pruned: planned.pruned,
         terms: planned.terms,
+        solved,
+        implicit,
         limiters,
         walls,
         evolved: vec![diffused.evolved],
@@ -199,7 +216,7 @@ fn limiters_of<const D: usize>(
         }),
     ];
     let kinematic = kinematic_viscosities.iter().copied().fold(0.0, f64::max);
-    if kinematic > 0.0 {
+    if kinematic > 0.0 && choices.implicit_viscosity.is_none() {
         limiters.push(Box::new(ViscousLimit {
             coefficient: c.viscous / choices.viscous_operator.stiffness(),
             kinematic_viscosity: kinematic,

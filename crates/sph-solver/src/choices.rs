@@ -3,6 +3,7 @@
 use serde_json::{Value as Json, json};
 use sph_boundary::{Wall, WallEntry};
 use sph_core::{Contract, PluginInfo, Registry, RegistryError, SceneProblem};
+use sph_implicit::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
 use sph_integrators::{Integrator, IntegratorEntry};
 use sph_kernels::Kernel;
 use sph_multiphase::{
@@ -25,6 +26,8 @@ pub struct Choices<const D: usize> {
     pub integrator: Box<dyn Integrator>,
     pub walls: Option<Box<dyn Wall<D>>>,
     pub viscous_operator: Box<dyn ViscousOperator<D>>,
+    /// How viscosity is taken over a step, and what solves for it; explicitly if there is none.
+    pub implicit_viscosity: Option<(Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>)>,
     pub smoother: Option<Box<dyn Smoother<D>>>,
     pub shifting: Option<Box<dyn Shifting<D>>>,
     pub interfaces: Vec<Box<dyn InterfaceModel<D>>>,
@@ -128,6 +131,29 @@ impl<const D: usize> Choices<D> {
             ViscousOperatorEntry,
             |e: &ViscousOperatorEntry, t| e.build::<D>(t)
         );
+        let scheme = one!(
+            "implicit-viscosity",
+            ImplicitViscosityEntry,
+            |e: &ImplicitViscosityEntry, t| (e.build)(t)
+        );
+        let solver = match &scheme {
+            // A solver that is named where nothing is solved is said to be of no use elsewhere.
+            None => None,
+            Some(_) => one!(
+                "linear-solver",
+                LinearSolverEntry,
+                |e: &LinearSolverEntry, t| e.build::<D>(t)
+            ),
+        };
+        if let (None, Some(idle)) = (
+            scene.choice("implicit-viscosity"),
+            scene.choice("linear-solver"),
+        ) {
+            let message = "nothing in this scene is solved for: take this table out, or add \
+                           [implicit-viscosity.backward-euler]";
+            b.problems.push(SceneProblem::new(idle.path, message));
+        }
+        let implicit_viscosity = scheme.zip(solver);
         let smoother = one!("smoother", SmootherEntry, |e: &SmootherEntry, t| e
             .build::<D>(t));
         let shifting = one!("shifting", ShiftingEntry, |e: &ShiftingEntry, t| e
@@ -183,6 +209,7 @@ impl<const D: usize> Choices<D> {
                     integrator,
                     walls,
                     viscous_operator,
+                    implicit_viscosity,
                     smoother,
                     shifting,
                     interfaces,

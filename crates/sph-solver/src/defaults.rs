@@ -1,13 +1,14 @@
 //! The plugins taken where a scene names none; the only names the solver knows.
 
 /// Kind and name of every default.
-pub const DEFAULTS: [(&str, &str); 6] = [
+pub const DEFAULTS: [(&str, &str); 7] = [
     ("kernel", "wendland-c2"),
     ("formulation", "hu-adams"),
     ("integrator", "symplectic-euler"),
     ("walls", "usaw"),
     ("viscous-operator", "morris"),
     ("equation-of-state", "tait"),
+    ("linear-solver", "automatic"),
 ];
 
 /// Skin of the neighbour lists as a share of the support radius.

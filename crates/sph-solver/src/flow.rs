@@ -4,12 +4,13 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use sph_core::{
-    Access, Evolved, Field, Recall, Role, Scalar, Stage, StepError, StepLimit, System, fields,
+    Access, Evolved, Field, Recall, Role, Scalar, Stage, StepError, StepLimit, System, Vect, fields,
 };
 use sph_multiphase::{BoundState, Limiter};
 use sph_neighbours::{Interaction, World, wall_forces};
 
 use crate::dilatation::Dilatation;
+use crate::implicit::ImplicitViscosity;
 use crate::kept::Kept;
 use crate::snapshot::Snapshot;
 use crate::stages::{SharedWall, lock};
@@ -47,6 +48,9 @@ pub struct Flow<const D: usize> {
     pub(crate) kinematic_viscosities: Vec<f64>,
     /// The pair terms of the interaction sweep.
     pub(crate) terms: std::sync::Arc<[Box<dyn Interaction<D>>]>,
+    /// Friction that is solved for, as a term.
+    pub(crate) solved: Option<Box<dyn Interaction<D>>>,
+    pub(crate) implicit: Option<ImplicitViscosity<D>>,
     pub(crate) timings: Vec<Timing>,
 }
 
@@ -58,9 +62,11 @@ const MOTION: usize = 1;
 impl<const D: usize> Flow<D> {
     pub(crate) fn reset_timings(&mut self) {
         let services = ["neighbour lists", "kick and drift"].map(String::from);
+        let solves = self.implicit.iter().map(|_| "implicit viscosity".into());
         let names = services
             .into_iter()
-            .chain(self.stages.iter().map(|s| s.name()));
+            .chain(self.stages.iter().map(|s| s.name()))
+            .chain(solves);
         self.timings = names
             .map(|name| Timing {
                 name,
@@ -115,6 +121,8 @@ impl<const D: usize> System for Flow<D> {
     fn kick(&mut self, dt: f64) -> Result<(), StepError> {
         let start = Instant::now();
         let mut velocity = self.world.free.take(fields::VELOCITY)?;
+        let wanted = self.implicit.as_ref().is_some_and(|i| i.wants_earlier());
+        let earlier = if wanted { velocity.clone() } else { Vec::new() };
         let acceleration = self.world.free.get(fields::ACCELERATION)?;
         velocity
             .par_iter_mut()
@@ -133,7 +141,7 @@ impl<const D: usize> System for Flow<D> {
             self.world.free.put(evolved.value, value)?;
         }
         self.timings[MOTION].spent += start.elapsed();
-        Ok(())
+        self.rub(earlier, dt)
     }
 
     fn drift(&mut self, dt: f64) -> Result<(), StepError> {
@@ -166,6 +174,20 @@ impl<const D: usize> System for Flow<D> {
 }
 
 impl<const D: usize> Flow<D> {
+    /// Friction from the end of the step, where it is taken so.
+    fn rub(&mut self, earlier: Vec<Vect<D>>, dt: f64) -> Result<(), StepError> {
+        let Some(mut implicit) = self.implicit.take() else {
+            return Ok(());
+        };
+        let start = Instant::now();
+        let done = implicit.apply(&mut self.world, &earlier, dt);
+        self.implicit = Some(implicit);
+        if let Some(last) = self.timings.last_mut() {
+            last.spent += start.elapsed();
+        }
+        done
+    }
+
     fn run_stages(
         &mut self,
         wanted: impl Fn(&dyn Stage<World<D>>) -> bool,
@@ -237,7 +259,9 @@ impl<const D: usize> Flow<D> {
         if !self.world.free.has(fields::ACCELERATION.name) || self.world.lists.builds == 0 {
             return Ok(());
         }
-        self.world.walls.forces = wall_forces(&self.world, &self.terms)?;
+        let terms = self.terms.iter().map(|t| &**t);
+        let terms: Vec<_> = terms.chain(self.solved.as_deref()).collect();
+        self.world.walls.forces = wall_forces(&self.world, &terms)?;
         Ok(())
     }
 

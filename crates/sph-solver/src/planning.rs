@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use sph_core::{Access, AnyField, Declares, Stage, fields, plan};
-use sph_multiphase::{BoundState, PressureStage, Viscosity};
+use sph_multiphase::{BoundState, Coupling, PressureStage, Viscosity};
 use sph_neighbours::{Interaction, World, fuse_all};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
@@ -24,8 +24,18 @@ pub struct Planned<const D: usize> {
     pub stages: Stages<D>,
     /// Names of the stages nobody needs.
     pub pruned: Vec<String>,
-    /// The pair terms.
+    /// The pair terms of the sweep.
     pub terms: SharedTerms<D>,
+    /// Friction that is solved for instead.
+    pub friction: Option<Friction<D>>,
+}
+
+/// Friction as a matrix, and as a term for those who measure forces.
+pub struct Friction<const D: usize> {
+    /// The matrix.
+    pub coupling: Box<dyn Coupling<D>>,
+    /// The term.
+    pub term: Box<dyn Interaction<D>>,
 }
 
 /// Offers all stages and keeps, in order, those that the goals need.
@@ -45,9 +55,25 @@ pub fn plan_stages<const D: usize>(
     let rheologies: Arc<[_]> = std::mem::take(&mut choices.rheologies).into();
     let viscosity = viscosity_of(scene, &rheologies)?;
     let mut friction = Vec::new();
+    let mut solved = None;
     if viscosity != Viscosity::Uniform(0.0) {
-        terms.push(choices.viscous_operator.term(viscosity));
+        let term = choices.viscous_operator.term(viscosity);
         friction = choices.viscous_operator.stages(viscosity);
+        match choices.implicit_viscosity.is_some() {
+            false => terms.push(term),
+            true => {
+                solved = Some(Friction {
+                    coupling: choices.viscous_operator.coupling(viscosity),
+                    term,
+                });
+            }
+        }
+    } else if let Some(idle) = scene.choice("implicit-viscosity") {
+        return Err(SolverError::at(
+            idle.path,
+            "no phase of this scene has a viscosity, so that there is nothing to solve for: take \
+             this table out, or give a phase a viscosity",
+        ));
     }
     if let Some(smoother) = &choices.smoother {
         terms.push(smoother.term(laws));
@@ -96,6 +122,9 @@ pub fn plan_stages<const D: usize>(
     offered.push(with_gamma(Box::new(sweep)));
 
     let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
+    if let Some(solved) = &solved {
+        goals.extend(solved.coupling.access().reads());
+    }
     if choices.shifting.is_some() {
         goals.push(fields::SHIFT_VELOCITY.any());
     }
@@ -138,6 +167,7 @@ pub fn plan_stages<const D: usize>(
         stages,
         pruned,
         terms,
+        friction: solved,
     })
 }
 

@@ -100,6 +100,7 @@ impl<const D: usize> Running<'_, D> {
             density_constant_range: flow.density_constant_range(),
             escaped,
             relaxation: self.parts.relaxation,
+            implicit_viscosity: self.parts.flow.implicit.as_ref().map(|i| i.solves.clone()),
             errors,
             warnings,
             files: listing(&self.options.out),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
-use crate::Relaxation;
+use crate::{Relaxation, Solves};
 
 /// Version of the summary's layout.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -108,6 +108,9 @@ pub struct Summary {
     pub list_builds: u64,
     /// Share of the steps limited by each plugin's bound.
     pub dt_limiters: BTreeMap<String, f64>,
+    /// What implicit solves took, if the scene has any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub implicit_viscosity: Option<Solves>,
     /// Changes of conserved quantities.
     pub drift: Drift,
     /// Kinetic energy at the end, J.

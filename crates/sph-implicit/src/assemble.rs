@@ -1,0 +1,155 @@
+//! From the neighbour lists to a matrix.
+
+use rayon::prelude::*;
+use sph_core::{StepError, Vect, fields};
+use sph_neighbours::{CHUNK, Neighbourhood, Scratch, World};
+
+use crate::{Entry, Pattern, Values};
+
+/// What a row has besides its neighbours.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<E, const D: usize> {
+    /// What stands on the diagonal besides the sum of the couplings: mass, walls.
+    pub own: E,
+    /// Part of the right-hand side.
+    pub source: Vect<D>,
+}
+
+/// Rows of one chunk of particles.
+struct Part<E, const D: usize> {
+    counts: Vec<u32>,
+    columns: Vec<u32>,
+    others: Vec<E>,
+    diagonal: Vec<E>,
+    sources: Vec<Vect<D>>,
+}
+
+/// Buffers of one thread.
+struct Buffers<E, const D: usize> {
+    free: Scratch<D>,
+    wall: Scratch<D>,
+    couplings: Vec<E>,
+    sorted: Vec<(u32, E)>,
+}
+
+/// The matrix with −c_ij beside and own_i + Σ_j c_ij on the diagonal, and the sources.
+///
+/// `row` gets a neighbourhood (without packed states) and writes one coupling c_ij for each of its free
+/// neighbours. With `keep_skin` the pattern has all candidates of the lists, with zeros beyond the
+/// support, and stays the same as long as the lists do.
+///
+/// # Errors
+/// If the world has no positions.
+pub fn assemble<const D: usize, E: Entry<D>>(
+    world: &World<D>,
+    keep_skin: bool,
+    row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<E>) -> Row<E, D> + Sync,
+) -> Result<(Pattern, Values<E>, Vec<Vect<D>>), StepError> {
+    let positions = world.free.get(fields::POSITION)?;
+    let gamma = world.free.get(fields::RENORMALISATION).ok();
+    let points = &world.walls.points.position[..];
+    let kernel = &*world.kernel;
+    let (list, pruned) = match &world.lists.pruned {
+        Some(list) if !keep_skin => (list, true),
+        _ => (&world.lists.free, false),
+    };
+    let one = |buffers: &mut Buffers<E, D>, part: &mut Part<E, D>, i: usize| {
+        let x = &positions[i];
+        let near = world.domain.near_periodic_face(x, 2.0 * world.reach());
+        let domain = near.then_some(&world.domain);
+        let candidates = list.row(i);
+        let Buffers { free, wall, .. } = buffers;
+        free.fill(x, positions, candidates, pruned, domain, kernel);
+        wall.clear();
+        if !points.is_empty() && !world.lists.wall.row(i).is_empty() {
+            wall.fill(x, points, world.lists.wall.row(i), false, domain, kernel);
+        }
+        let neighbourhood = Neighbourhood {
+            particle: i,
+            free: free.row(),
+            states: &[],
+            wall: wall.row(),
+            contacts: world.walls.contacts.of(i),
+            inverse_renormalisation: gamma.map_or(1.0, |g| 1.0 / g[i]),
+        };
+        buffers.couplings.clear();
+        let row = row(&neighbourhood, &mut buffers.couplings);
+        let mut diagonal = row.own;
+        let sorted = &mut buffers.sorted;
+        sorted.clear();
+        for (&j, c) in neighbourhood.free.index.iter().zip(&buffers.couplings) {
+            diagonal = diagonal.plus(c);
+            sorted.push((j, c.times(-1.0)));
+        }
+        if keep_skin {
+            // The row is a part of the candidates, in their order.
+            let within = neighbourhood.free.index;
+            let mut next = 0;
+            for &j in candidates {
+                match within.get(next) == Some(&j) {
+                    true => next += 1,
+                    false => sorted.push((j, E::ZERO)),
+                }
+            }
+        }
+        sorted.sort_unstable_by_key(|(j, _)| *j);
+        part.counts.push(sorted.len() as u32);
+        part.columns.extend(sorted.iter().map(|(j, _)| *j));
+        part.others.extend(sorted.iter().map(|(_, c)| *c));
+        part.diagonal.push(diagonal);
+        part.sources.push(row.source);
+    };
+    let new = || Buffers {
+        free: Scratch::new(),
+        wall: Scratch::new(),
+        couplings: Vec::new(),
+        sorted: Vec::new(),
+    };
+    let chunks = positions.len().div_ceil(CHUNK);
+    let parts: Vec<Part<E, D>> = (0..chunks)
+        .into_par_iter()
+        .map_init(new, |buffers, c| {
+            let mut part = Part {
+                counts: Vec::with_capacity(CHUNK),
+                columns: Vec::new(),
+                others: Vec::new(),
+                diagonal: Vec::with_capacity(CHUNK),
+                sources: Vec::with_capacity(CHUNK),
+            };
+            for i in c * CHUNK..((c + 1) * CHUNK).min(positions.len()) {
+                one(buffers, &mut part, i);
+            }
+            part
+        })
+        .collect();
+    Ok(joined(parts, positions.len()))
+}
+
+fn joined<const D: usize, E: Entry<D>>(
+    parts: Vec<Part<E, D>>,
+    rows: usize,
+) -> (Pattern, Values<E>, Vec<Vect<D>>) {
+    let entries = parts.iter().map(|p| p.columns.len()).sum();
+    let mut pattern = Pattern {
+        starts: Vec::with_capacity(rows + 1),
+        columns: Vec::with_capacity(entries),
+    };
+    let mut values = Values {
+        diagonal: Vec::with_capacity(rows),
+        others: Vec::with_capacity(entries),
+    };
+    let mut sources = Vec::with_capacity(rows);
+    let mut start = 0;
+    pattern.starts.push(0);
+    for part in parts {
+        for count in part.counts {
+            start += count;
+            pattern.starts.push(start);
+        }
+        pattern.columns.extend(part.columns);
+        values.others.extend(part.others);
+        values.diagonal.extend(part.diagonal);
+        sources.extend(part.sources);
+    }
+    (pattern, values, sources)
+}

@@ -1,0 +1,102 @@
+//! Preconditioned conjugate gradients.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Vect, register};
+
+use crate::krylov::{Tolerance, Watch, residual};
+use crate::vector::{add, dot, norm, scale_and_add};
+use crate::{LinearSolver, LinearSolverEntry, Matrix, Preconditioner, Report, SolveError};
+
+/// Conjugate gradients (Hestenes & Stiefel 1952), warm from the present state.
+///
+/// With scalar entries all components share one set of search directions. Little memory, any
+/// dimension; the number of iterations grows with √(νΔt)/δr and with contrasts of viscosity.
+///
+/// ```toml
+/// [linear-solver.conjugate-gradient]
+/// preconditioner = "incomplete-cholesky"
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ConjugateGradient {
+    /// What shortens the iteration.
+    #[schemars(extend("source" = "docs/implicit.md: iterations against contrast"))]
+    pub preconditioner: Preconditioner,
+    /// Relative residual |b − A x| / |b| at which it ends.
+    #[schemars(
+        range(max = 0.1),
+        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours")
+    )]
+    pub tolerance: f64,
+    /// Iterations after which it gives up; the step is then tried again with half its length.
+    #[schemars(range(min = 1), extend("unit" = "1", "source" = "ours"))]
+    pub iterations: usize,
+}
+
+impl Default for ConjugateGradient {
+    fn default() -> Self {
+        ConjugateGradient {
+            preconditioner: Preconditioner::default(),
+            tolerance: 1e-8,
+            iterations: 2000,
+        }
+    }
+}
+
+const METHOD: &str = "conjugate gradients";
+
+impl<const D: usize> LinearSolver<D> for ConjugateGradient {
+    fn solve(
+        &mut self,
+        matrix: &Matrix<D>,
+        right: &[Vect<D>],
+        x: &mut [Vect<D>],
+    ) -> Result<Report, SolveError> {
+        let tolerance = Tolerance {
+            residual: self.tolerance,
+            iterations: self.iterations,
+        };
+        let mut watch = Watch::new(METHOD, tolerance, right)?;
+        let mut r = residual(matrix, right, x);
+        let done = |watch: &Watch, residual| Report {
+            method: METHOD,
+            iterations: watch.iterations(),
+            residual,
+        };
+        if let Some(residual) = watch.reached(norm(&r))? {
+            return Ok(done(&watch, residual));
+        }
+        let precondition = self.preconditioner.bind(matrix, METHOD)?;
+        let mut z = vec![Vect::zeros(); r.len()];
+        precondition.apply(&r, &mut z);
+        let mut direction = z.clone();
+        let mut image = vec![Vect::zeros(); r.len()];
+        let mut slope = dot(&r, &z);
+        loop {
+            matrix.multiply(&direction, &mut image);
+            let curvature = dot(&direction, &image);
+            if curvature <= 0.0 || slope <= 0.0 {
+                return Err(watch.not_positive());
+            }
+            let length = slope / curvature;
+            add(x, length, &direction);
+            add(&mut r, -length, &image);
+            if let Some(residual) = watch.reached(norm(&r))? {
+                return Ok(done(&watch, residual));
+            }
+            precondition.apply(&r, &mut z);
+            let next = dot(&r, &z);
+            scale_and_add(&mut direction, next / slope, &z);
+            slope = next;
+        }
+    }
+}
+
+register!(
+    LinearSolverEntry [2, 3],
+    ConjugateGradient,
+    "conjugate-gradient",
+    "preconditioned conjugate gradients: little memory, best where steps are moderate or in 3D",
+    "Hestenes & Stiefel 1952"
+);

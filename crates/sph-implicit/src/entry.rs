@@ -1,0 +1,136 @@
+//! What stands at a place of a matrix: a number, or a block of the space's dimension.
+
+use nalgebra::SMatrix;
+use sph_core::Vect;
+
+/// A d × d entry.
+pub type Block<const D: usize> = SMatrix<f64, D, D>;
+
+/// An entry that acts on vectors. A number acts on all components alike.
+pub trait Entry<const D: usize>: Copy + Send + Sync + PartialEq + 'static {
+    /// Nothing.
+    const ZERO: Self;
+    /// a v.
+    fn apply(&self, v: &Vect<D>) -> Vect<D>;
+    /// aᵀ v.
+    fn apply_transposed(&self, v: &Vect<D>) -> Vect<D>;
+    /// a + b.
+    fn plus(&self, other: &Self) -> Self;
+    /// s a.
+    fn times(&self, factor: f64) -> Self;
+    /// a b cᵀ.
+    fn between(&self, middle: &Self, right: &Self) -> Self;
+    /// aᵀ.
+    fn transposed(&self) -> Self;
+    /// a⁻¹ of a symmetric positive definite entry; nothing if it is not.
+    fn inverted(&self) -> Option<Self>;
+    /// Its own diagonal, as an entry.
+    fn diagonal(&self) -> Self;
+    /// Component of row r and column c; a number stands for a multiple of the unit matrix.
+    fn component(&self, r: usize, c: usize) -> f64;
+    /// Largest component.
+    fn largest(&self) -> f64;
+    /// s 1.
+    fn unit(factor: f64) -> Self;
+    /// The nearest entry to a block: itself, or the mean of its diagonal.
+    fn from_block(block: &Block<D>) -> Self;
+}
+
+impl<const D: usize> Entry<D> for f64 {
+    const ZERO: f64 = 0.0;
+    #[inline(always)]
+    fn apply(&self, v: &Vect<D>) -> Vect<D> {
+        v * *self
+    }
+    #[inline(always)]
+    fn apply_transposed(&self, v: &Vect<D>) -> Vect<D> {
+        v * *self
+    }
+    #[inline(always)]
+    fn plus(&self, other: &f64) -> f64 {
+        self + other
+    }
+    #[inline(always)]
+    fn times(&self, factor: f64) -> f64 {
+        self * factor
+    }
+    #[inline(always)]
+    fn between(&self, middle: &f64, right: &f64) -> f64 {
+        self * middle * right
+    }
+    #[inline(always)]
+    fn transposed(&self) -> f64 {
+        *self
+    }
+    #[inline(always)]
+    fn inverted(&self) -> Option<f64> {
+        (*self > 0.0 && self.is_finite()).then(|| 1.0 / self)
+    }
+    #[inline(always)]
+    fn diagonal(&self) -> f64 {
+        *self
+    }
+    #[inline(always)]
+    fn component(&self, r: usize, c: usize) -> f64 {
+        if r == c { *self } else { 0.0 }
+    }
+    #[inline(always)]
+    fn largest(&self) -> f64 {
+        self.abs()
+    }
+    #[inline(always)]
+    fn unit(factor: f64) -> f64 {
+        factor
+    }
+    #[inline(always)]
+    fn from_block(block: &Block<D>) -> f64 {
+        block.trace() / D as f64
+    }
+}
+
+impl<const D: usize> Entry<D> for Block<D> {
+    const ZERO: Self = SMatrix::from_array_storage(nalgebra::ArrayStorage([[0.0; D]; D]));
+    #[inline(always)]
+    fn apply(&self, v: &Vect<D>) -> Vect<D> {
+        self * v
+    }
+    #[inline(always)]
+    fn apply_transposed(&self, v: &Vect<D>) -> Vect<D> {
+        self.tr_mul(v)
+    }
+    #[inline(always)]
+    fn plus(&self, other: &Self) -> Self {
+        self + other
+    }
+    #[inline(always)]
+    fn times(&self, factor: f64) -> Self {
+        self * factor
+    }
+    #[inline(always)]
+    fn between(&self, middle: &Self, right: &Self) -> Self {
+        self * middle * right.transpose()
+    }
+    #[inline(always)]
+    fn transposed(&self) -> Self {
+        self.transpose()
+    }
+    fn inverted(&self) -> Option<Self> {
+        nalgebra::linalg::Cholesky::new(*self).map(|c| c.inverse())
+    }
+    fn diagonal(&self) -> Self {
+        Block::from_diagonal(&Block::diagonal(self))
+    }
+    #[inline(always)]
+    fn component(&self, r: usize, c: usize) -> f64 {
+        self[(r, c)]
+    }
+    fn largest(&self) -> f64 {
+        self.amax()
+    }
+    fn unit(factor: f64) -> Self {
+        Block::identity() * factor
+    }
+    fn from_block(block: &Block<D>) -> Self {
+        *block
+    }
+}

@@ -1,0 +1,60 @@
+//! What can go wrong in a solve.
+
+use thiserror::Error;
+
+/// A system that was not solved. There is never a silent result.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum SolveError {
+    /// The residual is still too large.
+    #[error(
+        "{method} did not reach a relative residual of {wanted:e} in {iterations} iterations (residuals: {})",
+        history_text(history)
+    )]
+    NotConverged {
+        /// Which solver.
+        method: String,
+        /// Asked for.
+        wanted: f64,
+        /// Done.
+        iterations: usize,
+        /// Relative residuals, from the first.
+        history: Vec<f64>,
+    },
+    /// A pivot or a curvature is not positive.
+    #[error("{method}: the matrix is not positive definite at row {row}")]
+    NotPositive {
+        /// Which solver.
+        method: String,
+        /// Where it was seen.
+        row: usize,
+    },
+    /// A number is not finite.
+    #[error("{method}: {what} of the system is not finite")]
+    NotFinite {
+        /// Which solver.
+        method: String,
+        /// Matrix or right-hand side.
+        what: &'static str,
+    },
+    /// The factorisation has no room.
+    #[error("{method}: no memory for the factorisation of {rows} rows")]
+    NoMemory {
+        /// Which solver.
+        method: String,
+        /// Size of the system.
+        rows: usize,
+    },
+}
+
+fn history_text(history: &[f64]) -> String {
+    let step = history.len().div_ceil(8).max(1);
+    let mut shown: Vec<String> = history
+        .iter()
+        .step_by(step)
+        .map(|r| format!("{r:.1e}"))
+        .collect();
+    if let Some(last) = history.last() {
+        shown.push(format!("{last:.1e} at the end"));
+    }
+    shown.join(", ")
+}

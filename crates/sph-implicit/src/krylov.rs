@@ -1,0 +1,102 @@
+//! What the iterative solvers have in common.
+
+use sph_core::Vect;
+
+use crate::vector::norm;
+use crate::{Matrix, SolveError};
+
+/// When an iteration ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Relative residual |b − A x| / |b| asked for.
+    pub residual: f64,
+    /// Iterations allowed.
+    pub iterations: usize,
+}
+
+/// The bookkeeping of one solve.
+pub(crate) struct Watch {
+    method: &'static str,
+    tolerance: Tolerance,
+    scale: f64,
+    history: Vec<f64>,
+}
+
+impl Watch {
+    /// # Errors
+    /// If the right-hand side is not finite.
+    pub fn new<const D: usize>(
+        method: &'static str,
+        tolerance: Tolerance,
+        right: &[Vect<D>],
+    ) -> Result<Self, SolveError> {
+        let scale = norm(right);
+        match scale.is_finite() {
+            true => Ok(Watch {
+                method,
+                tolerance,
+                scale,
+                history: Vec::new(),
+            }),
+            false => Err(SolveError::NotFinite {
+                method: method.into(),
+                what: "the right-hand side",
+            }),
+        }
+    }
+
+    /// Notes a residual; its relative size if that is small enough.
+    ///
+    /// # Errors
+    /// If it is not finite, or all iterations are spent.
+    pub fn reached(&mut self, residual: f64) -> Result<Option<f64>, SolveError> {
+        let relative = match self.scale > 0.0 {
+            true => residual / self.scale,
+            false => residual,
+        };
+        self.history.push(relative);
+        if !relative.is_finite() {
+            return Err(SolveError::NotFinite {
+                method: self.method.into(),
+                what: "the residual",
+            });
+        }
+        if relative <= self.tolerance.residual {
+            return Ok(Some(relative));
+        }
+        match self.iterations() >= self.tolerance.iterations {
+            true => Err(SolveError::NotConverged {
+                method: self.method.into(),
+                wanted: self.tolerance.residual,
+                iterations: self.iterations(),
+                history: std::mem::take(&mut self.history),
+            }),
+            false => Ok(None),
+        }
+    }
+
+    /// Iterations so far.
+    pub fn iterations(&self) -> usize {
+        self.history.len().saturating_sub(1)
+    }
+
+    /// A curvature that is not positive.
+    pub fn not_positive(&self) -> SolveError {
+        SolveError::NotPositive {
+            method: self.method.into(),
+            row: 0,
+        }
+    }
+}
+
+/// r = b − A x.
+pub(crate) fn residual<const D: usize>(
+    matrix: &Matrix<D>,
+    right: &[Vect<D>],
+    x: &[Vect<D>],
+) -> Vec<Vect<D>> {
+    let mut r = vec![Vect::zeros(); right.len()];
+    matrix.multiply(x, &mut r);
+    r.iter_mut().zip(right).for_each(|(r, b)| *r = b - *r);
+    r
+}

@@ -1,0 +1,49 @@
+//! Sparse symmetric systems on the neighbour graph, and what solves them.
+//!
+//! * [`Matrix`]: rows of particles, scalar or d × d entries, [`assemble`]d from the neighbour lists.
+//! * [`LinearSolver`]: [`Automatic`], [`Cholesky`], [`ConjugateGradient`], [`Bicgstab`], as plugins.
+//! * [`TimeScheme`]: how friction is taken over a step, [`BackwardEuler`] or [`CrankNicolson`].
+//!
+//! Nothing here knows what is solved for: a viscous velocity, a pressure, a temperature.
+//!
+//! ```
+//! use sph_core::Vect;
+//! use sph_implicit::{ConjugateGradient, Entries, LinearSolver, Matrix, Pattern};
+//!
+//! // Three particles in a row, each coupled to the next: diagonal 2, coupling −1.
+//! let pattern = Pattern::from_rows(&[vec![1], vec![0, 2], vec![1]]);
+//! let matrix = Matrix::<2>::new(pattern, Entries::scalar(vec![2.0; 3], vec![-1.0; 4]));
+//! let right = vec![Vect::<2>::new(1.0, 0.0); 3];
+//! let mut x = vec![Vect::<2>::zeros(); 3];
+//! let report = ConjugateGradient::default().solve(&matrix, &right, &mut x).unwrap();
+//! assert!((x[1][0] - 2.0).abs() < 1e-7 && report.iterations <= 3);
+//! ```
+
+mod assemble;
+mod automatic;
+mod bicgstab;
+mod cholesky;
+mod conjugate_gradient;
+mod entry;
+mod error;
+mod incomplete;
+mod krylov;
+mod matrix;
+mod precondition;
+mod scheme;
+mod solver;
+mod vector;
+
+pub use assemble::{Row, assemble};
+pub use automatic::Automatic;
+pub use bicgstab::Bicgstab;
+pub use cholesky::Cholesky;
+pub use conjugate_gradient::ConjugateGradient;
+pub use entry::{Block, Entry};
+pub use error::SolveError;
+pub use incomplete::Incomplete;
+pub use krylov::Tolerance;
+pub use matrix::{Entries, Matrix, Pattern, Values};
+pub use precondition::Preconditioner;
+pub use scheme::{BackwardEuler, CrankNicolson, ImplicitViscosityEntry, TimeScheme};
+pub use solver::{LinearSolver, LinearSolverEntry, Report};

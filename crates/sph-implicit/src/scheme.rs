@@ -1,0 +1,68 @@
+//! How friction is taken over a step.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{contract, register};
+
+/// M (uⁿ⁺¹ − uⁿ)/Δt = F − θ K uⁿ⁺¹ − (1 − θ) K uⁿ, with the friction K and all other forces F.
+pub trait TimeScheme: Send {
+    /// θ.
+    fn implicit_share(&self) -> f64;
+}
+
+contract!(
+    /// An implicit treatment of viscosity that a scene may name.
+    pub ImplicitViscosityEntry, "implicit-viscosity", "friction from the end of the step: no viscous bound on it", TimeScheme
+);
+
+/// θ = 1: first order, damps all modes for any Δt.
+///
+/// Source: Ghaïtanellis 2017, Eq. 5.3–5.6.
+///
+/// ```toml
+/// [implicit-viscosity.backward-euler]
+/// ```
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BackwardEuler {}
+
+impl TimeScheme for BackwardEuler {
+    fn implicit_share(&self) -> f64 {
+        1.0
+    }
+}
+
+register!(
+    ImplicitViscosityEntry,
+    BackwardEuler,
+    "backward-euler",
+    "first order, damps every mode however large the step",
+    "Ghaïtanellis 2017, §5.1.1"
+);
+
+/// θ = 1/2: second order, where the integrator is; stable for any Δt, but modes that are much faster
+/// than the step change their sign instead of dying away.
+///
+/// Source: Crank & Nicolson 1947.
+///
+/// ```toml
+/// [integrator.leap-frog]
+/// [implicit-viscosity.crank-nicolson]
+/// ```
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CrankNicolson {}
+
+impl TimeScheme for CrankNicolson {
+    fn implicit_share(&self) -> f64 {
+        0.5
+    }
+}
+
+register!(
+    ImplicitViscosityEntry,
+    CrankNicolson,
+    "crank-nicolson",
+    "second order with an integrator of second order",
+    "Crank & Nicolson 1947"
+);

@@ -1,0 +1,40 @@
+//! What a linear solver is.
+
+use sph_core::{Vect, contract};
+
+use crate::{Matrix, SolveError};
+
+/// What a solve took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// Who solved.
+    pub method: &'static str,
+    /// Iterations; 0 for a factorisation.
+    pub iterations: usize,
+    /// |b − A x| / |b|.
+    pub residual: f64,
+}
+
+/// Solves symmetric positive definite systems.
+pub trait LinearSolver<const D: usize>: Send {
+    /// Solves A x = b, starting from x.
+    ///
+    /// # Errors
+    /// If x is not what was asked for; x is then of no use.
+    fn solve(
+        &mut self,
+        matrix: &Matrix<D>,
+        right: &[Vect<D>],
+        x: &mut [Vect<D>],
+    ) -> Result<Report, SolveError>;
+
+    /// Whether patterns that outlive several solves save it work.
+    fn keeps_pattern(&self) -> bool {
+        false
+    }
+}
+
+contract!(
+    /// A linear solver that a scene may name.
+    pub LinearSolverEntry, "linear-solver", "what solves sparse systems", LinearSolver<D>
+);

@@ -1,0 +1,145 @@
+//! Friction from the end of the step: (M + θΔt K) uⁿ⁺¹ = M u* + Δt s − (1 − θ)Δt K uⁿ.
+//!
+//! M = diag(m_a γ_a) and K are those of [`sph_multiphase::Coupling`]; u* is the velocity after all
+//! other forces. Ghaïtanellis 2017, Eq. 5.3–5.6, made symmetric by the factor m_a γ_a.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use sph_core::{StepError, Vect, fields};
+use sph_implicit::{Entries, Entry, LinearSolver, Matrix, Report, Row, TimeScheme, assemble};
+use sph_multiphase::Coupling;
+use sph_neighbours::World;
+
+/// What the implicit solves of a run took.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Solves {
+    /// How many systems were solved by each method.
+    pub by_method: BTreeMap<String, u64>,
+    /// Mean number of iterations of the iterative ones.
+    pub mean_iterations: f64,
+    /// Largest number of iterations.
+    pub most_iterations: usize,
+    /// Largest relative residual.
+    pub largest_residual: f64,
+}
+
+impl Solves {
+    fn add(&mut self, report: &Report) {
+        *self.by_method.entry(report.method.to_string()).or_default() += 1;
+        let all: u64 = self.by_method.values().sum();
+        self.mean_iterations += (report.iterations as f64 - self.mean_iterations) / all as f64;
+        self.most_iterations = self.most_iterations.max(report.iterations);
+        self.largest_residual = self.largest_residual.max(report.residual);
+    }
+}
+
+/// The viscous operator, a scheme and a solver.
+pub struct ImplicitViscosity<const D: usize> {
+    pub(crate) coupling: Box<dyn Coupling<D>>,
+    pub(crate) scheme: Box<dyn TimeScheme>,
+    pub(crate) solver: Box<dyn LinearSolver<D>>,
+    pub(crate) solves: Solves,
+}
+
+/// A system on the way to its solver.
+struct System<const D: usize> {
+    matrix: Matrix<D>,
+    /// Mγ of every row, kg.
+    mass: Vec<f64>,
+    /// Δt s.
+    right: Vec<Vect<D>>,
+}
+
+impl<const D: usize> ImplicitViscosity<D> {
+    /// Whether the velocity before the step's other forces is wanted.
+    pub fn wants_earlier(&self) -> bool {
+        self.scheme.implicit_share() < 1.0
+    }
+
+    /// Takes friction over a step; `earlier` is uⁿ, empty if it is not wanted.
+    ///
+    /// # Errors
+    /// If the system cannot be solved to its tolerance.
+    pub fn apply(
+        &mut self,
+        world: &mut World<D>,
+        earlier: &[Vect<D>],
+        dt: f64,
+    ) -> Result<(), StepError> {
+        let share = self.scheme.implicit_share();
+        let mut system = match self.coupling.mixes_components() {
+            false => self.scalar_system(world, share * dt)?,
+            true => self.block_system(world, share * dt)?,
+        };
+        // What was put together for θΔt is wanted for Δt.
+        system.right.iter_mut().for_each(|s| *s /= share);
+        let mut velocity = world.free.take(fields::VELOCITY)?;
+        let rows = system.right.iter_mut().zip(&velocity).zip(&system.mass);
+        rows.for_each(|((b, u), m)| *b += u * *m);
+        if !earlier.is_empty() {
+            let mut before = vec![Vect::zeros(); earlier.len()];
+            system.matrix.multiply(earlier, &mut before);
+            let rest = (1.0 - share) / share;
+            for (k, b) in system.right.iter_mut().enumerate() {
+                *b -= (before[k] - earlier[k] * system.mass[k]) * rest;
+            }
+        }
+        let solved = self
+            .solver
+            .solve(&system.matrix, &system.right, &mut velocity);
+        world.free.put(fields::VELOCITY, velocity)?;
+        let report = solved.map_err(|e| StepError::Stage {
+            stage: "implicit viscosity".into(),
+            reason: e.to_string(),
+        })?;
+        self.solves.add(&report);
+        Ok(())
+    }
+
+    fn scalar_system(&self, world: &World<D>, dt: f64) -> Result<System<D>, StepError> {
+        let bound = self.coupling.bind(world)?;
+        self.system(world, dt, Entries::Scalar, |rows, out: &mut Vec<f64>| {
+            let row = bound.scalar_row(rows, out);
+            (row.wall, row.source)
+        })
+    }
+
+    fn block_system(&self, world: &World<D>, dt: f64) -> Result<System<D>, StepError> {
+        let bound = self.coupling.bind(world)?;
+        self.system(world, dt, Entries::Block, |rows, out| {
+            let row = bound.block_row(rows, out);
+            (row.wall, row.source)
+        })
+    }
+
+    fn system<E: Entry<D>>(
+        &self,
+        world: &World<D>,
+        dt: f64,
+        entries: impl FnOnce(sph_implicit::Values<E>) -> Entries<D>,
+        friction: impl Fn(&sph_neighbours::Neighbourhood<'_, D>, &mut Vec<E>) -> (E, Vect<D>) + Sync,
+    ) -> Result<System<D>, StepError> {
+        let mass = world.free.get(fields::MASS)?;
+        let (pattern, values, right) = assemble(
+            world,
+            self.solver.keeps_pattern(),
+            |rows, out: &mut Vec<E>| {
+                let (wall, source) = friction(rows, out);
+                out.iter_mut().for_each(|c| *c = c.times(dt));
+                let inertia = mass[rows.particle] / rows.inverse_renormalisation;
+                Row {
+                    own: E::unit(inertia).plus(&wall.times(dt)),
+                    source: source * dt,
+                }
+            },
+        )?;
+        let gamma = world.free.get(fields::RENORMALISATION).ok();
+        let mass = mass.iter().enumerate();
+        Ok(System {
+            matrix: Matrix::new(pattern, entries(values)),
+            mass: mass.map(|(i, m)| gamma.map_or(*m, |g| m * g[i])).collect(),
+            right,
+        })
+    }
+}
