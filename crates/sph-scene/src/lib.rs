@@ -108,7 +108,7 @@ pub use estimate::estimate;
 pub use facets::Facets;
 pub use fill::{Filled, Offset, fill};
 pub use level::LevelSurface;
-pub use load::{LoadError, Loaded, Refused, load, parse};
+pub use load::{LoadError, Loaded, Refused, load, parse, read_text};
 pub use motion::{AngularRamp, AngularSine, Motion, Ramp, Rotation, Sine, Translate};
 pub use numerics::{Numerics, Periodic, PressureOf, ReferencePressure, Relax, Run};
 pub use outlines::Line;

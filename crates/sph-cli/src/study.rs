@@ -1,0 +1,160 @@
+//! `sph study`.
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value as Json;
+use sph_core::suggestion;
+use sph_study::{Machine, Options, Outcome, Results, SceneText, Status, Study, execute, rows};
+
+use crate::arguments::StudyArguments;
+use crate::layout::columns;
+use crate::scene_file::{Found, find, overrides};
+use crate::shell::quoted;
+use crate::shipped;
+use crate::study_progress::Watcher;
+use crate::trouble::Trouble;
+use crate::{console, interrupt};
+
+/// Runs a study, or compares two.
+pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
+    let name = arguments.study.as_deref().unwrap_or_default();
+    // The data of compiled-in scenes are needed until the last variant has run.
+    let scenes: RefCell<Vec<Found>> = RefCell::default();
+    let study = read(arguments, name, &scenes)?;
+    let out = arguments.out.clone();
+    let out = out.unwrap_or_else(|| Path::new("results/studies").join(&study.name));
+    let options = Options {
+        out: out.clone(),
+        threads: arguments.threads.map(usize::from),
+        fresh: arguments.fresh,
+        commit: sph_study::commit(),
+    };
+    let watcher = Watcher::new(arguments.quiet, &study, &options, interrupt::flag());
+    assemble(&study, &options, &watcher)?;
+    let failed = |error| Trouble::Failed {
+        error,
+        summary: None,
+    };
+    sph_io::writable(&out).map_err(|e| failed(e.into()))?;
+    let outcome = execute(&study, &options, &watcher);
+    watcher.finish();
+    let results = Results::new(&study, &outcome.records, Machine::this(), options.commit);
+    let published = sph_study::publish(&results, &out);
+    if let Some(error) = outcome.error {
+        console::err(&kept(arguments, name, &outcome.records));
+        return Err(failed(error));
+    }
+    published.map_err(|e| failed(e.into()))?;
+    if arguments.json {
+        console::json(&serde_json::to_value(&results).unwrap_or(Json::Null));
+    } else if !arguments.quiet {
+        console::out(&text(&results, &out));
+    }
+    conclude(arguments, name, &outcome)
+}
+
+/// The study by its path, or by the name of a shipped one.
+fn read(
+    arguments: &StudyArguments,
+    name: &str,
+    scenes: &RefCell<Vec<Found>>,
+) -> Result<Study, Trouble> {
+    let set = overrides(&arguments.set)?;
+    let look = |folder: &Path, name: &str| -> Result<SceneText, String> {
+        let found = find(folder, name)?;
+        let scene = found.scene.clone();
+        scenes.borrow_mut().push(found);
+        Ok(scene)
+    };
+    let path = Path::new(name);
+    if path.exists() && !path.is_dir() {
+        return Ok(Study::read(path, &look, &set, &arguments.only)?);
+    }
+    let study = shipped::find_study(name).ok_or_else(|| {
+        let near = suggestion(name.trim_end_matches(".toml"), shipped::studies());
+        let known = shipped::studies().collect::<Vec<_>>().join(", ");
+        Trouble::Usage(format!(
+            "there is no study file `{name}` and no shipped study of that name{near} (there are: \
+             {known})"
+        ))
+    })?;
+    let path = study.file.clone();
+    let path = path.unwrap_or_else(|| PathBuf::from(format!("{}.toml", study.name)));
+    Ok(match study.text {
+        None => Study::read(&path, &look, &set, &arguments.only)?,
+        Some(text) => Study::parse(text, &path, &look, &set, &arguments.only)?,
+    })
+}
+
+/// Puts together what is to be run, so that every mistake is known before the first run.
+fn assemble(study: &Study, options: &Options, watcher: &Watcher) -> Result<(), Trouble> {
+    for (k, variant) in study.variants.iter().enumerate() {
+        if watcher.has_to_run(k) {
+            let seconds = study.assemble(variant, options.threads())?;
+            watcher.assembled(k, seconds);
+        }
+    }
+    Ok(())
+}
+
+fn text(results: &Results, out: &Path) -> String {
+    let mut text = format!("{}\n{}", results.title, columns(2, &rows(results)));
+    for series in &results.series {
+        let orders = series
+            .orders
+            .get(results.errors.first().map_or("", String::as_str));
+        if let Some(order) = orders.and_then(sph_study::Orders::main) {
+            let of = match series.name.as_str() {
+                "" => String::new(),
+                name => format!(" of {name}"),
+            };
+            text.push_str(&format!("order{of}: {order:.2}\n"));
+        }
+    }
+    text.push_str(&format!("on {}\n", results.machine));
+    text.push_str(&format!(
+        "written to {}: report.html shows all of it\n",
+        out.display()
+    ));
+    text
+}
+
+fn conclude(arguments: &StudyArguments, name: &str, outcome: &Outcome) -> Result<(), Trouble> {
+    if !outcome.stopped {
+        return Ok(());
+    }
+    console::err(&kept(arguments, name, &outcome.records));
+    Err(Trouble::Interrupted)
+}
+
+/// What has been done, and how to go on.
+fn kept(arguments: &StudyArguments, name: &str, records: &[sph_study::Record]) -> String {
+    let over = |r: &&sph_study::Record| !matches!(r.status, Status::Pending | Status::Interrupted);
+    format!(
+        "{} of {} variants are finished and kept; go on with\n  {}",
+        records.iter().filter(over).count(),
+        records.len(),
+        going_on(arguments, name)
+    )
+}
+
+fn going_on(arguments: &StudyArguments, name: &str) -> String {
+    let mut words = vec!["sph".to_string(), "study".to_string(), quoted(name)];
+    let mut with = |option: &str, value: &str| {
+        words.extend([option.to_string(), quoted(value)]);
+    };
+    if let Some(out) = &arguments.out {
+        with("--out", &out.display().to_string());
+    }
+    if let Some(threads) = arguments.threads {
+        with("--threads", &threads.to_string());
+    }
+    for pattern in &arguments.only {
+        with("--only", pattern);
+    }
+    for set in &arguments.set {
+        with("--set", set);
+    }
+    words.join(" ")
+}
