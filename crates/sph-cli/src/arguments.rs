@@ -61,11 +61,11 @@ A study file names a scene, what is varied and the error that is judged (docs/st
 Everything is checked before the first variant runs.
 
 Leaves behind in DIR:
-  report.html              all of the following on one page
-  study.json, study.csv    errors, wall seconds, steps, particles, limiters, orders
-  error-against-time.*     work-precision plot with the Pareto line, SVG and PNG
-  error-against-*.*        convergence with its orders, SVG and PNG
-  variants/NAME/           summary.json, series.csv and the record of every variant
+  report.html                  all of the following on one page
+  study.json, study.csv        errors, wall seconds, steps, particles, limiters, orders
+  error-against-time.*         work-precision plot with the Pareto line, SVG and PNG
+  error-against-refinement.*   convergence with its orders, SVG and PNG
+  variants/NAME/               summary.json, series.csv and the record of every variant
 
 A variant that fails is recorded and the study goes on. Ctrl-C stops with what is finished kept;
 the same command goes on from there, and runs nothing twice unless the scene or the program's

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
 use sph_core::suggestion;
-use sph_study::{Machine, Options, Outcome, Results, SceneText, Status, Study, execute, rows};
+use sph_study::{
+    Machine, Options, Outcome, Results, SceneText, Status, Study, compare, execute, rows,
+};
 
 use crate::arguments::StudyArguments;
 use crate::layout::columns;
@@ -18,6 +20,9 @@ use crate::{console, interrupt};
 
 /// Runs a study, or compares two.
 pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
+    if let [first, second] = arguments.compare.as_slice() {
+        return compared(arguments, first, second);
+    }
     let name = arguments.study.as_deref().unwrap_or_default();
     // The data of compiled-in scenes are needed until the last variant has run.
     let scenes: RefCell<Vec<Found>> = RefCell::default();
@@ -52,6 +57,38 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
         console::out(&text(&results, &out));
     }
     conclude(arguments, name, &outcome)
+}
+
+fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(), Trouble> {
+    let load = |path| Results::load(path).map_err(Trouble::Usage);
+    let comparison = compare(&load(first)?, &load(second)?);
+    if arguments.json {
+        console::json(&serde_json::to_value(&comparison).unwrap_or(Json::Null));
+        return Ok(());
+    }
+    let mut text = String::new();
+    for note in &comparison.notes {
+        text.push_str(&format!("{note}\n"));
+    }
+    if !comparison.variants.is_empty() {
+        text.push_str(&columns(2, &comparison.rows()));
+    }
+    let sides = [
+        (first, &comparison.only_in_first),
+        (second, &comparison.only_in_second),
+    ];
+    for (path, names) in sides.iter().filter(|(_, names)| !names.is_empty()) {
+        text.push_str(&format!(
+            "only in {}: {}\n",
+            path.display(),
+            names.join(", ")
+        ));
+    }
+    if let Some(ratio) = comparison.wall_ratio {
+        text.push_str(&format!("wall seconds, geometric mean: ×{ratio:.3}\n"));
+    }
+    console::out(&text);
+    Ok(())
 }
 
 /// The study by its path, or by the name of a shipped one.

@@ -121,7 +121,7 @@ pub use polygon::Polygon;
 pub use reference::{Norm, Reference};
 pub use region::Region;
 pub use scene::Scene;
-pub use schema::schema;
+pub use schema::{schema, unit};
 pub use shapes::Shape;
 pub use source::Source;
 pub use wall::{Condition, Side, Wall};

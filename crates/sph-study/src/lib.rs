@@ -11,6 +11,7 @@
 
 mod axis;
 mod combine;
+mod compare;
 mod execute;
 mod file;
 mod fingerprint;
@@ -19,14 +20,17 @@ mod mistake;
 mod order;
 mod pareto;
 mod plan;
+mod plots;
 mod publish;
 mod reader;
 mod record;
 mod repeat;
+mod report;
 mod results;
 mod table;
 
 pub use axis::{Axis, Choice, Set};
+pub use compare::{Change, Comparison, Pair, compare};
 pub use execute::{Options, Outcome, Watcher, execute};
 pub use file::{Combine, StudyFile};
 pub use machine::{Machine, commit};

@@ -42,6 +42,8 @@ pub struct Study {
     pub axes: Vec<Axis>,
     /// Key over which the order of convergence is computed.
     pub refinement: Option<String>,
+    /// What was put on top of every variant, as `--set` has it.
+    pub set: Vec<String>,
     /// The variants, in the order in which they run.
     pub variants: Vec<Variant>,
     source: Source,
@@ -126,11 +128,17 @@ impl Study {
             scene: scene.name.clone(),
             errors: file.error.paths("error").into_iter().map(|e| e.0).collect(),
             refinement: reader.refinement(),
+            set: set.iter().map(|o| o.text().to_string()).collect(),
             axes,
             variants,
             file,
             source,
         })
+    }
+
+    /// Text of the study file.
+    pub fn definition(&self) -> &str {
+        self.source.text()
     }
 
     /// Assembles a variant as a run would; returns the estimated seconds of a run.

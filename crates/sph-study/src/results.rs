@@ -27,6 +27,10 @@ pub struct Results {
     pub description: Option<String>,
     /// Name of the scene.
     pub scene: String,
+    /// Text of the study file.
+    pub definition: String,
+    /// What was put on top of every variant, as `--set` has it.
+    pub set: Vec<String>,
     /// Judged errors, the first one by plots.
     pub errors: Vec<String>,
     /// Names of the axes.
@@ -132,6 +136,8 @@ impl Results {
             title: study.file.title.clone(),
             description: study.file.description.clone(),
             scene: study.scene.clone(),
+            definition: study.definition().to_string(),
+            set: study.set.clone(),
             errors: study.errors.clone(),
             refinement: study.refinement.clone(),
             serial: study.file.serial,

@@ -1,0 +1,106 @@
+//! Plots of a study: error against time, and error against refinement.
+
+use sph_core::number;
+use sph_io::{Plot, Series, Style};
+
+use crate::order::Orders;
+use crate::results::{Results, SeriesResult};
+
+/// Most series that a legend tells apart.
+const MOST: usize = 12;
+
+/// Error against wall seconds, one line per series, with the Pareto line.
+pub fn work_precision(results: &Results) -> Plot {
+    let time_and_error = |names: &[String]| -> Vec<[f64; 2]> {
+        let point = |name: &String| {
+            let variant = results.variant(name)?;
+            let error = variant.error(results.judged())?;
+            Some([variant.wall_seconds.min?, error])
+        };
+        names.iter().filter_map(point).collect()
+    };
+    let of = |s: &SeriesResult| (label(results, s), time_and_error(&s.variants));
+    let mut all = drawn(results, of);
+    if results.pareto.len() > 1 {
+        let line = Series::of("Pareto", time_and_error(&results.pareto), Style::Dashes);
+        let named = all.iter().filter(|s| s.style != Style::Background).count();
+        all.insert(named, line);
+    }
+    Plot {
+        title: results.title.clone(),
+        x_label: "wall time [s]".into(),
+        y_label: y_label(results),
+        log_x: true,
+        log_y: true,
+        series: all,
+    }
+}
+
+/// Error against refinement with the observed orders, if there is a refinement.
+pub fn convergence(results: &Results) -> Option<Plot> {
+    let key = results.refinement.as_ref()?;
+    let of = |s: &SeriesResult| {
+        let points = results.convergence(&s.variants, results.judged());
+        let order = s.orders.get(results.judged()).and_then(Orders::main);
+        let name = match order {
+            Some(order) => format!("{}: order {order:.2}", label(results, s)),
+            None => label(results, s),
+        };
+        (name, points.into_iter().map(|(_, p)| p).collect())
+    };
+    let unit = sph_scene::unit(key).filter(|u| u != "1");
+    Some(Plot {
+        title: results.title.clone(),
+        x_label: unit.map_or_else(|| key.clone(), |u| format!("{key} [{u}]")),
+        y_label: y_label(results),
+        log_x: true,
+        log_y: true,
+        series: drawn(results, of),
+    })
+}
+
+/// Every series; if there are too many to be told apart, only those on the Pareto line by name
+/// and the others in the background.
+fn drawn(results: &Results, of: impl Fn(&SeriesResult) -> (String, Vec<[f64; 2]>)) -> Vec<Series> {
+    let many = results.series.len() > MOST;
+    let best = |s: &SeriesResult| s.variants.iter().any(|v| results.pareto.contains(v));
+    let mut named = Vec::new();
+    let mut others = Vec::new();
+    for series in &results.series {
+        let (name, points) = of(series);
+        match !many || (best(series) && named.len() < MOST) {
+            true => named.push(Series::of(name, points, Style::LineAndMarkers)),
+            false => others.push(Series::of(name, points, Style::Background)),
+        }
+    }
+    named.extend(others);
+    named
+}
+
+fn label(results: &Results, series: &SeriesResult) -> String {
+    match series.name.as_str() {
+        "" => results.scene.clone(),
+        name => name.to_string(),
+    }
+}
+
+fn y_label(results: &Results) -> String {
+    let name = results.judged();
+    let with = |v: &crate::VariantResult| v.errors.get(name).cloned();
+    match results.variants.iter().find_map(with) {
+        Some(e) if e.unit == "1" || e.unit.is_empty() => format!("error `{name}`, {} [1]", e.norm),
+        Some(e) => format!("error `{name}`, {} [{}]", e.norm, e.unit),
+        None => format!("error `{name}`"),
+    }
+}
+
+/// What the plots say in a line: the fastest within ever smaller errors.
+pub fn pareto_lines(results: &Results) -> Vec<[String; 3]> {
+    let line = |name: &String| {
+        let variant = results.variant(name)?;
+        let error = variant.error(results.judged())?;
+        let seconds = variant.wall_seconds.min?;
+        Some([name.clone(), number::plain(error), number::plain(seconds)])
+    };
+    results.pareto.iter().filter_map(line).collect()
+}
