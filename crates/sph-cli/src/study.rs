@@ -18,6 +18,9 @@ use crate::study_progress::Watcher;
 use crate::trouble::Trouble;
 use crate::{console, interrupt};
 
+/// Most series whose orders are told; the report has all.
+const MOST: usize = 12;
+
 /// Runs a study, or compares two.
 pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
     if let [first, second] = arguments.compare.as_slice() {
@@ -136,8 +139,22 @@ fn assemble(study: &Study, options: &Options, watcher: &Watcher) -> Result<(), T
 }
 
 fn text(results: &Results, out: &Path) -> String {
-    let mut text = format!("{}\n{}", results.title, columns(2, &rows(results)));
-    for series in &results.series {
+    let pending = |k: usize| {
+        results
+            .variants
+            .get(k)
+            .is_some_and(|v| v.status == Status::Pending)
+    };
+    let all = rows(results).into_iter().enumerate();
+    let shown = all.filter(|(k, _)| *k == 0 || !pending(k - 1));
+    let shown: Vec<Vec<String>> = shown.map(|(_, row)| row).collect();
+    let left = 1 + results.variants.len() - shown.len();
+    let mut text = format!("{}\n{}", results.title, columns(2, &shown));
+    if left > 0 {
+        text.push_str(&format!("{left} variants are pending\n"));
+    }
+    let few = if results.series.len() > MOST { 0 } else { MOST };
+    for series in results.series.iter().take(few) {
         let orders = series
             .orders
             .get(results.errors.first().map_or("", String::as_str));

@@ -22,13 +22,15 @@ impl<'a> Mark<'a> {
     fn colour(&self) -> Colour {
         match self.series.style {
             Style::Background => Colour::PALE,
+            Style::Highlight => Colour::HIGHLIGHT,
             _ => SERIES[self.number % SERIES.len()],
         }
     }
 
     /// Whether it is drawn below the others.
     pub(crate) fn is_behind(&self) -> bool {
-        matches!(self.series.style, Style::Band(_) | Style::Background)
+        let style = &self.series.style;
+        matches!(style, Style::Band(_) | Style::Background | Style::Highlight)
     }
 
     /// Whether it has a place in the legend.
@@ -68,7 +70,9 @@ impl<'a> Mark<'a> {
                 on.line(&[from, to], self.pen(size));
                 self.draw_marker(on, middle, size);
             }
-            Style::Line | Style::Dashes | Style::Background => on.line(&[from, to], self.pen(size)),
+            Style::Line | Style::Dashes | Style::Background | Style::Highlight => {
+                on.line(&[from, to], self.pen(size))
+            }
         }
     }
 
@@ -140,12 +144,13 @@ impl<'a> Mark<'a> {
             colour: self.colour(),
             width: match self.series.style {
                 Style::Background => size / 18.0,
+                Style::Highlight => size / 2.2,
                 _ => size / 8.0,
             },
             // Colours that come round again are told apart by dashes.
             dashed: match self.series.style {
                 Style::Dashes => true,
-                Style::Background => false,
+                Style::Background | Style::Highlight => false,
                 _ => self.number >= SERIES.len(),
             },
         }

@@ -77,6 +77,8 @@ pub enum Style {
     LineAndMarkers,
     /// Grey line and dots behind all others, not in the legend: what the others are seen against.
     Background,
+    /// A broad pale line behind the others: which points stand out.
+    Highlight,
     /// A shaded area between the points and as many upper ordinates.
     Band(
         /// The upper edge at the abscissae of the points.

@@ -90,10 +90,11 @@ fn one(axis: &file::Axis, at: &str) -> Result<Axis, Vec<SceneProblem>> {
             let choice = |(k, value): (usize, &Value)| {
                 let at = format!("{at}.values[{k}]");
                 let set = set(key, value.clone(), at)?;
-                let label = labels.map_or_else(|| label(value), |l| l[k].clone());
+                let bare = label(value);
+                let given = labels.map(|l| l[k].clone());
                 Ok(Choice {
-                    slug: format!("{name}-{label}"),
-                    label,
+                    slug: given.clone().unwrap_or_else(|| format!("{name}-{bare}")),
+                    label: given.unwrap_or(bare),
                     sets: vec![set],
                 })
             };

@@ -6,8 +6,10 @@ use sph_io::{Plot, Series, Style};
 use crate::order::Orders;
 use crate::results::{Results, SeriesResult};
 
-/// Most series that a legend tells apart.
+/// Most series of which all are named.
 const MOST: usize = 12;
+/// Series that are named where there are more than that.
+const BEST: usize = 6;
 
 /// Error against wall seconds, one line per series, with the Pareto line.
 pub fn work_precision(results: &Results) -> Plot {
@@ -22,9 +24,8 @@ pub fn work_precision(results: &Results) -> Plot {
     let of = |s: &SeriesResult| (label(results, s), time_and_error(&s.variants));
     let mut all = drawn(results, of);
     if results.pareto.len() > 1 {
-        let line = Series::of("Pareto", time_and_error(&results.pareto), Style::Dashes);
-        let named = all.iter().filter(|s| s.style != Style::Background).count();
-        all.insert(named, line);
+        let line = time_and_error(&results.pareto);
+        all.push(Series::of("Pareto", line, Style::Highlight));
     }
     Plot {
         title: results.title.clone(),
@@ -59,22 +60,34 @@ pub fn convergence(results: &Results) -> Option<Plot> {
     })
 }
 
-/// Every series; if there are too many to be told apart, only those on the Pareto line by name
-/// and the others in the background.
+/// Every series; if there are too many to be told apart, only the most accurate on the Pareto line
+/// by name, and the others in the background.
 fn drawn(results: &Results, of: impl Fn(&SeriesResult) -> (String, Vec<[f64; 2]>)) -> Vec<Series> {
-    let many = results.series.len() > MOST;
-    let best = |s: &SeriesResult| s.variants.iter().any(|v| results.pareto.contains(v));
+    let best = best(results);
     let mut named = Vec::new();
     let mut others = Vec::new();
     for series in &results.series {
         let (name, points) = of(series);
-        match !many || (best(series) && named.len() < MOST) {
+        match results.series.len() <= MOST || best.contains(&series.name.as_str()) {
             true => named.push(Series::of(name, points, Style::LineAndMarkers)),
             false => others.push(Series::of(name, points, Style::Background)),
         }
     }
     named.extend(others);
     named
+}
+
+/// Names of the series with the most accurate variants of the Pareto line.
+fn best(results: &Results) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for variant in results.pareto.iter().rev() {
+        let series = results.series.iter().find(|s| s.variants.contains(variant));
+        if let Some(series) = series.filter(|s| !names.contains(&s.name.as_str())) {
+            names.push(&series.name);
+        }
+    }
+    names.truncate(BEST);
+    names
 }
 
 fn label(results: &Results, series: &SeriesResult) -> String {

@@ -1,6 +1,6 @@
 //! The scenes of all variants, and what must hold of them together.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use sph_core::{SceneProblem, suggestion};
 use sph_scene::{Loaded, Override, Source, parse};
@@ -34,19 +34,42 @@ impl Reader<'_> {
     /// Every variant, or every mistake, each told once.
     pub fn all(&self, all: &[Combination], only: &[String]) -> Result<Vec<Variant>, Refused> {
         let mut variants = Vec::new();
-        let mut mistakes: Vec<Mistake> = Vec::new();
+        let mut found: Vec<(&str, Mistake)> = Vec::new();
         for combination in all {
             match self.one(combination, only) {
                 Ok(variant) => variants.push(variant),
-                Err(found) => mistakes.extend(found),
+                Err(mistakes) => {
+                    let named = mistakes.into_iter().map(|m| (combination.name.as_str(), m));
+                    found.extend(named);
+                }
             }
         }
-        let mut seen = BTreeSet::new();
-        mistakes.retain(|m| seen.insert(m.diagnostic.to_string()));
-        match mistakes.is_empty() {
+        match found.is_empty() {
             true => Ok(variants),
-            false => Err(Refused { mistakes }),
+            false => Err(Refused {
+                mistakes: self.told_once(found, all.len()),
+            }),
         }
+    }
+
+    /// Each mistake once; what only some variants make of the scene is told with one of them.
+    fn told_once(&self, found: Vec<(&str, Mistake)>, variants: usize) -> Vec<Mistake> {
+        let mut times: BTreeMap<String, usize> = BTreeMap::new();
+        for (_, mistake) in &found {
+            *times.entry(mistake.diagnostic.to_string()).or_default() += 1;
+        }
+        let mut told = Vec::new();
+        for (name, mut mistake) in found {
+            let diagnostic = &mut mistake.diagnostic;
+            let Some(count) = times.remove(&diagnostic.to_string()) else {
+                continue;
+            };
+            if count < variants && diagnostic.file != self.source.file() {
+                diagnostic.message = format!("variant `{name}`: {}", diagnostic.message);
+            }
+            told.push(mistake);
+        }
+        told
     }
 
     /// The key over which the order of convergence is computed.
