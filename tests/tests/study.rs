@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 use sph_study::{SceneText, Study};
-use sph_tests::{Bench, Outcome};
+use sph_tests::{Bench, Disk, Outcome};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -274,6 +274,33 @@ fn a_variant_that_fails_is_recorded_and_the_study_goes_on() {
     says(&bench.done("study s.toml"), &["3 variants, 0 to run"]);
     bench.write("s.toml", &FAILING.replace("0.2 s", "0.3 s"));
     says(&bench.done("study s.toml"), &["3 variants, 1 to run"]);
+}
+
+#[test]
+fn a_full_disk_costs_the_running_variant_and_no_finished_one() {
+    let bench = bench(STUDY);
+    let at = bench.path("disk");
+    let Some(disk) = Disk::of(96, &at) else {
+        println!("skipped: mounting a small file system is not permitted here");
+        return;
+    };
+    let outcome = bench.call("study s.toml --out disk/s");
+    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
+    says(
+        &outcome,
+        &["disk full", "of 6 variants are finished and kept"],
+    );
+    let done = |name: &String| {
+        let record = format!("disk/s/variants/{name}/record.json");
+        bench.path(&record).exists() && json(&bench.read(&record))["status"] == "done"
+    };
+    let names = files(&bench.path("disk/s/variants"));
+    let kept = names.iter().filter(|n| done(n)).count();
+    assert!(kept > 0 && kept < 6, "{kept} are kept");
+
+    disk.grow(8192);
+    let on = bench.done("study s.toml --out disk/s");
+    says(&on, &[&format!("6 variants, {} to run", 6 - kept)]);
 }
 
 #[test]

@@ -104,6 +104,9 @@ impl Watcher {
         let mut state = self.state();
         if let Some(name) = self.names.get(k) {
             state.cost.insert(name.clone(), seconds.max(1e-3));
+            if let Display::Bar(bar) = &self.display {
+                bar.set_message(format!("checked {name}"));
+            }
         }
         state.started = Instant::now();
     }

@@ -32,7 +32,8 @@ impl Options {
     /// What is known of a variant from before.
     pub fn known(&self, variant: &Variant) -> Option<Record> {
         let record = Record::load(&self.folder(variant));
-        record.filter(|r| !self.fresh && r.fingerprint == variant.fingerprint)
+        let forgotten = self.fresh && variant.wanted;
+        record.filter(|r| !forgotten && r.fingerprint == variant.fingerprint)
     }
 
     /// Threads in force.

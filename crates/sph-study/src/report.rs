@@ -73,21 +73,20 @@ fn lines(text: &str) -> String {
     escaped.collect::<Vec<_>>().join("\n")
 }
 
-/// A table; the first row has the heads, and every other row has its class.
-fn grid(rows: &[Vec<String>], class: impl Fn(usize) -> String) -> String {
+/// A table with its heads, if there are any; every row has a class.
+fn grid(heads: &[String], rows: &[Vec<String>], class: impl Fn(usize) -> String) -> String {
     let mut text = String::from("<div class=\"wide\"><table>\n");
+    let cells = |row: &[String], tag: &str| -> String {
+        let cell = |c: &String| format!("<{tag}>{}</{tag}>", escape(c));
+        row.iter().map(cell).collect()
+    };
+    if !heads.is_empty() {
+        let _ = writeln!(text, "<tr>{}</tr>", cells(heads, "th"));
+    }
     for (k, row) in rows.iter().enumerate() {
-        let (tag, class) = match k {
-            0 => ("th", String::new()),
-            k => ("td", class(k - 1)),
-        };
-        let cells: String = row
-            .iter()
-            .map(|c| format!("<{tag}>{}</{tag}>", escape(c)))
-            .collect();
-        let _ = match class.as_str() {
-            "" => writeln!(text, "<tr>{cells}</tr>"),
-            class => writeln!(text, "<tr class=\"{class}\">{cells}</tr>"),
+        let _ = match class(k).as_str() {
+            "" => writeln!(text, "<tr>{}</tr>", cells(row, "td")),
+            class => writeln!(text, "<tr class=\"{class}\">{}</tr>", cells(row, "td")),
         };
     }
     text.push_str("</table></div>\n");
@@ -127,7 +126,6 @@ fn facts(results: &Results) -> String {
     };
     let row = |name: &str, value: String| vec![name.to_string(), value];
     let mut rows = vec![
-        vec![String::new(); 2],
         row("scene", results.scene.clone()),
         row("judged by", results.errors.join(", ")),
         row("variants", states.join(", ")),
@@ -143,7 +141,7 @@ fn facts(results: &Results) -> String {
     if !results.set.is_empty() {
         rows.push(row("set for all", results.set.join(", ")));
     }
-    grid(&rows[1..], |_| String::new()).replace("th>", "td>")
+    grid(&[], &rows, |_| String::new())
 }
 
 /// Commits that the variants ran at.
@@ -159,11 +157,8 @@ fn commits(results: &Results) -> Vec<String> {
 }
 
 fn orders(results: &Results) -> String {
-    let mut rows = vec![
-        ["series", "error", "orders, coarse to fine", "three finest"]
-            .map(String::from)
-            .to_vec(),
-    ];
+    let heads = ["series", "error", "orders, coarse to fine", "three finest"].map(String::from);
+    let mut rows = Vec::new();
     for series in &results.series {
         for (error, orders) in &series.orders {
             if orders.between.is_empty() {
@@ -180,23 +175,22 @@ fn orders(results: &Results) -> String {
             ]);
         }
     }
-    match rows.len() {
-        1 => String::new(),
-        _ => grid(&rows, |_| String::new()),
+    match rows.is_empty() {
+        true => String::new(),
+        false => grid(&heads, &rows, |_| String::new()),
     }
 }
 
 fn best(results: &Results) -> String {
-    let heads = ["variant", results.judged(), "wall seconds"]
-        .map(String::from)
-        .to_vec();
+    let heads = ["variant", results.judged(), "wall seconds"].map(String::from);
     let best = plots::pareto_lines(results).into_iter().map(|l| l.to_vec());
-    let rows: Vec<Vec<String>> = std::iter::once(heads).chain(best).collect();
-    grid(&rows, |_| String::new())
+    grid(&heads, &best.collect::<Vec<_>>(), |_| String::new())
 }
 
 fn variants(results: &Results) -> String {
-    grid(&table::rows(results), |k| {
+    let rows = table::rows(results);
+    let (heads, rows) = rows.split_at(1);
+    grid(&heads[0], rows, |k| {
         let variant = &results.variants[k];
         match (variant.status, results.pareto.contains(&variant.name)) {
             (Status::Done, true) => "pareto".into(),
@@ -211,45 +205,40 @@ fn failures(results: &Results) -> String {
         let reason = v.reason.clone()?;
         Some(vec![v.name.clone(), v.status.name().into(), reason])
     });
-    let heads = ["variant", "status", "reason"].map(String::from).to_vec();
-    let rows: Vec<Vec<String>> = std::iter::once(heads).chain(bad).collect();
-    match rows.len() {
-        1 => String::new(),
-        _ => format!(
+    let bad: Vec<Vec<String>> = bad.collect();
+    let heads = ["variant", "status", "reason"].map(String::from);
+    match bad.is_empty() {
+        true => String::new(),
+        false => format!(
             "<h2>What did not end well</h2>\n{}",
-            grid(&rows, |_| String::new())
+            grid(&heads, &bad, |_| String::new())
         ),
     }
 }
 
 /// Where the time goes, of the variants that nothing beats.
 fn stages(results: &Results) -> String {
-    let mut rows = vec![
-        ["variant", "stage", "seconds", "share"]
-            .map(String::from)
-            .to_vec(),
-    ];
-    for name in &results.pareto {
-        let Some(variant) = results.variant(name) else {
-            continue;
-        };
+    let heads = ["variant", "stage", "seconds", "share"].map(String::from);
+    let mut rows = Vec::new();
+    for variant in results.pareto.iter().filter_map(|n| results.variant(n)) {
         let all: f64 = variant.wall_seconds_by_stage.values().sum();
         let mut stages: Vec<_> = variant.wall_seconds_by_stage.iter().collect();
         stages.sort_by(|a, b| b.1.total_cmp(a.1));
         for (k, (stage, seconds)) in stages.into_iter().take(4).enumerate() {
+            let name = if k == 0 { variant.name.as_str() } else { "" };
             rows.push(vec![
-                if k == 0 { name.clone() } else { String::new() },
+                name.to_string(),
                 stage.clone(),
                 number::plain(*seconds),
                 number::percent(seconds / all),
             ]);
         }
     }
-    match rows.len() {
-        1 => String::new(),
-        _ => format!(
+    match rows.is_empty() {
+        true => String::new(),
+        false => format!(
             "<h2>Where the time goes</h2>\n{}",
-            grid(&rows, |_| String::new())
+            grid(&heads, &rows, |_| String::new())
         ),
     }
 }

@@ -274,12 +274,4 @@ impl VariantResult {
     pub fn error(&self, name: &str) -> Option<f64> {
         self.errors.get(name)?.value
     }
-
-    /// The stage that took most of the time, with its share.
-    pub fn main_stage(&self) -> Option<(&str, f64)> {
-        let all: f64 = self.wall_seconds_by_stage.values().sum();
-        let most = self.wall_seconds_by_stage.iter();
-        let (name, seconds) = most.max_by(|a, b| a.1.total_cmp(b.1))?;
-        (all > 0.0).then(|| (name.as_str(), seconds / all))
-    }
 }
