@@ -30,6 +30,7 @@ pub struct Watcher {
     stop: Arc<AtomicBool>,
     every: Duration,
     error: String,
+    /// Variants that are to be run or have been.
     total: usize,
     repetitions: usize,
     /// By variant: whether there is something to do.
@@ -65,13 +66,15 @@ impl Watcher {
             v.wanted && !known.is_some_and(settled)
         };
         let open: Vec<bool> = study.variants.iter().map(open).collect();
-        let settled = open.iter().filter(|o| !**o).count();
+        let wanted = study.variants.iter().filter(|v| v.wanted).count();
+        let to_run = open.iter().filter(|o| **o).count();
+        let settled = wanted - to_run;
         let watcher = Watcher {
             display,
             stop,
             every,
             error: study.errors.first().cloned().unwrap_or_default(),
-            total: study.variants.len(),
+            total: wanted,
             repetitions: file.repetitions,
             open,
             names: study.variants.iter().map(|v| v.name.clone()).collect(),
@@ -87,8 +90,8 @@ impl Watcher {
         watcher.say(&format!(
             "{}: {} variants, {} to run, into {}",
             file.title,
-            watcher.total,
-            watcher.total - settled,
+            study.variants.len(),
+            to_run,
             options.out.display()
         ));
         watcher
