@@ -168,6 +168,34 @@ fn variants_side_by_side_give_the_same_errors() {
 }
 
 #[test]
+fn repetitions_give_the_least_time_and_missing_ones_are_added() {
+    let short = STUDY.replace("0.0625, 0.05, 0.04", "0.0625");
+    let bench = bench(&short);
+    let times = |n: usize| {
+        let study = short.replace("set.run", &format!("repetitions = {n}\nset.run"));
+        bench.write("s.toml", &study);
+        let told = json(&bench.done("study s.toml --quiet --json").out);
+        let wall = &told["variants"][0]["wall_seconds"];
+        let number = |v: &Value| v.as_f64().expect("seconds");
+        let all: Vec<f64> = wall["all"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .map(number)
+            .collect();
+        assert_eq!(
+            number(&wall["min"]),
+            all.iter().copied().fold(f64::INFINITY, f64::min)
+        );
+        all
+    };
+    let two = times(2);
+    let three = times(3);
+    assert_eq!((two.len(), three.len()), (2, 3));
+    assert_eq!(two, three[..2], "what has run is kept");
+}
+
+#[test]
 fn a_misspelt_key_of_the_study_is_refused() {
     let words = ["did you mean `values`", "nothing was written"];
     refused(&with("values", "valeus"), "valeus", &words);

@@ -242,3 +242,38 @@ fn stages(results: &Results) -> String {
         ),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A page of a study that has not run.
+    fn page(title: &str, definition: &str) -> String {
+        let results = serde_json::json!({
+            "schema_version": 1, "study": "s", "title": title, "description": null,
+            "scene": "a", "definition": definition, "set": [], "errors": ["e"], "axes": ["n"],
+            "refinement": "numerics.spacing", "serial": true,
+            "machine": { "cpu": "c", "cores": 2, "os": "o" }, "version": "0", "commit": null,
+            "variants": [{
+                "name": "n-1", "values": { "n": "1" }, "refinement": 0.1, "status": "failed",
+                "reason": "a < b", "errors": {}, "order": null,
+                "wall_seconds": { "min": null, "spread": null, "all": [] }, "threads": 1,
+                "particles": 0, "steps": 7, "steps_rolled_back": 0, "simulated_seconds": 0.5,
+                "dt_limiter": null, "dt_limiters": {}, "wall_seconds_by_stage": {},
+                "version": "0", "commit": null, "fingerprint": "f",
+            }],
+            "series": [{ "name": "", "variants": ["n-1"], "orders": {} }], "pareto": [],
+        });
+        html(&serde_json::from_value(results).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn texts_are_escaped_and_failures_have_their_reasons() {
+        let page = page("a <b> & c", "x = \"<i>\"\ny = 1");
+        assert!(page.contains("<title>a &lt;b&gt; &amp; c</title>") && !page.contains("<b>"));
+        assert!(page.contains("x = &quot;&lt;i&gt;&quot;\ny = 1</pre>"));
+        assert!(page.contains("What did not end well") && page.contains("<td>a &lt; b</td>"));
+        assert!(page.contains("<tr class=\"failed\">"));
+        assert_eq!(page.matches("<svg").count(), 2, "empty plots do no harm");
+    }
+}
