@@ -1,11 +1,13 @@
 //! What the whole-system tests share: a folder of their own, scenes, and the real binary.
 
 mod bench;
+mod disk;
 #[cfg(doctest)]
 mod readmes;
 mod state;
 
 pub use bench::{Bench, Outcome};
+pub use disk::Disk;
 pub use state::{FinalState, files_with_extension};
 
 /// A dam break in a box: 180 particles, some hundred steps, a fraction of a second.

@@ -18,4 +18,5 @@ readmes! {
     Probes "../crates/sph-probes/README.md"
     Rheology "../crates/sph-rheology/README.md"
     Solver "../crates/sph-solver/README.md"
+    Study "../crates/sph-study/README.md"
 }

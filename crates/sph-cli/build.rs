@@ -1,4 +1,4 @@
-//! Compiles the shipped scenes and their data into the binary.
+//! Compiles the shipped scenes with their data, and the shipped studies, into the binary.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -9,6 +9,8 @@ fn main() {
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed={}", scenes.display());
     println!("cargo:rerun-if-changed={}", scenes.join("data").display());
+    let studies = Path::new(&manifest).join("../../studies");
+    println!("cargo:rerun-if-changed={}", studies.display());
     let mut code = String::new();
     let tables = [
         (
@@ -19,6 +21,7 @@ fn main() {
             &["toml"][..],
             "",
         ),
+        ("STUDIES", "&str", "include_str", studies, &["toml"][..], ""),
         (
             "DATA",
             "&[u8]",

@@ -1,9 +1,6 @@
 //! Files that fail a run: folders that cannot be written, full disks, damaged checkpoints.
 
-use std::path::Path;
-use std::process::Command;
-
-use sph_tests::{Bench, DAM_BREAK, files_with_extension};
+use sph_tests::{Bench, DAM_BREAK, Disk, files_with_extension};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -61,26 +58,6 @@ fn a_checkpoint_of_another_scene_is_not_resumed() {
     }
     // Another number of threads is the same scene.
     bench.done("run scene.toml --quiet --out r --set run.end=0.02 --resume --threads 1");
-}
-
-/// A file system of its own, unmounted in the end.
-struct Disk<'a>(&'a Path);
-
-impl<'a> Disk<'a> {
-    fn of(kilobytes: u32, at: &'a Path) -> Option<Self> {
-        std::fs::create_dir_all(at).ok()?;
-        let size = format!("size={kilobytes}k");
-        let mut mount = Command::new("mount");
-        mount.args(["-t", "tmpfs", "-o", &size, "tmpfs"]).arg(at);
-        let mounted = mount.output().ok()?;
-        mounted.status.success().then_some(Disk(at))
-    }
-}
-
-impl Drop for Disk<'_> {
-    fn drop(&mut self) {
-        let _ = Command::new("umount").arg(self.0).status();
-    }
 }
 
 #[test]

@@ -21,7 +21,7 @@ fn every_command_has_help_with_what_it_leaves_behind() {
     let all = bench.done("--help");
     assert!(all.out.contains("Exit codes"), "{}", all.out);
     for command in [
-        "run", "check", "explain", "plugins", "schema", "scenes", "new",
+        "run", "study", "check", "explain", "plugins", "schema", "scenes", "new",
     ] {
         assert!(all.out.contains(command), "{command} is not in the help");
         let help = bench.done(&format!("{command} --help"));
@@ -174,6 +174,8 @@ fn a_run_tells_a_program_what_the_summary_says() {
         "particle_steps_per_second",
         "bytes_per_particle",
         "dt_limiters",
+        "dt_limits",
+        "advice",
         "drift",
         "errors",
         "warnings",

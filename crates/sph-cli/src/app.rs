@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::arguments::{Arguments, Command};
-use crate::{check, explain, new, plugins, run, scenes, schema};
+use crate::{check, explain, new, plugins, run, scenes, schema, study};
 
 /// Runs the command that the process was called with.
 ///
@@ -22,6 +22,7 @@ pub fn main() -> ExitCode {
     let json = arguments.command.json();
     let done = match &arguments.command {
         Command::Run(a) => run::command(a),
+        Command::Study(a) => study::command(a),
         Command::Check(a) => check::command(a),
         Command::Explain(a) => explain::command(a),
         Command::Plugins(a) => plugins::command(a),

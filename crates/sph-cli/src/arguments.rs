@@ -14,6 +14,7 @@ use clap::{Args, Parser, Subcommand};
 Examples:
   sph scenes                              what is there to run
   sph run dam-break-koshizuka             run a shipped scene into results/dam-break-koshizuka
+  sph study poiseuille-order              what error in what time, over several variants
   sph new pool && sph check pool.toml     start a scene of your own
   sph plugins rheology                    what can stand in [phase.NAME.rheology.…]
 
@@ -48,6 +49,31 @@ bit what the uninterrupted one gives, also with another number of threads.
 
 Exit codes: 0 done, 1 failed or interrupted, 2 bad usage or a bad scene (nothing written).")]
     Run(RunArguments),
+    /// Run variants of a scene: which error is reached in which time
+    #[command(after_help = "\
+Examples:
+  sph study studies/poiseuille-order.toml
+  sph study operators.toml --out results/operators --threads 4
+  sph study operators.toml --only 'morris_*' --set run.end=0.1
+  sph study --compare results/before/study.json results/after/study.json
+
+A study file names a scene, what is varied and the error that is judged (docs/studies.md).
+Everything is checked before the first variant runs.
+
+Leaves behind in DIR:
+  report.html                  all of the following on one page
+  study.json, study.csv        errors, wall seconds, steps, particles, limiters, orders
+  error-against-time.*         work-precision plot with the Pareto line, SVG and PNG
+  error-against-refinement.*   convergence with its orders, SVG and PNG
+  variants/NAME/               summary.json, series.csv and the record of every variant
+
+A variant that fails is recorded and the study goes on. Ctrl-C stops with what is finished kept;
+the same command goes on from there, and runs nothing twice unless the scene or the program's
+version has changed.
+
+Exit codes: 0 the study is complete (failed variants are results too) or compared,
+1 interrupted or a file cannot be written, 2 bad usage or a bad study (nothing written).")]
+    Study(StudyArguments),
     /// Read, validate and assemble a scene without running it
     #[command(after_help = "\
 Examples:
@@ -105,6 +131,7 @@ impl Command {
     pub fn json(&self) -> bool {
         match self {
             Command::Run(a) => a.json,
+            Command::Study(a) => a.json,
             Command::Check(a) => a.json,
             Command::Explain(a) => a.json,
             Command::Plugins(a) => a.json,
@@ -142,6 +169,38 @@ pub struct RunArguments {
     #[arg(long)]
     pub json: bool,
     /// No progress and no summary
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Arguments of `sph study`.
+#[derive(Debug, Args)]
+pub struct StudyArguments {
+    /// Study file, or the name of a shipped study
+    #[arg(required_unless_present = "compare", conflicts_with = "compare")]
+    pub study: Option<String>,
+    /// Folder of the results [default: results/studies/NAME of the study file]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pub threads: Option<u16>,
+    /// Run only variants whose names fit, with * and ? (may be repeated)
+    #[arg(long, value_name = "PATTERN")]
+    pub only: Vec<String>,
+    /// Put a value on top of every variant: --set run.end=0.1 (may be repeated)
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Run finished variants again
+    #[arg(long)]
+    pub fresh: bool,
+    /// Tell what changed between two studies, given by their study.json
+    #[arg(long, num_args = 2, value_names = ["A.json", "B.json"])]
+    pub compare: Vec<PathBuf>,
+    /// Print study.json, or the comparison, on stdout; diagnostics as a JSON array if there are any
+    #[arg(long)]
+    pub json: bool,
+    /// No progress and no table
     #[arg(long, short)]
     pub quiet: bool,
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, sources};
 use serde_json::{Value as Json, json};
 use sph_scene::{Diagnostic, Source};
+use sph_study::Mistake;
 
 /// Diagnostics shown one by one; of the others only the number.
 const MOST: usize = 20;
@@ -13,6 +14,15 @@ const MOST: usize = 20;
 pub struct Located {
     diagnostic: Diagnostic,
     text: String,
+}
+
+impl From<Mistake> for Located {
+    fn from(mistake: Mistake) -> Self {
+        Located {
+            diagnostic: mistake.diagnostic,
+            text: mistake.text,
+        }
+    }
 }
 
 /// Diagnostics with the texts they point into.

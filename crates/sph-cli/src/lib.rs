@@ -20,7 +20,6 @@ mod explain;
 mod interrupt;
 mod layout;
 mod new;
-mod number;
 mod outcome;
 mod plugins;
 mod progress;
@@ -28,8 +27,13 @@ mod run;
 mod scene_file;
 mod scenes;
 mod schema;
+mod shell;
 mod shipped;
+mod study;
+mod study_progress;
 mod trouble;
 mod written;
+
+use sph_core::number;
 
 pub use app::main;

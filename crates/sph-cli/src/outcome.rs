@@ -21,6 +21,10 @@ pub fn text(summary: &Summary, out: &Path) -> String {
         text.push_str("warnings\n");
         text.push_str(&remarks(&summary.warnings));
     }
+    if !summary.advice.is_empty() {
+        text.push_str("advice\n");
+        text.push_str(&remarks(&summary.advice));
+    }
     text.push_str(&format!("written to {}\n", out.display()));
     text.push_str(&columns(2, &written::listing(out)));
     text

@@ -8,6 +8,7 @@ use sph_solver::{RunOptions, SolverError, Status, Summary, run};
 use crate::arguments::RunArguments;
 use crate::progress::Watcher;
 use crate::scene_file::{Opened, open};
+use crate::shell::quoted;
 use crate::trouble::Trouble;
 use crate::{console, interrupt, outcome};
 
@@ -87,15 +88,6 @@ fn going_on(arguments: &RunArguments, out: &Path) -> String {
     words.join(" ")
 }
 
-/// A word as a shell reads it back.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./=,:+".contains(c);
-    match !word.is_empty() && word.chars().all(plain) {
-        true => word.to_string(),
-        false => format!("'{}'", word.replace('\'', r"'\''")),
-    }
-}
-
 fn trouble(error: SolverError, opened: &Opened, out: &Path) -> Trouble {
     let ran = matches!(error, SolverError::Failed(_));
     match Trouble::of(error, &opened.loaded.source) {
@@ -112,16 +104,4 @@ fn failed_summary(path: &PathBuf) -> Option<Json> {
     let text = std::fs::read_to_string(path).ok()?;
     let summary: Json = serde_json::from_str(&text).ok()?;
     (summary["status"] == "failed").then_some(summary)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::quoted;
-
-    #[test]
-    fn words_survive_a_shell() {
-        assert_eq!(quoted("results/a-1.toml"), "results/a-1.toml");
-        assert_eq!(quoted("run.end=1 s"), "'run.end=1 s'");
-        assert_eq!(quoted("it's"), r"'it'\''s'");
-    }
 }

@@ -1,4 +1,4 @@
-//! The scenes that come with the program.
+//! The scenes and studies that come with the program.
 
 use std::path::{Path, PathBuf};
 
@@ -53,6 +53,35 @@ pub fn find(name: &str) -> Option<Shipped> {
     let name = name.trim_end_matches(".toml");
     let listed = all().into_iter().chain(compiled_in());
     listed.into_iter().find(|s| s.name == name)
+}
+
+/// Folder in which studies are looked for before the compiled-in ones.
+const STUDY_FOLDER: &str = "studies";
+
+/// The shipped study of that name, in ./studies or compiled in.
+pub fn find_study(name: &str) -> Option<Shipped> {
+    let name = name.trim_end_matches(".toml");
+    let file = Path::new(STUDY_FOLDER).join(format!("{name}.toml"));
+    let text = STUDIES
+        .iter()
+        .find(|(f, _)| f.trim_end_matches(".toml") == name);
+    let shipped = |file, text| Shipped {
+        name: name.to_string(),
+        file,
+        text,
+    };
+    match (file.is_file(), text) {
+        (true, _) => Some(shipped(Some(file), None)),
+        (false, Some((_, text))) => Some(shipped(None, Some(*text))),
+        (false, None) => None,
+    }
+}
+
+/// Names of the compiled-in studies.
+pub fn studies() -> impl Iterator<Item = &'static str> {
+    STUDIES
+        .iter()
+        .map(|(file, _)| file.trim_end_matches(".toml"))
 }
 
 /// Compiled-in data files that a text mentions, with the path it mentions them by.

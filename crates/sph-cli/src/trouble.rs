@@ -6,6 +6,7 @@ use serde_json::{Value as Json, json};
 use sph_core::SceneProblem;
 use sph_scene::{LoadError, Source};
 use sph_solver::{Failure, SolverError};
+use sph_study::{ReadError, Refused};
 
 use crate::diagnostics::{self, Located};
 use crate::{console, layout};
@@ -35,6 +36,21 @@ impl From<LoadError> for Trouble {
             }
             unreadable => Trouble::Usage(unreadable.to_string()),
         }
+    }
+}
+
+impl From<ReadError> for Trouble {
+    fn from(error: ReadError) -> Self {
+        match error {
+            ReadError::Refused(refused) => refused.into(),
+            other => Trouble::Usage(other.to_string()),
+        }
+    }
+}
+
+impl From<Refused> for Trouble {
+    fn from(refused: Refused) -> Self {
+        Trouble::Scene(refused.mistakes.into_iter().map(Located::from).collect())
     }
 }
 

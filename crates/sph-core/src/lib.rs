@@ -7,6 +7,7 @@
 //! * [`Declares`], [`Stage`] and [`plan()`]: stages say what they read at the particle, what
 //!   they read at its neighbours and what they write; the planner prunes and orders them.
 //! * [`StepLimit`]: a plugin's own largest stable time step, with its reason.
+//! * [`number`]: how numbers are written for people.
 //!
 //! ```
 //! use sph_core::{Field, Role, Scalar, Store};
@@ -25,6 +26,7 @@ mod field;
 pub mod fields;
 mod limit;
 mod names;
+pub mod number;
 mod plan;
 mod quantity;
 mod registry;

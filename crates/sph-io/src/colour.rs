@@ -16,6 +16,10 @@ impl Colour {
     pub(crate) const WALL: Self = Self::hex(0x3a3a3a);
     /// Grid lines.
     pub(crate) const FAINT: Self = Self::hex(0xdddddd);
+    /// Series in the background of a plot.
+    pub(crate) const PALE: Self = Self::hex(0xc4c4c4);
+    /// What stands out in a plot, behind its lines.
+    pub(crate) const HIGHLIGHT: Self = Self::hex(0xffe08a);
     /// Particles without a finite value.
     pub(crate) const MISSING: Self = Self::hex(0xff00ff);
 

@@ -17,7 +17,7 @@ pub(crate) struct Legend<'a> {
 impl<'a> Legend<'a> {
     pub(crate) fn new(marks: &'a [Mark<'a>], axes: &Axes) -> Self {
         let size = 0.92 * axes.size;
-        let named = marks.iter().filter(|m| !m.series.name.is_empty());
+        let named = marks.iter().filter(|m| m.is_named());
         let named: Vec<&Mark> = named.collect();
         let widths = named.iter().map(|m| text::width(&m.series.name, size));
         let width = widths.fold(0.0, f64::max) + 4.2 * size;

@@ -76,3 +76,4 @@ pub use series::SeriesWriter;
 pub use summary::write_json;
 pub use table::{Table, TableColumn, read_columns, read_table};
 pub use vtu::write_vtu;
+pub use xml::escape;

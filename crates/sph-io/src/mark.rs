@@ -20,11 +20,22 @@ impl<'a> Mark<'a> {
     }
 
     fn colour(&self) -> Colour {
-        SERIES[self.number % SERIES.len()]
+        match self.series.style {
+            Style::Background => Colour::PALE,
+            Style::Highlight => Colour::HIGHLIGHT,
+            _ => SERIES[self.number % SERIES.len()],
+        }
     }
 
-    pub(crate) fn is_band(&self) -> bool {
-        matches!(self.series.style, Style::Band(_))
+    /// Whether it is drawn below the others.
+    pub(crate) fn is_behind(&self) -> bool {
+        let style = &self.series.style;
+        matches!(style, Style::Band(_) | Style::Background | Style::Highlight)
+    }
+
+    /// Whether it has a place in the legend.
+    pub(crate) fn is_named(&self) -> bool {
+        !self.series.name.is_empty() && self.series.style != Style::Background
     }
 
     /// The unbroken stretches of the series on the surface.
@@ -59,7 +70,9 @@ impl<'a> Mark<'a> {
                 on.line(&[from, to], self.pen(size));
                 self.draw_marker(on, middle, size);
             }
-            Style::Line | Style::Dashes => on.line(&[from, to], self.pen(size)),
+            Style::Line | Style::Dashes | Style::Background | Style::Highlight => {
+                on.line(&[from, to], self.pen(size))
+            }
         }
     }
 
@@ -71,6 +84,11 @@ impl<'a> Mark<'a> {
         if matches!(style, Style::Markers | Style::LineAndMarkers) {
             for &spot in stretch {
                 self.draw_marker(on, spot, size);
+            }
+        }
+        if *style == Style::Background {
+            for &spot in stretch {
+                on.disc(spot, 0.14 * size, Fill::solid(self.colour()));
             }
         }
     }
@@ -124,9 +142,17 @@ impl<'a> Mark<'a> {
     fn pen(&self, size: f64) -> Pen {
         Pen {
             colour: self.colour(),
-            width: size / 8.0,
+            width: match self.series.style {
+                Style::Background => size / 18.0,
+                Style::Highlight => size / 2.2,
+                _ => size / 8.0,
+            },
             // Colours that come round again are told apart by dashes.
-            dashed: self.series.style == Style::Dashes || self.number >= SERIES.len(),
+            dashed: match self.series.style {
+                Style::Dashes => true,
+                Style::Background | Style::Highlight => false,
+                _ => self.number >= SERIES.len(),
+            },
         }
     }
 

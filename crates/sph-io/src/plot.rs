@@ -75,6 +75,10 @@ pub enum Style {
     Markers,
     /// Both line and markers.
     LineAndMarkers,
+    /// Grey line and dots behind all others, not in the legend: what the others are seen against.
+    Background,
+    /// A broad pale line behind the others: which points stand out.
+    Highlight,
     /// A shaded area between the points and as many upper ordinates.
     Band(
         /// The upper edge at the abscissae of the points.
@@ -138,6 +142,17 @@ impl Plot {
         svg.save(path)
     }
 
+    /// The document that [`save_svg`](Self::save_svg) writes, to stand in a page.
+    ///
+    /// # Errors
+    /// If the series do not fit together.
+    pub fn to_svg(&self) -> Result<String> {
+        self.check(Path::new("plot.svg"))?;
+        let mut svg = Svg::new(SIZE[0], SIZE[1]);
+        self.draw(&mut svg);
+        Ok(svg.finish())
+    }
+
     fn check(&self, path: &Path) -> Result<()> {
         for Series {
             name,
@@ -161,8 +176,8 @@ impl Plot {
         let marks: Vec<Mark> = self.series.iter().enumerate().map(Mark::new).collect();
         axes.draw_grid(on);
         // Bands first, whatever their place in the list: they hide lines.
-        let (bands, others): (Vec<&Mark>, Vec<&Mark>) = marks.iter().partition(|m| m.is_band());
-        for mark in bands.into_iter().chain(others) {
+        let (behind, others): (Vec<&Mark>, Vec<&Mark>) = marks.iter().partition(|m| m.is_behind());
+        for mark in behind.into_iter().chain(others) {
             mark.draw(on, &axes);
         }
         axes.draw(on);

@@ -26,11 +26,17 @@ impl Svg {
         Self { body }
     }
 
+    /// The whole document.
+    pub(crate) fn finish(mut self) -> String {
+        self.body.push_str("</svg>\n");
+        self.body
+    }
+
     /// Writes the document to `path`, all or nothing.
-    pub(crate) fn save(&self, path: &Path) -> Result<()> {
+    pub(crate) fn save(self, path: &Path) -> Result<()> {
+        let text = self.finish();
         write_atomic(path, Durability::Process, |file| {
-            file.write_all(self.body.as_bytes())?;
-            file.write_all(b"</svg>\n")
+            file.write_all(text.as_bytes())
         })
     }
 

@@ -1,11 +1,11 @@
-//! The little XML that VTK's formats need: escaping, and attributes of tags.
+//! The little XML that VTK's formats and pages need: escaping, and attributes of tags.
 
 use std::borrow::Cow;
 
 /// `text` as it may stand inside a quoted attribute or an element.
 ///
 /// Control characters that XML 1.0 forbids become `?`.
-pub(crate) fn escape(text: &str) -> Cow<'_, str> {
+pub fn escape(text: &str) -> Cow<'_, str> {
     let odd = |c: char| matches!(c, '&' | '<' | '>' | '"' | '\'') || c.is_control();
     if !text.contains(odd) {
         return text.into();

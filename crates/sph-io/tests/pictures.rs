@@ -156,6 +156,7 @@ fn plot() -> Plot {
             Series::line("computed", vec![[0.01, 1e-4], [0.1, 1e-2], [0.2, -1.0]]),
             Series::markers("measured", vec![[0.03, 1e-3], [f64::NAN, 1.0]]),
             Series::band("scatter", vec![[0.01, 1e-5], [0.1, 1e-4]], vec![1e-3, 1e-2]),
+            Series::of("others", vec![[0.02, 1e-5], [0.2, 1e-4]], Style::Background),
         ],
     }
 }
@@ -176,6 +177,8 @@ fn plots_come_as_pixels_and_as_vectors() {
     assert!(text.contains(">errors &amp; &lt;orders&gt;</text>"));
     assert!(text.contains(">10⁻³</text>") && text.ends_with("</svg>\n"));
     assert!(!text.contains("NaN") && !text.contains("inf"));
+    assert!(text.contains("#c4c4c4") && !text.contains(">others<"));
+    assert_eq!(plot().to_svg().unwrap(), text);
 }
 
 #[test]

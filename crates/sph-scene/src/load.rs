@@ -22,6 +22,19 @@ pub struct Loaded {
     pub source: Source,
 }
 
+impl Loaded {
+    /// The scene as a table: overrides applied, quantities of the scene's own keys in SI.
+    ///
+    /// Two scenes with the same table are the same scene, however they are written.
+    pub fn resolved(&self) -> Table {
+        match resolved(&self.source) {
+            Ok(Value::Table(table)) => table,
+            // It has been read from this source before.
+            _ => Table::new(),
+        }
+    }
+}
+
 /// A scene that is not valid.
 #[derive(Clone, Debug)]
 pub struct Refused {
@@ -65,14 +78,18 @@ pub enum LoadError {
 /// If the file cannot be read, or with every mistake in it.
 pub fn load(path: &Path, overrides: &[Override]) -> Result<Loaded, LoadError> {
     let file = path.display().to_string();
-    let text = read(path).map_err(|reason| LoadError::Unreadable {
+    let text = read_text(path).map_err(|reason| LoadError::Unreadable {
         file: file.clone(),
         reason,
     })?;
     parse(&text, &file, overrides).map_err(|refused| LoadError::Refused(Box::new(refused)))
 }
 
-fn read(path: &Path) -> Result<String, String> {
+/// Reads a file of the size that a scene may have.
+///
+/// # Errors
+/// What the system says, or that it is too long or no text.
+pub fn read_text(path: &Path) -> Result<String, String> {
     let file = std::fs::File::open(path).map_err(|e| e.to_string())?;
     let mut bytes = Vec::new();
     let most = FILE_BYTES as u64 + 1;
@@ -104,7 +121,19 @@ pub fn parse(text: &str, name: &str, overrides: &[Override]) -> Result<Loaded, R
 }
 
 fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
-    let mut table = table(source)?;
+    let diagnosed = |problems: Vec<SceneProblem>| source.diagnose(&problems);
+    let mut scene: Scene = resolved(source)?
+        .try_into()
+        .map_err(|e: toml::de::Error| diagnosed(vec![SceneProblem::new("", e.message())]))?;
+    match check::scene(&mut scene, source) {
+        problems if problems.is_empty() => Ok(scene),
+        problems => Err(diagnosed(problems)),
+    }
+}
+
+/// The table of the scene in the form of its schema.
+fn resolved(source: &Source) -> Result<Value, Vec<Diagnostic>> {
+    let mut table = source.table()?;
     let diagnosed = |problems: Vec<SceneProblem>| source.diagnose(&problems);
     let mut problems = limits::check(&table);
     if !problems.is_empty() {
@@ -118,25 +147,19 @@ fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
             .err()
             .unwrap_or_default(),
     );
-    if !problems.is_empty() {
-        return Err(diagnosed(problems));
-    }
-    let mut scene: Scene = value
-        .try_into()
-        .map_err(|e: toml::de::Error| diagnosed(vec![SceneProblem::new("", e.message())]))?;
-    match check::scene(&mut scene, source) {
-        problems if problems.is_empty() => Ok(scene),
-        problems => Err(diagnosed(problems)),
+    match problems.is_empty() {
+        true => Ok(value),
+        false => Err(diagnosed(problems)),
     }
 }
 
 /// The table of the file with the overrides applied.
-fn table(source: &Source) -> Result<Table, Vec<Diagnostic>> {
+pub(crate) fn table(source: &Source) -> Result<Table, Vec<Diagnostic>> {
     let text = source.text();
     let whole = |message: &str| vec![source.diagnostic(Origin::File, 0..0, "", message)];
     if text.len() > FILE_BYTES {
         return Err(whole(&format!(
-            "the scene is longer than {} MiB",
+            "the file is longer than {} MiB",
             FILE_BYTES >> 20
         )));
     }

@@ -25,6 +25,20 @@ pub fn schema() -> Json {
     root
 }
 
+/// SI unit of a scene's own key, `numerics.spacing`; none for parameters of plugins.
+pub fn unit(key: &str) -> Option<String> {
+    let root = schema_of::<Scene>();
+    let mut here = &root;
+    for part in key.split('.') {
+        let target = here.get("$ref").and_then(Json::as_str);
+        let target = target.and_then(|r| root.pointer(r.strip_prefix('#')?));
+        let table = target.unwrap_or(here);
+        let named = table.get("properties").and_then(|p| p.get(part));
+        here = named.or_else(|| table.get("additionalProperties"))?;
+    }
+    here.get("unit").and_then(Json::as_str).map(String::from)
+}
+
 fn insert(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, Json>) {
     let kind = contract.kind;
     match kind {

@@ -4,9 +4,11 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use sph_core::SceneProblem;
+use toml::Table;
 use toml::de::DeTable;
 
 use crate::diagnostic::{Diagnostic, Origin, floor_char, line_and_column};
+use crate::load;
 use crate::locate::locate;
 use crate::overrides::Override;
 use crate::paths::{PathProblem, resolve};
@@ -20,7 +22,8 @@ pub struct Source {
 }
 
 impl Source {
-    pub(crate) fn new(text: &str, file: &str, overrides: &[Override]) -> Self {
+    /// A text by the name of its file, and what is put on top of it.
+    pub fn new(text: &str, file: &str, overrides: &[Override]) -> Self {
         Source {
             file: file.to_string(),
             text: text.to_string(),
@@ -41,6 +44,14 @@ impl Source {
     /// The overrides, in the order they were given.
     pub fn overrides(&self) -> &[Override] {
         &self.overrides
+    }
+
+    /// The table of the text with the overrides applied.
+    ///
+    /// # Errors
+    /// Errors of syntax, and overrides that do not fit the text.
+    pub fn table(&self) -> Result<Table, Vec<Diagnostic>> {
+        load::table(self)
     }
 
     /// The text that the span of a diagnostic is in.

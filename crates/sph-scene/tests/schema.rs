@@ -160,3 +160,12 @@ fn norms_have_the_names_of_the_schema() {
         assert_eq!(serde_json::to_value(norm).unwrap(), norm.name());
     }
 }
+
+#[test]
+fn keys_of_a_scene_have_units() {
+    let unit = |key| sph_scene::unit(key).unwrap_or_default();
+    assert_eq!(unit("numerics.spacing"), "m");
+    assert_eq!(unit("phase.water.density"), "kg/m³");
+    assert_eq!(unit("numerics.spcing"), "");
+    assert_eq!(unit("smoother.rhie-chow.strength"), "");
+}

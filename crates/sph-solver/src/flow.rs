@@ -56,13 +56,19 @@ pub struct Flow<const D: usize> {
 
 /// Place of the list refresh among the timings; the stages follow.
 const LISTS: usize = 0;
+/// Name of the time spent on neighbour lists.
+pub(crate) const LISTS_NAME: &str = "neighbour lists";
 /// Place of kicks and drifts among the timings.
 const MOTION: usize = 1;
 
 impl<const D: usize> Flow<D> {
     pub(crate) fn reset_timings(&mut self) {
+<<<<<<< HEAD
         let services = ["neighbour lists", "kick and drift"].map(String::from);
         let solves = self.implicit.iter().map(|_| "implicit viscosity".into());
+=======
+        let services = [LISTS_NAME, "kick and drift"].map(String::from);
+>>>>>>> study
         let names = services
             .into_iter()
             .chain(self.stages.iter().map(|s| s.name()))

@@ -9,6 +9,7 @@
 //! * [`run()`]: steps, outputs, checkpoints, roll-back, references, summary.
 //! * [`examine()`]: the numbers that follow from a scene, without running it.
 
+mod adviser;
 mod assemble;
 mod balance;
 mod checkpoint;

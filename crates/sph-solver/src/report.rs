@@ -5,6 +5,7 @@ use std::path::Path;
 
 use sph_core::StepError;
 
+use crate::adviser::{self, Costs};
 use crate::balance::Balance;
 use crate::error::{Failure, SolverError};
 use crate::references;
@@ -60,6 +61,19 @@ impl<const D: usize> Running<'_, D> {
         let neighbours = world.mean_neighbours()?;
         let work = particles as f64 * steps as f64;
         let threads = rayon::current_num_threads();
+        let dt_limiters = self.counters.limited.iter();
+        let dt_limiters: BTreeMap<String, f64> = dt_limiters
+            .map(|(name, n)| (name.clone(), *n as f64 / steps.max(1) as f64))
+            .collect();
+        let dt_limits = adviser::mean_limits(&self.counters.bounds, steps);
+        let costs = Costs {
+            steps,
+            wall_seconds,
+            dt_limiters: &dt_limiters,
+            dt_limits: &dt_limits,
+            stages: &stage_seconds,
+        };
+        let advice = adviser::advice(&costs);
         let escaped = flow.escaped()?;
         if escaped > 0 {
             warnings.push(format!("{escaped} particles are behind a wall at the end"));
@@ -84,12 +98,9 @@ impl<const D: usize> Running<'_, D> {
             nanoseconds_per_pair: over(1e9 * working * threads as f64, work * neighbours),
             bytes_per_particle: world.free.bytes_per_particle(),
             list_builds: world.lists.builds,
-            dt_limiters: self
-                .counters
-                .limited
-                .iter()
-                .map(|(name, n)| (name.clone(), *n as f64 / steps.max(1) as f64))
-                .collect(),
+            dt_limiters,
+            dt_limits,
+            advice,
             drift: Drift {
                 mass: over(balance.mass - mass, mass),
                 momentum: over(momentum, self.series.momentum_scale),

@@ -64,6 +64,9 @@ pub(crate) struct Counters {
     pub(crate) series_extrema: [u64; 4],
     pub(crate) checkpoints: u64,
     pub(crate) limited: BTreeMap<String, u64>,
+    /// Σ 1/Δt of every bound, 1/s.
+    #[serde(default)]
+    pub(crate) bounds: BTreeMap<String, f64>,
     pub(crate) wall_seconds: f64,
     pub(crate) stage_seconds: BTreeMap<String, f64>,
     pub(crate) initial: [u64; 2],
@@ -178,6 +181,7 @@ impl<const D: usize> Running<'_, D> {
                 return Ok(Status::Interrupted);
             }
             let limits = self.parts.flow.step_limits()?;
+            self.note_bounds(&limits);
             let (dt, limiter) = self.choose_step(&limits, time, end);
             if self.scene.run.retries > 0 {
                 snapshot.take(&self.parts.flow)?;
@@ -238,6 +242,13 @@ impl<const D: usize> Running<'_, D> {
             .output
             .next_after(time, self.scene.run.end)
             .map(f64::to_bits)
+    }
+
+    fn note_bounds(&mut self, limits: &[StepLimit]) {
+        for limit in limits.iter().filter(|l| l.dt > 0.0) {
+            let sum = self.counters.bounds.entry(limit.name.to_string());
+            *sum.or_default() += 1.0 / limit.dt;
+        }
     }
 
     /// The least limit, cut so that output times and the end are hit exactly.

@@ -111,6 +111,9 @@ pub struct Summary {
     /// What implicit solves took, if the scene has any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub implicit_viscosity: Option<Solves>,
+    /// Mean of each plugin's bound over the steps, s, before the safety factor.
+    #[serde(default)]
+    pub dt_limits: BTreeMap<String, f64>,
     /// Changes of conserved quantities.
     pub drift: Drift,
     /// Kinetic energy at the end, J.
@@ -126,6 +129,9 @@ pub struct Summary {
     pub relaxation: Option<Relaxation>,
     /// Errors against the scene's references.
     pub errors: BTreeMap<String, ErrorEntry>,
+    /// Settings to try where one bound or one stage costs most of the run.
+    #[serde(default)]
+    pub advice: Vec<String>,
     /// Things a person should know.
     pub warnings: Vec<String>,
     /// Files of the run, relative to its folder.

@@ -1,0 +1,22 @@
+//! Commands that a person can copy.
+
+/// A word as a shell reads it back.
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=,:+".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_string(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn words_survive_a_shell() {
+        assert_eq!(quoted("results/a-1.toml"), "results/a-1.toml");
+        assert_eq!(quoted("run.end=1 s"), "'run.end=1 s'");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+    }
+}

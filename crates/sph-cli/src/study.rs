@@ -1,0 +1,214 @@
+//! `sph study`.
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value as Json;
+use sph_core::suggestion;
+use sph_study::{
+    Machine, Options, Outcome, Results, SceneText, Status, Study, compare, execute, rows,
+};
+
+use crate::arguments::StudyArguments;
+use crate::layout::columns;
+use crate::scene_file::{Found, find, overrides};
+use crate::shell::quoted;
+use crate::shipped;
+use crate::study_progress::Watcher;
+use crate::trouble::Trouble;
+use crate::{console, interrupt};
+
+/// Most series whose orders are told; the report has all.
+const MOST: usize = 12;
+
+/// Runs a study, or compares two.
+pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
+    if let [first, second] = arguments.compare.as_slice() {
+        return compared(arguments, first, second);
+    }
+    let name = arguments.study.as_deref().unwrap_or_default();
+    // The data of compiled-in scenes are needed until the last variant has run.
+    let scenes: RefCell<Vec<Found>> = RefCell::default();
+    let study = read(arguments, name, &scenes)?;
+    let out = arguments.out.clone();
+    let out = out.unwrap_or_else(|| Path::new("results/studies").join(&study.name));
+    let options = Options {
+        out: out.clone(),
+        threads: arguments.threads.map(usize::from),
+        fresh: arguments.fresh,
+        commit: sph_study::commit(),
+    };
+    let watcher = Watcher::new(arguments.quiet, &study, &options, interrupt::flag());
+    assemble(&study, &options, &watcher)?;
+    let failed = |error| Trouble::Failed {
+        error,
+        summary: None,
+    };
+    sph_io::writable(&out).map_err(|e| failed(e.into()))?;
+    let outcome = execute(&study, &options, &watcher);
+    watcher.finish();
+    let results = Results::new(&study, &outcome.records, Machine::this(), options.commit);
+    let published = sph_study::publish(&results, &out);
+    if let Some(error) = outcome.error {
+        console::err(&kept(arguments, name, &outcome.records));
+        return Err(failed(error));
+    }
+    published.map_err(|e| failed(e.into()))?;
+    if arguments.json {
+        console::json(&serde_json::to_value(&results).unwrap_or(Json::Null));
+    } else if !arguments.quiet {
+        console::out(&text(&results, &out));
+    }
+    conclude(arguments, name, &outcome)
+}
+
+fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(), Trouble> {
+    let load = |path| Results::load(path).map_err(Trouble::Usage);
+    let comparison = compare(&load(first)?, &load(second)?);
+    if arguments.json {
+        console::json(&serde_json::to_value(&comparison).unwrap_or(Json::Null));
+        return Ok(());
+    }
+    let mut text = String::new();
+    for note in &comparison.notes {
+        text.push_str(&format!("{note}\n"));
+    }
+    if !comparison.variants.is_empty() {
+        text.push_str(&columns(2, &comparison.rows()));
+    }
+    let sides = [
+        (first, &comparison.only_in_first),
+        (second, &comparison.only_in_second),
+    ];
+    for (path, names) in sides.iter().filter(|(_, names)| !names.is_empty()) {
+        text.push_str(&format!(
+            "only in {}: {}\n",
+            path.display(),
+            names.join(", ")
+        ));
+    }
+    if let Some(ratio) = comparison.wall_ratio {
+        text.push_str(&format!("wall seconds, geometric mean: ×{ratio:.3}\n"));
+    }
+    console::out(&text);
+    Ok(())
+}
+
+/// The study by its path, or by the name of a shipped one.
+fn read(
+    arguments: &StudyArguments,
+    name: &str,
+    scenes: &RefCell<Vec<Found>>,
+) -> Result<Study, Trouble> {
+    let set = overrides(&arguments.set)?;
+    let look = |folder: &Path, name: &str| -> Result<SceneText, String> {
+        let found = find(folder, name)?;
+        let scene = found.scene.clone();
+        scenes.borrow_mut().push(found);
+        Ok(scene)
+    };
+    let path = Path::new(name);
+    if path.exists() && !path.is_dir() {
+        return Ok(Study::read(path, &look, &set, &arguments.only)?);
+    }
+    let study = shipped::find_study(name).ok_or_else(|| {
+        let near = suggestion(name.trim_end_matches(".toml"), shipped::studies());
+        let known = shipped::studies().collect::<Vec<_>>().join(", ");
+        Trouble::Usage(format!(
+            "there is no study file `{name}` and no shipped study of that name{near} (there are: \
+             {known})"
+        ))
+    })?;
+    let path = study.file.clone();
+    let path = path.unwrap_or_else(|| PathBuf::from(format!("{}.toml", study.name)));
+    Ok(match study.text {
+        None => Study::read(&path, &look, &set, &arguments.only)?,
+        Some(text) => Study::parse(text, &path, &look, &set, &arguments.only)?,
+    })
+}
+
+/// Puts together what is to be run, so that every mistake is known before the first run.
+fn assemble(study: &Study, options: &Options, watcher: &Watcher) -> Result<(), Trouble> {
+    for (k, variant) in study.variants.iter().enumerate() {
+        if watcher.has_to_run(k) {
+            let seconds = study.assemble(variant, options.threads())?;
+            watcher.assembled(k, seconds);
+        }
+    }
+    Ok(())
+}
+
+fn text(results: &Results, out: &Path) -> String {
+    let pending = |k: usize| {
+        results
+            .variants
+            .get(k)
+            .is_some_and(|v| v.status == Status::Pending)
+    };
+    let all = rows(results).into_iter().enumerate();
+    let shown = all.filter(|(k, _)| *k == 0 || !pending(k - 1));
+    let shown: Vec<Vec<String>> = shown.map(|(_, row)| row).collect();
+    let left = 1 + results.variants.len() - shown.len();
+    let mut text = format!("{}\n{}", results.title, columns(2, &shown));
+    if left > 0 {
+        text.push_str(&format!("{left} variants are pending\n"));
+    }
+    let few = if results.series.len() > MOST { 0 } else { MOST };
+    for series in results.series.iter().take(few) {
+        let orders = series
+            .orders
+            .get(results.errors.first().map_or("", String::as_str));
+        if let Some(order) = orders.and_then(sph_study::Orders::main) {
+            let of = match series.name.as_str() {
+                "" => String::new(),
+                name => format!(" of {name}"),
+            };
+            text.push_str(&format!("order{of}: {order:.2}\n"));
+        }
+    }
+    text.push_str(&format!("on {}\n", results.machine));
+    text.push_str(&format!(
+        "written to {}: report.html shows all of it\n",
+        out.display()
+    ));
+    text
+}
+
+fn conclude(arguments: &StudyArguments, name: &str, outcome: &Outcome) -> Result<(), Trouble> {
+    if !outcome.stopped {
+        return Ok(());
+    }
+    console::err(&kept(arguments, name, &outcome.records));
+    Err(Trouble::Interrupted)
+}
+
+/// What has been done, and how to go on.
+fn kept(arguments: &StudyArguments, name: &str, records: &[sph_study::Record]) -> String {
+    let over = |r: &&sph_study::Record| !matches!(r.status, Status::Pending | Status::Interrupted);
+    format!(
+        "{} of {} variants are finished and kept; go on with\n  {}",
+        records.iter().filter(over).count(),
+        records.len(),
+        going_on(arguments, name)
+    )
+}
+
+fn going_on(arguments: &StudyArguments, name: &str) -> String {
+    let mut words = vec!["sph".to_string(), "study".to_string(), quoted(name)];
+    let mut with = |option: &str, value: &str| {
+        words.extend([option.to_string(), quoted(value)]);
+    };
+    if let Some(out) = &arguments.out {
+        with("--out", &out.display().to_string());
+    }
+    if let Some(threads) = arguments.threads {
+        with("--threads", &threads.to_string());
+    }
+    for pattern in &arguments.only {
+        with("--only", pattern);
+    }
+    for set in &arguments.set {
+        with("--set", set);
+    }
+    words.join(" ")
+}

@@ -1,0 +1,135 @@
+//! Runs what a study has not run yet, one by one or side by side.
+
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use sph_solver::{Progress, SolverError};
+
+use crate::plan::{Study, Variant};
+use crate::record::Record;
+use crate::repeat;
+
+/// How a study is run.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Folder of all its files.
+    pub out: PathBuf,
+    /// Threads; `None` for all cores.
+    pub threads: Option<usize>,
+    /// Whether finished variants are run again.
+    pub fresh: bool,
+    /// Commit of the program's repository, for the records.
+    pub commit: Option<String>,
+}
+
+impl Options {
+    /// Folder of a variant.
+    pub fn folder(&self, variant: &Variant) -> PathBuf {
+        self.out.join("variants").join(&variant.name)
+    }
+
+    /// What is known of a variant from before.
+    pub fn known(&self, variant: &Variant) -> Option<Record> {
+        let record = Record::load(&self.folder(variant));
+        let forgotten = self.fresh && variant.wanted;
+        record.filter(|r| !forgotten && r.fingerprint == variant.fingerprint)
+    }
+
+    /// Threads in force.
+    pub fn threads(&self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        self.threads.unwrap_or_else(cores)
+    }
+}
+
+/// A watcher of a study; variants may call it from several threads.
+pub trait Watcher: Sync {
+    /// A repetition of a variant begins or goes on.
+    fn started(&self, _variant: &Variant, _repetition: usize) {}
+    /// After every step.
+    fn step(&self, _variant: &Variant, _progress: &Progress) {}
+    /// A line worth saying.
+    fn message(&self, _variant: &Variant, _text: &str) {}
+    /// A variant has come to an end, or had one.
+    fn finished(&self, _variant: &Variant, _record: &Record) {}
+    /// Whether to stop, with what is finished kept.
+    fn stop(&self) -> bool {
+        false
+    }
+}
+
+/// A watcher that says nothing.
+impl Watcher for () {}
+
+/// What running a study gave.
+#[derive(Debug)]
+pub struct Outcome {
+    /// One record per variant, in their order.
+    pub records: Vec<Record>,
+    /// Whether it was told to stop before everything had run.
+    pub stopped: bool,
+    /// What kept it from going on, a full disk for instance.
+    pub error: Option<SolverError>,
+}
+
+/// Runs every wanted variant that is not settled by a record.
+///
+/// Results are the same for any number of threads; the times are not.
+pub fn execute(study: &Study, options: &Options, watcher: &dyn Watcher) -> Outcome {
+    let count = study.variants.len();
+    let records: Vec<Mutex<Record>> = (0..count).map(|_| Mutex::default()).collect();
+    let next = AtomicUsize::new(0);
+    let halt = AtomicBool::new(false);
+    let error = Mutex::new(None);
+    let (workers, threads) = match study.file.serial {
+        true => (1, options.threads()),
+        false => (options.threads().clamp(1, count.max(1)), 1),
+    };
+    let work = || {
+        loop {
+            let k = next.fetch_add(1, Ordering::SeqCst);
+            let Some(variant) = study.variants.get(k) else {
+                return;
+            };
+            let stop = || halt.load(Ordering::SeqCst) || watcher.stop();
+            let job = repeat::Job {
+                study,
+                variant,
+                options,
+                threads,
+                watcher,
+                stop: &stop,
+            };
+            let (record, result) = job.run();
+            if let Err(told) = result {
+                halt.store(true, Ordering::SeqCst);
+                lock(&error).get_or_insert(told);
+            }
+            *lock(&records[k]) = record;
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 1..workers {
+            scope.spawn(work);
+        }
+        work();
+    });
+    let settled = |(v, r): (&Variant, &Record)| {
+        let file = &study.file;
+        !v.wanted || r.settles(&v.fingerprint, file.repetitions, file.time_limit)
+    };
+    let records: Vec<Record> = records.iter().map(|r| lock(r).clone()).collect();
+    Outcome {
+        stopped: !study.variants.iter().zip(&records).all(settled),
+        records,
+        error: lock(&error).take(),
+    }
+}
+
+/// A lock whose holder never panics half-way through a change.
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner)
+}

@@ -1,0 +1,43 @@
+//! Studies: which error a choice reaches in which time.
+//!
+//! A study file names a scene, what is varied and the error that is judged. The way of a study:
+//! 1. [`Study::read`] crosses or pairs its axes into variants, reads the scene of each, and finds
+//!    every mistake before anything runs; [`Study::assemble`] puts a variant's plugins together.
+//! 2. [`execute`] runs what no [`Record`] settles; it can be stopped at any time and goes on where
+//!    it was.
+//! 3. [`Results`] has errors, times and orders of convergence; [`publish`] writes them as JSON,
+//!    CSV, plots and a page.
+//! 4. [`compare`] tells what changed between two [`Results`].
+
+mod axis;
+mod combine;
+mod compare;
+mod execute;
+mod file;
+mod fingerprint;
+mod machine;
+mod mistake;
+mod order;
+mod pareto;
+mod plan;
+mod plots;
+mod publish;
+mod reader;
+mod record;
+mod repeat;
+mod report;
+mod results;
+mod table;
+
+pub use axis::{Axis, Choice, Set};
+pub use compare::{Change, Comparison, Pair, compare};
+pub use execute::{Options, Outcome, Watcher, execute};
+pub use file::{Combine, StudyFile};
+pub use machine::{Machine, commit};
+pub use mistake::{Mistake, Refused};
+pub use order::Orders;
+pub use plan::{FindScene, ReadError, SceneText, Study, Variant};
+pub use publish::publish;
+pub use record::{Error, Record, Status};
+pub use results::{Results, SeriesResult, VariantResult, WallSeconds};
+pub use table::{rows, write_csv};

@@ -1,0 +1,80 @@
+//! Mistakes of a study, each in the text where it was made.
+
+use std::fmt;
+
+use sph_core::SceneProblem;
+use sph_scene::{Diagnostic, Origin, Source};
+
+/// A mistake with the text it stands in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mistake {
+    /// What is wrong and where.
+    pub diagnostic: Diagnostic,
+    /// The text that its span is in.
+    pub text: String,
+}
+
+/// A study that cannot be run; nothing was written.
+#[derive(Clone, Debug)]
+pub struct Refused {
+    /// Every mistake found, without repetitions.
+    pub mistakes: Vec<Mistake>,
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, mistake) in self.mistakes.iter().enumerate() {
+            let line = if k == 0 { "" } else { "\n" };
+            write!(f, "{line}{}", mistake.diagnostic)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Refused {}
+
+impl Refused {
+    /// Problems of the study file itself.
+    pub(crate) fn of(source: &Source, problems: &[SceneProblem]) -> Self {
+        Refused::from_diagnostics(source, source.diagnose(problems))
+    }
+
+    /// Mistakes that have a place in a source.
+    pub(crate) fn from_diagnostics(source: &Source, found: Vec<Diagnostic>) -> Self {
+        let mistake = |diagnostic: Diagnostic| Mistake {
+            text: source.text_of(&diagnostic).to_string(),
+            diagnostic,
+        };
+        Refused {
+            mistakes: found.into_iter().map(mistake).collect(),
+        }
+    }
+}
+
+/// Who put what on top of a scene, so that its mistakes are shown where they were made.
+pub(crate) struct Blame<'a> {
+    /// The study file.
+    pub study: &'a Source,
+    /// For every override of the scene the path in the study file that gives it, if it does.
+    pub given_by: &'a [Option<String>],
+}
+
+impl Blame<'_> {
+    /// The mistakes of a scene: in the study file if it made them.
+    pub fn place(&self, scene: &Source, found: &[Diagnostic]) -> Vec<Mistake> {
+        let place = |d: &Diagnostic| {
+            let Origin::Override(k) = d.origin else {
+                return Refused::from_diagnostics(scene, vec![d.clone()]).mistakes;
+            };
+            let Some(path) = self.given_by.get(k).cloned().flatten() else {
+                return Refused::from_diagnostics(scene, vec![d.clone()]).mistakes;
+            };
+            let message = match d.path.as_str() {
+                "" => d.message.clone(),
+                key => format!("{key}: {}", d.message),
+            };
+            Refused::of(self.study, &[SceneProblem::new(path, message)]).mistakes
+        };
+        found.iter().flat_map(place).collect()
+    }
+}

@@ -1,0 +1,69 @@
+//! Orders of convergence: ln error over ln refinement.
+
+use serde::{Deserialize, Serialize};
+
+/// Orders of one series of variants that differ in their refinement only.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Orders {
+    /// Between each and the next finer one.
+    pub between: Vec<f64>,
+    /// Slope of the least-squares line through the three finest.
+    pub finest_three: Option<f64>,
+}
+
+impl Orders {
+    /// Orders of points of refinement and error, both positive, from coarse to fine.
+    pub fn of(points: &[[f64; 2]]) -> Self {
+        let logs: Vec<[f64; 2]> = points.iter().map(|p| p.map(f64::ln)).collect();
+        let order = |p: &[[f64; 2]]| (p[1][1] - p[0][1]) / (p[1][0] - p[0][0]);
+        let finest = logs.len().checked_sub(3).map(|k| &logs[k..]);
+        Orders {
+            between: logs.windows(2).map(order).collect(),
+            finest_three: finest.map(slope),
+        }
+    }
+
+    /// The order that is told first: the fitted one, or that of two points.
+    pub fn main(&self) -> Option<f64> {
+        self.finest_three.or(self.between.last().copied())
+    }
+}
+
+/// Slope of the least-squares line.
+fn slope(points: &[[f64; 2]]) -> f64 {
+    let n = points.len() as f64;
+    let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / n;
+    let (x, y) = (mean(0), mean(1));
+    let (xx, xy) = points.iter().fold((0.0, 0.0), |(xx, xy), p| {
+        let d = p[0] - x;
+        (xx + d * d, xy + d * (p[1] - y))
+    });
+    xy / xx
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_law_has_its_exponent_as_order() {
+        let points = [0.4, 0.2, 0.1, 0.05].map(|h: f64| [h, 3.0 * h.powf(1.7)]);
+        let orders = Orders::of(&points);
+        assert_eq!(orders.between.len(), 3);
+        let all = orders.between.iter().chain(&orders.finest_three);
+        assert!(
+            all.into_iter().all(|o| (o - 1.7).abs() < 1e-12),
+            "{orders:?}"
+        );
+    }
+
+    #[test]
+    fn the_fit_takes_the_three_finest_and_needs_them() {
+        let orders = Orders::of(&[[8.0, 1.0], [4.0, 16.0], [2.0, 4.0], [1.0, 1.0]]);
+        assert!((orders.main().unwrap() - 2.0).abs() < 1e-12);
+        let two = Orders::of(&[[0.2, 4.0], [0.1, 2.0]]);
+        assert_eq!(two.finest_three, None);
+        assert!((two.main().unwrap() - 1.0).abs() < 1e-12);
+        assert_eq!(Orders::of(&[]), Orders::default());
+    }
+}

@@ -1,0 +1,200 @@
+//! From a study file to variants that are known to be good, before any of them is run.
+
+use std::path::Path;
+
+use sph_core::{RegistryError, SceneProblem, suggestion, typed};
+use sph_scene::{Loaded, Override, Source, read_text};
+use sph_solver::{SolverError, examine};
+use toml::Table;
+
+use crate::axis::{self, Axis};
+use crate::combine::{combinations, fits};
+use crate::file::StudyFile;
+use crate::mistake::{Blame, Refused};
+use crate::reader::Reader;
+
+/// The text of a scene and the file name against which it names other files.
+#[derive(Clone, Debug)]
+pub struct SceneText {
+    /// Name without folder and extension.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// Its file.
+    pub file: String,
+}
+
+/// Finds the scene that a study names, from the study's folder; the error is told as it is.
+pub type FindScene<'a> = dyn Fn(&Path, &str) -> Result<SceneText, String> + 'a;
+
+/// A study whose variants are known to be good.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Name of the file without extension.
+    pub name: String,
+    /// What the file says.
+    pub file: StudyFile,
+    /// Name of the scene.
+    pub scene: String,
+    /// Names of the references that are judged, the first one by plots.
+    pub errors: Vec<String>,
+    /// What is varied.
+    pub axes: Vec<Axis>,
+    /// Key over which the order of convergence is computed.
+    pub refinement: Option<String>,
+    /// What was put on top of every variant, as `--set` has it.
+    pub set: Vec<String>,
+    /// The variants, in the order in which they run.
+    pub variants: Vec<Variant>,
+    source: Source,
+}
+
+/// One scene of a study.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// Name, which is that of its folder too.
+    pub name: String,
+    /// Label on every axis.
+    pub labels: Vec<String>,
+    /// Value of the refinement's key.
+    pub refinement: Option<f64>,
+    /// Whether it is to be run, or only shown if it has been.
+    pub wanted: bool,
+    /// The scene.
+    pub loaded: Loaded,
+    /// What its result depends on.
+    pub fingerprint: String,
+    /// For every override of the scene the path in the study file that gives it, if it does.
+    pub(crate) given_by: Vec<Option<String>>,
+}
+
+impl Study {
+    /// Reads a study file and the scenes of all its variants.
+    ///
+    /// `set` is put on top of every variant; variants that fit none of the patterns `only` are
+    /// shown but not run.
+    ///
+    /// # Errors
+    /// Every mistake of the study and of the scenes that follow from it.
+    pub fn read(
+        path: &Path,
+        find: &FindScene,
+        set: &[Override],
+        only: &[String],
+    ) -> Result<Self, ReadError> {
+        let name = path.display().to_string();
+        let text = read_text(path).map_err(|why| ReadError::Unreadable(name.clone(), why))?;
+        Self::parse(&text, path, find, set, only)
+    }
+
+    /// Reads a study from a text; `path` is its file, from which it names the scene.
+    ///
+    /// # Errors
+    /// As [`Study::read`].
+    pub fn parse(
+        text: &str,
+        path: &Path,
+        find: &FindScene,
+        set: &[Override],
+        only: &[String],
+    ) -> Result<Self, ReadError> {
+        let source = Source::new(text, &path.display().to_string(), &[]);
+        let refused = |problems: Vec<SceneProblem>| Refused::of(&source, &problems);
+        let table = source.table();
+        let table = table.map_err(|found| Refused::from_diagnostics(&source, found))?;
+        let file = study_file(&table).map_err(refused)?;
+        let axes = axis::axes(&file.vary).map_err(refused)?;
+        let all = combinations(&axes, file.combine, &file.skip).map_err(refused)?;
+        if let Some(pattern) = only.iter().find(|p| !all.iter().any(|c| fits(p, &c.name))) {
+            let near = suggestion(pattern, all.iter().map(|c| c.name.as_str()));
+            return Err(ReadError::Only(pattern.clone(), near));
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let scene = find(folder, &file.scene);
+        let scene = scene.map_err(|why| refused(vec![SceneProblem::new("scene", why)]))?;
+        let common = axis::sets(&file.set, "set").map_err(|p| refused(vec![p]))?;
+        let reader = Reader {
+            file: &file,
+            source: &source,
+            scene: &scene,
+            axes: &axes,
+            common,
+            set,
+        };
+        let variants = reader.all(&all, only)?;
+        let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or("study");
+        Ok(Study {
+            name: stem.to_string(),
+            scene: scene.name.clone(),
+            errors: file.error.paths("error").into_iter().map(|e| e.0).collect(),
+            refinement: reader.refinement(),
+            set: set.iter().map(|o| o.text().to_string()).collect(),
+            axes,
+            variants,
+            file,
+            source,
+        })
+    }
+
+    /// Text of the study file.
+    pub fn definition(&self) -> &str {
+        self.source.text()
+    }
+
+    /// Assembles a variant as a run would; returns the estimated seconds of a run.
+    ///
+    /// # Errors
+    /// Everything its plugins refuse, in the study file where that is to blame.
+    pub fn assemble(&self, variant: &Variant, threads: usize) -> Result<f64, Refused> {
+        let examined = examine(&variant.loaded.scene, threads);
+        let problems = match examined {
+            Ok(examined) => return Ok(3600.0 * examined.estimate.hours),
+            Err(SolverError::Scene(problems)) => problems,
+            Err(other) => vec![SceneProblem::new("", other.to_string())],
+        };
+        let scene = &variant.loaded.source;
+        let blame = Blame {
+            study: &self.source,
+            given_by: &variant.given_by,
+        };
+        let mut mistakes = blame.place(scene, &scene.diagnose(&problems));
+        // What no key of the study is to blame for still belongs to a variant.
+        for mistake in &mut mistakes {
+            if mistake.diagnostic.file != self.source.file() {
+                let message = &mut mistake.diagnostic.message;
+                *message = format!("variant `{}`: {message}", variant.name);
+            }
+        }
+        Err(Refused { mistakes })
+    }
+}
+
+/// Why a study cannot be had.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// The file cannot be read.
+    #[error("cannot read `{0}`: {1}")]
+    Unreadable(String, String),
+    /// A pattern that no variant fits.
+    #[error("no variant is called `{0}`{1}")]
+    Only(String, String),
+    /// The study has mistakes.
+    #[error(transparent)]
+    Refused(#[from] Refused),
+}
+
+/// The typed content of a study file.
+fn study_file(table: &Table) -> Result<StudyFile, Vec<SceneProblem>> {
+    let file: StudyFile = match typed(table) {
+        Ok(file) => file,
+        Err(RegistryError::Parameters(problems)) => return Err(problems),
+        Err(other) => return Err(vec![SceneProblem::new("", other.to_string())]),
+    };
+    match file.error.paths("error").is_empty() {
+        true => Err(vec![SceneProblem::new(
+            "error",
+            "a study judges by an error",
+        )]),
+        false => Ok(file),
+    }
+}

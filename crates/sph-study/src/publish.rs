@@ -1,0 +1,34 @@
+//! Everything that a study leaves behind for its readers.
+
+use std::path::Path;
+
+use sph_io::{Durability, IoError, Plot, write_atomic};
+
+use crate::results::Results;
+use crate::{plots, report, table};
+
+/// Writes `study.json`, `study.csv`, the plots and `report.html` into a folder.
+///
+/// # Errors
+/// The first file that cannot be written.
+pub fn publish(results: &Results, folder: &Path) -> Result<(), IoError> {
+    sph_io::write_json(folder.join("study.json"), results)?;
+    table::write_csv(results, &folder.join("study.csv"))?;
+    both(
+        &plots::work_precision(results),
+        folder,
+        "error-against-time",
+    )?;
+    if let Some(plot) = plots::convergence(results) {
+        both(&plot, folder, "error-against-refinement")?;
+    }
+    let page = report::html(results)?;
+    write_atomic(folder.join("report.html"), Durability::Process, |file| {
+        file.write_all(page.as_bytes())
+    })
+}
+
+fn both(plot: &Plot, folder: &Path, name: &str) -> Result<(), IoError> {
+    plot.save_svg(folder.join(format!("{name}.svg")))?;
+    plot.save_png(folder.join(format!("{name}.png")))
+}

@@ -1,0 +1,277 @@
+//! `study.json`: all that came out of a study.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::fingerprint::VERSION;
+use crate::machine::Machine;
+use crate::order::Orders;
+use crate::pareto::pareto;
+use crate::plan::{Study, Variant};
+use crate::record::{Error, Record, Status};
+
+/// Version of the layout of `study.json`.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// All that came out of a study.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Results {
+    /// Layout of this file.
+    pub schema_version: u32,
+    /// Name of the study.
+    pub study: String,
+    /// Title of the study.
+    pub title: String,
+    /// What it shows.
+    pub description: Option<String>,
+    /// Name of the scene.
+    pub scene: String,
+    /// Text of the study file.
+    pub definition: String,
+    /// What was put on top of every variant, as `--set` has it.
+    pub set: Vec<String>,
+    /// Judged errors, the first one by plots.
+    pub errors: Vec<String>,
+    /// Names of the axes.
+    pub axes: Vec<String>,
+    /// Key over which orders are computed.
+    pub refinement: Option<String>,
+    /// Whether variants ran one by one.
+    pub serial: bool,
+    /// On what this part of the study was run.
+    pub machine: Machine,
+    /// Version of the program.
+    pub version: String,
+    /// Commit of the program's repository, if it is known.
+    pub commit: Option<String>,
+    /// Variants in the order of the study.
+    pub variants: Vec<VariantResult>,
+    /// Variants that differ in their refinement only.
+    pub series: Vec<SeriesResult>,
+    /// Variants that no other one beats in both error and time, fastest first.
+    pub pareto: Vec<String>,
+}
+
+/// What came out of a variant.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct VariantResult {
+    /// Name, which is that of its folder.
+    pub name: String,
+    /// Label by axis.
+    pub values: BTreeMap<String, String>,
+    /// Value of the refinement's key.
+    pub refinement: Option<f64>,
+    /// How it ended.
+    pub status: Status,
+    /// Why it did not end well.
+    pub reason: Option<String>,
+    /// All errors against the scene's references.
+    pub errors: BTreeMap<String, Error>,
+    /// Observed order between this and the next coarser variant, of the first judged error.
+    pub order: Option<f64>,
+    /// Wall-clock times.
+    pub wall_seconds: WallSeconds,
+    /// Threads.
+    pub threads: usize,
+    /// Free particles.
+    pub particles: usize,
+    /// Steps.
+    pub steps: u64,
+    /// Steps that were rolled back.
+    pub steps_rolled_back: u64,
+    /// Simulated time reached, s.
+    pub simulated_seconds: f64,
+    /// The bound that limited most steps.
+    pub dt_limiter: Option<String>,
+    /// Share of the steps limited by each bound.
+    pub dt_limiters: BTreeMap<String, f64>,
+    /// Wall-clock seconds per stage, of the fastest repetition.
+    pub wall_seconds_by_stage: BTreeMap<String, f64>,
+    /// Version of the program that ran it.
+    pub version: String,
+    /// Commit of the program that ran it.
+    pub commit: Option<String>,
+    /// What the result depends on.
+    pub fingerprint: String,
+}
+
+/// Wall-clock times of the repetitions, s.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct WallSeconds {
+    /// The least: what the variant takes where nothing disturbs it.
+    pub min: Option<f64>,
+    /// Largest over least, less one.
+    pub spread: Option<f64>,
+    /// All of them.
+    pub all: Vec<f64>,
+}
+
+/// Variants that differ in their refinement only, from coarse to fine.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct SeriesResult {
+    /// Labels on the other axes.
+    pub name: String,
+    /// Names of the variants.
+    pub variants: Vec<String>,
+    /// Orders of every judged error.
+    pub orders: BTreeMap<String, Orders>,
+}
+
+impl Results {
+    /// The results of a study from one record per variant.
+    pub fn new(
+        study: &Study,
+        records: &[Record],
+        machine: Machine,
+        commit: Option<String>,
+    ) -> Self {
+        let axes: Vec<String> = study.axes.iter().map(|a| a.name.clone()).collect();
+        let variants = study.variants.iter().zip(records);
+        let variants = variants.map(|(v, record)| VariantResult::new(v, record, &axes));
+        let variants = variants.collect();
+        let mut results = Results {
+            schema_version: SCHEMA_VERSION,
+            study: study.name.clone(),
+            title: study.file.title.clone(),
+            description: study.file.description.clone(),
+            scene: study.scene.clone(),
+            definition: study.definition().to_string(),
+            set: study.set.clone(),
+            errors: study.errors.clone(),
+            refinement: study.refinement.clone(),
+            serial: study.file.serial,
+            machine,
+            version: VERSION.into(),
+            commit,
+            variants,
+            axes,
+            series: Vec::new(),
+            pareto: Vec::new(),
+        };
+        results.series = results.make_series(study);
+        results.note_orders();
+        results.pareto = results.make_pareto();
+        results
+    }
+
+    /// The variant of that name.
+    pub fn variant(&self, name: &str) -> Option<&VariantResult> {
+        self.variants.iter().find(|v| v.name == name)
+    }
+
+    /// The error by which plots judge.
+    pub fn judged(&self) -> &str {
+        self.errors.first().map_or("", String::as_str)
+    }
+
+    fn make_series(&self, study: &Study) -> Vec<SeriesResult> {
+        let key = self.refinement.as_deref();
+        let refining = |k: usize| key.is_some_and(|key| study.axes[k].touches(key));
+        let mut series: Vec<SeriesResult> = Vec::new();
+        for (variant, result) in study.variants.iter().zip(&self.variants) {
+            let labels = variant.labels.iter().enumerate();
+            let others = labels.filter(|(k, _)| !refining(*k));
+            let name = others
+                .map(|(_, l)| l.as_str())
+                .collect::<Vec<_>>()
+                .join(", ");
+            match series.iter_mut().find(|s| s.name == name) {
+                Some(found) => found.variants.push(result.name.clone()),
+                None => series.push(SeriesResult {
+                    name,
+                    variants: vec![result.name.clone()],
+                    orders: BTreeMap::new(),
+                }),
+            }
+        }
+        for one in &mut series {
+            let of = |name: &String| self.variant(name).and_then(|v| v.refinement);
+            one.variants
+                .sort_by(|a, b| of(b).unwrap_or(0.0).total_cmp(&of(a).unwrap_or(0.0)));
+            if key.is_some() {
+                let orders = self.errors.iter().map(|error| {
+                    let points = self.convergence(&one.variants, error);
+                    let points: Vec<_> = points.into_iter().map(|(_, p)| p).collect();
+                    (error.clone(), Orders::of(&points))
+                });
+                one.orders = orders.collect();
+            }
+        }
+        series
+    }
+
+    /// Refinement and error of those variants that have both, with their names.
+    pub fn convergence(&self, variants: &[String], error: &str) -> Vec<(String, [f64; 2])> {
+        let point = |name: &String| {
+            let variant = self.variant(name)?;
+            let e = variant.error(error).filter(|e| *e > 0.0)?;
+            Some((name.clone(), [variant.refinement?, e]))
+        };
+        variants.iter().filter_map(point).collect()
+    }
+
+    fn note_orders(&mut self) {
+        if self.refinement.is_none() {
+            return;
+        }
+        let mut found = BTreeMap::new();
+        for series in &self.series {
+            let points = self.convergence(&series.variants, self.judged());
+            for pair in points.windows(2) {
+                let orders = Orders::of(&[pair[0].1, pair[1].1]);
+                found.insert(pair[1].0.clone(), orders.main());
+            }
+        }
+        for variant in &mut self.variants {
+            variant.order = found.get(&variant.name).copied().flatten();
+            variant.order = variant.order.filter(|o| o.is_finite());
+        }
+    }
+
+    fn make_pareto(&self) -> Vec<String> {
+        let points = self.variants.iter().filter_map(|v| {
+            let error = v.error(self.judged())?;
+            Some((v.name.clone(), [v.wall_seconds.min?, error]))
+        });
+        pareto(points.collect())
+    }
+}
+
+impl VariantResult {
+    fn new(v: &Variant, record: &Record, axes: &[String]) -> Self {
+        VariantResult {
+            name: v.name.clone(),
+            values: axes.iter().cloned().zip(v.labels.iter().cloned()).collect(),
+            refinement: v.refinement,
+            status: record.status,
+            reason: record.reason.clone(),
+            errors: match record.status {
+                Status::Done => record.errors.clone(),
+                _ => BTreeMap::new(),
+            },
+            order: None,
+            wall_seconds: WallSeconds {
+                min: record.least_seconds(),
+                spread: record.spread(),
+                all: record.wall_seconds.clone(),
+            },
+            threads: record.threads,
+            particles: record.particles,
+            steps: record.steps,
+            steps_rolled_back: record.steps_rolled_back,
+            simulated_seconds: record.simulated_seconds,
+            dt_limiter: record.limiter().map(String::from),
+            dt_limiters: record.dt_limiters.clone(),
+            wall_seconds_by_stage: record.wall_seconds_by_stage.clone(),
+            version: record.version.clone(),
+            commit: record.commit.clone(),
+            fingerprint: v.fingerprint.clone(),
+        }
+    }
+
+    /// An error, if the variant is finished and has it.
+    pub fn error(&self, name: &str) -> Option<f64> {
+        self.errors.get(name)?.value
+    }
+}

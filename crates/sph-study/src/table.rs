@@ -1,0 +1,144 @@
+//! Results as rows of text, for terminals, pages and spreadsheets.
+
+use std::io::Write;
+use std::path::Path;
+
+use sph_core::number;
+use sph_io::{Durability, IoError, write_atomic};
+
+use crate::record::Status;
+use crate::results::{Results, VariantResult};
+
+/// One row per variant, the first one being the heads of the columns.
+pub fn rows(results: &Results) -> Vec<Vec<String>> {
+    let mut heads: Vec<String> = results.axes.clone();
+    if heads.is_empty() {
+        heads.push("variant".into());
+    }
+    heads.extend(results.errors.clone());
+    let refined = results.refinement.is_some();
+    heads.extend(refined.then(|| "order".to_string()));
+    heads.extend(["wall time", "steps", "particles", "limited by", "status"].map(String::from));
+    let mut all = vec![heads];
+    all.extend(results.variants.iter().map(|v| row(results, v, refined)));
+    all
+}
+
+fn row(results: &Results, v: &VariantResult, refined: bool) -> Vec<String> {
+    let none = || "–".to_string();
+    let labels = results.axes.iter().map(|a| v.values.get(a).cloned());
+    let mut row: Vec<String> = labels.map(Option::unwrap_or_default).collect();
+    if row.is_empty() {
+        row.push(v.name.clone());
+    }
+    let errors = results.errors.iter().map(|name| v.error(name));
+    row.extend(errors.map(|e| e.map_or_else(none, number::plain)));
+    if refined {
+        row.push(v.order.map_or_else(none, |o| format!("{o:.2}")));
+    }
+    let begun = v.steps > 0;
+    row.push(seconds(v).unwrap_or_else(none));
+    let count = |n: f64| if begun { number::count(n) } else { none() };
+    row.push(count(v.steps as f64));
+    row.push(match v.particles {
+        0 => none(),
+        n => number::count(n as f64),
+    });
+    let limiter = v.dt_limiter.as_ref();
+    row.push(limiter.map_or_else(none, |name| {
+        let share = v.dt_limiters.get(name).copied().unwrap_or(0.0);
+        format!("{name} {:.0} %", 100.0 * share)
+    }));
+    row.push(match (v.status, &v.reason) {
+        (Status::Failed | Status::OverLimit, Some(reason)) => {
+            format!("{}: {reason}", v.status.name())
+        }
+        (status, _) => status.name().to_string(),
+    });
+    row
+}
+
+/// The least time, with the spread where there are several.
+fn seconds(v: &VariantResult) -> Option<String> {
+    let least = v.wall_seconds.min?;
+    let text = match least {
+        s if s < 100.0 => format!("{} s", number::plain((s * 1e3).round() / 1e3)),
+        s => number::duration(s),
+    };
+    Some(match v.wall_seconds.spread {
+        Some(spread) => format!("{text} +{:.0} %", 100.0 * spread),
+        None => text,
+    })
+}
+
+/// Writes one row of plain numbers per variant.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_csv(results: &Results, path: &Path) -> Result<(), IoError> {
+    write_atomic(path, Durability::Process, |file| csv(results, file))
+}
+
+fn csv(results: &Results, file: &mut dyn Write) -> std::io::Result<()> {
+    let mut heads = vec!["variant".to_string()];
+    heads.extend(results.axes.iter().cloned());
+    heads.push(results.refinement.clone().unwrap_or("refinement".into()));
+    heads.push("status".into());
+    heads.extend(results.errors.iter().map(|e| format!("error.{e}")));
+    let rest = [
+        "order",
+        "wall_seconds",
+        "wall_spread",
+        "threads",
+        "steps",
+        "particles",
+        "dt_limiter",
+        "reason",
+    ];
+    heads.extend(rest.map(String::from));
+    line(file, &heads)?;
+    for v in &results.variants {
+        let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x}"));
+        let mut row = vec![v.name.clone()];
+        row.extend(results.axes.iter().map(|a| v.values[a].clone()));
+        row.push(number(v.refinement));
+        row.push(v.status.name().into());
+        row.extend(results.errors.iter().map(|e| number(v.error(e))));
+        row.extend([
+            number(v.order),
+            number(v.wall_seconds.min),
+            number(v.wall_seconds.spread),
+            v.threads.to_string(),
+            v.steps.to_string(),
+            v.particles.to_string(),
+            v.dt_limiter.clone().unwrap_or_default(),
+            v.reason.clone().unwrap_or_default(),
+        ]);
+        line(file, &row)?;
+    }
+    Ok(())
+}
+
+fn line(file: &mut dyn Write, cells: &[String]) -> std::io::Result<()> {
+    let cells: Vec<String> = cells.iter().map(|c| quoted(c)).collect();
+    writeln!(file, "{}", cells.join(","))
+}
+
+/// A cell as RFC 4180 has it.
+fn quoted(cell: &str) -> String {
+    match cell.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", cell.replace('"', "\"\"")),
+        false => cell.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn cells_with_separators_are_quoted() {
+        assert_eq!(quoted("a b"), "a b");
+        assert_eq!(quoted("a, \"b\""), "\"a, \"\"b\"\"\"");
+    }
+}
