@@ -11,10 +11,10 @@ use crate::{
 
 /// Looks at every matrix and takes what is fastest for its kind:
 ///
-/// * stiffness (largest Σ|a_ij| over what is left of the diagonal, about 2νΔt/δr² at h = 2δr) below 20:
+/// * stiffness (largest Σ|a_ij| over what is left of the diagonal, about 2νΔt/δr² at h = 2δr) below 5:
 ///   conjugate gradients with `jacobi`;
-/// * in 2D with up to 200 000 particles and a stiffness above 200: `cholesky`;
-/// * else conjugate gradients with `incomplete-cholesky`.
+/// * in 2D with up to 200 000 particles and a stiffness above 2000: `cholesky`;
+/// * else conjugate gradients with `incomplete-diagonal`.
 ///
 /// Measured in docs/implicit.md.
 ///
@@ -34,9 +34,6 @@ pub struct Automatic {
     #[serde(skip)]
     #[schemars(skip)]
     direct: Cholesky,
-    #[serde(skip)]
-    #[schemars(skip)]
-    last_was_direct: bool,
 }
 
 impl Automatic {
@@ -54,15 +51,14 @@ impl Default for Automatic {
         Automatic {
             tolerance: 1e-8,
             direct: Cholesky::default(),
-            last_was_direct: false,
         }
     }
 }
 
 /// Stiffness up to which the diagonal alone preconditions.
-const MILD: f64 = 20.0;
+const MILD: f64 = 5.0;
 /// Stiffness from which factorising pays, in 2D.
-const STIFF: f64 = 200.0;
+const STIFF: f64 = 2000.0;
 /// Particles up to which factorising is tried.
 const DIRECT_ROWS: usize = 200_000;
 
@@ -74,23 +70,18 @@ impl<const D: usize> LinearSolver<D> for Automatic {
         x: &mut [Vect<D>],
     ) -> Result<Report, SolveError> {
         let stiffness = matrix.stiffness();
-        self.last_was_direct = D == 2 && matrix.rows() <= DIRECT_ROWS && stiffness > STIFF;
-        if self.last_was_direct {
+        if D == 2 && matrix.rows() <= DIRECT_ROWS && stiffness > STIFF {
             return self.direct.solve(matrix, right, x);
         }
         let mut iterative = ConjugateGradient {
             tolerance: self.tolerance,
             preconditioner: match stiffness < MILD {
                 true => Preconditioner::Jacobi,
-                false => Preconditioner::IncompleteCholesky,
+                false => Preconditioner::IncompleteDiagonal,
             },
             ..ConjugateGradient::default()
         };
         iterative.solve(matrix, right, x)
-    }
-
-    fn keeps_pattern(&self) -> bool {
-        self.last_was_direct
     }
 }
 

@@ -15,7 +15,7 @@ use crate::{LinearSolver, LinearSolverEntry, Matrix, Preconditioner, Report, Sol
 ///
 /// ```toml
 /// [linear-solver.conjugate-gradient]
-/// preconditioner = "incomplete-cholesky"
+/// preconditioner = "incomplete-diagonal"
 /// ```
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

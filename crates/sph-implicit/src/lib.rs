@@ -47,3 +47,4 @@ pub use matrix::{Entries, Matrix, Pattern, Values};
 pub use precondition::Preconditioner;
 pub use scheme::{BackwardEuler, CrankNicolson, ImplicitViscosityEntry, TimeScheme};
 pub use solver::{LinearSolver, LinearSolverEntry, Report};
+pub use vector::dot;

@@ -19,8 +19,11 @@ pub enum Preconditioner {
     Jacobi,
     /// Division by the diagonal blocks; for scalar entries the same as `jacobi`.
     BlockJacobi,
-    /// A triangular factorisation without fill; two serial sweeps per iteration.
+    /// A triangular factorisation that changes the diagonal only (simplified incomplete Cholesky);
+    /// two serial sweeps per iteration.
     #[default]
+    IncompleteDiagonal,
+    /// A triangular factorisation without fill; costs some ten iterations to make.
     IncompleteCholesky,
 }
 
@@ -57,11 +60,13 @@ impl Preconditioner {
             (Preconditioner::BlockJacobi, Entries::Block(values)) => {
                 Bound::Block(inverted::<D, _>(values, |d| *d).map_err(failed)?)
             }
-            (Preconditioner::IncompleteCholesky, Entries::Scalar(values)) => {
-                Bound::IncompleteScalar(incomplete::<D, _>(&matrix.pattern, values, failed)?)
+            (_, Entries::Scalar(values)) => {
+                let quick = self == Preconditioner::IncompleteDiagonal;
+                Bound::IncompleteScalar(incomplete::<D, _>(&matrix.pattern, values, quick, failed)?)
             }
-            (Preconditioner::IncompleteCholesky, Entries::Block(values)) => {
-                Bound::IncompleteBlock(incomplete::<D, _>(&matrix.pattern, values, failed)?)
+            (_, Entries::Block(values)) => {
+                let quick = self == Preconditioner::IncompleteDiagonal;
+                Bound::IncompleteBlock(incomplete::<D, _>(&matrix.pattern, values, quick, failed)?)
             }
         })
     }
@@ -70,9 +75,10 @@ impl Preconditioner {
 fn incomplete<const D: usize, E: Entry<D>>(
     pattern: &Pattern,
     values: &Values<E>,
+    pivots_only: bool,
     failed: impl Fn(usize) -> SolveError,
 ) -> Result<Incomplete<E>, SolveError> {
-    Incomplete::new::<D>(pattern, values).map_err(failed)
+    Incomplete::new::<D>(pattern, values, pivots_only).map_err(failed)
 }
 
 /// The inverses of parts of the diagonal, or the first row that has none.

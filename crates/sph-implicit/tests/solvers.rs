@@ -103,6 +103,7 @@ fn solvers() -> Vec<(String, Box<dyn LinearSolver<2>>)> {
         Preconditioner::None,
         Preconditioner::Jacobi,
         Preconditioner::BlockJacobi,
+        Preconditioner::IncompleteDiagonal,
         Preconditioner::IncompleteCholesky,
     ] {
         let conjugate = ConjugateGradient {

@@ -63,12 +63,8 @@ const MOTION: usize = 1;
 
 impl<const D: usize> Flow<D> {
     pub(crate) fn reset_timings(&mut self) {
-<<<<<<< HEAD
-        let services = ["neighbour lists", "kick and drift"].map(String::from);
-        let solves = self.implicit.iter().map(|_| "implicit viscosity".into());
-=======
         let services = [LISTS_NAME, "kick and drift"].map(String::from);
->>>>>>> study
+        let solves = self.implicit.iter().map(|_| "implicit viscosity".into());
         let names = services
             .into_iter()
             .chain(self.stages.iter().map(|s| s.name()))
@@ -127,8 +123,8 @@ impl<const D: usize> System for Flow<D> {
     fn kick(&mut self, dt: f64) -> Result<(), StepError> {
         let start = Instant::now();
         let mut velocity = self.world.free.take(fields::VELOCITY)?;
-        let wanted = self.implicit.as_ref().is_some_and(|i| i.wants_earlier());
-        let earlier = if wanted { velocity.clone() } else { Vec::new() };
+        let solved = self.implicit.is_some();
+        let earlier = if solved { velocity.clone() } else { Vec::new() };
         let acceleration = self.world.free.get(fields::ACCELERATION)?;
         velocity
             .par_iter_mut()

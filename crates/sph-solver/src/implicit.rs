@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use sph_core::{StepError, Vect, fields};
-use sph_implicit::{Entries, Entry, LinearSolver, Matrix, Report, Row, TimeScheme, assemble};
+use sph_implicit::{Entries, Entry, LinearSolver, Matrix, Report, Row, TimeScheme, assemble, dot};
 use sph_multiphase::Coupling;
 use sph_neighbours::World;
 
@@ -52,12 +52,7 @@ struct System<const D: usize> {
 }
 
 impl<const D: usize> ImplicitViscosity<D> {
-    /// Whether the velocity before the step's other forces is wanted.
-    pub fn wants_earlier(&self) -> bool {
-        self.scheme.implicit_share() < 1.0
-    }
-
-    /// Takes friction over a step; `earlier` is uⁿ, empty if it is not wanted.
+    /// Takes friction over a step; `earlier` is uⁿ.
     ///
     /// # Errors
     /// If the system cannot be solved to its tolerance.
@@ -77,14 +72,15 @@ impl<const D: usize> ImplicitViscosity<D> {
         let mut velocity = world.free.take(fields::VELOCITY)?;
         let rows = system.right.iter_mut().zip(&velocity).zip(&system.mass);
         rows.for_each(|((b, u), m)| *b += u * *m);
-        if !earlier.is_empty() {
-            let mut before = vec![Vect::zeros(); earlier.len()];
-            system.matrix.multiply(earlier, &mut before);
+        let mut before = vec![Vect::zeros(); earlier.len()];
+        system.matrix.multiply(earlier, &mut before);
+        if share < 1.0 {
             let rest = (1.0 - share) / share;
             for (k, b) in system.right.iter_mut().enumerate() {
                 *b -= (before[k] - earlier[k] * system.mass[k]) * rest;
             }
         }
+        start_between(&system, &before, earlier, &mut velocity);
         let solved = self
             .solver
             .solve(&system.matrix, &system.right, &mut velocity);
@@ -142,4 +138,26 @@ impl<const D: usize> ImplicitViscosity<D> {
             right,
         })
     }
+}
+
+/// The best start on the line from uⁿ to u*, in the norm of the matrix: where friction balances the
+/// other forces it is uⁿ, where there is little of it u*.
+fn start_between<const D: usize>(
+    system: &System<D>,
+    image: &[Vect<D>],
+    earlier: &[Vect<D>],
+    velocity: &mut [Vect<D>],
+) {
+    let ahead: Vec<Vect<D>> = velocity.iter().zip(earlier).map(|(u, e)| u - e).collect();
+    let mut image_ahead = vec![Vect::zeros(); ahead.len()];
+    system.matrix.multiply(&ahead, &mut image_ahead);
+    let missing: Vec<Vect<D>> = system.right.iter().zip(image).map(|(b, a)| b - a).collect();
+    let (along, curvature) = (dot(&ahead, &missing), dot(&ahead, &image_ahead));
+    let part = if curvature > 0.0 {
+        along / curvature
+    } else {
+        0.0
+    };
+    let both = velocity.iter_mut().zip(earlier).zip(&ahead);
+    both.for_each(|((u, e), a)| *u = e + a * part);
 }

@@ -1,0 +1,6 @@
+//! Viscosity from the end of the step: its matrix, its orders, its bits, and what it refuses.
+
+mod input;
+mod matrix;
+mod order;
+mod scenes;

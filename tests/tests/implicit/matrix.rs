@@ -1,0 +1,194 @@
+//! The matrix is the explicit term's: the same accelerations, symmetric, positive definite.
+
+use sph_core::{System, Vect, fields};
+use sph_implicit::{Cholesky, Entries, Entry, LinearSolver, Matrix, Row, assemble as matrix_of};
+use sph_multiphase::{
+    EspanolRevenga, HuAdamsViscosity, KrimiViscosity, MonaghanGingold, Morris, OnLattice,
+    Viscosity, ViscousOperator, WallTerm,
+};
+use sph_neighbours::{World, interactions};
+use sph_scene::parse;
+use sph_solver::assemble;
+
+const ETA: f64 = 3.0;
+
+/// A still fluid between slanted walls, cut from a lattice, then stirred and disturbed.
+fn wedge() -> World<2> {
+    let text = r#"
+        title = "wedge"
+        dimension = 2
+        [run]
+        end = 1.0
+        [numerics]
+        spacing = 0.05
+        smoothing_ratio = 2.0
+        [walls.usaw]
+        [wall.tank]
+        polyline = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.7], [0.6, 1.0], [0.0, 1.0]]
+        closed = true
+        velocity = [0.3, 0.0]
+        [phase.fluid]
+        density = 2.0
+        speed_of_sound = 10.0
+        [phase.fluid.rheology.newtonian]
+        viscosity = 1.0
+        [body.fluid]
+        phase = "fluid"
+        fill = "walls"
+    "#;
+    disturbed(text)
+}
+
+/// A box in three dimensions.
+fn cube() -> World<3> {
+    let text = r#"
+        title = "box"
+        dimension = 3
+        [run]
+        end = 1.0
+        [numerics]
+        spacing = 0.125
+        smoothing_ratio = 1.3
+        [walls.usaw]
+        [wall.tank]
+        box = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]
+        [phase.fluid]
+        density = 2.0
+        speed_of_sound = 10.0
+        [phase.fluid.rheology.newtonian]
+        viscosity = 1.0
+        [body.fluid]
+        phase = "fluid"
+        fill = "walls"
+    "#;
+    disturbed(text)
+}
+
+fn disturbed<const D: usize>(text: &str) -> World<D> {
+    let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    let mut flow = assemble::<D>(&loaded.scene)
+        .unwrap_or_else(|e| panic!("{e}"))
+        .flow;
+    let spacing = flow.world.spacing;
+    let wave = |x: f64, k: usize| (37.0 * x + 2.0 * k as f64).sin();
+    let positions = flow.world.free.get_mut(fields::POSITION).unwrap();
+    for (i, x) in positions.iter_mut().enumerate() {
+        *x += Vect::from_fn(|k, _| 0.1 * spacing * wave(i as f64, k));
+    }
+    flow.evaluate().expect("a state");
+    let velocities = flow.world.free.get_mut(fields::VELOCITY).unwrap();
+    for (i, u) in velocities.iter_mut().enumerate() {
+        *u = Vect::from_fn(|k, _| wave(0.7 * i as f64, k));
+    }
+    flow.world
+}
+
+fn operators<const D: usize>() -> Vec<(&'static str, Box<dyn ViscousOperator<D>>)> {
+    let literal = Morris {
+        wall_term: WallTerm::Literal,
+        on_lattice: OnLattice::Literal,
+        ..Morris::default()
+    };
+    vec![
+        ("morris", Box::new(Morris::default())),
+        ("morris, literal", Box::new(literal)),
+        ("hu-adams", Box::new(HuAdamsViscosity::default())),
+        ("espanol-revenga", Box::new(EspanolRevenga::default())),
+        ("monaghan-gingold", Box::new(MonaghanGingold::default())),
+        ("krimi", Box::new(KrimiViscosity::default())),
+    ]
+}
+
+/// K of an operator, and s.
+fn friction<const D: usize>(
+    world: &World<D>,
+    operator: &dyn ViscousOperator<D>,
+) -> (Matrix<D>, Vec<Vect<D>>) {
+    let coupling = operator.coupling(Viscosity::Uniform(ETA));
+    let bound = coupling.bind(world).unwrap();
+    match coupling.mixes_components() {
+        false => {
+            let (pattern, values, source) = matrix_of(world, false, |rows, out: &mut Vec<f64>| {
+                let row = bound.scalar_row(rows, out);
+                Row {
+                    own: row.wall,
+                    source: row.source,
+                }
+            })
+            .unwrap();
+            (Matrix::new(pattern, Entries::Scalar(values)), source)
+        }
+        true => {
+            let (pattern, values, source) = matrix_of(world, true, |rows, out| {
+                let row = bound.block_row(rows, out);
+                Row {
+                    own: row.wall,
+                    source: row.source,
+                }
+            })
+            .unwrap();
+            (Matrix::new(pattern, Entries::Block(values)), source)
+        }
+    }
+}
+
+fn largest<const D: usize>(all: &[Vect<D>]) -> f64 {
+    all.iter().map(|v| v.amax()).fold(0.0, f64::max)
+}
+
+fn is_the_term<const D: usize>(world: &World<D>) {
+    let velocity = world.free.get(fields::VELOCITY).unwrap();
+    let mass = world.free.get(fields::MASS).unwrap();
+    let gamma = world.free.get(fields::RENORMALISATION).unwrap();
+    for (name, operator) in operators::<D>() {
+        let mut explicit = vec![Vect::zeros(); mass.len()];
+        let term = operator.term(Viscosity::Uniform(ETA));
+        interactions(world, &mut Vec::new(), &[term], &mut explicit, None).unwrap();
+        let (matrix, source) = friction(world, &*operator);
+        let mut force = vec![Vect::zeros(); mass.len()];
+        matrix.multiply(velocity, &mut force);
+        let apart: Vec<_> = (0..mass.len())
+            .map(|i| explicit[i] * (mass[i] * gamma[i]) - (source[i] - force[i]))
+            .collect();
+        let error = largest(&apart) / largest(&force);
+        assert!(
+            error < 1e-12,
+            "{name} in {D}D: {error:e} between matrix and term"
+        );
+    }
+}
+
+#[test]
+fn the_matrix_gives_the_explicit_force_to_1e_12_next_to_walls_in_2d_and_3d() {
+    is_the_term(&wedge());
+    is_the_term(&cube());
+}
+
+fn is_symmetric_and_definite<const D: usize>(world: &World<D>) {
+    for (name, operator) in operators::<D>() {
+        let (mut matrix, _) = friction(world, &*operator);
+        let apart = matrix.asymmetry();
+        assert!(apart < 1e-14, "{name} in {D}D: asymmetry {apart:e}");
+        // With a millionth of the mass the factorisation still has positive pivots.
+        let mass = 1e-6 * world.free.get(fields::MASS).unwrap()[0];
+        match &mut matrix.entries {
+            Entries::Scalar(v) => v.diagonal.iter_mut().for_each(|d| *d += mass),
+            Entries::Block(v) => {
+                let unit = Entry::<D>::unit(mass);
+                v.diagonal
+                    .iter_mut()
+                    .for_each(|d| *d = Entry::<D>::plus(d, &unit));
+            }
+        }
+        let right = vec![Vect::repeat(1.0); matrix.rows()];
+        let mut x = right.clone();
+        let solved = Cholesky::default().solve(&matrix, &right, &mut x);
+        assert!(solved.is_ok(), "{name} in {D}D: {solved:?}");
+    }
+}
+
+#[test]
+fn it_is_symmetric_to_1e_14_and_positive_definite_on_disturbed_particles_with_walls() {
+    is_symmetric_and_definite(&wedge());
+    is_symmetric_and_definite(&cube());
+}
