@@ -16,7 +16,7 @@ use crate::{
 /// * in 2D with up to 200 000 particles and a stiffness above 2000: `cholesky`;
 /// * else conjugate gradients with `incomplete-diagonal`.
 ///
-/// Measured in docs/implicit.md.
+/// Measured in docs/validation/implicit.md.
 ///
 /// ```toml
 /// [linear-solver.automatic]
@@ -90,5 +90,5 @@ register!(
     Automatic,
     "automatic",
     "Cholesky or conjugate gradients, by size and stiffness of every system",
-    "docs/implicit.md"
+    "docs/validation/implicit.md"
 );

@@ -36,6 +36,14 @@ pub struct Cholesky {
     kept: Option<Kept>,
 }
 
+impl Cholesky {
+    /// Bytes of the factor that is kept; nothing before the first solve.
+    pub fn bytes(&self) -> usize {
+        let numbers = |k: &Kept| k.factor.len() + k.upper.values.len();
+        8 * self.kept.as_ref().map_or(0, numbers)
+    }
+}
+
 /// What outlives a solve.
 struct Kept {
     pattern: Arc<Pattern>,

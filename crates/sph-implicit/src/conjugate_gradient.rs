@@ -21,7 +21,7 @@ use crate::{LinearSolver, LinearSolverEntry, Matrix, Preconditioner, Report, Sol
 #[serde(deny_unknown_fields, default)]
 pub struct ConjugateGradient {
     /// What shortens the iteration.
-    #[schemars(extend("source" = "docs/implicit.md: iterations against contrast"))]
+    #[schemars(extend("source" = "docs/validation/implicit.md: iterations against contrast"))]
     pub preconditioner: Preconditioner,
     /// Relative residual |b − A x| / |b| at which it ends.
     #[schemars(

@@ -60,7 +60,8 @@ fn limiter(s: &Costs) -> Option<String> {
     };
     let what = match name.as_str() {
         "viscosity" => format!(
-            "treating the viscosity implicitly takes this bound away; {then}, so at best that \
+            "treating the viscosity implicitly (`[implicit-viscosity.backward-euler]`) takes this \
+             bound away; {then}, so at best that \
              many times fewer steps"
         ),
         "sound" => format!(
