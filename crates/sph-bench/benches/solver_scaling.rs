@@ -50,9 +50,7 @@ fn matrix<const D: usize>(side: usize, reach: f64, stiffness: f64, contrast: f64
 
 fn right<const D: usize>(n: usize) -> Vec<Vect<D>> {
     let wave = |i: usize, k: usize| (0.7 * i as f64 + k as f64).sin() + 0.3;
-    (0..n)
-        .map(|i| Vect::from_fn(|k, _| wave(i, k)))
-        .collect()
+    (0..n).map(|i| Vect::from_fn(|k, _| wave(i, k))).collect()
 }
 
 fn conjugate(preconditioner: Preconditioner) -> ConjugateGradient {
@@ -132,8 +130,12 @@ fn scaling<const D: usize>(sides: &[usize], reach: f64, direct_up_to: usize) {
 }
 
 fn contrasts() {
-    println!("\n2D, 10 000 particles, stiffness 30 in the thin half: iterations to 1e-8 against contrast");
-    println!("| contrast | none | jacobi | incomplete-diagonal | incomplete-cholesky | bicgstab, jacobi | Cholesky, ms |");
+    println!(
+        "\n2D, 10 000 particles, stiffness 30 in the thin half: iterations to 1e-8 against contrast"
+    );
+    println!(
+        "| contrast | none | jacobi | incomplete-diagonal | incomplete-cholesky | bicgstab, jacobi | Cholesky, ms |"
+    );
     println!("|---|---|---|---|---|---|---|");
     for contrast in [1.0, 1e2, 1e4, 1e6] {
         let matrix = matrix::<2>(100, 4.0, 30.0, contrast);
@@ -151,7 +153,10 @@ fn contrasts() {
         };
         let (_, bicgstab) = timed(&mut stabilised, &matrix);
         let (ms, _) = timed(&mut Cholesky::default(), &matrix);
-        println!("| {contrast:e} | {} | {bicgstab} | {ms:.0} |", its.join(" | "));
+        println!(
+            "| {contrast:e} | {} | {bicgstab} | {ms:.0} |",
+            its.join(" | ")
+        );
     }
 }
 

@@ -52,12 +52,12 @@ fn one_two_and_four_threads_give_the_same_bits_with_every_solver() {
     }
 }
 
-/// Steps 10⁴ times the explicit bound of 4.9e-6 s.
+/// Steps 16 500 times the explicit bound of 4.9e-6 s.
 #[test]
 fn creep_is_stable_far_beyond_the_explicit_bound_and_within_half_a_per_cent() {
     let summary = finished("poiseuille-creep", &[]);
     let found = error(&summary, "profile");
-    assert!(found < 0.005, "profile {found}, measured 0.00048");
+    assert!(found < 0.005, "profile {found}, measured 0.00069");
     let mean_step = summary.simulated_seconds / summary.steps as f64;
     assert!(mean_step > 1e4 * 4.88e-6, "mean step {mean_step}");
     assert!(!summary.dt_limiters.contains_key("viscosity"));
