@@ -9,7 +9,7 @@ use crate::{Entry, Pattern};
 /// A ≈ (P + L) P⁻¹ (P + Lᵀ) with L on the lower pattern of A:
 /// l_ij = a_ij − Σ_{k<j} l_ik p_k⁻¹ l_jkᵀ, p_i = a_ii − Σ_{k<i} l_ik p_k⁻¹ l_ikᵀ.
 ///
-/// Rows are cut into parts of [`PART`], whatever the number of threads; what couples parts is left out
+/// Rows are cut into parts of 2048, whatever the number of threads; what couples parts is left out
 /// of L, so that they are factorised and solved side by side. For M-matrices all pivots are positive
 /// (Meijerink & van der Vorst 1977). Where one is not, the diagonal of the matrix is raised and the
 /// factorisation begun anew.
@@ -28,7 +28,7 @@ struct Part<E> {
 }
 
 /// Rows of a part.
-pub const PART: usize = 2048;
+const PART: usize = 2048;
 /// By what share the diagonal is raised at the first failure; tenfold at every further one.
 const RAISE: f64 = 1e-3;
 /// Failures after which the matrix is called indefinite.
