@@ -82,3 +82,20 @@ fn crank_nicolson_with_leap_frog_is_of_second_order() {
     let found = order("leap-frog", tight);
     assert!((found - 2.0).abs() < 0.1, "order {found:.3}");
 }
+
+/// Explicitly: the order of every integrator for the flow as a whole.
+#[test]
+fn every_integrator_has_its_order_on_vortices() {
+    for (integrator, stated) in [
+        ("symplectic-euler", 1.0),
+        ("verlet", 2.0),
+        ("leap-frog", 2.0),
+        ("predictor-corrector", 1.0),
+    ] {
+        let found = order(integrator, "");
+        assert!(
+            (found - stated).abs() < 0.15,
+            "{integrator}: order {found:.3}, stated {stated}"
+        );
+    }
+}
