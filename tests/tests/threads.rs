@@ -4,11 +4,11 @@ use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
-fn same_for_all_threads(scene: &str) {
+fn same_for_all_threads(scene: &str, set: &str) {
     let bench = Bench::with(PROGRAM, scene);
     let state = |threads: u32| {
         bench.done(&format!(
-            "run scene.toml --quiet --out r{threads} --threads {threads}"
+            "run scene.toml --quiet --out r{threads} --threads {threads} {set}"
         ));
         FinalState::of(&bench.path(&format!("r{threads}")))
     };
@@ -20,10 +20,19 @@ fn same_for_all_threads(scene: &str) {
 
 #[test]
 fn a_dam_break_gives_the_same_bits() {
-    same_for_all_threads(DAM_BREAK);
+    same_for_all_threads(DAM_BREAK, "");
 }
 
 #[test]
 fn a_moving_wall_gives_the_same_bits() {
-    same_for_all_threads(PADDLE);
+    same_for_all_threads(PADDLE, "");
+}
+
+#[test]
+fn an_implicit_viscosity_gives_the_same_bits_with_every_solver() {
+    for solver in ["cholesky", "conjugate-gradient", "automatic"] {
+        let tables = format!("[implicit-viscosity.backward-euler]\n[linear-solver.{solver}]");
+        let stiff = "--set phase.water.rheology.newtonian.viscosity=50";
+        same_for_all_threads(&format!("{DAM_BREAK}\n{tables}\n"), stiff);
+    }
 }

@@ -56,13 +56,8 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
         };
         let mut watch = Watch::new(METHOD, tolerance, right)?;
         let mut r = residual(matrix, right, x);
-        let done = |watch: &Watch, residual| Report {
-            method: METHOD,
-            iterations: watch.iterations(),
-            residual,
-        };
         if let Some(residual) = watch.reached(norm(&r))? {
-            return Ok(done(&watch, residual));
+            return Ok(watch.report(residual));
         }
         let precondition = self.preconditioner.bind(matrix, METHOD)?;
         let zeros = || vec![Vect::<D>::zeros(); right.len()];
@@ -95,7 +90,7 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
             add(x, omega, &z);
             add(&mut r, -omega, &t);
             if let Some(residual) = watch.reached(norm(&r))? {
-                return Ok(done(&watch, residual));
+                return Ok(watch.report(residual));
             }
         }
     }

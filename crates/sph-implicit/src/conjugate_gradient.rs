@@ -59,13 +59,8 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
         };
         let mut watch = Watch::new(METHOD, tolerance, right)?;
         let mut r = residual(matrix, right, x);
-        let done = |watch: &Watch, residual| Report {
-            method: METHOD,
-            iterations: watch.iterations(),
-            residual,
-        };
         if let Some(residual) = watch.reached(norm(&r))? {
-            return Ok(done(&watch, residual));
+            return Ok(watch.report(residual));
         }
         let precondition = self.preconditioner.bind(matrix, METHOD)?;
         let mut z = vec![Vect::zeros(); r.len()];
@@ -83,7 +78,7 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
             add(x, length, &direction);
             add(&mut r, -length, &image);
             if let Some(residual) = watch.reached(norm(&r))? {
-                return Ok(done(&watch, residual));
+                return Ok(watch.report(residual));
             }
             precondition.apply(&r, &mut z);
             let next = dot(&r, &z);

@@ -35,7 +35,7 @@ const RAISE: f64 = 1e-3;
 const ATTEMPTS: usize = 5;
 
 impl<E: Copy + Send + Sync> Incomplete<E> {
-    /// Factorises; with `pivots_only` l_ij = a_ij, which is ten times as fast and nearly as good.
+    /// Factorises; with `pivots_only` l_ij = a_ij, which leaves out the search for common columns: less work for more iterations.
     ///
     /// # Errors
     /// The row whose pivot is not positive, even with a raised diagonal.

@@ -3,7 +3,7 @@
 use sph_core::Vect;
 
 use crate::vector::norm;
-use crate::{Matrix, SolveError};
+use crate::{Matrix, Report, SolveError};
 
 /// When an iteration ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,6 +78,15 @@ impl Watch {
     /// Iterations so far.
     pub fn iterations(&self) -> usize {
         self.history.len().saturating_sub(1)
+    }
+
+    /// What the solve took.
+    pub fn report(&self, residual: f64) -> Report {
+        Report {
+            method: self.method,
+            iterations: self.iterations(),
+            residual,
+        }
     }
 
     /// A curvature that is not positive.

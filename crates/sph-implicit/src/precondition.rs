@@ -23,7 +23,7 @@ pub enum Preconditioner {
     /// two serial sweeps per iteration.
     #[default]
     IncompleteDiagonal,
-    /// A triangular factorisation without fill; costs some ten iterations to make.
+    /// A triangular factorisation without fill; fewer iterations for more work to make it.
     IncompleteCholesky,
 }
 

@@ -64,11 +64,9 @@ impl<const D: usize> ImplicitViscosity<D> {
     ) -> Result<(), StepError> {
         let share = self.scheme.implicit_share();
         let mut system = match self.coupling.mixes_components() {
-            false => self.scalar_system(world, share * dt)?,
-            true => self.block_system(world, share * dt)?,
+            false => self.scalar_system(world, share, dt)?,
+            true => self.block_system(world, share, dt)?,
         };
-        // What was put together for θΔt is wanted for Δt.
-        system.right.iter_mut().for_each(|s| *s /= share);
         let mut velocity = world.free.take(fields::VELOCITY)?;
         let rows = system.right.iter_mut().zip(&velocity).zip(&system.mass);
         rows.for_each(|((b, u), m)| *b += u * *m);
@@ -93,17 +91,22 @@ impl<const D: usize> ImplicitViscosity<D> {
         Ok(())
     }
 
-    fn scalar_system(&self, world: &World<D>, dt: f64) -> Result<System<D>, StepError> {
+    fn scalar_system(&self, world: &World<D>, share: f64, dt: f64) -> Result<System<D>, StepError> {
         let bound = self.coupling.bind(world)?;
-        self.system(world, dt, Entries::Scalar, |rows, out: &mut Vec<f64>| {
-            let row = bound.scalar_row(rows, out);
-            (row.wall, row.source)
-        })
+        self.system(
+            world,
+            [share, dt],
+            Entries::Scalar,
+            |rows, out: &mut Vec<f64>| {
+                let row = bound.scalar_row(rows, out);
+                (row.wall, row.source)
+            },
+        )
     }
 
-    fn block_system(&self, world: &World<D>, dt: f64) -> Result<System<D>, StepError> {
+    fn block_system(&self, world: &World<D>, share: f64, dt: f64) -> Result<System<D>, StepError> {
         let bound = self.coupling.bind(world)?;
-        self.system(world, dt, Entries::Block, |rows, out| {
+        self.system(world, [share, dt], Entries::Block, |rows, out| {
             let row = bound.block_row(rows, out);
             (row.wall, row.source)
         })
@@ -112,29 +115,28 @@ impl<const D: usize> ImplicitViscosity<D> {
     fn system<E: Entry<D>>(
         &self,
         world: &World<D>,
-        dt: f64,
+        [share, dt]: [f64; 2],
         entries: impl FnOnce(sph_implicit::Values<E>) -> Entries<D>,
         friction: impl Fn(&sph_neighbours::Neighbourhood<'_, D>, &mut Vec<E>) -> (E, Vect<D>) + Sync,
     ) -> Result<System<D>, StepError> {
-        let mass = world.free.get(fields::MASS)?;
+        let gamma = world.free.get(fields::RENORMALISATION).ok();
+        let mass = world.free.get(fields::MASS)?.iter().enumerate();
+        let mass: Vec<f64> = mass.map(|(i, m)| gamma.map_or(*m, |g| m * g[i])).collect();
         let (pattern, values, right) = assemble(
             world,
             self.solver.keeps_pattern(),
             |rows, out: &mut Vec<E>| {
                 let (wall, source) = friction(rows, out);
-                out.iter_mut().for_each(|c| *c = c.times(dt));
-                let inertia = mass[rows.particle] / rows.inverse_renormalisation;
+                out.iter_mut().for_each(|c| *c = c.times(share * dt));
                 Row {
-                    own: E::unit(inertia).plus(&wall.times(dt)),
+                    own: E::unit(mass[rows.particle]).plus(&wall.times(share * dt)),
                     source: source * dt,
                 }
             },
         )?;
-        let gamma = world.free.get(fields::RENORMALISATION).ok();
-        let mass = mass.iter().enumerate();
         Ok(System {
             matrix: Matrix::new(pattern, entries(values)),
-            mass: mass.map(|(i, m)| gamma.map_or(*m, |g| m * g[i])).collect(),
+            mass,
             right,
         })
     }

@@ -1,6 +1,5 @@
-//! Viscosity from the end of the step: its matrix, its orders, its bits, and what it refuses.
+//! Viscosity from the end of the step: its matrix, its orders, and what it refuses.
 
 mod input;
 mod matrix;
 mod order;
-mod scenes;

@@ -5,6 +5,7 @@
 mod channels;
 mod dam_breaks;
 mod drops;
+mod implicit;
 mod shipped;
 mod tanks;
 mod vortices;
