@@ -1,6 +1,8 @@
 //! What a field is: a name, a unit, a meaning, and the type of one entry.
 
-use crate::Vect;
+use nalgebra::SMatrix;
+
+use crate::{Symmetric, Vect};
 
 /// One real number per particle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +16,15 @@ pub struct Vector;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Index;
 
+/// One D × D tensor per particle (a velocity gradient).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tensor;
+
+/// One symmetric tensor in space per particle, whatever D (a stress in plane strain has a component
+/// out of the plane).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SymmetricTensor;
+
 /// A column of one of the supported types.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Column<const D: usize> {
@@ -23,6 +34,10 @@ pub enum Column<const D: usize> {
     Vector(Vec<Vect<D>>),
     /// Unsigned integers.
     Index(Vec<u32>),
+    /// D × D tensors.
+    Tensor(Vec<SMatrix<f64, D, D>>),
+    /// Symmetric tensors in space.
+    SymmetricTensor(Vec<Symmetric>),
 }
 
 /// The type of a field's entries.
@@ -50,6 +65,10 @@ pub enum Shape {
     Vector,
     /// Unsigned integers.
     Index,
+    /// D × D tensors.
+    Tensor,
+    /// Symmetric tensors in space.
+    SymmetricTensor,
 }
 
 impl Shape {
@@ -59,6 +78,8 @@ impl Shape {
             Shape::Scalar => Scalar::column(n),
             Shape::Vector => Vector::column(n),
             Shape::Index => Index::column(n),
+            Shape::Tensor => Tensor::column(n),
+            Shape::SymmetricTensor => SymmetricTensor::column(n),
         }
     }
 }
@@ -95,8 +116,10 @@ macro_rules! kind {
 kind!(Scalar, f64, 0.0, |_| 1);
 kind!(Vector, Vect<D>, Vect::<D>::zeros(), |d| d);
 kind!(Index, u32, 0, |_| 1);
+kind!(Tensor, SMatrix<f64, D, D>, SMatrix::<f64, D, D>::zeros(), |d| d * d);
+kind!(SymmetricTensor, Symmetric, Symmetric::ZERO, |_| 6);
 
-/// A typed name for a column: `Field<Scalar>`, `Field<Vector>` or `Field<Index>`.
+/// A typed name for a column: `Field<Scalar>`, `Field<Vector>` and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Field<K> {
     /// Name in scene files, VTK arrays and the book.

@@ -1,6 +1,6 @@
 //! The well-known fields. A plugin may declare others; the name is what counts.
 
-use crate::{Field, Index, Scalar, Vector};
+use crate::{Field, Index, Scalar, SymmetricTensor, Tensor, Vector};
 
 /// Position of a particle.
 pub const POSITION: Field<Vector> = Field::new("position", "m", "position");
@@ -20,6 +20,36 @@ pub const PRESSURE: Field<Scalar> =
     Field::new("pressure", "Pa", "pressure of the equation of state");
 /// Dynamic viscosity where it differs between particles.
 pub const VISCOSITY: Field<Scalar> = Field::new("viscosity", "Pa s", "dynamic viscosity");
+/// Gradient of the velocity, ∂u_i/∂x_j.
+pub const VELOCITY_GRADIENT: Field<Tensor> = Field::new(
+    "velocity_gradient",
+    "1/s",
+    "gradient of the velocity, ∂u_i/∂x_j",
+);
+/// Magnitude γ̇ = √(2 D:D) of the deviatoric strain rate D.
+pub const STRAIN_RATE: Field<Scalar> = Field::new(
+    "strain_rate",
+    "1/s",
+    "magnitude √(2 D:D) of the deviatoric strain rate D",
+);
+/// Pressure between the grains of a soil: what friction feels.
+pub const EFFECTIVE_PRESSURE: Field<Scalar> = Field::new(
+    "effective_pressure",
+    "Pa",
+    "pressure between the grains of a soil",
+);
+/// Deviatoric stress of the elastic part of a material, as it is remembered.
+pub const ELASTIC_STRESS: Field<SymmetricTensor> = Field::new(
+    "elastic_stress",
+    "Pa",
+    "remembered deviatoric stress of the elastic part (xx, yy, zz, xy, yz, xz)",
+);
+/// Deviatoric stress whose divergence moves the material.
+pub const CARRIED_STRESS: Field<SymmetricTensor> = Field::new(
+    "carried_stress",
+    "Pa",
+    "deviatoric elastic stress that acts (xx, yy, zz, xy, yz, xz)",
+);
 /// Wall renormalisation factor γ: the share of the kernel inside the walls.
 pub const RENORMALISATION: Field<Scalar> = Field::new(
     "renormalisation",

@@ -32,11 +32,12 @@ mod quantity;
 mod registry;
 mod stage;
 mod store;
+mod symmetric;
 
 pub use conform::{conform, defaults};
 pub use error::{FieldError, PlanError, RegistryError, SceneProblem, StepError};
 pub use evolve::{Evolved, Recall, System};
-pub use field::{AnyField, Field, Index, Kind, Scalar, Shape, Vector};
+pub use field::{AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector};
 pub use limit::StepLimit;
 pub use names::{nearest, suggestion};
 pub use plan::{Plan, plan};
@@ -47,6 +48,7 @@ pub use registry::{
 };
 pub use stage::{Access, Declares, Stage};
 pub use store::{Plain, Role, Store};
+pub use symmetric::Symmetric;
 
 /// Crates that the registration macros name; use them through the macros only.
 #[doc(hidden)]

@@ -138,6 +138,8 @@ impl<const D: usize> Store<D> {
                 Column::Scalar(items) => gather(items, order),
                 Column::Vector(items) => gather(items, order),
                 Column::Index(items) => gather(items, order),
+                Column::Tensor(items) => gather(items, order),
+                Column::SymmetricTensor(items) => gather(items, order),
             }
         }
     }
@@ -151,6 +153,16 @@ impl<const D: usize> Store<D> {
                 Column::Scalar(v) => (1, Plain::Real(Cow::Borrowed(v.as_slice()))),
                 Column::Vector(v) => (D, Plain::Real(v.iter().flatten().copied().collect())),
                 Column::Index(v) => (1, Plain::Index(v.as_slice())),
+                Column::Tensor(v) => {
+                    // Row by row, while nalgebra keeps columns.
+                    let rows = v
+                        .iter()
+                        .flat_map(|g| (0..D * D).map(move |k| g[(k / D, k % D)]));
+                    (D * D, Plain::Real(rows.collect()))
+                }
+                Column::SymmetricTensor(v) => {
+                    (6, Plain::Real(v.iter().flat_map(|t| t.0).collect()))
+                }
             };
             (e.name, e.unit, e.role, components, plain)
         })
@@ -168,6 +180,16 @@ impl<const D: usize> Store<D> {
             Column::Vector(v) if values.len() == D * len => {
                 for (item, chunk) in v.iter_mut().zip(values.chunks_exact(D)) {
                     *item = Vect::from_column_slice(chunk);
+                }
+            }
+            Column::Tensor(v) if values.len() == D * D * len => {
+                for (item, chunk) in v.iter_mut().zip(values.chunks_exact(D * D)) {
+                    *item = nalgebra::SMatrix::from_row_slice(chunk);
+                }
+            }
+            Column::SymmetricTensor(v) if values.len() == 6 * len => {
+                for (item, chunk) in v.iter_mut().zip(values.chunks_exact(6)) {
+                    item.0.copy_from_slice(chunk);
                 }
             }
             Column::Index(_) => return Err(FieldError::Type(name)),
@@ -199,6 +221,8 @@ impl<const D: usize> Store<D> {
                 Column::Scalar(_) => 8,
                 Column::Vector(_) => 8 * D,
                 Column::Index(_) => 4,
+                Column::Tensor(_) => 8 * D * D,
+                Column::SymmetricTensor(_) => 48,
             })
             .sum()
     }

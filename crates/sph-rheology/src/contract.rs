@@ -1,36 +1,62 @@
 //! What a rheology is.
 
-use sph_core::contract;
+use nalgebra::Matrix3;
+use sph_core::{Symmetric, contract};
 
 /// The inputs a law reads; only those are computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Needs {
-    /// Magnitude of the strain rate γ̇ = √(2 γ̇:γ̇), 1/s.
+    /// Magnitude of the deviatoric strain rate γ̇ = √(2 D:D), 1/s.
     pub strain_rate: bool,
-    /// Pressure, Pa.
+    /// Pressure that makes friction, Pa: the effective pressure of a soil, where the scene
+    /// computes one.
     pub pressure: bool,
 }
 
 /// The inputs of a batch; slices that the law did not ask for are empty.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Inputs<'a> {
-    /// Magnitude of the strain rate, 1/s.
+    /// Magnitude of the deviatoric strain rate, 1/s.
     pub strain_rate: &'a [f64],
-    /// Pressure, Pa.
+    /// Pressure that makes friction, Pa; may be negative.
     pub pressure: &'a [f64],
 }
 
-/// A generalised Newtonian law τ = 2 η γ̇ with an effective viscosity η.
+/// A constitutive law: an effective viscosity η in τ = 2 η D, an elastic part, or both.
 pub trait Rheology: Send + Sync + std::fmt::Debug {
     /// What the law reads.
     fn needs(&self) -> Needs;
     /// The viscosity if it is one number for all times and places, Pa s. Then no viscosity
     /// column is allocated.
     fn uniform_viscosity(&self) -> Option<f64>;
-    /// Effective viscosity of a batch, Pa s.
+    /// Effective viscosity of a batch, Pa s: finite and not negative for every finite input.
     fn viscosity(&self, inputs: &Inputs<'_>, viscosity: &mut [f64]);
-    /// A bound of the viscosity for the time step, Pa s.
+    /// A bound of the viscosity for the time step, Pa s; infinite where there is none but that of
+    /// the present state.
     fn largest_viscosity(&self) -> f64;
+    /// The part of the law that remembers, if it has one.
+    fn elastic(&self) -> Option<&dyn Elastic> {
+        None
+    }
+}
+
+/// The elastic part of a law: a deviatoric stress that follows the motion and may yield.
+///
+/// Stresses are positive in tension; (grad u)_ij = ∂u_i/∂x_j.
+pub trait Elastic: Send + Sync {
+    /// Shear modulus 𝒢, Pa; √(𝒢/ρ) bounds the step.
+    fn shear_modulus(&self) -> f64;
+    /// Advances the remembered stress of a batch over `dt` with the gradients of the velocity.
+    fn advance(
+        &self,
+        inputs: &Inputs<'_>,
+        gradient: &[Matrix3<f64>],
+        dt: f64,
+        stress: &mut [Symmetric],
+    );
+    /// The stress that acts, from the remembered one: (1 − ζ)τ for a law that blends with a
+    /// viscous part.
+    fn carried(&self, inputs: &Inputs<'_>, stress: &[Symmetric], carried: &mut [Symmetric]);
 }
 
 contract!(

@@ -15,5 +15,5 @@
 mod contract;
 mod newtonian;
 
-pub use contract::{Inputs, Needs, Rheology, RheologyEntry};
+pub use contract::{Elastic, Inputs, Needs, Rheology, RheologyEntry};
 pub use newtonian::Newtonian;

@@ -1,0 +1,104 @@
+//! Symmetric tensors in space.
+
+use std::ops::{Add, Mul, Sub};
+
+use nalgebra::{Matrix3, Vector3};
+
+/// A symmetric 3 × 3 tensor: xx, yy, zz, xy, yz, xz.
+///
+/// Plane problems use it as well: what happens in the plane leaves a component out of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Symmetric(pub [f64; 6]);
+
+impl Symmetric {
+    /// The zero tensor.
+    pub const ZERO: Symmetric = Symmetric([0.0; 6]);
+
+    /// ½(A + Aᵀ).
+    pub fn part_of(a: &Matrix3<f64>) -> Self {
+        let mean = |i, j| 0.5 * (a[(i, j)] + a[(j, i)]);
+        Symmetric([
+            a[(0, 0)],
+            a[(1, 1)],
+            a[(2, 2)],
+            mean(0, 1),
+            mean(1, 2),
+            mean(0, 2),
+        ])
+    }
+
+    /// As a full matrix.
+    pub fn matrix(&self) -> Matrix3<f64> {
+        let [xx, yy, zz, xy, yz, xz] = self.0;
+        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    }
+
+    /// A_xx + A_yy + A_zz.
+    pub fn trace(&self) -> f64 {
+        self.0[0] + self.0[1] + self.0[2]
+    }
+
+    /// A − ⅓ tr(A) I.
+    pub fn deviator(&self) -> Self {
+        let third = self.trace() / 3.0;
+        let [xx, yy, zz, xy, yz, xz] = self.0;
+        Symmetric([xx - third, yy - third, zz - third, xy, yz, xz])
+    }
+
+    /// A:B = Σ A_ij B_ij.
+    pub fn contract(&self, other: &Self) -> f64 {
+        let (a, b) = (&self.0, &other.0);
+        let diagonal = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        diagonal + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
+    }
+
+    /// A·v.
+    pub fn apply(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        let [xx, yy, zz, xy, yz, xz] = self.0;
+        Vector3::new(
+            xx * v[0] + xy * v[1] + xz * v[2],
+            xy * v[0] + yy * v[1] + yz * v[2],
+            xz * v[0] + yz * v[1] + zz * v[2],
+        )
+    }
+}
+
+impl Add for Symmetric {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Symmetric(std::array::from_fn(|k| self.0[k] + other.0[k]))
+    }
+}
+
+impl Sub for Symmetric {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Symmetric(std::array::from_fn(|k| self.0[k] - other.0[k]))
+    }
+}
+
+impl Mul<f64> for Symmetric {
+    type Output = Self;
+    fn mul(self, factor: f64) -> Self {
+        Symmetric(self.0.map(|c| c * factor))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn operations_are_those_of_the_matrix() {
+        let a = Matrix3::new(1.0, 2.0, -3.0, 0.5, -1.0, 4.0, 2.5, 0.25, 7.0);
+        let s = Symmetric::part_of(&a);
+        let m = s.matrix();
+        assert_eq!(m, 0.5 * (a + a.transpose()));
+        assert_eq!(s.trace(), m.trace());
+        assert!((s.contract(&s) - m.component_mul(&m).sum()).abs() < 1e-13);
+        let v = Vector3::new(0.3, -2.0, 1.5);
+        assert!((s.apply(&v) - m * v).norm() < 1e-14);
+        assert!(s.deviator().trace().abs() < 1e-15);
+        assert_eq!((s + s - s * 2.0), Symmetric::ZERO);
+    }
+}
