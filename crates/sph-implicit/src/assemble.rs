@@ -1,8 +1,8 @@
 //! From the neighbour lists to a matrix.
 
 use rayon::prelude::*;
-use sph_core::{StepError, Vect, fields};
-use sph_neighbours::{CHUNK, Neighbourhood, Scratch, World};
+use sph_core::{StepError, Vect};
+use sph_neighbours::{CHUNK, Neighbourhood, Rows, Surroundings, World};
 
 use crate::{Entry, Pattern, Values};
 
@@ -26,8 +26,7 @@ struct Part<E, const D: usize> {
 
 /// Buffers of one thread.
 struct Buffers<E, const D: usize> {
-    free: Scratch<D>,
-    wall: Scratch<D>,
+    rows: Rows<D>,
     couplings: Vec<E>,
     sorted: Vec<(u32, E)>,
 }
@@ -45,33 +44,13 @@ pub fn assemble<const D: usize, E: Entry<D>>(
     keep_skin: bool,
     row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<E>) -> Row<E, D> + Sync,
 ) -> Result<(Pattern, Values<E>, Vec<Vect<D>>), StepError> {
-    let positions = world.free.get(fields::POSITION)?;
-    let gamma = world.free.get(fields::RENORMALISATION).ok();
-    let points = &world.walls.points.position[..];
-    let kernel = &*world.kernel;
-    let (list, pruned) = match &world.lists.pruned {
-        Some(list) if !keep_skin => (list, true),
-        _ => (&world.lists.free, false),
-    };
+    let mut surroundings = Surroundings::new(world)?;
+    if keep_skin {
+        surroundings = surroundings.with_skin();
+    }
+    let particles = surroundings.particles();
     let one = |buffers: &mut Buffers<E, D>, part: &mut Part<E, D>, i: usize| {
-        let x = &positions[i];
-        let near = world.domain.near_periodic_face(x, 2.0 * world.reach());
-        let domain = near.then_some(&world.domain);
-        let candidates = list.row(i);
-        let Buffers { free, wall, .. } = buffers;
-        free.fill(x, positions, candidates, pruned, domain, kernel);
-        wall.clear();
-        if !points.is_empty() && !world.lists.wall.row(i).is_empty() {
-            wall.fill(x, points, world.lists.wall.row(i), false, domain, kernel);
-        }
-        let neighbourhood = Neighbourhood {
-            particle: i,
-            free: free.row(),
-            states: &[],
-            wall: wall.row(),
-            contacts: world.walls.contacts.of(i),
-            inverse_renormalisation: gamma.map_or(1.0, |g| 1.0 / g[i]),
-        };
+        let neighbourhood = surroundings.of(i, &mut buffers.rows);
         buffers.couplings.clear();
         let row = row(&neighbourhood, &mut buffers.couplings);
         let mut diagonal = row.own;
@@ -85,7 +64,7 @@ pub fn assemble<const D: usize, E: Entry<D>>(
             // The row is a part of the candidates, in their order.
             let within = neighbourhood.free.index;
             let mut next = 0;
-            for &j in candidates {
+            for &j in surroundings.candidates(i) {
                 match within.get(next) == Some(&j) {
                     true => next += 1,
                     false => sorted.push((j, E::ZERO)),
@@ -100,12 +79,11 @@ pub fn assemble<const D: usize, E: Entry<D>>(
         part.sources.push(row.source);
     };
     let new = || Buffers {
-        free: Scratch::new(),
-        wall: Scratch::new(),
+        rows: Rows::default(),
         couplings: Vec::new(),
         sorted: Vec::new(),
     };
-    let chunks = positions.len().div_ceil(CHUNK);
+    let chunks = particles.div_ceil(CHUNK);
     let parts: Vec<Part<E, D>> = (0..chunks)
         .into_par_iter()
         .map_init(new, |buffers, c| {
@@ -116,13 +94,13 @@ pub fn assemble<const D: usize, E: Entry<D>>(
                 diagonal: Vec::with_capacity(CHUNK),
                 sources: Vec::with_capacity(CHUNK),
             };
-            for i in c * CHUNK..((c + 1) * CHUNK).min(positions.len()) {
+            for i in c * CHUNK..((c + 1) * CHUNK).min(particles) {
                 one(buffers, &mut part, i);
             }
             part
         })
         .collect();
-    Ok(joined(parts, positions.len()))
+    Ok(joined(parts, particles))
 }
 
 fn joined<const D: usize, E: Entry<D>>(

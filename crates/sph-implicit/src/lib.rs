@@ -45,6 +45,8 @@ pub use incomplete::Incomplete;
 pub use krylov::Tolerance;
 pub use matrix::{Entries, Matrix, Pattern, Values};
 pub use precondition::Preconditioner;
-pub use scheme::{BackwardEuler, CrankNicolson, ImplicitViscosityEntry, TimeScheme};
+pub use scheme::{
+    BackwardEuler, CrankNicolson, ImplicitViscosityEntry, OuterIteration, TimeScheme,
+};
 pub use solver::{LinearSolver, LinearSolverEntry, Report};
 pub use vector::dot;

@@ -4,10 +4,35 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{contract, register};
 
+/// How often the viscosity follows the new velocity, where it depends on it.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct OuterIteration {
+    /// Iterate until √(Σm|Δu|²/Σm|u|²) is below this.
+    #[schemars(range(min = 0.0), extend("unit" = "1", "source" = "ours"))]
+    pub tolerance: f64,
+    /// Largest number of solves per step; 1 takes the viscosity of the step before.
+    #[schemars(range(min = 1), extend("unit" = "1", "source" = "ours"))]
+    pub iterations: usize,
+}
+
+impl Default for OuterIteration {
+    fn default() -> Self {
+        OuterIteration {
+            tolerance: 1e-4,
+            iterations: 30,
+        }
+    }
+}
+
 /// M (uⁿ⁺¹ − uⁿ)/Δt = F − θ K uⁿ⁺¹ − (1 − θ) K uⁿ, with the friction K and all other forces F.
+///
+/// Where K depends on the velocity, it is that of the last but one iterate (Picard).
 pub trait TimeScheme: Send {
     /// θ.
     fn implicit_share(&self) -> f64;
+    /// When a viscosity that follows the velocity is good enough.
+    fn outer(&self) -> OuterIteration;
 }
 
 contract!(
@@ -24,11 +49,17 @@ contract!(
 /// ```
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct BackwardEuler {}
+pub struct BackwardEuler {
+    /// Where the viscosity depends on the velocity: when it is good enough.
+    pub picard: OuterIteration,
+}
 
 impl TimeScheme for BackwardEuler {
     fn implicit_share(&self) -> f64 {
         1.0
+    }
+    fn outer(&self) -> OuterIteration {
+        self.picard
     }
 }
 
@@ -51,11 +82,17 @@ register!(
 /// ```
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct CrankNicolson {}
+pub struct CrankNicolson {
+    /// Where the viscosity depends on the velocity: when it is good enough.
+    pub picard: OuterIteration,
+}
 
 impl TimeScheme for CrankNicolson {
     fn implicit_share(&self) -> f64 {
         0.5
+    }
+    fn outer(&self) -> OuterIteration {
+        self.picard
     }
 }
 

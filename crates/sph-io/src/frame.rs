@@ -121,6 +121,16 @@ impl<'a> FieldData<'a> {
         Self::of(name, unit, 3, FieldValues::F64(padded.into()))
     }
 
+    /// Some reals per point: a tensor, as its components stand in the data.
+    pub fn tensor(
+        name: impl Into<Cow<'a, str>>,
+        unit: impl Into<Cow<'a, str>>,
+        components: usize,
+        data: impl Into<Cow<'a, [f64]>>,
+    ) -> Self {
+        Self::of(name, unit, components, FieldValues::F64(data.into()))
+    }
+
     /// One identity per point.
     pub fn integer(name: impl Into<Cow<'a, str>>, data: impl Into<Cow<'a, [u32]>>) -> Self {
         Self::of(name, "", 1, FieldValues::U32(data.into()))

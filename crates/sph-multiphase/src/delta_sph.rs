@@ -6,8 +6,8 @@ use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, 
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
 use crate::phases::PerPhase;
-use crate::walk::{Around, Values, walk};
 use crate::{Laws, Smoother, SmootherEntry, Stages};
+use sph_neighbours::{Around, Values, walk};
 
 /// dρ_a/dt += 2 δ h c_a/γ_a Σ_b V_b [ρ_a − ρ_b − ½(∇ρ_a + ∇ρ_b)·r_ab] F_ab over free neighbours
 /// of the same phase.

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::World;
 
-use crate::walk::{Around, Values, walk, walk_some};
+use sph_neighbours::{Around, Values, walk, walk_some};
 
 /// What the neighbourhood of a particle says of its arrangement.
 #[derive(Clone, Copy, Debug)]

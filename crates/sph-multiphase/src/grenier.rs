@@ -10,8 +10,8 @@ use sph_neighbours::{
     BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
 };
 
-use crate::walk::{Values, walk};
 use crate::{Compressed, Diffused, Formulation, FormulationEntry, Stages};
+use sph_neighbours::{Values, walk};
 
 /// d_a = 1/γ_a Σ_b θ_b V_b w_ab: how full the support is.
 pub const FILLING: Field<Scalar> = Field::new("filling", "1", "Σ θ V w / γ");

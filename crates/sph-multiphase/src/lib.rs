@@ -45,7 +45,6 @@ mod surface_tension;
 mod tait;
 mod viscosity;
 mod volume;
-mod walk;
 
 pub use brezzi_pitkaranta::BrezziPitkaranta;
 pub use colagrossi_landrini::ColagrossiLandrini;

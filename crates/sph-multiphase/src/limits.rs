@@ -89,18 +89,28 @@ fn lone_stiffness<const D: usize>(world: &World<D>) -> f64 {
     sum * world.spacing.powi(2 * D as i32) * world.kernel.smoothing_length().powi(2)
 }
 
-/// Δt ≤ C ρ h² / η, Ghaïtanellis 2017, Eq. 2.106.
+/// Δt ≤ C ρ h² / η, Ghaïtanellis 2017, Eq. 2.106; where viscosities depend on the flow, with the
+/// largest η/ρ of the present state.
 pub struct ViscousLimit {
     /// C, already divided by the operator's stiffness.
     pub coefficient: f64,
-    /// Largest η/ρ₀ over the phases, m²/s.
-    pub kinematic_viscosity: f64,
+    /// Largest η/ρ₀ over the phases, m²/s, if all viscosities are constant.
+    pub kinematic_viscosity: Option<f64>,
 }
 
 impl<const D: usize> Limiter<D> for ViscousLimit {
     fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
         let h = world.kernel.smoothing_length();
-        let dt = self.coefficient * h * h / self.kinematic_viscosity;
+        let kinematic_viscosity = match self.kinematic_viscosity {
+            Some(constant) => constant,
+            None => {
+                let viscosity = world.free.get(fields::VISCOSITY)?;
+                let density = world.free.get(fields::DENSITY)?;
+                let both = viscosity.par_iter().zip(density).with_min_len(1024);
+                both.map(|(eta, rho)| eta / rho).reduce(|| 0.0, f64::max)
+            }
+        };
+        let dt = self.coefficient * h * h / kinematic_viscosity;
         Ok(StepLimit::new("viscosity", dt))
     }
     fn formula(&self) -> String {

@@ -5,8 +5,8 @@ use serde::Deserialize;
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
-use crate::walk::{Around, Values, walk};
 use crate::{Laws, Smoother, SmootherEntry, Stages};
+use sph_neighbours::{Around, Values, walk};
 
 /// dρ_a/dt += Λ ρ_a Δt [L_a{1/ρ, p} − D⁺_a{G⁻{p}/ρ}], over free neighbours, with
 /// L_a = 2/γ_a Σ_b V_b 2/(ρ_a + ρ_b) (p_a − p_b) F_ab,

@@ -20,6 +20,7 @@ mod reaction;
 mod row;
 mod sweep;
 mod term;
+mod walk;
 mod walls;
 mod world;
 
@@ -34,5 +35,6 @@ pub use sweep::{interactions, interactions_with, kernel_sums, pack, shepard};
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Rates, RowTerm, Term, TermEntry, There,
 };
+pub use walk::{Around, Rows, Surroundings, Values, walk, walk_some};
 pub use walls::{Contact, Contacts, Elements, Frame, WallPoints, WallSet};
 pub use world::{Lists, World};

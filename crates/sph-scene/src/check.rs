@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use crate::{Scene, Source, check_geometry, check_names, check_time, overlap};
 
 /// Kinds of which a scene has one plugin at most.
-pub(crate) const SINGLE_KINDS: [&str; 9] = [
+pub(crate) const SINGLE_KINDS: [&str; 10] = [
     "kernel",
     "formulation",
     "integrator",
@@ -14,6 +14,7 @@ pub(crate) const SINGLE_KINDS: [&str; 9] = [
     "viscous-operator",
     "implicit-viscosity",
     "linear-solver",
+    "velocity-gradient",
     "smoother",
     "shifting",
 ];

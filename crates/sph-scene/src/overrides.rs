@@ -7,7 +7,7 @@ use toml::{Table, Value};
 const DEEPEST: usize = 32;
 
 /// Tables that hold exactly one plugin, as the segments that lead to them.
-const SINGLE: [&[&str]; 12] = [
+const SINGLE: [&[&str]; 13] = [
     &["kernel"],
     &["formulation"],
     &["integrator"],
@@ -15,6 +15,7 @@ const SINGLE: [&[&str]; 12] = [
     &["viscous-operator"],
     &["implicit-viscosity"],
     &["linear-solver"],
+    &["velocity-gradient"],
     &["smoother"],
     &["shifting"],
     &["phase", "*", "equation-of-state"],

@@ -54,6 +54,10 @@ pub struct Scene {
     #[serde(default, rename = "linear-solver")]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
     pub linear_solver: Plugins,
+    /// Strain rate that laws feel, `[velocity-gradient.PLUGIN]`; chosen by the solver if left out.
+    #[serde(default, rename = "velocity-gradient")]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub velocity_gradient: Plugins,
     /// Smoothing of the density, `[smoother.PLUGIN]`; none if left out.
     #[serde(default)]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
@@ -143,7 +147,7 @@ impl Scene {
 
     /// The plugin that the scene chooses for a kind of which it has one at most: `kernel`,
     /// `formulation`, `integrator`, `walls`, `viscous-operator`, `implicit-viscosity`, `linear-solver`,
-    /// `smoother` or `shifting`.
+    /// `velocity-gradient`, `smoother` or `shifting`.
     pub fn choice(&self, kind: &'static str) -> Option<PluginChoice> {
         let plugins = match kind {
             "kernel" => &self.kernel,
@@ -153,6 +157,7 @@ impl Scene {
             "viscous-operator" => &self.viscous_operator,
             "implicit-viscosity" => &self.implicit_viscosity,
             "linear-solver" => &self.linear_solver,
+            "velocity-gradient" => &self.velocity_gradient,
             "smoother" => &self.smoother,
             "shifting" => &self.shifting,
             _ => return None,

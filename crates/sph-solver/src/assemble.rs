@@ -10,7 +10,9 @@ use sph_multiphase::{
 };
 use sph_neighbours::{WallSet, World};
 use sph_probes::{Probe, Solution};
+use sph_rheology::Rheology;
 use sph_scene::Scene;
+use sph_stress::ElasticWaveLimit;
 
 use crate::choices::Choices;
 use crate::defaults;
@@ -136,6 +138,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
                 coupling: friction.coupling,
                 scheme,
                 solver,
+                lagged: planned.lagged,
                 solves: Solves::default(),
             };
             (Some(implicit), Some(friction.term))
@@ -152,6 +155,8 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         walls,
         evolved: vec![diffused.evolved],
         integrated: integrated(&diffused, compressed.as_ref()),
+        elastic: planned.elastic,
+        moved: true,
         dilatation: compressed.map(|c| Dilatation::new(c, choices.formulation.divergence())),
         kept: Snapshot::default(),
         kept_rates: Vec::new(),
@@ -193,7 +198,7 @@ fn bind_laws<const D: usize>(
 }
 
 /// η/ρ₀ of every phase, m²/s.
-fn kinematic_viscosities(scene: &Scene, laws: &[Box<dyn sph_rheology::Rheology>]) -> Vec<f64> {
+fn kinematic_viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Vec<f64> {
     let phases = scene.phase.values().zip(laws);
     phases
         .map(|(phase, law)| law.largest_viscosity() / phase.density)
@@ -217,9 +222,24 @@ fn limiters_of<const D: usize>(
     ];
     let kinematic = kinematic_viscosities.iter().copied().fold(0.0, f64::max);
     if kinematic > 0.0 && choices.implicit_viscosity.is_none() {
+        let constant = |l: &Box<dyn Rheology>| l.uniform_viscosity().is_some();
         limiters.push(Box::new(ViscousLimit {
             coefficient: c.viscous / choices.viscous_operator.stiffness(),
-            kinematic_viscosity: kinematic,
+            kinematic_viscosity: choices.rheologies.iter().all(constant).then_some(kinematic),
+        }));
+    }
+    let stiff = laws
+        .iter()
+        .zip(&choices.rheologies)
+        .filter_map(|(law, rheology)| {
+            let reference = law.reference();
+            let shear = rheology.elastic()?.shear_modulus() / reference.density;
+            Some((reference.sound_speed.powi(2) + 4.0 / 3.0 * shear).sqrt())
+        });
+    if let Some(speed) = stiff.reduce(f64::max) {
+        limiters.push(Box::new(ElasticWaveLimit {
+            courant: c.courant,
+            speed,
         }));
     }
     if laws.len() > 1 {
@@ -257,6 +277,11 @@ fn allocate<const D: usize>(flow: &mut Flow<D>) {
             false => Role::Derived,
         };
         flow.world.free.add_any(field, role);
+    }
+    if flow.elastic.is_some() {
+        flow.world.free.add(fields::ELASTIC_STRESS, Role::State);
+        // Drifts leave it for the next evaluation.
+        flow.world.free.add(fields::VELOCITY_GRADIENT, Role::State);
     }
     flow.world.free.add(fields::ACCELERATION, Role::Derived);
     // An evolved scalar that nothing changes is a constant: it needs no rate and no kick.

@@ -1,5 +1,7 @@
 //! From names in the scene to built plugins.
 
+use std::sync::Arc;
+
 use serde_json::{Value as Json, json};
 use sph_boundary::{Wall, WallEntry};
 use sph_core::{Contract, PluginInfo, Registry, RegistryError, SceneProblem};
@@ -15,6 +17,7 @@ use sph_neighbours::{Interaction, KernelEntry, TermEntry};
 use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry};
 use sph_rheology::{Rheology, RheologyEntry};
 use sph_scene::{PluginChoice, Scene};
+use sph_stress::{VelocityGradient, VelocityGradientEntry};
 
 use crate::defaults;
 use crate::summary::PluginInForce;
@@ -28,6 +31,8 @@ pub struct Choices<const D: usize> {
     pub viscous_operator: Box<dyn ViscousOperator<D>>,
     /// How viscosity is taken over a step, and what solves for it; explicitly if there is none.
     pub implicit_viscosity: Option<(Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>)>,
+    /// Only where a law asks for a strain rate.
+    pub velocity_gradient: Option<Arc<dyn VelocityGradient<D>>>,
     pub smoother: Option<Box<dyn Smoother<D>>>,
     pub shifting: Option<Box<dyn Shifting<D>>>,
     pub interfaces: Vec<Box<dyn InterfaceModel<D>>>,
@@ -181,6 +186,22 @@ impl<const D: usize> Choices<D> {
             let law = law.and_then(|c| b.build::<RheologyEntry, _>(&c, |e| (e.build)(&c.table)));
             rheologies.extend(law);
         }
+        let feels = |law: &Box<dyn Rheology>| law.needs().strain_rate || law.elastic().is_some();
+        let velocity_gradient = match rheologies.iter().any(feels) {
+            true => one!(
+                "velocity-gradient",
+                VelocityGradientEntry,
+                |e: &VelocityGradientEntry, t| e.build::<D>(t)
+            ),
+            false => None,
+        };
+        if let (false, Some(idle)) = (
+            rheologies.iter().any(feels) || !b.problems.is_empty(),
+            scene.choice("velocity-gradient"),
+        ) {
+            let message = "no law of this scene feels a strain rate: take this table out";
+            b.problems.push(SceneProblem::new(idle.path, message));
+        }
         let mut probes = Vec::new();
         for (name, c) in scene.probes() {
             let probe = b.build::<ProbeEntry, _>(&c, |e| e.build::<D>(&c.table));
@@ -210,6 +231,7 @@ impl<const D: usize> Choices<D> {
                     walls,
                     viscous_operator,
                     implicit_viscosity,
+                    velocity_gradient: velocity_gradient.map(Arc::from),
                     smoother,
                     shifting,
                     interfaces,

@@ -1,12 +1,13 @@
 //! The plugins taken where a scene names none; the only names the solver knows.
 
 /// Kind and name of every default.
-pub const DEFAULTS: [(&str, &str); 7] = [
+pub const DEFAULTS: [(&str, &str); 8] = [
     ("kernel", "wendland-c2"),
     ("formulation", "hu-adams"),
     ("integrator", "symplectic-euler"),
     ("walls", "usaw"),
     ("viscous-operator", "morris"),
+    ("velocity-gradient", "renormalised"),
     ("equation-of-state", "tait"),
     ("linear-solver", "automatic"),
 ];

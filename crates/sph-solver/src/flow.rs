@@ -8,6 +8,7 @@ use sph_core::{
 };
 use sph_multiphase::{BoundState, Limiter};
 use sph_neighbours::{Interaction, World, wall_forces};
+use sph_stress::ElasticMotion;
 
 use crate::dilatation::Dilatation;
 use crate::implicit::ImplicitViscosity;
@@ -37,6 +38,10 @@ pub struct Flow<const D: usize> {
     pub(crate) evolved: Vec<Evolved>,
     /// All scalars that the integrator changes.
     pub(crate) integrated: Vec<Field<Scalar>>,
+    /// Remembered stresses that follow the motion.
+    pub(crate) elastic: Option<ElasticMotion<D>>,
+    /// Whether somebody moved since the last evaluation.
+    pub(crate) moved: bool,
     /// What motion compresses.
     pub(crate) dilatation: Option<Dilatation<D>>,
     /// The state that an integrator keeps within a step.
@@ -151,6 +156,7 @@ impl<const D: usize> System for Flow<D> {
         if let Some(walls) = &self.walls {
             lock(walls).constrain(&mut self.world, dt)?;
         }
+        self.deform(dt)?;
         match self.dilatation.take() {
             None => self.advance(dt)?,
             Some(mut dilatation) => {
@@ -198,6 +204,7 @@ impl<const D: usize> Flow<D> {
         crate::guard::positions(&self.world)?;
         self.world.refresh_lists()?;
         self.timings[LISTS].spent += start.elapsed();
+        self.moved = false;
         for (k, stage) in self.stages.iter_mut().enumerate() {
             if !wanted(&**stage) {
                 continue;
@@ -219,6 +226,7 @@ impl<const D: usize> Flow<D> {
             Ok(shift) => all.zip(shift).for_each(|((x, u), s)| *x += (u + s) * dt),
         }
         self.world.free.put(fields::POSITION, position)?;
+        self.moved = true;
         self.world.time += dt;
         if let Some(walls) = &self.walls {
             let time = self.world.time;
@@ -231,12 +239,39 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    fn compress(&mut self, dilatation: &mut Dilatation<D>, dt: f64) -> Result<(), StepError> {
+    /// Remembered stresses follow the velocities of the drift that begins.
+    fn deform(&mut self, dt: f64) -> Result<(), StepError> {
+        let Some(mut elastic) = self.elastic.take() else {
+            return Ok(());
+        };
+        let given = [
+            fields::RENORMALISATION,
+            fields::DENSITY,
+            fields::VOLUME,
+            fields::PRESSURE,
+        ];
+        let gives_state = |a: &Access| given.iter().any(|f| a.writes.contains(&f.any()));
+        let moved = match self.moved {
+            true => self.run_stages(|stage| gives_state(&stage.access())),
+            false => Ok(()),
+        };
+        let done = moved.and_then(|()| elastic.apply(&mut self.world, dt));
+        self.elastic = Some(elastic);
+        done
+    }
+
+    /// Lists and walls at the present places, between evaluations.
+    fn find_neighbours(&mut self) -> Result<(), StepError> {
         crate::guard::positions(&self.world)?;
         self.world.refresh_lists()?;
         if let Some(walls) = &self.walls {
             lock(walls).geometry(&mut self.world)?;
         }
+        Ok(())
+    }
+
+    fn compress(&mut self, dilatation: &mut Dilatation<D>, dt: f64) -> Result<(), StepError> {
+        self.find_neighbours()?;
         dilatation.apply(&mut self.world, dt)
     }
 

@@ -1,12 +1,12 @@
 //! Friction from the end of the step: (M + θΔt K) uⁿ⁺¹ = M u* + Δt s − (1 − θ)Δt K uⁿ.
 //!
 //! M = diag(m_a γ_a) and K are those of [`sph_multiphase::Coupling`]; u* is the velocity after all
-//! other forces. Ghaïtanellis 2017, Eq. 5.3–5.6, made symmetric by the factor m_a γ_a.
+//! other forces. Where K depends on the velocity, it follows it (Picard). Ghaïtanellis 2017, Eq. 5.3–5.6, made symmetric by the factor m_a γ_a.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
-use sph_core::{StepError, Vect, fields};
+use sph_core::{Stage, StepError, Vect, fields};
 use sph_implicit::{Entries, Entry, LinearSolver, Matrix, Report, Row, TimeScheme, assemble, dot};
 use sph_multiphase::Coupling;
 use sph_neighbours::World;
@@ -22,6 +22,34 @@ pub struct Solves {
     pub most_iterations: usize,
     /// Largest relative residual.
     pub largest_residual: f64,
+    /// How often the viscosity followed the velocity, where it depends on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outer: Option<OuterSolves>,
+}
+
+/// What iterating on the viscosity took.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct OuterSolves {
+    /// Steps so far.
+    pub steps: u64,
+    /// Mean number of solves per step.
+    pub mean_iterations: f64,
+    /// Largest number of solves in a step.
+    pub most_iterations: usize,
+    /// Steps that did not reach the tolerance.
+    pub unconverged: u64,
+    /// Largest relative change of the velocity in the last iteration of a step.
+    pub largest_change: f64,
+}
+
+impl OuterSolves {
+    fn add(&mut self, iterations: usize, change: f64, converged: bool) {
+        self.steps += 1;
+        self.mean_iterations += (iterations as f64 - self.mean_iterations) / self.steps as f64;
+        self.most_iterations = self.most_iterations.max(iterations);
+        self.unconverged += u64::from(!converged);
+        self.largest_change = self.largest_change.max(change);
+    }
 }
 
 impl Solves {
@@ -39,6 +67,8 @@ pub struct ImplicitViscosity<const D: usize> {
     pub(crate) coupling: Box<dyn Coupling<D>>,
     pub(crate) scheme: Box<dyn TimeScheme>,
     pub(crate) solver: Box<dyn LinearSolver<D>>,
+    /// What gives the viscosity of the present velocity; empty where it does not depend on it.
+    pub(crate) lagged: Vec<Box<dyn Stage<World<D>>>>,
     pub(crate) solves: Solves,
 }
 
@@ -62,13 +92,54 @@ impl<const D: usize> ImplicitViscosity<D> {
         earlier: &[Vect<D>],
         dt: f64,
     ) -> Result<(), StepError> {
+        if self.lagged.is_empty() {
+            let mut velocity = world.free.get(fields::VELOCITY)?.to_vec();
+            let ahead = velocity.clone();
+            self.solve(world, earlier, &ahead, &mut velocity, dt)?;
+            return Ok(world.free.put(fields::VELOCITY, velocity)?);
+        }
+        let ahead = world.free.get(fields::VELOCITY)?.to_vec();
+        let outer = self.scheme.outer();
+        let (mut iterations, mut change) = (0, f64::INFINITY);
+        while iterations < outer.iterations.max(1) && change > outer.tolerance {
+            if iterations > 0 {
+                for stage in &mut self.lagged {
+                    stage.run(world)?;
+                }
+            }
+            let mut velocity = match iterations {
+                0 => ahead.clone(),
+                _ => world.free.get(fields::VELOCITY)?.to_vec(),
+            };
+            self.solve(world, earlier, &ahead, &mut velocity, dt)?;
+            if iterations > 0 {
+                change = relative_change(world, &velocity)?;
+            }
+            world.free.put(fields::VELOCITY, velocity)?;
+            iterations += 1;
+        }
+        let converged = change <= outer.tolerance;
+        let change = if change.is_finite() { change } else { 0.0 };
+        let outer = self.solves.outer.get_or_insert_default();
+        outer.add(iterations, change, converged);
+        Ok(())
+    }
+
+    /// One linear solve; `ahead` is u*, `velocity` the start and the result.
+    fn solve(
+        &mut self,
+        world: &World<D>,
+        earlier: &[Vect<D>],
+        ahead: &[Vect<D>],
+        velocity: &mut [Vect<D>],
+        dt: f64,
+    ) -> Result<(), StepError> {
         let share = self.scheme.implicit_share();
         let mut system = match self.coupling.mixes_components() {
             false => self.scalar_system(world, share, dt)?,
             true => self.block_system(world, share, dt)?,
         };
-        let mut velocity = world.free.take(fields::VELOCITY)?;
-        let rows = system.right.iter_mut().zip(&velocity).zip(&system.mass);
+        let rows = system.right.iter_mut().zip(ahead).zip(&system.mass);
         rows.for_each(|((b, u), m)| *b += u * *m);
         let mut before = vec![Vect::zeros(); earlier.len()];
         system.matrix.multiply(earlier, &mut before);
@@ -78,11 +149,8 @@ impl<const D: usize> ImplicitViscosity<D> {
                 *b -= (before[k] - earlier[k] * system.mass[k]) * rest;
             }
         }
-        start_between(&system, &before, earlier, &mut velocity);
-        let solved = self
-            .solver
-            .solve(&system.matrix, &system.right, &mut velocity);
-        world.free.put(fields::VELOCITY, velocity)?;
+        start_between(&system, &before, earlier, velocity);
+        let solved = self.solver.solve(&system.matrix, &system.right, velocity);
         let report = solved.map_err(|e| StepError::Stage {
             stage: "implicit viscosity".into(),
             reason: e.to_string(),
@@ -140,6 +208,24 @@ impl<const D: usize> ImplicitViscosity<D> {
             right,
         })
     }
+}
+
+/// √(Σm|u − u'|²/Σm|u|²) of a velocity against the world's; zero where all is at rest.
+fn relative_change<const D: usize>(
+    world: &World<D>,
+    velocity: &[Vect<D>],
+) -> Result<f64, StepError> {
+    let mass = world.free.get(fields::MASS)?;
+    let last = world.free.get(fields::VELOCITY)?;
+    let mut sums = [0.0, 0.0];
+    for ((u, l), m) in velocity.iter().zip(last).zip(mass) {
+        sums[0] += m * (u - l).norm_squared();
+        sums[1] += m * u.norm_squared();
+    }
+    Ok(match sums[1] > 0.0 {
+        true => (sums[0] / sums[1]).sqrt(),
+        false => 0.0,
+    })
 }
 
 /// The best start on the line from uⁿ to u*, in the norm of the matrix: where friction balances the

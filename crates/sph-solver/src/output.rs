@@ -154,6 +154,9 @@ fn pieces<'a, const D: usize>(
         data.push(match values {
             Plain::Index(v) => FieldData::integer(name, v.to_vec()),
             Plain::Real(v) if components == 1 => FieldData::scalar(name, unit, v.into_owned()),
+            Plain::Real(v) if components != D => {
+                FieldData::tensor(name, unit, components, v.into_owned())
+            }
             Plain::Real(v) => {
                 let vector = |c: &[f64]| sph_core::Vect::<D>::from_column_slice(c);
                 vectors(

@@ -2,15 +2,18 @@
 
 use std::sync::Arc;
 
-use sph_core::{Access, AnyField, Declares, Stage, fields, plan};
+use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, fields, plan};
 use sph_multiphase::{BoundState, Coupling, PressureStage, Viscosity};
 use sph_neighbours::{Interaction, World, fuse_all};
-use sph_rheology::Rheology;
 use sph_scene::Scene;
+use sph_stress::{
+    CarriedStress, ElasticMotion, GradientStage, Rheologies, StrainRate, StressDivergence,
+    ViscosityStage,
+};
 
 use crate::choices::Choices;
 use crate::error::SolverError;
-use crate::stages::{Also, InteractionSweep, SharedWall, ViscosityStage, WallGeometry, WallState};
+use crate::stages::{Also, InteractionSweep, SharedWall, WallGeometry, WallState};
 
 /// Stages of a flow.
 pub type Stages<const D: usize> = Vec<Box<dyn Stage<World<D>>>>;
@@ -28,6 +31,10 @@ pub struct Planned<const D: usize> {
     pub terms: SharedTerms<D>,
     /// Friction that is solved for instead.
     pub friction: Option<Friction<D>>,
+    /// What gives the viscosity of the present velocity, where it depends on it.
+    pub lagged: Stages<D>,
+    /// Remembered stresses that follow the motion.
+    pub elastic: Option<ElasticMotion<D>>,
 }
 
 /// Friction as a matrix, and as a term for those who measure forces.
@@ -52,8 +59,10 @@ pub fn plan_stages<const D: usize>(
         false => Access::none(),
     };
     let mut terms = vec![choices.formulation.pressure_term()];
-    let rheologies: Arc<[_]> = std::mem::take(&mut choices.rheologies).into();
-    let viscosity = viscosity_of(scene, &rheologies)?;
+    let rheologies: Rheologies = std::mem::take(&mut choices.rheologies).into();
+    let viscosity = viscosity_of(&rheologies);
+    let elastic = rheologies.iter().any(|l| l.elastic().is_some());
+    let pressure = fields::PRESSURE;
     let mut friction = Vec::new();
     let mut solved = None;
     if viscosity != Viscosity::Uniform(0.0) {
@@ -74,6 +83,9 @@ pub fn plan_stages<const D: usize>(
             "no phase of this scene has a viscosity, so that there is nothing to solve for: take \
              this table out, or give a phase a viscosity",
         ));
+    }
+    if elastic {
+        terms.push(StressDivergence::boxed());
     }
     if let Some(smoother) = &choices.smoother {
         terms.push(smoother.term(laws));
@@ -109,7 +121,33 @@ pub fn plan_stages<const D: usize>(
     if let Some(walls) = walls {
         offered.push(Box::new(WallState(walls.clone())));
     }
-    offered.push(Box::new(ViscosityStage { laws: rheologies }));
+    let gradient = choices.velocity_gradient.take();
+    let stage_of_gradient = || gradient.clone().map(GradientStage);
+    // An elastic motion leaves the gradients of its drift.
+    if let (Some(stage), false) = (stage_of_gradient(), elastic) {
+        offered.push(with_gamma(Box::new(stage)));
+    }
+    let laws_of = Laws {
+        rheologies,
+        pressure,
+    };
+    if gradient.is_some() {
+        offered.push(Box::new(StrainRate));
+    }
+    offered.push(Box::new(laws_of.viscosity()));
+    if elastic {
+        offered.push(Box::new(laws_of.carried()));
+    }
+    let mut lagged: Stages<D> = Vec::new();
+    if let (Some(stage), true, Some(_)) = (stage_of_gradient(), laws_of.feel_strain(), &solved) {
+        lagged = vec![
+            Box::new(stage),
+            Box::new(StrainRate),
+            Box::new(laws_of.viscosity()),
+        ];
+    }
+    let elastic = stage_of_gradient().filter(|_| elastic);
+    let elastic = elastic.map(|gradient| laws_of.motion(gradient));
     let smoother = choices.smoother.iter().flat_map(|s| s.stages(laws));
     let interfaces = choices.interfaces.iter().flat_map(|i| i.stages());
     let shifting = choices.shifting.iter().flat_map(|s| s.stages());
@@ -145,6 +183,12 @@ pub fn plan_stages<const D: usize>(
     .chain([diffused.evolved.value.any()])
     .chain(choices.formulation.compressed().map(|c| c.value.any()))
     .filter(|f| world.free.has(f.name))
+    .chain(elastic.iter().flat_map(|_| {
+        [
+            fields::ELASTIC_STRESS.any(),
+            fields::VELOCITY_GRADIENT.any(),
+        ]
+    }))
     .collect();
     let declared: Vec<&dyn Declares> = offered
         .iter()
@@ -168,6 +212,8 @@ pub fn plan_stages<const D: usize>(
         pruned,
         terms,
         friction: solved,
+        lagged,
+        elastic,
     })
 }
 
@@ -184,21 +230,44 @@ fn refuse_interfaces_of_one(scene: &Scene) -> Result<(), SolverError> {
 }
 
 /// One viscosity for all, or a column.
-fn viscosity_of(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Result<Viscosity, SolverError> {
-    for (law, phase) in laws.iter().zip(scene.phase.keys()) {
-        if law.needs().strain_rate {
-            return Err(SolverError::at(
-                format!("phase.{phase}.rheology"),
-                "the law needs the strain rate, which no stage of this version provides",
-            ));
-        }
-    }
+fn viscosity_of(laws: &Rheologies) -> Viscosity {
     let uniform: Vec<_> = laws.iter().map(|l| l.uniform_viscosity()).collect();
     match uniform.first() {
         Some(Some(first)) if uniform.iter().all(|v| v == &Some(*first)) => {
-            Ok(Viscosity::Uniform(*first))
+            Viscosity::Uniform(*first)
         }
-        _ if laws.len() > 1 => Ok(Viscosity::PerPhase),
-        _ => Ok(Viscosity::PerParticle),
+        _ if laws.len() > 1 => Viscosity::PerPhase,
+        _ => Viscosity::PerParticle,
+    }
+}
+
+/// The laws and what they feel.
+struct Laws {
+    rheologies: Rheologies,
+    pressure: Field<Scalar>,
+}
+
+impl Laws {
+    fn feel_strain(&self) -> bool {
+        self.rheologies.iter().any(|l| l.needs().strain_rate)
+    }
+    fn viscosity(&self) -> ViscosityStage {
+        ViscosityStage {
+            laws: self.rheologies.clone(),
+            pressure: self.pressure,
+        }
+    }
+    fn carried(&self) -> CarriedStress {
+        CarriedStress {
+            laws: self.rheologies.clone(),
+            pressure: self.pressure,
+        }
+    }
+    fn motion<const D: usize>(&self, gradient: GradientStage<D>) -> ElasticMotion<D> {
+        ElasticMotion {
+            gradient,
+            laws: self.rheologies.clone(),
+            pressure: self.pressure,
+        }
     }
 }

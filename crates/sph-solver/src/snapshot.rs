@@ -1,6 +1,7 @@
 //! The state before a step, to fall back on when the step fails.
 
-use sph_core::{FieldError, Recall, Vect, fields};
+use nalgebra::SMatrix;
+use sph_core::{FieldError, Recall, Symmetric, Vect, fields};
 
 use crate::Flow;
 
@@ -11,6 +12,9 @@ pub struct Snapshot<const D: usize> {
     position: Vec<Vect<D>>,
     velocity: Vec<Vect<D>>,
     evolved: Vec<Vec<f64>>,
+    /// Remembered stresses, and the gradients of the last drift; empty where nothing is elastic.
+    stress: Vec<Symmetric>,
+    gradient: Vec<SMatrix<f64, D, D>>,
     time: f64,
 }
 
@@ -28,6 +32,10 @@ impl<const D: usize> Snapshot<D> {
         self.evolved.resize(flow.integrated.len(), Vec::new());
         for (copied, field) in self.evolved.iter_mut().zip(&flow.integrated) {
             copy(copied, free.get(*field)?);
+        }
+        if flow.elastic.is_some() {
+            copy(&mut self.stress, free.get(fields::ELASTIC_STRESS)?);
+            copy(&mut self.gradient, free.get(fields::VELOCITY_GRADIENT)?);
         }
         self.time = flow.world.time;
         Ok(())
@@ -69,6 +77,14 @@ impl<const D: usize> Snapshot<D> {
         put(free.get_mut(fields::VELOCITY)?, &self.velocity, places);
         if what == Recall::State {
             put(free.get_mut(fields::POSITION)?, &self.position, places);
+            if flow.elastic.is_some() {
+                put(free.get_mut(fields::ELASTIC_STRESS)?, &self.stress, places);
+                put(
+                    free.get_mut(fields::VELOCITY_GRADIENT)?,
+                    &self.gradient,
+                    places,
+                );
+            }
             flow.world.time = self.time;
             self.walls_back(flow);
         }
@@ -98,6 +114,12 @@ impl<const D: usize> Snapshot<D> {
             .copy_from_slice(&self.velocity);
         for (copied, field) in self.evolved.iter().zip(&flow.integrated) {
             free.get_mut(*field)?.copy_from_slice(copied);
+        }
+        if flow.elastic.is_some() {
+            free.get_mut(fields::ELASTIC_STRESS)?
+                .copy_from_slice(&self.stress);
+            free.get_mut(fields::VELOCITY_GRADIENT)?
+                .copy_from_slice(&self.gradient);
         }
         flow.world.time = self.time;
         self.walls_back(flow);

@@ -1,4 +1,4 @@
-//! The stages the solver itself contributes: walls, viscosity per phase, the interaction sweep.
+//! The stages the solver itself contributes: walls and the interaction sweep.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -7,7 +7,6 @@ use sph_boundary::Wall;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields};
 use sph_multiphase::Diffused;
 use sph_neighbours::{Interaction, There, World, interactions};
-use sph_rheology::{Inputs, Rheology};
 
 /// Stands for all that walls carry; not a column of the free particles.
 pub const WALL_STATE: Field<Scalar> = Field::new(
@@ -65,53 +64,6 @@ impl<const D: usize> Declares for WallState<D> {
 impl<const D: usize> Stage<World<D>> for WallState<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         lock(&self.0).state(world)
-    }
-}
-
-/// The viscosity column where phases differ.
-pub struct ViscosityStage {
-    /// The laws, in the order of the phase numbers.
-    pub laws: Arc<[Box<dyn Rheology>]>,
-}
-
-impl Declares for ViscosityStage {
-    fn name(&self) -> String {
-        "rheology".into()
-    }
-    fn access(&self) -> Access {
-        let mut access = Access::none().writes(fields::VISCOSITY);
-        if self.laws.len() > 1 {
-            access = access.here(fields::PHASE);
-        }
-        match self.laws.iter().any(|l| l.needs().pressure) {
-            true => access.here(fields::PRESSURE),
-            false => access,
-        }
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for ViscosityStage {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let mut viscosity = world.free.take(fields::VISCOSITY)?;
-        let pressure = world.free.get(fields::PRESSURE).unwrap_or(&[]);
-        let mut apply = |law: usize, from: usize, to: usize| {
-            let inputs = Inputs {
-                strain_rate: &[],
-                pressure: pressure.get(from..to).unwrap_or(&[]),
-            };
-            self.laws[law].viscosity(&inputs, &mut viscosity[from..to]);
-        };
-        match self.laws.len() {
-            1 => apply(0, 0, world.free.len()),
-            _ => {
-                let mut from = 0;
-                for run in world.free.get(fields::PHASE)?.chunk_by(|a, b| a == b) {
-                    apply(run[0] as usize, from, from + run.len());
-                    from += run.len();
-                }
-            }
-        }
-        Ok(world.free.put(fields::VISCOSITY, viscosity)?)
     }
 }
 

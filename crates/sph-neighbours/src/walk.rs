@@ -1,0 +1,166 @@
+//! Walks that make something else than rates of the neighbourhoods.
+
+use rayon::prelude::*;
+use sph_core::{StepError, Vect, fields};
+
+use crate::{CHUNK, NeighbourList, Neighbourhood, Scratch, World};
+
+/// Finds neighbourhoods one by one, with the buffers of one thread.
+pub struct Surroundings<'w, const D: usize> {
+    world: &'w World<D>,
+    position: &'w [Vect<D>],
+    renormalisation: Option<&'w [f64]>,
+    list: &'w NeighbourList,
+    pruned: bool,
+}
+
+/// Buffers for the rows of free neighbours and wall points.
+pub struct Rows<const D: usize> {
+    free: Scratch<D>,
+    wall: Scratch<D>,
+}
+
+impl<const D: usize> Default for Rows<D> {
+    fn default() -> Self {
+        Rows {
+            free: Scratch::new(),
+            wall: Scratch::new(),
+        }
+    }
+}
+
+impl<'w, const D: usize> Surroundings<'w, D> {
+    /// Of the particles of a world at their present places.
+    ///
+    /// # Errors
+    /// If the world has no positions.
+    pub fn new(world: &'w World<D>) -> Result<Self, StepError> {
+        let (list, pruned) = match &world.lists.pruned {
+            Some(list) => (list, true),
+            None => (&world.lists.free, false),
+        };
+        Ok(Surroundings {
+            world,
+            position: world.free.get(fields::POSITION)?,
+            renormalisation: world.free.get(fields::RENORMALISATION).ok(),
+            list,
+            pruned,
+        })
+    }
+
+    /// From the lists with their skin, also where shorter ones are at hand.
+    pub fn with_skin(self) -> Self {
+        Surroundings {
+            list: &self.world.lists.free,
+            pruned: false,
+            ..self
+        }
+    }
+
+    /// Who may be a neighbour.
+    pub fn candidates(&self, particle: usize) -> &'w [u32] {
+        self.list.row(particle)
+    }
+
+    /// Number of particles.
+    pub fn particles(&self) -> usize {
+        self.position.len()
+    }
+
+    /// The neighbourhood of a particle, without packed states.
+    pub fn of<'a>(&'a self, particle: usize, rows: &'a mut Rows<D>) -> Neighbourhood<'a, D> {
+        let world = self.world;
+        let kernel = &*world.kernel;
+        let x = &self.position[particle];
+        let near = world.domain.near_periodic_face(x, 2.0 * world.reach());
+        let domain = near.then_some(&world.domain);
+        let candidates = self.list.row(particle);
+        rows.free
+            .fill(x, self.position, candidates, self.pruned, domain, kernel);
+        rows.wall.clear();
+        let points = &world.walls.points.position[..];
+        if !points.is_empty() {
+            let candidates = world.lists.wall.row(particle);
+            if !candidates.is_empty() {
+                rows.wall.fill(x, points, candidates, false, domain, kernel);
+            }
+        }
+        Neighbourhood {
+            particle,
+            free: rows.free.row(),
+            states: &[],
+            wall: rows.wall.row(),
+            contacts: world.walls.contacts.of(particle),
+            inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
+        }
+    }
+}
+
+/// The neighbourhood of one particle, and kernel values where they were asked for.
+pub struct Around<'a, const D: usize> {
+    /// Rows, contacts and 1/γ; there are no packed states.
+    pub rows: Neighbourhood<'a, D>,
+    /// w of the free row, 1/m^d; empty unless asked for.
+    pub free: &'a [f64],
+    /// w of the wall row, 1/m^d; empty unless asked for.
+    pub wall: &'a [f64],
+}
+
+/// Whether a walk evaluates the kernel itself, besides its gradient.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Values {
+    /// ∇w only.
+    Gradient,
+    /// ∇w and w.
+    Both,
+}
+
+/// What `of` makes of every particle's neighbourhood, in the order of the particles.
+///
+/// # Errors
+/// If the world has no positions.
+pub fn walk<const D: usize, R: Send>(
+    world: &World<D>,
+    values: Values,
+    of: impl Fn(&Around<'_, D>) -> R + Sync,
+) -> Result<Vec<R>, StepError> {
+    let all = walk_some(world, values, |_| true, of)?;
+    Ok(all.into_iter().flatten().collect())
+}
+
+/// The same for some particles only.
+///
+/// # Errors
+/// If the world has no positions.
+pub fn walk_some<const D: usize, R: Send>(
+    world: &World<D>,
+    values: Values,
+    wanted: impl Fn(usize) -> bool + Sync,
+    of: impl Fn(&Around<'_, D>) -> R + Sync,
+) -> Result<Vec<Option<R>>, StepError> {
+    let surroundings = Surroundings::new(world)?;
+    let kernel = &*world.kernel;
+    type Buffers<const D: usize> = (Rows<D>, [Vec<f64>; 2]);
+    let one = |(rows, w): &mut Buffers<D>, i: usize| {
+        if !wanted(i) {
+            return None;
+        }
+        let rows = surroundings.of(i, rows);
+        if values == Values::Both {
+            for (w, row) in w.iter_mut().zip([rows.free, rows.wall]) {
+                w.resize(row.distance2.len(), 0.0);
+                kernel.value(row.distance2, w);
+            }
+        }
+        Some(of(&Around {
+            rows,
+            free: &w[0],
+            wall: &w[1],
+        }))
+    };
+    let new = || (Rows::default(), [Vec::new(), Vec::new()]);
+    let all = (0..surroundings.particles())
+        .into_par_iter()
+        .with_min_len(CHUNK);
+    Ok(all.map_init(new, one).collect())
+}

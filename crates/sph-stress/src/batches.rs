@@ -1,0 +1,46 @@
+//! Runs of particles of one phase, in batches of a size that stays in the cache.
+
+use std::ops::Range;
+
+/// Particles per batch.
+pub const BATCH: usize = 1024;
+
+/// The runs of one phase within a batch that starts at `from`, with the number of their phase;
+/// one run where there is no phase column.
+pub fn runs(
+    phase: Option<&[u32]>,
+    from: usize,
+    len: usize,
+) -> impl Iterator<Item = (usize, Range<usize>)> {
+    let mut next = from;
+    std::iter::from_fn(move || {
+        let (start, end) = (next, from + len);
+        if start >= end {
+            return None;
+        }
+        let (law, stop) = match phase {
+            None => (0, end),
+            Some(phase) => {
+                let own = phase[start];
+                let other = phase[start..end].iter().position(|p| *p != own);
+                (own as usize, other.map_or(end, |k| start + k))
+            }
+        };
+        next = stop;
+        Some((law, start..stop))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_cover_a_batch_phase_by_phase() {
+        let phase = [0, 0, 1, 1, 1, 0];
+        let all: Vec<_> = runs(Some(&phase), 1, 5).collect();
+        assert_eq!(all, [(0, 1..2), (1, 2..5), (0, 5..6)]);
+        assert_eq!(runs(None, 3, 4).collect::<Vec<_>>(), [(0, 3..7)]);
+        assert_eq!(runs(Some(&phase), 6, 0).count(), 0);
+    }
+}

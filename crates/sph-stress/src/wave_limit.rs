@@ -1,0 +1,26 @@
+//! The step that elastic waves allow.
+
+use sph_core::{StepError, StepLimit};
+use sph_multiphase::Limiter;
+use sph_neighbours::World;
+
+/// Δt ≤ C h / √(c₀² + 4𝒢/3ρ₀): pressure waves in an elastic material. Ours; the thesis has none.
+pub struct ElasticWaveLimit {
+    /// C.
+    pub courant: f64,
+    /// Largest √(c₀² + 4𝒢/3ρ₀) over the phases with an elastic part, m/s.
+    pub speed: f64,
+}
+
+impl<const D: usize> Limiter<D> for ElasticWaveLimit {
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+        let h = world.kernel.smoothing_length();
+        Ok(StepLimit::new(
+            "elastic wave",
+            self.courant * h / self.speed,
+        ))
+    }
+    fn formula(&self) -> String {
+        format!("elastic wave: dt <= {} h / sqrt(c² + 4G/3ρ)", self.courant)
+    }
+}
