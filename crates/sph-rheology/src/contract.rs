@@ -22,6 +22,14 @@ pub struct Inputs<'a> {
     pub pressure: &'a [f64],
 }
 
+impl Inputs<'_> {
+    /// Strain rate and pressure of one entry; zero for what was not asked for.
+    pub(crate) fn at(&self, k: usize) -> (f64, f64) {
+        let of = |column: &[f64]| column.get(k).copied().unwrap_or(0.0);
+        (of(self.strain_rate), of(self.pressure))
+    }
+}
+
 /// A constitutive law: an effective viscosity η in τ = 2 η D, an elastic part, or both.
 pub trait Rheology: Send + Sync + std::fmt::Debug {
     /// What the law reads.

@@ -12,8 +12,22 @@
 //! assert_eq!(viscosity, [1.0e-3; 2]);
 //! ```
 
+mod bingham;
+mod carreau;
+mod casson;
 mod contract;
+mod cross;
+mod herschel_bulkley;
 mod newtonian;
+mod power_law;
+mod regularisation;
 
+pub use bingham::Bingham;
+pub use carreau::Carreau;
+pub use casson::Casson;
 pub use contract::{Elastic, Inputs, Needs, Rheology, RheologyEntry};
+pub use cross::Cross;
+pub use herschel_bulkley::HerschelBulkley;
 pub use newtonian::Newtonian;
+pub use power_law::PowerLaw;
+pub use regularisation::Regularisation;

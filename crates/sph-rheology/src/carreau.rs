@@ -1,0 +1,107 @@
+//! The Carreau fluid.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::register;
+
+use crate::{Inputs, Needs, Rheology, RheologyEntry};
+
+/// η = η_∞ + (η_0 − η_∞) [1 + (λγ̇)^a]^((n−1)/a), between η_0 at rest and η_∞ at high strain rates.
+///
+/// Source: Carreau 1972 (a = 2), Yasuda et al. 1981 (any a).
+///
+/// ```toml
+/// [phase.blood.rheology.carreau]
+/// rest_viscosity = "56 mPa s"
+/// infinite_viscosity = "3.45 mPa s"
+/// relaxation_time = "3.313 s"
+/// exponent = 0.3568
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Carreau {
+    /// Viscosity η_0 at rest.
+    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "Carreau 1972"))]
+    pub rest_viscosity: f64,
+    /// Viscosity η_∞ at high strain rates.
+    #[serde(default)]
+    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "Carreau 1972"))]
+    pub infinite_viscosity: f64,
+    /// Time λ: thinning starts at γ̇ = 1/λ.
+    #[schemars(range(min = 0.0), extend("unit" = "s", "source" = "Carreau 1972"))]
+    pub relaxation_time: f64,
+    /// Exponent n of the power law in between.
+    #[schemars(
+        range(max = 1.0),
+        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Carreau 1972")
+    )]
+    pub exponent: f64,
+    /// How sharply the plateau ends, a.
+    #[serde(default = "two")]
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Yasuda et al. 1981"))]
+    pub sharpness: f64,
+}
+
+fn two() -> f64 {
+    2.0
+}
+
+impl Carreau {
+    /// η at a strain rate, Pa s.
+    pub fn at(&self, strain_rate: f64) -> f64 {
+        let a = self.sharpness;
+        let base = 1.0 + (self.relaxation_time * strain_rate).powf(a);
+        let share = base.powf((self.exponent - 1.0) / a);
+        self.infinite_viscosity + (self.rest_viscosity - self.infinite_viscosity) * share
+    }
+}
+
+impl Rheology for Carreau {
+    fn needs(&self) -> Needs {
+        Needs {
+            strain_rate: self.uniform_viscosity().is_none(),
+            pressure: false,
+        }
+    }
+    fn uniform_viscosity(&self) -> Option<f64> {
+        let newtonian = self.exponent == 1.0 || self.rest_viscosity == self.infinite_viscosity;
+        newtonian.then_some(self.rest_viscosity)
+    }
+    fn viscosity(&self, inputs: &Inputs<'_>, viscosity: &mut [f64]) {
+        for (k, eta) in viscosity.iter_mut().enumerate() {
+            *eta = self.at(inputs.at(k).0);
+        }
+    }
+    fn largest_viscosity(&self) -> f64 {
+        self.rest_viscosity.max(self.infinite_viscosity)
+    }
+}
+
+register!(
+    RheologyEntry,
+    Carreau,
+    "carreau",
+    "plateau at rest, then a power of the strain rate, then another plateau",
+    "Carreau 1972"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plateau_and_power_are_right() {
+        let law = Carreau {
+            rest_viscosity: 56e-3,
+            infinite_viscosity: 0.0,
+            relaxation_time: 3.313,
+            exponent: 0.3568,
+            sharpness: 2.0,
+        };
+        assert_eq!(law.at(0.0), 56e-3);
+        let slope = (law.at(2e6) / law.at(1e6)).log2();
+        assert!((slope - (0.3568 - 1.0)).abs() < 1e-12, "{slope}");
+        let half = 56e-3 * 2.0_f64.powf((0.3568 - 1.0) / 2.0);
+        assert!((law.at(1.0 / 3.313) / half - 1.0).abs() < 1e-14);
+    }
+}
