@@ -8,6 +8,7 @@
 
 mod angular_momentum;
 mod bifluid_poiseuille;
+mod bingham_poiseuille;
 mod contract;
 mod couette;
 mod energy;
@@ -32,6 +33,7 @@ mod wall_force;
 
 pub use angular_momentum::AngularMomentum;
 pub use bifluid_poiseuille::BifluidPoiseuille;
+pub use bingham_poiseuille::BinghamPoiseuille;
 pub use contract::{Probe, ProbeColumn, ProbeEntry, Solution, SolutionEntry};
 pub use couette::Couette;
 pub use energy::KineticEnergy;

@@ -52,7 +52,7 @@ impl Carreau {
         let a = self.sharpness;
         let base = 1.0 + (self.relaxation_time * strain_rate).powf(a);
         let share = base.powf((self.exponent - 1.0) / a);
-        self.infinite_viscosity + (self.rest_viscosity - self.infinite_viscosity) * share
+        self.rest_viscosity * share + self.infinite_viscosity * (1.0 - share)
     }
 }
 

@@ -39,7 +39,7 @@ impl Cross {
     /// η at a strain rate, Pa s.
     pub fn at(&self, strain_rate: f64) -> f64 {
         let share = 1.0 / (1.0 + (self.relaxation_time * strain_rate).powf(self.exponent));
-        self.infinite_viscosity + (self.rest_viscosity - self.infinite_viscosity) * share
+        self.rest_viscosity * share + self.infinite_viscosity * (1.0 - share)
     }
 }
 

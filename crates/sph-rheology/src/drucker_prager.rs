@@ -1,0 +1,262 @@
+//! The elastic–viscoplastic soil.
+
+use std::f64::consts::PI;
+
+use nalgebra::Matrix3;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Symmetric, register};
+
+use crate::{Cone, Elastic, Inputs, Needs, Rheology, RheologyEntry, jaumann};
+
+/// τ = ζ τ_y/γ̇ · 2D + (1 − ζ)τˢ: an elastic solid at rest, a liquid of constant friction when it
+/// shears.
+///
+/// The yield stress τ_y = M max(p, 0) + K is that of a [`Cone`]. The solid stress τˢ is Hooke's
+/// with the Jaumann rate, and cut to |τˢ| ≤ τ_y. With x = γ̇/γ̇_y and γ̇_y = τ_y/η_y the blend is
+/// ζ = (q + 1)x^q − q x^(q+1) up to x = 1, where η_y = πd√(𝒢ρ_g)/(0.163ν + 0.877) is the time of a
+/// Rayleigh wave around a grain times 𝒢 = E/(2(1 + ν)).
+///
+/// The viscosity ζτ_y/γ̇ = η_y((q + 1)x^(q−1) − q x^q) is finite, zero at rest for q > 1, and 1.125 η_y
+/// at most for q = 2. In steady shear |τ| is τ_y at every strain rate (less (τ_y/𝒢)²/8 where solid
+/// and liquid meet at an angle).
+///
+/// Liquid at x ≥ 1 forgets its stress; to chatter less, a stress that is zero stays zero down to
+/// x = 0.9 (ours).
+///
+/// The pressure is the effective one where the scene computes it. Limits: constant friction and
+/// porosity; grains of a third of the spacing to the spacing.
+///
+/// Source: Ghaïtanellis 2017, Eq. 4.53–4.55 and 4.69–4.84 (4.72 with the sign of 4.69; 4.80 prints
+/// other constants than 4.82).
+///
+/// ```toml
+/// [phase.sand.rheology.drucker-prager]
+/// young_modulus = "0.8 MPa"
+/// poisson_ratio = 0.3
+/// friction_angle = "30 deg"
+/// grain_diameter = "3.9 mm"
+/// grain_density = 2700
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DruckerPrager {
+    /// Young's modulus E.
+    #[schemars(extend(
+        "exclusiveMinimum" = 0.0,
+        "unit" = "Pa",
+        "source" = "Ghaïtanellis 2017, Eq. 1.21"
+    ))]
+    pub young_modulus: f64,
+    /// Poisson's ratio ν.
+    #[schemars(
+        range(max = 0.5),
+        extend(
+            "exclusiveMinimum" = -1.0,
+            "unit" = "1",
+            "source" = "Ghaïtanellis 2017, Eq. 1.21"
+        )
+    )]
+    pub poisson_ratio: f64,
+    /// Friction angle ψ, as in "30 deg".
+    #[schemars(
+        range(min = 0.0, max = 1.5),
+        extend("unit" = "rad", "source" = "Ghaïtanellis 2017, Eq. 4.41")
+    )]
+    pub friction_angle: f64,
+    /// Cohesion c.
+    #[serde(default)]
+    #[schemars(
+        range(min = 0.0),
+        extend("unit" = "Pa", "source" = "Ghaïtanellis 2017, Eq. 4.42")
+    )]
+    pub cohesion: f64,
+    /// Grain diameter d.
+    #[schemars(extend(
+        "exclusiveMinimum" = 0.0,
+        "unit" = "m",
+        "source" = "Ghaïtanellis 2017, Eq. 4.82"
+    ))]
+    pub grain_diameter: f64,
+    /// Density ρ_g of the grains themselves.
+    #[schemars(extend(
+        "exclusiveMinimum" = 0.0,
+        "unit" = "kg/m³",
+        "source" = "Ghaïtanellis 2017, Eq. 4.82"
+    ))]
+    pub grain_density: f64,
+    /// Order q of the blend.
+    #[serde(default = "two")]
+    #[schemars(
+        range(min = 1.0, max = 100.0),
+        extend("unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 4.83")
+    )]
+    pub blending_order: f64,
+    /// The cone of the yield stress.
+    #[serde(default)]
+    #[schemars(extend("source" = "Ghaïtanellis 2017, Eq. 4.41; the others are ours to choose"))]
+    pub cone: Cone,
+    /// Bound of the viscosity from below, for example that of the water between the grains.
+    #[serde(default)]
+    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "ours"))]
+    pub smallest_viscosity: f64,
+}
+
+fn two() -> f64 {
+    2.0
+}
+
+/// Below this share of the yield strain rate a liquid is solid again.
+const SOLID_AGAIN: f64 = 0.9;
+
+impl DruckerPrager {
+    /// τ_y at a pressure, Pa.
+    pub fn yield_stress(&self, pressure: f64) -> f64 {
+        self.cone
+            .yield_stress(self.friction_angle, self.cohesion, pressure)
+    }
+
+    /// η_y, Pa s.
+    pub fn yield_viscosity(&self) -> f64 {
+        let modulus = jaumann::shear_modulus(self.young_modulus, self.poisson_ratio);
+        let root = (modulus * self.grain_density).sqrt();
+        PI * self.grain_diameter * root / (0.163 * self.poisson_ratio + 0.877)
+    }
+
+    /// ζ(x), the share of the liquid.
+    pub fn liquid_share(&self, x: f64) -> f64 {
+        let q = self.blending_order;
+        match x < 1.0 {
+            true => x.powf(q) * (q + 1.0 - q * x),
+            false => 1.0,
+        }
+    }
+
+    /// ζ/x: the viscosity over η_y.
+    fn relative_viscosity(&self, x: f64) -> f64 {
+        let q = self.blending_order;
+        match x < 1.0 {
+            true => x.powf(q - 1.0) * (q + 1.0 - q * x),
+            false => 1.0 / x,
+        }
+    }
+
+    /// The numbers of a batch.
+    fn bound(&self) -> Bound {
+        let (slope, constant) = self.cone.coefficients(self.friction_angle, self.cohesion);
+        Bound {
+            slope,
+            constant,
+            yield_viscosity: self.yield_viscosity(),
+        }
+    }
+}
+
+/// What does not depend on the particle: M, K, η_y.
+struct Bound {
+    slope: f64,
+    constant: f64,
+    yield_viscosity: f64,
+}
+
+impl Bound {
+    /// τ_y and x = γ̇/γ̇_y of one entry; without strength x is infinite, at rest too.
+    fn state(&self, inputs: &Inputs<'_>, k: usize) -> (f64, f64) {
+        let (rate, pressure) = inputs.at(k);
+        let yield_stress = self.slope * pressure.max(0.0) + self.constant;
+        match yield_stress > 0.0 {
+            true => (yield_stress, rate * self.yield_viscosity / yield_stress),
+            false => (0.0, f64::INFINITY),
+        }
+    }
+
+    /// The stress after a step: forgotten when liquid, else turned, strained and cut.
+    fn advanced(
+        &self,
+        (yield_stress, x): (f64, f64),
+        stress: &Symmetric,
+        next: impl FnOnce(&Symmetric) -> Symmetric,
+    ) -> Symmetric {
+        let liquid = match *stress == Symmetric::ZERO {
+            true => x >= SOLID_AGAIN,
+            false => x >= 1.0,
+        };
+        match liquid {
+            true => Symmetric::ZERO,
+            false => cut(next(stress), yield_stress),
+        }
+    }
+}
+
+/// The stress scaled back to |τ| ≤ τ_y. Source: Ghaïtanellis 2017, Eq. 4.74.
+fn cut(stress: Symmetric, yield_stress: f64) -> Symmetric {
+    let magnitude = jaumann::magnitude(&stress);
+    match magnitude > yield_stress {
+        true => stress * (yield_stress / magnitude),
+        false => stress,
+    }
+}
+
+impl Rheology for DruckerPrager {
+    fn needs(&self) -> Needs {
+        Needs {
+            strain_rate: true,
+            pressure: self.friction_angle > 0.0,
+        }
+    }
+    fn uniform_viscosity(&self) -> Option<f64> {
+        None
+    }
+    fn viscosity(&self, inputs: &Inputs<'_>, viscosity: &mut [f64]) {
+        let bound = self.bound();
+        for (k, eta) in viscosity.iter_mut().enumerate() {
+            let (_, x) = bound.state(inputs, k);
+            let blended = bound.yield_viscosity * self.relative_viscosity(x);
+            *eta = blended.max(self.smallest_viscosity);
+        }
+    }
+    /// η_y times the maximum of (q + 1)x^(q−1) − q x^q, which is at x = 1 − 1/q².
+    fn largest_viscosity(&self) -> f64 {
+        let q = self.blending_order;
+        let most = self.relative_viscosity(1.0 - 1.0 / (q * q));
+        (self.yield_viscosity() * most).max(self.smallest_viscosity)
+    }
+    fn elastic(&self) -> Option<&dyn Elastic> {
+        Some(self)
+    }
+}
+
+impl Elastic for DruckerPrager {
+    fn shear_modulus(&self) -> f64 {
+        jaumann::shear_modulus(self.young_modulus, self.poisson_ratio)
+    }
+    fn advance(
+        &self,
+        inputs: &Inputs<'_>,
+        gradient: &[Matrix3<f64>],
+        dt: f64,
+        stress: &mut [Symmetric],
+    ) {
+        let (bound, modulus) = (self.bound(), self.shear_modulus());
+        for (k, (stress, gradient)) in stress.iter_mut().zip(gradient).enumerate() {
+            *stress = bound.advanced(bound.state(inputs, k), stress, |stress| {
+                jaumann::advanced(stress, gradient, modulus, dt)
+            });
+        }
+    }
+    fn carried(&self, inputs: &Inputs<'_>, stress: &[Symmetric], carried: &mut [Symmetric]) {
+        let bound = self.bound();
+        for (k, (carried, stress)) in carried.iter_mut().zip(stress).enumerate() {
+            let (yield_stress, x) = bound.state(inputs, k);
+            *carried = cut(*stress, yield_stress) * (1.0 - self.liquid_share(x));
+        }
+    }
+}
+
+register!(
+    RheologyEntry,
+    DruckerPrager,
+    "drucker-prager",
+    "elastic soil that yields to a liquid of constant friction",
+    "Ghaïtanellis 2017, Eq. 4.69–4.84"
+);

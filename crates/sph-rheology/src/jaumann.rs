@@ -1,0 +1,106 @@
+//! How a deviatoric stress follows the motion.
+
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use sph_core::Symmetric;
+
+/// 𝒢 = E/(2(1 + ν)), Pa. Source: Ghaïtanellis 2017, Eq. 1.21.
+pub fn shear_modulus(young_modulus: f64, poisson_ratio: f64) -> f64 {
+    young_modulus / (2.0 * (1.0 + poisson_ratio))
+}
+
+/// |τ| = √(½ τ:τ), Pa. Source: Ghaïtanellis 2017, Eq. 4.7.
+pub fn magnitude(stress: &Symmetric) -> f64 {
+    (0.5 * stress.contract(stress)).sqrt()
+}
+
+/// The stress after `dt` of dτ/dt = 2𝒢D′ + ωτ − τω with a constant gradient G of the velocity.
+///
+/// Symbols: D′ deviator of ½(G + Gᵀ), ω = ½(G − Gᵀ), G_ij = ∂u_i/∂x_j. Half of the strain comes
+/// before the turn by exp(ωΔt) and half after it: second order in Δt, and in rigid rotation exact
+/// (|τ| is kept). The explicit Euler step of the source lets |τ| grow in rotation.
+///
+/// Source: Ghaïtanellis 2017, Eq. 4.71 and 4.91; the sign of Eq. 4.72 is against its Eq. 4.69 and
+/// turns the stress the wrong way.
+pub fn advanced(
+    stress: &Symmetric,
+    gradient: &Matrix3<f64>,
+    shear_modulus: f64,
+    dt: f64,
+) -> Symmetric {
+    let half = Symmetric::part_of(gradient).deviator() * (shear_modulus * dt);
+    turned(&(*stress + half), gradient, dt) + half
+}
+
+/// Q τ Qᵀ with Q = exp(ωΔt).
+fn turned(stress: &Symmetric, gradient: &Matrix3<f64>, dt: f64) -> Symmetric {
+    let spin = |i, j| 0.5 * (gradient[(i, j)] - gradient[(j, i)]);
+    let angle = Vector3::new(spin(2, 1), spin(0, 2), spin(1, 0)) * dt;
+    if angle == Vector3::zeros() {
+        return *stress;
+    }
+    let q = Rotation3::new(angle).into_inner();
+    Symmetric::part_of(&(q * stress.matrix() * q.transpose())).deviator()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn some_stress() -> Symmetric {
+        Symmetric([0.3, 0.5, -0.8, 1.0, -0.4, 0.2])
+    }
+
+    /// A rotation about (1, 2, 2)/3 in small and in large steps.
+    #[test]
+    fn rigid_rotation_turns_the_stress_and_keeps_its_size() {
+        let axis = Vector3::new(1.0, 2.0, 2.0) / 3.0;
+        let gradient = axis.cross_matrix();
+        let first = some_stress();
+        let q = Rotation3::new(axis * 0.5).into_inner();
+        let exact = q * first.matrix() * q.transpose();
+        for steps in [1, 50, 50_000] {
+            let mut stress = first;
+            for _ in 0..steps {
+                stress = advanced(&stress, &gradient, 1e6, 0.5 / f64::from(steps));
+            }
+            let error = (stress.matrix() - exact).norm() / first.matrix().norm();
+            let size = (magnitude(&stress) / magnitude(&first) - 1.0).abs();
+            println!("{steps} steps: {error:e}, size {size:e}");
+            assert!(error < 1e-10 && size < 1e-10, "{steps}: {error:e} {size:e}");
+        }
+    }
+
+    /// The Jaumann rate in simple shear: τ_xy = 𝒢 sin s, τ_xx = −τ_yy = 𝒢 (1 − cos s).
+    #[test]
+    fn simple_shear_is_second_order() {
+        let mut gradient = Matrix3::zeros();
+        gradient[(0, 1)] = 2.0;
+        let shear = 1.2_f64;
+        let error = |steps: u32| {
+            let mut stress = Symmetric::ZERO;
+            for _ in 0..steps {
+                stress = advanced(&stress, &gradient, 5.0, 0.5 * shear / f64::from(steps));
+            }
+            let (xx, xy) = (5.0 * (1.0 - shear.cos()), 5.0 * shear.sin());
+            let exact = Symmetric([xx, -xx, 0.0, xy, 0.0, 0.0]);
+            magnitude(&(stress - exact)) / 5.0
+        };
+        let (coarse, fine) = (error(20), error(40));
+        println!("simple shear 1.2: {coarse:e} {fine:e}");
+        assert!((coarse / fine).log2() > 1.95, "{coarse:e} {fine:e}");
+        assert!(error(2000) < 1e-7);
+    }
+
+    #[test]
+    fn strain_without_rotation_adds_up() {
+        let gradient = Matrix3::new(-0.3, 0.2, 0.0, 0.2, 0.5, 0.0, 0.0, 0.0, 0.0);
+        let rate = Symmetric::part_of(&gradient).deviator();
+        let stress = advanced(&some_stress(), &gradient, 40.0, 0.25);
+        let exact = some_stress() + rate * (2.0 * 40.0 * 0.25);
+        assert!(magnitude(&(stress - exact)) < 1e-14);
+        assert!(
+            (stress.0[2] - (-0.8 - 20.0 * 0.2 / 3.0)).abs() < 1e-14,
+            "out of the plane"
+        );
+    }
+}
