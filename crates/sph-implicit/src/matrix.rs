@@ -119,7 +119,8 @@ impl<const D: usize> Matrix<D> {
         }
     }
 
-    /// Largest ratio of what couples a row to others to what is left of its diagonal, Σ|a_ij|/(a_ii − Σ|a_ij|).
+    /// Largest ratio of what couples a row to others to what is left of its diagonal, Σ|a_ij|/(a_ii − Σ|a_ij|); of
+    /// blocks with the means of their diagonals.
     pub fn stiffness(&self) -> f64 {
         match &self.entries {
             Entries::Scalar(values) => values.stiffness::<D>(&self.pattern),
@@ -178,9 +179,11 @@ impl<E> Values<E> {
     where
         E: Entry<D>,
     {
+        // Of blocks the mean of their diagonals: those of a row add up, as numbers do.
+        let mean = |entry: &E| (0..D).map(|k| entry.component(k, k)).sum::<f64>() / D as f64;
         let row = |i: usize| {
-            let coupled: f64 = self.others[pattern.row(i)].iter().map(Entry::largest).sum();
-            let left = self.diagonal[i].largest() - coupled;
+            let coupled: f64 = self.others[pattern.row(i)].iter().map(|a| mean(a).abs()).sum();
+            let left = mean(&self.diagonal[i]) - coupled;
             match coupled > 0.0 {
                 true if left > 0.0 => coupled / left,
                 true => f64::INFINITY,
