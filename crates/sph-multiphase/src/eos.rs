@@ -1,4 +1,4 @@
-//! Equations of state: pressure from density, on slices.
+//! Equations of state: pressure from density, and strain rate where it counts, on slices.
 
 use sph_core::contract;
 
@@ -15,6 +15,15 @@ pub struct Reference {
 pub trait BoundState: Send + Sync + std::fmt::Debug {
     /// p(ρ), Pa.
     fn pressure(&self, density: &[f64], pressure: &mut [f64]);
+    /// Whether the pressure depends on the strain rate as well; p(ρ) is then that at rest.
+    fn needs_strain_rate(&self) -> bool {
+        false
+    }
+    /// p(ρ, γ̇), Pa, with γ̇ = √(2 D:D) in 1/s; the strain rates may be empty for laws that do not need
+    /// them.
+    fn sheared_pressure(&self, density: &[f64], _strain_rate: &[f64], pressure: &mut [f64]) {
+        self.pressure(density, pressure);
+    }
     /// ρ(p), kg/m³.
     fn density(&self, pressure: f64) -> f64;
     /// c(ρ) = √(dp/dρ), m/s.
@@ -25,7 +34,7 @@ pub trait BoundState: Send + Sync + std::fmt::Debug {
     fn reference(&self) -> Reference;
 }
 
-/// A barotropic law p(ρ) of one phase.
+/// A law p(ρ), or p(ρ, γ̇), of one phase.
 pub trait EquationOfState: Send + Sync {
     /// The law for a phase.
     fn bind(&self, reference: Reference) -> Box<dyn BoundState>;

@@ -1,6 +1,7 @@
 //! How pressure, density and viscosity act between particles.
 //!
-//! * [`EquationOfState`]: pressure from density, on slices ([`Tait`], [`Linear`]).
+//! * [`EquationOfState`]: pressure from density, on slices ([`Tait`], [`Linear`]), and of grains
+//!   from the strain rate as well ([`CompressibleGrains`]).
 //! * [`Formulation`]: what density is and which pressure gradient belongs to it ([`HuAdams`]).
 //! * [`ViscousOperator`]: the second-order operator of the viscous force ([`Morris`]).
 //! * [`Smoother`]: what damps pressure noise ([`BrezziPitkaranta`]).
@@ -10,6 +11,7 @@
 
 mod brezzi_pitkaranta;
 mod colagrossi_landrini;
+mod compressible_grains;
 mod contract;
 mod coupling;
 mod delta_multiphase;
@@ -48,6 +50,7 @@ mod volume;
 
 pub use brezzi_pitkaranta::BrezziPitkaranta;
 pub use colagrossi_landrini::ColagrossiLandrini;
+pub use compressible_grains::CompressibleGrains;
 pub use contract::{
     Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, InterfaceModel, Laws,
     Shifting, ShiftingEntry, Smoother, SmootherEntry, Stages, Viscosity, ViscousOperator,

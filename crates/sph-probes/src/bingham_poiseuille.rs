@@ -107,14 +107,14 @@ impl BinghamPoiseuille {
             }
             let slope = k * n * s.powf(n - 1.0) + tau * m * (-m * s).exp();
             let newton = s - excess / slope;
-            let next = match newton > low && newton < high {
+            // Before the bracket is looked at: a last step of no length ends on its edge.
+            if (newton - s).abs() <= 1e-15 * s {
+                return newton;
+            }
+            s = match newton > low && newton < high {
                 true => newton,
                 false => 0.5 * (low + high),
             };
-            if (next - s).abs() <= 1e-15 * s {
-                return next;
-            }
-            s = next;
         }
         s
     }

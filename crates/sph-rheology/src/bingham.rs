@@ -31,7 +31,9 @@ pub struct Bingham {
         extend("unit" = "Pa", "source" = "Ghaïtanellis 2017, Eq. 4.5")
     )]
     pub yield_stress: f64,
-    /// How the viscosity stays finite at rest.
+    /// How the viscosity stays finite at rest: a table `papanastasiou` (with `stress_growth`),
+    /// `bi-viscosity` (`largest_viscosity`), `bercovier-engelman` (`strain_rate`) or `ratio`
+    /// (`ratio`).
     pub regularisation: Regularisation,
 }
 

@@ -18,8 +18,8 @@ use serde::{Deserialize, Serialize};
 /// the circumscribed one is stronger than the angle says: ψ = 30° stands like 34.7°. `sin` is
 /// Mohr–Coulomb in isochoric plane strain; `tan` stands on a slope of ψ.
 ///
-/// Source: Ghaïtanellis 2017, Eq. 4.39–4.42 and 4.53–4.55 for the first; Drucker & Prager 1952 for
-/// the first three.
+/// Source: Ghaïtanellis 2017, Eq. 4.39–4.42 and 4.53–4.55, for the first; Drucker & Prager 1952 for
+/// `plane-strain`; the others follow from the pyramid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cone {

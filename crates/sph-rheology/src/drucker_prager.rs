@@ -61,14 +61,14 @@ pub struct DruckerPrager {
     /// Friction angle ψ, as in "30 deg".
     #[schemars(
         range(min = 0.0, max = 1.5),
-        extend("unit" = "rad", "source" = "Ghaïtanellis 2017, Eq. 4.41")
+        extend("unit" = "rad", "source" = "Ghaïtanellis 2017, Eq. 4.39–4.42")
     )]
     pub friction_angle: f64,
     /// Cohesion c.
     #[serde(default)]
     #[schemars(
         range(min = 0.0),
-        extend("unit" = "Pa", "source" = "Ghaïtanellis 2017, Eq. 4.42")
+        extend("unit" = "Pa", "source" = "Ghaïtanellis 2017, Eq. 4.39–4.42")
     )]
     pub cohesion: f64,
     /// Grain diameter d.
@@ -92,9 +92,9 @@ pub struct DruckerPrager {
         extend("unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 4.83")
     )]
     pub blending_order: f64,
-    /// The cone of the yield stress.
+    /// The cone of the yield stress: `circumscribed`, `inscribed`, `plane-strain`, `tan` or `sin`.
     #[serde(default)]
-    #[schemars(extend("source" = "Ghaïtanellis 2017, Eq. 4.41; the others are ours to choose"))]
+    #[schemars(extend("source" = "Ghaïtanellis 2017, Eq. 4.39–4.42; the other cones are ours to choose"))]
     pub cone: Cone,
     /// Bound of the viscosity from below, for example that of the water between the grains.
     #[serde(default)]

@@ -44,7 +44,9 @@ pub struct HerschelBulkley {
         extend("unit" = "Pa", "source" = "Herschel & Bulkley 1926")
     )]
     pub yield_stress: f64,
-    /// How the viscosity stays finite at rest.
+    /// How the viscosity stays finite at rest: a table `papanastasiou` (with `stress_growth`),
+    /// `bi-viscosity` (`largest_viscosity`), `bercovier-engelman` (`strain_rate`) or `ratio`
+    /// (`ratio`).
     pub regularisation: Regularisation,
     /// Bound of the viscosity from below.
     #[serde(default)]

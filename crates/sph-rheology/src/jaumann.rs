@@ -8,7 +8,7 @@ pub fn shear_modulus(young_modulus: f64, poisson_ratio: f64) -> f64 {
     young_modulus / (2.0 * (1.0 + poisson_ratio))
 }
 
-/// |τ| = √(½ τ:τ), Pa. Source: Ghaïtanellis 2017, Eq. 4.7.
+/// |τ| = √(½ τ:τ), Pa. Source: Ghaïtanellis 2017, Eq. 4.6–4.7.
 pub fn magnitude(stress: &Symmetric) -> f64 {
     (0.5 * stress.contract(stress)).sqrt()
 }

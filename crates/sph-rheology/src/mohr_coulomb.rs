@@ -46,7 +46,9 @@ pub struct MohrCoulomb {
         extend("unit" = "Pa", "source" = "Krimi et al. 2018, Eq. 21")
     )]
     pub cohesion: f64,
-    /// How the viscosity stays finite at rest.
+    /// How the viscosity stays finite at rest: a table `papanastasiou` (with `stress_growth`),
+    /// `bi-viscosity` (`largest_viscosity`), `bercovier-engelman` (`strain_rate`) or `ratio`
+    /// (`ratio`).
     pub regularisation: Regularisation,
 }
 

@@ -72,24 +72,25 @@ pub struct MuI {
     #[serde(default)]
     #[schemars(
         range(min = 0.0),
-        extend("unit" = "Pa s", "source" = "Ghaïtanellis 2017, Eq. 4.18")
+        extend("unit" = "Pa s", "source" = "Ghaïtanellis 2017, Eq. 4.16–4.23")
     )]
     pub fluid_viscosity: f64,
     /// Density ρ_w of the fluid between the grains.
     #[serde(default)]
     #[schemars(
         range(min = 0.0),
-        extend("unit" = "kg/m³", "source" = "Ghaïtanellis 2017, Eq. 4.18")
+        extend("unit" = "kg/m³", "source" = "Ghaïtanellis 2017, Eq. 4.16–4.23")
     )]
     pub fluid_density: f64,
     /// Drag coefficient C_D of a grain in that fluid.
     #[serde(default)]
     #[schemars(
         range(min = 0.0),
-        extend("unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 4.18")
+        extend("unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 4.16–4.23")
     )]
     pub drag_coefficient: f64,
-    /// How the viscosity stays finite at rest.
+    /// How the viscosity stays finite at rest: a table `chauchat-medale` (with `strain_rate`),
+    /// `papanastasiou` (`stress_growth`) or `minatti-paris` (`yield_stress`, `stress_growth`).
     pub regularisation: MuIRegularisation,
     /// Bound of the viscosity from above; none if left out.
     #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa s", "source" = "ours"))]
@@ -110,7 +111,7 @@ pub struct MuI {
 /// error of the viscosity is at every pressure what it is at p₀ = τ₀/μ_s. The source integrates
 /// dm/dτ_y approximately; this is the exact solution (ours).
 ///
-/// Sources: Chauchat & Médale 2014, in Ghaïtanellis 2017, Eq. 4.22; Minatti & Paris 2015,
+/// Sources: Chauchat & Médale 2014, in Ghaïtanellis 2017, Eq. 4.16–4.23; Minatti & Paris 2015,
 /// Eq. 45–55.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
@@ -121,7 +122,7 @@ pub enum MuIRegularisation {
         #[schemars(extend(
             "exclusiveMinimum" = 0.0,
             "unit" = "1/s",
-            "source" = "Ghaïtanellis 2017, Eq. 4.22"
+            "source" = "Ghaïtanellis 2017, Eq. 4.16–4.23"
         ))]
         strain_rate: f64,
     },

@@ -33,7 +33,7 @@ pub enum Regularisation {
         #[schemars(extend(
             "exclusiveMinimum" = 0.0,
             "unit" = "s",
-            "source" = "Ghaïtanellis 2017, Eq. 4.13"
+            "source" = "Ghaïtanellis 2017, Eq. 4.13–4.15"
         ))]
         stress_growth: f64,
     },
@@ -43,7 +43,7 @@ pub enum Regularisation {
         #[schemars(extend(
             "exclusiveMinimum" = 0.0,
             "unit" = "Pa s",
-            "source" = "Ghaïtanellis 2017, Eq. 4.9"
+            "source" = "Ghaïtanellis 2017, Eq. 4.9–4.12"
         ))]
         largest_viscosity: f64,
     },
@@ -60,7 +60,7 @@ pub enum Regularisation {
     /// The viscosity at rest is a multiple of the viscous part, whatever the yield stress.
     Ratio {
         /// Largest viscosity over the viscous part, α.
-        #[schemars(range(min = 1.0), extend("unit" = "1", "source" = "Krimi et al. 2018, Eq. 12"))]
+        #[schemars(range(min = 1.0), extend("unit" = "1", "source" = "Krimi et al. 2018, Eq. 10–13"))]
         ratio: f64,
     },
 }

@@ -13,5 +13,6 @@ mod limits;
 mod shifting;
 mod smoother;
 mod smoothers;
+mod state;
 mod walls;
 mod world;
