@@ -1,0 +1,71 @@
+//! A standing shear wave in an elastic material.
+
+use std::f64::consts::TAU;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Vect, register};
+
+use crate::{Solution, SolutionEntry};
+
+/// u = U cos(ωt) sin(ky) along x with k = 2π/λ and ω = k√(𝒢/ρ).
+///
+/// Symbols: U largest velocity (m/s); λ wavelength (m); 𝒢 shear modulus (Pa); ρ density (kg/m³); y
+/// the last coordinate. The displacement is U/ω sin(ωt) sin(ky); it must stay far below 1/k.
+///
+/// Source: Achenbach 1973, §1.5.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ElasticShearWave {
+    /// Largest velocity U.
+    #[schemars(extend("unit" = "m/s"))]
+    pub speed: f64,
+    /// Wavelength λ.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    pub wavelength: f64,
+    /// Shear modulus 𝒢.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa"))]
+    pub shear_modulus: f64,
+    /// Density ρ.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "kg/m³"))]
+    pub density: f64,
+}
+
+impl<const D: usize> Solution<D> for ElasticShearWave {
+    fn velocity(&self, position: &Vect<D>, time: f64) -> Option<Vect<D>> {
+        let k = TAU / self.wavelength;
+        let frequency = k * (self.shear_modulus / self.density).sqrt();
+        let mut velocity = Vect::zeros();
+        velocity[0] = self.speed * (frequency * time).cos() * (k * position[D - 1]).sin();
+        Some(velocity)
+    }
+}
+
+register!(
+    SolutionEntry [2, 3],
+    ElasticShearWave,
+    "elastic-shear-wave",
+    "standing shear wave in an elastic material",
+    "Achenbach 1973, §1.5"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn acceleration_is_that_of_the_stress() {
+        let wave = ElasticShearWave {
+            speed: 0.3,
+            wavelength: 2.0,
+            shear_modulus: 5.0,
+            density: 1.25,
+        };
+        let at = |t: f64| wave.velocity(&Vect::from([0.1, 0.3]), t).map_or(0.0, |u: Vect<2>| u[0]);
+        // ρ d²u/dt² = 𝒢 d²u/dy² = −𝒢k²u.
+        let (t, dt) = (0.37, 1e-4);
+        let second = (at(t + dt) - 2.0 * at(t) + at(t - dt)) / (dt * dt);
+        let k = TAU / 2.0;
+        assert!((1.25 * second + 5.0 * k * k * at(t)).abs() < 1e-5);
+    }
+}
