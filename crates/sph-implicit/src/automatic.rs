@@ -5,7 +5,7 @@ use serde::Deserialize;
 use sph_core::{Vect, register};
 
 use crate::{
-    Cholesky, ConjugateGradient, LinearSolver, LinearSolverEntry, Matrix, Preconditioner, Report,
+    Cholesky, ConjugateGradient, Entries, LinearSolver, LinearSolverEntry, Matrix, Preconditioner, Report,
     SolveError,
 };
 
@@ -13,8 +13,9 @@ use crate::{
 ///
 /// * stiffness (largest Σ|a_ij| over what is left of the diagonal, about 2νΔt/δr² at h = 2δr) below 5:
 ///   conjugate gradients with `jacobi`;
-/// * in 2D with up to 200 000 particles and a stiffness above 2000: `cholesky`;
-/// * else conjugate gradients with `incomplete-diagonal`.
+/// * in 2D with up to 200 000 particles and a stiffness above 2000, or above 20 000 where components
+///   mix: `cholesky`;
+/// * else conjugate gradients with `incomplete-diagonal`, or `incomplete-cholesky` where components mix.
 ///
 /// Measured in docs/validation/implicit.md.
 ///
@@ -59,6 +60,8 @@ impl Default for Automatic {
 const MILD: f64 = 5.0;
 /// Stiffness from which factorising pays, in 2D.
 const STIFF: f64 = 2000.0;
+/// The same for blocks, whose factors have four times the entries and eight times the work.
+const STIFF_BLOCKS: f64 = 20_000.0;
 /// Particles up to which factorising is tried.
 const DIRECT_ROWS: usize = 200_000;
 
@@ -69,19 +72,32 @@ impl<const D: usize> LinearSolver<D> for Automatic {
         right: &[Vect<D>],
         x: &mut [Vect<D>],
     ) -> Result<Report, SolveError> {
+        self.solve_roughly(matrix, right, x, 0.0)
+    }
+
+    fn solve_roughly(
+        &mut self,
+        matrix: &Matrix<D>,
+        right: &[Vect<D>],
+        x: &mut [Vect<D>],
+        enough: f64,
+    ) -> Result<Report, SolveError> {
         let stiffness = matrix.stiffness();
-        if D == 2 && matrix.rows() <= DIRECT_ROWS && stiffness > STIFF {
+        let mixed = matches!(matrix.entries, Entries::Block(_));
+        let stiff = if mixed { STIFF_BLOCKS } else { STIFF };
+        if D == 2 && matrix.rows() <= DIRECT_ROWS && stiffness > stiff {
             return self.direct.solve(matrix, right, x);
         }
         let mut iterative = ConjugateGradient {
             tolerance: self.tolerance,
-            preconditioner: match stiffness < MILD {
-                true => Preconditioner::Jacobi,
-                false => Preconditioner::IncompleteDiagonal,
+            preconditioner: match (stiffness < MILD, mixed) {
+                (true, _) => Preconditioner::Jacobi,
+                (false, true) => Preconditioner::IncompleteCholesky,
+                (false, false) => Preconditioner::IncompleteDiagonal,
             },
             ..ConjugateGradient::default()
         };
-        iterative.solve(matrix, right, x)
+        iterative.solve_roughly(matrix, right, x, enough)
     }
 }
 

@@ -53,8 +53,18 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
         right: &[Vect<D>],
         x: &mut [Vect<D>],
     ) -> Result<Report, SolveError> {
+        self.solve_roughly(matrix, right, x, 0.0)
+    }
+
+    fn solve_roughly(
+        &mut self,
+        matrix: &Matrix<D>,
+        right: &[Vect<D>],
+        x: &mut [Vect<D>],
+        enough: f64,
+    ) -> Result<Report, SolveError> {
         let tolerance = Tolerance {
-            residual: self.tolerance,
+            residual: self.tolerance.max(enough),
             iterations: self.iterations,
         };
         let mut watch = Watch::new(METHOD, tolerance, right)?;

@@ -28,6 +28,21 @@ pub trait LinearSolver<const D: usize>: Send {
         x: &mut [Vect<D>],
     ) -> Result<Report, SolveError>;
 
+    /// The same within an outer iteration: a relative residual of `enough` will do, where stopping
+    /// early saves work.
+    ///
+    /// # Errors
+    /// As [`solve`](LinearSolver::solve).
+    fn solve_roughly(
+        &mut self,
+        matrix: &Matrix<D>,
+        right: &[Vect<D>],
+        x: &mut [Vect<D>],
+        _enough: f64,
+    ) -> Result<Report, SolveError> {
+        self.solve(matrix, right, x)
+    }
+
     /// Whether patterns that outlive several solves save it work.
     fn keeps_pattern(&self) -> bool {
         false
