@@ -22,6 +22,7 @@ const ALLOWED: [(&str, &[&str]); 14] = [
     (
         "sph-stress",
         &[
+            "sph-implicit",
             "sph-core",
             "sph-neighbours",
             "sph-rheology",

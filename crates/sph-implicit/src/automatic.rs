@@ -5,8 +5,8 @@ use serde::Deserialize;
 use sph_core::{Vect, register};
 
 use crate::{
-    Cholesky, ConjugateGradient, Entries, LinearSolver, LinearSolverEntry, Matrix, Preconditioner, Report,
-    SolveError,
+    Cholesky, ConjugateGradient, Entries, LinearSolver, LinearSolverEntry, Matrix, Preconditioner,
+    Report, SolveError,
 };
 
 /// Looks at every matrix and takes what is fastest for its kind:

@@ -8,7 +8,7 @@ use sph_core::{contract, register};
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct OuterIteration {
-    /// Iterate until √(Σm|Δu|²/Σm|u|²) is below this.
+    /// Iterate until √(Σm|Δu|²/Σm(|u|² + Δt²|g|²)) is below this, with the driving acceleration g.
     #[schemars(range(min = 0.0), extend("unit" = "1", "source" = "ours"))]
     pub tolerance: f64,
     /// Largest number of solves per step; 1 takes the viscosity of the step before.

@@ -61,7 +61,10 @@ mod tests {
             shear_modulus: 5.0,
             density: 1.25,
         };
-        let at = |t: f64| wave.velocity(&Vect::from([0.1, 0.3]), t).map_or(0.0, |u: Vect<2>| u[0]);
+        let at = |t: f64| {
+            wave.velocity(&Vect::from([0.1, 0.3]), t)
+                .map_or(0.0, |u: Vect<2>| u[0])
+        };
         // ρ d²u/dt² = 𝒢 d²u/dy² = −𝒢k²u.
         let (t, dt) = (0.37, 1e-4);
         let second = (at(t + dt) - 2.0 * at(t) + at(t - dt)) / (dt * dt);

@@ -7,7 +7,7 @@ use toml::{Table, Value};
 const DEEPEST: usize = 32;
 
 /// Tables that hold exactly one plugin, as the segments that lead to them.
-const SINGLE: [&[&str]; 13] = [
+const SINGLE: [&[&str]; 14] = [
     &["kernel"],
     &["formulation"],
     &["integrator"],
@@ -16,6 +16,7 @@ const SINGLE: [&[&str]; 13] = [
     &["implicit-viscosity"],
     &["linear-solver"],
     &["velocity-gradient"],
+    &["effective-pressure"],
     &["smoother"],
     &["shifting"],
     &["phase", "*", "equation-of-state"],

@@ -58,6 +58,10 @@ pub struct Scene {
     #[serde(default, rename = "velocity-gradient")]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
     pub velocity_gradient: Plugins,
+    /// Pressure between the grains of soils, `[effective-pressure.PLUGIN]`; that of the equation of state if left out.
+    #[serde(default, rename = "effective-pressure")]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub effective_pressure: Plugins,
     /// Smoothing of the density, `[smoother.PLUGIN]`; none if left out.
     #[serde(default)]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
@@ -147,7 +151,7 @@ impl Scene {
 
     /// The plugin that the scene chooses for a kind of which it has one at most: `kernel`,
     /// `formulation`, `integrator`, `walls`, `viscous-operator`, `implicit-viscosity`, `linear-solver`,
-    /// `velocity-gradient`, `smoother` or `shifting`.
+    /// `velocity-gradient`, `effective-pressure`, `smoother` or `shifting`.
     pub fn choice(&self, kind: &'static str) -> Option<PluginChoice> {
         let plugins = match kind {
             "kernel" => &self.kernel,
@@ -158,6 +162,7 @@ impl Scene {
             "implicit-viscosity" => &self.implicit_viscosity,
             "linear-solver" => &self.linear_solver,
             "velocity-gradient" => &self.velocity_gradient,
+            "effective-pressure" => &self.effective_pressure,
             "smoother" => &self.smoother,
             "shifting" => &self.shifting,
             _ => return None,

@@ -272,7 +272,9 @@ fn allocate<const D: usize>(flow: &mut Flow<D>) {
         .collect();
     for field in touched {
         // Drifts may sort particles between their halves: the shift must be sorted, too.
-        let role = match field.name == fields::SHIFT_VELOCITY.name {
+        // Solves for the effective pressure start from the last one.
+        let kept = [fields::SHIFT_VELOCITY.name, fields::EFFECTIVE_PRESSURE.name];
+        let role = match kept.contains(&field.name) {
             true => Role::State,
             false => Role::Derived,
         };

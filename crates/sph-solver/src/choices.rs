@@ -17,7 +17,9 @@ use sph_neighbours::{Interaction, KernelEntry, TermEntry};
 use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry};
 use sph_rheology::{Rheology, RheologyEntry};
 use sph_scene::{PluginChoice, Scene};
-use sph_stress::{VelocityGradient, VelocityGradientEntry};
+use sph_stress::{
+    EffectivePressure, EffectivePressureEntry, VelocityGradient, VelocityGradientEntry,
+};
 
 use crate::defaults;
 use crate::summary::PluginInForce;
@@ -33,6 +35,7 @@ pub struct Choices<const D: usize> {
     pub implicit_viscosity: Option<(Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>)>,
     /// Only where a law asks for a strain rate.
     pub velocity_gradient: Option<Arc<dyn VelocityGradient<D>>>,
+    pub effective_pressure: Option<Box<dyn EffectivePressure<D>>>,
     pub smoother: Option<Box<dyn Smoother<D>>>,
     pub shifting: Option<Box<dyn Shifting<D>>>,
     pub interfaces: Vec<Box<dyn InterfaceModel<D>>>,
@@ -202,6 +205,19 @@ impl<const D: usize> Choices<D> {
             let message = "no law of this scene feels a strain rate: take this table out";
             b.problems.push(SceneProblem::new(idle.path, message));
         }
+        let effective_pressure = one!(
+            "effective-pressure",
+            EffectivePressureEntry,
+            |e: &EffectivePressureEntry, t| e.build::<D>(t)
+        );
+        let rubs = |law: &Box<dyn Rheology>| law.needs().pressure;
+        if let (false, Some(idle)) = (
+            rheologies.iter().any(rubs) || !b.problems.is_empty(),
+            scene.choice("effective-pressure"),
+        ) {
+            let message = "no law of this scene feels a pressure: take this table out";
+            b.problems.push(SceneProblem::new(idle.path, message));
+        }
         let mut probes = Vec::new();
         for (name, c) in scene.probes() {
             let probe = b.build::<ProbeEntry, _>(&c, |e| e.build::<D>(&c.table));
@@ -232,6 +248,7 @@ impl<const D: usize> Choices<D> {
                     viscous_operator,
                     implicit_viscosity,
                     velocity_gradient: velocity_gradient.map(Arc::from),
+                    effective_pressure,
                     smoother,
                     shifting,
                     interfaces,

@@ -116,7 +116,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             };
             self.solve(world, earlier, &ahead, &mut velocity, dt)?;
             if iterations > 0 {
-                change = relative_change(world, &velocity)?;
+                change = relative_change(world, &velocity, dt)?;
             }
             world.free.put(fields::VELOCITY, velocity)?;
             iterations += 1;
@@ -221,17 +221,20 @@ impl<const D: usize> ImplicitViscosity<D> {
     }
 }
 
-/// √(Σm|u − u'|²/Σm|u|²) of a velocity against the world's; zero where all is at rest.
+/// √(Σm|u − u'|²/Σm(|u|² + Δt²|g|²)) of a velocity against the world's, with what drives the flow:
+/// next to rest nobody needs to know the velocity better than what one step could give it.
 fn relative_change<const D: usize>(
     world: &World<D>,
     velocity: &[Vect<D>],
+    dt: f64,
 ) -> Result<f64, StepError> {
     let mass = world.free.get(fields::MASS)?;
     let last = world.free.get(fields::VELOCITY)?;
+    let kick = dt * dt * (world.gravity + world.driving).norm_squared();
     let mut sums = [0.0, 0.0];
     for ((u, l), m) in velocity.iter().zip(last).zip(mass) {
         sums[0] += m * (u - l).norm_squared();
-        sums[1] += m * u.norm_squared();
+        sums[1] += m * (u.norm_squared() + kick);
     }
     Ok(match sums[1] > 0.0 {
         true => (sums[0] / sums[1]).sqrt(),

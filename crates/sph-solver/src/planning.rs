@@ -5,6 +5,7 @@ use std::sync::Arc;
 use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, fields, plan};
 use sph_multiphase::{BoundState, Coupling, PressureStage, Viscosity};
 use sph_neighbours::{Interaction, World, fuse_all};
+use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_stress::{
     CarriedStress, ElasticMotion, GradientStage, Rheologies, StrainRate, StressDivergence,
@@ -62,7 +63,10 @@ pub fn plan_stages<const D: usize>(
     let rheologies: Rheologies = std::mem::take(&mut choices.rheologies).into();
     let viscosity = viscosity_of(&rheologies);
     let elastic = rheologies.iter().any(|l| l.elastic().is_some());
-    let pressure = fields::PRESSURE;
+    let pressure = match choices.effective_pressure {
+        Some(_) => fields::EFFECTIVE_PRESSURE,
+        None => fields::PRESSURE,
+    };
     let mut friction = Vec::new();
     let mut solved = None;
     if viscosity != Viscosity::Uniform(0.0) {
@@ -120,6 +124,13 @@ pub fn plan_stages<const D: usize>(
     offered.push(Box::new(PressureStage { laws: laws.clone() }));
     if let Some(walls) = walls {
         offered.push(Box::new(WallState(walls.clone())));
+    }
+    if let Some(effective) = choices.effective_pressure.take() {
+        let soil = |(law, state): (&Box<dyn Rheology>, &Box<dyn BoundState>)| {
+            law.needs().pressure.then(|| state.reference().density)
+        };
+        let soils = rheologies.iter().zip(laws.iter()).map(soil).collect();
+        offered.push(with_gamma(effective.stage(soils)));
     }
     let gradient = choices.velocity_gradient.take();
     let stage_of_gradient = || gradient.clone().map(GradientStage);

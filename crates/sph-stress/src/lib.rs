@@ -5,16 +5,21 @@
 //! * [`ViscosityStage`] hands batches of particles to their phase's law.
 //! * [`ElasticMotion`] carries remembered stresses along, [`CarriedStress`] tells what of them acts,
 //!   and [`StressDivergence`] is the force.
+//! * [`EffectivePressure`] is a kind of plugin: the pressure between the grains, where it is not that
+//!   of the equation of state. [`Laplace`] is one.
 //!
 //! Nothing here runs in a scene whose laws do not ask for it.
 
 mod batches;
 mod carried;
 mod divergence;
+mod effective_pressure;
 mod elastic;
 mod gradient;
 mod isotropic;
+mod laplace;
 mod renormalised;
+mod soil_surface;
 mod strain_rate;
 mod symmetric_difference;
 mod viscosity;
@@ -22,9 +27,11 @@ mod wave_limit;
 
 pub use carried::CarriedStress;
 pub use divergence::StressDivergence;
+pub use effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 pub use elastic::ElasticMotion;
 pub use gradient::{GradientStage, NeighbourSums, VelocityGradient, VelocityGradientEntry};
 pub use isotropic::Isotropic;
+pub use laplace::Laplace;
 pub use renormalised::Renormalised;
 pub use strain_rate::StrainRate;
 pub use symmetric_difference::SymmetricDifference;

@@ -1,0 +1,239 @@
+//! The effective pressure as a harmonic function of place.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Access, Declares, Stage, StepError, Vect, fields, register};
+use sph_implicit::{
+    ConjugateGradient, Entries, LinearSolver, Matrix, Preconditioner, Row, assemble,
+};
+use sph_neighbours::{Neighbourhood, Values, World, walk};
+
+use crate::effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
+use crate::soil_surface::at_surface;
+
+/// ∇²p' = 0 in the soil, p' = β |g| δr Δρ at its surface, ∂p'/∂n = Δρ g·n at walls.
+///
+/// Symbols: p' effective pressure (Pa); Δρ = ρ₀ − ρ_p, the density of the soil less that of the fluid
+/// in its pores (kg/m³); g gravity. It knows nothing of the depth of the water above, nor of the noise of the equation
+/// of state, and it is exact for a flat bed. Limits: static, whatever the soil does; not exact under steep surfaces.
+///
+/// The surface is found by an empty cone above a particle (soil and walls only), so that loose grains
+/// are surface, too, and no system is singular. What is solved is
+/// Σ_b V_a V_b F_ab [p'_a − p'_b − Δρ g·(r_a − r_b)] = 0 over the grains: the deviation from the hydrostatic
+/// pressure has no flux into walls, so that walls need no term, and sums that the surface cuts off are
+/// no error (the source's second row is 28 % off). The matrix is symmetric; conjugate gradients start from the pressure of the step
+/// before (the source iterates by Jacobi).
+///
+/// Source: Ghaïtanellis 2017, Eq. 4.63–4.65 and 4.85–4.87; the form of the sum and β = ½ are ours.
+///
+/// ```toml
+/// [effective-pressure.laplace]
+/// pore_density = 1000.0
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Laplace {
+    /// Density of the fluid in the pores; 0 for a dry soil.
+    #[schemars(
+        range(min = 0.0),
+        extend("unit" = "kg/m³", "source" = "Ghaïtanellis 2017, Eq. 4.60")
+    )]
+    pub pore_density: f64,
+    /// Depth β of surface particles over the spacing: ½ is that of their centres, 1 the source's.
+    #[schemars(
+        range(min = 0.0),
+        extend("unit" = "1", "source" = "ours; 1: Ghaïtanellis 2017, Eq. 4.87")
+    )]
+    pub surface_depth: f64,
+    /// Relative residual at which the iteration ends.
+    #[schemars(
+        range(max = 0.1),
+        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours")
+    )]
+    pub tolerance: f64,
+}
+
+impl Default for Laplace {
+    fn default() -> Self {
+        Laplace {
+            pore_density: 0.0,
+            surface_depth: 0.5,
+            tolerance: 1e-5,
+        }
+    }
+}
+
+impl<const D: usize> EffectivePressure<D> for Laplace {
+    fn stage(&self, soils: Soils) -> Box<dyn Stage<World<D>>> {
+        let buoyant = |density: f64| (density - self.pore_density).max(0.0);
+        Box::new(Solve {
+            buoyant: soils.into_iter().map(|s| s.map(buoyant)).collect(),
+            surface_depth: self.surface_depth,
+            solver: ConjugateGradient {
+                preconditioner: Preconditioner::IncompleteDiagonal,
+                tolerance: self.tolerance,
+                ..ConjugateGradient::default()
+            },
+        })
+    }
+}
+
+register!(
+    EffectivePressureEntry [2, 3],
+    Laplace,
+    "laplace",
+    "harmonic in the soil, from its buoyant weight at walls; blind to the water above",
+    "Ghaïtanellis 2017, Eq. 4.63–4.65"
+);
+
+/// The stage of [`Laplace`].
+struct Solve {
+    /// Δρ of every phase, kg/m³; `None` where it is no soil.
+    buoyant: Vec<Option<f64>>,
+    /// β.
+    surface_depth: f64,
+    solver: ConjugateGradient,
+}
+
+/// What a particle is to the problem.
+#[derive(Clone, Copy, PartialEq)]
+enum Part {
+    /// No soil.
+    Outside,
+    /// Soil with the given Δρ, kg/m³, whose pressure is known, Pa.
+    Surface(f64, f64),
+    /// Soil with the given Δρ, kg/m³.
+    Inside(f64),
+}
+
+impl Part {
+    /// The pressure that is not solved for, Pa.
+    fn known(self) -> f64 {
+        match self {
+            Part::Surface(_, pressure) => pressure,
+            _ => 0.0,
+        }
+    }
+}
+
+impl Declares for Solve {
+    fn name(&self) -> String {
+        "effective pressure".into()
+    }
+    fn access(&self) -> Access {
+        let access = Access::none()
+            .both(fields::POSITION)
+            .both(fields::VOLUME)
+            .writes(fields::EFFECTIVE_PRESSURE);
+        match self.buoyant.len() {
+            1 => access,
+            _ => access.both(fields::PHASE),
+        }
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for Solve {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let parts = self.parts(world)?;
+        let volume = world.free.get(fields::VOLUME)?;
+        let gravity = world.gravity;
+        let row = |rows: &Neighbourhood<'_, D>, out: &mut Vec<f64>| {
+            let own = volume[rows.particle];
+            let Part::Inside(buoyant) = parts[rows.particle] else {
+                out.extend(rows.free.index.iter().map(|_| 0.0));
+                return known_row(parts[rows.particle].known());
+            };
+            let (mut held, mut source) = (0.0, 0.0);
+            for (k, &j) in rows.free.index.iter().enumerate() {
+                let coupling = -own * volume[j as usize] * rows.free.factor[k];
+                let there = parts[j as usize];
+                let (between, density) = match there {
+                    Part::Inside(density) => (coupling, density),
+                    Part::Surface(density, pressure) => {
+                        held += coupling;
+                        source += coupling * pressure;
+                        (0.0, density)
+                    }
+                    Part::Outside => {
+                        out.push(0.0);
+                        continue;
+                    }
+                };
+                out.push(between);
+                let mean = 0.5 * (buoyant + density);
+                source += coupling * mean * gravity.dot(&rows.free.separation[k]);
+            }
+            // Soil that fills a closed box has no surface: the level is then that of zero.
+            let all: f64 = out.iter().sum();
+            let mut right = Vect::zeros();
+            right[0] = source;
+            Row {
+                own: held + FAINT * all + f64::MIN_POSITIVE,
+                source: right,
+            }
+        };
+        let (pattern, values, right) = assemble(world, false, row)?;
+        let matrix = Matrix::new(pattern, Entries::Scalar(values));
+        let mut pressure = world.free.take(fields::EFFECTIVE_PRESSURE)?;
+        let mut x: Vec<Vect<D>> = pressure
+            .iter()
+            .zip(&parts)
+            .map(|(p, part)| start(*p, part))
+            .collect();
+        let solved = LinearSolver::<D>::solve(&mut self.solver, &matrix, &right, &mut x);
+        pressure
+            .iter_mut()
+            .zip(&x)
+            .for_each(|(p, x)| *p = x[0].max(0.0));
+        world.free.put(fields::EFFECTIVE_PRESSURE, pressure)?;
+        solved.map(drop).map_err(|e| StepError::Stage {
+            stage: "effective pressure".into(),
+            reason: e.to_string(),
+        })
+    }
+}
+
+/// Share of a row's couplings that keeps a system without a surface regular.
+const FAINT: f64 = 1e-9;
+
+fn known_row<const D: usize>(pressure: f64) -> Row<f64, D> {
+    let mut right = Vect::zeros();
+    right[0] = pressure;
+    Row {
+        own: 1.0,
+        source: right,
+    }
+}
+
+fn start<const D: usize>(pressure: f64, part: &Part) -> Vect<D> {
+    let mut x = Vect::zeros();
+    x[0] = match part {
+        Part::Inside(_) => pressure,
+        _ => part.known(),
+    };
+    x
+}
+
+impl Solve {
+    fn parts<const D: usize>(&self, world: &World<D>) -> Result<Vec<Part>, StepError> {
+        let volume = world.free.get(fields::VOLUME)?;
+        let phase = match self.buoyant.len() {
+            1 => None,
+            _ => Some(world.free.get(fields::PHASE)?),
+        };
+        let buoyant = |i: usize| self.buoyant[phase.map_or(0, |p| p[i] as usize)];
+        let top = self.surface_depth * world.gravity.norm() * world.spacing;
+        let length = world.kernel.smoothing_length();
+        let points = &world.walls.points;
+        walk(world, Values::Gradient, |around| {
+            let Some(density) = buoyant(around.rows.particle) else {
+                return Part::Outside;
+            };
+            let soil = |j: usize| buoyant(j).is_some();
+            match at_surface(around, points, volume, length, soil) {
+                true => Part::Surface(density, top * density),
+                false => Part::Inside(density),
+            }
+        })
+    }
+}
