@@ -45,6 +45,10 @@ pub struct Laplace {
         extend("unit" = "1", "source" = "ours; 1: Ghaïtanellis 2017, Eq. 4.87")
     )]
     pub surface_depth: f64,
+    /// Time between solves over √(δr/|g|); 0 for every evaluation. In between the pressure goes with
+    /// its particle.
+    #[schemars(range(min = 0.0), extend("unit" = "1", "source" = "ours"))]
+    pub interval: f64,
     /// Relative residual at which the iteration ends.
     #[schemars(
         range(max = 0.1),
@@ -58,6 +62,7 @@ impl Default for Laplace {
         Laplace {
             pore_density: 0.0,
             surface_depth: 0.5,
+            interval: 0.01,
             tolerance: 1e-5,
         }
     }
@@ -69,6 +74,7 @@ impl<const D: usize> EffectivePressure<D> for Laplace {
         Box::new(Solve {
             buoyant: soils.into_iter().map(|s| s.map(buoyant)).collect(),
             surface_depth: self.surface_depth,
+            interval: self.interval,
             solver: ConjugateGradient {
                 preconditioner: Preconditioner::IncompleteDiagonal,
                 tolerance: self.tolerance,
@@ -92,6 +98,8 @@ struct Solve {
     buoyant: Vec<Option<f64>>,
     /// β.
     surface_depth: f64,
+    /// Time between solves over √(δr/|g|).
+    interval: f64,
     solver: ConjugateGradient,
 }
 
@@ -134,6 +142,9 @@ impl Declares for Solve {
 
 impl<const D: usize> Stage<World<D>> for Solve {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        if !self.due(world) {
+            return Ok(());
+        }
         let parts = self.parts(world)?;
         let volume = world.free.get(fields::VOLUME)?;
         let gravity = world.gravity;
@@ -215,6 +226,15 @@ fn start<const D: usize>(pressure: f64, part: &Part) -> Vect<D> {
 }
 
 impl Solve {
+    /// Whether a multiple of the interval has passed within the last step: the same for a run that
+    /// was interrupted.
+    fn due<const D: usize>(&self, world: &World<D>) -> bool {
+        let interval = self.interval * (world.spacing / world.gravity.norm()).sqrt();
+        let count = |time: f64| (time / interval).floor();
+        let passed = count(world.time) > count(world.time - world.dt);
+        passed || world.time <= 0.0 || !(interval > 0.0 && interval.is_finite())
+    }
+
     fn parts<const D: usize>(&self, world: &World<D>) -> Result<Vec<Part>, StepError> {
         let volume = world.free.get(fields::VOLUME)?;
         let phase = match self.buoyant.len() {
