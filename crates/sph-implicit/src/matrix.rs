@@ -182,7 +182,10 @@ impl<E> Values<E> {
         // Of blocks the mean of their diagonals: those of a row add up, as numbers do.
         let mean = |entry: &E| (0..D).map(|k| entry.component(k, k)).sum::<f64>() / D as f64;
         let row = |i: usize| {
-            let coupled: f64 = self.others[pattern.row(i)].iter().map(|a| mean(a).abs()).sum();
+            let coupled: f64 = self.others[pattern.row(i)]
+                .iter()
+                .map(|a| mean(a).abs())
+                .sum();
             let left = mean(&self.diagonal[i]) - coupled;
             match coupled > 0.0 {
                 true if left > 0.0 => coupled / left,

@@ -1,29 +1,16 @@
 //! Viscous operators as sums over pairs, and their friction at walls.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{
-    BoundTerm, Contact, Contacts, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
-};
+use sph_neighbours::{BoundTerm, Contact, Contacts, Elements, Pair, PairTerm, Rates, There, World};
 
-use crate::interface_distance::InterfaceDistance;
+use crate::ViscositySource;
 use crate::lattice::lattice_sum;
 use crate::viscosity::BoundViscosity;
-use crate::{Coupling, InSeries, PerParticle, Stages, Uniform, Viscosity, ViscositySource};
 
+mod choice;
 mod coupling;
 
-/// Friction at semi-analytical walls.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum WallTerm {
-    /// Exact for linear velocities.
-    #[default]
-    Corrected,
-    /// As printed: first order.
-    Literal,
-}
+pub use choice::{Across, Choice, OnLattice, WallTerm, Within};
 
 /// A viscous operator as a sum over pairs: the force on a per volume is
 /// 1/γ_a Σ_b θ_b η̄_ab f(V_a, V_b, u_ab, r_ab), plus the wall's.
@@ -54,81 +41,6 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
 /// The term of a pair formula with a source of viscosities.
 #[derive(Clone, Copy, Debug)]
 pub struct ViscousTerm<F, S>(pub F, pub S, pub Choice);
-
-/// Viscosity of pairs of two phases.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Across {
-    /// Two layers in series, by the distances from the interface.
-    #[default]
-    Series,
-    /// The harmonic mean, as printed: first order.
-    Harmonic,
-}
-
-/// The response of an operator to a sheared layer along the axes of a lattice.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum OnLattice {
-    /// Scaled to be exact, so that errors fall with the spacing.
-    #[default]
-    Exact,
-    /// As the sum is: less by a number of h/δr, 0.08 % (Morris) to 4 % (central forces) at 2.
-    Literal,
-}
-
-/// What all operators that are sums over pairs let a scene choose.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Choice {
-    /// Scale of the operator.
-    pub on_lattice: OnLattice,
-    /// Friction at walls.
-    pub wall_term: WallTerm,
-    /// Viscosity of pairs of two phases.
-    pub across: Across,
-}
-
-impl Choice {
-    /// The term of a sweep.
-    pub fn term<const D: usize, F: PairFriction<D>>(
-        self,
-        friction: F,
-        viscosity: Viscosity,
-    ) -> Box<dyn Interaction<D>> {
-        match (viscosity, self.across) {
-            (Viscosity::Uniform(eta), _) => {
-                Box::new(Term(ViscousTerm(friction, Uniform(eta), self)))
-            }
-            (Viscosity::PerPhase, Across::Series) => {
-                Box::new(Term(ViscousTerm(friction, InSeries, self)))
-            }
-            _ => Box::new(Term(ViscousTerm(friction, PerParticle, self))),
-        }
-    }
-
-    /// The same friction as rows of a matrix.
-    pub fn coupling<const D: usize, F: PairFriction<D>>(
-        self,
-        friction: F,
-        viscosity: Viscosity,
-    ) -> Box<dyn Coupling<D>> {
-        match (viscosity, self.across) {
-            (Viscosity::Uniform(eta), _) => Box::new(ViscousTerm(friction, Uniform(eta), self)),
-            (Viscosity::PerPhase, Across::Series) => {
-                Box::new(ViscousTerm(friction, InSeries, self))
-            }
-            _ => Box::new(ViscousTerm(friction, PerParticle, self)),
-        }
-    }
-
-    /// The stages the term needs.
-    pub fn stages<const D: usize>(self, viscosity: Viscosity) -> Stages<D> {
-        match (viscosity, self.across) {
-            (Viscosity::PerPhase, Across::Series) => vec![Box::new(InterfaceDistance::default())],
-            _ => Vec::new(),
-        }
-    }
-}
 
 impl<const D: usize, F: PairFriction<D>, S: ViscositySource> PairTerm<D> for ViscousTerm<F, S> {
     type Bound<'a> = Bound<'a, D, F, S::Bound<'a>>;

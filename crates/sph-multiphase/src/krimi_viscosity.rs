@@ -5,7 +5,7 @@ use serde::Deserialize;
 use sph_core::{Vect, register};
 use sph_neighbours::{Interaction, Pair};
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
+use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
 use crate::viscosity::BoundViscosity;
 use crate::{Coupling, Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
 
@@ -56,6 +56,7 @@ impl KrimiViscosity {
                 Strength::Literal => OnLattice::Literal,
             },
             across: Across::Harmonic,
+            within: Within::Harmonic,
         }
     }
 }

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use sph_core::{Vect, register};
 use sph_neighbours::{Interaction, Pair};
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
+use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
 use crate::{Coupling, Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
 
 /// L_a = 2(d + 2)/γ_a Σ_b θ_b V_b η̄_ab F_ab (u_ab·e)e plus the wall's friction, as of
@@ -31,6 +31,9 @@ pub struct MonaghanGingold {
     /// Viscosity of pairs of two phases.
     #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
     pub across: Across,
+    /// Viscosity of pairs of one phase.
+    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
+    pub within: Within,
 }
 
 impl MonaghanGingold {
@@ -39,6 +42,7 @@ impl MonaghanGingold {
             wall_term: self.wall_term,
             on_lattice: self.on_lattice,
             across: self.across,
+            within: self.within,
         }
     }
 }

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use sph_core::{Vect, register};
 use sph_neighbours::{Interaction, Pair};
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm};
+use crate::friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm, Within};
 use crate::{Coupling, Stages, Viscosity, ViscousOperator, ViscousOperatorEntry};
 
 /// L_a = 2/γ_a Σ_b θ_b V_b η̄_ab u_ab F_ab − 2κ_a/γ_a Σ_s η_a u_t,as/δr_as |∇γ_as|.
@@ -43,6 +43,9 @@ pub struct Morris {
     /// Viscosity of pairs of two phases.
     #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
     pub across: Across,
+    /// Viscosity of pairs of one phase.
+    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
+    pub within: Within,
 }
 
 impl Morris {
@@ -51,6 +54,7 @@ impl Morris {
             wall_term: self.wall_term,
             on_lattice: self.on_lattice,
             across: self.across,
+            within: self.within,
         }
     }
 }

@@ -3,6 +3,7 @@
 use sph_core::{Access, StepError, fields};
 use sph_neighbours::World;
 
+use crate::friction::Within;
 use crate::interface_distance::INTERFACE_DISTANCE;
 
 /// A source of viscosities for a pair term.
@@ -64,13 +65,13 @@ impl BoundViscosity for Uniform {
     }
 }
 
-/// The viscosity column, with harmonic means 2 η_a η_b / (η_a + η_b), Ghaïtanellis 2017, Eq. 3.30.
+/// The viscosity column, with means of pairs: harmonic is Ghaïtanellis 2017, Eq. 3.30.
 #[derive(Clone, Copy, Debug)]
-pub struct PerParticle;
+pub struct PerParticle(pub Within);
 
 /// The viscosity column, found.
 #[derive(Clone, Copy, Debug)]
-pub struct Column<'a>(&'a [f64]);
+pub struct Column<'a>(&'a [f64], Within);
 
 impl ViscositySource for PerParticle {
     type Bound<'a> = Column<'a>;
@@ -78,7 +79,7 @@ impl ViscositySource for PerParticle {
         Access::none().both(fields::VISCOSITY)
     }
     fn bind<const D: usize>(self, world: &World<D>) -> Result<Column<'_>, StepError> {
-        Ok(Column(world.free.get(fields::VISCOSITY)?))
+        Ok(Column(world.free.get(fields::VISCOSITY)?, self.0))
     }
 }
 
@@ -98,7 +99,7 @@ impl BoundViscosity for Column<'_> {
     }
     #[inline(always)]
     fn mean(&self, here: &f64, neighbour: usize) -> f64 {
-        in_series(1.0, *here, 1.0, self.0[neighbour])
+        within(self.1, *here, self.0[neighbour])
     }
 }
 
@@ -107,8 +108,9 @@ impl BoundViscosity for Column<'_> {
 ///
 /// With it a first difference of a velocity with continuous shear stress is τ r·n/η̄, whatever the
 /// place of the interface between the two; the harmonic mean has it in the middle. Ours.
+/// Pairs of one phase have the mean that is given.
 #[derive(Clone, Copy, Debug)]
-pub struct InSeries;
+pub struct InSeries(pub Within);
 
 /// The columns of [`InSeries`].
 #[derive(Clone, Copy, Debug)]
@@ -116,6 +118,7 @@ pub struct SeriesColumns<'a> {
     viscosity: &'a [f64],
     phase: &'a [u32],
     distance: &'a [f64],
+    within: Within,
 }
 
 impl ViscositySource for InSeries {
@@ -131,6 +134,7 @@ impl ViscositySource for InSeries {
             viscosity: world.free.get(fields::VISCOSITY)?,
             phase: world.free.get(fields::PHASE)?,
             distance: world.free.get(INTERFACE_DISTANCE)?,
+            within: self.0,
         })
     }
 }
@@ -153,9 +157,18 @@ impl BoundViscosity for SeriesColumns<'_> {
     #[inline(always)]
     fn mean(&self, here: &Self::Here, j: usize) -> f64 {
         match here.1 == self.phase[j] {
-            true => in_series(1.0, here.0, 1.0, self.viscosity[j]),
+            true => within(self.within, here.0, self.viscosity[j]),
             false => in_series(here.2, here.0, self.distance[j], self.viscosity[j]),
         }
+    }
+}
+
+/// Mean of a pair of one phase.
+#[inline(always)]
+fn within(mean: Within, eta: f64, other: f64) -> f64 {
+    match mean {
+        Within::Harmonic => in_series(1.0, eta, 1.0, other),
+        Within::Arithmetic => 0.5 * (eta + other),
     }
 }
 
