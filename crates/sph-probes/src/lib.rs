@@ -2,11 +2,13 @@
 //!
 //! * [`Probe`]: columns of the time series, from the state of the flow ([`Front`],
 //!   [`PressureProbe`], [`VelocityProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`]), and of
-//!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`]).
+//!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
+//!   [`SurfaceSlope`]).
 //! * [`Solution`]: analytical flows, as references and as initial states.
 //! * [`norm`]: the norms in which errors are reported.
 
 mod angular_momentum;
+mod bagnold;
 mod bifluid_poiseuille;
 mod bingham_poiseuille;
 mod contract;
@@ -29,10 +31,13 @@ mod poiseuille;
 mod range;
 mod rigid_rotation;
 mod rotating_square;
+mod slope;
 mod taylor_green;
 mod wall_force;
+mod yielded;
 
 pub use angular_momentum::AngularMomentum;
+pub use bagnold::Bagnold;
 pub use bifluid_poiseuille::BifluidPoiseuille;
 pub use bingham_poiseuille::BinghamPoiseuille;
 pub use contract::{Probe, ProbeColumn, ProbeEntry, Solution, SolutionEntry};
@@ -53,5 +58,7 @@ pub use poiseuille::Poiseuille;
 pub use range::FieldRange;
 pub use rigid_rotation::RigidRotation;
 pub use rotating_square::RotatingSquare;
+pub use slope::SurfaceSlope;
 pub use taylor_green::TaylorGreen;
 pub use wall_force::WallForceProbe;
+pub use yielded::Yielded;

@@ -112,6 +112,72 @@ fn fronts_and_extents_are_those_of_the_phase() {
 }
 
 #[test]
+fn fronts_go_either_way_and_leave_strays_behind() {
+    let water = |keys: &str| measured("front", &format!("phase = \"water\"\n{keys}"))[0];
+    let [right, left] = [water(""), water("direction = \"backward\"")];
+    assert!((right - 1.0).abs() < 1e-12 && left.abs() < 1e-12);
+    // The wave's crests are at the ends: 24 of its 200 particles stand in the last two columns.
+    let inner = water("quantile = 0.87");
+    assert!((inner - 1.0 + 2.0 * SPACING).abs() < 1e-12, "{inner}");
+    let inner = water("quantile = 0.87\ndirection = \"backward\"");
+    assert!((inner - 2.0 * SPACING).abs() < 1e-12, "{inner}");
+    assert_eq!(water("quantile = 1.0"), right);
+    assert!((water("quantile = 1e-9") - SPACING).abs() < 1e-12);
+    assert!(water("below = -1.0\nquantile = 0.9").is_nan());
+}
+
+#[test]
+fn what_strains_faster_than_the_threshold_has_yielded() {
+    let mut world = world();
+    world.free.add(fields::STRAIN_RATE, Role::Derived);
+    let heights: Vec<f64> = world.free.get(fields::POSITION).unwrap()[..]
+        .iter()
+        .map(|x| x[1])
+        .collect();
+    let rates = world.free.get_mut(fields::STRAIN_RATE).unwrap();
+    rates
+        .iter_mut()
+        .zip(&heights)
+        .for_each(|(rate, y)| *rate = if *y < 0.2 { 4.0 } else { y * 0.5 });
+    let measured = |keys: &str| {
+        let mut probe = built("yielded", keys);
+        probe.name_phases(&names()).unwrap();
+        probe.measure(&world).unwrap()
+    };
+    // Four of 24 rows; all of them are water, 80 of 200 particles.
+    let all = measured("strain_rate = 1.0");
+    assert!((all[0] - 4.0 / 24.0).abs() < 1e-12 && (all[1] - 4.0).abs() < 1e-12);
+    assert_eq!(measured("strain_rate = 1.0\nphase = \"water\""), [0.4, 4.0]);
+    let none = measured("strain_rate = 1.0\nphase = \"air\"");
+    assert!(none[0] == 0.0 && none[1].is_nan());
+}
+
+#[test]
+fn the_slope_is_that_of_the_heap() {
+    let heap = |dip: f64| {
+        let mut world = world();
+        for x in world.free.get_mut(fields::POSITION).unwrap() {
+            x[1] += dip * x[0];
+        }
+        let mut probe = built("slope", "between = [0.2, 0.8]");
+        probe.name_phases(&names()).unwrap();
+        probe.measure(&world).unwrap()
+    };
+    for dip in [0.0, -0.4, 0.7] {
+        let found = heap(dip);
+        assert!(
+            (found[0] - dip.atan()).abs() < 1e-12 && found[1] < 1e-12,
+            "{found:?}"
+        );
+    }
+    // The surface of the water is a cosine: it falls on the left, rises on the right.
+    let water = |at: &str| measured("slope", &format!("phase = \"water\"\nbetween = {at}"));
+    assert!(water("[0.05, 0.45]")[0] < -0.3 && water("[0.55, 0.95]")[0] > 0.3);
+    assert!(water("[0.05, 0.45]")[1] > 0.0);
+    assert!(water("[1.5, 1.8]")[0].is_nan() && water("[0.8, 0.2]")[0].is_nan());
+}
+
+#[test]
 fn volumes_and_energies_add_up() {
     let volume = |keys: &str| measured("phase-volume", keys)[0];
     let (air, water) = (volume("phase = \"air\""), volume("phase = \"water\""));
@@ -134,11 +200,14 @@ fn an_unknown_phase_has_a_near_name() {
         "extent",
         "phase-volume",
         "phase-energy",
+        "yielded",
+        "slope",
     ] {
-        let at = if ["interface", "level"].contains(&kind) {
-            "at = [0]\n"
-        } else {
-            ""
+        let at = match kind {
+            "interface" | "level" => "at = [0]\n",
+            "yielded" => "strain_rate = 1\n",
+            "slope" => "between = [0, 1]\n",
+            _ => "",
         };
         let mut probe = built(kind, &format!("{at}phase = \"watr\""));
         let why = probe.name_phases(&names()).unwrap_err();
