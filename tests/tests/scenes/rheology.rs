@@ -110,8 +110,13 @@ fn a_slope_stands_below_the_angle_of_its_cone_and_slides_above_it() {
         .take(10)
         .fold(0.0_f64, |m, u| m.max(u.abs()));
     assert!(speed < 0.01, "28°: {speed} m/s");
-    let steep = ["numerics.gravity=[0,-7.515]", "numerics.driving=[6.306,0]"];
-    let sliding = finished("infinite-slope", &[&coarse[..], &steep].concat());
+    // With 10 rows instead of 20 it is 13 % too fast: the rows at the surface feel too little.
+    let steep = [
+        "numerics.gravity=[0,-7.515]",
+        "numerics.driving=[6.306,0]",
+        "run.end=0.6",
+    ];
+    let sliding = finished("infinite-slope", &steep);
     let (time, top) = (column(&sliding, "time"), column(&sliding, "top.x"));
     let (half, last) = (time.len() / 2, time.len() - 1);
     let acceleration = (top[last] - top[half]) / (time[last] - time[half]);
