@@ -18,5 +18,6 @@ readmes! {
     Probes "../crates/sph-probes/README.md"
     Rheology "../crates/sph-rheology/README.md"
     Solver "../crates/sph-solver/README.md"
+    Stress "../crates/sph-stress/README.md"
     Study "../crates/sph-study/README.md"
 }
