@@ -132,7 +132,7 @@ fn errors_of_both_forces_are_those_computed_independently() {
         ] {
             for (found, asked) in found.iter().zip(asked) {
                 // Half a unit of the last printed digit, and 1 %.
-                let printed = if asked < 1e-3 || asked > 5.4e-2 {
+                let printed = if !(1e-3..=5.4e-2).contains(&asked) {
                     0.03
                 } else {
                     0.01

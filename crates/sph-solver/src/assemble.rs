@@ -222,10 +222,13 @@ fn limiters_of<const D: usize>(
     ];
     let kinematic = kinematic_viscosities.iter().copied().fold(0.0, f64::max);
     if kinematic > 0.0 && choices.implicit_viscosity.is_none() {
-        let constant = |l: &Box<dyn Rheology>| l.uniform_viscosity().is_some();
         limiters.push(Box::new(ViscousLimit {
             coefficient: c.viscous / choices.viscous_operator.stiffness(),
-            kinematic_viscosity: choices.rheologies.iter().all(constant).then_some(kinematic),
+            kinematic_viscosity: choices
+                .rheologies
+                .iter()
+                .all(|l| l.uniform_viscosity().is_some())
+                .then_some(kinematic),
         }));
     }
     let stiff = laws

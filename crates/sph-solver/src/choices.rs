@@ -189,8 +189,9 @@ impl<const D: usize> Choices<D> {
             let law = law.and_then(|c| b.build::<RheologyEntry, _>(&c, |e| (e.build)(&c.table)));
             rheologies.extend(law);
         }
-        let feels = |law: &Box<dyn Rheology>| law.needs().strain_rate || law.elastic().is_some();
-        let velocity_gradient = match rheologies.iter().any(feels) {
+        let mut laws = rheologies.iter();
+        let strained = laws.any(|law| law.needs().strain_rate || law.elastic().is_some());
+        let velocity_gradient = match strained {
             true => one!(
                 "velocity-gradient",
                 VelocityGradientEntry,
@@ -199,7 +200,7 @@ impl<const D: usize> Choices<D> {
             false => None,
         };
         if let (false, Some(idle)) = (
-            rheologies.iter().any(feels) || !b.problems.is_empty(),
+            strained || !b.problems.is_empty(),
             scene.choice("velocity-gradient"),
         ) {
             let message = "no law of this scene feels a strain rate: take this table out";
@@ -210,9 +211,9 @@ impl<const D: usize> Choices<D> {
             EffectivePressureEntry,
             |e: &EffectivePressureEntry, t| e.build::<D>(t)
         );
-        let rubs = |law: &Box<dyn Rheology>| law.needs().pressure;
+        let pressed = rheologies.iter().any(|law| law.needs().pressure);
         if let (false, Some(idle)) = (
-            rheologies.iter().any(rubs) || !b.problems.is_empty(),
+            pressed || !b.problems.is_empty(),
             scene.choice("effective-pressure"),
         ) {
             let message = "no law of this scene feels a pressure: take this table out";

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, fields, plan};
 use sph_multiphase::{BoundState, Coupling, PressureStage, Viscosity};
 use sph_neighbours::{Interaction, World, fuse_all};
-use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_stress::{
     CarriedStress, ElasticMotion, GradientStage, Rheologies, StrainRate, StressDivergence,
@@ -126,10 +125,12 @@ pub fn plan_stages<const D: usize>(
         offered.push(Box::new(WallState(walls.clone())));
     }
     if let Some(effective) = choices.effective_pressure.take() {
-        let soil = |(law, state): (&Box<dyn Rheology>, &Box<dyn BoundState>)| {
-            law.needs().pressure.then(|| state.reference().density)
-        };
-        let soils = rheologies.iter().zip(laws.iter()).map(soil).collect();
+        let both = rheologies.iter().zip(laws.iter());
+        let soils = both.map(|(law, state)| {
+            let soil = law.needs().pressure;
+            soil.then(|| state.reference().density)
+        });
+        let soils = soils.collect();
         offered.push(with_gamma(effective.stage(soils)));
     }
     let gradient = choices.velocity_gradient.take();
