@@ -6,6 +6,7 @@ mod channels;
 mod dam_breaks;
 mod drops;
 mod implicit;
+mod left_out;
 mod rheology;
 mod shipped;
 mod tanks;
