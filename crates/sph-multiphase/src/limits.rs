@@ -94,20 +94,27 @@ fn lone_stiffness<const D: usize>(world: &World<D>) -> f64 {
 pub struct ViscousLimit {
     /// C, already divided by the operator's stiffness.
     pub coefficient: f64,
-    /// Largest η/ρ₀ over the phases, m²/s, if all viscosities are constant.
-    pub kinematic_viscosity: Option<f64>,
+    /// Largest η/ρ₀ that the laws allow, m²/s; may be infinite.
+    pub largest: f64,
+    /// Whether all viscosities are constant, so that it is the one of every state.
+    pub constant: bool,
 }
 
 impl<const D: usize> Limiter<D> for ViscousLimit {
     fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
         let h = world.kernel.smoothing_length();
-        let kinematic_viscosity = match self.kinematic_viscosity {
-            Some(constant) => constant,
-            None => {
+        let kinematic_viscosity = match self.constant {
+            true => self.largest,
+            false => {
                 let viscosity = world.free.get(fields::VISCOSITY)?;
                 let density = world.free.get(fields::DENSITY)?;
                 let both = viscosity.par_iter().zip(density).with_min_len(1024);
-                both.map(|(eta, rho)| eta / rho).reduce(|| 0.0, f64::max)
+                let present = both.map(|(eta, rho)| eta / rho).reduce(|| 0.0, f64::max);
+                // Before the first evaluation nothing is known but what the laws allow.
+                match present > 0.0 || self.largest.is_infinite() {
+                    true => present,
+                    false => self.largest,
+                }
             }
         };
         let dt = self.coefficient * h * h / kinematic_viscosity;

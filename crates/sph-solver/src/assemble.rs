@@ -224,11 +224,11 @@ fn limiters_of<const D: usize>(
     if kinematic > 0.0 && choices.implicit_viscosity.is_none() {
         limiters.push(Box::new(ViscousLimit {
             coefficient: c.viscous / choices.viscous_operator.stiffness(),
-            kinematic_viscosity: choices
+            largest: kinematic,
+            constant: choices
                 .rheologies
                 .iter()
-                .all(|l| l.uniform_viscosity().is_some())
-                .then_some(kinematic),
+                .all(|l| l.uniform_viscosity().is_some()),
         }));
     }
     let stiff = laws
