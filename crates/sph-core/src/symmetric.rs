@@ -2,7 +2,9 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
+
+use crate::Vect;
 
 /// A symmetric 3 × 3 tensor: xx, yy, zz, xy, yz, xz.
 ///
@@ -52,14 +54,12 @@ impl Symmetric {
         diagonal + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
     }
 
-    /// A·v.
-    pub fn apply(&self, v: &Vector3<f64>) -> Vector3<f64> {
+    /// A·v in the plane, or in space.
+    #[inline(always)]
+    pub fn apply<const D: usize>(&self, v: &Vect<D>) -> Vect<D> {
         let [xx, yy, zz, xy, yz, xz] = self.0;
-        Vector3::new(
-            xx * v[0] + xy * v[1] + xz * v[2],
-            xy * v[0] + yy * v[1] + yz * v[2],
-            xz * v[0] + yz * v[1] + zz * v[2],
-        )
+        let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+        Vect::from_fn(|i, _| (0..D).map(|j| rows[i][j] * v[j]).sum())
     }
 }
 
@@ -86,6 +86,8 @@ impl Mul<f64> for Symmetric {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
 
     #[test]

@@ -11,6 +11,7 @@
 //! Each particle sums its own neighbourhood in the order of its list: no atomics, and the same
 //! bits for any number of threads.
 
+mod batches;
 mod domain;
 mod fuse;
 mod grid;
@@ -24,6 +25,7 @@ mod walk;
 mod walls;
 mod world;
 
+pub use batches::by_phase;
 pub use domain::Domain;
 pub use fuse::{FusionEntry, Terms, fuse_all, fuse_three, fuse_two};
 pub use grid::CellGrid;

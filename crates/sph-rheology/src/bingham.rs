@@ -77,7 +77,7 @@ mod tests {
     use super::*;
     use sph_core::Registry;
 
-    /// Values of §2.4 of our page on Krimi et al. 2018, Eq. 13.
+    /// Values of Krimi et al. 2018, Eq. 13, computed apart with 30 digits.
     #[test]
     fn the_table_of_values_is_met() {
         let mud = Bingham {

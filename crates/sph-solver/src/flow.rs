@@ -260,18 +260,12 @@ impl<const D: usize> Flow<D> {
         done
     }
 
-    /// Lists and walls at the present places, between evaluations.
-    fn find_neighbours(&mut self) -> Result<(), StepError> {
+    fn compress(&mut self, dilatation: &mut Dilatation<D>, dt: f64) -> Result<(), StepError> {
         crate::guard::positions(&self.world)?;
         self.world.refresh_lists()?;
         if let Some(walls) = &self.walls {
             lock(walls).geometry(&mut self.world)?;
         }
-        Ok(())
-    }
-
-    fn compress(&mut self, dilatation: &mut Dilatation<D>, dt: f64) -> Result<(), StepError> {
-        self.find_neighbours()?;
         dilatation.apply(&mut self.world, dt)
     }
 

@@ -95,45 +95,45 @@ impl<const D: usize> ImplicitViscosity<D> {
         earlier: &[Vect<D>],
         dt: f64,
     ) -> Result<(), StepError> {
-        if self.lagged.is_empty() {
-            let mut velocity = world.free.get(fields::VELOCITY)?.to_vec();
-            let ahead = velocity.clone();
-            self.solve(world, earlier, &ahead, &mut velocity, dt)?;
-            return Ok(world.free.put(fields::VELOCITY, velocity)?);
-        }
-        let ahead = world.free.get(fields::VELOCITY)?.to_vec();
         let outer = self.scheme.outer();
+        let most = match self.lagged.is_empty() {
+            true => 1,
+            false => outer.iterations.max(1),
+        };
+        let ahead = world.free.get(fields::VELOCITY)?.to_vec();
         let (mut iterations, mut change) = (0, f64::INFINITY);
-        while iterations < outer.iterations.max(1) && change > outer.tolerance {
-            if iterations > 0 {
+        while iterations < most && change > outer.tolerance {
+            let again = iterations > 0;
+            if again {
                 for stage in &mut self.lagged {
                     stage.run(world)?;
                 }
             }
-            let mut velocity = match iterations {
-                0 => ahead.clone(),
-                _ => world.free.get(fields::VELOCITY)?.to_vec(),
-            };
-            self.solve(world, earlier, &ahead, &mut velocity, dt)?;
-            if iterations > 0 {
+            let mut velocity = world.free.get(fields::VELOCITY)?.to_vec();
+            self.solve(world, [earlier, &ahead], again, &mut velocity, dt)?;
+            if again {
                 change = relative_change(world, &velocity, dt)?;
             }
             world.free.put(fields::VELOCITY, velocity)?;
             iterations += 1;
         }
-        let converged = change <= outer.tolerance;
-        let change = if change.is_finite() { change } else { 0.0 };
-        let outer = self.solves.outer.get_or_insert_default();
-        outer.add(iterations, change, converged);
+        if !self.lagged.is_empty() {
+            let converged = change <= outer.tolerance;
+            let change = if change.is_finite() { change } else { 0.0 };
+            let outer = self.solves.outer.get_or_insert_default();
+            outer.add(iterations, change, converged);
+        }
         Ok(())
     }
 
-    /// One linear solve; `ahead` is u*, `velocity` the start and the result.
+    /// One linear solve from uⁿ and u*; `velocity` is the start and the result.
+    ///
+    /// The first one of a step starts on the line from uⁿ to u*, one that comes `again` where the last ended.
     fn solve(
         &mut self,
         world: &World<D>,
-        earlier: &[Vect<D>],
-        ahead: &[Vect<D>],
+        [earlier, ahead]: [&[Vect<D>]; 2],
+        again: bool,
         velocity: &mut [Vect<D>],
         dt: f64,
     ) -> Result<(), StepError> {
@@ -144,15 +144,19 @@ impl<const D: usize> ImplicitViscosity<D> {
         };
         let rows = system.right.iter_mut().zip(ahead).zip(&system.mass);
         rows.for_each(|((b, u), m)| *b += u * *m);
-        let mut before = vec![Vect::zeros(); earlier.len()];
-        system.matrix.multiply(earlier, &mut before);
-        if share < 1.0 {
-            let rest = (1.0 - share) / share;
-            for (k, b) in system.right.iter_mut().enumerate() {
-                *b -= (before[k] - earlier[k] * system.mass[k]) * rest;
+        if share < 1.0 || !again {
+            let mut before = vec![Vect::zeros(); earlier.len()];
+            system.matrix.multiply(earlier, &mut before);
+            if share < 1.0 {
+                let rest = (1.0 - share) / share;
+                for (k, b) in system.right.iter_mut().enumerate() {
+                    *b -= (before[k] - earlier[k] * system.mass[k]) * rest;
+                }
+            }
+            if !again {
+                start_between(&system, &before, earlier, velocity);
             }
         }
-        start_between(&system, &before, earlier, velocity);
         let (matrix, right) = (&system.matrix, &system.right);
         let solved = match self.lagged.is_empty() {
             true => self.solver.solve(matrix, right, velocity),

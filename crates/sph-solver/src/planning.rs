@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, fields, plan};
+use sph_core::{Access, AnyField, Declares, Stage, fields, plan};
 use sph_multiphase::{BoundState, Coupling, PressureStage, Viscosity};
 use sph_neighbours::{Interaction, World, fuse_all};
 use sph_scene::Scene;
 use sph_stress::{
-    CarriedStress, ElasticMotion, GradientStage, Rheologies, StrainRate, StressDivergence,
+    CarriedStress, ElasticMotion, Felt, GradientStage, Rheologies, StrainRate, StressDivergence,
     ViscosityStage,
 };
 
@@ -139,27 +139,27 @@ pub fn plan_stages<const D: usize>(
     if let (Some(stage), false) = (stage_of_gradient(), elastic) {
         offered.push(with_gamma(Box::new(stage)));
     }
-    let laws_of = Laws {
-        rheologies,
+    let felt = Felt {
+        laws: rheologies,
         pressure,
     };
     if gradient.is_some() {
         offered.push(Box::new(StrainRate));
     }
-    offered.push(Box::new(laws_of.viscosity()));
+    offered.push(Box::new(ViscosityStage(felt.clone())));
     if elastic {
-        offered.push(Box::new(laws_of.carried()));
+        offered.push(Box::new(CarriedStress(felt.clone())));
     }
     let mut lagged: Stages<D> = Vec::new();
-    if let (Some(stage), true, Some(_)) = (stage_of_gradient(), laws_of.feel_strain(), &solved) {
+    if let (Some(stage), true, Some(_)) = (stage_of_gradient(), felt.strain_rate(), &solved) {
         lagged = vec![
             Box::new(stage),
             Box::new(StrainRate),
-            Box::new(laws_of.viscosity()),
+            Box::new(ViscosityStage(felt.clone())),
         ];
     }
     let elastic = stage_of_gradient().filter(|_| elastic);
-    let elastic = elastic.map(|gradient| laws_of.motion(gradient));
+    let elastic = elastic.map(|gradient| ElasticMotion { gradient, felt });
     let smoother = choices.smoother.iter().flat_map(|s| s.stages(laws));
     let interfaces = choices.interfaces.iter().flat_map(|i| i.stages());
     let shifting = choices.shifting.iter().flat_map(|s| s.stages());
@@ -250,36 +250,5 @@ fn viscosity_of(laws: &Rheologies) -> Viscosity {
         }
         _ if laws.len() > 1 => Viscosity::PerPhase,
         _ => Viscosity::PerParticle,
-    }
-}
-
-/// The laws and what they feel.
-struct Laws {
-    rheologies: Rheologies,
-    pressure: Field<Scalar>,
-}
-
-impl Laws {
-    fn feel_strain(&self) -> bool {
-        self.rheologies.iter().any(|l| l.needs().strain_rate)
-    }
-    fn viscosity(&self) -> ViscosityStage {
-        ViscosityStage {
-            laws: self.rheologies.clone(),
-            pressure: self.pressure,
-        }
-    }
-    fn carried(&self) -> CarriedStress {
-        CarriedStress {
-            laws: self.rheologies.clone(),
-            pressure: self.pressure,
-        }
-    }
-    fn motion<const D: usize>(&self, gradient: GradientStage<D>) -> ElasticMotion<D> {
-        ElasticMotion {
-            gradient,
-            laws: self.rheologies.clone(),
-            pressure: self.pressure,
-        }
     }
 }

@@ -80,14 +80,6 @@ pub struct Sum<const D: usize> {
     normal: Vect<D>,
 }
 
-/// τ·v in the plane, or in space.
-#[inline(always)]
-fn apply<const D: usize>(stress: &Symmetric, v: &Vect<D>) -> Vect<D> {
-    let [xx, yy, zz, xy, yz, xz] = stress.0;
-    let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-    Vect::from_fn(|i, _| (0..D).map(|j| rows[i][j] * v[j]).sum())
-}
-
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     type Here = Here;
     type Sum = Sum<D>;
@@ -115,14 +107,14 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     fn free(&self, here: &Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Sum<D>) {
         let both = here.stress * (here.volume * here.volume)
             + self.stress[j] * (there.volume * there.volume);
-        sum.force += apply(&both, &pair.separation) * pair.factor;
+        sum.force += both.apply(&pair.separation) * pair.factor;
     }
 
     #[inline(always)]
     fn wall(&self, here: &Here, v: usize, pair: &Pair<D>, sum: &mut Sum<D>) {
         let squares = here.volume * here.volume + self.wall_volume[v] * self.wall_volume[v];
         let weight = self.wall_share[v] * squares * pair.factor;
-        let force = apply(&here.stress, &pair.separation) * weight;
+        let force = here.stress.apply(&pair.separation) * weight;
         let grip = self.wall_grip[v];
         sum.force += force * grip;
         sum.slipping += force * (1.0 - grip);
@@ -133,7 +125,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         let s = contact.element as usize;
         let there = self.elements.volume[s];
         let squares = here.volume * here.volume + there * there;
-        let force = apply(&here.stress, &contact.gradient) * (squares / there);
+        let force = here.stress.apply(&contact.gradient) * (squares / there);
         let grip = self.elements.grip[s];
         sum.force -= force * grip;
         sum.slipping -= force * (1.0 - grip);

@@ -10,11 +10,11 @@
 //!
 //! Nothing here runs in a scene whose laws do not ask for it.
 
-mod batches;
 mod carried;
 mod divergence;
 mod effective_pressure;
 mod elastic;
+mod felt;
 mod gradient;
 mod isotropic;
 mod laplace;
@@ -29,6 +29,7 @@ pub use carried::CarriedStress;
 pub use divergence::StressDivergence;
 pub use effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 pub use elastic::ElasticMotion;
+pub use felt::Felt;
 pub use gradient::{GradientStage, NeighbourSums, VelocityGradient, VelocityGradientEntry};
 pub use isotropic::Isotropic;
 pub use laplace::Laplace;

@@ -2,12 +2,33 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 /// Particles per batch.
-pub const BATCH: usize = 1024;
+const BATCH: usize = 1024;
+
+/// Gives every run of one phase within a batch to `work`: the number of the phase, which particles
+/// they are, and their part of the column.
+///
+/// Without a phase column all particles are of phase 0.
+pub fn by_phase<T: Send>(
+    phase: Option<&[u32]>,
+    column: &mut [T],
+    work: impl Fn(usize, Range<usize>, &mut [T]) + Sync,
+) {
+    let batches = column.par_chunks_mut(BATCH).enumerate();
+    batches.for_each(|(k, part)| {
+        let from = k * BATCH;
+        for (number, run) in runs(phase, from, part.len()) {
+            let own = run.start - from..run.end - from;
+            work(number, run, &mut part[own]);
+        }
+    });
+}
 
 /// The runs of one phase within a batch that starts at `from`, with the number of their phase;
 /// one run where there is no phase column.
-pub fn runs(
+fn runs(
     phase: Option<&[u32]>,
     from: usize,
     len: usize,

@@ -1,0 +1,64 @@
+//! What the laws of a scene feel, as columns and phase by phase.
+
+use std::ops::Range;
+
+use sph_core::{Access, Field, Scalar, StepError, fields};
+use sph_neighbours::{World, by_phase};
+use sph_rheology::{Inputs, Rheology};
+
+use crate::Rheologies;
+
+/// The laws with the pressure that makes friction for them.
+#[derive(Clone)]
+pub struct Felt {
+    /// The laws.
+    pub laws: Rheologies,
+    /// The pressure that makes friction.
+    pub pressure: Field<Scalar>,
+}
+
+impl Felt {
+    /// Whether some law feels the strain rate.
+    pub fn strain_rate(&self) -> bool {
+        self.laws.iter().any(|l| l.needs().strain_rate)
+    }
+
+    /// The columns that the laws read.
+    pub(crate) fn access(&self) -> Access {
+        let mut access = Access::none();
+        if self.laws.len() > 1 {
+            access = access.here(fields::PHASE);
+        }
+        if self.strain_rate() {
+            access = access.here(fields::STRAIN_RATE);
+        }
+        match self.laws.iter().any(|l| l.needs().pressure) {
+            true => access.here(self.pressure),
+            false => access,
+        }
+    }
+
+    /// Gives every run of particles of one phase to `work`, with their law and what it feels; slices of columns
+    /// that no law asked for are empty.
+    pub(crate) fn each<const D: usize, T: Send>(
+        &self,
+        world: &World<D>,
+        column: &mut [T],
+        work: impl Fn(&dyn Rheology, &Inputs<'_>, Range<usize>, &mut [T]) + Sync,
+    ) -> Result<(), StepError> {
+        let strain_rate = world.free.get(fields::STRAIN_RATE).unwrap_or(&[]);
+        let pressure = world.free.get(self.pressure).unwrap_or(&[]);
+        let phase = match self.laws.len() {
+            1 => None,
+            _ => Some(world.free.get(fields::PHASE)?),
+        };
+        by_phase(phase, column, |law, run, part| {
+            let inputs = Inputs {
+                strain_rate: strain_rate.get(run.clone()).unwrap_or(&[]),
+                pressure: pressure.get(run.clone()).unwrap_or(&[]),
+            };
+            work(&*self.laws[law], &inputs, run, part);
+        });
+        Ok(())
+    }
+}
