@@ -77,7 +77,7 @@ mod tests {
     use super::*;
     use sph_core::Registry;
 
-    /// Values of Krimi et al. 2018, Eq. 13, computed apart with 30 digits.
+    /// Values of Krimi et al. 2018, Eq. 13, computed apart.
     #[test]
     fn the_table_of_values_is_met() {
         let mud = Bingham {
