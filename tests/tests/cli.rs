@@ -81,6 +81,59 @@ fn plugins_are_listed_by_kind_and_shown_with_their_parameters() {
 }
 
 #[test]
+fn laws_are_drawn_whatever_they_are_and_mistakes_leave_no_file() {
+    let bench = Bench::new(PROGRAM);
+    let kind = json(&bench.done("plugins rheology --json"));
+    for law in kind["plugins"].as_array().expect("plugins") {
+        let name = text(&law["name"]);
+        bench.done(&format!("plugins rheology {name} --picture {name}.svg"));
+        let drawn = std::fs::read_to_string(bench.path(&format!("{name}.svg"))).expect("a picture");
+        assert!(
+            drawn.contains("shear stress [Pa]") && drawn.contains(name),
+            "{name}"
+        );
+    }
+    let two = "plugins rheology bingham casson --set casson.yield_stress=3 --picture two.png";
+    bench.done(two);
+    assert!(bench.path("two.png").exists());
+    let vary = "plugins rheology bingham --vary yield_stress=[1,7] --picture vary.svg";
+    bench.done(vary);
+    let drawn = std::fs::read_to_string(bench.path("vary.svg")).expect("a picture");
+    assert!(drawn.contains(">yield_stress = 7<"), "{drawn}");
+    for (arguments, word) in [
+        ("rheology bingham --picture no.gif", ".svg or .png"),
+        ("rheology binham --picture no.svg", "did you mean `bingham`"),
+        (
+            "rheology bingham --set yeild_stress=1 --picture no.svg",
+            "did you mean `yield_stress`",
+        ),
+        (
+            "rheology bingham casson --set csson.viscosity=1 --picture no.svg",
+            "did you mean `casson`",
+        ),
+        (
+            "rheology bingham elastic --picture no.svg",
+            "draw them apart",
+        ),
+        (
+            "rheology bingham --vary yield_stress=1 --picture no.svg",
+            "expected a list",
+        ),
+        (
+            "rheology bingham --strain-rates=-1,1 --picture no.svg",
+            "1e-12",
+        ),
+        ("rheology mu-i --pressure 3kg --picture no.svg", "Pa"),
+        ("kernel wendland-c2 --picture no.svg", "only laws"),
+    ] {
+        let refused = bench.call(&format!("plugins {arguments}"));
+        assert_eq!(refused.code, Some(2), "{arguments}");
+        assert!(refused.err.contains(word), "{arguments}: {}", refused.err);
+        assert!(!bench.path("no.svg").exists() && !bench.path("no.gif").exists());
+    }
+}
+
+#[test]
 fn the_schema_is_json_and_mentions_every_plugin() {
     let bench = Bench::new(PROGRAM);
     let schema = bench.done("schema");

@@ -9,14 +9,17 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The documents of the workspace: of its root, of `docs`, and the README of every crate.
+/// The documents of the workspace: of its root, of `docs` and its folders, and the README of every
+/// crate.
 fn documents() -> Vec<(PathBuf, String)> {
     let listed = |folder: PathBuf| {
         let entries = std::fs::read_dir(&folder).unwrap_or_else(|e| panic!("{folder:?}: {e}"));
         entries.map(|e| e.expect("an entry").path())
     };
     let crates = listed(root().join("crates")).map(|folder| folder.join("README.md"));
+    let inner = listed(root().join("docs")).filter(|p| p.is_dir());
     let pages = listed(root()).chain(listed(root().join("docs")));
+    let pages = pages.chain(inner.flat_map(listed));
     let pages = pages.filter(|p| p.extension().is_some_and(|e| e == "md"));
     let read = |p: PathBuf| {
         let text = std::fs::read_to_string(&p).unwrap_or_else(|e| panic!("{p:?}: {e}"));

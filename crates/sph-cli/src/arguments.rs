@@ -99,6 +99,8 @@ Examples:
   sph plugins                                all kinds with their plugins
   sph plugins rheology                       the plugins of one kind
   sph plugins integrator symplectic-euler    parameters, and a snippet for a scene
+  sph plugins rheology bingham casson --picture laws.svg     the laws of their examples, drawn
+  sph plugins rheology bingham --picture stronger.svg --vary yield_stress=[1,10,100]
 
 A plugin of another crate appears here if the binary mentions the crate: `use my_plugin as _;`.")]
     Plugins(PluginArguments),
@@ -233,8 +235,42 @@ pub struct ExplainArguments {
 pub struct PluginArguments {
     /// Kind of plugin, for example `kernel` or `rheology`
     pub kind: Option<String>,
-    /// Name of a plugin of that kind
-    pub name: Option<String>,
+    /// Name of a plugin of that kind; several to have them in one picture
+    #[arg(value_name = "NAME")]
+    pub names: Vec<String>,
+    /// Shear a law alone and draw its stress and viscosity into FILE.svg or FILE.png
+    #[arg(long, value_name = "FILE", requires = "names")]
+    pub picture: Option<PathBuf>,
+    /// Put a value on top of the law's example: --set yield_stress='5 Pa', or with several laws
+    /// --set bingham.yield_stress='5 Pa' (may be repeated)
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "picture")]
+    pub set: Vec<String>,
+    /// Draw a curve for each value of a list: --vary yield_stress=[1,10,100]
+    #[arg(long, value_name = "KEY=[…]", requires = "picture")]
+    pub vary: Option<String>,
+    /// Pressures at which a law with friction is sheared [default: 1 kPa]
+    #[arg(
+        long,
+        value_name = "P,…",
+        value_delimiter = ',',
+        requires = "picture",
+        allow_hyphen_values = true
+    )]
+    pub pressure: Vec<String>,
+    /// The ends of the axis [default: 0.001,100], or for a law with an elastic part the rates at
+    /// which it is sheared from rest [default: 0.01,0.1,1,10], 1/s
+    #[arg(
+        long,
+        value_name = "RATE,…",
+        value_delimiter = ',',
+        requires = "picture",
+        allow_hyphen_values = true
+    )]
+    pub strain_rates: Vec<String>,
+    /// Strain up to which a law with an elastic part is sheared [default: four times that at which it
+    /// yields, 2 at most]
+    #[arg(long, requires = "picture", allow_hyphen_values = true)]
+    pub strain: Option<f64>,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

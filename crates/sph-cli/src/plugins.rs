@@ -1,6 +1,8 @@
 //! `sph plugins`.
 
+mod picture;
 mod snippet;
+mod specimen;
 
 use serde_json::{Value as Json, json};
 use sph_core::{ContractInfo, Parameter, PluginInfo, contracts, parameters, suggestion};
@@ -10,27 +12,44 @@ use crate::console;
 use crate::layout::{columns, paragraph};
 use crate::trouble::Trouble;
 
-/// Lists kinds, the plugins of a kind, or one plugin.
+/// The kind of plugin that can be drawn.
+const LAWS: &str = "rheology";
+
+/// Lists kinds, the plugins of a kind, or some plugins; or draws laws.
 pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
     let kinds = contracts();
-    let (text, json) = match (&arguments.kind, &arguments.name) {
-        (None, _) => (
-            overview(&kinds),
-            kinds.iter().map(|k| kind_json(k)).collect(),
-        ),
-        (Some(kind), None) => {
-            let kind = find_kind(&kinds, kind)?;
-            (kind_text(kind), kind_json(kind))
+    let Some(kind) = &arguments.kind else {
+        let json = kinds.iter().map(|k| kind_json(k)).collect();
+        return shown(arguments, &overview(&kinds), &json);
+    };
+    let kind = find_kind(&kinds, kind)?;
+    let names = arguments.names.iter();
+    let plugins = names.map(|name| find_plugin(kind, name));
+    let plugins = plugins.collect::<Result<Vec<_>, _>>()?;
+    if let Some(file) = &arguments.picture {
+        if kind.kind != LAWS {
+            return Err(Trouble::usage(format!(
+                "only laws can be drawn: sph plugins {LAWS} NAME --picture FILE"
+            )));
         }
-        (Some(kind), Some(name)) => {
-            let kind = find_kind(&kinds, kind)?;
-            let plugin = find_plugin(kind, name)?;
-            (plugin_text(kind, &plugin), plugin_json(kind.kind, &plugin))
+        return picture::draw(arguments, &plugins, file);
+    }
+    let each = plugins.iter().map(|p| plugin_json(kind.kind, p));
+    let (text, json) = match plugins.as_slice() {
+        [] => (kind_text(kind), kind_json(kind)),
+        [only] => (plugin_text(kind, only), plugin_json(kind.kind, only)),
+        several => {
+            let texts = several.iter().map(|p| plugin_text(kind, p));
+            (texts.collect::<Vec<_>>().join("\n"), each.collect())
         }
     };
+    shown(arguments, &text, &json)
+}
+
+fn shown(arguments: &PluginArguments, text: &str, json: &Json) -> Result<(), Trouble> {
     match arguments.json {
-        true => console::json(&json),
-        false => console::out(&text),
+        true => console::json(json),
+        false => console::out(text),
     }
     Ok(())
 }

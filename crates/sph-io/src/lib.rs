@@ -10,7 +10,7 @@
 //! | time series | [`SeriesWriter`] | [`read_table`], [`read_columns`] |
 //! | restart | [`Checkpoint::save`] | [`Checkpoint::load`] |
 //! | pictures of particles | [`Picture`] | your eyes |
-//! | plots | [`Plot`] as PNG or SVG | your eyes |
+//! | plots | [`Plot`], or [`Panels`] of them, as PNG or SVG | your eyes |
 //! | summaries | [`write_json`] | anything |
 //!
 //! Three promises hold for all of them.
@@ -50,6 +50,7 @@ mod folder;
 mod frame;
 mod legend;
 mod mark;
+mod panels;
 mod picture;
 mod plot;
 mod pvd;
@@ -69,6 +70,7 @@ pub use colour::{Colour, ColourMap};
 pub use error::{IoError, Result};
 pub use folder::writable;
 pub use frame::{Cells, FieldData, FieldValues, Frame, Location, Piece};
+pub use panels::Panels;
 pub use picture::{Picture, View};
 pub use plot::{Plot, Series, Style};
 pub use pvd::PvdSeries;

@@ -129,7 +129,7 @@ impl Plot {
         self.check(path)?;
         let canvas = Canvas::new(SIZE[0], SIZE[1]);
         let mut canvas = canvas.ok_or_else(|| IoError::input(path, "no memory for the plot"))?;
-        self.draw(&mut canvas);
+        self.draw(&mut canvas, &whole());
         canvas.save(path)
     }
 
@@ -138,7 +138,7 @@ impl Plot {
         let path = path.as_ref();
         self.check(path)?;
         let mut svg = Svg::new(SIZE[0], SIZE[1]);
-        self.draw(&mut svg);
+        self.draw(&mut svg, &whole());
         svg.save(path)
     }
 
@@ -149,11 +149,11 @@ impl Plot {
     pub fn to_svg(&self) -> Result<String> {
         self.check(Path::new("plot.svg"))?;
         let mut svg = Svg::new(SIZE[0], SIZE[1]);
-        self.draw(&mut svg);
+        self.draw(&mut svg, &whole());
         Ok(svg.finish())
     }
 
-    fn check(&self, path: &Path) -> Result<()> {
+    pub(crate) fn check(&self, path: &Path) -> Result<()> {
         for Series {
             name,
             points,
@@ -171,8 +171,9 @@ impl Plot {
         Ok(())
     }
 
-    fn draw(&self, on: &mut dyn Surface) {
-        let axes = self.axes();
+    /// Draws the plot into a part of a surface.
+    pub(crate) fn draw(&self, on: &mut dyn Surface, place: &Rect) {
+        let axes = self.axes(place);
         let marks: Vec<Mark> = self.series.iter().enumerate().map(Mark::new).collect();
         axes.draw_grid(on);
         // Bands first, whatever their place in the list: they hide lines.
@@ -184,26 +185,26 @@ impl Plot {
         Legend::new(&marks, &axes).draw(on);
         let middle = (axes.frame.left + axes.frame.right) / 2.0;
         let lettering = Lettering::new(1.15 * LETTERS, Anchor::Middle);
-        on.text([middle, 1.6 * LETTERS], &self.title, lettering);
+        let title = [middle, place.top + 1.6 * LETTERS];
+        on.text(title, &self.title, lettering);
     }
 
-    fn axes(&self) -> Axes {
+    fn axes(&self, place: &Rect) -> Axes {
         let x = self.axis(0, self.log_x, &self.x_label);
         let y = self.axis(1, self.log_y, &self.y_label);
-        let [width, height] = SIZE.map(f64::from);
         let top = if self.title.is_empty() { 1.2 } else { 2.6 } * LETTERS;
         let room = if y.ticks(8).factor.is_some() {
             0.9
         } else {
             0.0
         };
-        let top = top + room * LETTERS;
-        let bottom = height - 3.6 * LETTERS;
+        let top = place.top + top + room * LETTERS;
+        let bottom = place.bottom - 3.6 * LETTERS;
         Axes {
             frame: Rect {
-                left: left_room(&y, bottom - top, LETTERS),
+                left: place.left + left_room(&y, bottom - top, LETTERS),
                 top,
-                right: width - 1.6 * LETTERS,
+                right: place.right - 1.6 * LETTERS,
                 bottom,
             },
             x,
@@ -238,6 +239,16 @@ impl Plot {
             log,
             label: label.into(),
         }
+    }
+}
+
+/// The place of a plot that stands alone.
+fn whole() -> Rect {
+    Rect {
+        left: 0.0,
+        top: 0.0,
+        right: f64::from(SIZE[0]),
+        bottom: f64::from(SIZE[1]),
     }
 }
 

@@ -37,6 +37,7 @@ mod mu_i;
 mod newtonian;
 mod power_law;
 mod regularisation;
+pub mod rheometer;
 
 pub use bingham::Bingham;
 pub use carreau::Carreau;

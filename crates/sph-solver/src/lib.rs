@@ -8,6 +8,7 @@
 //! * [`Flow`]: one evaluation, one step; a [`sph_core::System`] for the integrator.
 //! * [`run()`]: steps, outputs, checkpoints, roll-back, references, summary.
 //! * [`examine()`]: the numbers that follow from a scene, without running it.
+//! * [`rheometer`]: a law by its name, sheared alone.
 
 mod adviser;
 mod assemble;
@@ -37,6 +38,7 @@ mod planning;
 mod references;
 mod relax;
 mod report;
+pub mod rheometer;
 mod run;
 mod series;
 mod snapshot;
