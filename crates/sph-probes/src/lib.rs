@@ -1,7 +1,7 @@
 //! What a run measures and what it is compared with.
 //!
 //! * [`Probe`]: columns of the time series, from the state of the flow ([`Front`],
-//!   [`PressureProbe`], [`VelocityProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`]), and of
+//!   [`PressureProbe`], [`VelocityProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`StreamFunction`]), and of
 //!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
 //!   [`SurfaceSlope`]).
 //! * [`Solution`]: analytical flows, as references and as initial states.
@@ -22,6 +22,7 @@ mod hydrostatic;
 mod interface;
 mod interpolate;
 mod level;
+mod near;
 pub mod norm;
 mod phase;
 mod phase_energy;
@@ -32,6 +33,7 @@ mod range;
 mod rigid_rotation;
 mod rotating_square;
 mod slope;
+mod stream_function;
 mod taylor_green;
 mod wall_force;
 mod yielded;
@@ -59,6 +61,7 @@ pub use range::FieldRange;
 pub use rigid_rotation::RigidRotation;
 pub use rotating_square::RotatingSquare;
 pub use slope::SurfaceSlope;
+pub use stream_function::StreamFunction;
 pub use taylor_green::TaylorGreen;
 pub use wall_force::WallForceProbe;
 pub use yielded::Yielded;
