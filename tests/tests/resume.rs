@@ -85,6 +85,16 @@ fn a_run_with_a_moving_wall_resumes_while_it_moves_and_after() {
 }
 
 #[test]
+fn displacements_go_on_where_they_were() {
+    let asked = DAM_BREAK.replace("fields = [", "fields = [\"displacement\", ");
+    let bench = Bench::with(PROGRAM, &asked);
+    let whole = uninterrupted(&bench);
+    assert!(whole.columns.contains_key("displacement"));
+    let resumed = killed_and_resumed(&bench, 0.11, 1);
+    whole.assert_same(&resumed, "with displacements");
+}
+
+#[test]
 fn ctrl_c_leaves_a_checkpoint_and_says_how_to_go_on() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let whole = uninterrupted(&bench);

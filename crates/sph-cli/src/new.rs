@@ -97,8 +97,14 @@ fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>
         return Ok(Vec::new());
     };
     let mut copied = Vec::new();
-    let files = loaded.scene.reference.values();
-    for (file, path) in files.filter_map(|r| Some((r.file.as_ref()?, r.path.as_ref()?))) {
+    let scene = &loaded.scene;
+    let references = scene.reference.values();
+    let references = references.filter_map(|r| Some((r.file.as_deref()?, r.path.as_ref()?)));
+    let probes = scene.probe_files.iter().filter_map(|(name, path)| {
+        let table = scene.probe.get(name).or_else(|| scene.gauge.get(name))?;
+        Some((table.get("file")?.as_str()?, path))
+    });
+    for (file, path) in references.chain(probes) {
         let target = folder.join(file);
         if target.exists() || !path.is_file() {
             continue;

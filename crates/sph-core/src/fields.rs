@@ -88,6 +88,12 @@ pub const SHIFT_VELOCITY: Field<Vector> = Field::new(
     "m/s",
     "velocity of the shifting that keeps particles evenly spread",
 );
+/// Way from where a particle was at the start, across periodic borders. Only where somebody asks for it.
+pub const DISPLACEMENT: Field<Vector> = Field::new(
+    "displacement",
+    "m",
+    "way from where the particle was at the start, across periodic borders",
+);
 /// Number of the phase in the scene's order of names.
 pub const PHASE: Field<Index> = Field::new("phase", "1", "number of the phase");
 /// Number given at filling; follows the particle through every sort.

@@ -37,6 +37,21 @@ pub trait Probe<const D: usize>: Send {
     fn needs_wall_forces(&self) -> bool {
         false
     }
+    /// Whether it reads the displacement of the particles, which is kept for such probes only.
+    fn needs_displacement(&self) -> bool {
+        false
+    }
+    /// The file that its key `file` names, if it compares with one.
+    fn file(&self) -> Option<&str> {
+        None
+    }
+    /// Learns the first two columns of that file.
+    ///
+    /// # Errors
+    /// If they are not what the probe compares with: what is wrong with them.
+    fn learn(&mut self, _rows: Vec<[f64; 2]>) -> Result<(), String> {
+        Ok(())
+    }
     /// Their values now; NaN where there is nothing to measure.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 //! * [`Probe`]: columns of the time series, from the state of the flow ([`Front`],
 //!   [`PressureProbe`], [`VelocityProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`StreamFunction`]), and of
 //!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
-//!   [`SurfaceSlope`]).
+//!   [`SurfaceSlope`], [`Line`]).
 //! * [`Solution`]: analytical flows, as references and as initial states.
 //! * [`norm`]: the norms in which errors are reported.
 
@@ -22,6 +22,7 @@ mod hydrostatic;
 mod interface;
 mod interpolate;
 mod level;
+mod line;
 mod near;
 pub mod norm;
 mod phase;
@@ -53,6 +54,7 @@ pub use hydrostatic::Hydrostatic;
 pub use interface::Interface;
 pub use interpolate::{Interpolated, interpolate};
 pub use level::Level;
+pub use line::{Line, LineOf};
 pub use phase_energy::PhaseEnergy;
 pub use phase_volume::PhaseVolume;
 pub use point::{PressureProbe, VelocityProbe};

@@ -86,6 +86,15 @@ pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problem
         }
         reference.path = located(&reference.file, &path, source, found);
     }
+    let mut files = Vec::new();
+    for (kind, tables) in [("probe", &scene.probe), ("gauge", &scene.gauge)] {
+        for (name, table) in tables {
+            let file = table.get("file").and_then(|f| f.as_str()).map(String::from);
+            let path = located(&file, &format!("{kind}.{name}"), source, found);
+            files.extend(path.map(|path| (name.clone(), path)));
+        }
+    }
+    scene.probe_files.extend(files);
     for (name, wall) in &mut scene.wall {
         let path = format!("wall.{name}");
         wall.path = located(&wall.file, &path, source, found);

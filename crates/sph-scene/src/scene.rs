@@ -1,6 +1,7 @@
 //! A whole scene as plain data.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -95,6 +96,9 @@ pub struct Scene {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Probe>")]
     pub gauge: Plugins,
+    /// Paths of the files that probes and gauges name in `file`, by the name of the probe.
+    #[serde(skip)]
+    pub probe_files: BTreeMap<String, PathBuf>,
     /// Comparisons by name, `[reference.NAME]`; their errors are in the summary.
     #[serde(default)]
     pub reference: BTreeMap<String, Reference>,

@@ -166,6 +166,11 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     };
     flow.reset_timings();
     allocate(&mut flow);
+    let asked = scene.output.fields.iter().chain(&scene.output.picture);
+    let shown = asked.into_iter().any(|f| f == fields::DISPLACEMENT.name);
+    if shown || choices.probes.iter().any(|(_, p)| p.needs_displacement()) {
+        flow.world.free.add(fields::DISPLACEMENT, Role::State);
+    }
     check_output_fields(scene, &flow)?;
     let relaxation = start(scene, &drawn, &choices, &mut flow, &placed.body)?;
     Ok(Assembled {

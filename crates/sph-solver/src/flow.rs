@@ -226,6 +226,7 @@ impl<const D: usize> Flow<D> {
             Ok(shift) => all.zip(shift).for_each(|((x, u), s)| *x += (u + s) * dt),
         }
         self.world.free.put(fields::POSITION, position)?;
+        self.displace(dt)?;
         self.moved = true;
         self.world.time += dt;
         if let Some(walls) = &self.walls {
@@ -237,6 +238,22 @@ impl<const D: usize> Flow<D> {
             })?;
         }
         Ok(())
+    }
+
+    /// Adds the way of a drift to the displacements, where they are kept.
+    fn displace(&mut self, dt: f64) -> Result<(), StepError> {
+        let free = &mut self.world.free;
+        if !free.has(fields::DISPLACEMENT.name) {
+            return Ok(());
+        }
+        let mut displacement = free.take(fields::DISPLACEMENT)?;
+        let velocity = free.get(fields::VELOCITY)?;
+        let all = displacement.par_iter_mut().zip(velocity).with_min_len(2048);
+        match free.get(fields::SHIFT_VELOCITY) {
+            Err(_) => all.for_each(|(d, u)| *d += u * dt),
+            Ok(shift) => all.zip(shift).for_each(|((d, u), s)| *d += (u + s) * dt),
+        }
+        Ok(free.put(fields::DISPLACEMENT, displacement)?)
     }
 
     /// Remembered stresses follow the velocities of the drift that begins.

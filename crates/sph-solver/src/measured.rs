@@ -1,12 +1,14 @@
 //! What probes learn from the scene before they measure.
 
+use std::path::PathBuf;
+
 use sph_core::{SceneProblem, suggestion};
 use sph_probes::Probe;
 use sph_scene::Scene;
 
 use crate::SolverError;
 
-/// Tells the probes the names of the phases, and refuses references to columns that no probe has.
+/// Tells the probes the names of the phases and what is in their files, and refuses references to columns that no probe has.
 ///
 /// # Errors
 /// All names that are not there, with the nearest one that is.
@@ -25,6 +27,9 @@ pub fn prepare<const D: usize>(
         if let Err(why) = probe.name_phases(&phases) {
             problems.push(SceneProblem::new(format!("{kind}.{name}.phase"), why));
         }
+        if let Err(why) = learn(scene, name, &mut **probe) {
+            problems.push(SceneProblem::new(format!("{kind}.{name}.file"), why));
+        }
         let suffixes = probe.columns().into_iter().map(|c| c.suffix);
         columns.extend(suffixes.map(|suffix| format!("{name}{suffix}")));
     }
@@ -41,6 +46,26 @@ pub fn prepare<const D: usize>(
         true => Ok(()),
         false => Err(SolverError::Scene(problems)),
     }
+}
+
+/// Reads the file that a probe compares with, and hands it over.
+fn learn<const D: usize>(
+    scene: &Scene,
+    name: &str,
+    probe: &mut dyn Probe<D>,
+) -> Result<(), String> {
+    let Some(file) = probe.file().map(String::from) else {
+        return Ok(());
+    };
+    let path = scene.probe_files.get(name);
+    let path = path.map_or_else(|| PathBuf::from(&file), PathBuf::clone);
+    let table = sph_io::read_table(&path).map_err(|e| e.to_string())?;
+    let [x, y, ..] = table.columns.as_slice() else {
+        return Err(format!("`{file}` has one column where two are expected"));
+    };
+    let rows = x.values.iter().zip(&y.values);
+    let rows = rows.map(|(x, y)| [*x, *y]).collect();
+    probe.learn(rows).map_err(|why| format!("`{file}` {why}"))
 }
 
 #[cfg(test)]

@@ -10,6 +10,8 @@ use crate::Flow;
 pub struct Snapshot<const D: usize> {
     identity: Vec<u32>,
     position: Vec<Vect<D>>,
+    /// Empty where nobody asks for it.
+    displacement: Vec<Vect<D>>,
     velocity: Vec<Vect<D>>,
     evolved: Vec<Vec<f64>>,
     /// Remembered stresses, and the gradients of the last drift; empty where nothing is elastic.
@@ -28,6 +30,9 @@ impl<const D: usize> Snapshot<D> {
         let free = &flow.world.free;
         copy(&mut self.identity, free.get(fields::IDENTITY)?);
         copy(&mut self.position, free.get(fields::POSITION)?);
+        if let Ok(displacement) = free.get(fields::DISPLACEMENT) {
+            copy(&mut self.displacement, displacement);
+        }
         copy(&mut self.velocity, free.get(fields::VELOCITY)?);
         self.evolved.resize(flow.integrated.len(), Vec::new());
         for (copied, field) in self.evolved.iter_mut().zip(&flow.integrated) {
@@ -77,6 +82,9 @@ impl<const D: usize> Snapshot<D> {
         put(free.get_mut(fields::VELOCITY)?, &self.velocity, places);
         if what == Recall::State {
             put(free.get_mut(fields::POSITION)?, &self.position, places);
+            if let Ok(displacement) = free.get_mut(fields::DISPLACEMENT) {
+                put(displacement, &self.displacement, places);
+            }
             if flow.elastic.is_some() {
                 put(free.get_mut(fields::ELASTIC_STRESS)?, &self.stress, places);
                 put(
@@ -110,6 +118,9 @@ impl<const D: usize> Snapshot<D> {
         let free = &mut flow.world.free;
         free.get_mut(fields::POSITION)?
             .copy_from_slice(&self.position);
+        if let Ok(displacement) = free.get_mut(fields::DISPLACEMENT) {
+            displacement.copy_from_slice(&self.displacement);
+        }
         free.get_mut(fields::VELOCITY)?
             .copy_from_slice(&self.velocity);
         for (copied, field) in self.evolved.iter().zip(&flow.integrated) {

@@ -1,0 +1,81 @@
+//! The way of every particle since the start: across periodic borders, and only where somebody asks
+//! for it.
+
+use std::path::Path;
+
+use sph_io::{Checkpoint, ColumnData};
+use sph_tests::{Bench, PERIODIC};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+const ASKED: &str = "--set output.fields=[\"displacement\"]";
+
+fn reals(folder: &Path, name: &str) -> Vec<f64> {
+    let checkpoint = Checkpoint::load(folder.join("checkpoint.sph")).expect("a checkpoint");
+    match checkpoint.column(name).map(|c| c.data.clone()) {
+        Some(ColumnData::F64(values)) => values,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+fn identities(folder: &Path) -> Vec<u32> {
+    let checkpoint = Checkpoint::load(folder.join("checkpoint.sph")).expect("a checkpoint");
+    match checkpoint.column("identity").map(|c| c.data.clone()) {
+        Some(ColumnData::U32(values)) => values,
+        other => panic!("identity: {other:?}"),
+    }
+}
+
+/// Positions in the order of identity.
+fn placed(folder: &Path, name: &str) -> Vec<[f64; 2]> {
+    let values = reals(folder, name);
+    let mut found = vec![[0.0; 2]; values.len() / 2];
+    for (k, id) in identities(folder).into_iter().enumerate() {
+        found[id as usize] = [values[2 * k], values[2 * k + 1]];
+    }
+    found
+}
+
+#[test]
+fn it_is_the_way_across_periodic_borders_and_costs_nothing_unasked() {
+    let bench = Bench::with(PROGRAM, PERIODIC);
+    bench.done(&format!(
+        "run scene.toml --quiet --out start {ASKED} --set run.end=1e-9"
+    ));
+    bench.done(&format!("run scene.toml --quiet --out end {ASKED}"));
+    let [start, end] = ["start", "end"].map(|out| bench.path(out));
+    let way = placed(&end, "displacement");
+    let (from, to) = (placed(&start, "position"), placed(&end, "position"));
+    let mut around = 0;
+    let mut longest = 0.0_f64;
+    for ((way, from), to) in way.iter().zip(&from).zip(&to) {
+        let mut turns = 0.0;
+        for k in 0..2 {
+            // What is left of the way is a whole number of periods, of 1 m each.
+            let left = from[k] + way[k] - to[k];
+            assert!(
+                (left - left.round()).abs() < 1e-6,
+                "{from:?} {way:?} {to:?}"
+            );
+            turns += left.round().abs();
+        }
+        around += usize::from(turns > 0.0);
+        longest = longest.max(way[0].hypot(way[1]));
+    }
+    assert!(
+        around > 0,
+        "nobody crossed a border; the longest way is {longest} m"
+    );
+    bench.done("run scene.toml --quiet --out without");
+    let without = Checkpoint::load(bench.path("without").join("checkpoint.sph"));
+    assert!(
+        without
+            .expect("a checkpoint")
+            .column("displacement")
+            .is_none()
+    );
+    assert_eq!(
+        placed(&bench.path("without"), "position"),
+        to,
+        "asking changes nothing"
+    );
+}
