@@ -99,6 +99,8 @@ mod tests {
             wrong,
             "gauge.e.phase: there is no phase called `wter`, did you mean `water`?"
         );
+        let wrong = told("probe.e = { kind = \"line\", file = \"nosuch.csv\" }");
+        assert!(wrong.starts_with("probe.e.file: cannot read"), "{wrong}");
         let wrong = told("probe.e = { kind = \"front\", phase = \"air\" }");
         assert!(wrong.starts_with("reference.r.probe: no probe has a column `e.highest`"));
     }
