@@ -2,7 +2,7 @@
 
 use sph_core::{StepError, Vect, contract};
 use sph_kernels::Kernel;
-use sph_neighbours::{Domain, WallSet, World};
+use sph_neighbours::{Coulomb, Domain, WallSet, World};
 
 use crate::{BoundaryError, Polyline, RigidMotion, Surface};
 
@@ -20,13 +20,15 @@ pub enum Condition {
         /// Slip length λ, m.
         length: f64,
     },
+    /// Soils slide with Coulomb's friction; other fluids slip freely.
+    Coulomb(Coulomb),
 }
 
 impl Condition {
     /// 1 where the wall rubs, 0 where it slips freely.
     pub fn grip(&self) -> f64 {
         match self {
-            Self::FreeSlip => 0.0,
+            Self::FreeSlip | Self::Coulomb(_) => 0.0,
             Self::NoSlip | Self::PartialSlip { .. } => 1.0,
         }
     }
@@ -35,7 +37,15 @@ impl Condition {
     pub fn slip_length(&self) -> f64 {
         match self {
             Self::PartialSlip { length } => *length,
-            Self::NoSlip | Self::FreeSlip => 0.0,
+            Self::NoSlip | Self::FreeSlip | Self::Coulomb(_) => 0.0,
+        }
+    }
+
+    /// Friction of soils.
+    pub fn coulomb(&self) -> Coulomb {
+        match self {
+            Self::Coulomb(coulomb) => *coulomb,
+            _ => Coulomb::default(),
         }
     }
 }

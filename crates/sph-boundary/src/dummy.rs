@@ -8,7 +8,9 @@ use sph_neighbours::{Contacts, WallPoints, WallSet, World, shepard};
 use crate::near::NearLists;
 use crate::outline::{Outline, checks_by_outline};
 use crate::wall_mesh::WallMesh;
-use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup};
+use crate::{
+    BoundaryError, Condition, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallSpec,
+};
 
 /// Layers of fixed particles behind the wall that take part in all sums like fluid particles.
 ///
@@ -50,6 +52,12 @@ register!(
 impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     fn new(setup: &WallSetup<'_, D>) -> Result<Self, BoundaryError> {
         let support = setup.kernel.support() * setup.smoothing_length;
+        let rough = |w: &&WallSpec<D>| matches!(w.condition, Condition::Coulomb(_));
+        if let Some(wall) = setup.walls.iter().find(rough) {
+            return Err(BoundaryError::NoElements {
+                wall: wall.drawing.name().into(),
+            });
+        }
         let outline = Outline::<D, M>::new(setup, support)?;
         // The mesh stands where it is at time 0; the layers move from there.
         let drawn = outline.mesh.layers(setup.spacing, support);

@@ -151,6 +151,12 @@ pub enum BoundaryError {
         /// Ordinate of the joint in the reference position.
         y: f64,
     },
+    /// Coulomb's friction where there are no elements to press on.
+    #[error("wall `{wall}` has Coulomb's friction, which needs the wall elements of `walls.usaw`")]
+    NoElements {
+        /// Name of the wall.
+        wall: String,
+    },
     /// A wall closed through periodicity given a rotation.
     #[error("wall `{wall}` is closed through periodicity and cannot rotate")]
     PeriodicWallRotated {

@@ -136,6 +136,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     pub fn elements(&self, spacing: f64) -> Elements<D> {
         let mut elements = Elements::default();
         let (moves, slips) = (self.moves(), self.slips());
+        let rubs = self
+            .specs
+            .iter()
+            .any(|s| s.condition.coulomb().coefficient > 0.0);
         for element in self.mesh.elements() {
             let condition = &self.specs[element.wall].condition;
             elements.centre.push(element.centre);
@@ -152,6 +156,9 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             }
             if slips {
                 elements.slip.push(condition.slip_length());
+            }
+            if rubs {
+                elements.coulomb.push(condition.coulomb());
             }
         }
         elements

@@ -31,12 +31,12 @@ pub use fuse::{FusionEntry, Terms, fuse_all, fuse_three, fuse_two};
 pub use grid::CellGrid;
 pub use kernels::KernelEntry;
 pub use list::{CHUNK, NeighbourList};
-pub use reaction::{WallForce, cross, wall_forces};
+pub use reaction::{WallForce, cross, wall_forces, wall_parts};
 pub use row::{Neighbourhood, Row, Scratch};
 pub use sweep::{interactions, interactions_with, kernel_sums, pack, shepard};
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Rates, RowTerm, Term, TermEntry, There,
 };
 pub use walk::{Around, Rows, Surroundings, Values, walk, walk_some};
-pub use walls::{Contact, Contacts, Elements, Frame, WallPoints, WallSet};
+pub use walls::{Contact, Contacts, Coulomb, Elements, Frame, WallPoints, WallSet};
 pub use world::{Lists, World};

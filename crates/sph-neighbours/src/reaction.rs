@@ -33,6 +33,14 @@ impl<const D: usize> WallForce<D> {
             pressure_moment: [0.0; 3],
         }
     }
+
+    /// Adds the force and the moment of something else on the same wall.
+    pub fn add(&mut self, other: &Self) {
+        self.force += other.force;
+        self.pressure_force += other.pressure_force;
+        add(&mut self.moment, other.moment);
+        add(&mut self.pressure_moment, other.pressure_moment);
+    }
 }
 
 /// r × f; the third component alone in two dimensions.
@@ -62,6 +70,37 @@ pub fn wall_forces<const D: usize>(
     world: &World<D>,
     terms: &[&dyn Interaction<D>],
 ) -> Result<Vec<WallForce<D>>, StepError> {
+    let positions = world.free.get(fields::POSITION)?;
+    let mut forces = vec![WallForce::zero(); world.walls.names.len()];
+    for (i, parts) in wall_parts(world, terms)?.iter().enumerate() {
+        for (wall, force) in parts {
+            let total = &mut forces[*wall as usize];
+            total.force += force;
+            add(&mut total.moment, cross(&positions[i], force));
+        }
+    }
+    let elements = &world.walls.elements;
+    for s in 0..elements.centre.len() {
+        let total = &mut forces[elements.wall[s] as usize];
+        let force = elements.normal[s] * (-elements.pressure[s] * elements.measure[s]);
+        total.pressure_force += force;
+        add(
+            &mut total.pressure_moment,
+            cross(&elements.centre[s], &force),
+        );
+    }
+    Ok(forces)
+}
+
+/// What every particle exerts on which wall, N: the parts of [`wall_forces`]. Nothing for particles
+/// that see no wall.
+///
+/// # Errors
+/// If a term misses a column.
+pub fn wall_parts<const D: usize>(
+    world: &World<D>,
+    terms: &[&dyn Interaction<D>],
+) -> Result<Vec<Vec<(u32, Vect<D>)>>, StepError> {
     let bound = terms
         .iter()
         .map(|t| t.bind(world))
@@ -76,7 +115,7 @@ pub fn wall_forces<const D: usize>(
         let contacts = world.walls.contacts.of(i);
         !contacts.is_empty() || !(world.lists.wall.is_empty() || world.lists.wall.row(i).is_empty())
     };
-    let parts: Vec<Vec<(u32, Vect<D>)>> = (0..positions.len())
+    let parts = (0..positions.len())
         .into_par_iter()
         .with_min_len(256)
         .map_init(WallRow::default, |row, i| {
@@ -119,25 +158,7 @@ pub fn wall_forces<const D: usize>(
                 .collect()
         })
         .collect();
-    let mut forces = vec![WallForce::zero(); world.walls.names.len()];
-    for (i, parts) in parts.iter().enumerate() {
-        for (wall, force) in parts {
-            let total = &mut forces[*wall as usize];
-            total.force += force;
-            add(&mut total.moment, cross(&positions[i], force));
-        }
-    }
-    let elements = &world.walls.elements;
-    for s in 0..elements.centre.len() {
-        let total = &mut forces[elements.wall[s] as usize];
-        let force = elements.normal[s] * (-elements.pressure[s] * elements.measure[s]);
-        total.pressure_force += force;
-        add(
-            &mut total.pressure_moment,
-            cross(&elements.centre[s], &force),
-        );
-    }
-    Ok(forces)
+    Ok(parts)
 }
 
 /// The neighbourhood of one particle, to be taken apart by wall.

@@ -53,10 +53,21 @@ pub struct Elements<const D: usize> {
     pub grip: Vec<f64>,
     /// Slip length, m; empty where no wall slips partly.
     pub slip: Vec<f64>,
+    /// Friction of soils; empty where no wall has a coefficient.
+    pub coulomb: Vec<Coulomb>,
     /// Which named wall the element belongs to.
     pub wall: Vec<u32>,
     /// Corner points of every element, for pictures: indices into the wall points.
     pub corners: Vec<[u32; D]>,
+}
+
+/// How soils slide on an element.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Coulomb {
+    /// Coefficient of friction μ; 0 where there is none.
+    pub coefficient: f64,
+    /// Whether the friction is that of the source instead of μ times the force on the wall.
+    pub literal: bool,
 }
 
 impl<const D: usize> Elements<D> {

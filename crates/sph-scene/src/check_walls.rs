@@ -48,11 +48,28 @@ pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut 
             format!("{path}.condition"),
             "`partial-slip` needs the key `slip_length`",
         ),
-        (Condition::NoSlip | Condition::FreeSlip, Some(_)) => found.add(
+        (Condition::NoSlip | Condition::FreeSlip | Condition::Coulomb, Some(_)) => found.add(
             format!("{path}.slip_length"),
             "a slip length belongs to `condition = \"partial-slip\"`",
         ),
         _ => {}
+    }
+    let of_friction = [
+        ("friction_coefficient", wall.friction_coefficient.is_some()),
+        ("friction_form", wall.friction_form.is_some()),
+    ];
+    match wall.condition {
+        Condition::Coulomb if wall.friction_coefficient.is_none() => found.add(
+            format!("{path}.condition"),
+            "`coulomb` needs the key `friction_coefficient`",
+        ),
+        Condition::Coulomb => {}
+        _ => {
+            for (key, _) in of_friction.iter().filter(|k| k.1) {
+                let message = format!("`{key}` belongs to `condition = \"coulomb\"`");
+                found.add(format!("{path}.{key}"), message);
+            }
+        }
     }
 }
 

@@ -124,7 +124,7 @@ pub use scene::Scene;
 pub use schema::{schema, unit};
 pub use shapes::Shape;
 pub use source::Source;
-pub use wall::{Condition, Side, Wall};
+pub use wall::{Condition, FrictionForm, Side, Wall};
 pub use wall_shapes::{
     Axis, ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };

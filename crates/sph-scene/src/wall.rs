@@ -69,6 +69,11 @@ pub struct Wall {
     /// Slip length, m, for `condition = "partial-slip"`: how deep in the wall the fluid's velocity, continued straight, is the wall's.
     #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
     pub slip_length: Option<f64>,
+    /// Coefficient of friction μ, for `condition = "coulomb"`: soils that slide are pulled with μ times what they press on the wall.
+    #[schemars(extend("unit" = "1", "minimum" = 0.0))]
+    pub friction_coefficient: Option<f64>,
+    /// How that friction is shared out, for `condition = "coulomb"`.
+    pub friction_form: Option<FrictionForm>,
     /// Velocity of the wall's surface, m/s, while its geometry stays: a belt.
     #[schemars(extend("unit" = "m/s"))]
     pub velocity: Option<Vec<f64>>,
@@ -90,6 +95,19 @@ pub enum Condition {
     FreeSlip,
     /// The fluid slides with friction: its velocity relative to the wall is the slip length times its gradient.
     PartialSlip,
+    /// Soils slide with Coulomb's friction, other fluids without any.
+    Coulomb,
+}
+
+/// How Coulomb's friction at a wall is shared out among the particles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FrictionForm {
+    /// All of it: the coefficient times the force on the wall.
+    #[default]
+    Normalised,
+    /// As printed (Ghaïtanellis 2017, Eq. 4.118): a quarter to a third of it arrives.
+    Literal,
 }
 
 /// On which side of a closed geometry the fluid is.

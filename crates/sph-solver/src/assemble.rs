@@ -156,6 +156,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         evolved: vec![diffused.evolved],
         integrated: integrated(&diffused, compressed.as_ref()),
         elastic: planned.elastic,
+        coulomb: planned.coulomb,
         moved: true,
         dilatation: compressed.map(|c| Dilatation::new(c, choices.formulation.divergence())),
         kept: Snapshot::default(),

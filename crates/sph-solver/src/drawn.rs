@@ -5,7 +5,8 @@ use sph_boundary::{
     Translation, WallSpec, thin_plate,
 };
 use sph_core::Vect;
-use sph_scene::{Facets, Line, Region, Scene};
+use sph_neighbours::Coulomb;
+use sph_scene::{Facets, FrictionForm, Line, Region, Scene};
 
 use crate::error::SolverError;
 
@@ -42,6 +43,10 @@ impl<const D: usize> Drawn<D> {
                 sph_scene::Condition::PartialSlip => Condition::PartialSlip {
                     length: wall.slip_length.unwrap_or(0.0),
                 },
+                sph_scene::Condition::Coulomb => Condition::Coulomb(Coulomb {
+                    coefficient: wall.friction_coefficient.unwrap_or(0.0),
+                    literal: wall.friction_form == Some(FrictionForm::Literal),
+                }),
             };
             let surface = wall.velocity.as_deref();
             let surface_velocity = surface.map_or_else(Vect::zeros, Vect::from_column_slice);

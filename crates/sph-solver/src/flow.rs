@@ -8,7 +8,7 @@ use sph_core::{
 };
 use sph_multiphase::{BoundState, Limiter};
 use sph_neighbours::{Interaction, World, wall_forces};
-use sph_stress::ElasticMotion;
+use sph_stress::{CoulombFriction, ElasticMotion};
 
 use crate::dilatation::Dilatation;
 use crate::implicit::ImplicitViscosity;
@@ -40,6 +40,8 @@ pub struct Flow<const D: usize> {
     pub(crate) integrated: Vec<Field<Scalar>>,
     /// Remembered stresses that follow the motion.
     pub(crate) elastic: Option<ElasticMotion<D>>,
+    /// Friction of soils on walls.
+    pub(crate) coulomb: Option<CoulombFriction<D>>,
     /// Whether somebody moved since the last evaluation.
     pub(crate) moved: bool,
     /// What motion compresses.
@@ -126,6 +128,10 @@ impl<const D: usize> System for Flow<D> {
     }
 
     fn kick(&mut self, dt: f64) -> Result<(), StepError> {
+        let pressed = match &self.coulomb {
+            None => None,
+            Some(coulomb) => Some(coulomb.pressed(&self.world, &self.forces())?),
+        };
         let start = Instant::now();
         let mut velocity = self.world.free.take(fields::VELOCITY)?;
         let solved = self.implicit.is_some();
@@ -148,7 +154,11 @@ impl<const D: usize> System for Flow<D> {
             self.world.free.put(evolved.value, value)?;
         }
         self.timings[MOTION].spent += start.elapsed();
-        self.rub(earlier, dt)
+        self.rub(earlier, dt)?;
+        match self.coulomb.as_mut().zip(pressed) {
+            None => Ok(()),
+            Some((coulomb, pressed)) => coulomb.apply(&mut self.world, &pressed, dt),
+        }
     }
 
     fn drift(&mut self, dt: f64) -> Result<(), StepError> {
@@ -299,6 +309,12 @@ impl<const D: usize> Flow<D> {
             .fold(0.0, f64::max)
     }
 
+    /// The terms that push particles, friction that is solved for included.
+    fn forces(&self) -> Vec<&dyn Interaction<D>> {
+        let terms = self.terms.iter().map(|t| &**t);
+        terms.chain(self.solved.as_deref()).collect()
+    }
+
     /// Measures the forces on all walls at the state of the last evaluation.
     ///
     /// # Errors
@@ -307,9 +323,12 @@ impl<const D: usize> Flow<D> {
         if !self.world.free.has(fields::ACCELERATION.name) || self.world.lists.builds == 0 {
             return Ok(());
         }
-        let terms = self.terms.iter().map(|t| &**t);
-        let terms: Vec<_> = terms.chain(self.solved.as_deref()).collect();
-        self.world.walls.forces = wall_forces(&self.world, &terms)?;
+        let mut forces = wall_forces(&self.world, &self.forces())?;
+        if let Some(coulomb) = &self.coulomb {
+            let walls = forces.iter_mut().zip(&coulomb.forces);
+            walls.for_each(|(whole, friction)| whole.add(friction));
+        }
+        self.world.walls.forces = forces;
         Ok(())
     }
 

@@ -1,14 +1,16 @@
 //! Which stages run, in which order.
 
+use std::ops::Not;
 use std::sync::Arc;
 
 use sph_core::{Access, AnyField, Declares, Stage, fields, plan};
 use sph_multiphase::{BoundState, Coupling, PressureStage, Viscosity};
 use sph_neighbours::{Interaction, World, fuse_all};
+use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_stress::{
-    CarriedStress, ElasticMotion, Felt, GradientStage, Rheologies, StrainRate, StressDivergence,
-    ViscosityStage,
+    CarriedStress, CoulombFriction, ElasticMotion, Felt, GradientStage, Rheologies, StrainRate,
+    StressDivergence, ViscosityStage,
 };
 
 use crate::choices::Choices;
@@ -35,6 +37,8 @@ pub struct Planned<const D: usize> {
     pub lagged: Stages<D>,
     /// Remembered stresses that follow the motion.
     pub elastic: Option<ElasticMotion<D>>,
+    /// Friction of soils on walls.
+    pub coulomb: Option<CoulombFriction<D>>,
 }
 
 /// Friction as a matrix, and as a term for those who measure forces.
@@ -139,6 +143,14 @@ pub fn plan_stages<const D: usize>(
     if let (Some(stage), false) = (stage_of_gradient(), elastic) {
         offered.push(with_gamma(Box::new(stage)));
     }
+    let coulomb = world.walls.elements.coulomb.is_empty().not().then(|| {
+        let slips = |l: &dyn Rheology| l.elastic().is_none() && l.uniform_viscosity().is_some();
+        CoulombFriction {
+            rubs: rheologies.iter().map(|l| !slips(&**l)).collect(),
+            pressure,
+            forces: Vec::new(),
+        }
+    });
     let felt = Felt {
         laws: rheologies,
         pressure,
@@ -174,6 +186,9 @@ pub fn plan_stages<const D: usize>(
     let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
     if let Some(solved) = &solved {
         goals.extend(solved.coupling.access().reads());
+    }
+    if let Some(coulomb) = &coulomb {
+        goals.extend(coulomb.access().reads());
     }
     if choices.shifting.is_some() {
         goals.push(fields::SHIFT_VELOCITY.any());
@@ -226,6 +241,7 @@ pub fn plan_stages<const D: usize>(
         friction: solved,
         lagged,
         elastic,
+        coulomb,
     })
 }
 

@@ -9,7 +9,8 @@ use sph_neighbours::{
 ///
 /// The counterpart of the pressure gradient of Hu and Adams: linear momentum is conserved, and the
 /// work of the stress is that of the strain. A wall carries the stress of the particle that touches
-/// it; one that does not rub carries what is normal to it.
+/// it; one that does not rub carries what is normal to it, and along it sums are not divided by γ: what layers
+/// do to each other would else leave a force on the whole.
 ///
 /// Ours, after Ghaïtanellis 2017, Eq. 3.25; Gray et al. 2001.
 #[derive(Clone, Copy, Debug)]
@@ -78,6 +79,8 @@ pub struct Sum<const D: usize> {
     slipping: Vect<D>,
     /// Σ ∇γ_as of walls that slip.
     normal: Vect<D>,
+    /// Σ |∇γ_as| of walls that rub.
+    rubbing: f64,
 }
 
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
@@ -100,6 +103,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
             force: Vect::zeros(),
             slipping: Vect::zeros(),
             normal: Vect::zeros(),
+            rubbing: 0.0,
         }
     }
 
@@ -130,15 +134,22 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         sum.force -= force * grip;
         sum.slipping -= force * (1.0 - grip);
         sum.normal += contact.gradient * (1.0 - grip);
+        sum.rubbing += contact.gradient.norm() * grip;
     }
 
     #[inline(always)]
     fn finish(&self, here: &Here, sum: &Sum<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
-        let squared = sum.normal.norm_squared();
-        let normal = match squared > 0.0 {
-            true => sum.normal * (sum.slipping.dot(&sum.normal) / squared),
-            false => Vect::zeros(),
-        };
-        rates.acceleration += (sum.force + normal) * (inverse_gamma / here.mass);
+        let mut force = sum.force * inverse_gamma;
+        let slipping = sum.normal.norm();
+        if slipping > 0.0 {
+            let normal = sum.normal / slipping;
+            let across = normal * sum.force.dot(&normal);
+            // Along a wall without traction nothing completes the sum, as at a free surface.
+            let share = sum.rubbing / (sum.rubbing + slipping);
+            let along = 1.0 + (inverse_gamma - 1.0) * share;
+            let of_wall = normal * sum.slipping.dot(&normal);
+            force = (across + of_wall) * inverse_gamma + (sum.force - across) * along;
+        }
+        rates.acceleration += force / here.mass;
     }
 }

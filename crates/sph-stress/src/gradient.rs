@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::SMatrix;
-use sph_core::{Access, Declares, Stage, StepError, contract, fields};
+use sph_core::{Access, Declares, Stage, StepError, Vect, contract, fields};
 use sph_neighbours::{Around, Values, World, walk};
 
 /// What a formula is made of: sums over neighbours, wall points and elements with the weights
@@ -31,8 +31,9 @@ contract!(
 
 /// [`VELOCITY_GRADIENT`](fields::VELOCITY_GRADIENT) by a formula.
 ///
-/// All phases count. Walls that do not rub take no part; an element stands at the foot of the
-/// particle on its plane.
+/// All phases count. An element stands at the foot of the particle on its plane. Walls that do not rub stop
+/// the velocity normal to them, and know nothing of that along them: they take part in the gradient of the
+/// normal component alone. (Without them a wall's force would do work that no strain answers.)
 pub struct GradientStage<const D: usize>(pub Arc<dyn VelocityGradient<D>>);
 
 impl<const D: usize> Declares for GradientStage<D> {
@@ -62,6 +63,9 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
                 position: SMatrix::zeros(),
                 inverse_renormalisation: rows.inverse_renormalisation,
             };
+            // What walls that slip add, and where they face.
+            let mut slipping = [SMatrix::<f64, D, D>::zeros(); 2];
+            let mut facing = Vect::<D>::zeros();
             for (k, &j) in rows.free.index.iter().enumerate() {
                 let j = j as usize;
                 let apart = &rows.free.separation[k];
@@ -71,20 +75,37 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
             }
             for (k, &v) in rows.wall.index.iter().enumerate() {
                 let v = v as usize;
-                let share = points.share[v] * points.volume[v] * points.grip[v];
+                let share = points.share[v] * points.volume[v];
                 let apart = &rows.wall.separation[k];
                 let weight = (apart * (share * rows.wall.factor[k])).transpose();
-                sums.velocity += (points.viscous_velocity[v] - own) * weight;
-                sums.position -= apart * weight;
+                let [velocity, position] =
+                    [(points.viscous_velocity[v] - own) * weight, -apart * weight];
+                let grip = points.grip[v];
+                sums.velocity += velocity * grip;
+                sums.position += position * grip;
+                slipping[0] += velocity * (1.0 - grip);
+                slipping[1] += position * (1.0 - grip);
             }
             for contact in rows.contacts {
                 let s = contact.element as usize;
-                let weight = (contact.gradient * -elements.grip[s]).transpose();
+                let weight = -contact.gradient.transpose();
                 let foot = elements.normal[s] * contact.distance;
-                sums.velocity += (elements.velocity[s] - own) * weight;
-                sums.position -= foot * weight;
+                let [velocity, position] = [(elements.velocity[s] - own) * weight, -foot * weight];
+                let grip = elements.grip[s];
+                sums.velocity += velocity * grip;
+                sums.position += position * grip;
+                slipping[0] += velocity * (1.0 - grip);
+                slipping[1] += position * (1.0 - grip);
+                facing += contact.gradient * (1.0 - grip);
             }
-            self.0.gradient(&sums)
+            let along = self.0.gradient(&sums);
+            let Some(normal) = facing.try_normalize(0.0) else {
+                return along;
+            };
+            sums.velocity += slipping[0];
+            sums.position += slipping[1];
+            let across = self.0.gradient(&sums);
+            along + normal * (normal.transpose() * (across - along))
         })?;
         Ok(world.free.put(fields::VELOCITY_GRADIENT, gradients)?)
     }

@@ -7,10 +7,12 @@
 //!   and [`StressDivergence`] is the force.
 //! * [`EffectivePressure`] is a kind of plugin: the pressure between the grains, where it is not that
 //!   of the equation of state. [`Laplace`] is one.
+//! * [`CoulombFriction`] brakes soils on walls that have a coefficient of friction.
 //!
 //! Nothing here runs in a scene whose laws do not ask for it.
 
 mod carried;
+mod coulomb;
 mod divergence;
 mod effective_pressure;
 mod elastic;
@@ -26,6 +28,7 @@ mod viscosity;
 mod wave_limit;
 
 pub use carried::CarriedStress;
+pub use coulomb::CoulombFriction;
 pub use divergence::StressDivergence;
 pub use effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 pub use elastic::ElasticMotion;

@@ -138,3 +138,23 @@ fn a_slope_stands_below_the_angle_of_its_cone_and_slides_above_it() {
         "40°: {acceleration} m/s² for 1.099"
     );
 }
+
+/// A block with μ = 0.3 on the floor; the source's own form is measured beside it.
+#[test]
+fn a_block_on_a_rough_floor_loses_mu_g_within_1_per_cent() {
+    let deceleration = |settings: &[&str]| {
+        let coarse = ["numerics.spacing=0.01"];
+        let run = finished("coulomb-block", &[&coarse, settings].concat());
+        let (time, momentum) = (column(&run, "time"), column(&run, "momentum.x"));
+        let at = |t: f64| time.iter().position(|s| *s >= t).expect("a row");
+        let (first, last) = (at(0.05), at(0.25));
+        let lost = (momentum[first] - momentum[last]) / momentum[0];
+        lost / (time[last] - time[first]) / (0.3 * 9.81)
+    };
+    let normalised = deceleration(&[]);
+    let off = (normalised - 1.0).abs();
+    assert!(off < 0.03, "{normalised} of μg, 1.008 was measured");
+    let literal = deceleration(&["wall.floor.friction_form=literal"]);
+    assert!((0.1..0.5).contains(&literal), "{literal} of μg");
+    println!("normalised {normalised}, literal {literal}");
+}
