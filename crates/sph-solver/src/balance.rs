@@ -20,7 +20,7 @@ pub struct Balance<const D: usize> {
     pub kinetic: f64,
     /// −Σ m g·r, J.
     pub potential: f64,
-    /// Σ m ∫p/ρ² dρ, J.
+    /// Σ m ∫p/ρ² dρ, and Σ V τ:τ/4𝒢 of elastic stresses, J.
     pub internal: f64,
     /// Largest |u|, m/s.
     pub fastest: f64,
@@ -74,9 +74,21 @@ impl<const D: usize> Balance<D> {
         let phase = free.get(fields::PHASE).ok();
         let gravity = flow.world.gravity;
         let laws = &flow.laws;
+        let elastic = flow.elastic.as_ref();
+        let elastic =
+            elastic.and_then(|e| Some((&e.felt.laws, free.get(fields::ELASTIC_STRESS).ok()?)));
+        let strained = |i: usize, phase: usize| {
+            let Some((laws, stress)) = elastic else {
+                return 0.0;
+            };
+            let modulus = laws[phase].elastic().map(|e| e.shear_modulus());
+            let volume = mass[i] / density[i];
+            modulus.map_or(0.0, |g| volume * stress[i].contract(&stress[i]) / (4.0 * g))
+        };
         let one = |i: usize| {
             let (m, u) = (mass[i], velocity[i]);
-            let law = &laws[phase.map_or(0, |p| p[i] as usize)];
+            let phase = phase.map_or(0, |p| p[i] as usize);
+            let law = &laws[phase];
             let speed = u.norm();
             let ratio = density[i] / law.reference().density;
             Balance {
@@ -85,7 +97,7 @@ impl<const D: usize> Balance<D> {
                 momentum_scale: m * speed,
                 kinetic: 0.5 * m * speed * speed,
                 potential: -m * gravity.dot(&position[i]),
-                internal: m * law.internal_energy(density[i]),
+                internal: m * law.internal_energy(density[i]) + strained(i, phase),
                 fastest: speed,
                 least_density: ratio,
                 largest_density: ratio,

@@ -1,0 +1,99 @@
+//! Strains and elastic stresses at walls that slip.
+
+use std::sync::Arc;
+
+use sph_core::{Stage, Symmetric, System, Vect, fields};
+use sph_neighbours::interactions;
+use sph_scene::parse;
+use sph_solver::{Assembled, assemble};
+use sph_stress::{GradientStage, Renormalised, StressDivergence};
+
+/// A periodic layer of shaken particles, 12 rows on a smooth floor.
+fn layer() -> Assembled<2> {
+    let text = r#"
+        title = "layer"
+        dimension = 2
+        [run]
+        end = 1.0
+        [numerics]
+        spacing = 0.1
+        smoothing_ratio = 2.0
+        disorder = 0.2
+        [numerics.periodic]
+        x = [0.0, 2.0]
+        [walls.usaw]
+        [wall.floor]
+        polyline = [[0.0, 0.0], [2.0, 0.0]]
+        condition = "free-slip"
+        [phase.rubber]
+        density = 1000.0
+        speed_of_sound = 20.0
+        [phase.rubber.rheology.elastic]
+        young_modulus = 1e5
+        poisson_ratio = 0.4
+        [body.layer]
+        phase = "rubber"
+        box = [[0.0, 0.0], [2.0, 1.2]]
+    "#;
+    let loaded = parse(text, "layer.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    parts.flow.evaluate().expect("a state");
+    parts
+}
+
+/// u = (3y, −2y) over a floor at rest: the floor stops the second and does not know the first.
+#[test]
+fn a_smooth_floor_counts_in_the_strain_across_it_and_not_along_it() {
+    let mut parts = layer();
+    let world = &mut parts.flow.world;
+    let positions = world.free.get(fields::POSITION).unwrap().to_vec();
+    let velocity = world.free.get_mut(fields::VELOCITY).unwrap();
+    for (u, x) in velocity.iter_mut().zip(&positions) {
+        *u = Vect::from([3.0 * x[1], -2.0 * x[1]]);
+    }
+    let mut stage = GradientStage::<2>(Arc::new(Renormalised {}));
+    stage.run(world).unwrap();
+    let gradients = world.free.get(fields::VELOCITY_GRADIENT).unwrap();
+    let mut most: f64 = 0.0;
+    for gradient in gradients {
+        let exact = [[0.0, 3.0], [0.0, -2.0]];
+        for (k, row) in exact.iter().enumerate() {
+            for (l, value) in row.iter().enumerate() {
+                most = most.max((gradient[(k, l)] - value).abs());
+            }
+        }
+    }
+    assert!(most < 1e-12, "off by {most} 1/s");
+}
+
+/// A smooth floor pushes upwards alone, whatever stress the layer carries.
+#[test]
+fn stresses_leave_no_force_along_a_smooth_floor() {
+    let mut parts = layer();
+    let world = &mut parts.flow.world;
+    let stress = world.free.get_mut(fields::CARRIED_STRESS).unwrap();
+    for (k, tau) in stress.iter_mut().enumerate() {
+        let value = |j: usize| 100.0 * ((k * 7 + j * 3) as f64).sin();
+        *tau = Symmetric::part_of(&nalgebra::Matrix3::new(
+            value(0),
+            value(1),
+            0.0,
+            value(1),
+            -value(0),
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+        ));
+    }
+    let terms = [StressDivergence::boxed()];
+    let mut acceleration = vec![Vect::zeros(); world.free.len()];
+    interactions(world, &mut Vec::new(), &terms, &mut acceleration, None).unwrap();
+    let mass = world.free.get(fields::MASS).unwrap();
+    let forces = mass.iter().zip(&acceleration);
+    let (along, scale) = forces.fold((0.0, 0.0), |(sum, scale), (m, a)| {
+        (sum + m * a[0], scale + m * a[0].abs())
+    });
+    assert!(scale > 1.0, "nothing pushes: {scale} N");
+    assert!((along / scale).abs() < 1e-12, "{along} N of {scale} N");
+}
