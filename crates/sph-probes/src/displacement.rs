@@ -41,8 +41,9 @@ impl<const D: usize> Probe<D> for DisplacementProbe {
         let position = world.free.get(fields::POSITION)?;
         let displacement = world.free.get(fields::DISPLACEMENT)?;
         let near = position.iter().zip(displacement).filter(|(x, moved)| {
+            let start = world.domain.wrapped(*x - *moved);
             // A little more than one spacing: a place on the lattice must not depend on rounding.
-            world.domain.nearest_image(*x - *moved - at).norm() < 1.001 * world.spacing
+            world.domain.nearest_image(start - at).norm() < 1.001 * world.spacing
         });
         let (mut count, mut sum) = (0.0, Vect::<D>::zeros());
         for (_, moved) in near {
