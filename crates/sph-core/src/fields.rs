@@ -50,6 +50,12 @@ pub const CARRIED_STRESS: Field<SymmetricTensor> = Field::new(
     "Pa",
     "deviatoric elastic stress that acts (xx, yy, zz, xy, yz, xz)",
 );
+/// What makes the plain velocity gradient exact, and its adjoint the force of a stress.
+pub const STRESS_CORRECTION: Field<Tensor> = Field::new(
+    "stress_correction",
+    "1",
+    "what makes the plain velocity gradient exact",
+);
 /// Wall renormalisation factor γ: the share of the kernel inside the walls.
 pub const RENORMALISATION: Field<Scalar> = Field::new(
     "renormalisation",

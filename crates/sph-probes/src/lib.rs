@@ -1,7 +1,7 @@
 //! What a run measures and what it is compared with.
 //!
 //! * [`Probe`]: columns of the time series, from the state of the flow ([`Front`],
-//!   [`PressureProbe`], [`VelocityProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`StreamFunction`]), and of
+//!   [`PressureProbe`], [`VelocityProbe`], [`DisplacementProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`StreamFunction`]), and of
 //!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
 //!   [`SurfaceSlope`], [`Line`]).
 //! * [`Solution`]: analytical flows, as references and as initial states.
@@ -11,8 +11,10 @@ mod angular_momentum;
 mod bagnold;
 mod bifluid_poiseuille;
 mod bingham_poiseuille;
+mod cantilever;
 mod contract;
 mod couette;
+mod displacement;
 mod elastic_shear_wave;
 mod energy;
 mod extent;
@@ -43,8 +45,10 @@ pub use angular_momentum::AngularMomentum;
 pub use bagnold::Bagnold;
 pub use bifluid_poiseuille::BifluidPoiseuille;
 pub use bingham_poiseuille::BinghamPoiseuille;
+pub use cantilever::Cantilever;
 pub use contract::{Probe, ProbeColumn, ProbeEntry, Solution, SolutionEntry};
 pub use couette::Couette;
+pub use displacement::DisplacementProbe;
 pub use elastic_shear_wave::ElasticShearWave;
 pub use energy::KineticEnergy;
 pub use extent::Extent;

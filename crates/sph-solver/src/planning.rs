@@ -9,8 +9,8 @@ use sph_neighbours::{Interaction, World, fuse_all};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_stress::{
-    CarriedStress, CoulombFriction, ElasticMotion, Felt, GradientStage, Rheologies, StrainRate,
-    StressDivergence, ViscosityStage,
+    AdjointDivergence, CarriedStress, CoulombFriction, ElasticMotion, Felt, GradientStage,
+    Rheologies, StrainRate, StressCorrection, StressDivergence, ViscosityStage,
 };
 
 use crate::choices::Choices;
@@ -91,8 +91,21 @@ pub fn plan_stages<const D: usize>(
              this table out, or give a phase a viscosity",
         ));
     }
-    if elastic {
-        terms.push(StressDivergence::boxed());
+    let adjoint = choices.velocity_gradient.clone();
+    let adjoint = adjoint.filter(|gradient| elastic && gradient.adjoint());
+    let grips = &world.walls;
+    let mut grips = grips.points.grip.iter().chain(&grips.elements.grip);
+    if adjoint.is_some() && grips.any(|grip| *grip < 1.0) {
+        return Err(SolverError::at(
+            "velocity-gradient.renormalised.adjoint",
+            "the adjoint force is not known at walls that slip: take `adjoint` out, or let all walls be \
+             \"no-slip\"",
+        ));
+    }
+    match adjoint.is_some() {
+        true => terms.push(Box::new(AdjointDivergence)),
+        false if elastic => terms.push(StressDivergence::boxed()),
+        false => {}
     }
     if let Some(smoother) = &choices.smoother {
         terms.push(smoother.term(laws));
@@ -161,6 +174,9 @@ pub fn plan_stages<const D: usize>(
     offered.push(Box::new(ViscosityStage(felt.clone())));
     if elastic {
         offered.push(Box::new(CarriedStress(felt.clone())));
+        if let Some(gradient) = adjoint {
+            offered.push(with_gamma(Box::new(StressCorrection(gradient))));
+        }
     }
     let mut lagged: Stages<D> = Vec::new();
     if let (Some(stage), true, Some(_)) = (stage_of_gradient(), felt.strain_rate(), &solved) {

@@ -22,6 +22,14 @@ pub struct NeighbourSums<const D: usize> {
 pub trait VelocityGradient<const D: usize>: Send + Sync {
     /// The gradient from the sums, 1/s; zero for a particle without neighbours.
     fn gradient(&self, sums: &NeighbourSums<D>) -> SMatrix<f64, D, D>;
+    /// Whether the force of an elastic stress is the adjoint of this formula, and not of the plain sum over γ.
+    fn adjoint(&self) -> bool {
+        false
+    }
+    /// C in G = 1/γ Σ (u_b − u_a) ⊗ weight C.
+    fn correction(&self, _sums: &NeighbourSums<D>) -> SMatrix<f64, D, D> {
+        SMatrix::identity()
+    }
 }
 
 contract!(

@@ -29,6 +29,14 @@ impl<const D: usize> VelocityGradient<D> for Isotropic {
             false => SMatrix::zeros(),
         }
     }
+
+    fn correction(&self, sums: &NeighbourSums<D>) -> SMatrix<f64, D, D> {
+        let trace = sums.position.trace() * sums.inverse_renormalisation;
+        match trace > 0.0 {
+            true => SMatrix::identity() * (D as f64 / trace),
+            false => SMatrix::zeros(),
+        }
+    }
 }
 
 register!(

@@ -4,13 +4,14 @@
 //!   [`GradientStage`] applies it, [`StrainRate`] takes the magnitude.
 //! * [`ViscosityStage`] hands batches of particles to their phase's law.
 //! * [`ElasticMotion`] carries remembered stresses along, [`CarriedStress`] tells what of them acts,
-//!   and [`StressDivergence`] is the force.
+//!   and [`StressDivergence`] or [`AdjointDivergence`] is the force.
 //! * [`EffectivePressure`] is a kind of plugin: the pressure between the grains, where it is not that
 //!   of the equation of state. [`Laplace`] is one.
 //! * [`CoulombFriction`] brakes soils on walls that have a coefficient of friction.
 //!
 //! Nothing here runs in a scene whose laws do not ask for it.
 
+mod adjoint;
 mod carried;
 mod coulomb;
 mod divergence;
@@ -27,6 +28,7 @@ mod symmetric_difference;
 mod viscosity;
 mod wave_limit;
 
+pub use adjoint::{AdjointDivergence, StressCorrection};
 pub use carried::CarriedStress;
 pub use coulomb::CoulombFriction;
 pub use divergence::StressDivergence;

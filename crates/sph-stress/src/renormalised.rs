@@ -16,23 +16,46 @@ use crate::{Isotropic, NeighbourSums, VelocityGradient, VelocityGradientEntry};
 ///
 /// ```toml
 /// [velocity-gradient.renormalised]
+/// adjoint = true
 /// ```
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct Renormalised {}
+pub struct Renormalised {
+    /// Whether the force of an elastic stress does the work of this gradient: stiffer at free surfaces, and the
+    /// energy is kept. Not for walls that slip.
+    #[schemars(extend("source" = "Bonet & Lok 1999, §4"))]
+    pub adjoint: bool,
+}
 
 /// Least determinant of the moment, over that of an even one with the same trace.
 const LEAST: f64 = 0.05;
 
 impl<const D: usize> VelocityGradient<D> for Renormalised {
     fn gradient(&self, sums: &NeighbourSums<D>) -> SMatrix<f64, D, D> {
-        let moment = &sums.position;
-        let even = (moment.trace() / D as f64).powi(D as i32);
-        match inverse(moment) {
-            Some((inverse, determinant)) if determinant > LEAST * even => sums.velocity * inverse,
-            _ => Isotropic {}.gradient(sums),
+        match trusted(&sums.position) {
+            Some(inverse) => sums.velocity * inverse,
+            None => Isotropic {}.gradient(sums),
         }
     }
+
+    fn adjoint(&self) -> bool {
+        self.adjoint
+    }
+
+    fn correction(&self, sums: &NeighbourSums<D>) -> SMatrix<f64, D, D> {
+        let gamma = 1.0 / sums.inverse_renormalisation;
+        match trusted(&sums.position) {
+            Some(inverse) => inverse * gamma,
+            None => Isotropic {}.correction(sums),
+        }
+    }
+}
+
+/// The inverse of a moment, unless neighbours are nearly in one line or plane.
+fn trusted<const D: usize>(moment: &SMatrix<f64, D, D>) -> Option<SMatrix<f64, D, D>> {
+    let even = (moment.trace() / D as f64).powi(D as i32);
+    let (inverse, determinant) = inverse(moment)?;
+    (determinant > LEAST * even).then_some(inverse)
 }
 
 /// Inverse and determinant by cofactors; only two and three dimensions have them.
@@ -75,7 +98,7 @@ mod tests {
             position: moment,
             inverse_renormalisation: 1.3,
         };
-        assert!((Renormalised {}.gradient(&sums) - gradient).norm() < 1e-14);
+        assert!((Renormalised::default().gradient(&sums) - gradient).norm() < 1e-14);
         let moment = Matrix2::new(0.5, 0.05, 0.05, 1.1);
         let gradient = Matrix2::new(1.0, -2.0, 0.5, 0.3);
         let sums = NeighbourSums {
@@ -83,7 +106,24 @@ mod tests {
             position: moment,
             inverse_renormalisation: 1.0,
         };
-        assert!((Renormalised {}.gradient(&sums) - gradient).norm() < 1e-14);
+        assert!((Renormalised::default().gradient(&sums) - gradient).norm() < 1e-14);
+    }
+
+    #[test]
+    fn the_correction_makes_the_plain_sum_the_gradient() {
+        let moment = Matrix2::new(0.5, 0.05, 0.04, 1.1);
+        let row = Matrix2::new(1.0, 0.0, 0.0, 0.0);
+        for position in [moment, row, Matrix2::zeros()] {
+            let sums = NeighbourSums {
+                velocity: Matrix2::new(1.0, -2.0, 0.5, 0.3),
+                position,
+                inverse_renormalisation: 1.25,
+            };
+            let law = Renormalised { adjoint: true };
+            let plain = sums.velocity * sums.inverse_renormalisation;
+            let corrected = plain * law.correction(&sums);
+            assert!((corrected - law.gradient(&sums)).norm() < 1e-14);
+        }
     }
 
     #[test]
@@ -94,7 +134,7 @@ mod tests {
             (Matrix2::zeros(), Matrix2::zeros()),
             (row * 1e-300, row * 1e-300),
         ] {
-            let gradient = Renormalised {}.gradient(&NeighbourSums {
+            let gradient = Renormalised::default().gradient(&NeighbourSums {
                 velocity,
                 position,
                 inverse_renormalisation: 1.0,

@@ -11,6 +11,14 @@ fn column(run: &Finished, name: &str) -> Vec<f64> {
     column.to_vec()
 }
 
+/// Times at which a column crosses zero.
+fn crossings(time: &[f64], value: &[f64]) -> Vec<f64> {
+    let pairs = time.windows(2).zip(value.windows(2));
+    let crossed = pairs.filter(|(_, v)| v[0] * v[1] < 0.0);
+    let place = |(t, v): (&[f64], &[f64])| t[0] + v[0] / (v[0] - v[1]) * (t[1] - t[0]);
+    crossed.map(place).collect()
+}
+
 /// A channel of 48 spacings instead of 97.
 const COARSE: [&str; 5] = [
     "numerics.spacing=0.020833333333333332",
@@ -68,13 +76,7 @@ fn a_pile_of_beads_runs_out_and_stops() {
 fn a_shear_wave_keeps_its_frequency_within_2_per_cent_and_its_energy() {
     let run = finished("elastic-shear-wave", &[]);
     let (time, crest) = (column(&run, "time"), column(&run, "crest.x"));
-    let mut zeros = Vec::new();
-    for k in 1..time.len() {
-        if crest[k - 1] * crest[k] < 0.0 {
-            let share = crest[k - 1] / (crest[k - 1] - crest[k]);
-            zeros.push(time[k - 1] + share * (time[k] - time[k - 1]));
-        }
-    }
+    let zeros = crossings(&time, &crest);
     let half_periods = (zeros.len() - 1) as f64;
     let period = 2.0 * (zeros[zeros.len() - 1] - zeros[0]) / half_periods;
     // 1.4 % too slow with 40 particles per wavelength: what smoothing with h = 2 δr costs.
@@ -184,4 +186,61 @@ fn a_block_on_a_rough_floor_loses_mu_g_within_1_per_cent() {
     let literal = deceleration(&["wall.floor.friction_form=literal"]);
     assert!((0.1..0.5).contains(&literal), "{literal} of μg");
     println!("normalised {normalised}, literal {literal}");
+}
+
+/// Five rows of particles instead of eight.
+#[test]
+fn a_clamped_plate_swings_without_clumps() {
+    let coarse = [
+        "run.end=0.5",
+        "numerics.spacing=0.004",
+        "body.root.box=[[-0.022,-0.012],[0.002,0.012]]",
+        "body.plate.box=[[0.002,-0.012],[0.202,0.012]]",
+    ];
+    let run = finished("elastic-beam", &coarse);
+    let (time, tip) = (column(&run, "time"), column(&run, "tip.y"));
+    let zeros = crossings(&time, &tip);
+    let frequency = 0.254 / (zeros[2] - zeros[0]);
+    // 0.926 with the scene's eight rows, 0.96 with ten.
+    assert!(
+        (frequency - 0.81).abs() < 0.02,
+        "{frequency} of a thin plate's frequency, 0.81 was measured"
+    );
+    let largest = |from: f64, to: f64| {
+        let rows = time
+            .iter()
+            .zip(&tip)
+            .filter(|(t, _)| (from..to).contains(*t));
+        rows.fold(0.0_f64, |most, (_, y)| most.max(y.abs()))
+    };
+    let kept = largest(zeros[1], 0.5) / largest(0.0, zeros[0]);
+    assert!(
+        kept > 0.97,
+        "{kept} of the amplitude after a period, 1.01 was measured"
+    );
+    let densest = column(&run, "largest_density_ratio");
+    let densest = densest.iter().fold(0.0_f64, |most, rho| most.max(*rho));
+    assert!(densest < 1.01, "clumps of {densest} times the density");
+}
+
+#[test]
+fn a_soil_rests_below_its_friction_angle_and_slides_above_it() {
+    let resting = finished("resting-slope", &["run.end=1"]);
+    let crept = *column(&resting, "surface.x").last().expect("a row") / 0.01;
+    assert!(
+        crept.abs() < 0.1,
+        "27°: {crept} spacings after 1 s, 0.07 were measured"
+    );
+    let steep = [
+        "numerics.gravity=[0,-8.227]",
+        "numerics.driving=[5.343,0]",
+        "run.end=1",
+    ];
+    let sliding = finished("resting-slope", &steep);
+    let speed = *column(&sliding, "top.x").last().expect("a row");
+    // 8 % too fast, as infinite-slope is.
+    assert!(
+        (speed / 0.593 - 1.0).abs() < 0.12,
+        "33°: {speed} m/s after 1 s, 0.642 was measured"
+    );
 }

@@ -1,0 +1,136 @@
+//! The first bending mode of a plate that is clamped at one end.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Vect, register};
+
+use crate::{Solution, SolutionEntry};
+
+/// u = U f(x)/f(L) cos(ωt) across the plate, with kL = 1.875 and ω² = EH²k⁴/(12ρ(1 − ν²)).
+///
+/// f(x) = (cos kL + cosh kL)(cosh kx − cos kx) + (sin kL − sinh kL)(sinh kx − sin kx)
+///
+/// Symbols: U speed of the tip (m/s); L length (m); H thickness (m); E Young's modulus (Pa); ν Poisson's
+/// ratio; ρ density (kg/m³); x the first coordinate from `root` on, where the plate is clamped. The velocity is
+/// that of the last coordinate; before `root` it is zero. For a thin plate, kH ≪ 1, and small deflections.
+///
+/// Source: Landau & Lifshitz 1970, §25; Gray et al. 2001, §5.2.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cantilever {
+    /// Speed of the tip U.
+    #[schemars(extend("unit" = "m/s"))]
+    pub speed: f64,
+    /// Where the plate leaves its clamp.
+    #[serde(default)]
+    #[schemars(extend("unit" = "m"))]
+    pub root: f64,
+    /// Length L beyond the clamp.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    pub length: f64,
+    /// Thickness H.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    pub thickness: f64,
+    /// Young's modulus E.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa"))]
+    pub young_modulus: f64,
+    /// Poisson's ratio ν.
+    #[schemars(range(max = 0.5), extend("exclusiveMinimum" = -1.0, "unit" = "1"))]
+    pub poisson_ratio: f64,
+    /// Density ρ.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "kg/m³"))]
+    pub density: f64,
+}
+
+/// First positive root of 1 + cos s cosh s = 0.
+const FIRST_ROOT: f64 = 1.875_104_068_711_961;
+
+impl Cantilever {
+    /// Angular frequency ω, 1/s.
+    fn frequency(&self) -> f64 {
+        let k = FIRST_ROOT / self.length;
+        let plate = self.young_modulus / (12.0 * self.density * (1.0 - self.poisson_ratio.powi(2)));
+        self.thickness * k * k * plate.sqrt()
+    }
+
+    /// f(x)/f(L) at s = kx.
+    fn shape(s: f64) -> f64 {
+        let (sin, cos) = FIRST_ROOT.sin_cos();
+        let f = |s: f64| {
+            (cos + FIRST_ROOT.cosh()) * (s.cosh() - s.cos())
+                + (sin - FIRST_ROOT.sinh()) * (s.sinh() - s.sin())
+        };
+        f(s) / f(FIRST_ROOT)
+    }
+}
+
+impl<const D: usize> Solution<D> for Cantilever {
+    fn velocity(&self, position: &Vect<D>, time: f64) -> Option<Vect<D>> {
+        let along = (position[0] - self.root).max(0.0);
+        let mut velocity = Vect::zeros();
+        let shape = Self::shape(FIRST_ROOT * along / self.length);
+        velocity[D - 1] = self.speed * (self.frequency() * time).cos() * shape;
+        Some(velocity)
+    }
+}
+
+register!(
+    SolutionEntry [2, 3],
+    Cantilever,
+    "cantilever",
+    "first bending mode of a plate clamped at one end",
+    "Landau & Lifshitz 1970, §25"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mode_is_clamped_at_its_root_and_free_at_its_tip() {
+        assert!((1.0 + FIRST_ROOT.cos() * FIRST_ROOT.cosh()).abs() < 1e-12);
+        let f = Cantilever::shape;
+        let d = 1e-3;
+        let slope = |s: f64| (f(s + d) - f(s - d)) / (2.0 * d);
+        let moment = |s: f64| (f(s + d) - 2.0 * f(s) + f(s - d)) / (d * d);
+        let shear = (moment(FIRST_ROOT + d) - moment(FIRST_ROOT - d)) / (2.0 * d);
+        assert!(f(0.0).abs() < 1e-12 && slope(0.0).abs() < 1e-6);
+        assert!((f(FIRST_ROOT) - 1.0).abs() < 1e-12);
+        // Blevins 1979, Table 8-1: the tip turns by 1.3765 times its deflection over the length.
+        assert!((slope(FIRST_ROOT) * FIRST_ROOT - 1.3765).abs() < 1e-4);
+        assert!(moment(FIRST_ROOT).abs() < 1e-6 && shear.abs() < 1e-4);
+    }
+
+    #[test]
+    fn the_plate_swings_as_its_stiffness_says() {
+        let plate = Cantilever {
+            speed: 0.57,
+            root: 0.1,
+            length: 0.2,
+            thickness: 0.02,
+            young_modulus: 2e6,
+            poisson_ratio: 0.3975,
+            density: 1000.0,
+        };
+        assert!((plate.frequency() - 24.73).abs() < 0.01);
+        let at = |x: f64, t: f64| {
+            let u: Option<Vect<2>> = plate.velocity(&Vect::from([x, 0.0]), t);
+            u.map_or(f64::NAN, |u| u[1])
+        };
+        assert_eq!(at(0.05, 0.0), 0.0);
+        assert!((at(0.3, 0.0) - 0.57).abs() < 1e-12);
+        // ρ ∂²u/∂t² = −EH²/(12(1 − ν²)) ∂⁴u/∂x⁴ amid the plate.
+        let (x, t, d) = (0.23, 0.01, 4e-3);
+        let weights = [1.0, -4.0, 6.0, -4.0, 1.0];
+        let terms = weights.iter().enumerate();
+        let fourth = terms.map(|(k, w)| w * at(x + (k as f64 - 2.0) * d, t));
+        let fourth = fourth.sum::<f64>() / d.powi(4);
+        let second = (at(x, t + 1e-4) - 2.0 * at(x, t) + at(x, t - 1e-4)) / 1e-8;
+        let stiffness = 2e6 * 4e-4 / (12.0 * (1.0 - 0.3975_f64.powi(2)));
+        let force = stiffness * fourth;
+        assert!(
+            (1000.0 * second / force + 1.0).abs() < 1e-2,
+            "{second} {force}"
+        );
+    }
+}
