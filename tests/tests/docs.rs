@@ -47,6 +47,20 @@ fn the_code_of_the_plugin_page_is_that_of_a_test() {
 }
 
 #[test]
+fn every_scene_is_in_the_readme_and_every_study_in_its_page() {
+    for (folder, page) in [("scenes", "README.md"), ("studies", "docs/studies.md")] {
+        let page = std::fs::read_to_string(root().join(page)).expect("a page");
+        let files = std::fs::read_dir(root().join(folder)).expect("a folder");
+        let files = files.map(|f| f.expect("an entry").path());
+        for file in files.filter(|p| p.extension().is_some_and(|e| e == "toml")) {
+            let name = file.file_name().and_then(|n| n.to_str()).expect("a name");
+            let link = format!("{folder}/{name})");
+            assert!(page.contains(&link), "{link} is not linked");
+        }
+    }
+}
+
+#[test]
 fn every_whole_scene_of_the_documents_can_be_assembled() {
     let mut scenes = 0;
     for (page, text) in documents() {
