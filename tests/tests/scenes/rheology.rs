@@ -170,7 +170,7 @@ fn a_slurry_freezes_within_six_depths_of_its_gate() {
 
 /// A block with μ = 0.3 on the floor; the source's own form is measured beside it.
 #[test]
-fn a_block_on_a_rough_floor_loses_mu_g_within_1_per_cent() {
+fn a_block_on_a_rough_floor_loses_mu_g_within_3_per_cent() {
     let deceleration = |settings: &[&str]| {
         let coarse = ["numerics.spacing=0.01"];
         let run = finished("coulomb-block", &[&coarse, settings].concat());
@@ -182,10 +182,12 @@ fn a_block_on_a_rough_floor_loses_mu_g_within_1_per_cent() {
     };
     let normalised = deceleration(&[]);
     let off = (normalised - 1.0).abs();
-    assert!(off < 0.03, "{normalised} of μg, 1.008 was measured");
+    assert!(off < 0.03, "{normalised} of μg, 1.010 was measured");
     let literal = deceleration(&["wall.floor.friction_form=literal"]);
-    assert!((0.1..0.5).contains(&literal), "{literal} of μg");
-    println!("normalised {normalised}, literal {literal}");
+    assert!(
+        (literal - 0.234).abs() < 0.02,
+        "{literal} of μg, 0.234 was measured"
+    );
 }
 
 /// Five rows of particles instead of eight.
