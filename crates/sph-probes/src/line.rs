@@ -22,11 +22,11 @@ pub enum LineOf {
 /// Root mean square of the height of a line over a reference's, at the reference's points, and the
 /// share of these points where there is a line.
 ///
-/// The line is the highest particle of every column of a spacing's width, and half a spacing; with
-/// `of = "failure"` the highest that has moved by less than `moved` since the start, wherever that
-/// is: the limit between the soil that failed and that which did not. Between the middles of two
-/// columns the line is straight, and it ends half a spacing beyond the last ones; a column without a
-/// particle interrupts it. Points of the reference without a line do not count in the first value:
+/// The line goes through the highest particle of every column of two spacings' width, half a spacing
+/// above it; with `of = "failure"` through the highest that has moved by less than `moved` since the
+/// start, wherever that is: the limit between the soil that failed and that which did not. Between
+/// two particles the line is straight, beyond the last ones level; a column without a particle
+/// interrupts it. Points of the reference without a line do not count in the first value:
 /// look at both. Without any the first is NaN.
 ///
 /// Displacements are kept for such probes only.
@@ -69,8 +69,8 @@ fn threshold() -> f64 {
 }
 
 impl Line {
-    /// Height of the line in columns of a spacing's width, and the number of the first column.
-    fn columns(&self, world: &World<2>) -> Result<(Vec<Option<f64>>, f64), StepError> {
+    /// The highest particle of every column, m, and the number of the first column.
+    fn tops(&self, world: &World<2>) -> Result<(Vec<Option<[f64; 2]>>, f64), StepError> {
         let counted = Counted::of(world, self.phase.as_deref(), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
         let moved = match self.of {
@@ -79,37 +79,47 @@ impl Line {
         };
         let rests = |k: usize| moved.is_none_or(|moved| moved[k].norm() < self.moved);
         // Particles far away from the reference make no columns: these must fit into memory.
-        let xs = || self.reference.iter().map(|[x, _]| x / world.spacing);
+        let width = WIDTH * world.spacing;
+        let xs = || self.reference.iter().map(|[x, _]| x / width);
         let first = xs().fold(f64::INFINITY, f64::min).floor() - 1.0;
         let count = xs().fold(f64::NEG_INFINITY, f64::max).floor() + 2.0 - first;
-        let mut highest = vec![None::<f64>; count.clamp(0.0, MOST) as usize];
+        let mut highest = vec![None::<[f64; 2]>; count.clamp(0.0, MOST) as usize];
         for (k, x) in positions.iter().enumerate() {
-            let column = (x[0] / world.spacing).floor() - first;
+            let column = (x[0] / width).floor() - first;
             if column < 0.0 || column >= highest.len() as f64 || !counted.has(k) || !rests(k) {
                 continue;
             }
             let top = &mut highest[column as usize];
-            let y = x[1] + 0.5 * world.spacing;
-            *top = Some(top.map_or(y, |top| top.max(y)));
+            let here = [x[0], x[1] + 0.5 * world.spacing];
+            // Of equals the first in space, whatever the order of the particles.
+            if top.is_none_or(|t| (here[1], -here[0]) > (t[1], -t[0])) {
+                *top = Some(here);
+            }
         }
         Ok((highest, first))
     }
 }
 
+/// Width of a column in spacings: particles that have moved apart by more than one leave narrower
+/// columns empty down to the rows below.
+const WIDTH: f64 = 2.0;
+
 /// Most columns; a reference may have a wrong unit.
 const MOST: f64 = 1e6;
 
-/// The height at a place counted in columns from the first.
-fn height(columns: &[Option<f64>], along: f64) -> Option<f64> {
-    let own = columns.get(along as usize).copied().flatten()?;
-    let off = along - along.floor() - 0.5;
-    let other = match off < 0.0 {
-        true => (along as usize).checked_sub(1),
-        false => Some(along as usize + 1),
+/// The height at x; `column` is its own.
+fn height(tops: &[Option<[f64; 2]>], column: f64, x: f64) -> Option<f64> {
+    let column = column as usize;
+    let own = tops.get(column).copied().flatten()?;
+    let other = match x < own[0] {
+        true => column.checked_sub(1),
+        false => Some(column + 1),
     };
-    let other = other.and_then(|k| columns.get(k).copied().flatten());
     // At the ends, and beside a gap, the line is level.
-    Some(own + off.abs() * (other.unwrap_or(own) - own))
+    let Some(other) = other.and_then(|k| tops.get(k).copied().flatten()) else {
+        return Some(own[1]);
+    };
+    Some(own[1] + (x - own[0]) / (other[0] - own[0]) * (other[1] - own[1]))
 }
 
 impl Probe<2> for Line {
@@ -145,10 +155,11 @@ impl Probe<2> for Line {
     }
 
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {
-        let (columns, first) = Line::columns(self, world)?;
+        let (tops, first) = self.tops(world)?;
         let (mut squares, mut count) = (0.0, 0_usize);
         for [x, y] in &self.reference {
-            if let Some(height) = height(&columns, x / world.spacing - first) {
+            let column = (x / (WIDTH * world.spacing)).floor() - first;
+            if let Some(height) = height(&tops, column, *x) {
                 squares += (height - y).powi(2);
                 count += 1;
             }

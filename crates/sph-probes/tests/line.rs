@@ -56,8 +56,9 @@ fn measured(keys: &str, world: &World<2>, rows: Vec<[f64; 2]>) -> Vec<f64> {
 #[test]
 fn a_straight_surface_is_met_and_a_shift_is_its_distance() {
     let at = |x: f64, shift: f64| [x, 1.0 + 0.3 * x + shift];
+    // Between the first top and the last.
     let line = |shift| {
-        (1..19)
+        (2..19)
             .map(|k| at(0.05 * f64::from(k) + 0.01, shift))
             .collect()
     };
@@ -83,6 +84,18 @@ fn the_failure_line_is_over_what_has_hardly_moved() {
     assert!((all[0] - 0.25).abs() < 1e-12, "{all:?}");
     let none = measured("of = \"failure\"\nmoved = \"10 um\"", &world(0.0), line);
     assert!(none[0].is_nan() && none[1] == 0.0, "{none:?}");
+}
+
+/// Particles that slid apart leave columns of one spacing empty, but for what lies deeper.
+#[test]
+fn gaps_between_the_highest_are_bridged() {
+    let mut world = world(0.0);
+    for x in world.free.get_mut(fields::POSITION).unwrap() {
+        x[0] *= if x[1] > 0.9 { 1.3 } else { 1.0 };
+    }
+    let line = (2..18).map(|k| [0.05 * f64::from(k), 1.0]).collect();
+    let found = measured("", &world, line);
+    assert!(found[0] < 1e-12 && found[1] == 1.0, "{found:?}");
 }
 
 #[test]
