@@ -24,6 +24,11 @@ use crate::{Cone, Elastic, Inputs, Needs, Rheology, RheologyEntry, jaumann};
 /// Liquid at x ≥ 1 forgets its stress; to chatter less, a stress that is zero stays zero down to
 /// x = 0.9 (ours).
 ///
+/// Nothing of this damps the vibrations of a soil at rest, each of which cuts a little of its stress, so that it
+/// creeps. `damping` β adds a viscosity βη_y to the solid: τ = ζτ_y/γ̇ · 2D + (1 − ζ)(τˢ + βη_y · 2D). That is Rayleigh
+/// damping in proportion to the stiffness, with the time βη_y/𝒢; it delays what yields by no more than
+/// 0.26 β τ_y for q = 2 (ours; the source has none).
+///
 /// The pressure is the effective one where the scene computes it. Limits: constant friction and
 /// porosity; grains of a third of the spacing to the spacing.
 ///
@@ -100,6 +105,10 @@ pub struct DruckerPrager {
     #[serde(default)]
     #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "ours"))]
     pub smallest_viscosity: f64,
+    /// Viscosity β of the solid over the yield viscosity η_y: lets its vibrations ring out.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "ours"))]
+    pub damping: f64,
 }
 
 fn two() -> f64 {
@@ -211,14 +220,15 @@ impl Rheology for DruckerPrager {
         let bound = self.bound();
         for (k, eta) in viscosity.iter_mut().enumerate() {
             let (_, x) = bound.state(inputs, k);
-            let blended = bound.yield_viscosity * self.relative_viscosity(x);
+            let solid = self.damping * (1.0 - self.liquid_share(x));
+            let blended = bound.yield_viscosity * (self.relative_viscosity(x) + solid);
             *eta = blended.max(self.smallest_viscosity);
         }
     }
-    /// η_y times the maximum of (q + 1)x^(q−1) − q x^q, which is at x = 1 − 1/q².
+    /// η_y times the maximum of (q + 1)x^(q−1) − q x^q, which is at x = 1 − 1/q², and β at most.
     fn largest_viscosity(&self) -> f64 {
         let q = self.blending_order;
-        let most = self.relative_viscosity(1.0 - 1.0 / (q * q));
+        let most = self.relative_viscosity(1.0 - 1.0 / (q * q)) + self.damping;
         (self.yield_viscosity() * most).max(self.smallest_viscosity)
     }
     fn elastic(&self) -> Option<&dyn Elastic> {
