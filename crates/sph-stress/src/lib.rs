@@ -46,7 +46,7 @@ pub use elastic_force::{Blend, ElasticForce, ElasticForceEntry};
 pub use felt::Felt;
 pub use gradient::{GradientStage, NeighbourSums, VelocityGradient, VelocityGradientEntry};
 pub use isotropic::Isotropic;
-pub use laplace::Laplace;
+pub use laplace::{Laplace, PressureSolver};
 pub use renormalised::Renormalised;
 pub use strain_rate::StrainRate;
 pub use symmetric_difference::SymmetricDifference;
