@@ -14,5 +14,7 @@ pub use state::{FinalState, files_with_extension};
 pub const DAM_BREAK: &str = include_str!("scenes/dam-break.toml");
 /// The same with a paddle that moves into the fluid.
 pub const PADDLE: &str = include_str!("scenes/paddle.toml");
+/// A soil that remembers displacements and blends forces.
+pub const SOIL: &str = include_str!("scenes/soil.toml");
 /// A fluid without walls, periodic in both directions.
 pub const PERIODIC: &str = include_str!("scenes/periodic.toml");

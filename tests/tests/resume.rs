@@ -5,7 +5,7 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE};
+use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -92,6 +92,15 @@ fn displacements_go_on_where_they_were() {
     assert!(whole.columns.contains_key("displacement"));
     let resumed = killed_and_resumed(&bench, 0.11, 1);
     whole.assert_same(&resumed, "with displacements");
+}
+
+#[test]
+fn what_a_soil_remembers_of_its_way_goes_on_where_it_was() {
+    let bench = Bench::with(PROGRAM, SOIL);
+    let whole = uninterrupted(&bench);
+    assert!(whole.columns.contains_key("elastic_turn"));
+    let resumed = killed_and_resumed(&bench, 0.04, 1);
+    whole.assert_same(&resumed, "with elastic displacements");
 }
 
 #[test]

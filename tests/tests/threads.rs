@@ -1,6 +1,6 @@
 //! The number of threads changes the speed and not one bit of the result.
 
-use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE};
+use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -35,4 +35,9 @@ fn an_implicit_viscosity_gives_the_same_bits_with_every_solver() {
         let stiff = "--set phase.water.rheology.newtonian.viscosity=50";
         same_for_all_threads(&format!("{DAM_BREAK}\n{tables}\n"), stiff);
     }
+}
+
+#[test]
+fn a_soil_that_remembers_displacements_gives_the_same_bits() {
+    same_for_all_threads(SOIL, "--set run.end=0.06");
 }

@@ -50,6 +50,36 @@ pub const CARRIED_STRESS: Field<SymmetricTensor> = Field::new(
     "Pa",
     "deviatoric elastic stress that acts (xx, yy, zz, xy, yz, xz)",
 );
+/// Way of an elastic material since it was last liquid.
+pub const ELASTIC_DISPLACEMENT: Field<Vector> = Field::new(
+    "elastic_displacement",
+    "m",
+    "way of an elastic material since it was last liquid",
+);
+/// What turns have made of the remembered stress since the material was last liquid: ∫(ωτ − τω)dt.
+pub const ELASTIC_TURN: Field<SymmetricTensor> = Field::new(
+    "elastic_turn",
+    "Pa",
+    "what turns have made of the remembered stress (xx, yy, zz, xy, yz, xz)",
+);
+/// Share of the viscous force in a material that blends its forces.
+pub const FRICTION_SHARE: Field<Scalar> = Field::new(
+    "friction_share",
+    "1",
+    "share ζ of the viscous force in a material that blends",
+);
+/// Share of the elastic stress or force in a material that blends.
+pub const SOLID_SHARE: Field<Scalar> = Field::new(
+    "solid_share",
+    "1",
+    "share 1 − ζ of the elastic force in a material that blends",
+);
+/// What the yield stress leaves of an elastic force.
+pub const HELD_SHARE: Field<Scalar> = Field::new(
+    "held_share",
+    "1",
+    "min(1, τ_y/|τ|): what the yield stress leaves of an elastic force",
+);
 /// What makes the plain velocity gradient exact, and its adjoint the force of a stress.
 pub const STRESS_CORRECTION: Field<Tensor> = Field::new(
     "stress_correction",

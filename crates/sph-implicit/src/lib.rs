@@ -1,7 +1,8 @@
 //! Sparse symmetric systems on the neighbour graph, and what solves them.
 //!
 //! * [`Matrix`]: rows of particles, scalar or d × d entries, [`assemble`]d from the neighbour lists.
-//! * [`LinearSolver`]: [`Automatic`], [`Cholesky`], [`ConjugateGradient`], [`Bicgstab`], as plugins.
+//! * [`LinearSolver`]: [`Automatic`], [`Cholesky`], [`ConjugateGradient`], [`Bicgstab`], as plugins;
+//!   [`Jacobi`] for comparison.
 //! * [`TimeScheme`]: how friction is taken over a step, [`BackwardEuler`] or [`CrankNicolson`].
 //!
 //! Nothing here knows what is solved for: a viscous velocity, a pressure, a temperature.
@@ -27,6 +28,7 @@ mod conjugate_gradient;
 mod entry;
 mod error;
 mod incomplete;
+mod jacobi;
 mod krylov;
 mod matrix;
 mod precondition;
@@ -42,6 +44,7 @@ pub use conjugate_gradient::ConjugateGradient;
 pub use entry::{Block, Entry};
 pub use error::SolveError;
 pub use incomplete::Incomplete;
+pub use jacobi::Jacobi;
 pub use krylov::Tolerance;
 pub use matrix::{Entries, Matrix, Pattern, Values};
 pub use precondition::Preconditioner;

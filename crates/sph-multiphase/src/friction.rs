@@ -134,7 +134,7 @@ pub struct Sum<const D: usize> {
 }
 
 /// What u = (y², 0, …) gives on a lattice with the scene's spacing and kernel, over the exact 2.
-fn lattice_response<const D: usize, F: PairFriction<D>>(friction: F, world: &World<D>) -> f64 {
+pub fn lattice_response<const D: usize, F: PairFriction<D>>(friction: F, world: &World<D>) -> f64 {
     let cell = world.spacing.powi(D as i32);
     let sum = lattice_sum(world, |pair| {
         let mut relative = Vect::zeros();

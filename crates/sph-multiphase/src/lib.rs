@@ -61,9 +61,11 @@ pub use delta_multiphase::{Balance, DeltaMultiphase};
 pub use delta_sph::{DENSITY_GRADIENT, DeltaForm, DeltaSph};
 pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, OwnVolume, TheirVolume};
 pub use eos::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
-pub use espanol_revenga::EspanolRevenga;
+pub use espanol_revenga::{EspanolRevenga, WithTransposed};
 pub use fickian::{Fickian, Transport};
-pub use friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm, Within};
+pub use friction::{
+    Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm, Within, lattice_response,
+};
 pub use gradient::{
     BetweenParticles, PairPressure, PressureGradient, Side, SquaredVolumes, SumOfPressures,
 };

@@ -30,6 +30,29 @@ impl Inputs<'_> {
     }
 }
 
+/// What yielding leaves of the two forces of a law with an elastic part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Yielding {
+    /// Share of the viscous force in a blend: ζ, 1 for a law that does not blend.
+    pub friction: f64,
+    /// Share of the elastic force in a blend: 1 − ζ, 1 for a law that does not blend.
+    pub solid: f64,
+    /// min(1, τ_y/|τ|): what the yield stress leaves of a stress that was not cut.
+    pub held: f64,
+    /// Whether the material is liquid and forgets that it was deformed.
+    pub forgets: bool,
+}
+
+impl Yielding {
+    /// A solid that never yields.
+    pub const NONE: Yielding = Yielding {
+        friction: 1.0,
+        solid: 1.0,
+        held: 1.0,
+        forgets: false,
+    };
+}
+
 /// A constitutive law: an effective viscosity η in τ = 2 η D, an elastic part, or both.
 pub trait Rheology: Send + Sync + std::fmt::Debug {
     /// What the law reads.
@@ -65,6 +88,18 @@ pub trait Elastic: Send + Sync {
     /// The stress that acts, from the remembered one: (1 − ζ)τ for a law that blends with a
     /// viscous part.
     fn carried(&self, inputs: &Inputs<'_>, stress: &[Symmetric], carried: &mut [Symmetric]);
+    /// Whether a viscous liquid takes the place of the solid where it yields.
+    fn blends(&self) -> bool {
+        false
+    }
+    /// How a batch yields, from a remembered stress that need not be cut.
+    fn yielding(&self, _inputs: &Inputs<'_>, _stress: &[Symmetric], yielding: &mut [Yielding]) {
+        yielding.fill(Yielding::NONE);
+    }
+    /// Viscosity of the liquid alone, Pa s, for a law that [`blends`](Elastic::blends): without the share ζ.
+    fn liquid_viscosity(&self, _inputs: &Inputs<'_>, viscosity: &mut [f64]) {
+        viscosity.fill(0.0);
+    }
 }
 
 contract!(

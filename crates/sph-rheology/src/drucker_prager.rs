@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Symmetric, register};
 
-use crate::{Cone, Elastic, Inputs, Needs, Rheology, RheologyEntry, jaumann};
+use crate::{Cone, Elastic, Inputs, Needs, Rheology, RheologyEntry, Yielding, jaumann};
 
 /// τ = ζ τ_y/γ̇ · 2D + (1 − ζ)τˢ: an elastic solid at rest, a liquid of constant friction when it
 /// shears.
@@ -186,24 +186,33 @@ impl Bound {
         stress: &Symmetric,
         next: impl FnOnce(&Symmetric) -> Symmetric,
     ) -> Symmetric {
-        let liquid = match *stress == Symmetric::ZERO {
-            true => x >= SOLID_AGAIN,
-            false => x >= 1.0,
-        };
-        match liquid {
+        match liquid(x, stress) {
             true => Symmetric::ZERO,
             false => cut(next(stress), yield_stress),
         }
     }
 }
 
-/// The stress scaled back to |τ| ≤ τ_y. Source: Ghaïtanellis 2017, Eq. 4.74.
-fn cut(stress: Symmetric, yield_stress: f64) -> Symmetric {
-    let magnitude = jaumann::magnitude(&stress);
-    match magnitude > yield_stress {
-        true => stress * (yield_stress / magnitude),
-        false => stress,
+/// Whether an entry is liquid: from x = 1 on, and a stress that is zero down to [`SOLID_AGAIN`].
+fn liquid(x: f64, stress: &Symmetric) -> bool {
+    match *stress == Symmetric::ZERO {
+        true => x >= SOLID_AGAIN,
+        false => x >= 1.0,
     }
+}
+
+/// min(1, τ_y/|τ|). Source: Ghaïtanellis 2017, Eq. 4.74.
+fn held(stress: &Symmetric, yield_stress: f64) -> f64 {
+    let magnitude = jaumann::magnitude(stress);
+    match magnitude > yield_stress {
+        true => yield_stress / magnitude,
+        false => 1.0,
+    }
+}
+
+/// The stress scaled back to |τ| ≤ τ_y.
+fn cut(stress: Symmetric, yield_stress: f64) -> Symmetric {
+    stress * held(&stress, yield_stress)
 }
 
 impl Rheology for DruckerPrager {
@@ -259,6 +268,31 @@ impl Elastic for DruckerPrager {
         for (k, (carried, stress)) in carried.iter_mut().zip(stress).enumerate() {
             let (yield_stress, x) = bound.state(inputs, k);
             *carried = cut(*stress, yield_stress) * (1.0 - self.liquid_share(x));
+        }
+    }
+    fn blends(&self) -> bool {
+        true
+    }
+    fn yielding(&self, inputs: &Inputs<'_>, stress: &[Symmetric], yielding: &mut [Yielding]) {
+        let bound = self.bound();
+        for (k, (yielding, stress)) in yielding.iter_mut().zip(stress).enumerate() {
+            let (yield_stress, x) = bound.state(inputs, k);
+            let share = self.liquid_share(x);
+            *yielding = Yielding {
+                friction: share,
+                solid: 1.0 - share,
+                held: held(stress, yield_stress),
+                forgets: liquid(x, stress),
+            };
+        }
+    }
+    /// min(τ_y/γ̇, η_y). Source: Ghaïtanellis 2017, Eq. 4.76, bounded by η_y as ζτ_y/γ̇ is.
+    fn liquid_viscosity(&self, inputs: &Inputs<'_>, viscosity: &mut [f64]) {
+        let bound = self.bound();
+        for (k, eta) in viscosity.iter_mut().enumerate() {
+            let (_, x) = bound.state(inputs, k);
+            let liquid = bound.yield_viscosity / x.max(1.0);
+            *eta = liquid.max(self.smallest_viscosity);
         }
     }
 }

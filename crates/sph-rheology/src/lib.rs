@@ -43,7 +43,7 @@ pub use bingham::Bingham;
 pub use carreau::Carreau;
 pub use casson::Casson;
 pub use cone::Cone;
-pub use contract::{Elastic, Inputs, Needs, Rheology, RheologyEntry};
+pub use contract::{Elastic, Inputs, Needs, Rheology, RheologyEntry, Yielding};
 pub use cross::Cross;
 pub use drucker_prager::DruckerPrager;
 pub use elastic::ElasticSolid;

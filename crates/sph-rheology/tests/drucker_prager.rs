@@ -3,7 +3,9 @@
 use nalgebra::Matrix3;
 use sph_core::{Registry, Symmetric};
 use sph_rheology::jaumann::magnitude;
-use sph_rheology::{Cone, DruckerPrager, Elastic, ElasticSolid, Inputs, Rheology, RheologyEntry};
+use sph_rheology::{
+    Cone, DruckerPrager, Elastic, ElasticSolid, Inputs, Rheology, RheologyEntry, Yielding,
+};
 
 fn plastic() -> DruckerPrager {
     DruckerPrager {
@@ -302,4 +304,44 @@ fn the_registered_laws_read_their_parameters() {
     );
     let rubber = build("elastic", "young_modulus = 2e6\npoisson_ratio = 0.4").expect("builds");
     assert_eq!(rubber.uniform_viscosity(), Some(0.0));
+}
+
+/// The parts of the blend one by one: what is carried is (1 − ζ) of what is held, and the liquid alone has min(τ_y/γ̇, η_y).
+#[test]
+fn the_shares_of_the_blend_are_those_of_its_stress() {
+    let law = plastic();
+    let elastic = law.elastic().expect("elastic");
+    assert!(elastic.blends());
+    let yield_rate = law.yield_stress(P) / law.yield_viscosity();
+    let rate = [0.0, 0.5, 0.95, 0.95, 1.0, 4.0].map(|x| x * yield_rate);
+    let inputs = Inputs {
+        strain_rate: &rate,
+        pressure: &[P; 6],
+    };
+    let mut stress = [Symmetric([300.0, -300.0, 0.0, 2500.0, 0.0, 0.0]); 6];
+    stress[3] = Symmetric::ZERO;
+    let mut yielding = [Yielding::NONE; 6];
+    elastic.yielding(&inputs, &stress, &mut yielding);
+    let mut carried = [Symmetric::ZERO; 6];
+    elastic.carried(&inputs, &stress, &mut carried);
+    let mut liquid = [0.0; 6];
+    elastic.liquid_viscosity(&inputs, &mut liquid);
+    for k in 0..6 {
+        let share = law.liquid_share(rate[k] / yield_rate);
+        let y = yielding[k];
+        assert_eq!([y.friction, y.solid], [share, 1.0 - share]);
+        let apart = magnitude(&(carried[k] - stress[k] * (y.held * y.solid)));
+        assert!(apart < 1e-12 * law.yield_stress(P), "{k}: {apart} Pa apart");
+        let asked = (law.yield_stress(P) / rate[k]).min(law.yield_viscosity());
+        assert!(
+            (liquid[k] / asked - 1.0).abs() < 1e-12,
+            "{k}: {}",
+            liquid[k]
+        );
+    }
+    // From x = 1 on, and a stress that is zero from 0.9 on.
+    assert_eq!(
+        yielding.map(|y| y.forgets),
+        [false, false, false, true, true, true]
+    );
 }

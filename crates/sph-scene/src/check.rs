@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use crate::{Scene, Source, check_geometry, check_names, check_time, overlap};
 
 /// Kinds of which a scene has one plugin at most.
-pub(crate) const SINGLE_KINDS: [&str; 11] = [
+pub(crate) const SINGLE_KINDS: [&str; 12] = [
     "kernel",
     "formulation",
     "integrator",
@@ -15,6 +15,7 @@ pub(crate) const SINGLE_KINDS: [&str; 11] = [
     "implicit-viscosity",
     "linear-solver",
     "velocity-gradient",
+    "elastic-force",
     "effective-pressure",
     "smoother",
     "shifting",

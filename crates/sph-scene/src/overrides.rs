@@ -7,7 +7,7 @@ use toml::{Table, Value};
 const DEEPEST: usize = 32;
 
 /// Tables that hold exactly one plugin, as the segments that lead to them.
-const SINGLE: [&[&str]; 14] = [
+const SINGLE: [&[&str]; 15] = [
     &["kernel"],
     &["formulation"],
     &["integrator"],
@@ -16,6 +16,7 @@ const SINGLE: [&[&str]; 14] = [
     &["implicit-viscosity"],
     &["linear-solver"],
     &["velocity-gradient"],
+    &["elastic-force"],
     &["effective-pressure"],
     &["smoother"],
     &["shifting"],

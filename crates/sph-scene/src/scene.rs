@@ -59,6 +59,10 @@ pub struct Scene {
     #[serde(default, rename = "velocity-gradient")]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
     pub velocity_gradient: Plugins,
+    /// Force of elastic materials, `[elastic-force.PLUGIN]`; chosen by the solver if left out.
+    #[serde(default, rename = "elastic-force")]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub elastic_force: Plugins,
     /// Pressure between the grains of soils, `[effective-pressure.PLUGIN]`; that of the equation of state if left out.
     #[serde(default, rename = "effective-pressure")]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
@@ -155,7 +159,7 @@ impl Scene {
 
     /// The plugin that the scene chooses for a kind of which it has one at most: `kernel`,
     /// `formulation`, `integrator`, `walls`, `viscous-operator`, `implicit-viscosity`, `linear-solver`,
-    /// `velocity-gradient`, `effective-pressure`, `smoother` or `shifting`.
+    /// `velocity-gradient`, `elastic-force`, `effective-pressure`, `smoother` or `shifting`.
     pub fn choice(&self, kind: &'static str) -> Option<PluginChoice> {
         let plugins = match kind {
             "kernel" => &self.kernel,
@@ -166,6 +170,7 @@ impl Scene {
             "implicit-viscosity" => &self.implicit_viscosity,
             "linear-solver" => &self.linear_solver,
             "velocity-gradient" => &self.velocity_gradient,
+            "elastic-force" => &self.elastic_force,
             "effective-pressure" => &self.effective_pressure,
             "smoother" => &self.smoother,
             "shifting" => &self.shifting,

@@ -237,18 +237,23 @@ fn limiters_of<const D: usize>(
                 .all(|l| l.uniform_viscosity().is_some()),
         }));
     }
+    let stiffness = choices
+        .elastic_force
+        .as_ref()
+        .map_or(0.0, |f| f.stiffness());
     let stiff = laws
         .iter()
         .zip(&choices.rheologies)
         .filter_map(|(law, rheology)| {
             let reference = law.reference();
             let shear = rheology.elastic()?.shear_modulus() / reference.density;
-            Some((reference.sound_speed.powi(2) + 4.0 / 3.0 * shear).sqrt())
+            Some((reference.sound_speed.powi(2) + stiffness * shear).sqrt())
         });
     if let Some(speed) = stiff.reduce(f64::max) {
         limiters.push(Box::new(ElasticWaveLimit {
             courant: c.courant,
             speed,
+            stiffness,
         }));
     }
     if laws.len() > 1 {
@@ -289,10 +294,9 @@ fn allocate<const D: usize>(flow: &mut Flow<D>) {
         };
         flow.world.free.add_any(field, role);
     }
-    if flow.elastic.is_some() {
-        flow.world.free.add(fields::ELASTIC_STRESS, Role::State);
-        // Drifts leave it for the next evaluation.
-        flow.world.free.add(fields::VELOCITY_GRADIENT, Role::State);
+    // Drifts leave the gradient for the next evaluation.
+    for field in flow.elastic.iter().flat_map(|e| e.remembered()) {
+        flow.world.free.add_any(field, Role::State);
     }
     flow.world.free.add(fields::ACCELERATION, Role::Derived);
     // An evolved scalar that nothing changes is a constant: it needs no rate and no kick.

@@ -18,7 +18,8 @@ use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry};
 use sph_rheology::{Rheology, RheologyEntry};
 use sph_scene::{PluginChoice, Scene};
 use sph_stress::{
-    EffectivePressure, EffectivePressureEntry, VelocityGradient, VelocityGradientEntry,
+    EffectivePressure, EffectivePressureEntry, ElasticForce, ElasticForceEntry, VelocityGradient,
+    VelocityGradientEntry,
 };
 
 use crate::defaults;
@@ -35,6 +36,8 @@ pub struct Choices<const D: usize> {
     pub implicit_viscosity: Option<(Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>)>,
     /// Only where a law asks for a strain rate.
     pub velocity_gradient: Option<Arc<dyn VelocityGradient<D>>>,
+    /// Only where a law is elastic.
+    pub elastic_force: Option<Box<dyn ElasticForce<D>>>,
     pub effective_pressure: Option<Box<dyn EffectivePressure<D>>>,
     pub smoother: Option<Box<dyn Smoother<D>>>,
     pub shifting: Option<Box<dyn Shifting<D>>>,
@@ -206,6 +209,22 @@ impl<const D: usize> Choices<D> {
             let message = "no law of this scene feels a strain rate: take this table out";
             b.problems.push(SceneProblem::new(idle.path, message));
         }
+        let elastic = rheologies.iter().any(|law| law.elastic().is_some());
+        let elastic_force = match elastic {
+            true => one!(
+                "elastic-force",
+                ElasticForceEntry,
+                |e: &ElasticForceEntry, t| e.build::<D>(t)
+            ),
+            false => None,
+        };
+        if let (false, Some(idle)) = (
+            elastic || !b.problems.is_empty(),
+            scene.choice("elastic-force"),
+        ) {
+            let message = "no law of this scene is elastic: take this table out";
+            b.problems.push(SceneProblem::new(idle.path, message));
+        }
         let effective_pressure = one!(
             "effective-pressure",
             EffectivePressureEntry,
@@ -249,6 +268,7 @@ impl<const D: usize> Choices<D> {
                     viscous_operator,
                     implicit_viscosity,
                     velocity_gradient: velocity_gradient.map(Arc::from),
+                    elastic_force,
                     effective_pressure,
                     smoother,
                     shifting,

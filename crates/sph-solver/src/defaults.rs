@@ -1,13 +1,14 @@
 //! The plugins taken where a scene names none; the only names the solver knows.
 
 /// Kind and name of every default.
-pub const DEFAULTS: [(&str, &str); 8] = [
+pub const DEFAULTS: [(&str, &str); 9] = [
     ("kernel", "wendland-c2"),
     ("formulation", "hu-adams"),
     ("integrator", "symplectic-euler"),
     ("walls", "usaw"),
     ("viscous-operator", "morris"),
     ("velocity-gradient", "renormalised"),
+    ("elastic-force", "divergence"),
     ("equation-of-state", "tait"),
     ("linear-solver", "automatic"),
 ];

@@ -21,6 +21,7 @@ mod domain;
 mod drawn;
 mod driver;
 mod edges;
+mod elastic;
 mod error;
 mod estimate;
 mod examine;

@@ -9,11 +9,12 @@ use sph_neighbours::{Interaction, World, fuse_all};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_stress::{
-    AdjointDivergence, CarriedStress, CoulombFriction, ElasticMotion, Felt, GradientStage,
-    Rheologies, StrainRate, StressCorrection, StressDivergence, ViscosityStage,
+    Blend, Blended, CarriedStress, CoulombFriction, ElasticMotion, Felt, GradientStage, Rheologies,
+    StrainRate, StressCorrection, ViscosityStage, Yielded,
 };
 
 use crate::choices::Choices;
+use crate::elastic;
 use crate::error::SolverError;
 use crate::stages::{Also, InteractionSweep, SharedWall, WallGeometry, WallState};
 
@@ -65,10 +66,17 @@ pub fn plan_stages<const D: usize>(
     let mut terms = vec![choices.formulation.pressure_term()];
     let rheologies: Rheologies = std::mem::take(&mut choices.rheologies).into();
     let viscosity = viscosity_of(&rheologies);
-    let elastic = rheologies.iter().any(|l| l.elastic().is_some());
-    let pressure = match choices.effective_pressure {
-        Some(_) => fields::EFFECTIVE_PRESSURE,
-        None => fields::PRESSURE,
+    let elastic_force = choices.elastic_force.take();
+    let elastic = elastic_force.is_some();
+    let felt = Felt {
+        laws: rheologies.clone(),
+        pressure: match choices.effective_pressure {
+            Some(_) => fields::EFFECTIVE_PRESSURE,
+            None => fields::PRESSURE,
+        },
+        blend: elastic_force
+            .as_ref()
+            .map_or(Blend::Stresses, |f| f.blend()),
     };
     let mut friction = Vec::new();
     let mut solved = None;
@@ -76,6 +84,9 @@ pub fn plan_stages<const D: usize>(
         let term = choices.viscous_operator.term(viscosity);
         friction = choices.viscous_operator.stages(viscosity);
         match choices.implicit_viscosity.is_some() {
+            false if felt.blend == Blend::Forces => {
+                terms.push(Box::new(Blended::friction(term, &rheologies)));
+            }
             false => terms.push(term),
             true => {
                 solved = Some(Friction {
@@ -93,19 +104,17 @@ pub fn plan_stages<const D: usize>(
     }
     let adjoint = choices.velocity_gradient.clone();
     let adjoint = adjoint.filter(|gradient| elastic && gradient.adjoint());
-    let grips = &world.walls;
-    let mut grips = grips.points.grip.iter().chain(&grips.elements.grip);
-    if adjoint.is_some() && grips.any(|grip| *grip < 1.0) {
-        return Err(SolverError::at(
-            "velocity-gradient.renormalised.adjoint",
-            "the adjoint force is not known at walls that slip: take `adjoint` out, or let all walls be \
-             \"no-slip\"",
-        ));
-    }
-    match adjoint.is_some() {
-        true => terms.push(Box::new(AdjointDivergence)),
-        false if elastic => terms.push(StressDivergence::boxed()),
-        false => {}
+    if let Some(force) = &elastic_force {
+        let adjoint = adjoint.is_some();
+        elastic::refuse_what_is_not_known(
+            scene,
+            &**force,
+            &felt,
+            adjoint,
+            solved.is_some(),
+            world,
+        )?;
+        terms.push(elastic::term(&**force, &felt, adjoint));
     }
     if let Some(smoother) = &choices.smoother {
         terms.push(smoother.term(laws));
@@ -160,20 +169,17 @@ pub fn plan_stages<const D: usize>(
         let slips = |l: &dyn Rheology| l.elastic().is_none() && l.uniform_viscosity().is_some();
         CoulombFriction {
             rubs: rheologies.iter().map(|l| !slips(&**l)).collect(),
-            pressure,
+            pressure: felt.pressure,
             forces: Vec::new(),
         }
     });
-    let felt = Felt {
-        laws: rheologies,
-        pressure,
-    };
     if gradient.is_some() {
         offered.push(Box::new(StrainRate));
     }
     offered.push(Box::new(ViscosityStage(felt.clone())));
     if elastic {
         offered.push(Box::new(CarriedStress(felt.clone())));
+        offered.push(Box::new(Yielded(felt.clone())));
         if let Some(gradient) = adjoint {
             offered.push(with_gamma(Box::new(StressCorrection(gradient))));
         }
@@ -186,8 +192,12 @@ pub fn plan_stages<const D: usize>(
             Box::new(ViscosityStage(felt.clone())),
         ];
     }
-    let elastic = stage_of_gradient().filter(|_| elastic);
-    let elastic = elastic.map(|gradient| ElasticMotion { gradient, felt });
+    let elastic = stage_of_gradient().zip(elastic_force);
+    let elastic = elastic.map(|(gradient, force)| ElasticMotion {
+        gradient,
+        felt,
+        displaced: force.displaced(),
+    });
     let smoother = choices.smoother.iter().flat_map(|s| s.stages(laws));
     let interfaces = choices.interfaces.iter().flat_map(|i| i.stages());
     let shifting = choices.shifting.iter().flat_map(|s| s.stages());
@@ -226,12 +236,7 @@ pub fn plan_stages<const D: usize>(
     .chain([diffused.evolved.value.any()])
     .chain(choices.formulation.compressed().map(|c| c.value.any()))
     .filter(|f| world.free.has(f.name))
-    .chain(elastic.iter().flat_map(|_| {
-        [
-            fields::ELASTIC_STRESS.any(),
-            fields::VELOCITY_GRADIENT.any(),
-        ]
-    }))
+    .chain(elastic.iter().flat_map(ElasticMotion::remembered))
     .collect();
     let declared: Vec<&dyn Declares> = offered
         .iter()

@@ -17,6 +17,9 @@ pub struct Snapshot<const D: usize> {
     /// Remembered stresses, and the gradients of the last drift; empty where nothing is elastic.
     stress: Vec<Symmetric>,
     gradient: Vec<SMatrix<f64, D, D>>,
+    /// What a force of displacements remembers; empty where there is none.
+    turn: Vec<Symmetric>,
+    elastic_displacement: Vec<Vect<D>>,
     time: f64,
 }
 
@@ -41,6 +44,11 @@ impl<const D: usize> Snapshot<D> {
         if flow.elastic.is_some() {
             copy(&mut self.stress, free.get(fields::ELASTIC_STRESS)?);
             copy(&mut self.gradient, free.get(fields::VELOCITY_GRADIENT)?);
+        }
+        if let Ok(turn) = free.get(fields::ELASTIC_TURN) {
+            copy(&mut self.turn, turn);
+            let displacement = free.get(fields::ELASTIC_DISPLACEMENT)?;
+            copy(&mut self.elastic_displacement, displacement);
         }
         self.time = flow.world.time;
         Ok(())
@@ -93,6 +101,11 @@ impl<const D: usize> Snapshot<D> {
                     places,
                 );
             }
+            if let Ok(turn) = free.get_mut(fields::ELASTIC_TURN) {
+                put(turn, &self.turn, places);
+                let displacement = free.get_mut(fields::ELASTIC_DISPLACEMENT)?;
+                put(displacement, &self.elastic_displacement, places);
+            }
             flow.world.time = self.time;
             self.walls_back(flow);
         }
@@ -131,6 +144,11 @@ impl<const D: usize> Snapshot<D> {
                 .copy_from_slice(&self.stress);
             free.get_mut(fields::VELOCITY_GRADIENT)?
                 .copy_from_slice(&self.gradient);
+        }
+        if let Ok(turn) = free.get_mut(fields::ELASTIC_TURN) {
+            turn.copy_from_slice(&self.turn);
+            free.get_mut(fields::ELASTIC_DISPLACEMENT)?
+                .copy_from_slice(&self.elastic_displacement);
         }
         flow.world.time = self.time;
         self.walls_back(flow);

@@ -2,11 +2,12 @@
 
 use sph_core::{Access, Declares, Stage, StepError, Symmetric, fields};
 use sph_neighbours::World;
+use sph_rheology::Yielding;
 
-use crate::Felt;
+use crate::{Blend, Felt};
 
 /// [`CARRIED_STRESS`](fields::CARRIED_STRESS) from the remembered one; zero in phases without
-/// an elastic part.
+/// an elastic part. Where forces are blended it is the whole stress of the solid, cut to the yield stress.
 pub struct CarriedStress(pub Felt);
 
 impl Declares for CarriedStress {
@@ -23,10 +24,18 @@ impl Declares for CarriedStress {
 
 impl<const D: usize> Stage<World<D>> for CarriedStress {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let blend = self.0.blend;
         let mut carried = world.free.take(fields::CARRIED_STRESS)?;
         let stress = world.free.get(fields::ELASTIC_STRESS)?;
         self.0.each(world, &mut carried, |law, inputs, run, out| {
             match law.elastic() {
+                Some(elastic) if blend == Blend::Forces => {
+                    let stress = &stress[run];
+                    let mut yielding = vec![Yielding::NONE; stress.len()];
+                    elastic.yielding(inputs, stress, &mut yielding);
+                    let all = out.iter_mut().zip(stress).zip(&yielding);
+                    all.for_each(|((out, stress), yielding)| *out = *stress * yielding.held);
+                }
                 Some(elastic) => elastic.carried(inputs, &stress[run], out),
                 None => out.fill(Symmetric::ZERO),
             }

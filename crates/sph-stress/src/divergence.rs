@@ -1,9 +1,49 @@
 //! The force of a stress that particles carry.
 
-use sph_core::{Access, StepError, Symmetric, Vect, fields};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Access, StepError, Symmetric, Vect, fields, register};
 use sph_neighbours::{
     BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
 };
+
+use crate::{Blend, ElasticForce, ElasticForceEntry, Felt};
+
+/// The divergence of the remembered stress, cut to the yield stress: nested first differences.
+///
+/// The force is that of [`StressDivergence`], or, with `adjoint = true` of the velocity gradient `renormalised`, that of
+/// [`AdjointDivergence`](crate::AdjointDivergence).
+///
+/// Source: Ghaïtanellis 2017, Eq. 4.92–4.93; Gray et al. 2001.
+///
+/// ```toml
+/// [elastic-force.divergence]
+/// blend = "stresses"
+/// ```
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Divergence {
+    /// What is blended where a soil yields.
+    #[schemars(extend("source" = "Ghaïtanellis 2017, Eq. 4.104 (forces), 4.84 and 4.105 (stresses)"))]
+    pub blend: Blend,
+}
+
+impl<const D: usize> ElasticForce<D> for Divergence {
+    fn term(&self, _: &Felt) -> Box<dyn Interaction<D>> {
+        StressDivergence::boxed()
+    }
+    fn blend(&self) -> Blend {
+        self.blend
+    }
+}
+
+register!(
+    ElasticForceEntry [2, 3],
+    Divergence,
+    "divergence",
+    "the divergence of the remembered stress",
+    "Ghaïtanellis 2017, Eq. 4.92–4.93; Gray et al. 2001"
+);
 
 /// m_a a = 1/γ_a [Σ_b θ_b (V_a²τ_a + V_b²τ_b)·∇w_ab − Σ_s (V_a²τ_a + V_s²τ_s)/V_s·∇γ_as].
 ///
@@ -74,13 +114,40 @@ pub struct Here {
 #[derive(Clone, Copy)]
 pub struct Sum<const D: usize> {
     /// Force of particles and of walls that rub.
-    force: Vect<D>,
+    pub(crate) force: Vect<D>,
     /// Force of walls that slip.
     slipping: Vect<D>,
     /// Σ ∇γ_as of walls that slip.
-    normal: Vect<D>,
+    pub(crate) normal: Vect<D>,
     /// Σ |∇γ_as| of walls that rub.
-    rubbing: f64,
+    pub(crate) rubbing: f64,
+}
+
+impl<const D: usize> Sum<D> {
+    pub(crate) fn zero() -> Self {
+        Sum {
+            force: Vect::zeros(),
+            slipping: Vect::zeros(),
+            normal: Vect::zeros(),
+            rubbing: 0.0,
+        }
+    }
+
+    /// The sums over γ, but for what is along walls that slip.
+    #[inline(always)]
+    pub(crate) fn completed(&self, inverse_gamma: f64) -> Vect<D> {
+        let slipping = self.normal.norm();
+        if slipping <= 0.0 {
+            return self.force * inverse_gamma;
+        }
+        let normal = self.normal / slipping;
+        let across = normal * self.force.dot(&normal);
+        // Along a wall without traction nothing completes the sum, as at a free surface.
+        let share = self.rubbing / (self.rubbing + slipping);
+        let along = 1.0 + (inverse_gamma - 1.0) * share;
+        let of_wall = normal * self.slipping.dot(&normal);
+        (across + of_wall) * inverse_gamma + (self.force - across) * along
+    }
 }
 
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
@@ -99,12 +166,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
 
     #[inline(always)]
     fn zero(&self) -> Sum<D> {
-        Sum {
-            force: Vect::zeros(),
-            slipping: Vect::zeros(),
-            normal: Vect::zeros(),
-            rubbing: 0.0,
-        }
+        Sum::zero()
     }
 
     #[inline(always)]
@@ -139,17 +201,6 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
 
     #[inline(always)]
     fn finish(&self, here: &Here, sum: &Sum<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
-        let mut force = sum.force * inverse_gamma;
-        let slipping = sum.normal.norm();
-        if slipping > 0.0 {
-            let normal = sum.normal / slipping;
-            let across = normal * sum.force.dot(&normal);
-            // Along a wall without traction nothing completes the sum, as at a free surface.
-            let share = sum.rubbing / (sum.rubbing + slipping);
-            let along = 1.0 + (inverse_gamma - 1.0) * share;
-            let of_wall = normal * sum.slipping.dot(&normal);
-            force = (across + of_wall) * inverse_gamma + (sum.force - across) * along;
-        }
-        rates.acceleration += force / here.mass;
+        rates.acceleration += sum.completed(inverse_gamma) / here.mass;
     }
 }

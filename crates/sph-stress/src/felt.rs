@@ -6,15 +6,17 @@ use sph_core::{Access, Field, Scalar, StepError, fields};
 use sph_neighbours::{World, by_phase};
 use sph_rheology::{Inputs, Rheology};
 
-use crate::Rheologies;
+use crate::{Blend, Rheologies};
 
-/// The laws with the pressure that makes friction for them.
+/// The laws with the pressure that makes friction for them, and what they blend.
 #[derive(Clone)]
 pub struct Felt {
     /// The laws.
     pub laws: Rheologies,
     /// The pressure that makes friction.
     pub pressure: Field<Scalar>,
+    /// What is blended where a material yields.
+    pub blend: Blend,
 }
 
 impl Felt {

@@ -1,15 +1,26 @@
 //! The effective pressure as a harmonic function of place.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, register};
 use sph_implicit::{
-    ConjugateGradient, Entries, LinearSolver, Matrix, Preconditioner, Row, assemble,
+    ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, Preconditioner, Report, Row, assemble,
 };
 use sph_neighbours::{Neighbourhood, Values, World, walk};
 
 use crate::effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 use crate::soil_surface::at_surface;
+
+/// What solves for the effective pressure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PressureSolver {
+    /// With an incomplete factorisation; iterations grow with the rows of the bed.
+    #[default]
+    ConjugateGradient,
+    /// As the source; sweeps grow with the square of the rows.
+    Jacobi,
+}
 
 /// ∇²p' = 0 in the soil, p' = β |g| δr Δρ at its surface, ∂p'/∂n = Δρ g·n at walls.
 ///
@@ -21,8 +32,8 @@ use crate::soil_surface::at_surface;
 /// are surface, too, and no system is singular. What is solved is
 /// Σ_b V_a V_b F_ab [p'_a − p'_b − Δρ g·(r_a − r_b)] = 0 over the grains: the deviation from the hydrostatic
 /// pressure has no flux into walls, so that walls need no term, and sums that the surface cuts off are
-/// no error (the source's second row is 28 % off). The matrix is symmetric; conjugate gradients start from the pressure of the step
-/// before (the source iterates by Jacobi).
+/// no error (the source's second row is 28 % off). The matrix is symmetric; conjugate gradients, or `solver = "jacobi"` as in the
+/// source, start from the pressure of the step before.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 4.63–4.65 and 4.85–4.87; the form of the sum and β = ½ are ours.
 ///
@@ -55,6 +66,13 @@ pub struct Laplace {
         extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours")
     )]
     pub tolerance: f64,
+    /// What iterates.
+    #[schemars(extend("source" = "ours; jacobi: Ghaïtanellis 2017, §4.6.1"))]
+    pub solver: PressureSolver,
+    /// Iterations after which it gives up; the step is then tried again with half its length. 2000 of conjugate gradients and
+    /// 100 000 sweeps of Jacobi if left out.
+    #[schemars(range(min = 1), extend("unit" = "1", "source" = "ours"))]
+    pub iterations: Option<usize>,
 }
 
 impl Default for Laplace {
@@ -64,23 +82,49 @@ impl Default for Laplace {
             surface_depth: 0.5,
             interval: 0.01,
             tolerance: 1e-5,
+            solver: PressureSolver::default(),
+            iterations: None,
+        }
+    }
+}
+
+impl Laplace {
+    /// Solves once, starting from the pressures that are there, and tells what it took.
+    ///
+    /// # Errors
+    /// If the iteration does not end, or a column is missing.
+    pub fn solve<const D: usize>(
+        &self,
+        soils: Soils,
+        world: &mut World<D>,
+    ) -> Result<Report, StepError> {
+        self.on(soils).solve(world)
+    }
+
+    fn on<const D: usize>(&self, soils: Soils) -> Solve<D> {
+        let buoyant = |density: f64| (density - self.pore_density).max(0.0);
+        Solve {
+            buoyant: soils.into_iter().map(|s| s.map(buoyant)).collect(),
+            surface_depth: self.surface_depth,
+            interval: self.interval,
+            solver: match self.solver {
+                PressureSolver::ConjugateGradient => Box::new(ConjugateGradient {
+                    preconditioner: Preconditioner::IncompleteDiagonal,
+                    tolerance: self.tolerance,
+                    iterations: self.iterations.unwrap_or(2000),
+                }),
+                PressureSolver::Jacobi => Box::new(Jacobi {
+                    tolerance: self.tolerance,
+                    sweeps: self.iterations.unwrap_or(100_000),
+                }),
+            },
         }
     }
 }
 
 impl<const D: usize> EffectivePressure<D> for Laplace {
     fn stage(&self, soils: Soils) -> Box<dyn Stage<World<D>>> {
-        let buoyant = |density: f64| (density - self.pore_density).max(0.0);
-        Box::new(Solve {
-            buoyant: soils.into_iter().map(|s| s.map(buoyant)).collect(),
-            surface_depth: self.surface_depth,
-            interval: self.interval,
-            solver: ConjugateGradient {
-                preconditioner: Preconditioner::IncompleteDiagonal,
-                tolerance: self.tolerance,
-                ..ConjugateGradient::default()
-            },
-        })
+        Box::new(self.on(soils))
     }
 }
 
@@ -93,14 +137,14 @@ register!(
 );
 
 /// The stage of [`Laplace`].
-struct Solve {
+struct Solve<const D: usize> {
     /// Δρ of every phase, kg/m³; `None` where it is no soil.
     buoyant: Vec<Option<f64>>,
     /// β.
     surface_depth: f64,
     /// Time between solves over √(δr/|g|).
     interval: f64,
-    solver: ConjugateGradient,
+    solver: Box<dyn LinearSolver<D>>,
 }
 
 /// What a particle is to the problem.
@@ -124,7 +168,7 @@ impl Part {
     }
 }
 
-impl Declares for Solve {
+impl<const D: usize> Declares for Solve<D> {
     fn name(&self) -> String {
         "effective pressure".into()
     }
@@ -140,11 +184,17 @@ impl Declares for Solve {
     }
 }
 
-impl<const D: usize> Stage<World<D>> for Solve {
+impl<const D: usize> Stage<World<D>> for Solve<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        if !self.due(world) {
-            return Ok(());
+        match self.due(world) {
+            true => self.solve(world).map(drop),
+            false => Ok(()),
         }
+    }
+}
+
+impl<const D: usize> Solve<D> {
+    fn solve(&mut self, world: &mut World<D>) -> Result<Report, StepError> {
         let parts = self.parts(world)?;
         let volume = world.free.get(fields::VOLUME)?;
         let gravity = world.gravity;
@@ -191,13 +241,13 @@ impl<const D: usize> Stage<World<D>> for Solve {
             .zip(&parts)
             .map(|(p, part)| start(*p, part))
             .collect();
-        let solved = LinearSolver::<D>::solve(&mut self.solver, &matrix, &right, &mut x);
+        let solved = self.solver.solve(&matrix, &right, &mut x);
         pressure
             .iter_mut()
             .zip(&x)
             .for_each(|(p, x)| *p = x[0].max(0.0));
         world.free.put(fields::EFFECTIVE_PRESSURE, pressure)?;
-        solved.map(drop).map_err(|e| StepError::Stage {
+        solved.map_err(|e| StepError::Stage {
             stage: "effective pressure".into(),
             reason: e.to_string(),
         })
@@ -225,23 +275,24 @@ fn start<const D: usize>(pressure: f64, part: &Part) -> Vect<D> {
     x
 }
 
-impl Solve {
+impl<const D: usize> Solve<D> {
     /// Whether a multiple of the interval has passed within the last step: the same for a run that
     /// was interrupted.
-    fn due<const D: usize>(&self, world: &World<D>) -> bool {
+    fn due(&self, world: &World<D>) -> bool {
         let interval = self.interval * (world.spacing / world.gravity.norm()).sqrt();
         let count = |time: f64| (time / interval).floor();
         let passed = count(world.time) > count(world.time - world.dt);
         passed || world.time <= 0.0 || !(interval > 0.0 && interval.is_finite())
     }
 
-    fn parts<const D: usize>(&self, world: &World<D>) -> Result<Vec<Part>, StepError> {
+    fn parts(&self, world: &World<D>) -> Result<Vec<Part>, StepError> {
         let volume = world.free.get(fields::VOLUME)?;
         let phase = match self.buoyant.len() {
             1 => None,
             _ => Some(world.free.get(fields::PHASE)?),
         };
-        let buoyant = |i: usize| self.buoyant[phase.map_or(0, |p| p[i] as usize)];
+        let soils = &self.buoyant[..];
+        let buoyant = |i: usize| soils[phase.map_or(0, |p| p[i] as usize)];
         let top = self.surface_depth * world.gravity.norm() * world.spacing;
         let length = world.kernel.smoothing_length();
         let points = &world.walls.points;

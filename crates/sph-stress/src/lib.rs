@@ -4,7 +4,9 @@
 //!   [`GradientStage`] applies it, [`StrainRate`] takes the magnitude.
 //! * [`ViscosityStage`] hands batches of particles to their phase's law.
 //! * [`ElasticMotion`] carries remembered stresses along, [`CarriedStress`] tells what of them acts,
-//!   and [`StressDivergence`] or [`AdjointDivergence`] is the force.
+//!   and [`Yielded`] how the forces share where a material yields.
+//! * [`ElasticForce`] is a kind of plugin: [`Divergence`] takes [`StressDivergence`] or [`AdjointDivergence`] of the stress,
+//!   [`Displacement`] second differences of the way since the material was last liquid. [`Blended`] weighs forces.
 //! * [`EffectivePressure`] is a kind of plugin: the pressure between the grains, where it is not that
 //!   of the equation of state. [`Laplace`] is one.
 //! * [`CoulombFriction`] brakes soils on walls that have a coefficient of friction.
@@ -12,11 +14,14 @@
 //! Nothing here runs in a scene whose laws do not ask for it.
 
 mod adjoint;
+mod blended;
 mod carried;
 mod coulomb;
+mod displacement;
 mod divergence;
 mod effective_pressure;
 mod elastic;
+mod elastic_force;
 mod felt;
 mod gradient;
 mod isotropic;
@@ -27,22 +32,27 @@ mod strain_rate;
 mod symmetric_difference;
 mod viscosity;
 mod wave_limit;
+mod yielded;
 
 pub use adjoint::{AdjointDivergence, StressCorrection};
+pub use blended::Blended;
 pub use carried::CarriedStress;
 pub use coulomb::CoulombFriction;
-pub use divergence::StressDivergence;
+pub use displacement::{Displacement, DisplacementForce};
+pub use divergence::{Divergence, StressDivergence};
 pub use effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 pub use elastic::ElasticMotion;
+pub use elastic_force::{Blend, ElasticForce, ElasticForceEntry};
 pub use felt::Felt;
 pub use gradient::{GradientStage, NeighbourSums, VelocityGradient, VelocityGradientEntry};
 pub use isotropic::Isotropic;
-pub use laplace::Laplace;
+pub use laplace::{Laplace, PressureSolver};
 pub use renormalised::Renormalised;
 pub use strain_rate::StrainRate;
 pub use symmetric_difference::SymmetricDifference;
 pub use viscosity::ViscosityStage;
 pub use wave_limit::ElasticWaveLimit;
+pub use yielded::Yielded;
 
 /// The laws of a scene, in the order of the phase numbers.
 pub type Rheologies = std::sync::Arc<[Box<dyn sph_rheology::Rheology>]>;

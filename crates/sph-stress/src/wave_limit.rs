@@ -4,12 +4,15 @@ use sph_core::{StepError, StepLimit};
 use sph_multiphase::Limiter;
 use sph_neighbours::World;
 
-/// Δt ≤ C h / √(c₀² + 4𝒢/3ρ₀): pressure waves in an elastic material. Ours; the thesis has none.
+/// Δt ≤ C h / √(c₀² + k𝒢/ρ₀): pressure waves in an elastic material, k being that of its
+/// [force](crate::ElasticForce::stiffness), 4/3 for a divergence. Ours; the thesis has none.
 pub struct ElasticWaveLimit {
     /// C.
     pub courant: f64,
-    /// Largest √(c₀² + 4𝒢/3ρ₀) over the phases with an elastic part, m/s.
+    /// Largest √(c₀² + k𝒢/ρ₀) over the phases with an elastic part, m/s.
     pub speed: f64,
+    /// k.
+    pub stiffness: f64,
 }
 
 impl<const D: usize> Limiter<D> for ElasticWaveLimit {
@@ -21,6 +24,9 @@ impl<const D: usize> Limiter<D> for ElasticWaveLimit {
         ))
     }
     fn formula(&self) -> String {
-        format!("elastic wave: dt <= {} h / sqrt(c² + 4G/3ρ)", self.courant)
+        format!(
+            "elastic wave: dt <= {} h / sqrt(c² + {:.2} G/ρ)",
+            self.courant, self.stiffness
+        )
     }
 }

@@ -1,0 +1,151 @@
+//! Forces of which a share acts.
+
+use std::any::Any;
+
+use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
+use sph_neighbours::{Interaction, Neighbourhood, Rates, Row, RowTerm, World};
+
+use crate::Rheologies;
+
+/// s_a times the force of a term on particle a: action is not reaction where shares differ.
+///
+/// Source: Ghaïtanellis 2017, Eq. 4.104.
+pub struct Blended<const D: usize> {
+    /// The whole force.
+    pub term: Box<dyn Interaction<D>>,
+    /// s.
+    pub share: Field<Scalar>,
+    /// Phases whose particles act with their whole force, by number; empty if there is none.
+    pub apart: Vec<bool>,
+}
+
+impl<const D: usize> Blended<D> {
+    /// Friction, of which the share ζ acts. What the phases rub off each other that do not blend stays whole, so that there action
+    /// is reaction (ours).
+    pub fn friction(term: Box<dyn Interaction<D>>, laws: &Rheologies) -> Self {
+        let blends = |law: &dyn sph_rheology::Rheology| law.elastic().is_some_and(|e| e.blends());
+        let apart: Vec<bool> = laws.iter().map(|law| !blends(&**law)).collect();
+        Blended {
+            term,
+            share: fields::FRICTION_SHARE,
+            apart: match apart.contains(&true) {
+                true => apart,
+                false => Vec::new(),
+            },
+        }
+    }
+
+    /// An elastic force, of which the share 1 − ζ acts.
+    pub fn solid(term: Box<dyn Interaction<D>>) -> Self {
+        Blended {
+            term,
+            share: fields::SOLID_SHARE,
+            apart: Vec::new(),
+        }
+    }
+}
+
+impl<const D: usize> Interaction<D> for Blended<D> {
+    fn name(&self) -> String {
+        format!("share of {}", self.term.name())
+    }
+
+    fn access(&self) -> Access {
+        let access = self.term.access().here(self.share);
+        match self.apart.is_empty() {
+            true => access,
+            false => access.both(fields::PHASE),
+        }
+    }
+
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
+        let phase = match self.apart.is_empty() {
+            true => None,
+            false => Some(world.free.get(fields::PHASE)?),
+        };
+        Ok(Box::new(Bound {
+            term: self.term.bind(world)?,
+            share: world.free.get(self.share)?,
+            apart: phase.map(|phase| (phase, &self.apart[..])),
+        }))
+    }
+
+    fn as_any_ref(&self) -> &dyn Any {
+        self
+    }
+
+    fn into_any(self: Box<Self>) -> Box<dyn Any> {
+        self
+    }
+}
+
+/// [`Blended`] with its columns.
+struct Bound<'a, const D: usize> {
+    term: Box<dyn RowTerm<D> + 'a>,
+    share: &'a [f64],
+    /// Phases of all particles, and which of them act wholly.
+    apart: Option<(&'a [u32], &'a [bool])>,
+}
+
+impl<const D: usize> RowTerm<D> for Bound<'_, D> {
+    fn row(&self, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let share = self.share[at.particle];
+        if share == 1.0 {
+            return self.term.row(at, rates);
+        }
+        let mut whole = nothing();
+        self.term.row(at, &mut whole);
+        let apart = self.of_others(at);
+        rates.acceleration +=
+            apart.acceleration + (whole.acceleration - apart.acceleration) * share;
+        rates.scalar += apart.scalar + (whole.scalar - apart.scalar) * share;
+    }
+}
+
+fn nothing<const D: usize>() -> Rates<D> {
+    Rates {
+        acceleration: Vect::zeros(),
+        scalar: 0.0,
+    }
+}
+
+impl<const D: usize> Bound<'_, D> {
+    /// The part of neighbours that act wholly.
+    fn of_others(&self, at: &Neighbourhood<'_, D>) -> Rates<D> {
+        let mut rates = nothing();
+        let Some((phase, apart)) = self.apart else {
+            return rates;
+        };
+        let acts = |k: &usize| apart[phase[at.free.index[*k] as usize] as usize];
+        let kept: Vec<usize> = (0..at.free.index.len()).filter(acts).collect();
+        if kept.is_empty() {
+            return rates;
+        }
+        fn of<T: Copy>(kept: &[usize], column: &[T]) -> Vec<T> {
+            kept.iter().map(|k| column[*k]).collect()
+        }
+        let index = of(&kept, at.free.index);
+        let separation = of(&kept, at.free.separation);
+        let distance2 = of(&kept, at.free.distance2);
+        let factor = of(&kept, at.free.factor);
+        let none = Row {
+            index: &[],
+            separation: &[],
+            distance2: &[],
+            factor: &[],
+        };
+        let others = Neighbourhood {
+            free: Row {
+                index: &index,
+                separation: &separation,
+                distance2: &distance2,
+                factor: &factor,
+            },
+            wall: none,
+            contacts: &[],
+            ..*at
+        };
+        self.term.row(&others, &mut rates);
+        rates
+    }
+}

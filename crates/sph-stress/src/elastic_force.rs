@@ -1,0 +1,42 @@
+//! What makes a force of what an elastic material remembers.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use sph_core::contract;
+use sph_neighbours::Interaction;
+
+use crate::Felt;
+
+/// What is blended where a soil yields from a solid to a liquid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Blend {
+    /// div(ζτ_l + (1 − ζ)τ_s): a stress, so that action is reaction.
+    #[default]
+    Stresses,
+    /// ζ_a f_l + (1 − ζ_a) f_s, as printed: action is not reaction where ζ < 1. What water rubs off the soil is left
+    /// out of the blend. Not with an implicit viscosity.
+    Forces,
+}
+
+/// The force of an elastic material.
+pub trait ElasticForce<const D: usize>: Send {
+    /// As a term of the sweep, for the laws of a scene.
+    fn term(&self, felt: &Felt) -> Box<dyn Interaction<D>>;
+    /// What is blended where the material yields.
+    fn blend(&self) -> Blend;
+    /// Whether it is made of [displacements](sph_core::fields::ELASTIC_DISPLACEMENT), which are then remembered, and
+    /// with them stresses that are not cut.
+    fn displaced(&self) -> bool {
+        false
+    }
+    /// k in the speed √(c₀² + k𝒢/ρ₀) that bounds the step.
+    fn stiffness(&self) -> f64 {
+        4.0 / 3.0
+    }
+}
+
+contract!(
+    /// An elastic force that a scene may name.
+    pub ElasticForceEntry, "elastic-force", "the force of an elastic material", ElasticForce<D>
+);

@@ -1,0 +1,348 @@
+//! The elastic force of displacements, and forces that are blended: against closed forms, momentum, refusals.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use sph_core::{Registry, Role, System, Vect, fields};
+use sph_multiphase::{Viscosity, ViscousOperatorEntry};
+use sph_neighbours::{Interaction, interactions};
+use sph_rheology::{DruckerPrager, Newtonian, Rheology};
+use sph_scene::{Override, load};
+use sph_solver::{Assembled, SolverError, assemble};
+use sph_stress::{Blended, Rheologies};
+
+/// ρ and 𝒢 of `elastic-shear-wave`, kg/m³ and Pa.
+const DENSITY: f64 = 1000.0;
+const MODULUS: f64 = 1e5;
+
+fn tried(scene: &str, overrides: &[&str]) -> Result<Assembled<2>, SolverError> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{scene}.toml"));
+    let overrides = overrides.iter().map(|o| Override::parse(o).unwrap());
+    let overrides: Vec<_> = overrides.collect();
+    let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
+    assemble::<2>(&loaded.scene)
+}
+
+/// The periodic elastic block at rest, 0.5 m × 1 m, with a displacement of every particle; evaluated.
+fn displaced(overrides: &[&str], of: impl Fn(usize, &Vect<2>) -> Vect<2>) -> Assembled<2> {
+    let base = ["elastic-force.displacement={}"];
+    let all: Vec<&str> = base.iter().chain(overrides).copied().collect();
+    let mut parts = tried("elastic-shear-wave", &all).unwrap_or_else(|e| panic!("{e}"));
+    let free = &mut parts.flow.world.free;
+    free.get_mut(fields::VELOCITY).unwrap().fill(Vect::zeros());
+    let places = free.get(fields::POSITION).unwrap().to_vec();
+    let ways = free.get_mut(fields::ELASTIC_DISPLACEMENT).unwrap();
+    for (k, (way, place)) in ways.iter_mut().zip(&places).enumerate() {
+        *way = of(k, place);
+    }
+    parts.flow.evaluate().unwrap();
+    parts
+}
+
+/// Root mean square error of the acceleration of X = (A sin ky, 0), which is −𝒢k²X/ρ, over that of the exact one.
+fn wave_error(spacing: &str, lattice: &str) -> f64 {
+    let lattice = format!("elastic-force.displacement.on_lattice={lattice}");
+    let way = |x: &Vect<2>| Vect::from([1e-6 * (TAU * x[1]).sin(), 0.0]);
+    let parts = displaced(&[spacing, &lattice], |_, x| way(x));
+    let free = &parts.flow.world.free;
+    let all = free.get(fields::ACCELERATION).unwrap().iter();
+    let (mut error, mut size) = (0.0, 0.0);
+    for (a, x) in all.zip(free.get(fields::POSITION).unwrap()) {
+        let exact = way(x) * (-MODULUS * TAU * TAU / DENSITY);
+        error += (a - exact).norm_squared();
+        size += exact.norm_squared();
+    }
+    (error / size).sqrt()
+}
+
+#[test]
+fn the_force_of_a_wave_converges_with_the_second_order() {
+    let spacings = ["0.05", "0.025", "0.0125"].map(|s| format!("numerics.spacing={s}"));
+    let errors = [0, 1, 2].map(|k| wave_error(&spacings[k], "exact"));
+    let order = (errors[1] / errors[2]).log2();
+    assert!(
+        errors[1] < 0.0065 && (order - 2.0).abs() < 0.05,
+        "errors of {errors:?}, 2.31e-2, 5.8e-3, 1.46e-3 were measured; order {order}"
+    );
+    // As printed the sum is 2 % too small on a lattice with h = 2 δr, whatever the spacing.
+    let literal = wave_error(&spacings[2], "literal");
+    println!("exact {errors:?}, literal {literal}");
+    assert!(
+        (0.019..0.023).contains(&literal),
+        "an error of {literal}, 0.0222 was measured"
+    );
+}
+
+const CUBE: &str = r#"
+title = "An elastic block, periodic in space"
+dimension = 3
+[run]
+end = 1.0
+[numerics]
+spacing = 0.05
+smoothing_ratio = 1.5
+[numerics.periodic]
+x = [0.0, 0.5]
+y = [0.0, 1.0]
+z = [0.0, 0.5]
+[elastic-force.displacement]
+[phase.rubber]
+density = 1000.0
+speed_of_sound = 20.0
+[phase.rubber.rheology.elastic]
+young_modulus = 2.8e5
+poisson_ratio = 0.4
+[body.block]
+phase = "rubber"
+box = [[0.0, 0.0, 0.0], [0.5, 1.0, 0.5]]
+"#;
+
+#[test]
+fn in_space_it_is_the_same_force() {
+    let loaded = sph_scene::parse(CUBE, "cube.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    let mut parts = assemble::<3>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let free = &mut parts.flow.world.free;
+    let places = free.get(fields::POSITION).unwrap().to_vec();
+    let way = |x: &Vect<3>| Vect::from([0.0, 0.0, 1e-6 * (TAU * x[1]).sin()]);
+    let ways = free.get_mut(fields::ELASTIC_DISPLACEMENT).unwrap();
+    ways.iter_mut().zip(&places).for_each(|(w, x)| *w = way(x));
+    parts.flow.evaluate().unwrap();
+    let free = &parts.flow.world.free;
+    let all = free.get(fields::ACCELERATION).unwrap().iter().zip(&places);
+    let factor = MODULUS * TAU * TAU / DENSITY;
+    let error = all.fold(0.0_f64, |most, (a, x)| {
+        most.max((a + way(x) * factor).norm())
+    });
+    let error = error / (factor * 1e-6);
+    println!("3D, 20 rows: {error}");
+    assert!(error < 0.015, "largest error {error}, 0.0133 was measured");
+}
+
+#[test]
+fn a_rigid_translation_makes_no_force() {
+    let parts = displaced(&["numerics.disorder=0.2"], |_, _| Vect::from([0.3, -0.2]));
+    let force = |parts: &Assembled<2>| {
+        let all = parts.flow.world.free.get(fields::ACCELERATION).unwrap();
+        all.to_vec()
+    };
+    // What is left is the pressure on a shaken lattice.
+    let still = displaced(&["numerics.disorder=0.2"], |_, _| Vect::zeros());
+    assert_eq!(force(&parts), force(&still));
+}
+
+/// A number in ±½ that looks random.
+fn noise(k: usize) -> f64 {
+    let mixed = (k as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    ((mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 11) as f64 / 2f64.powi(53) - 0.5
+}
+
+#[test]
+fn second_differences_leave_the_momentum_in_a_closed_box() {
+    let any = |k: usize, _: &Vect<2>| Vect::from([noise(2 * k), noise(2 * k + 1)]) * 1e-3;
+    let parts = displaced(&["numerics.disorder=0.2"], any);
+    let free = &parts.flow.world.free;
+    let mass = free.get(fields::MASS).unwrap();
+    let all = mass.iter().zip(free.get(fields::ACCELERATION).unwrap());
+    let (mut sum, mut size) = (Vect::<2>::zeros(), 0.0);
+    for (m, a) in all {
+        sum += a * *m;
+        size += a.norm() * m;
+    }
+    let share = sum.norm() / size;
+    assert!(share < 1e-13, "{share:e} of all forces is left");
+}
+
+/// A disc that flies with `speed` (m/s) into a block of the same material, for some steps.
+fn struck(overrides: &[&str], speed: f64, steps: usize) -> f64 {
+    let mut parts = tried("elastic-shear-wave", overrides).unwrap_or_else(|e| panic!("{e}"));
+    let free = &mut parts.flow.world.free;
+    let places = free.get(fields::POSITION).unwrap().to_vec();
+    let velocities = free.get_mut(fields::VELOCITY).unwrap();
+    for (u, x) in velocities.iter_mut().zip(&places) {
+        let flies = (x - Vect::from([0.25, 0.4])).norm() < 0.15;
+        *u = Vect::from([speed, 0.5 * speed]) * f64::from(u8::from(flies));
+    }
+    let before = momentum(&parts);
+    for _ in 0..steps {
+        parts.flow.evaluate().unwrap();
+        let limits = parts.flow.limits();
+        let dt = 0.9 * sph_core::StepLimit::least(&limits).unwrap().dt;
+        parts.flow.world.dt = dt;
+        parts.integrator.step(&mut parts.flow, dt).unwrap();
+    }
+    (momentum(&parts) - before).norm() / before.norm()
+}
+
+/// Σ m u.
+fn momentum(parts: &Assembled<2>) -> Vect<2> {
+    let free = &parts.flow.world.free;
+    let mass = free.get(fields::MASS).unwrap();
+    let all = mass.iter().zip(free.get(fields::VELOCITY).unwrap());
+    all.fold(Vect::zeros(), |sum, (m, u)| sum + u * *m)
+}
+
+/// Yields at 500 Pa, whatever the pressure.
+const CLAY: &str = "phase.rubber.rheology.drucker-prager={young_modulus=2.8e5, poisson_ratio=0.4, \
+                    friction_angle=0, cohesion=500, grain_diameter=5e-3, grain_density=2650}";
+
+#[test]
+fn what_a_choice_of_the_force_does_to_momentum() {
+    let turned = "elastic-force.displacement={}";
+    let forces = "elastic-force.divergence.blend=forces";
+    let both = "elastic-force.displacement.blend=forces";
+    let rubber = [struck(&[], 1.0, 200), struck(&[turned], 1.0, 200)];
+    let clay = [&[CLAY][..], &[CLAY, forces], &[CLAY, turned], &[CLAY, both]];
+    let clay = clay.map(|overrides| struck(overrides, 1.0, 200));
+    let told = format!("rubber {rubber:?}, clay {clay:?} of the momentum lost");
+    println!("{told}");
+    // Pairs of stresses.
+    assert!(rubber[0] < 1e-13 && clay[0] < 1e-13, "{told}");
+    // D{J} is of the second order in the strain; shares of forces are not small.
+    assert!(
+        (1e-6..1e-4).contains(&rubber[1]),
+        "{told}, 1.3e-5 was measured"
+    );
+    assert!((0.05..0.3).contains(&clay[1]), "{told}, 0.14 was measured");
+    assert!(
+        clay[2] > 0.5 && clay[3] > 0.5,
+        "{told}, 4.0 and 0.78 were measured"
+    );
+}
+
+/// Where the soil is solid only the water rubs it, and with it the water has what it gives: Σ m a = 0.
+#[test]
+fn what_water_rubs_off_a_soil_stays_out_of_the_blend() {
+    let mut parts = tried("saturated-bed-at-rest", &[]).unwrap_or_else(|e| panic!("{e}"));
+    parts.flow.evaluate().unwrap();
+    let world = &mut parts.flow.world;
+    (world.gravity, world.driving) = (Vect::zeros(), Vect::zeros());
+    let phase = world.free.get(fields::PHASE).unwrap().to_vec();
+    let velocities = world.free.get_mut(fields::VELOCITY).unwrap();
+    for (k, u) in velocities.iter_mut().enumerate() {
+        *u = Vect::from([noise(2 * k), noise(2 * k + 1)]);
+    }
+    world.free.add(fields::FRICTION_SHARE, Role::Derived);
+    let shares = world.free.get_mut(fields::FRICTION_SHARE).unwrap();
+    let solid = |phase: &u32| f64::from(*phase);
+    shares
+        .iter_mut()
+        .zip(&phase)
+        .for_each(|(s, p)| *s = solid(p));
+    // Phases in the order of their names: sand, water.
+    let sand = "young_modulus=8e5\npoisson_ratio=0.3\nfriction_angle=0.5\ngrain_diameter=4e-3\n\
+                grain_density=2650";
+    let sand: DruckerPrager = toml::from_str(sand).unwrap();
+    let water = Newtonian { viscosity: 1e-3 };
+    let laws: Rheologies = vec![Box::new(sand) as Box<dyn Rheology>, Box::new(water)].into();
+    let registry = Registry::<ViscousOperatorEntry>::discovered().unwrap();
+    let entry = registry.find("monaghan-gingold").unwrap();
+    let operator = entry.build::<2>(&toml::Table::new()).unwrap();
+    let left = |term: Box<dyn Interaction<2>>| {
+        let mut acceleration = vec![Vect::<2>::zeros(); phase.len()];
+        interactions(world, &mut Vec::new(), &[term], &mut acceleration, None).unwrap();
+        let mass = world.free.get(fields::MASS).unwrap();
+        let all = acceleration.iter().zip(mass);
+        let (mut sum, mut size) = (Vect::<2>::zeros(), 0.0);
+        for (a, m) in all {
+            sum += a * *m;
+            size += a.norm() * m;
+        }
+        sum.norm() / size
+    };
+    let apart = left(Box::new(Blended::friction(
+        operator.term(Viscosity::PerPhase),
+        &laws,
+    )));
+    let within = left(Box::new(Blended {
+        apart: Vec::new(),
+        ..Blended::friction(operator.term(Viscosity::PerPhase), &laws)
+    }));
+    println!("left of all forces: {apart:e}, with all friction in the blend {within:e}");
+    assert!(apart < 1e-13 && within > 1e-3, "{apart:e} {within:e}");
+}
+
+/// The problem that a scene is refused for.
+fn refused(scene: &str, overrides: &[&str], key: &str, words: &[&str]) {
+    let Err(SolverError::Scene(problems)) = tried(scene, overrides) else {
+        panic!("{overrides:?} is not refused");
+    };
+    let told = problems[0].to_string();
+    assert_eq!(problems[0].path, key, "{told}");
+    for word in words {
+        assert!(told.contains(word), "no `{word}` in {told}");
+    }
+}
+
+#[test]
+fn what_cannot_be_combined_is_refused_at_its_key() {
+    for name in ["divergence", "displacement"] {
+        let blend = format!("elastic-force.{name}.blend");
+        let forces = format!("{blend}=forces");
+        refused(
+            "infinite-slope",
+            &[&forces],
+            &blend,
+            &["implicit-viscosity"],
+        );
+        refused("elastic-shear-wave", &[&forces], &blend, &["liquid"]);
+    }
+    let force = "elastic-force.displacement={}";
+    let key = "elastic-force.displacement";
+    let adjoint = "velocity-gradient.renormalised.adjoint";
+    let set = format!("{adjoint}=true");
+    refused(
+        "elastic-shear-wave",
+        &[force, &set],
+        adjoint,
+        &["[elastic-force.divergence]"],
+    );
+    let belt = "wall.floor.velocity=[1.0, 0.0]";
+    refused("infinite-slope", &[force, belt], key, &["`floor` moves"]);
+    refused(
+        "dam-break-koshizuka",
+        &[force],
+        key,
+        &["no law of this scene is elastic"],
+    );
+}
+
+#[test]
+fn unknown_names_are_told_with_the_nearest_one() {
+    for (set, words) in [
+        (
+            "elastic-force.displacment={}",
+            ["displacment", "`displacement`"],
+        ),
+        (
+            "elastic-force.displacement.blend=force",
+            ["force", "forces"],
+        ),
+        ("elastic-force.displacement.blnd=forces", ["blnd", "blend"]),
+    ] {
+        let Err(SolverError::Scene(problems)) = tried("infinite-slope", &[set]) else {
+            panic!("{set} is not refused");
+        };
+        let told = problems[0].to_string();
+        for word in words {
+            assert!(told.contains(word), "no `{word}` in {told}");
+        }
+    }
+}
+
+#[test]
+fn a_scene_that_does_not_ask_carries_nothing_of_it() {
+    let columns = |overrides: &[&str]| {
+        let parts = tried("infinite-slope", overrides).unwrap_or_else(|e| panic!("{e}"));
+        let all = parts.flow.world.free.columns();
+        all.map(|(name, ..)| name).collect::<Vec<_>>()
+    };
+    let [plain, asked] = [&[][..], &["elastic-force.displacement={}"]].map(columns);
+    for name in [
+        "elastic_displacement",
+        "elastic_turn",
+        "solid_share",
+        "held_share",
+    ] {
+        assert!(!plain.contains(&name) && asked.contains(&name), "{name}");
+    }
+}
