@@ -13,6 +13,11 @@ use crate::{Laws, Smoother, SmootherEntry};
 /// are mirrored at the interface; on a lattice 7 % of the unbalanced rate is left at a ratio of 2. The thesis prints
 /// other signs, with which the term is anti-diffusive (a tank at rest blows up after 0.09 s).
 ///
+/// Limits: the bracket knows gravity and no other force. Where friction or elasticity bears a part of the weight
+/// it is not zero at rest, and pushes the material on, the more the longer the step: a pile of beads
+/// runs twice as far with four times the step. [`DeltaSph`](crate::DeltaSph) is the same diffusion (δ = ΛΔt c/h) less
+/// whatever gradient there is: take it for soils.
+///
 /// Source: Ghaïtanellis 2017, Eq. 2.92–2.95 and 2.99, corrected.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

@@ -105,7 +105,8 @@ pub struct DruckerPrager {
     #[serde(default)]
     #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "ours"))]
     pub smallest_viscosity: f64,
-    /// Viscosity β of the solid over the yield viscosity η_y: lets its vibrations ring out.
+    /// Viscosity β of the solid over the yield viscosity η_y: lets its vibrations ring out; only with stresses
+    /// that are blended, as they are by default.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "ours"))]
     pub damping: f64,

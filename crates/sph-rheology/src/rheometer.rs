@@ -110,6 +110,7 @@ mod tests {
             blending_order: 2.0,
             cone: Cone::Tan,
             smallest_viscosity: 0.0,
+            damping: 0.0,
         };
         let yielding = soil.yield_stress(1000.0);
         let modulus = 0.8e6 / 2.6;

@@ -18,6 +18,7 @@ fn plastic() -> DruckerPrager {
         blending_order: 2.0,
         cone: Cone::Circumscribed,
         smallest_viscosity: 0.0,
+        damping: 0.0,
     }
 }
 
@@ -197,6 +198,32 @@ fn steady_shear_gives_the_yield_stress_at_every_rate() {
     println!("steady shear: least τ/τ_y {least}, error of the closed form {worst:e}");
     // Steps of a twentieth of the strain at yield leave the tilt with an error of a fortieth.
     assert!(least > 1.0 - 2e-6 && worst < 1e-7, "{least} {worst:e}");
+}
+
+#[test]
+fn damping_is_a_viscosity_of_the_solid_alone() {
+    let damped = DruckerPrager {
+        damping: 0.3,
+        ..plastic()
+    };
+    let viscosity = |law: &DruckerPrager, x: f64| {
+        let rate = [x * law.yield_stress(P) / law.yield_viscosity()];
+        let mut eta = [0.0];
+        law.viscosity(&Specimen::<DruckerPrager>::inputs(&rate, &[P]), &mut eta);
+        eta[0] / law.yield_viscosity()
+    };
+    assert_eq!(viscosity(&damped, 0.0), 0.3);
+    for x in [1.0, 1.5, 30.0] {
+        assert_eq!(viscosity(&damped, x), viscosity(&plastic(), x));
+    }
+    // What it adds to the stress over τ_y, largest where x(1 − ζ) is.
+    let added = |x: f64| x * (viscosity(&damped, x) - viscosity(&plastic(), x));
+    let most = (1..1000).map(|k| added(1e-3 * f64::from(k)));
+    let most = most.fold(0.0, f64::max);
+    assert!((most / (0.3 * 0.25997) - 1.0).abs() < 1e-4, "{most}");
+    let largest = damped.largest_viscosity() / damped.yield_viscosity();
+    let scanned = (0..1000).map(|k| viscosity(&damped, 1e-3 * f64::from(k)));
+    assert!(scanned.fold(0.0, f64::max) <= largest);
 }
 
 #[test]
