@@ -1,0 +1,92 @@
+//! Studies as a person or a script meets them.
+
+use std::path::Path;
+
+use serde_json::Value;
+use sph_study::{SceneText, Study};
+use sph_tests::{Bench, Outcome};
+
+mod failures;
+mod refusals;
+mod results;
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+
+/// Vortices in a small box, some ten steps long.
+const STUDY: &str = r#"title = "Vortices"
+scene = "taylor-green-2d"
+error = "velocity-l1"
+set.run.end = 0.02
+
+[[vary]]
+name = "viscosity"
+entries = [
+    { name = "morris", set = { viscous-operator.morris = {} } },
+    { name = "krimi", set = { viscous-operator.krimi = {} } },
+]
+
+[[vary]]
+key = "numerics.spacing"
+values = [0.0625, 0.05, 0.04]
+"#;
+
+fn bench(study: &str) -> Bench {
+    let bench = Bench::new(PROGRAM);
+    bench.write("s.toml", study);
+    bench
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+fn files(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let name = |e: std::io::Result<std::fs::DirEntry>| e.expect("an entry").file_name();
+    let mut names: Vec<String> = entries
+        .map(|e| name(e).into_string().expect("a plain name"))
+        .collect();
+    names.sort();
+    names
+}
+
+/// Replaces a part of the study; the part must be there.
+fn with(from: &str, to: &str) -> String {
+    assert!(STUDY.contains(from), "the study lost `{from}`");
+    STUDY.replacen(from, to, 1)
+}
+
+fn says(outcome: &Outcome, words: &[&str]) {
+    for word in words {
+        assert!(
+            outcome.err.contains(word),
+            "no `{word}` in\n{}",
+            outcome.err
+        );
+    }
+}
+
+#[test]
+fn shipped_studies_are_good() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let find = |_: &Path, name: &str| {
+        let path = root.join(format!("scenes/{name}.toml"));
+        let text = std::fs::read_to_string(&path).map_err(|e| e.to_string())?;
+        let (name, file) = (name.to_string(), path.display().to_string());
+        Ok(SceneText { name, text, file })
+    };
+    for file in files(&root.join("studies")) {
+        let path = root.join("studies").join(file);
+        let study = Study::read(&path, &find, &[], &[]);
+        let study = study.unwrap_or_else(|e| panic!("{path:?}: {e}"));
+        // Assembling fine ones would take longer than running coarse ones.
+        let coarse = study.variants.iter().map(|v| v.refinement.unwrap_or(1.0));
+        let coarsest = coarse.fold(0.0, f64::max);
+        for variant in &study.variants {
+            if variant.refinement.is_none_or(|h| h == coarsest) {
+                let good = study.assemble(variant, 1);
+                good.unwrap_or_else(|e| panic!("{path:?}: {}: {e}", variant.name));
+            }
+        }
+    }
+}
