@@ -114,7 +114,12 @@ fn run_in<const D: usize>(
         })?;
     }
     let resumed = options.resume.then_some(&counters);
-    let outputs = Outputs::open(scene, &options.out, resumed.map(|c| c.outputs))?;
+    let outputs = Outputs::open(
+        scene,
+        &parts.probes,
+        &options.out,
+        resumed.map(|c| c.outputs),
+    )?;
     let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
     let series = Series::open(&options.out, &parts.probes, at)?;
     for warning in &parts.warnings {
@@ -294,7 +299,7 @@ impl<const D: usize> Running<'_, D> {
             .next_output
             .is_some_and(|t| time >= f64::from_bits(t))
         {
-            self.outputs.write(&self.parts.flow)?;
+            self.outputs.write(&self.parts.flow, &self.parts.probes)?;
             self.counters.next_output = self.next_output(time);
         }
         let interval = self.scene.run.checkpoint_interval();

@@ -10,7 +10,8 @@ use sph_scene::Scene;
 use crate::balance::Balance;
 use crate::{Flow, SolverError};
 
-type Probes<const D: usize> = [(String, Box<dyn Probe<D>>)];
+/// Probes by name.
+pub type Probes<const D: usize> = [(String, Box<dyn Probe<D>>)];
 
 /// Writes one row at a time.
 pub struct Series {
