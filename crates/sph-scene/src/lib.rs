@@ -56,6 +56,7 @@ mod check_names;
 mod check_shapes;
 mod check_time;
 mod check_walls;
+mod check_wave;
 mod columns;
 mod course;
 mod diagnostic;
@@ -98,6 +99,7 @@ mod triangulate;
 mod vector;
 mod wall;
 mod wall_shapes;
+mod wave;
 
 pub use body::{Body, Cutout, Filling, Pressure};
 pub use body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
@@ -128,3 +130,4 @@ pub use wall::{Condition, FrictionForm, Side, Wall};
 pub use wall_shapes::{
     Axis, ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };
+pub use wave::{Heading, Wave, WaveKind};
