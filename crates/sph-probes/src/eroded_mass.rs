@@ -13,7 +13,8 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 ///
 /// The thesis takes the error Er = (m_SPH − m_exp)/m_exp of the mass m of all sediment that has
 /// reached the downstream outlet of the flume. Here
-/// * `.out` is the mass of the phase beyond the outlet, a place along x: the m of the error;
+/// * `.out` is the mass of the phase beyond the outlet, a place along x, and of what has left by any
+///   `[outlet.NAME]`: the m of the error;
 /// * `.risen` is the mass of those before the outlet that are above `level`, the level of the bed at
 ///   the start: what is under way, or came to rest on the bed;
 /// * `.total` is the sum of both: all that has left the region of the bed at the start.
@@ -68,7 +69,9 @@ impl<const D: usize> Probe<D> for ErodedMass {
         let is_out = |x: f64| self.beyond.is_some_and(|end| sign * (x - end) > 0.0);
         let positions = world.free.get(fields::POSITION)?.iter();
         let all = positions.zip(world.free.get(fields::MASS)?).enumerate();
-        let (mut out, mut risen) = (0.0, 0.0);
+        let taken = world.free.taken().iter();
+        let taken = taken.filter(|t| Some(t.phase) == self.number);
+        let (mut out, mut risen) = (taken.map(|t| t.mass).sum(), 0.0);
         for (_, (x, mass)) in all.filter(|(k, _)| bed.has(*k)) {
             if is_out(x[0]) {
                 out += mass;
