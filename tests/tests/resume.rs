@@ -85,6 +85,20 @@ fn a_run_with_a_moving_wall_resumes_while_it_moves_and_after() {
 }
 
 #[test]
+fn what_has_left_by_an_outlet_stays_away_and_counted() {
+    let bench = Bench::with(
+        PROGRAM,
+        &format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.45\n"),
+    );
+    let whole = uninterrupted(&bench);
+    assert!(whole.series.contains("outlet.end.water[kg]"));
+    for time in [0.11, 0.29] {
+        let resumed = killed_and_resumed(&bench, time, 1);
+        whole.assert_same(&resumed, &format!("an outlet, killed at t = {time} s"));
+    }
+}
+
+#[test]
 fn displacements_go_on_where_they_were() {
     let asked = DAM_BREAK.replace("fields = [", "fields = [\"displacement\", ");
     let bench = Bench::with(PROGRAM, &asked);

@@ -24,6 +24,11 @@ fn a_dam_break_gives_the_same_bits() {
 }
 
 #[test]
+fn an_outlet_gives_the_same_bits() {
+    same_for_all_threads(&format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.45\n"), "");
+}
+
+#[test]
 fn a_moving_wall_gives_the_same_bits() {
     same_for_all_threads(PADDLE, "");
 }

@@ -38,6 +38,12 @@ pub const EFFECTIVE_PRESSURE: Field<Scalar> = Field::new(
     "Pa",
     "pressure between the grains of a soil",
 );
+/// Pressure of the water in the pores of a soil, and of the water beside it.
+pub const PORE_PRESSURE: Field<Scalar> = Field::new(
+    "pore_pressure",
+    "Pa",
+    "pressure of the water in the pores of a soil",
+);
 /// Deviatoric stress of the elastic part of a material, as it is remembered.
 pub const ELASTIC_STRESS: Field<SymmetricTensor> = Field::new(
     "elastic_stress",

@@ -33,6 +33,7 @@ mod registry;
 mod stage;
 mod store;
 mod symmetric;
+mod taken;
 
 pub use conform::{conform, defaults};
 pub use error::{FieldError, PlanError, RegistryError, SceneProblem, StepError};
@@ -49,6 +50,7 @@ pub use registry::{
 pub use stage::{Access, Declares, Stage};
 pub use store::{Plain, Role, Store};
 pub use symmetric::Symmetric;
+pub use taken::Taken;
 
 /// Crates that the registration macros name; use them through the macros only.
 #[doc(hidden)]

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::field::{AnyField, Column};
-use crate::{Field, FieldError, Kind, Vect};
+use crate::{Field, FieldError, Kind, Taken, Vect};
 
 /// What happens to a column over a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,17 +14,19 @@ pub enum Role {
     Derived,
 }
 
-struct Entry<const D: usize> {
-    name: &'static str,
-    unit: &'static str,
-    role: Role,
-    column: Column<D>,
+pub(crate) struct Entry<const D: usize> {
+    pub name: &'static str,
+    pub unit: &'static str,
+    pub role: Role,
+    pub column: Column<D>,
 }
 
 /// The columns of one set of particles.
 pub struct Store<const D: usize> {
-    len: usize,
-    entries: Vec<Entry<D>>,
+    pub(crate) len: usize,
+    pub(crate) entries: Vec<Entry<D>>,
+    /// What has been taken out.
+    pub(crate) taken: Vec<Taken>,
 }
 
 /// A column as plain numbers, for files.
@@ -42,6 +44,7 @@ impl<const D: usize> Store<D> {
         Store {
             len,
             entries: Vec::new(),
+            taken: Vec::new(),
         }
     }
 

@@ -7,6 +7,7 @@
 //! | subject | write | read |
 //! |---|---|---|
 //! | fields for ParaView | [`PvdSeries`], [`write_vtu`] from a [`Frame`] of [`Piece`]s | ParaView, VTK |
+//! | tables | [`write_table`] | [`read_table`], [`read_columns`] |
 //! | time series | [`SeriesWriter`] | [`read_table`], [`read_columns`] |
 //! | restart | [`Checkpoint::save`] | [`Checkpoint::load`] |
 //! | pictures of particles | [`Picture`] | your eyes |
@@ -54,6 +55,7 @@ mod panels;
 mod picture;
 mod plot;
 mod pvd;
+mod rows;
 mod series;
 mod summary;
 mod surface;
@@ -74,6 +76,7 @@ pub use panels::Panels;
 pub use picture::{Picture, View};
 pub use plot::{Plot, Series, Style};
 pub use pvd::PvdSeries;
+pub use rows::write_table;
 pub use series::SeriesWriter;
 pub use summary::write_json;
 pub use table::{Table, TableColumn, read_columns, read_table};

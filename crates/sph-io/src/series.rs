@@ -37,21 +37,7 @@ impl SeriesWriter {
         columns: impl IntoIterator<Item = (N, U)>,
     ) -> Result<Self> {
         let path = path.as_ref();
-        let mut cells = Vec::new();
-        for (name, unit) in columns {
-            let cell = heading(name.as_ref(), unit.as_ref());
-            if cell.contains([',', '"', '\n', '\r', '#']) || name.as_ref().trim().is_empty() {
-                let problem = format!("`{cell}` cannot be the heading of a column");
-                return Err(IoError::input(path, problem));
-            }
-            if cells.contains(&cell) {
-                return Err(IoError::input(path, format!("two columns `{cell}`")));
-            }
-            cells.push(cell);
-        }
-        if cells.is_empty() {
-            return Err(IoError::input(path, "a series needs a column"));
-        }
+        let cells = headings(path, columns)?;
         let file = File::create(path).map_err(|e| IoError::write(path, e))?;
         let mut series = Self {
             path: path.to_path_buf(),
@@ -139,6 +125,29 @@ impl SeriesWriter {
         self.position += line.len() as u64;
         Ok(())
     }
+}
+
+/// The cells of a header for columns given as (name, unit).
+pub(crate) fn headings<N: AsRef<str>, U: AsRef<str>>(
+    path: &Path,
+    columns: impl IntoIterator<Item = (N, U)>,
+) -> Result<Vec<String>> {
+    let mut cells = Vec::new();
+    for (name, unit) in columns {
+        let cell = heading(name.as_ref(), unit.as_ref());
+        if cell.contains([',', '"', '\n', '\r', '#']) || name.as_ref().trim().is_empty() {
+            let problem = format!("`{cell}` cannot be the heading of a column");
+            return Err(IoError::input(path, problem));
+        }
+        if cells.contains(&cell) {
+            return Err(IoError::input(path, format!("two columns `{cell}`")));
+        }
+        cells.push(cell);
+    }
+    if cells.is_empty() {
+        return Err(IoError::input(path, "a series needs a column"));
+    }
+    Ok(cells)
 }
 
 fn heading(name: &str, unit: &str) -> String {

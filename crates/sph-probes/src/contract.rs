@@ -15,10 +15,15 @@ pub struct ProbeColumn {
 impl ProbeColumn {
     /// The only column of a probe.
     pub fn only(unit: &'static str) -> Vec<ProbeColumn> {
-        vec![ProbeColumn {
-            suffix: String::new(),
+        vec![ProbeColumn::named("", unit)]
+    }
+
+    /// One of several columns.
+    pub fn named(suffix: &str, unit: &'static str) -> ProbeColumn {
+        ProbeColumn {
+            suffix: suffix.into(),
             unit,
-        }]
+        }
     }
 }
 
@@ -40,6 +45,22 @@ pub trait Probe<const D: usize>: Send {
     /// Whether it reads the displacement of the particles, which is kept for such probes only.
     fn needs_displacement(&self) -> bool {
         false
+    }
+    /// Names of derived fields that are computed for such probes only.
+    fn fields(&self) -> Vec<&str> {
+        Vec::new()
+    }
+    /// The columns of its curves, none for a probe without: a table is written with every output of
+    /// fields, `curves/NAME_0003.csv`.
+    fn curve_columns(&self) -> Vec<ProbeColumn> {
+        Vec::new()
+    }
+    /// The rows of its curves now; NaN where there is nothing to measure.
+    ///
+    /// # Errors
+    /// If a column of the flow is missing.
+    fn curves(&self, _world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
+        Ok(Vec::new())
     }
     /// The file that its key `file` names, if it compares with one.
     fn file(&self) -> Option<&str> {

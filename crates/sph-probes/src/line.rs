@@ -1,10 +1,12 @@
-//! The free surface or the failure line of a phase against a drawn line.
+//! The free surface, the failure line or the limit of motion of a phase against a drawn line.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sph_core::{StepError, fields, register};
 use sph_neighbours::World;
 
+use crate::bed_lines;
+use crate::columns::{Columns, End};
 use crate::phase::{self, Counted};
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
@@ -17,6 +19,8 @@ pub enum LineOf {
     Surface,
     /// Over those that have hardly moved since the start.
     Failure,
+    /// Under those that move now.
+    Limit,
 }
 
 /// Root mean square of the height of a line over a reference's, at the reference's points, and the
@@ -24,14 +28,17 @@ pub enum LineOf {
 ///
 /// The line goes through the highest particle of every column of two spacings' width, half a spacing
 /// above it; with `of = "failure"` through the highest that has moved by less than `moved` since the
-/// start, wherever that is: the limit between the soil that failed and that which did not. Between
+/// start, wherever that is: the limit between the soil that failed and that which did not. With
+/// `of = "limit"` it goes half a spacing under the lowest particle of a column that is faster than
+/// `threshold` now, and along the surface where none is: the limit of a moving bed
+/// ([`BedLines`](crate::BedLines)). Between
 /// two particles the line is straight, beyond the last ones level; a column without a particle
 /// interrupts it. Points of the reference without a line do not count in the first value:
 /// look at both. Without any the first is NaN.
 ///
 /// Displacements are kept for such probes only.
 ///
-/// Source: ours; the threshold as in Ghaïtanellis 2017, §5.3.2.
+/// Source: ours; the thresholds as in Ghaïtanellis 2017, §5.3.2 and Eq. 5.21.
 ///
 /// ```toml
 /// [probe.failure]
@@ -43,19 +50,27 @@ pub enum LineOf {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Line {
-    /// Which line: `surface` or `failure`.
+    /// Which line: `surface`, `failure` or `limit`.
     #[serde(default)]
     pub of: LineOf,
     /// CSV file of the reference, relative to the scene's folder: x and y in m.
     pub file: String,
     /// Displacement from which on a particle has failed.
-    #[serde(default = "threshold")]
+    #[serde(default = "grain")]
     #[schemars(extend(
         "unit" = "m",
         "exclusiveMinimum" = 0.0,
         "source" = "Ghaïtanellis 2017, §5.3.2"
     ))]
     pub moved: f64,
+    /// Speed above which a particle moves, for `of = "limit"`.
+    #[serde(default = "bed_lines::threshold")]
+    #[schemars(extend(
+        "unit" = "m/s",
+        "exclusiveMinimum" = 0.0,
+        "source" = "Ghaïtanellis 2017, Eq. 5.21"
+    ))]
+    pub threshold: f64,
     /// Name of the phase; all particles if left out.
     pub phase: Option<String>,
     #[serde(skip)]
@@ -64,62 +79,41 @@ pub struct Line {
     reference: Vec<[f64; 2]>,
 }
 
-fn threshold() -> f64 {
+fn grain() -> f64 {
     1.5e-3
 }
 
 impl Line {
-    /// The highest particle of every column, m, and the number of the first column.
-    fn tops(&self, world: &World<2>) -> Result<(Vec<Option<[f64; 2]>>, f64), StepError> {
+    /// The line over the reference.
+    fn drawn(&self, world: &World<2>) -> Result<Columns, StepError> {
         let counted = Counted::of(world, self.phase.as_deref(), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
-        let moved = match self.of {
-            LineOf::Surface => None,
-            LineOf::Failure => Some(world.free.get(fields::DISPLACEMENT)?),
-        };
-        let rests = |k: usize| moved.is_none_or(|moved| moved[k].norm() < self.moved);
         // Particles far away from the reference make no columns: these must fit into memory.
-        let width = WIDTH * world.spacing;
-        let xs = || self.reference.iter().map(|[x, _]| x / width);
-        let first = xs().fold(f64::INFINITY, f64::min).floor() - 1.0;
-        let count = xs().fold(f64::NEG_INFINITY, f64::max).floor() + 2.0 - first;
-        let mut highest = vec![None::<[f64; 2]>; count.clamp(0.0, MOST) as usize];
-        for (k, x) in positions.iter().enumerate() {
-            let column = (x[0] / width).floor() - first;
-            if column < 0.0 || column >= highest.len() as f64 || !counted.has(k) || !rests(k) {
-                continue;
+        let xs = || self.reference.iter().map(|[x, _]| *x);
+        let range = [
+            xs().fold(f64::INFINITY, f64::min),
+            xs().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        let through = |end, has: &dyn Fn(usize) -> bool| {
+            let mut columns = Columns::over(range, world.spacing, end);
+            let all = positions.iter().enumerate();
+            all.filter(|(k, _)| counted.has(*k) && has(*k))
+                .for_each(|(_, x)| columns.put(x));
+            columns
+        };
+        Ok(match self.of {
+            LineOf::Surface => through(End::Highest, &|_| true),
+            LineOf::Failure => {
+                let moved = world.free.get(fields::DISPLACEMENT)?;
+                through(End::Highest, &|k| moved[k].norm() < self.moved)
             }
-            let top = &mut highest[column as usize];
-            let here = [x[0], x[1] + 0.5 * world.spacing];
-            // Of equals the first in space, whatever the order of the particles.
-            if top.is_none_or(|t| (here[1], -here[0]) > (t[1], -t[0])) {
-                *top = Some(here);
+            LineOf::Limit => {
+                let velocity = world.free.get(fields::VELOCITY)?;
+                let moves = |k: usize| velocity[k].norm() > self.threshold;
+                through(End::Lowest, &moves).or(&through(End::Highest, &|_| true))
             }
-        }
-        Ok((highest, first))
+        })
     }
-}
-
-/// Width of a column in spacings: particles that have moved apart by more than one leave narrower
-/// columns empty down to the rows below.
-const WIDTH: f64 = 2.0;
-
-/// Most columns; a reference may have a wrong unit.
-const MOST: f64 = 1e6;
-
-/// The height at x; `column` is its own.
-fn height(tops: &[Option<[f64; 2]>], column: f64, x: f64) -> Option<f64> {
-    let column = column as usize;
-    let own = tops.get(column).copied().flatten()?;
-    let other = match x < own[0] {
-        true => column.checked_sub(1),
-        false => Some(column + 1),
-    };
-    // At the ends, and beside a gap, the line is level.
-    let Some(other) = other.and_then(|k| tops.get(k).copied().flatten()) else {
-        return Some(own[1]);
-    };
-    Some(own[1] + (x - own[0]) / (other[0] - own[0]) * (other[1] - own[1]))
 }
 
 impl Probe<2> for Line {
@@ -155,11 +149,10 @@ impl Probe<2> for Line {
     }
 
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {
-        let (tops, first) = self.tops(world)?;
+        let line = self.drawn(world)?;
         let (mut squares, mut count) = (0.0, 0_usize);
         for [x, y] in &self.reference {
-            let column = (x / (WIDTH * world.spacing)).floor() - first;
-            if let Some(height) = height(&tops, column, *x) {
+            if let Some(height) = line.height(*x) {
                 squares += (height - y).powi(2);
                 count += 1;
             }
@@ -176,6 +169,6 @@ register!(
     ProbeEntry[2],
     Line,
     "line",
-    "free surface or failure line of a phase against a drawn line",
-    "highest particles; Ghaïtanellis 2017, §5.3.2"
+    "free surface, failure line or limit of motion of a phase against a drawn line",
+    "highest particles; Ghaïtanellis 2017, §5.3.2, Eq. 5.21"
 );

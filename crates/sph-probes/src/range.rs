@@ -39,6 +39,10 @@ impl<const D: usize> Probe<D> for FieldRange {
         vec![column(".min"), column(".max")]
     }
 
+    fn fields(&self) -> Vec<&str> {
+        vec![&self.field]
+    }
+
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let mut columns = world.free.columns();
         let found = columns.find(|(name, ..)| *name == self.field);

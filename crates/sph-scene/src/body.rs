@@ -7,7 +7,7 @@ use crate::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 use crate::plugins::{AnyPlugins, Plugins};
 use crate::polygon::Polygon;
 use crate::vector::array;
-use crate::{LevelSurface, Shape};
+use crate::{LevelSurface, Shape, Wave};
 
 /// A piece of a phase at the start: one shape, or what the walls enclose, less what is subtracted.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -49,6 +49,8 @@ pub struct Body {
     pub above: Option<LevelSurface>,
     /// Only what is below this surface is filled.
     pub below: Option<LevelSurface>,
+    /// Wave that is on it at the start: what is above its surface is not filled.
+    pub wave: Option<Wave>,
     /// Velocity at the start, m/s; at rest if left out.
     #[schemars(extend("unit" = "m/s"))]
     pub velocity: Option<Vec<f64>>,

@@ -2,7 +2,7 @@
 
 use crate::check::Problems;
 use crate::place::{ROUNDING, spans};
-use crate::{Region, Scene};
+use crate::{Region, Scene, check_wave};
 
 /// Bodies lie in the periodic box and the domain, and are no thinner than a particle.
 pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems) {
@@ -27,6 +27,9 @@ pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems)
                 );
                 found.add(format!("body.{name}.{key}"), message);
             }
+        }
+        if let Some(wave) = &body.wave {
+            check_wave::place(wave, &region, spacing, &format!("body.{name}"), found);
         }
         let spanned = spans(&region.base, spacing, &periods);
         for (k, axis) in ["x", "y", "z"].iter().enumerate().take(D) {

@@ -6,7 +6,7 @@ use crate::check_shapes::body_geometry;
 use crate::check_walls::wall_geometry;
 use crate::polygon::crossing;
 use crate::vector::{array, point};
-use crate::{Polygon, Scene, Shape};
+use crate::{Polygon, Scene, Shape, outlet};
 
 /// Chains longer than this are not searched for crossings.
 const SEARCHED: usize = 20_000;
@@ -22,6 +22,7 @@ pub(crate) fn check(scene: &Scene, found: &mut Problems) {
     for (name, body) in &scene.body {
         body_geometry(scene, body, of, &format!("body.{name}"), found);
     }
+    outlet::check(scene, of, found);
     if found.0.len() == before {
         match scene.dimension {
             2 => within_bounds::<2>(scene, found),

@@ -10,7 +10,15 @@ use crate::check::{Problems, inside};
 use crate::{Norm, Reference, Scene, Source};
 
 /// Kinds of tables with names that the user chooses.
-const NAMED: [&str; 6] = ["wall", "phase", "body", "probe", "gauge", "reference"];
+const NAMED: [&str; 7] = [
+    "wall",
+    "phase",
+    "body",
+    "outlet",
+    "probe",
+    "gauge",
+    "reference",
+];
 /// Longest name.
 const LONGEST: usize = 64;
 

@@ -3,6 +3,7 @@
 use crate::body::ShapeKeys;
 use crate::check::Problems;
 use crate::check_geometry::{Dimension, polygon};
+use crate::check_wave;
 use crate::{Body, LevelSurface, Pressure, Scene};
 
 /// Checks what a body gives in space.
@@ -50,6 +51,7 @@ pub(crate) fn body_geometry(
             "the velocity at the start is given here and by an `initial` plugin: choose one",
         );
     }
+    check_wave::keys(scene, body, path, found);
     let weightless = scene.numerics.gravity.iter().flatten().all(|g| *g == 0.0);
     match body.pressure {
         Pressure::Hydrostatic if weightless => {

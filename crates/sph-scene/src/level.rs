@@ -26,7 +26,7 @@ pub struct LevelSurface {
     pub phase: f64,
 }
 
-/// Places tried along half a wavelength on either side for the nearest point of a wave.
+/// Places tried on either side for the nearest point of a wave.
 const TRIED: i32 = 8;
 
 impl LevelSurface {
@@ -48,21 +48,27 @@ impl LevelSurface {
         };
         // The nearest point is nearer than the one below, and within half a wavelength.
         let reach = up.abs().min(0.5 * length);
-        let square = |s: f64| s * s + (x[D - 1] - self.height(x[0] + s)).powi(2);
-        let step = reach / f64::from(TRIED);
-        let tried = (-TRIED..=TRIED).map(|k| f64::from(k) * step);
-        let best = tried.min_by(|a, b| square(*a).total_cmp(&square(*b)));
-        let (mut low, mut high) = best.map_or((0.0, 0.0), |s| (s - step, s + step));
-        // A minimum between two places is narrowed down to a millionth of their distance.
-        for _ in 0..40 {
-            let third = (high - low) / 3.0;
-            match square(low + third) < square(high - third) {
-                true => high -= third,
-                false => low += third,
-            }
-        }
-        square(0.5 * (low + high)).sqrt().copysign(up)
+        nearest(|s| self.height(s), reach, x[0], x[D - 1]).copysign(up)
     }
+}
+
+/// Distance of the point (x, y) from the line y = height(x), m, whose nearest point is within
+/// `reach` along x.
+pub(crate) fn nearest(height: impl Fn(f64) -> f64, reach: f64, x: f64, y: f64) -> f64 {
+    let square = |s: f64| s * s + (y - height(x + s)).powi(2);
+    let step = reach / f64::from(TRIED);
+    let tried = (-TRIED..=TRIED).map(|k| f64::from(k) * step);
+    let best = tried.min_by(|a, b| square(*a).total_cmp(&square(*b)));
+    let (mut low, mut high) = best.map_or((0.0, 0.0), |s| (s - step, s + step));
+    // A minimum between two places is narrowed down to a millionth of their distance.
+    for _ in 0..40 {
+        let third = (high - low) / 3.0;
+        match square(low + third) < square(high - third) {
+            true => high -= third,
+            false => low += third,
+        }
+    }
+    square(0.5 * (low + high)).sqrt()
 }
 
 #[cfg(test)]

@@ -56,6 +56,7 @@ mod check_names;
 mod check_shapes;
 mod check_time;
 mod check_walls;
+mod check_wave;
 mod columns;
 mod course;
 mod diagnostic;
@@ -73,6 +74,7 @@ mod locate;
 mod motion;
 mod nodes;
 mod numerics;
+mod outlet;
 mod outlines;
 mod output;
 mod overlap;
@@ -98,6 +100,7 @@ mod triangulate;
 mod vector;
 mod wall;
 mod wall_shapes;
+mod wave;
 
 pub use body::{Body, Cutout, Filling, Pressure};
 pub use body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
@@ -111,6 +114,7 @@ pub use level::LevelSurface;
 pub use load::{LoadError, Loaded, Refused, load, parse, read_text};
 pub use motion::{AngularRamp, AngularSine, Motion, Ramp, Rotation, Sine, Translate};
 pub use numerics::{Numerics, Periodic, PressureOf, ReferencePressure, Relax, Run};
+pub use outlet::Outlet;
 pub use outlines::Line;
 pub use output::Output;
 pub use overrides::Override;
@@ -128,3 +132,4 @@ pub use wall::{Condition, FrictionForm, Side, Wall};
 pub use wall_shapes::{
     Axis, ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };
+pub use wave::{Heading, Wave, WaveKind};

@@ -125,7 +125,7 @@ impl<const D: usize> Periodic<'_, D> {
                 depths.fold(f64::NEG_INFINITY, f64::max)
             }
             // It has no images: a wave that fits the period is its own.
-            Shape::Side { .. } => self.shape.depth(x),
+            Shape::Side { .. } | Shape::OverWave(_) => self.shape.depth(x),
             shape => shifts
                 .iter()
                 .map(|s| shape.depth(&moved(s)))

@@ -52,10 +52,13 @@ impl<const D: usize> Region<D> {
     }
 
     /// Lower and upper corner of a box around it, m: that of the base, less what is beyond a level
-    /// surface.
+    /// surface or a wave.
     pub fn bounds(&self) -> ([f64; D], [f64; D]) {
         let (mut lo, mut hi) = self.base.bounds();
         for cut in &self.cuts {
+            if let Shape::OverWave(wave) = cut {
+                hi[D - 1] = hi[D - 1].min(wave.still() + wave.height);
+            }
             if let Shape::Side { surface, above } = cut {
                 let reach = surface.amplitude.abs();
                 match above {
@@ -85,6 +88,7 @@ fn cuts<const D: usize>(body: &Body) -> Vec<Shape<D>> {
     given
         .chain(cut(&body.above, false))
         .chain(cut(&body.below, true))
+        .chain(body.wave.map(Shape::OverWave))
         .collect()
 }
 

@@ -10,7 +10,7 @@ use toml::Value;
 
 use crate::plugins::{AnyPlugins, PluginChoice, Plugins, Probe, several, single};
 use crate::vector::array;
-use crate::{Body, Numerics, Output, Phase, Reference, Region, Run, Wall};
+use crate::{Body, Numerics, Outlet, Output, Phase, Reference, Region, Run, Wall};
 
 /// A scene: what flows where, under which laws, for how long, and what is written.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -92,6 +92,9 @@ pub struct Scene {
     /// Bodies by name, `[body.NAME]`, at least one.
     #[serde(default)]
     pub body: BTreeMap<String, Body>,
+    /// Places where particles leave, by name, `[outlet.NAME]`.
+    #[serde(default)]
+    pub outlet: BTreeMap<String, Outlet>,
     /// Measurements by name, `[probe.NAME]`; `kind` is the plugin, the other keys its parameters.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Probe>")]

@@ -2,7 +2,7 @@
 
 use crate::polygon::Polygon;
 use crate::vector::distance;
-use crate::{LevelSurface, ellipse};
+use crate::{LevelSurface, Wave, ellipse};
 
 /// A closed piece of space.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +35,8 @@ pub enum Shape<const D: usize> {
         /// Whether it is what is above it.
         above: bool,
     },
+    /// All that is above a wave.
+    OverWave(Wave),
     /// A polygon, in two dimensions.
     Polygon(Polygon),
     /// A cylinder, in three dimensions.
@@ -90,6 +92,7 @@ impl<const D: usize> Shape<D> {
                 true => surface.above(x),
                 false => -surface.above(x),
             },
+            Shape::OverWave(wave) => wave.above(x),
             Shape::Polygon(polygon) => {
                 let flat = [x[0], x[1]];
                 let away = polygon.distance(flat, |_, _| true);
@@ -142,6 +145,11 @@ impl<const D: usize> Shape<D> {
                     false => hi[D - 1] = surface.level + surface.amplitude.abs(),
                 }
                 (lo, hi)
+            }
+            Shape::OverWave(wave) => {
+                let mut lo = [f64::NEG_INFINITY; D];
+                lo[D - 1] = wave.still();
+                (lo, [f64::INFINITY; D])
             }
             Shape::Polygon(polygon) => {
                 let axis = |k: usize| polygon.points().iter().map(move |p| p[k.min(1)]);

@@ -26,6 +26,7 @@ use crate::implicit::{ImplicitViscosity, Solves};
 use crate::initial::InitialState;
 use crate::layers::Layers;
 use crate::measured;
+use crate::outlets::Outlets;
 use crate::placed::place;
 use crate::planning::plan_stages;
 use crate::relax::{Relaxation, relax};
@@ -88,7 +89,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     }
     let placed =
         place(scene, &drawn.regions, choices.walls.as_deref()).map_err(SolverError::Scene)?;
-    warnings.extend(placed.warnings);
+    warnings.extend(placed.warnings.iter().cloned());
     if let Some(walls) = &choices.walls {
         let ends = walls.check_free_ends(&placed.positions);
         ends.map_err(|e| wall_problem(scene, &e))?;
@@ -109,6 +110,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     if let Some(compressed) = &compressed {
         free.add(compressed.value, Role::State);
     }
+    let outlets = Outlets::of(scene, &placed, &mut free).map_err(SolverError::Scene)?;
     *free.get_mut(fields::POSITION)? = placed.positions;
     let count = free.len() as u32;
     *free.get_mut(fields::IDENTITY)? = (0..count).collect();
@@ -164,6 +166,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         laws,
         kinematic_viscosities,
         timings: Vec::new(),
+        outlets,
     };
     flow.reset_timings();
     allocate(&mut flow);

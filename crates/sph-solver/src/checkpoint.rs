@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
-use sph_core::{Plain, Role, Vect};
+use sph_core::{Plain, Role, Vect, fields};
 use sph_io::{Checkpoint, Column, ColumnData};
 
 use crate::{Flow, SolverError};
@@ -94,6 +94,15 @@ pub fn load<const D: usize, T: DeserializeOwned>(
         let why = "it was written by a different scene or with other `--set` options; start \
                    afresh in another folder, or restore the scene";
         return Err(refused(path, why));
+    }
+    // By an outlet particles have left.
+    if let Some(ColumnData::U32(v)) = checkpoint
+        .column(fields::IDENTITY.name)
+        .map(|c| &c.data)
+        .filter(|_| !flow.outlets.is_empty())
+    {
+        let leaves: Vec<bool> = (0..flow.world.free.len()).map(|k| k >= v.len()).collect();
+        flow.world.free.take_out(&leaves);
     }
     for name in flow.state_columns() {
         let column = checkpoint.column(name);

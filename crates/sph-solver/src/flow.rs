@@ -13,6 +13,7 @@ use sph_stress::{CoulombFriction, ElasticMotion};
 use crate::dilatation::Dilatation;
 use crate::implicit::ImplicitViscosity;
 use crate::kept::Kept;
+use crate::outlets::Outlets;
 use crate::snapshot::Snapshot;
 use crate::stages::{SharedWall, lock};
 
@@ -59,6 +60,8 @@ pub struct Flow<const D: usize> {
     pub(crate) solved: Option<Box<dyn Interaction<D>>>,
     pub(crate) implicit: Option<ImplicitViscosity<D>>,
     pub(crate) timings: Vec<Timing>,
+    /// Where particles leave.
+    pub(crate) outlets: Outlets<D>,
 }
 
 /// Place of the list refresh among the timings; the stages follow.

@@ -83,8 +83,11 @@ impl<'a, const D: usize> InitialState<'a, D> {
                 .as_ref()
                 .map(|u| Vect::from_column_slice(u))
         };
+        let wave = self.body.wave.as_ref();
+        let wave = wave.map(|w| Vect::from(w.velocity(&(*x).into(), self.gravity.norm())));
         self.field
             .and_then(|f| f.velocity(x, 0.0))
+            .or(wave)
             .or_else(plain)
             .unwrap_or_else(Vect::zeros)
     }

@@ -19,12 +19,13 @@ pub struct Layers<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Layers<'a, D> {
-    /// The bodies of a scene with gravity, if it has several or one below a level surface; the
+    /// The bodies of a scene with gravity, if it has several or one below a level surface or a wave; the
     /// weight over a place in the only body is that up to its top.
     pub fn of(scene: &Scene, regions: &'a [Region<D>]) -> Option<Self> {
         let gravity = scene.gravity::<D>();
         let up = -gravity.try_normalize(0.0)?;
-        let surface = |r: &Region<D>| r.cuts.iter().any(|c| matches!(c, Shape::Side { .. }));
+        let ends = |c: &Shape<D>| matches!(c, Shape::Side { .. } | Shape::OverWave(_));
+        let surface = |r: &Region<D>| r.cuts.iter().any(ends);
         if regions.len() < 2 && !regions.iter().any(surface) {
             return None;
         }

@@ -1,4 +1,4 @@
-//! Fields for ParaView and pictures.
+//! Fields for ParaView, pictures and the curves of probes.
 
 use std::path::{Path, PathBuf};
 
@@ -10,9 +10,10 @@ use sph_io::{
 use sph_scene::Scene;
 
 use crate::edges::wall_lines;
+use crate::series::Probes;
 use crate::{Flow, SolverError};
 
-/// Writes frames and pictures into a run's folder.
+/// Writes frames, pictures and curves into a run's folder.
 pub struct Outputs {
     folder: PathBuf,
     series: Option<PvdSeries>,
@@ -26,7 +27,12 @@ pub struct Outputs {
 
 impl Outputs {
     /// Starts anew, or goes on after `written` outputs.
-    pub fn open(scene: &Scene, folder: &Path, written: Option<usize>) -> Result<Self, IoError> {
+    pub fn open<const D: usize>(
+        scene: &Scene,
+        probes: &Probes<D>,
+        folder: &Path,
+        written: Option<usize>,
+    ) -> Result<Self, IoError> {
         if written.is_none() {
             forget_earlier_run(folder);
         }
@@ -38,6 +44,9 @@ impl Outputs {
         };
         if !scene.output.picture.is_empty() {
             sph_io::writable(folder.join("pictures"))?;
+        }
+        if probes.iter().any(|(_, p)| !p.curve_columns().is_empty()) {
+            sph_io::writable(folder.join("curves"))?;
         }
         Ok(Outputs {
             folder: folder.to_path_buf(),
@@ -51,7 +60,11 @@ impl Outputs {
     }
 
     /// Writes everything the scene asks for at the flow's present time.
-    pub fn write<const D: usize>(&mut self, flow: &Flow<D>) -> Result<(), SolverError> {
+    pub fn write<const D: usize>(
+        &mut self,
+        flow: &Flow<D>,
+        probes: &Probes<D>,
+    ) -> Result<(), SolverError> {
         let time = flow.world.time;
         let points = points(flow)?;
         if let Some(series) = &mut self.series {
@@ -73,6 +86,16 @@ impl Outputs {
                 &self.folder.join(file),
             )?;
         }
+        for (name, probe) in probes {
+            let columns = probe.curve_columns();
+            if columns.is_empty() {
+                continue;
+            }
+            let rows = probe.curves(&flow.world)?;
+            let columns = columns.iter().map(|c| (&c.suffix, c.unit));
+            let file = format!("curves/{name}_{:04}.csv", self.written);
+            sph_io::write_table(self.folder.join(file), columns, &rows)?;
+        }
         self.written += 1;
         Ok(())
     }
@@ -90,11 +113,11 @@ fn forget_earlier_run(folder: &Path) {
             .and_then(|e| e.to_str())
             .unwrap_or_default();
         let number = stem.rsplit_once('_').map_or("", |(_, n)| n);
-        matches!(kind, "png" | "vtu")
+        matches!(kind, "png" | "vtu" | "csv")
             && number.len() >= 4
             && number.bytes().all(|b| b.is_ascii_digit())
     };
-    for sub in ["pictures", "fields"] {
+    for sub in ["pictures", "fields", "curves"] {
         let entries = std::fs::read_dir(folder.join(sub))
             .into_iter()
             .flatten()

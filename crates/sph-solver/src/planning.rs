@@ -9,8 +9,8 @@ use sph_neighbours::{Interaction, World, fuse_all};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_stress::{
-    Blend, Blended, CarriedStress, CoulombFriction, ElasticMotion, Felt, GradientStage, Rheologies,
-    StrainRate, StressCorrection, ViscosityStage, Yielded,
+    Blend, Blended, CarriedStress, CoulombFriction, ElasticMotion, Felt, GradientStage,
+    PorePressure, Rheologies, StrainRate, StressCorrection, ViscosityStage, Yielded,
 };
 
 use crate::choices::Choices;
@@ -158,6 +158,7 @@ pub fn plan_stages<const D: usize>(
         });
         let soils = soils.collect();
         offered.push(with_gamma(effective.stage(soils)));
+        offered.push(Box::new(PorePressure));
     }
     let gradient = choices.velocity_gradient.take();
     let stage_of_gradient = || gradient.clone().map(GradientStage);
@@ -220,8 +221,9 @@ pub fn plan_stages<const D: usize>(
         goals.push(fields::SHIFT_VELOCITY.any());
     }
     for stage in &offered {
-        let wanted = scene.output.fields.iter().chain(&scene.output.picture);
-        for name in wanted {
+        let shown = scene.output.fields.iter().chain(&scene.output.picture);
+        let measured = choices.probes.iter().flat_map(|(_, p)| p.fields());
+        for name in shown.map(String::as_str).chain(measured) {
             goals.extend(stage.access().writes.iter().filter(|f| f.name == name));
         }
     }

@@ -102,7 +102,7 @@ impl<const D: usize> Running<'_, D> {
             dt_limits,
             advice,
             drift: Drift {
-                mass: over(balance.mass - mass, mass),
+                mass: over(balance.mass + flow.mass_left() - mass, mass),
                 momentum: over(momentum, self.series.momentum_scale),
                 energy: over(balance.energy() - energy, self.series.energy_scale),
             },
@@ -110,6 +110,10 @@ impl<const D: usize> Running<'_, D> {
             density_range: self.series.density_range,
             density_constant_range: flow.density_constant_range(),
             escaped,
+            left: flow
+                .left()
+                .map(|(label, left)| (label.clone(), left))
+                .collect(),
             relaxation: self.parts.relaxation,
             implicit_viscosity: self.parts.flow.implicit.as_ref().map(|i| i.solves.clone()),
             errors,

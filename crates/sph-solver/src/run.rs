@@ -72,6 +72,9 @@ pub(crate) struct Counters {
     pub(crate) initial: [u64; 2],
     pub(crate) initial_momentum: Vec<u64>,
     pub(crate) step_scale: u64,
+    /// Mass (as bits) and number of particles that have left, by outlet and phase.
+    #[serde(default)]
+    pub(crate) left: Vec<[u64; 2]>,
 }
 
 pub(crate) struct Running<'a, const D: usize> {
@@ -102,6 +105,7 @@ fn run_in<const D: usize>(
     };
     if options.resume {
         counters = checkpoint::load(&mut parts.flow, &file, &options.identity)?;
+        parts.flow.recount(&counters.left);
         observer.message(&format!(
             "resuming at t = {:.6} s, step {}",
             parts.flow.world.time, counters.steps
@@ -114,9 +118,14 @@ fn run_in<const D: usize>(
         })?;
     }
     let resumed = options.resume.then_some(&counters);
-    let outputs = Outputs::open(scene, &options.out, resumed.map(|c| c.outputs))?;
+    let outputs = Outputs::open(
+        scene,
+        &parts.probes,
+        &options.out,
+        resumed.map(|c| c.outputs),
+    )?;
     let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
-    let series = Series::open(&options.out, &parts.probes, at)?;
+    let series = Series::open(&options.out, parts.flow.outlets.labels(), &parts.probes, at)?;
     for warning in &parts.warnings {
         observer.message(&format!("note: {warning}"));
     }
@@ -188,7 +197,10 @@ impl<const D: usize> Running<'_, D> {
                 have_snapshot = true;
             }
             self.parts.flow.world.dt = dt;
-            let stepped = self.parts.integrator.step(&mut self.parts.flow, dt);
+            self.parts.flow.outlets.forget();
+            let flow = &mut self.parts.flow;
+            let stepped = self.parts.integrator.step(flow, dt);
+            let stepped = stepped.and_then(|()| flow.let_out());
             if let Err(cause) = stepped {
                 return Err(self.fail(cause, Some(&snapshot), observer));
             }
@@ -294,7 +306,7 @@ impl<const D: usize> Running<'_, D> {
             .next_output
             .is_some_and(|t| time >= f64::from_bits(t))
         {
-            self.outputs.write(&self.parts.flow)?;
+            self.outputs.write(&self.parts.flow, &self.parts.probes)?;
             self.counters.next_output = self.next_output(time);
         }
         let interval = self.scene.run.checkpoint_interval();
@@ -317,6 +329,8 @@ impl<const D: usize> Running<'_, D> {
         self.counters.series_position = position;
         self.counters.series_extrema = extrema.map(f64::to_bits);
         self.counters.outputs = self.outputs.written;
+        let left = self.parts.flow.left();
+        self.counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
         let counters = Counters {
             wall_seconds: self.wall_seconds(),
             stage_seconds: self.stage_seconds(),

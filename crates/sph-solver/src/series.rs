@@ -10,7 +10,8 @@ use sph_scene::Scene;
 use crate::balance::Balance;
 use crate::{Flow, SolverError};
 
-type Probes<const D: usize> = [(String, Box<dyn Probe<D>>)];
+/// Probes by name.
+pub type Probes<const D: usize> = [(String, Box<dyn Probe<D>>)];
 
 /// Writes one row at a time.
 pub struct Series {
@@ -24,7 +25,7 @@ pub struct Series {
 }
 
 /// Names and units of all columns.
-fn columns<const D: usize>(probes: &Probes<D>) -> Vec<(String, String)> {
+fn columns<const D: usize>(left: &[String], probes: &Probes<D>) -> Vec<(String, String)> {
     let mut columns: Vec<(String, String)> = [("time", "s"), ("dt", "s")]
         .map(|(n, u)| (n.to_string(), u.to_string()))
         .into();
@@ -40,6 +41,10 @@ fn columns<const D: usize>(probes: &Probes<D>) -> Vec<(String, String)> {
         ("largest_density_ratio", "1"),
     ];
     columns.extend(more.map(|(n, u)| (n.to_string(), u.to_string())));
+    for label in left {
+        columns.push((label.clone(), "kg".into()));
+        columns.push((format!("{label}.particles"), "1".into()));
+    }
     for (name, probe) in probes {
         for column in probe.columns() {
             columns.push((format!("{name}{}", column.suffix), column.unit.into()));
@@ -49,16 +54,17 @@ fn columns<const D: usize>(probes: &Probes<D>) -> Vec<(String, String)> {
 }
 
 impl Series {
-    /// Starts anew, or goes on at a byte offset with the extrema so far.
+    /// Starts anew, with the labels of what leaves, or goes on at a byte offset with the extrema so far.
     pub fn open<const D: usize>(
         folder: &Path,
+        left: &[String],
         probes: &Probes<D>,
         resumed: Option<(u64, [f64; 4])>,
     ) -> Result<Self, IoError> {
         let path = folder.join("series.csv");
         let (writer, extrema) = match resumed {
             None => (
-                SeriesWriter::create(path, columns(probes))?,
+                SeriesWriter::create(path, columns(left, probes))?,
                 [f64::INFINITY, f64::NEG_INFINITY, 0.0, 0.0],
             ),
             Some((offset, extrema)) => (SeriesWriter::open_truncated(path, offset)?, extrema),
@@ -99,6 +105,9 @@ impl Series {
             balance.least_density,
             balance.largest_density,
         ]);
+        for (_, left) in flow.left() {
+            row.extend([left.mass, left.particles as f64]);
+        }
         for (_, probe) in probes {
             row.extend(probe.measure(&flow.world)?);
         }

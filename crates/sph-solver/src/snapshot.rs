@@ -1,7 +1,7 @@
 //! The state before a step, to fall back on when the step fails.
 
 use nalgebra::SMatrix;
-use sph_core::{FieldError, Recall, Symmetric, Vect, fields};
+use sph_core::{FieldError, Recall, Symmetric, Taken, Vect, fields};
 
 use crate::Flow;
 
@@ -21,6 +21,8 @@ pub struct Snapshot<const D: usize> {
     turn: Vec<Symmetric>,
     elastic_displacement: Vec<Vect<D>>,
     time: f64,
+    /// What had left.
+    taken: Vec<Taken>,
 }
 
 impl<const D: usize> Snapshot<D> {
@@ -32,6 +34,7 @@ impl<const D: usize> Snapshot<D> {
         }
         let free = &flow.world.free;
         copy(&mut self.identity, free.get(fields::IDENTITY)?);
+        copy(&mut self.taken, free.taken());
         copy(&mut self.position, free.get(fields::POSITION)?);
         if let Ok(displacement) = free.get(fields::DISPLACEMENT) {
             copy(&mut self.displacement, displacement);
@@ -60,7 +63,9 @@ impl<const D: usize> Snapshot<D> {
         if now == self.identity {
             return Ok(None);
         }
-        let mut place = vec![0u32; now.len()];
+        // Who has left is missing among the identities.
+        let ids = self.identity.iter().max().map_or(0, |id| *id as usize + 1);
+        let mut place = vec![0u32; ids];
         for (k, &id) in self.identity.iter().enumerate() {
             place[id as usize] = k as u32;
         }
@@ -119,8 +124,10 @@ impl<const D: usize> Snapshot<D> {
         }
     }
 
-    /// Puts the state back. If the particles were sorted meanwhile, they return to their order.
+    /// Puts the state back. If the particles were sorted meanwhile, they return to their
+    /// order; those that left by an outlet since come back.
     pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), FieldError> {
+        flow.take_back(&self.taken);
         if let Some(places) = self.places(flow)? {
             let mut order = vec![0u32; places.len()];
             for (k, &p) in places.iter().enumerate() {

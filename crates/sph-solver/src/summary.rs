@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
-use crate::{Relaxation, Solves};
+use crate::{Left, Relaxation, Solves};
 
 /// Version of the summary's layout.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -57,7 +57,7 @@ pub struct ErrorEntry {
 /// Relative change of what should be conserved.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Drift {
-    /// Over the initial mass.
+    /// Over the initial mass; what has left by outlets is still counted.
     pub mass: f64,
     /// Over Σ m|u| at the end, or its largest value so far if larger.
     pub momentum: f64,
@@ -124,6 +124,9 @@ pub struct Summary {
     pub density_constant_range: Option<[f64; 2]>,
     /// Particles behind a wall at the end.
     pub escaped: usize,
+    /// What has left by outlets, by `outlet.NAME.PHASE`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub left: BTreeMap<String, Left>,
     /// What relaxing the first particles did, if the scene asked for it.
     #[serde(default)]
     pub relaxation: Option<Relaxation>,

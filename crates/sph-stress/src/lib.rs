@@ -8,7 +8,7 @@
 //! * [`ElasticForce`] is a kind of plugin: [`Divergence`] takes [`StressDivergence`] or [`AdjointDivergence`] of the stress,
 //!   [`Displacement`] second differences of the way since the material was last liquid. [`Blended`] weighs forces.
 //! * [`EffectivePressure`] is a kind of plugin: the pressure between the grains, where it is not that
-//!   of the equation of state. [`Laplace`] is one.
+//!   of the equation of state. [`Laplace`] is one. [`PorePressure`] is what is left for the water.
 //! * [`CoulombFriction`] brakes soils on walls that have a coefficient of friction.
 //!
 //! Nothing here runs in a scene whose laws do not ask for it.
@@ -26,6 +26,7 @@ mod felt;
 mod gradient;
 mod isotropic;
 mod laplace;
+mod pore_pressure;
 mod renormalised;
 mod soil_surface;
 mod strain_rate;
@@ -47,6 +48,7 @@ pub use felt::Felt;
 pub use gradient::{GradientStage, NeighbourSums, VelocityGradient, VelocityGradientEntry};
 pub use isotropic::Isotropic;
 pub use laplace::{Laplace, PressureSolver};
+pub use pore_pressure::PorePressure;
 pub use renormalised::Renormalised;
 pub use strain_rate::StrainRate;
 pub use symmetric_difference::SymmetricDifference;

@@ -11,3 +11,4 @@ mod rheology;
 mod shipped;
 mod tanks;
 mod vortices;
+mod waves;

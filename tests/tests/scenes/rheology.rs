@@ -169,6 +169,25 @@ fn effective_pressure_is_the_buoyant_weight_whatever_the_depth_of_the_water() {
 }
 
 #[test]
+fn a_bed_at_rest_has_level_lines_and_the_weight_of_the_water_in_its_pores() {
+    let run = finished("saturated-bed-at-rest", &["run.end=0.02"]);
+    run.error("pore", 0.02, 0.0136);
+    assert!(column(&run, "lines.moving").iter().all(|m| *m == 0.0));
+    for output in ["0000", "0001"] {
+        let name = format!("curves/lines_{output}.csv");
+        let table = sph_io::read_table(run.path(&name)).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(table.rows(), 10, "{name}: a row for two of 20 columns");
+        // The rows of usaw stand at whole spacings over the floor, at 5 mm.
+        for (curve, exact) in [("surface", 0.2), ("interface", 0.1), ("limit", 0.1)] {
+            let heights = table.column(curve).unwrap_or_else(|| panic!("no {curve}"));
+            let apart = |most: f64, y: &f64| most.max((y - exact).abs());
+            let apart = heights.iter().fold(0.0, apart);
+            assert!(apart < 0.003, "{name}: {curve} is {apart} m off {exact} m");
+        }
+    }
+}
+
+#[test]
 fn a_slope_stands_below_the_angle_of_its_cone_and_slides_above_it() {
     let coarse = ["numerics.spacing=0.01", "run.end=0.6"];
     let standing = finished("infinite-slope", &coarse);

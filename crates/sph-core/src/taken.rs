@@ -1,0 +1,128 @@
+//! Particles that are taken out of a store.
+
+use crate::field::Column;
+use crate::store::{Entry, Store};
+
+/// What has been taken out of a store by one outlet of one phase.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Taken {
+    /// Number of the outlet.
+    pub outlet: u32,
+    /// Number of the phase.
+    pub phase: u32,
+    /// Mass, kg (per metre of depth in 2D).
+    pub mass: f64,
+    /// Number of particles.
+    pub particles: u64,
+}
+
+/// Entries of a column that were taken out, or all behind a place.
+fn split<T: Copy>(items: &mut Vec<T>, leaves: &[bool]) -> Vec<T> {
+    let both = || items.iter().zip(leaves);
+    let out = both().filter(|(_, leaves)| **leaves).map(|(v, _)| *v);
+    let out = out.collect();
+    let kept = both().filter(|(_, leaves)| !**leaves).map(|(v, _)| *v);
+    *items = kept.collect();
+    out
+}
+
+macro_rules! each {
+    ($column:expr, $items:ident => $done:expr) => {
+        match $column {
+            Column::Scalar($items) => Column::Scalar($done),
+            Column::Vector($items) => Column::Vector($done),
+            Column::Index($items) => Column::Index($done),
+            Column::Tensor($items) => Column::Tensor($done),
+            Column::SymmetricTensor($items) => Column::SymmetricTensor($done),
+        }
+    };
+}
+
+impl<const D: usize> Store<D> {
+    /// Takes out the particles for which `leaves` is true; the others keep their order.
+    ///
+    /// Entries beyond the end of `leaves` stay. Derived columns are cut as the others are, and hold
+    /// the values of the former neighbours until they are computed anew.
+    pub fn take_out(&mut self, leaves: &[bool]) -> Store<D> {
+        let mut leaves = leaves.to_vec();
+        leaves.resize(self.len, false);
+        let count = leaves.iter().filter(|l| **l).count();
+        let mut out = Vec::with_capacity(self.entries.len());
+        for entry in &mut self.entries {
+            let column = each!(&mut entry.column, items => split(items, &leaves));
+            out.push(Entry { column, ..*entry });
+        }
+        self.len -= count;
+        Store {
+            len: count,
+            entries: out,
+            taken: Vec::new(),
+        }
+    }
+
+    /// Puts particles that were taken out behind the others.
+    ///
+    /// Columns that they do not have become zero there.
+    pub fn put_back(&mut self, mut others: Store<D>) {
+        let len = self.len + others.len;
+        for entry in &mut self.entries {
+            let found = others.entries.iter_mut().find(|e| e.name == entry.name);
+            match (&mut entry.column, found.map(|e| &mut e.column)) {
+                (Column::Scalar(to), Some(Column::Scalar(from))) => to.append(from),
+                (Column::Vector(to), Some(Column::Vector(from))) => to.append(from),
+                (Column::Index(to), Some(Column::Index(from))) => to.append(from),
+                (Column::Tensor(to), Some(Column::Tensor(from))) => to.append(from),
+                (Column::SymmetricTensor(to), Some(Column::SymmetricTensor(from))) => {
+                    to.append(from);
+                }
+                _ => {}
+            }
+            match &mut entry.column {
+                Column::Scalar(items) => items.resize(len, Default::default()),
+                Column::Vector(items) => items.resize(len, crate::Vect::zeros()),
+                Column::Index(items) => items.resize(len, Default::default()),
+                Column::Tensor(items) => items.resize(len, nalgebra::SMatrix::zeros()),
+                Column::SymmetricTensor(items) => items.resize(len, Default::default()),
+            }
+        }
+        self.len = len;
+    }
+
+    /// What has been taken out so far, by outlet and phase.
+    pub fn taken(&self) -> &[Taken] {
+        &self.taken
+    }
+
+    /// Sets what has been taken out so far.
+    pub fn set_taken(&mut self, taken: Vec<Taken>) {
+        self.taken = taken;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Role, fields};
+
+    #[test]
+    fn what_is_put_back_is_what_was_taken_out() {
+        let mut store = Store::<2>::new(5);
+        store.add(fields::MASS, Role::State);
+        store.add(fields::IDENTITY, Role::State);
+        store.add(fields::DENSITY, Role::Derived);
+        let numbers = [4, 0, 3, 1, 2];
+        *store.get_mut(fields::IDENTITY).unwrap() = numbers.to_vec();
+        *store.get_mut(fields::MASS).unwrap() = numbers.map(f64::from).to_vec();
+        let out = store.take_out(&[false, true, false, true]);
+        assert_eq!((store.len(), out.len()), (3, 2));
+        assert_eq!(store.get(fields::IDENTITY).unwrap(), [4, 3, 2]);
+        assert_eq!(out.get(fields::MASS).unwrap(), [0.0, 1.0]);
+        assert_eq!(store.get(fields::DENSITY).unwrap().len(), 3);
+        store.put_back(out);
+        assert_eq!(store.get(fields::IDENTITY).unwrap(), [4, 3, 2, 0, 1]);
+        let mass = store.get(fields::MASS).unwrap();
+        assert_eq!(mass, [4.0, 3.0, 2.0, 0.0, 1.0]);
+        store.permute(&[0, 3, 1, 4, 2]);
+        assert_eq!(store.get(fields::IDENTITY).unwrap(), numbers);
+    }
+}

@@ -1,0 +1,45 @@
+//! Waves that travel.
+
+use crate::shipped::finished;
+
+/// Time of the crest, s, as the middle of the times at half its height, and its height over the first
+/// value, m.
+fn passage(time: &[f64], level: &[f64]) -> [f64; 2] {
+    let raised: Vec<f64> = level.iter().map(|y| y - level[0]).collect();
+    let height = raised.iter().copied().fold(0.0, f64::max);
+    let half = 0.5 * height;
+    let pairs = raised.windows(2).zip(time.windows(2));
+    let crossed = pairs.filter(|(y, _)| (y[0] < half) != (y[1] < half));
+    let place = |(y, t): (&[f64], &[f64])| t[0] + (half - y[0]) / (y[1] - y[0]) * (t[1] - t[0]);
+    let times: Vec<f64> = crossed.map(place).collect();
+    assert!(times.len() >= 2, "no crest passes");
+    [0.5 * (times[0] + times[times.len() - 1]), height]
+}
+
+/// With 10.5 rows over the depth instead of 20.5.
+#[test]
+fn a_solitary_wave_keeps_its_celerity_and_height_over_ten_depths() {
+    let coarse = [
+        "numerics.spacing=0.009523809523809525",
+        "body.water.wave.bottom=0.0047619047619047624",
+    ];
+    let run = finished("solitary-wave", &coarse);
+    let series = run.series();
+    let column = |name: &str| {
+        let column = series.column(name);
+        column.unwrap_or_else(|| panic!("no {name}")).to_vec()
+    };
+    let time = column("time");
+    let [[early, first], [late, last]] =
+        ["before", "end"].map(|name| passage(&time, &column(name)));
+    let celerity = 1.0 / (late - early);
+    let exact = (9.81_f64 * 0.13).sqrt();
+    let error = (celerity / exact - 1.0).abs();
+    assert!(error < 0.05, "{celerity} m/s for {exact}: {error}");
+    let loss = 1.0 - last / first;
+    println!("celerity {celerity} m/s for {exact}, crest {first} m, then {last} m");
+    assert!(loss.abs() < 0.1, "the crest loses {loss} of {first} m");
+    let start = column("start")[0] - column("end")[0];
+    let missed = (start / 0.03 - 1.0).abs();
+    assert!(missed < 0.1, "the wave starts {start} m high: {missed}");
+}
