@@ -26,7 +26,6 @@ fn what_leaves_is_counted_and_missing_in_the_flow() {
     assert_eq!(left["particles"].as_f64(), Some(last.1));
     let particles = summary["particles"].as_f64().expect("a number");
     let all = last.1 + particles;
-    // 10 by 20 cells less the rows half a spacing off walls and surfaces.
     let start = {
         bench.done("run scene.toml --quiet --out s --set run.end=1e-6");
         let text = bench.read("s/summary.json");
@@ -45,7 +44,7 @@ fn an_outlet_where_a_body_starts_is_refused_at_its_line() {
     let bench = Bench::with(PROGRAM, &scene);
     let outcome = bench.call("run scene.toml --quiet --out r");
     assert_eq!(outcome.code, Some(2), "{}", outcome.err);
-    let said = "outlet.end: the body `column` stands in it at the start, for instance at [";
+    let said = "the body `column` stands in the outlet at the start, for instance at [";
     assert!(outcome.err.contains(said), "{}", outcome.err);
     let line = 1 + scene
         .lines()

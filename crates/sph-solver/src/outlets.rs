@@ -51,7 +51,7 @@ impl<const D: usize> Outlets<D> {
             if let Some((x, body)) = inside {
                 let body = scene.body.keys().nth(*body as usize);
                 let message = format!(
-                    "the body `{}` stands in it at the start, for instance at {:?}",
+                    "the body `{}` stands in the outlet at the start, for instance at {:?}",
                     body.map_or("", String::as_str),
                     <[f64; D]>::from(*x)
                 );
@@ -197,7 +197,7 @@ mod tests {
         sent(&mut flow, 150, [0.5, -1.5]);
         flow.let_out().unwrap();
         flow.world.rebuild_lists().unwrap();
-        assert_eq!(flow.world.free.len(), 197);
+        assert_eq!(flow.world.free.len(), before.0.len() - 2);
         let left: Vec<_> = flow.left().filter(|(_, l)| l.particles > 0).collect();
         let sum: u64 = left.iter().map(|(_, l)| l.particles).sum();
         assert_eq!(sum, 3, "{left:?}");
