@@ -40,6 +40,7 @@ mod planning;
 mod references;
 mod relax;
 mod report;
+mod retreat;
 pub mod rheometer;
 mod run;
 mod series;

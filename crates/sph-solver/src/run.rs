@@ -11,9 +11,8 @@ use sph_scene::Scene;
 use crate::assemble::{Assembled, assemble};
 use crate::balance::Balance;
 use crate::driver::{Command, Observer, Progress};
-use crate::error::{Failure, SolverError};
-use crate::output::{Outputs, write_everything};
-use crate::report::advice;
+use crate::error::SolverError;
+use crate::output::Outputs;
 use crate::series::Series;
 use crate::snapshot::Snapshot;
 use crate::summary::{Status, Summary};
@@ -157,18 +156,8 @@ impl<const D: usize> Running<'_, D> {
         }
         loop {
             if let Err(cause) = self.evaluate() {
-                if !have_snapshot || retries >= self.scene.run.retries {
-                    return Err(self.fail(cause, have_snapshot.then_some(&snapshot), observer));
-                }
-                retries += 1;
-                self.counters.rolled_back += 1;
-                snapshot.restore(&mut self.parts.flow)?;
-                let scale = 0.5 * f64::from_bits(self.counters.step_scale);
-                self.counters.step_scale = scale.to_bits();
-                observer.message(&format!(
-                    "step {} failed ({cause}); going back to t = {:.6} s with {scale:.4} of the step",
-                    self.counters.steps, self.parts.flow.world.time
-                ));
+                let kept = have_snapshot.then_some(&snapshot);
+                self.go_back(cause, kept, &mut retries, observer)?;
                 continue;
             }
             if have_snapshot && f64::from_bits(self.counters.step_scale) >= 1.0 {
@@ -202,7 +191,9 @@ impl<const D: usize> Running<'_, D> {
             let stepped = self.parts.integrator.step(flow, dt);
             let stepped = stepped.and_then(|()| flow.let_out());
             if let Err(cause) = stepped {
-                return Err(self.fail(cause, Some(&snapshot), observer));
+                let kept = have_snapshot.then_some(&snapshot);
+                self.go_back(cause, kept, &mut retries, observer)?;
+                continue;
             }
             // A drift in parts may end one rounding short of its aim, and the sliver that is left
             // be too short for its parts to move the clock: for ever.
@@ -234,7 +225,8 @@ impl<const D: usize> Running<'_, D> {
             if command == Command::Stop || late {
                 // The rates belong to a state; a checkpoint is taken where they are fresh.
                 if let Err(cause) = self.evaluate() {
-                    return Err(self.fail(cause, Some(&snapshot), observer));
+                    let kept = have_snapshot.then_some(&snapshot);
+                    return Err(self.fail(cause, kept, observer));
                 }
                 self.save()?;
                 return Ok(Status::Interrupted);
@@ -242,7 +234,7 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    fn evaluate(&mut self) -> Result<(), StepError> {
+    pub(crate) fn evaluate(&mut self) -> Result<(), StepError> {
         let flow = &mut self.parts.flow;
         flow.evaluate()?;
         guard::rates(&flow.world, &flow.laws, self.scene.numerics.density_bounds)
@@ -324,7 +316,7 @@ impl<const D: usize> Running<'_, D> {
         self.counters.initial_momentum = balance.momentum.iter().map(|m| m.to_bits()).collect();
     }
 
-    fn save(&mut self) -> Result<(), SolverError> {
+    pub(crate) fn save(&mut self) -> Result<(), SolverError> {
         let (position, extrema) = self.series.resume_point();
         self.counters.series_position = position;
         self.counters.series_extrema = extrema.map(f64::to_bits);
@@ -347,44 +339,6 @@ impl<const D: usize> Running<'_, D> {
         }
         *all.entry("output".into()).or_default() += self.output_seconds;
         all
-    }
-
-    /// Writes what a person needs to see why the run failed.
-    fn fail(
-        &mut self,
-        cause: StepError,
-        snapshot: Option<&Snapshot<D>>,
-        observer: &mut (dyn Observer + Send),
-    ) -> SolverError {
-        let (time, step) = (self.parts.flow.world.time, self.counters.steps);
-        let bad = self.options.out.join("bad_state.vtu");
-        let bad_state = write_everything(&self.parts.flow, &bad)
-            .is_ok()
-            .then_some(bad);
-        let mut checkpoint = None;
-        if let Some(snapshot) = snapshot {
-            let back = snapshot
-                .restore(&mut self.parts.flow)
-                .map_err(SolverError::from);
-            let saved = back
-                .and_then(|()| Ok(self.evaluate()?))
-                .and_then(|()| self.save());
-            if saved.is_ok() {
-                checkpoint = Some(self.options.out.join(checkpoint::FILE));
-            }
-        }
-        let failure = Failure {
-            time,
-            step,
-            advice: advice(&cause),
-            cause,
-            checkpoint,
-            bad_state,
-        };
-        if let Err(error) = self.write_summary(Status::Failed, Some(&failure)) {
-            observer.message(&format!("the summary could not be written: {error}"));
-        }
-        SolverError::Failed(Box::new(failure))
     }
 
     fn finish(&mut self, status: Status) -> Result<Summary, SolverError> {

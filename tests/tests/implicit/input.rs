@@ -46,3 +46,24 @@ fn a_misspelt_solver_gets_the_nearest_name() {
     );
     assert!(said.contains("cholesky"), "{said}");
 }
+
+/// With tries left the step is repeated with half of its length, without any the run says why it stops.
+#[test]
+fn a_solver_that_gives_up_stops_the_run_with_its_reason() {
+    let tables = "[implicit-viscosity.backward-euler]\n[linear-solver.conjugate-gradient]\n\
+         iterations = 1\ntolerance = 1e-14";
+    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}\n{tables}\n"));
+    for (retries, tried) in [(0, false), (2, true)] {
+        let outcome = bench.call(&format!(
+            "run scene.toml --out out{retries} --set run.retries={retries} \
+             --set phase.water.rheology.newtonian.viscosity=10"
+        ));
+        assert_eq!(outcome.code, Some(1), "{}", outcome.err);
+        assert!(
+            outcome.err.contains("implicit viscosity"),
+            "{}",
+            outcome.err
+        );
+        assert_eq!(outcome.err.contains("going back"), tried, "{}", outcome.err);
+    }
+}
