@@ -79,7 +79,7 @@ fn a_pile_of_beads_runs_out_and_stops() {
     );
 }
 
-/// With `brezzi-pitkaranta`, whose strength is in proportion to the step, half of it is 20 % less.
+/// With `brezzi-pitkaranta`, whose strength is in proportion to the step, it falls from 1.19 to 0.91.
 #[test]
 fn the_run_out_of_a_pile_does_not_depend_on_the_step() {
     let coarse = ["numerics.spacing=0.004", "run.end=0.24", "reference={}"];
@@ -92,7 +92,7 @@ fn the_run_out_of_a_pile_does_not_depend_on_the_step() {
     let half = front("integrator.symplectic-euler.courant=0.2");
     assert!(
         (whole / half - 1.0).abs() < 0.03,
-        "{whole} and {half} heights, 1.27 and 1.26 were measured"
+        "{whole} and {half} heights, 1.266 and 1.264 were measured"
     );
 }
 
@@ -107,16 +107,19 @@ fn a_collapsed_column_lies_still_where_the_experiment_does() {
         ["surface.rms", "failure.rms"].map(|c| *column(&run, c).last().expect("a row"));
     assert!(
         surface < 6e-3 && failure < 8e-3,
-        "surface {surface} m, failure line {failure} m"
+        "surface {surface} m, failure line {failure} m; 0.0020 and 0.0072 were measured"
     );
     let front = column(&run, "front");
     let last = front.len() - 1;
     let crept = front[last] - front[last - 10];
-    assert!(crept < 1e-3, "{crept} m in the last 0.1 s");
+    assert!(crept < 1e-3, "{crept} m in the last 0.1 s, 1.4e-6 was measured");
     let energy = column(&run, "kinetic_energy");
     let largest = energy.iter().copied().fold(0.0, f64::max);
     let left = energy[last] / largest;
-    assert!(left < 1e-4, "{left} of the kinetic energy");
+    assert!(
+        left < 1e-4,
+        "{left} of the kinetic energy, 5.8e-5 was measured"
+    );
 }
 
 #[test]
