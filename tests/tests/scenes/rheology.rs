@@ -112,7 +112,10 @@ fn a_collapsed_column_lies_still_where_the_experiment_does() {
     let front = column(&run, "front");
     let last = front.len() - 1;
     let crept = front[last] - front[last - 10];
-    assert!(crept < 1e-3, "{crept} m in the last 0.1 s, 1.4e-6 was measured");
+    assert!(
+        crept < 1e-3,
+        "{crept} m in the last 0.1 s, 1.4e-6 was measured"
+    );
     let energy = column(&run, "kinetic_energy");
     let largest = energy.iter().copied().fold(0.0, f64::max);
     let left = energy[last] / largest;
