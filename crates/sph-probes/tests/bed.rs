@@ -1,8 +1,9 @@
 //! Probes of a movable bed, on particles whose places are known.
 
+mod common;
+
 use sph_core::{Registry, Role, Store, Vect, fields};
-use sph_kernels::{Kernel, wendland_c2};
-use sph_neighbours::{Domain, World};
+use sph_neighbours::World;
 use sph_probes::{Probe, ProbeEntry};
 
 const SPACING: f64 = 0.05;
@@ -41,17 +42,8 @@ fn world() -> World<2> {
     let still = |r: &(Vect<2>, u32, f64, f64)| 1000.0 * 10.0 * (2.0 - r.0[1]);
     *free.get_mut(fields::PORE_PRESSURE).unwrap() = rows.iter().map(still).collect();
     World {
-        free,
-        walls: Default::default(),
-        lists: Default::default(),
-        domain: Domain::open(Vect::from([-1.0, -1.0]), Vect::from([2.0, 2.0])),
-        kernel: wendland_c2().sampler(2, 2.0 * SPACING),
-        spacing: SPACING,
-        skin: 0.1,
         gravity: Vect::from([0.0, -10.0]),
-        driving: Vect::zeros(),
-        time: 0.0,
-        dt: 1.0,
+        ..common::world(free, SPACING)
     }
 }
 

@@ -1,8 +1,9 @@
 //! Surfaces and failure lines against drawn ones, on particles whose places are known.
 
+mod common;
+
 use sph_core::{Registry, Role, Store, Vect, fields};
-use sph_kernels::{Kernel, wendland_c2};
-use sph_neighbours::{Domain, World};
+use sph_neighbours::World;
 use sph_probes::{Probe, ProbeEntry};
 
 const SPACING: f64 = 0.05;
@@ -26,19 +27,7 @@ fn world(slope: f64) -> World<2> {
     free.add(fields::DISPLACEMENT, Role::State);
     *free.get_mut(fields::POSITION).unwrap() = positions;
     *free.get_mut(fields::DISPLACEMENT).unwrap() = moved;
-    World {
-        free,
-        walls: Default::default(),
-        lists: Default::default(),
-        domain: Domain::open(Vect::from([-1.0, -1.0]), Vect::from([2.0, 2.0])),
-        kernel: wendland_c2().sampler(2, 2.0 * SPACING),
-        spacing: SPACING,
-        skin: 0.1,
-        gravity: Vect::zeros(),
-        driving: Vect::zeros(),
-        time: 0.0,
-        dt: 1.0,
-    }
+    common::world(free, SPACING)
 }
 
 fn probe(keys: &str) -> Box<dyn Probe<2>> {

@@ -1,7 +1,8 @@
 //! Probes of one phase, on particles whose places are known.
 
+mod common;
+
 use sph_core::{Registry, Role, Store, Vect, fields};
-use sph_kernels::{Kernel, wendland_c2};
 use sph_neighbours::{Domain, World};
 use sph_probes::{Probe, ProbeEntry};
 
@@ -36,17 +37,9 @@ fn world() -> World<2> {
     let mut domain = Domain::open(Vect::from([0.0, -1.0]), Vect::from([1.0, 3.0]));
     domain.periodic[0] = true;
     World {
-        free,
-        walls: Default::default(),
-        lists: Default::default(),
-        domain,
-        kernel: wendland_c2().sampler(2, 2.0 * SPACING),
-        spacing: SPACING,
-        skin: 0.1,
         gravity: Vect::from([0.0, -10.0]),
-        driving: Vect::zeros(),
-        time: 0.0,
-        dt: 1.0,
+        domain,
+        ..common::world(free, SPACING)
     }
 }
 

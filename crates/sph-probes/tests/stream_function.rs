@@ -1,10 +1,11 @@
 //! The strength of a vortex whose stream function is known.
 
+mod common;
+
 use std::f64::consts::PI;
 
 use sph_core::{Registry, Role, Store, Vect, fields};
-use sph_kernels::{Kernel, wendland_c2};
-use sph_neighbours::{Domain, World};
+use sph_neighbours::World;
 use sph_probes::{Probe, ProbeEntry};
 
 /// ψ = sin²(πx) sin²(πy)·¼ in the unit square: both velocities vanish on all sides.
@@ -24,19 +25,7 @@ fn world(rows: usize, scale: f64) -> World<2> {
     *free.get_mut(fields::VELOCITY).unwrap() =
         positions.iter().map(|x| Vect::from([u(x), v(x)])).collect();
     *free.get_mut(fields::POSITION).unwrap() = positions;
-    World {
-        free,
-        walls: Default::default(),
-        lists: Default::default(),
-        domain: Domain::open(Vect::from([-1.0, -1.0]), Vect::from([2.0, 2.0])),
-        kernel: wendland_c2().sampler(2, 2.0 * spacing),
-        spacing,
-        skin: 0.1,
-        gravity: Vect::zeros(),
-        driving: Vect::zeros(),
-        time: 0.0,
-        dt: 1.0,
-    }
+    common::world(free, spacing)
 }
 
 fn probe(keys: &str) -> Result<Box<dyn Probe<2>>, String> {
