@@ -34,7 +34,7 @@ struct Buffers<E, const D: usize> {
 /// The matrix with −c_ij beside and own_i + Σ_j c_ij on the diagonal, and the sources.
 ///
 /// `row` gets a neighbourhood (without packed states) and writes one coupling c_ij for each of its free
-/// neighbours. With `keep_skin` the pattern has all candidates of the lists, with zeros beyond the
+/// neighbours; those that are zero are left out. With `keep_skin` the pattern has all candidates of the lists, with zeros, also beyond the
 /// support, and stays the same as long as the lists do.
 ///
 /// # Errors
@@ -58,7 +58,9 @@ pub fn assemble<const D: usize, E: Entry<D>>(
         sorted.clear();
         for (&j, c) in neighbourhood.free.index.iter().zip(&buffers.couplings) {
             diagonal = diagonal.plus(c);
-            sorted.push((j, c.times(-1.0)));
+            if keep_skin || *c != E::ZERO {
+                sorted.push((j, c.times(-1.0)));
+            }
         }
         if keep_skin {
             // The row is a part of the candidates, in their order.

@@ -1,7 +1,7 @@
 //! Friction from the end of the step: (M + θΔt K) uⁿ⁺¹ = M u* + Δt s − (1 − θ)Δt K uⁿ.
 //!
 //! M = diag(m_a γ_a) and K are those of [`sph_multiphase::Coupling`]; u* is the velocity after all
-//! other forces. Where K depends on the velocity, it follows it (Picard). Ghaïtanellis 2017, Eq. 5.3–5.6, made symmetric by the factor m_a γ_a.
+//! other forces. Where K depends on the velocity, it follows it (Picard). Pairs whose friction is weak act with uⁿ if θ = 1. Ghaïtanellis 2017, Eq. 5.3–5.6, made symmetric by the factor m_a γ_a.
 
 use std::collections::BTreeMap;
 
@@ -10,6 +10,10 @@ use sph_core::{Stage, StepError, Vect, fields};
 use sph_implicit::{Entries, Entry, LinearSolver, Matrix, Report, Row, TimeScheme, assemble, dot};
 use sph_multiphase::Coupling;
 use sph_neighbours::World;
+
+/// Coupling of a pair over its smaller mass up to which it is taken explicitly: hundreds of neighbours together are far from
+/// the bound of 1, and a step of water beside mud has a matrix of the mud alone.
+const SOFT: f64 = 1e-3;
 
 /// Residual of a solve within an outer iteration, over the tolerance of the latter.
 const INNER: f64 = 0.1;
@@ -139,8 +143,8 @@ impl<const D: usize> ImplicitViscosity<D> {
     ) -> Result<(), StepError> {
         let share = self.scheme.implicit_share();
         let mut system = match self.coupling.mixes_components() {
-            false => self.scalar_system(world, share, dt)?,
-            true => self.block_system(world, share, dt)?,
+            false => self.scalar_system(world, earlier, [share, dt])?,
+            true => self.block_system(world, earlier, [share, dt])?,
         };
         let rows = system.right.iter_mut().zip(ahead).zip(&system.mass);
         rows.for_each(|((b, u), m)| *b += u * *m);
@@ -174,11 +178,17 @@ impl<const D: usize> ImplicitViscosity<D> {
         Ok(())
     }
 
-    fn scalar_system(&self, world: &World<D>, share: f64, dt: f64) -> Result<System<D>, StepError> {
+    fn scalar_system(
+        &self,
+        world: &World<D>,
+        earlier: &[Vect<D>],
+        part: [f64; 2],
+    ) -> Result<System<D>, StepError> {
         let bound = self.coupling.bind(world)?;
         self.system(
             world,
-            [share, dt],
+            earlier,
+            part,
             Entries::Scalar,
             |rows, out: &mut Vec<f64>| {
                 let row = bound.scalar_row(rows, out);
@@ -187,9 +197,14 @@ impl<const D: usize> ImplicitViscosity<D> {
         )
     }
 
-    fn block_system(&self, world: &World<D>, share: f64, dt: f64) -> Result<System<D>, StepError> {
+    fn block_system(
+        &self,
+        world: &World<D>,
+        earlier: &[Vect<D>],
+        part: [f64; 2],
+    ) -> Result<System<D>, StepError> {
         let bound = self.coupling.bind(world)?;
-        self.system(world, [share, dt], Entries::Block, |rows, out| {
+        self.system(world, earlier, part, Entries::Block, |rows, out| {
             let row = bound.block_row(rows, out);
             (row.wall, row.source)
         })
@@ -198,6 +213,7 @@ impl<const D: usize> ImplicitViscosity<D> {
     fn system<E: Entry<D>>(
         &self,
         world: &World<D>,
+        earlier: &[Vect<D>],
         [share, dt]: [f64; 2],
         entries: impl FnOnce(sph_implicit::Values<E>) -> Entries<D>,
         friction: impl Fn(&sph_neighbours::Neighbourhood<'_, D>, &mut Vec<E>) -> (E, Vect<D>) + Sync,
@@ -210,10 +226,18 @@ impl<const D: usize> ImplicitViscosity<D> {
             self.solver.keeps_pattern(),
             |rows, out: &mut Vec<E>| {
                 let (wall, source) = friction(rows, out);
-                out.iter_mut().for_each(|c| *c = c.times(share * dt));
+                let (i, mut source) = (rows.particle, source * dt);
+                for (&j, c) in rows.free.index.iter().zip(out.iter_mut()) {
+                    let j = j as usize;
+                    *c = c.times(share * dt);
+                    if share == 1.0 && c.largest() <= SOFT * mass[i].min(mass[j]) {
+                        source -= c.apply(&(earlier[i] - earlier[j]));
+                        *c = E::ZERO;
+                    }
+                }
                 Row {
-                    own: E::unit(mass[rows.particle]).plus(&wall.times(share * dt)),
-                    source: source * dt,
+                    own: E::unit(mass[i]).plus(&wall.times(share * dt)),
+                    source,
                 }
             },
         )?;
