@@ -62,6 +62,10 @@ pub trait Probe<const D: usize>: Send {
     fn curves(&self, _world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
         Ok(Vec::new())
     }
+    /// Which of these columns is drawn, `pictures/NAME_0003.png`, as a map over the first two.
+    fn drawn_column(&self) -> Option<usize> {
+        None
+    }
     /// The file that its key `file` names, if it compares with one.
     fn file(&self) -> Option<&str> {
         None

@@ -69,6 +69,10 @@ pub trait Rheology: Send + Sync + std::fmt::Debug {
     fn elastic(&self) -> Option<&dyn Elastic> {
         None
     }
+    /// Diameter of the grains, m, for a law that depends on it: remarks on the spacing need it.
+    fn grain_diameter(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// The elastic part of a law: a deviatoric stress that follows the motion and may yield.

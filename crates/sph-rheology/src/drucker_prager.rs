@@ -217,6 +217,9 @@ fn cut(stress: Symmetric, yield_stress: f64) -> Symmetric {
 }
 
 impl Rheology for DruckerPrager {
+    fn grain_diameter(&self) -> Option<f64> {
+        Some(self.grain_diameter)
+    }
     fn needs(&self) -> Needs {
         Needs {
             strain_rate: true,

@@ -210,6 +210,9 @@ impl MuI {
 }
 
 impl Rheology for MuI {
+    fn grain_diameter(&self) -> Option<f64> {
+        Some(self.grain_diameter)
+    }
     fn needs(&self) -> Needs {
         Needs {
             strain_rate: true,

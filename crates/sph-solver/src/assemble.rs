@@ -22,6 +22,7 @@ use crate::drawn::Drawn;
 use crate::error::SolverError;
 use crate::field_error;
 use crate::flow::Flow;
+use crate::ground::Ground;
 use crate::implicit::{ImplicitViscosity, Solves};
 use crate::initial::InitialState;
 use crate::layers::Layers;
@@ -34,6 +35,7 @@ use crate::snapshot::Snapshot;
 use crate::sound::sound_speeds;
 use crate::stages::{SharedWall, WALL_STATE};
 use crate::summary::PluginInForce;
+use crate::wall_speeds;
 use crate::walls::{build_walls, wall_problem};
 
 /// A flow with everything a run needs besides.
@@ -67,6 +69,12 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     choices.probes.extend(field_error::probes(scene)?);
     measured::prepare(scene, &mut choices.probes)?;
     let laws = bind_laws::<D>(scene, &drawn, &choices)?;
+    let sounds = laws.iter().map(|law| law.reference().sound_speed);
+    let slowest = sounds.fold(f64::INFINITY, f64::min);
+    let too_fast = wall_speeds::too_fast(&drawn.walls, slowest, scene.run.end);
+    if !too_fast.is_empty() {
+        return Err(SolverError::Scene(too_fast));
+    }
     let spacing = scene.numerics.spacing;
     let h = scene.numerics.smoothing_ratio * spacing;
     let sampler = choices.kernel.sampler(D, h);
@@ -128,6 +136,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         dt: 0.0,
     };
 
+    let ground = Ground::of(&choices);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
     let limiters = limiters_of(&choices, &laws, &kinematic_viscosities);
     let planned = plan_stages(scene, &mut choices, &laws, walls.as_ref(), &world)?;
@@ -177,6 +186,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     }
     check_output_fields(scene, &flow)?;
     let relaxation = start(scene, &drawn, &choices, &mut flow, &placed.body)?;
+    warnings.extend(ground.remarks(scene, &flow)?);
     Ok(Assembled {
         flow,
         integrator: choices.integrator,

@@ -1,8 +1,10 @@
 //! What a scene will cost, before it costs anything.
 
 use serde::Serialize;
+use sph_core::StepLimit;
 use sph_scene::{Scene, estimate};
 
+use crate::Flow;
 use crate::drawn::Drawn;
 use crate::error::SolverError;
 
@@ -53,6 +55,33 @@ impl Estimate {
             disk_bytes: outputs * (vtk + pictures) + 2.0 * checkpoint,
         }
     }
+}
+
+/// A step below which a run is not worth starting without a thought, s.
+const TINY: f64 = 1e-8;
+
+/// What a run takes whose first step is tiny.
+///
+/// # Errors
+/// If a limit cannot be computed.
+pub fn tiny_steps<const D: usize>(
+    scene: &Scene,
+    flow: &Flow<D>,
+    threads: usize,
+) -> Result<Option<String>, SolverError> {
+    let limits = flow.step_limits()?;
+    let Some(least) = StepLimit::least(&limits) else {
+        return Ok(None);
+    };
+    let dt = least.dt * scene.run.safety;
+    let cost = Estimate::new(scene, flow.world.free.len() as f64, dt, threads);
+    Ok((dt < TINY).then(|| {
+        format!(
+            "`{}` bounds the first step to {dt:.1e} s: {:.1e} steps and about {:.0} hours to t = {} s; lower the stiffness \
+             or the speed behind it",
+            least.name, cost.steps, cost.hours, scene.run.end
+        )
+    }))
 }
 
 /// Memory this machine has left, bytes, where the system tells.

@@ -7,6 +7,7 @@ use sph_core::{Role, StepLimit};
 use sph_scene::Scene;
 
 use crate::assemble::assemble;
+use crate::estimate::tiny_steps;
 use crate::summary::PluginInForce;
 use crate::{Estimate, Relaxation, SolverError};
 
@@ -96,6 +97,8 @@ fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examinati
     let mut assembled = assemble::<D>(scene)?;
     crate::series::rehearse(scene, &mut assembled.flow, &assembled.probes)?;
     crate::references::readable(scene)?;
+    let tiny = tiny_steps(scene, &assembled.flow, threads)?;
+    assembled.warnings.extend(tiny);
     let flow = &assembled.flow;
     let world = &flow.world;
     let limits = flow.step_limits()?;

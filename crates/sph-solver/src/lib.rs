@@ -27,6 +27,7 @@ mod estimate;
 mod examine;
 mod field_error;
 mod flow;
+mod ground;
 mod guard;
 mod implicit;
 mod initial;
@@ -48,6 +49,7 @@ mod snapshot;
 mod sound;
 mod stages;
 mod summary;
+mod wall_speeds;
 mod walls;
 
 pub use assemble::{Assembled, assemble};

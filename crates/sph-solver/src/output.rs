@@ -42,7 +42,8 @@ impl Outputs {
             (true, None) => Some(PvdSeries::create(path)?),
             (true, Some(frames)) => Some(PvdSeries::open_at(path, frames)?),
         };
-        if !scene.output.picture.is_empty() {
+        let drawn = probes.iter().any(|(_, p)| p.drawn_column().is_some());
+        if drawn || !scene.output.picture.is_empty() {
             sph_io::writable(folder.join("pictures"))?;
         }
         if probes.iter().any(|(_, p)| !p.curve_columns().is_empty()) {
@@ -92,9 +93,21 @@ impl Outputs {
                 continue;
             }
             let rows = probe.curves(&flow.world)?;
-            let columns = columns.iter().map(|c| (&c.suffix, c.unit));
+            let table = columns.iter().map(|c| (&c.suffix, c.unit));
             let file = format!("curves/{name}_{:04}.csv", self.written);
-            sph_io::write_table(self.folder.join(file), columns, &rows)?;
+            sph_io::write_table(self.folder.join(file), table, &rows)?;
+            if let Some(drawn) = probe.drawn_column() {
+                let label = format!("{} [{}]", columns[drawn].suffix, columns[drawn].unit);
+                let file = format!("pictures/{name}_{:04}.png", self.written);
+                map(
+                    flow,
+                    &rows,
+                    drawn,
+                    &label,
+                    &self.title,
+                    &self.folder.join(file),
+                )?;
+            }
         }
         self.written += 1;
         Ok(())
@@ -225,6 +238,38 @@ fn pieces<'a, const D: usize>(
         });
     }
     pieces
+}
+
+/// A column of a probe's table as a map over the first two, with the edges of the walls from above.
+fn map<const D: usize>(
+    flow: &Flow<D>,
+    rows: &[Vec<f64>],
+    column: usize,
+    label: &str,
+    title: &str,
+    path: &Path,
+) -> Result<(), SolverError> {
+    let world = &flow.world;
+    let points: Vec<[f64; 3]> = rows.iter().map(|row| [row[0], row[1], 0.0]).collect();
+    let values: Vec<f64> = rows.iter().map(|row| row[column]).collect();
+    // Cells are squares that touch: discs of their width leave no more than the corners.
+    let apart = |[a, b]: [&[f64; 3]; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs();
+    let pairs = points.windows(2).map(|pair| apart([&pair[0], &pair[1]]));
+    let diameter = pairs.fold(f64::INFINITY, f64::min);
+    let picture = Picture {
+        title,
+        time: Some(world.time),
+        label,
+        diameter: if diameter.is_finite() {
+            diameter
+        } else {
+            world.spacing
+        },
+        view: View::Plane,
+        colours: ColourMap::Viridis,
+        ..Picture::of(&points, &values)
+    };
+    Ok(picture.save(path)?)
 }
 
 fn picture<const D: usize>(

@@ -12,6 +12,7 @@ use crate::assemble::{Assembled, assemble};
 use crate::balance::Balance;
 use crate::driver::{Command, Observer, Progress};
 use crate::error::SolverError;
+use crate::estimate::tiny_steps;
 use crate::output::Outputs;
 use crate::series::Series;
 use crate::snapshot::Snapshot;
@@ -95,6 +96,8 @@ fn run_in<const D: usize>(
     let mut parts = assemble::<D>(scene)?;
     crate::series::rehearse(scene, &mut parts.flow, &parts.probes)?;
     references::readable(scene)?;
+    let tiny = tiny_steps(scene, &parts.flow, rayon::current_num_threads())?;
+    parts.warnings.extend(tiny);
     sph_io::writable(&options.out)?;
     sph_io::sweep_temporaries(&options.out)?;
     let file = options.out.join(checkpoint::FILE);

@@ -11,6 +11,10 @@ pub type Soils = Vec<Option<f64>>;
 pub trait EffectivePressure<const D: usize>: Send {
     /// The stage that writes [`EFFECTIVE_PRESSURE`](sph_core::fields::EFFECTIVE_PRESSURE).
     fn stage(&self, soils: Soils) -> Box<dyn Stage<World<D>>>;
+    /// Whether the pores of soils are full of a fluid that bears a part of their weight.
+    fn saturated(&self) -> bool {
+        false
+    }
 }
 
 contract!(

@@ -22,7 +22,7 @@ pub enum PressureSolver {
     Jacobi,
 }
 
-/// ∇²p' = 0 in the soil, p' = β |g| δr Δρ at its surface, ∂p'/∂n = Δρ g·n at walls.
+/// ∇²p' = 0 in the soil, p' = |g| Δρ max(β δr, d/2) at its surface, ∂p'/∂n = Δρ g·n at walls.
 ///
 /// Symbols: p' effective pressure (Pa); Δρ = ρ₀ − ρ_p, the density of the soil less that of the fluid
 /// in its pores (kg/m³); g gravity. It knows nothing of the depth of the water above, nor of the noise of the equation
@@ -56,6 +56,10 @@ pub struct Laplace {
         extend("unit" = "1", "source" = "ours; 1: Ghaïtanellis 2017, Eq. 4.87")
     )]
     pub surface_depth: f64,
+    /// Diameter d of the grains: surface particles are then never less deep than d/2, so that spacings finer than the grains do not
+    /// make lighter ones. Only the spacing counts if left out.
+    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0, "source" = "ours"))]
+    pub grain_diameter: Option<f64>,
     /// Time between solves over √(δr/|g|); 0 for every evaluation. In between the pressure goes with
     /// its particle.
     #[schemars(range(min = 0.0), extend("unit" = "1", "source" = "ours"))]
@@ -80,6 +84,7 @@ impl Default for Laplace {
         Laplace {
             pore_density: 0.0,
             surface_depth: 0.5,
+            grain_diameter: None,
             interval: 0.01,
             tolerance: 1e-5,
             solver: PressureSolver::default(),
@@ -106,6 +111,7 @@ impl Laplace {
         Solve {
             buoyant: soils.into_iter().map(|s| s.map(buoyant)).collect(),
             surface_depth: self.surface_depth,
+            least_depth: 0.5 * self.grain_diameter.unwrap_or(0.0),
             interval: self.interval,
             solver: match self.solver {
                 PressureSolver::ConjugateGradient => Box::new(ConjugateGradient {
@@ -126,6 +132,9 @@ impl<const D: usize> EffectivePressure<D> for Laplace {
     fn stage(&self, soils: Soils) -> Box<dyn Stage<World<D>>> {
         Box::new(self.on(soils))
     }
+    fn saturated(&self) -> bool {
+        self.pore_density > 0.0
+    }
 }
 
 register!(
@@ -142,6 +151,8 @@ struct Solve<const D: usize> {
     buoyant: Vec<Option<f64>>,
     /// β.
     surface_depth: f64,
+    /// Depth below which no surface particle is, m.
+    least_depth: f64,
     /// Time between solves over √(δr/|g|).
     interval: f64,
     solver: Box<dyn LinearSolver<D>>,
@@ -293,7 +304,8 @@ impl<const D: usize> Solve<D> {
         };
         let soils = &self.buoyant[..];
         let buoyant = |i: usize| soils[phase.map_or(0, |p| p[i] as usize)];
-        let top = self.surface_depth * world.gravity.norm() * world.spacing;
+        let depth = (self.surface_depth * world.spacing).max(self.least_depth);
+        let top = depth * world.gravity.norm();
         let length = world.kernel.smoothing_length();
         let points = &world.walls.points;
         walk(world, Values::Gradient, |around| {

@@ -4,14 +4,14 @@ use sph_core::{Store, Vect};
 use sph_kernels::{Kernel, wendland_c2};
 use sph_neighbours::{Domain, World};
 
-/// Particles in an open box around the unit square, without walls, gravity or lists.
-pub fn world(free: Store<2>, spacing: f64) -> World<2> {
+/// Particles in an open box around the unit square or cube, without walls, gravity or lists.
+pub fn world<const D: usize>(free: Store<D>, spacing: f64) -> World<D> {
     World {
         free,
         walls: Default::default(),
         lists: Default::default(),
-        domain: Domain::open(Vect::from([-1.0, -1.0]), Vect::from([2.0, 2.0])),
-        kernel: wendland_c2().sampler(2, 2.0 * spacing),
+        domain: Domain::open(Vect::repeat(-1.0), Vect::repeat(2.0)),
+        kernel: wendland_c2().sampler(D, 2.0 * spacing),
         spacing,
         skin: 0.1,
         gravity: Vect::zeros(),
