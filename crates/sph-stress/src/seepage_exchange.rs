@@ -107,8 +107,10 @@ impl Exchange {
         let mass = world.free.get(fields::MASS)?;
         let whole = phase.density * world.spacing.powi(D as i32);
         let size = |i: usize| mass[i] / whole;
-        let bad = |&i: &usize| number[i] == phase.water && !((size(i) - 1.0).abs() <= self.limit);
-        let Some(i) = (0..mass.len()).find(bad) else {
+        // Not `> limit`: a size that is not a number must be seen.
+        let fair = |i: usize| (size(i) - 1.0).abs() <= self.limit;
+        let mut all = 0..mass.len();
+        let Some(i) = all.find(|&i| number[i] == phase.water && !fair(i)) else {
             return Ok(());
         };
         let position = world.free.get(fields::POSITION)?[i];
