@@ -217,9 +217,12 @@ fn the_number_of_threads_changes_no_bit() {
 
 #[test]
 fn particles_that_give_too_much_end_the_run() {
-    let mut parts = permeameter(&["seepage.darcy-forchheimer.size_limit=0.006"]);
+    let mut parts = permeameter(&[
+        "seepage.darcy-forchheimer.evening=0",
+        "seepage.darcy-forchheimer.size_limit=0.006",
+    ]);
     let mut ended = None;
-    for _ in 0..200 {
+    for _ in 0..300 {
         if let Err(error) = parts.flow.kick(9e-5) {
             ended = Some(error.to_string());
             break;
