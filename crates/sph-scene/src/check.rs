@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use crate::{Scene, Source, check_geometry, check_names, check_time, overlap};
 
 /// Kinds of which a scene has one plugin at most.
-pub(crate) const SINGLE_KINDS: [&str; 12] = [
+pub(crate) const SINGLE_KINDS: [&str; 13] = [
     "kernel",
     "formulation",
     "integrator",
@@ -17,6 +17,7 @@ pub(crate) const SINGLE_KINDS: [&str; 12] = [
     "velocity-gradient",
     "elastic-force",
     "effective-pressure",
+    "seepage",
     "smoother",
     "shifting",
 ];

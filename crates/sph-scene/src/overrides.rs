@@ -7,7 +7,7 @@ use toml::{Table, Value};
 const DEEPEST: usize = 32;
 
 /// Tables that hold exactly one plugin, as the segments that lead to them.
-const SINGLE: [&[&str]; 15] = [
+const SINGLE: [&[&str]; 16] = [
     &["kernel"],
     &["formulation"],
     &["integrator"],
@@ -18,6 +18,7 @@ const SINGLE: [&[&str]; 15] = [
     &["velocity-gradient"],
     &["elastic-force"],
     &["effective-pressure"],
+    &["seepage"],
     &["smoother"],
     &["shifting"],
     &["phase", "*", "equation-of-state"],

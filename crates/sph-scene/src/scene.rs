@@ -67,6 +67,10 @@ pub struct Scene {
     #[serde(default, rename = "effective-pressure")]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
     pub effective_pressure: Plugins,
+    /// Flow of water through the pores of a soil, `[seepage.PLUGIN]`; none if left out.
+    #[serde(default)]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub seepage: Plugins,
     /// Smoothing of the density, `[smoother.PLUGIN]`; none if left out.
     #[serde(default)]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
@@ -162,7 +166,7 @@ impl Scene {
 
     /// The plugin that the scene chooses for a kind of which it has one at most: `kernel`,
     /// `formulation`, `integrator`, `walls`, `viscous-operator`, `implicit-viscosity`, `linear-solver`,
-    /// `velocity-gradient`, `elastic-force`, `effective-pressure`, `smoother` or `shifting`.
+    /// `velocity-gradient`, `elastic-force`, `effective-pressure`, `seepage`, `smoother` or `shifting`.
     pub fn choice(&self, kind: &'static str) -> Option<PluginChoice> {
         let plugins = match kind {
             "kernel" => &self.kernel,
@@ -175,6 +179,7 @@ impl Scene {
             "velocity-gradient" => &self.velocity_gradient,
             "elastic-force" => &self.elastic_force,
             "effective-pressure" => &self.effective_pressure,
+            "seepage" => &self.seepage,
             "smoother" => &self.smoother,
             "shifting" => &self.shifting,
             _ => return None,

@@ -31,6 +31,7 @@ use crate::outlets::Outlets;
 use crate::placed::place;
 use crate::planning::plan_stages;
 use crate::relax::{Relaxation, relax};
+use crate::seepage;
 use crate::snapshot::Snapshot;
 use crate::sound::sound_speeds;
 use crate::stages::{SharedWall, WALL_STATE};
@@ -168,6 +169,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         integrated: integrated(&diffused, compressed.as_ref()),
         elastic: planned.elastic,
         coulomb: planned.coulomb,
+        seepage: planned.seepage,
         moved: true,
         dilatation: compressed.map(|c| Dilatation::new(c, choices.formulation.divergence())),
         kept: Snapshot::default(),
@@ -309,6 +311,9 @@ fn allocate<const D: usize>(flow: &mut Flow<D>) {
     }
     // Drifts leave the gradient for the next evaluation.
     for field in flow.elastic.iter().flat_map(|e| e.remembered()) {
+        flow.world.free.add_any(field, Role::State);
+    }
+    for field in flow.seepage.iter().flat_map(|_| seepage::remembered()) {
         flow.world.free.add_any(field, Role::State);
     }
     flow.world.free.add(fields::ACCELERATION, Role::Derived);

@@ -18,8 +18,8 @@ use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry};
 use sph_rheology::{Rheology, RheologyEntry};
 use sph_scene::{PluginChoice, Scene};
 use sph_stress::{
-    EffectivePressure, EffectivePressureEntry, ElasticForce, ElasticForceEntry, VelocityGradient,
-    VelocityGradientEntry,
+    EffectivePressure, EffectivePressureEntry, ElasticForce, ElasticForceEntry, Seepage,
+    SeepageEntry, VelocityGradient, VelocityGradientEntry,
 };
 
 use crate::defaults;
@@ -39,6 +39,7 @@ pub struct Choices<const D: usize> {
     /// Only where a law is elastic.
     pub elastic_force: Option<Box<dyn ElasticForce<D>>>,
     pub effective_pressure: Option<Box<dyn EffectivePressure<D>>>,
+    pub seepage: Option<Box<dyn Seepage<D>>>,
     pub smoother: Option<Box<dyn Smoother<D>>>,
     pub shifting: Option<Box<dyn Shifting<D>>>,
     pub interfaces: Vec<Box<dyn InterfaceModel<D>>>,
@@ -238,6 +239,8 @@ impl<const D: usize> Choices<D> {
             let message = "no law of this scene feels a pressure: take this table out";
             b.problems.push(SceneProblem::new(idle.path, message));
         }
+        let seepage = one!("seepage", SeepageEntry, |e: &SeepageEntry, t| e
+            .build::<D>(t));
         let mut probes = Vec::new();
         for (name, c) in scene.probes() {
             let probe = b.build::<ProbeEntry, _>(&c, |e| e.build::<D>(&c.table));
@@ -270,6 +273,7 @@ impl<const D: usize> Choices<D> {
                     velocity_gradient: velocity_gradient.map(Arc::from),
                     elastic_force,
                     effective_pressure,
+                    seepage,
                     smoother,
                     shifting,
                     interfaces,

@@ -8,7 +8,7 @@ use sph_core::{
 };
 use sph_multiphase::{BoundState, Limiter};
 use sph_neighbours::{Interaction, World, wall_forces};
-use sph_stress::{CoulombFriction, ElasticMotion};
+use sph_stress::{CoulombFriction, ElasticMotion, PoreFlow};
 
 use crate::dilatation::Dilatation;
 use crate::implicit::ImplicitViscosity;
@@ -43,6 +43,8 @@ pub struct Flow<const D: usize> {
     pub(crate) elastic: Option<ElasticMotion<D>>,
     /// Friction of soils on walls.
     pub(crate) coulomb: Option<CoulombFriction<D>>,
+    /// Water that moves through pores.
+    pub(crate) seepage: Option<Box<dyn PoreFlow<D>>>,
     /// Whether somebody moved since the last evaluation.
     pub(crate) moved: bool,
     /// What motion compresses.
@@ -68,16 +70,20 @@ pub struct Flow<const D: usize> {
 const LISTS: usize = 0;
 /// Name of the time spent on neighbour lists.
 pub(crate) const LISTS_NAME: &str = "neighbour lists";
+/// Name of the time spent on water in pores.
+const SEEPAGE_NAME: &str = "seepage";
 /// Place of kicks and drifts among the timings.
 const MOTION: usize = 1;
 
 impl<const D: usize> Flow<D> {
     pub(crate) fn reset_timings(&mut self) {
         let services = [LISTS_NAME, "kick and drift"].map(String::from);
+        let seepage = self.seepage.iter().map(|_| SEEPAGE_NAME.into());
         let solves = self.implicit.iter().map(|_| "implicit viscosity".into());
         let names = services
             .into_iter()
             .chain(self.stages.iter().map(|s| s.name()))
+            .chain(seepage)
             .chain(solves);
         self.timings = names
             .map(|name| Timing {
@@ -137,7 +143,7 @@ impl<const D: usize> System for Flow<D> {
         };
         let start = Instant::now();
         let mut velocity = self.world.free.take(fields::VELOCITY)?;
-        let solved = self.implicit.is_some();
+        let solved = self.implicit.is_some() || self.seepage.is_some();
         let earlier = if solved { velocity.clone() } else { Vec::new() };
         let acceleration = self.world.free.get(fields::ACCELERATION)?;
         velocity
@@ -157,11 +163,11 @@ impl<const D: usize> System for Flow<D> {
             self.world.free.put(evolved.value, value)?;
         }
         self.timings[MOTION].spent += start.elapsed();
-        self.rub(earlier, dt)?;
-        match self.coulomb.as_mut().zip(pressed) {
-            None => Ok(()),
-            Some((coulomb, pressed)) => coulomb.apply(&mut self.world, &pressed, dt),
+        self.rub(&earlier, dt)?;
+        if let Some((coulomb, pressed)) = self.coulomb.as_mut().zip(pressed) {
+            coulomb.apply(&mut self.world, &pressed, dt)?;
         }
+        self.seep(&earlier, dt)
     }
 
     fn drift(&mut self, dt: f64) -> Result<(), StepError> {
@@ -196,15 +202,29 @@ impl<const D: usize> System for Flow<D> {
 
 impl<const D: usize> Flow<D> {
     /// Friction from the end of the step, where it is taken so.
-    fn rub(&mut self, earlier: Vec<Vect<D>>, dt: f64) -> Result<(), StepError> {
+    fn rub(&mut self, earlier: &[Vect<D>], dt: f64) -> Result<(), StepError> {
         let Some(mut implicit) = self.implicit.take() else {
             return Ok(());
         };
         let start = Instant::now();
-        let done = implicit.apply(&mut self.world, &earlier, dt);
+        let done = implicit.apply(&mut self.world, earlier, dt);
         self.implicit = Some(implicit);
         if let Some(last) = self.timings.last_mut() {
             last.spent += start.elapsed();
+        }
+        done
+    }
+
+    /// Water moves through pores, driven by what the kick has done.
+    fn seep(&mut self, earlier: &[Vect<D>], dt: f64) -> Result<(), StepError> {
+        let Some(seepage) = &mut self.seepage else {
+            return Ok(());
+        };
+        let start = Instant::now();
+        let done = seepage.advance(&mut self.world, earlier, dt);
+        let timing = self.timings.iter_mut().find(|t| t.name == SEEPAGE_NAME);
+        if let Some(timing) = timing {
+            timing.spent += start.elapsed();
         }
         done
     }

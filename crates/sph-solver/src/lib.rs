@@ -44,6 +44,7 @@ mod report;
 mod retreat;
 pub mod rheometer;
 mod run;
+mod seepage;
 mod series;
 mod snapshot;
 mod sound;

@@ -9,7 +9,7 @@ use sph_neighbours::{Interaction, World, fuse_all};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_stress::{
-    Blend, Blended, CarriedStress, CoulombFriction, ElasticMotion, Felt, GradientStage,
+    Blend, Blended, CarriedStress, CoulombFriction, ElasticMotion, Felt, GradientStage, PoreFlow,
     PorePressure, Rheologies, StrainRate, StressCorrection, ViscosityStage, Yielded,
 };
 
@@ -40,6 +40,8 @@ pub struct Planned<const D: usize> {
     pub elastic: Option<ElasticMotion<D>>,
     /// Friction of soils on walls.
     pub coulomb: Option<CoulombFriction<D>>,
+    /// Water that moves through pores.
+    pub seepage: Option<Box<dyn PoreFlow<D>>>,
 }
 
 /// Friction as a matrix, and as a term for those who measure forces.
@@ -217,6 +219,10 @@ pub fn plan_stages<const D: usize>(
     if let Some(coulomb) = &coulomb {
         goals.extend(coulomb.access().reads());
     }
+    let seepage = crate::seepage::flow(scene, choices, laws)?;
+    if let Some(seepage) = &seepage {
+        goals.extend(seepage.access().reads());
+    }
     if choices.shifting.is_some() {
         goals.push(fields::SHIFT_VELOCITY.any());
     }
@@ -239,6 +245,7 @@ pub fn plan_stages<const D: usize>(
     .chain(choices.formulation.compressed().map(|c| c.value.any()))
     .filter(|f| world.free.has(f.name))
     .chain(elastic.iter().flat_map(ElasticMotion::remembered))
+    .chain(seepage.iter().flat_map(|_| crate::seepage::remembered()))
     .collect();
     let declared: Vec<&dyn Declares> = offered
         .iter()
@@ -265,6 +272,7 @@ pub fn plan_stages<const D: usize>(
         lagged,
         elastic,
         coulomb,
+        seepage,
     })
 }
 

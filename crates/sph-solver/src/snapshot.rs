@@ -3,6 +3,8 @@
 use nalgebra::SMatrix;
 use sph_core::{FieldError, Recall, Symmetric, Taken, Vect, fields};
 
+use sph_stress::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
+
 use crate::Flow;
 
 /// The columns that a step changes, in the order the particles had.
@@ -20,9 +22,19 @@ pub struct Snapshot<const D: usize> {
     /// What a force of displacements remembers; empty where there is none.
     turn: Vec<Symmetric>,
     elastic_displacement: Vec<Vect<D>>,
+    /// Mass, flux and pressure where water seeps; empty elsewhere.
+    seeping: Seeping<D>,
     time: f64,
     /// What had left.
     taken: Vec<Taken>,
+}
+
+/// What seepage changes.
+#[derive(Default)]
+struct Seeping<const D: usize> {
+    mass: Vec<f64>,
+    flux: Vec<Vect<D>>,
+    pressure: Vec<f64>,
 }
 
 impl<const D: usize> Snapshot<D> {
@@ -52,6 +64,11 @@ impl<const D: usize> Snapshot<D> {
             copy(&mut self.turn, turn);
             let displacement = free.get(fields::ELASTIC_DISPLACEMENT)?;
             copy(&mut self.elastic_displacement, displacement);
+        }
+        if flow.seepage.is_some() {
+            copy(&mut self.seeping.mass, free.get(fields::MASS)?);
+            copy(&mut self.seeping.flux, free.get(SEEPAGE_VELOCITY)?);
+            copy(&mut self.seeping.pressure, free.get(SEEPAGE_PRESSURE)?);
         }
         self.time = flow.world.time;
         Ok(())
@@ -111,6 +128,12 @@ impl<const D: usize> Snapshot<D> {
                 let displacement = free.get_mut(fields::ELASTIC_DISPLACEMENT)?;
                 put(displacement, &self.elastic_displacement, places);
             }
+            if flow.seepage.is_some() {
+                let kept = &self.seeping;
+                put(free.get_mut(fields::MASS)?, &kept.mass, places);
+                put(free.get_mut(SEEPAGE_VELOCITY)?, &kept.flux, places);
+                put(free.get_mut(SEEPAGE_PRESSURE)?, &kept.pressure, places);
+            }
             flow.world.time = self.time;
             self.walls_back(flow);
         }
@@ -156,6 +179,13 @@ impl<const D: usize> Snapshot<D> {
             turn.copy_from_slice(&self.turn);
             free.get_mut(fields::ELASTIC_DISPLACEMENT)?
                 .copy_from_slice(&self.elastic_displacement);
+        }
+        if flow.seepage.is_some() {
+            let kept = &self.seeping;
+            free.get_mut(fields::MASS)?.copy_from_slice(&kept.mass);
+            free.get_mut(SEEPAGE_VELOCITY)?.copy_from_slice(&kept.flux);
+            free.get_mut(SEEPAGE_PRESSURE)?
+                .copy_from_slice(&kept.pressure);
         }
         flow.world.time = self.time;
         self.walls_back(flow);

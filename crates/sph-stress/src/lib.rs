@@ -9,6 +9,7 @@
 //!   [`Displacement`] second differences of the way since the material was last liquid. [`Blended`] weighs forces.
 //! * [`EffectivePressure`] is a kind of plugin: the pressure between the grains, where it is not that
 //!   of the equation of state. [`Laplace`] is one. [`PorePressure`] is what is left for the water.
+//! * [`Seepage`] is a kind of plugin: water that moves through the pores. [`DarcyForchheimer`] is one.
 //! * [`CoulombFriction`] brakes soils on walls that have a coefficient of friction.
 //!
 //! Nothing here runs in a scene whose laws do not ask for it.
@@ -17,6 +18,7 @@ mod adjoint;
 mod blended;
 mod carried;
 mod coulomb;
+mod darcy_forchheimer;
 mod displacement;
 mod divergence;
 mod effective_pressure;
@@ -27,7 +29,11 @@ mod gradient;
 mod isotropic;
 mod laplace;
 mod pore_pressure;
+mod pore_resistance;
 mod renormalised;
+mod seepage;
+mod seepage_exchange;
+mod seepage_flow;
 mod soil_surface;
 mod strain_rate;
 mod symmetric_difference;
@@ -39,6 +45,7 @@ pub use adjoint::{AdjointDivergence, StressCorrection};
 pub use blended::Blended;
 pub use carried::CarriedStress;
 pub use coulomb::CoulombFriction;
+pub use darcy_forchheimer::DarcyForchheimer;
 pub use displacement::{Displacement, DisplacementForce};
 pub use divergence::{Divergence, StressDivergence};
 pub use effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
@@ -49,7 +56,12 @@ pub use gradient::{GradientStage, NeighbourSums, VelocityGradient, VelocityGradi
 pub use isotropic::Isotropic;
 pub use laplace::{Laplace, PressureSolver};
 pub use pore_pressure::PorePressure;
+pub use pore_resistance::PoreResistance;
 pub use renormalised::Renormalised;
+pub use seepage::{
+    PoreFlow, SEEPAGE_PRESSURE, SEEPAGE_VELOCITY, Seepage, SeepageEntry, SeepagePhases,
+    SeepageProblem,
+};
 pub use strain_rate::StrainRate;
 pub use symmetric_difference::SymmetricDifference;
 pub use viscosity::ViscosityStage;

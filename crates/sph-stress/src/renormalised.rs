@@ -52,7 +52,7 @@ impl<const D: usize> VelocityGradient<D> for Renormalised {
 }
 
 /// The inverse of a moment, unless neighbours are nearly in one line or plane.
-fn trusted<const D: usize>(moment: &SMatrix<f64, D, D>) -> Option<SMatrix<f64, D, D>> {
+pub(crate) fn trusted<const D: usize>(moment: &SMatrix<f64, D, D>) -> Option<SMatrix<f64, D, D>> {
     let even = (moment.trace() / D as f64).powi(D as i32);
     let (inverse, determinant) = inverse(moment)?;
     (determinant > LEAST * even).then_some(inverse)

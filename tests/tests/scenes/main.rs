@@ -8,6 +8,7 @@ mod drops;
 mod implicit;
 mod left_out;
 mod rheology;
+mod seepage;
 mod shipped;
 mod tanks;
 mod vortices;
