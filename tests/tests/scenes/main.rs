@@ -10,6 +10,7 @@ mod left_out;
 mod rheology;
 mod seepage;
 mod shipped;
+mod soil_water;
 mod tanks;
 mod vortices;
 mod waves;

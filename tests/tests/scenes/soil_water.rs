@@ -1,0 +1,89 @@
+//! Water over soil, at test sizes.
+
+use crate::shipped::{Finished, finished};
+
+/// Values of a column of the series.
+fn column(run: &Finished, name: &str) -> Vec<f64> {
+    let series = run.series();
+    let column = series
+        .column(name)
+        .unwrap_or_else(|| panic!("no column {name}"));
+    column.to_vec()
+}
+
+fn last(run: &Finished, name: &str) -> f64 {
+    *column(run, name).last().expect("a row")
+}
+
+/// A dam break over sand with particles of 32 mm: three rows of bed. What the water takes stays mass of sand, the
+/// curves lie one over the other, and nothing has moved where the water has not come.
+#[test]
+fn a_dam_break_digs_its_bed_and_keeps_the_sand() {
+    let run = finished(
+        "movable-bed-dambreak-sand",
+        &["numerics.spacing=0.03125", "run.end=0.5"],
+    );
+    let front = last(&run, "front");
+    assert!(
+        (0.6..1.2).contains(&front),
+        "the water is at {front} m, 0.86 was measured"
+    );
+    let risen = last(&run, "erosion.risen");
+    assert!(
+        (1.0..30.0).contains(&risen),
+        "{risen} kg/m have left the bed, 9.2 were measured"
+    );
+    assert_eq!(last(&run, "erosion.out"), 0.0);
+    let curves = sph_io::read_table(run.path("curves/bed_0002.csv")).expect("curves");
+    let of = |name: &str| curves.column(name).expect("a curve").to_vec();
+    let (x, surface, interface, limit) = (of("x"), of("surface"), of("interface"), of("limit"));
+    let mut still = 0;
+    for k in 0..x.len() {
+        assert!(surface[k] >= interface[k], "at {} m", x[k]);
+        assert!(!(limit[k] > interface[k] + 1e-12), "at {} m", x[k]);
+        if x[k] > front + 0.3 && x[k] < 2.9 {
+            still += 1;
+            assert!(
+                (interface[k] - 0.1).abs() < 0.01,
+                "{} m high at {} m",
+                interface[k],
+                x[k]
+            );
+            assert_eq!(limit[k], interface[k], "at {} m", x[k]);
+        }
+    }
+    assert!(still > 20, "{still} columns before the front");
+}
+
+/// Mud of 0.65 m by 0.65 m on a slope: it draws the water down behind and lifts it ahead; volumes stay.
+#[test]
+fn a_slide_draws_the_water_down_and_pushes_a_crest() {
+    let run = finished(
+        "submarine-landslide",
+        &["numerics.spacing=0.045", "run.end=0.4", "output.every=0.4"],
+    );
+    for phase in ["slide", "water"] {
+        let volume = column(&run, &format!("{phase}-volume"));
+        let change = volume[volume.len() - 1] / volume[0] - 1.0;
+        assert!(
+            change.abs() < 0.01,
+            "the volume of the {phase} changed by {change}"
+        );
+    }
+    let rise = |gauge: &str| {
+        let level = column(&run, gauge);
+        level[level.len() - 1] - level[0]
+    };
+    let (above, ahead) = (rise("above"), rise("ahead"));
+    assert!(above < -0.01, "above the slide the water rose by {above} m");
+    assert!(
+        ahead > 0.003,
+        "ahead of the slide the water rose by {ahead} m"
+    );
+    let toe = column(&run, "toe");
+    assert!(
+        toe[toe.len() - 1] > toe[0] + 0.04,
+        "the toe went to {} m",
+        toe[toe.len() - 1]
+    );
+}
