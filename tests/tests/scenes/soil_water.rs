@@ -24,8 +24,9 @@ fn a_dam_break_digs_its_bed_and_keeps_the_sand() {
         &[
             "numerics.spacing=0.025",
             "run.end=0.5",
-            "body.bed.box=[[-2.4,0],[3,0.1125]]",
-            "body.reservoir.box=[[-2.4,0.1125],[0,0.45]]",
+            "body.bed.box=[[-2.4,0],[0,0.1]]",
+            "body.beyond.box=[[0,0],[3,0.1125]]",
+            "body.reservoir.box=[[-2.4,0.1],[0,0.45]]",
             "probe.erosion.level=0.1125",
         ],
     );
