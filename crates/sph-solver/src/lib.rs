@@ -48,6 +48,7 @@ mod snapshot;
 mod sound;
 mod stages;
 mod summary;
+mod trouble;
 mod walls;
 
 pub use assemble::{Assembled, assemble};
@@ -60,4 +61,5 @@ pub use implicit::Solves;
 pub use outlets::Left;
 pub use relax::Relaxation;
 pub use run::{RunOptions, run};
-pub use summary::{ErrorEntry, PluginInForce, Status, Summary};
+pub use summary::{Drift, ErrorEntry, PluginInForce, Status, Summary};
+pub use trouble::Trouble;
