@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sph_solver::Progress;
-use sph_study::{Options, Record, Status, Study, Variant, verdict};
+use sph_study::{Options, Record, Status, Study, Variant, to_run, verdict};
 
 use crate::{console, number};
 
@@ -91,12 +91,7 @@ impl Watcher {
             (false, false) => (Display::Lines, LINE),
         };
         let file = &study.file;
-        let open = |v: &Variant| {
-            let known = options.known(v);
-            let settled = |r: Record| r.settles(&v.fingerprint, file.repetitions, file.time_limit);
-            v.wanted && !known.is_some_and(settled)
-        };
-        let open: Vec<bool> = study.variants.iter().map(open).collect();
+        let open = to_run(study, options);
         let wanted = study.variants.iter().filter(|v| v.wanted).count();
         let to_run = open.iter().filter(|o| **o).count();
         let settled = wanted - to_run;
@@ -244,6 +239,9 @@ impl sph_study::Watcher for Watcher {
         }
         if record.status != Status::Interrupted {
             state.settled += 1;
+        }
+        if record.status == Status::Skipped {
+            return;
         }
         let what = match (self.judged.get(&variant.name), &record.reason) {
             (Some(judged), _) if record.status == Status::Done => judged.told(record),

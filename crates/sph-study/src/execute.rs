@@ -93,7 +93,11 @@ pub fn execute(study: &Study, options: &Options, watcher: &dyn Watcher) -> Outco
         for &k in chain {
             let variant = &study.variants[k];
             if let Some(before) = broken {
-                *lock(&records[k]) = skipped(before, variant, options);
+                let record = skipped(before, variant, options);
+                if variant.wanted {
+                    watcher.finished(variant, &record);
+                }
+                *lock(&records[k]) = record;
                 continue;
             }
             let stop = || halt.load(Ordering::SeqCst) || watcher.stop();
@@ -142,6 +146,24 @@ pub fn execute(study: &Study, options: &Options, watcher: &dyn Watcher) -> Outco
         records,
         error: lock(&error).take(),
     }
+}
+
+/// Of every variant whether there is something to do, as far as records of before tell.
+pub fn to_run(study: &Study, options: &Options) -> Vec<bool> {
+    let file = &study.file;
+    let mut open = vec![false; study.variants.len()];
+    for chain in chains(study) {
+        for k in chain {
+            let variant = &study.variants[k];
+            let known = options.known(variant).unwrap_or_default();
+            let settled = known.settles(&variant.fingerprint, file.repetitions, file.time_limit);
+            open[k] = variant.wanted && !settled;
+            if settled && breaks(study, variant, &known) {
+                break;
+            }
+        }
+    }
+    open
 }
 
 /// Variants that run one after the other because each may keep the next from being run.

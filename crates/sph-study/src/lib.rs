@@ -36,7 +36,7 @@ mod verdict;
 
 pub use axis::{Axis, Choice, Set};
 pub use compare::{Change, Comparison, Pair, compare};
-pub use execute::{Options, Outcome, Watcher, execute};
+pub use execute::{Options, Outcome, Watcher, execute, to_run};
 pub use file::{Combine, StudyFile};
 pub use frontier::Frontier;
 pub use ladder::{Ladder, Rung};

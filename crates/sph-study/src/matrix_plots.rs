@@ -65,7 +65,7 @@ fn plot(results: &Results, lines: &[&Frontier]) -> Plot {
     let places = first.places();
     let ends = [places[0], places[places.len() - 1]];
     if let Some([green, yellow]) = first.judge.get(&judged) {
-        for (name, bound) in [("green up to", green), ("yellow up to", yellow)] {
+        for (name, bound) in [("end of green", green), ("end of yellow", yellow)] {
             if *bound > 0.0 {
                 let line = ends.iter().map(|x| [*x, *bound]).collect();
                 series.push(Series::of(name, line, Style::Dashes));
