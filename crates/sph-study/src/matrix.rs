@@ -15,8 +15,7 @@ use crate::{matrix_plots, report};
 pub const STYLE: &str = "\
 td.green{background:#c9e8c5}td.yellow{background:#fbe9a6}td.red{background:#f3b3ab}\
 td.none{color:#aaa}table.frontier td{padding:.2rem .5rem;border:1px solid #fff}\
-table.frontier td.must{border-right:3px solid #222}\
-span.over{color:#a33;font-weight:bold}";
+table.frontier td.must{border-right:3px solid #222}";
 
 /// All between the head of the page and the study file.
 ///

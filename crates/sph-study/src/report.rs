@@ -151,6 +151,7 @@ fn facts(results: &Results) -> String {
         row("version", format!("sph {}", results.version)),
         row("commit", results.commit.clone().unwrap_or("unknown".into())),
     ];
+    rows.retain(|row| !row[1].is_empty());
     let commits = commits(results);
     if commits.len() > 1 {
         rows.push(row("variants ran at", commits.join(", ")));

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use proptest::prelude::*;
 use sph_core::{Vect, fields};
 use sph_scene::load;
 use sph_solver::{Assembled, RunOptions, run};
@@ -112,6 +113,26 @@ fn shifting_that_transports_velocities_loses_little_momentum() {
     fly(&mut parts, 1000, None);
     let drift = (sums(&parts).momentum - start.momentum).norm() / start.scale;
     assert!(drift > 1e-12 && drift < 3e-3, "{drift:e} of Σ m|u|");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 8, failure_persistence: None, ..ProptestConfig::default() })]
+    /// Whatever the plugins, the places and the velocities.
+    #[test]
+    fn random_velocities_keep_their_momentum(plugins in 0..PLUGINS.len(), seed in 1..1_000_000, disorder in 0.0..0.4) {
+        let wild = [
+            format!("numerics.seed={seed}"),
+            format!("numerics.disorder={disorder}"),
+            "numerics.velocity_noise=0.5".to_string(),
+        ];
+        let wild = wild.iter().map(String::as_str);
+        let overrides: Vec<&str> = COARSE[..1].iter().copied().chain(wild).chain(PLUGINS[plugins].iter().copied()).collect();
+        let mut parts = shipped("taylor-green-2d", &overrides);
+        let start = sums(&parts);
+        fly(&mut parts, 100, None);
+        let drift = (sums(&parts).momentum - start.momentum).norm() / start.scale;
+        prop_assert!(drift < 1e-13, "{:?}: {:e}", PLUGINS[plugins], drift);
+    }
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! The same scene in other units of length, time and mass.
 
+use proptest::prelude::*;
+
 use crate::{States, fly, shipped, states, written};
 
 /// A dam break in a box, in units of which a metre, a second and a kilogram have the given numbers.
@@ -63,19 +65,16 @@ fn apart(a: &States, b: &States) -> [f64; 2] {
     })
 }
 
-#[test]
-fn powers_of_two_give_the_same_bits() {
-    let plain = dam_break(1.0, 1.0, 1.0);
-    assert!(plain.len() > 150);
-    for [length, time, mass] in [
-        [2.0, 1.0, 1.0],
-        [1.0, 0.25, 1.0],
-        [1.0, 1.0, 1024.0],
-        [1024.0, 32.0, 1048576.0],
-        [2_f64.powi(-20), 2_f64.powi(-10), 2_f64.powi(-30)],
-    ] {
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 8, failure_persistence: None, ..ProptestConfig::default() })]
+    /// γ, kernel moments and the speed of sound have irrational factors, but none that depends on the scale.
+    #[test]
+    fn powers_of_two_give_the_same_bits(length in -20..=20, time in -12..=12, mass in -30..=30) {
+        let plain = dam_break(1.0, 1.0, 1.0);
+        prop_assert!(plain.len() > 150);
+        let [length, time, mass] = [length, time, mass].map(|n| 2_f64.powi(n));
         let scaled = dam_break(length, time, mass);
-        assert_eq!(apart(&plain, &scaled), [0.0; 2], "{length} {time} {mass}");
+        prop_assert_eq!(apart(&plain, &scaled), [0.0; 2]);
     }
 }
 
@@ -91,6 +90,7 @@ fn kilometres_millimetres_and_micrometres_give_the_same_flow() {
     ] {
         let [x, u] = apart(&plain, &dam_break(length, time, mass));
         println!("{length} {time} {mass}: {x:e} {u:e}");
+        // 7e-14 m/s was measured.
         assert!(
             x < 1e-9 && u < 1e-9,
             "{length} {time} {mass}: {x:e} m, {u:e} m/s"
