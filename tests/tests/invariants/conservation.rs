@@ -9,13 +9,11 @@ use sph_solver::{Assembled, RunOptions, run};
 
 use crate::{fly, given, shipped};
 
-/// Σ m, Σ m u, Σ m |u|, Σ m r × u, Σ ½ m u².
+/// Σ m u, Σ m |u|, Σ m r × u.
 struct Sums {
-    mass: f64,
     momentum: Vect<2>,
     scale: f64,
     spin: f64,
-    kinetic: f64,
 }
 
 fn sums(parts: &Assembled<2>) -> Sums {
@@ -24,18 +22,14 @@ fn sums(parts: &Assembled<2>) -> Sums {
     let position = free.get(fields::POSITION).unwrap();
     let velocity = free.get(fields::VELOCITY).unwrap();
     let mut all = Sums {
-        mass: 0.0,
         momentum: Vect::zeros(),
         scale: 0.0,
         spin: 0.0,
-        kinetic: 0.0,
     };
     for ((m, r), u) in mass.iter().zip(position).zip(velocity) {
-        all.mass += m;
         all.momentum += u * *m;
         all.scale += m * u.norm();
         all.spin += m * (r[0] * u[1] - r[1] * u[0]);
-        all.kinetic += 0.5 * m * u.norm_squared();
     }
     all
 }
@@ -99,7 +93,7 @@ fn mass_and_momentum_of_a_closed_periodic_scene_stay_over_a_thousand_steps() {
         assert!(masses(&parts) == bits, "{plugins:?}: masses changed");
         let end = sums(&parts);
         let drift = (end.momentum - start.momentum).norm() / start.scale;
-        println!("{plugins:?}: {drift:e}");
+        // 4e-16 was measured with Cholesky, 5e-17 with the others.
         assert!(drift < 1e-12, "{plugins:?}: {drift:e} of Σ m|u|");
     }
 }
@@ -156,10 +150,7 @@ fn angular_momentum_of_a_patch_stays_where_forces_are_central() {
         fly(&mut parts, 200, None);
         let end = sums(&parts);
         let drift = (end.spin - start.spin).abs() / start.spin.abs();
-        println!(
-            "{plugins:?}: {drift:e}, kinetic {} of its first",
-            end.kinetic / start.kinetic
-        );
+        // 3e-15 was measured.
         assert!(drift < 1e-12, "{plugins:?}: {drift:e}");
     }
 }
@@ -192,8 +183,8 @@ fn energy_does_not_grow_without_work() {
             .copied()
             .collect();
         let rise = energy_rise("taylor-green-2d", &overrides);
-        println!("{plugins:?}: {rise:e}");
-        assert!(rise < 1e-3, "{plugins:?}: {rise:e}");
+        // No row was above the first.
+        assert!(rise < 1e-12, "{plugins:?}: {rise:e}");
     }
     // Without friction nothing hides what the pressure and the integrator do.
     for plugins in [&["formulation.hu-adams={}"][..], &["formulation.krimi={}"]] {
@@ -206,8 +197,11 @@ fn energy_does_not_grow_without_work() {
         ];
         let overrides: Vec<&str> = COARSE.iter().chain(&bare).chain(plugins).copied().collect();
         let rise = energy_rise("taylor-green-2d", &overrides);
-        println!("frictionless {plugins:?}: {rise:e}");
-        assert!(rise < 1e-2, "frictionless {plugins:?}: {rise:e}");
+        // What a step of symplectic Euler leaves to and fro: 1.26e-3 and 1.25e-3 were measured.
+        assert!(
+            rise > 0.0 && rise < 2e-3,
+            "frictionless {plugins:?}: {rise:e}"
+        );
     }
     for more in [&[][..], &["viscous-operator.monaghan-gingold={}"]] {
         let coarse = [
@@ -217,7 +211,6 @@ fn energy_does_not_grow_without_work() {
         ];
         let overrides: Vec<&str> = coarse.iter().chain(more).copied().collect();
         let rise = energy_rise("dam-break-koshizuka", &overrides);
-        println!("dam break {more:?}: {rise:e}");
-        assert!(rise < 1e-3, "{more:?}: {rise:e}");
+        assert!(rise < 1e-12, "dam break {more:?}: {rise:e}");
     }
 }

@@ -53,7 +53,7 @@ fn apart(
 }
 
 /// Rounding of 1e-16 at speeds of 1 to 10 m/s, a pressure stiffness c² = 100 that turns it into
-/// accelerations, and fifty steps that may double it a few times: measured 7e-15 to 9e-15.
+/// accelerations, and a hundred steps that may double it a few times: 7e-15 to 9e-15 was measured after fifty.
 const ROUNDING: f64 = 1e-12;
 
 #[test]
