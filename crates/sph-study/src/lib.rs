@@ -7,7 +7,7 @@
 //!    it was.
 //! 3. [`Results`] has errors, times and orders of convergence; [`publish`] writes them as JSON,
 //!    CSV, plots and a page.
-//!    A study of axes that are gone along until they break has a [`Frontier`] for each, from the [`verdict`]
+//!    A study of axes that are gone along until they break has a [`Frontier`] for each, from the [`verdict()`]
 //!    on every run of its [`Ladder`].
 //! 4. [`compare`] tells what changed between two [`Results`].
 
