@@ -61,6 +61,11 @@ const STUDY_FOLDER: &str = "studies";
 /// The shipped study of that name, in ./studies or compiled in.
 pub fn find_study(name: &str) -> Option<Shipped> {
     let name = name.trim_end_matches(".toml");
+    // By the folder that it would lie in, it is a shipped one, too.
+    let name = ["studies/", "scenes/"]
+        .iter()
+        .find_map(|folder| name.strip_prefix(folder))
+        .unwrap_or(name);
     let file = Path::new(STUDY_FOLDER).join(format!("{name}.toml"));
     let text = STUDIES
         .iter()

@@ -146,9 +146,10 @@ fn text(results: &Results, out: &Path) -> String {
             .is_some_and(|v| v.status == Status::Pending)
     };
     let all = rows(results).into_iter().enumerate();
-    let shown = all.filter(|(k, _)| *k == 0 || !pending(k - 1));
+    let along = !results.frontiers.is_empty();
+    let shown = all.filter(|(k, _)| *k == 0 || along || !pending(k - 1));
     let shown: Vec<Vec<String>> = shown.map(|(_, row)| row).collect();
-    let left = 1 + results.variants.len() - shown.len();
+    let left = (0..results.variants.len()).filter(|k| pending(*k)).count();
     let mut text = format!("{}\n{}", results.title, columns(2, &shown));
     if left > 0 {
         text.push_str(&format!("{left} variants are pending\n"));

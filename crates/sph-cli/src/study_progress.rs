@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sph_solver::Progress;
-use sph_study::{Options, Record, Status, Study, Variant};
+use sph_study::{Options, Record, Status, Study, Variant, to_run, verdict};
 
 use crate::{console, number};
 
@@ -29,7 +29,8 @@ pub struct Watcher {
     display: Display,
     stop: Arc<AtomicBool>,
     every: Duration,
-    error: String,
+    /// Of every variant by name: the error that is told, or the bounds it is judged by.
+    judged: BTreeMap<String, Judged>,
     /// Variants that are to be run or have been.
     total: usize,
     repetitions: usize,
@@ -37,6 +38,36 @@ pub struct Watcher {
     open: Vec<bool>,
     names: Vec<String>,
     state: Mutex<State>,
+}
+
+/// What is told of a variant that is done.
+enum Judged {
+    Error(String),
+    Bounds(BTreeMap<String, [f64; 2]>),
+}
+
+impl Judged {
+    fn told(&self, record: &Record) -> String {
+        match self {
+            Judged::Error(name) => match record.error(name) {
+                Some(error) => format!("{name} {}", number::plain(error)),
+                None => format!("no {name}"),
+            },
+            Judged::Bounds(bounds) => match verdict(record, bounds) {
+                Some(found) if found.why.is_empty() => found.colour.name().to_string(),
+                Some(found) => format!("{}, {}", found.colour.name(), found.why),
+                None => record.status.name().to_string(),
+            },
+        }
+    }
+}
+
+fn judged(study: &Study, variant: &Variant) -> (String, Judged) {
+    let judged = match variant.rung {
+        Some(rung) => Judged::Bounds(study.ladders[rung.ladder].judge.clone()),
+        None => Judged::Error(study.errors.first().cloned().unwrap_or_default()),
+    };
+    (variant.name.clone(), judged)
 }
 
 struct State {
@@ -60,12 +91,7 @@ impl Watcher {
             (false, false) => (Display::Lines, LINE),
         };
         let file = &study.file;
-        let open = |v: &Variant| {
-            let known = options.known(v);
-            let settled = |r: Record| r.settles(&v.fingerprint, file.repetitions, file.time_limit);
-            v.wanted && !known.is_some_and(settled)
-        };
-        let open: Vec<bool> = study.variants.iter().map(open).collect();
+        let open = to_run(study, options);
         let wanted = study.variants.iter().filter(|v| v.wanted).count();
         let to_run = open.iter().filter(|o| **o).count();
         let settled = wanted - to_run;
@@ -73,7 +99,7 @@ impl Watcher {
             display,
             stop,
             every,
-            error: study.errors.first().cloned().unwrap_or_default(),
+            judged: study.variants.iter().map(|v| judged(study, v)).collect(),
             total: wanted,
             repetitions: file.repetitions,
             open,
@@ -197,8 +223,9 @@ impl sph_study::Watcher for Watcher {
     }
 
     fn message(&self, variant: &Variant, text: &str) {
-        // Notes of every variant would bury the study; a summary keeps them.
-        if !text.starts_with("note: ") {
+        // Notes of every variant, and tries of those that are meant to break, would bury the study; a
+        // summary keeps them.
+        if !text.starts_with("note: ") && variant.rung.is_none() {
             self.say(&format!("{}: {text}", variant.name));
         }
     }
@@ -213,11 +240,13 @@ impl sph_study::Watcher for Watcher {
         if record.status != Status::Interrupted {
             state.settled += 1;
         }
-        let what = match (record.status, record.error(&self.error), &record.reason) {
-            (Status::Done, Some(error), _) => format!("{} {}", self.error, number::plain(error)),
-            (Status::Done, None, _) => format!("no {}", self.error),
-            (_, _, Some(reason)) => format!("{}: {reason}", record.status.name()),
-            (status, ..) => status.name().to_string(),
+        if record.status == Status::Skipped {
+            return;
+        }
+        let what = match (self.judged.get(&variant.name), &record.reason) {
+            (Some(judged), _) if record.status == Status::Done => judged.told(record),
+            (_, Some(reason)) => format!("{}: {reason}", record.status.name()),
+            _ => record.status.name().to_string(),
         };
         let time = record.least_seconds();
         let time = time.map_or(String::new(), |s| format!(", {}", number::duration(s)));

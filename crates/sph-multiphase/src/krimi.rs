@@ -19,6 +19,10 @@ use crate::{Compressed, Diffused, Formulation, FormulationEntry, Stages};
 /// side of a jump then counts the heavy neighbours almost twice, and the heavy side the light
 /// ones hardly: exact in energy, not for the compression of a single particle.
 ///
+/// Limits: as printed, the power of the pressure forces is not what the compression takes up, and layers at rest
+/// gain energy: 5 % and 47 % of it within 0.3 s at density ratios 100 and 1000, 0.1 % with the adjoint. Beyond a ratio of
+/// 10 take `consistent`, or an artificial viscosity between the phases.
+///
 /// Source: Krimi et al. 2018, Eq. 26, 32–33 and 48–50.
 ///
 /// ```toml

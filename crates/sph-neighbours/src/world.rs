@@ -187,6 +187,29 @@ impl<const D: usize> World<D> {
         Ok(total as f64 / positions.len().max(1) as f64)
     }
 
+    /// Least and mean distance of a free particle to the free one nearest to it, m, of those that have one
+    /// within the support.
+    ///
+    /// # Errors
+    /// If there is no position column.
+    pub fn nearest(&self) -> Result<[f64; 2], FieldError> {
+        let positions = self.free.get(fields::POSITION)?;
+        let limit = self.kernel.support_radius();
+        let nearest = |(i, x): (usize, &Vect<D>)| {
+            let others = self.lists.free.row(i).iter();
+            let distance = others
+                .map(|&j| self.domain.nearest_image(x - positions[j as usize]).norm())
+                .fold(f64::INFINITY, f64::min);
+            (distance < limit).then_some(distance)
+        };
+        let all: Vec<f64> = positions.iter().enumerate().filter_map(nearest).collect();
+        let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+        match all.is_empty() {
+            true => Ok([0.0; 2]),
+            false => Ok([least, all.iter().sum::<f64>() / all.len() as f64]),
+        }
+    }
+
     /// Rebuilds the lists if they expired; says whether it did.
     ///
     /// # Errors

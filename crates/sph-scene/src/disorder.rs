@@ -1,4 +1,4 @@
-//! Random displacement of particles, the same on every machine.
+//! Random displacement and velocity of particles, the same on every machine.
 
 use crate::fill::Filled;
 use crate::place::wrapped;
@@ -22,6 +22,14 @@ pub fn disturb<const D: usize>(
         let moved = x.map(|c| c + fraction * spacing * (2.0 * random.unit() - 1.0));
         *x = wrapped(&moved, periodic);
     }
+}
+
+/// A random velocity, along each axis at most `amplitude`, that depends on the particle's number and the
+/// seed alone.
+pub fn noise<const D: usize>(particle: u32, amplitude: f64, seed: u64) -> [f64; D] {
+    // The numbers of a seed that displacements do not use.
+    let mut random = SplitMix(SplitMix(!seed).next() ^ u64::from(particle));
+    std::array::from_fn(|_| amplitude * (2.0 * random.unit() - 1.0))
 }
 
 /// splitmix64 (Steele, Lea & Flood 2014).
@@ -49,6 +57,21 @@ mod tests {
     #[test]
     fn the_first_number_of_seed_zero_is_the_published_one() {
         assert_eq!(SplitMix(0).next(), 0xe220_a839_7b1d_cdaf);
+    }
+
+    #[test]
+    fn noise_repeats_is_bounded_and_has_no_mean() {
+        let all: Vec<[f64; 2]> = (0..10_000).map(|i| noise(i, 0.1, 3)).collect();
+        assert_eq!(all[7], noise(7, 0.1, 3));
+        assert_ne!(all[7], noise(7, 0.1, 4));
+        for axis in 0..2 {
+            let mean = all.iter().map(|u| u[axis]).sum::<f64>() / 1e4;
+            let square = all.iter().map(|u| u[axis].powi(2)).sum::<f64>() / 1e4;
+            assert!(all.iter().all(|u| u[axis].abs() <= 0.1));
+            // Five standard errors, 0.1/√3/100 of the mean; a third of the square.
+            assert!(mean.abs() < 5.0 * 0.1 / 3f64.sqrt() / 100.0, "{mean}");
+            assert!((square / (0.01 / 3.0) - 1.0).abs() < 0.05, "{square}");
+        }
     }
 
     #[test]

@@ -13,7 +13,7 @@
 //!    once, sorted by position. Problems found later (a plugin refuses a parameter) become
 //!    diagnostics through the same [`Source`].
 //! 3. [`Scene::regions`] gives the bodies as [`Region`]s; [`estimate`] counts their particles
-//!    without allocating any, [`fill`] places them, [`disturb`] displaces them.
+//!    without allocating any, [`fill`] places them, [`disturb`] displaces them, [`noise`] gives them random velocities.
 //! 4. [`Wall::lines`] and [`Wall::facets`] give the walls, from shapes and from files;
 //!    [`Motion::courses`] gives how they move.
 //! 5. [`schema`] is the JSON schema of scenes with all plugins of the binary, for editors.
@@ -106,7 +106,7 @@ pub use body::{Body, Cutout, Filling, Pressure};
 pub use body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 pub use course::{Course, Courses, Turning};
 pub use diagnostic::{Diagnostic, Origin};
-pub use disorder::disturb;
+pub use disorder::{disturb, noise};
 pub use estimate::estimate;
 pub use facets::Facets;
 pub use fill::{Filled, Offset, fill};

@@ -72,7 +72,11 @@ pub struct Numerics {
     #[serde(default)]
     #[schemars(extend("unit" = "1", "minimum" = 0.0, "exclusiveMaximum" = 0.5))]
     pub disorder: f64,
-    /// Seed of the random displacement.
+    /// Largest random velocity of a particle at the start along each axis, m/s, on top of its own.
+    #[serde(default)]
+    #[schemars(extend("unit" = "m/s", "minimum" = 0.0))]
+    pub velocity_noise: f64,
+    /// Seed of the random displacement and velocity.
     #[serde(default = "one_seed")]
     #[schemars(range(min = 0))]
     pub seed: u64,

@@ -378,13 +378,18 @@ fn start<const D: usize>(
     let position = world.free.get(fields::POSITION)?.to_vec();
     let body = |k: usize| body_of[identity[k] as usize] as usize;
     let volume = relaxation.map_or(1.0, |r| r.volume);
+    let (noise, seed) = (scene.numerics.velocity_noise, scene.numerics.seed);
     let whole = volume * world.spacing.powi(D as i32);
     for k in 0..identity.len() {
         let state = &states[body(k)];
         let density = state.density(&position[k]);
         world.free.get_mut(fields::DENSITY)?[k] = density;
         world.free.get_mut(fields::MASS)?[k] = density * whole;
-        world.free.get_mut(fields::VELOCITY)?[k] = state.velocity(&position[k]);
+        let mut velocity = state.velocity(&position[k]);
+        if noise > 0.0 {
+            velocity += sph_core::Vect::<D>::from(sph_scene::noise(identity[k], noise, seed));
+        }
+        world.free.get_mut(fields::VELOCITY)?[k] = velocity;
         if world.free.has(fields::PHASE.name) {
             world.free.get_mut(fields::PHASE)?[k] = phase_of[body(k)];
         }

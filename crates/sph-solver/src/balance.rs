@@ -24,6 +24,8 @@ pub struct Balance<const D: usize> {
     pub internal: f64,
     /// Largest |u|, m/s.
     pub fastest: f64,
+    /// Largest |u| over the speed of sound of its phase, 1.
+    pub mach: f64,
     /// Least density over reference density.
     pub least_density: f64,
     /// Largest density over reference density.
@@ -40,6 +42,7 @@ impl<const D: usize> Balance<D> {
             potential: 0.0,
             internal: 0.0,
             fastest: 0.0,
+            mach: 0.0,
             least_density: f64::INFINITY,
             largest_density: f64::NEG_INFINITY,
         }
@@ -54,6 +57,7 @@ impl<const D: usize> Balance<D> {
             potential: self.potential + o.potential,
             internal: self.internal + o.internal,
             fastest: self.fastest.max(o.fastest),
+            mach: self.mach.max(o.mach),
             least_density: self.least_density.min(o.least_density),
             largest_density: self.largest_density.max(o.largest_density),
         }
@@ -99,6 +103,7 @@ impl<const D: usize> Balance<D> {
                 potential: -m * gravity.dot(&position[i]),
                 internal: m * law.internal_energy(density[i]) + strained(i, phase),
                 fastest: speed,
+                mach: speed / law.reference().sound_speed,
                 least_density: ratio,
                 largest_density: ratio,
             }

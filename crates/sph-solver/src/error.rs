@@ -6,6 +6,8 @@ use sph_core::{PlanError, SceneProblem, StepError};
 use sph_io::IoError;
 use thiserror::Error;
 
+use crate::{Summary, Trouble};
+
 /// A run that stopped before its end.
 #[derive(Debug, Error)]
 #[error("the run failed at t = {time:.6} s, step {step}: {cause}")]
@@ -16,6 +18,10 @@ pub struct Failure {
     pub step: u64,
     /// What went wrong, where.
     pub cause: StepError,
+    /// The first step that failed, which a shorter one may have got over for a while.
+    pub first: Trouble,
+    /// What there is to tell of the run so far.
+    pub summary: Option<Box<Summary>>,
     /// What to try.
     pub advice: Vec<String>,
     /// Checkpoint of the last good state, if one was written.

@@ -50,6 +50,7 @@ mod snapshot;
 mod sound;
 mod stages;
 mod summary;
+mod trouble;
 mod wall_speeds;
 mod walls;
 
@@ -63,4 +64,5 @@ pub use implicit::Solves;
 pub use outlets::Left;
 pub use relax::Relaxation;
 pub use run::{RunOptions, run};
-pub use summary::{ErrorEntry, PluginInForce, Status, Summary};
+pub use summary::{Drift, ErrorEntry, PluginInForce, Status, Summary};
+pub use trouble::Trouble;

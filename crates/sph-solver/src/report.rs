@@ -12,6 +12,9 @@ use crate::references;
 use crate::run::Running;
 use crate::summary::{Drift, SCHEMA_VERSION, Status, Summary};
 
+/// Mach number up to which densities stay within Ma² = 1 % of the reference (Monaghan 1994).
+const INCOMPRESSIBLE: f64 = 0.1;
+
 impl<const D: usize> Running<'_, D> {
     /// Writes `summary.json`.
     pub(crate) fn write_summary(
@@ -73,10 +76,17 @@ impl<const D: usize> Running<'_, D> {
             dt_limits: &dt_limits,
             stages: &stage_seconds,
         };
-        let advice = adviser::advice(&costs);
+        let mut advice = adviser::advice(&costs);
         let escaped = flow.escaped()?;
         if escaped > 0 {
             warnings.push(format!("{escaped} particles are behind a wall at the end"));
+        }
+        let [highest, mach] = self.series.peaks;
+        if mach > INCOMPRESSIBLE {
+            advice.push(format!(
+                "the largest speed was {mach:.2} of the speed of sound: above {INCOMPRESSIBLE} the density \
+                 of a liquid moves by more than 1 %; raise `speed_of_sound` or `velocity_scale` of the phase"
+            ));
         }
         let summary = Summary {
             schema_version: SCHEMA_VERSION,
@@ -105,9 +115,13 @@ impl<const D: usize> Running<'_, D> {
                 mass: over(balance.mass + flow.mass_left() - mass, mass),
                 momentum: over(momentum, self.series.momentum_scale),
                 energy: over(balance.energy() - energy, self.series.energy_scale),
+                energy_rise: over((highest - energy).max(0.0), self.series.energy_scale),
             },
             kinetic_energy: balance.kinetic,
             density_range: self.series.density_range,
+            mach,
+            nearest: world.nearest()?.map(|d| d / world.spacing),
+            first_trouble: self.counters.first_trouble.clone(),
             density_constant_range: flow.density_constant_range(),
             escaped,
             left: flow

@@ -10,6 +10,7 @@ use crate::report::advice;
 use crate::run::Running;
 use crate::snapshot::Snapshot;
 use crate::summary::Status;
+use crate::trouble::Trouble;
 
 impl<const D: usize> Running<'_, D> {
     /// After a step that failed: back to the state before it, with half of the step.
@@ -23,6 +24,7 @@ impl<const D: usize> Running<'_, D> {
         retries: &mut u32,
         observer: &mut (dyn Observer + Send),
     ) -> Result<(), SolverError> {
+        self.note_trouble(&cause);
         let Some(kept) = snapshot.filter(|_| *retries < self.scene.run.retries) else {
             return Err(self.fail(cause, snapshot, observer));
         };
@@ -38,6 +40,13 @@ impl<const D: usize> Running<'_, D> {
         Ok(())
     }
 
+    /// Keeps the first sign of trouble.
+    fn note_trouble(&mut self, cause: &StepError) {
+        let (time, step) = (self.parts.flow.world.time, self.counters.steps);
+        let first = &mut self.counters.first_trouble;
+        first.get_or_insert_with(|| Trouble::of(cause, time, step));
+    }
+
     /// Writes what a person needs to see why the run failed.
     pub(crate) fn fail(
         &mut self,
@@ -45,6 +54,7 @@ impl<const D: usize> Running<'_, D> {
         snapshot: Option<&Snapshot<D>>,
         observer: &mut (dyn Observer + Send),
     ) -> SolverError {
+        self.note_trouble(&cause);
         let (time, step) = (self.parts.flow.world.time, self.counters.steps);
         let bad = self.options.out.join("bad_state.vtu");
         let bad_state = write_everything(&self.parts.flow, &bad)
@@ -62,7 +72,9 @@ impl<const D: usize> Running<'_, D> {
                 checkpoint = Some(self.options.out.join(checkpoint::FILE));
             }
         }
-        let failure = Failure {
+        let mut failure = Failure {
+            first: self.counters.first_trouble.clone().unwrap_or_default(),
+            summary: None,
             time,
             step,
             advice: advice(&cause),
@@ -70,8 +82,11 @@ impl<const D: usize> Running<'_, D> {
             checkpoint,
             bad_state,
         };
-        if let Err(error) = self.write_summary(Status::Failed, Some(&failure)) {
-            observer.message(&format!("the summary could not be written: {error}"));
+        match self.write_summary(Status::Failed, Some(&failure)) {
+            Ok(summary) => failure.summary = Some(Box::new(summary)),
+            Err(error) => {
+                observer.message(&format!("the summary could not be written: {error}"));
+            }
         }
         SolverError::Failed(Box::new(failure))
     }

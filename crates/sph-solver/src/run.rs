@@ -17,6 +17,7 @@ use crate::output::Outputs;
 use crate::series::Series;
 use crate::snapshot::Snapshot;
 use crate::summary::{Status, Summary};
+use crate::trouble::Trouble;
 use crate::{checkpoint, guard, references};
 
 /// How a scene is run.
@@ -62,6 +63,11 @@ pub(crate) struct Counters {
     pub(crate) rows: u64,
     pub(crate) series_position: u64,
     pub(crate) series_extrema: [u64; 4],
+    /// Highest energy and largest Mach number of all rows.
+    #[serde(default)]
+    pub(crate) series_peaks: Option<[u64; 2]>,
+    #[serde(default)]
+    pub(crate) first_trouble: Option<Trouble>,
     pub(crate) checkpoints: u64,
     pub(crate) limited: BTreeMap<String, u64>,
     /// Σ 1/Δt of every bound, 1/s.
@@ -127,7 +133,10 @@ fn run_in<const D: usize>(
         resumed.map(|c| c.outputs),
     )?;
     let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
-    let series = Series::open(&options.out, parts.flow.outlets.labels(), &parts.probes, at)?;
+    let mut series = Series::open(&options.out, parts.flow.outlets.labels(), &parts.probes, at)?;
+    if let Some(peaks) = counters.series_peaks {
+        series.peaks = peaks.map(f64::from_bits);
+    }
     for warning in &parts.warnings {
         observer.message(&format!("note: {warning}"));
     }
@@ -323,6 +332,7 @@ impl<const D: usize> Running<'_, D> {
         let (position, extrema) = self.series.resume_point();
         self.counters.series_position = position;
         self.counters.series_extrema = extrema.map(f64::to_bits);
+        self.counters.series_peaks = Some(self.series.peaks.map(f64::to_bits));
         self.counters.outputs = self.outputs.written;
         let left = self.parts.flow.left();
         self.counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
-use crate::{Left, Relaxation, Solves};
+use crate::{Left, Relaxation, Solves, Trouble};
 
 /// Version of the summary's layout.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -63,6 +63,9 @@ pub struct Drift {
     pub momentum: f64,
     /// Over the largest energy of any kind.
     pub energy: f64,
+    /// Most that the energy has been above its first value in any row, over the same.
+    #[serde(default)]
+    pub energy_rise: f64,
 }
 
 /// All that is known of a run at its end.
@@ -120,6 +123,15 @@ pub struct Summary {
     pub kinetic_energy: f64,
     /// Least and largest density over the reference, over all rows of the series.
     pub density_range: [f64; 2],
+    /// Largest speed over the speed of sound of its phase, over all rows.
+    #[serde(default)]
+    pub mach: f64,
+    /// Least and mean distance of a free particle to its nearest neighbour at the end, over the spacing.
+    #[serde(default)]
+    pub nearest: [f64; 2],
+    /// The first step that failed, if any did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_trouble: Option<Trouble>,
     /// Least and largest K/ρ₀ at the end, where the formulation has a density constant.
     pub density_constant_range: Option<[f64; 2]>,
     /// Particles behind a wall at the end.
@@ -132,7 +144,7 @@ pub struct Summary {
     pub relaxation: Option<Relaxation>,
     /// Errors against the scene's references.
     pub errors: BTreeMap<String, ErrorEntry>,
-    /// Settings to try where one bound or one stage costs most of the run.
+    /// Settings to try where one bound or one stage costs most of the run, or speeds near that of sound.
     #[serde(default)]
     pub advice: Vec<String>,
     /// Things a person should know.

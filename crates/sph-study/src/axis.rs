@@ -74,7 +74,11 @@ pub fn axes(given: &[file::Axis]) -> Result<Vec<Axis>, Vec<SceneProblem>> {
     }
 }
 
-fn one(axis: &file::Axis, at: &str) -> Result<Axis, Vec<SceneProblem>> {
+/// One axis of a study file, with its path.
+///
+/// # Errors
+/// What it lacks, with its place in the file.
+pub(crate) fn one(axis: &file::Axis, at: &str) -> Result<Axis, Vec<SceneProblem>> {
     let problem = |key: &str, message: &str| vec![SceneProblem::new(format!("{at}{key}"), message)];
     let (name, choices) = match (&axis.key, &axis.values, &axis.entries) {
         (Some(key), Some(values), None) => {

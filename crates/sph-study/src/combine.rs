@@ -137,7 +137,8 @@ fn named(axes: &[Axis], all: Vec<Vec<usize>>) -> Vec<Combination> {
     let mut taken = BTreeSet::new();
     let name = |choices: &Vec<usize>| {
         let parts = axes.iter().zip(choices);
-        let parts: Vec<String> = parts.map(|(a, k)| safe(&a.choices[*k].slug)).collect();
+        let parts = parts.map(|(a, k)| safe(&a.choices[*k].slug));
+        let parts: Vec<String> = parts.filter(|p| !p.is_empty()).collect();
         let name: String = parts.join("_").chars().take(LONGEST).collect();
         let name = match name.is_empty() {
             true => "scene".to_string(),

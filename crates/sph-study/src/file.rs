@@ -18,9 +18,10 @@ pub struct StudyFile {
     pub title: String,
     /// What the study shows and what to look at.
     pub description: Option<String>,
-    /// The scene: a path relative to the study file, or the name of a shipped scene.
-    pub scene: String,
+    /// The scene: a path relative to the study file, or the name of a shipped scene. Every `axis` may have its own.
+    pub scene: Option<String>,
     /// Name, or names, of the scene's references by which variants are judged; plots show the first.
+    #[serde(default)]
     pub error: OneOrMany,
     /// Scene values put on every variant.
     #[serde(default)]
@@ -29,6 +30,15 @@ pub struct StudyFile {
     /// What is varied.
     #[serde(default)]
     pub vary: Vec<Axis>,
+    /// Instead of `vary`: axes that are gone along one by one, each from harmless to absurd, until it breaks.
+    #[serde(default)]
+    pub axis: Vec<Ladder>,
+    /// Combinations of plugins with which every `axis` is gone along; the scenes' own if left out.
+    #[serde(default)]
+    pub combination: Vec<Combination>,
+    /// Bounds of green and of yellow by quantity, for every `axis` that gives none of its own.
+    #[serde(default)]
+    pub judge: Bounds,
     /// Whether axes are crossed or go side by side.
     #[serde(default)]
     pub combine: Combine,
@@ -70,6 +80,61 @@ pub struct Axis {
     pub entries: Option<Vec<Entry>>,
 }
 
+/// An axis that is gone along until it breaks.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ladder {
+    /// Name in tables and folders.
+    pub name: String,
+    /// What is varied, with its unit, for pages and plots.
+    pub title: String,
+    /// Scene of this axis; the study's if left out.
+    pub scene: Option<String>,
+    /// References of the scene that are told; the plot shows the first.
+    #[serde(default)]
+    pub error: OneOrMany,
+    /// Scene values put on every run of this axis.
+    #[serde(default)]
+    #[schemars(with = "SceneValues")]
+    pub set: Table,
+    /// Key of the scene that takes the `values`.
+    pub key: Option<String>,
+    /// Values of `key`, from harmless to absurd.
+    #[schemars(with = "Option<Vec<Json>>")]
+    pub values: Option<Vec<Value>>,
+    /// Names of the `values`, as many.
+    pub labels: Option<Vec<String>>,
+    /// Instead of `key` and `values`: named entries, each with the scene values that it sets.
+    pub entries: Option<Vec<Entry>>,
+    /// Label of the last value that must survive.
+    #[schemars(with = "Option<Json>")]
+    pub must: Option<Value>,
+    /// Bounds of green and of yellow by quantity: a reference, or what every run has.
+    #[serde(default)]
+    pub judge: Bounds,
+    /// Whether what comes after a red value is run all the same.
+    #[serde(default)]
+    pub to_the_end: bool,
+}
+
+/// A combination of plugins with which axes are gone along.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Combination {
+    /// Name in tables and folders.
+    pub name: String,
+    /// Names of the axes that it is for; all if left out.
+    #[serde(default)]
+    pub axes: Vec<String>,
+    /// Scene values that it sets, before those of the axis' values.
+    #[serde(default)]
+    #[schemars(with = "SceneValues")]
+    pub set: Table,
+}
+
+/// Largest value that is green and largest that is yellow, by the name of the quantity.
+pub type Bounds = BTreeMap<String, [f64; 2]>;
+
 /// A named place on an axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -101,6 +166,12 @@ pub enum OneOrMany {
     One(String),
     /// Several.
     Many(Vec<String>),
+}
+
+impl Default for OneOrMany {
+    fn default() -> Self {
+        OneOrMany::Many(Vec::new())
+    }
 }
 
 impl OneOrMany {

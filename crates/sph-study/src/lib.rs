@@ -7,6 +7,8 @@
 //!    it was.
 //! 3. [`Results`] has errors, times and orders of convergence; [`publish`] writes them as JSON,
 //!    CSV, plots and a page.
+//!    A study of axes that are gone along until they break has a [`Frontier`] for each, from the [`verdict()`]
+//!    on every run of its [`Ladder`].
 //! 4. [`compare`] tells what changed between two [`Results`].
 
 mod axis;
@@ -15,7 +17,11 @@ mod compare;
 mod execute;
 mod file;
 mod fingerprint;
+mod frontier;
+mod ladder;
 mod machine;
+mod matrix;
+mod matrix_plots;
 mod mistake;
 mod order;
 mod pareto;
@@ -28,16 +34,20 @@ mod repeat;
 mod report;
 mod results;
 mod table;
+mod verdict;
 
 pub use axis::{Axis, Choice, Set};
 pub use compare::{Change, Comparison, Pair, compare};
-pub use execute::{Options, Outcome, Watcher, execute};
+pub use execute::{Options, Outcome, Watcher, execute, to_run};
 pub use file::{Combine, StudyFile};
+pub use frontier::Frontier;
+pub use ladder::{Ladder, Rung};
 pub use machine::{Machine, commit};
 pub use mistake::{Mistake, Refused};
 pub use order::Orders;
 pub use plan::{FindScene, ReadError, SceneText, Study, Variant};
 pub use publish::publish;
-pub use record::{Error, Record, Status};
+pub use record::{Error, Health, Record, Status};
 pub use results::{Results, SeriesResult, VariantResult, WallSeconds};
 pub use table::{rows, write_csv};
+pub use verdict::{Colour, QUANTITIES, Verdict, verdict};

@@ -10,8 +10,9 @@ use toml::Table;
 use crate::axis::{self, Axis};
 use crate::combine::{combinations, fits};
 use crate::file::StudyFile;
+use crate::ladder::{self, Ladder, Rung};
 use crate::mistake::{Blame, Refused};
-use crate::reader::Reader;
+use crate::reader::{Reader, refinement};
 
 /// The text of a scene and the file name against which it names other files.
 #[derive(Clone, Debug)]
@@ -42,6 +43,8 @@ pub struct Study {
     pub axes: Vec<Axis>,
     /// Key over which the order of convergence is computed.
     pub refinement: Option<String>,
+    /// Axes that are gone along until they break, instead of what is varied.
+    pub ladders: Vec<Ladder>,
     /// What was put on top of every variant, as `--set` has it.
     pub set: Vec<String>,
     /// The variants, in the order in which they run.
@@ -58,6 +61,10 @@ pub struct Variant {
     pub labels: Vec<String>,
     /// Value of the refinement's key.
     pub refinement: Option<f64>,
+    /// Names of the references that are judged.
+    pub errors: Vec<String>,
+    /// Its place on an axis that is gone along until it breaks.
+    pub rung: Option<Rung>,
     /// Whether it is to be run, or only shown if it has been.
     pub wanted: bool,
     /// The scene.
@@ -103,37 +110,26 @@ impl Study {
         let table = source.table();
         let table = table.map_err(|found| Refused::from_diagnostics(&source, found))?;
         let file = study_file(&table).map_err(refused)?;
-        let axes = axis::axes(&file.vary).map_err(refused)?;
-        let all = combinations(&axes, file.combine, &file.skip).map_err(refused)?;
-        if let Some(pattern) = only.iter().find(|p| !all.iter().any(|c| fits(p, &c.name))) {
-            let near = suggestion(pattern, all.iter().map(|c| c.name.as_str()));
+        let name = path.file_stem().and_then(|s| s.to_str());
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let parts = Parts {
+            name: name.unwrap_or("study").to_string(),
+            find: &|scene| find(folder, scene),
+            set,
+            only,
+        };
+        let study = match file.axis.is_empty() {
+            true => parts.varied(file, source)?,
+            false => parts.along(file, source)?,
+        };
+        if let Some(pattern) = only
+            .iter()
+            .find(|p| !study.variants.iter().any(|v| fits(p, &v.name)))
+        {
+            let near = suggestion(pattern, study.variants.iter().map(|v| v.name.as_str()));
             return Err(ReadError::Only(pattern.clone(), near));
         }
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let scene = find(folder, &file.scene);
-        let scene = scene.map_err(|why| refused(vec![SceneProblem::new("scene", why)]))?;
-        let common = axis::sets(&file.set, "set").map_err(|p| refused(vec![p]))?;
-        let reader = Reader {
-            file: &file,
-            source: &source,
-            scene: &scene,
-            axes: &axes,
-            common,
-            set,
-        };
-        let variants = reader.all(&all, only)?;
-        let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or("study");
-        Ok(Study {
-            name: stem.to_string(),
-            scene: scene.name.clone(),
-            errors: file.error.paths("error").into_iter().map(|e| e.0).collect(),
-            refinement: reader.refinement(),
-            set: set.iter().map(|o| o.text().to_string()).collect(),
-            axes,
-            variants,
-            file,
-            source,
-        })
+        Ok(study)
     }
 
     /// Text of the study file.
@@ -169,6 +165,80 @@ impl Study {
     }
 }
 
+/// What a study is made from besides its file.
+struct Parts<'a> {
+    name: String,
+    find: &'a dyn Fn(&str) -> Result<SceneText, String>,
+    set: &'a [Override],
+    only: &'a [String],
+}
+
+impl Parts<'_> {
+    /// Variants of one scene.
+    fn varied(&self, file: StudyFile, source: Source) -> Result<Study, Refused> {
+        let refused = |problems: Vec<SceneProblem>| Refused::of(&source, &problems);
+        let axes = axis::axes(&file.vary).map_err(refused)?;
+        let all = combinations(&axes, file.combine, &file.skip).map_err(refused)?;
+        let errors = file.error.paths("error");
+        if errors.is_empty() {
+            let problem = SceneProblem::new("error", "a study judges by an error");
+            return Err(refused(vec![problem]));
+        }
+        let scene = match &file.scene {
+            Some(scene) => (self.find)(scene),
+            None => Err("a study needs a scene, or axes that have their own".into()),
+        };
+        let scene = scene.map_err(|why| refused(vec![SceneProblem::new("scene", why)]))?;
+        let common = axis::sets(&file.set, "set").map_err(|p| refused(vec![p]))?;
+        let reader = Reader {
+            file: &file,
+            source: &source,
+            scene: &scene,
+            axes: &axes,
+            common,
+            set: self.set,
+            refinement: refinement(&file, &axes),
+            errors,
+        };
+        let variants = reader.all(&all, self.only)?;
+        Ok(Study {
+            name: self.name.clone(),
+            scene: scene.name.clone(),
+            errors: reader.errors.iter().map(|e| e.0.clone()).collect(),
+            refinement: reader.refinement.clone(),
+            set: self.set.iter().map(|o| o.text().to_string()).collect(),
+            ladders: Vec::new(),
+            axes,
+            variants,
+            file,
+            source,
+        })
+    }
+
+    /// Axes that are gone along until they break.
+    fn along(&self, file: StudyFile, source: Source) -> Result<Study, Refused> {
+        let (ladders, variants) = ladder::read(&file, &source, self.find, self.set, self.only)?;
+        let mut scenes: Vec<&str> = Vec::new();
+        for ladder in &ladders {
+            if !scenes.contains(&ladder.scene.as_str()) {
+                scenes.push(&ladder.scene);
+            }
+        }
+        Ok(Study {
+            name: self.name.clone(),
+            scene: scenes.join(", "),
+            errors: Vec::new(),
+            refinement: None,
+            set: self.set.iter().map(|o| o.text().to_string()).collect(),
+            axes: ladder::columns(),
+            ladders,
+            variants,
+            file,
+            source,
+        })
+    }
+}
+
 /// Why a study cannot be had.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
@@ -185,16 +255,9 @@ pub enum ReadError {
 
 /// The typed content of a study file.
 fn study_file(table: &Table) -> Result<StudyFile, Vec<SceneProblem>> {
-    let file: StudyFile = match typed(table) {
-        Ok(file) => file,
-        Err(RegistryError::Parameters(problems)) => return Err(problems),
-        Err(other) => return Err(vec![SceneProblem::new("", other.to_string())]),
-    };
-    match file.error.paths("error").is_empty() {
-        true => Err(vec![SceneProblem::new(
-            "error",
-            "a study judges by an error",
-        )]),
-        false => Ok(file),
+    match typed(table) {
+        Ok(file) => Ok(file),
+        Err(RegistryError::Parameters(problems)) => Err(problems),
+        Err(other) => Err(vec![SceneProblem::new("", other.to_string())]),
     }
 }

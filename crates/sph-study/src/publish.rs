@@ -4,8 +4,9 @@ use std::path::Path;
 
 use sph_io::{Durability, IoError, Plot, write_atomic};
 
+use crate::combine::safe;
 use crate::results::Results;
-use crate::{plots, report, table};
+use crate::{matrix_plots, plots, report, table};
 
 /// Writes `study.json`, `study.csv`, the plots and `report.html` into a folder.
 ///
@@ -14,6 +15,20 @@ use crate::{plots, report, table};
 pub fn publish(results: &Results, folder: &Path) -> Result<(), IoError> {
     sph_io::write_json(folder.join("study.json"), results)?;
     table::write_csv(results, &folder.join("study.csv"))?;
+    for (name, plot) in matrix_plots::axes(results) {
+        both(&plot, folder, &format!("axis-{}", safe(&name)))?;
+    }
+    if results.frontiers.is_empty() {
+        compared(results, folder)?;
+    }
+    let page = report::html(results)?;
+    write_atomic(folder.join("report.html"), Durability::Process, |file| {
+        file.write_all(page.as_bytes())
+    })
+}
+
+/// The plots of variants of one scene.
+fn compared(results: &Results, folder: &Path) -> Result<(), IoError> {
     both(
         &plots::work_precision(results),
         folder,
@@ -22,10 +37,7 @@ pub fn publish(results: &Results, folder: &Path) -> Result<(), IoError> {
     if let Some(plot) = plots::convergence(results) {
         both(&plot, folder, "error-against-refinement")?;
     }
-    let page = report::html(results)?;
-    write_atomic(folder.join("report.html"), Durability::Process, |file| {
-        file.write_all(page.as_bytes())
-    })
+    Ok(())
 }
 
 fn both(plot: &Plot, folder: &Path, name: &str) -> Result<(), IoError> {

@@ -28,6 +28,17 @@ pub(crate) struct Reader<'a> {
     pub common: Vec<Set>,
     /// What is put on top of every variant from outside.
     pub set: &'a [Override],
+    /// References that the scene must have, with their places in the study file.
+    pub errors: Vec<(String, String)>,
+    /// The key over which the order of convergence is computed.
+    pub refinement: Option<String>,
+}
+
+/// The key over which the order of convergence is computed.
+pub(crate) fn refinement(file: &StudyFile, axes: &[Axis]) -> Option<String> {
+    let varied = || axes.iter().any(|a| a.touches(REFINEMENT));
+    let given = file.refinement.clone();
+    given.or_else(|| varied().then(|| REFINEMENT.to_string()))
 }
 
 impl Reader<'_> {
@@ -72,13 +83,6 @@ impl Reader<'_> {
         told
     }
 
-    /// The key over which the order of convergence is computed.
-    pub fn refinement(&self) -> Option<String> {
-        let varied = || self.axes.iter().any(|a| a.touches(REFINEMENT));
-        let given = self.file.refinement.clone();
-        given.or_else(|| varied().then(|| REFINEMENT.to_string()))
-    }
-
     fn one(&self, combination: &Combination, only: &[String]) -> Result<Variant, Vec<Mistake>> {
         let (overrides, given_by) = self.overrides(&combination.choices);
         let blame = Blame {
@@ -89,8 +93,9 @@ impl Reader<'_> {
         let loaded = loaded.map_err(|r| blame.place(&r.source, &r.diagnostics))?;
         let mut problems = self.missing_references(&loaded);
         let refinement = self
-            .refinement()
-            .map(|key| value_at(&loaded.resolved(), &key));
+            .refinement
+            .as_ref()
+            .map(|key| value_at(&loaded.resolved(), key));
         if let Some(Err(why)) = &refinement {
             problems.push(SceneProblem::new("refinement", why.clone()));
         }
@@ -108,6 +113,8 @@ impl Reader<'_> {
             refinement: refinement.and_then(Result::ok),
             wanted: only.is_empty() || only.iter().any(|p| fits(p, &name)),
             fingerprint: fingerprint(&loaded).map_err(unreadable)?,
+            errors: self.errors.iter().map(|e| e.0.clone()).collect(),
+            rung: None,
             name,
             loaded,
             given_by,
@@ -134,7 +141,7 @@ impl Reader<'_> {
 
     fn missing_references(&self, loaded: &Loaded) -> Vec<SceneProblem> {
         let known = &loaded.scene.reference;
-        let names = self.file.error.paths("error").into_iter();
+        let names = self.errors.iter().cloned();
         let missing = names.filter(|(name, _)| !known.contains_key(name));
         let problem = |(name, path): (String, String)| {
             let near = suggestion(&name, known.keys().map(String::as_str));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sph_io::IoError;
-use sph_solver::{ErrorEntry, Summary};
+use sph_solver::{ErrorEntry, Summary, Trouble};
 
 /// Name of the record in a variant's folder.
 const FILE: &str = "record.json";
@@ -22,6 +22,8 @@ pub enum Status {
     OverLimit,
     /// It has begun, and goes on when the study is run again.
     Interrupted,
+    /// It comes after one that broke on the same axis, and is not run.
+    Skipped,
     /// It has not been run yet.
     #[default]
     Pending,
@@ -35,6 +37,7 @@ impl Status {
             Status::Failed => "failed",
             Status::OverLimit => "over limit",
             Status::Interrupted => "interrupted",
+            Status::Skipped => "skipped",
             Status::Pending => "pending",
         }
     }
@@ -70,12 +73,59 @@ pub struct Record {
     pub simulated_seconds: f64,
     /// Share of the steps limited by each bound.
     pub dt_limiters: BTreeMap<String, f64>,
+    /// How sound it was.
+    pub health: Health,
     /// Wall-clock seconds per stage, of the fastest repetition.
     pub wall_seconds_by_stage: BTreeMap<String, f64>,
     /// Version of the program.
     pub version: String,
     /// Commit of the program's repository, if it is known.
     pub commit: Option<String>,
+}
+
+/// What tells whether a run was sound; numbers that are not finite are left out.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Health {
+    /// Particles behind a wall at the end.
+    pub escaped: usize,
+    /// Least and largest density over the reference, over all rows of the series.
+    pub density_range: Option<[f64; 2]>,
+    /// Change of the energy over the largest energy of any kind.
+    pub energy_drift: Option<f64>,
+    /// Most that the energy was above its first value, over the same.
+    pub energy_rise: Option<f64>,
+    /// Change of the momentum over Σ m|u|.
+    pub momentum_drift: Option<f64>,
+    /// Largest speed over the speed of sound.
+    pub mach: Option<f64>,
+    /// Least and mean distance to the nearest particle at the end, over the spacing.
+    pub nearest: Option<[f64; 2]>,
+    /// The first step that failed, if any did.
+    pub first_trouble: Option<Trouble>,
+}
+
+impl Health {
+    fn of(summary: &Summary) -> Self {
+        let finite = |x: f64| x.is_finite().then_some(x);
+        let both = |x: [f64; 2]| x.iter().all(|x| x.is_finite()).then_some(x);
+        Health {
+            escaped: summary.escaped,
+            density_range: both(summary.density_range),
+            energy_drift: finite(summary.drift.energy),
+            energy_rise: finite(summary.drift.energy_rise),
+            momentum_drift: finite(summary.drift.momentum),
+            mach: finite(summary.mach),
+            nearest: both(summary.nearest),
+            first_trouble: summary.first_trouble.clone(),
+        }
+    }
+
+    /// Largest distance of a density from its reference, over it.
+    pub fn density_deviation(&self) -> Option<f64> {
+        let [low, high] = self.density_range?;
+        Some((low - 1.0).abs().max((high - 1.0).abs()))
+    }
 }
 
 /// A comparison with a reference.
@@ -144,6 +194,7 @@ impl Record {
         self.steps_rolled_back = summary.steps_rolled_back;
         self.simulated_seconds = summary.simulated_seconds;
         self.dt_limiters.clone_from(&summary.dt_limiters);
+        self.health = Health::of(summary);
     }
 
     /// Whether nothing is left to do for a variant of this fingerprint.
@@ -157,7 +208,7 @@ impl Record {
                 (Some(then), Some(now)) => now <= then,
                 _ => false,
             },
-            Status::Interrupted | Status::Pending => false,
+            Status::Skipped | Status::Interrupted | Status::Pending => false,
         }
     }
 

@@ -145,6 +145,10 @@ impl Job<'_> {
             Err(SolverError::Io(error)) => return Err(SolverError::Io(error)),
             Err(error) => {
                 if let SolverError::Failed(failure) = &error {
+                    match &failure.summary {
+                        Some(summary) => record.look(summary),
+                        None => record.health.first_trouble = Some(failure.first.clone()),
+                    }
                     record.steps = failure.step;
                     record.simulated_seconds = failure.time;
                 }

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use sph_core::number;
 use sph_io::{IoError, escape};
 
+use crate::matrix;
 use crate::plots;
 use crate::record::Status;
 use crate::results::Results;
@@ -33,12 +34,28 @@ pub fn html(results: &Results) -> Result<String, IoError> {
         page,
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}\n</style>\n</head>\n<body>\n<h1>{title}</h1>"
+         <style>\n{STYLE}\n{}\n</style>\n</head>\n<body>\n<h1>{title}</h1>",
+        matrix::STYLE
     );
     if let Some(description) = &results.description {
         let _ = writeln!(page, "<p>{}</p>", escape(&words(description)));
     }
     page.push_str(&facts(results));
+    match results.frontiers.is_empty() {
+        true => page.push_str(&compared(results)?),
+        false => page.push_str(&matrix::body(results)?),
+    }
+    let _ = writeln!(
+        page,
+        "<h2>Study file</h2>\n<pre>{}</pre>\n</body>\n</html>",
+        lines(&results.definition)
+    );
+    Ok(page)
+}
+
+/// Errors, times and orders of variants of one scene.
+fn compared(results: &Results) -> Result<String, IoError> {
+    let mut page = String::new();
     let _ = writeln!(page, "<h2>Error against run time</h2>");
     page.push_str(&plots::work_precision(results).to_svg()?);
     if let Some(plot) = plots::convergence(results) {
@@ -52,11 +69,6 @@ pub fn html(results: &Results) -> Result<String, IoError> {
     page.push_str(&variants(results));
     page.push_str(&failures(results));
     page.push_str(&stages(results));
-    let _ = writeln!(
-        page,
-        "<h2>Study file</h2>\n<pre>{}</pre>\n</body>\n</html>",
-        lines(&results.definition)
-    );
     Ok(page)
 }
 
@@ -74,7 +86,11 @@ fn lines(text: &str) -> String {
 }
 
 /// A table with its heads, if there are any; every row has a class.
-fn grid(heads: &[String], rows: &[Vec<String>], class: impl Fn(usize) -> String) -> String {
+pub(crate) fn grid(
+    heads: &[String],
+    rows: &[Vec<String>],
+    class: impl Fn(usize) -> String,
+) -> String {
     let mut text = String::from("<div class=\"wide\"><table>\n");
     let cells = |row: &[String], tag: &str| -> String {
         let cell = |c: &String| format!("<{tag}>{}</{tag}>", escape(c));
@@ -106,6 +122,7 @@ fn facts(results: &Results) -> String {
         Status::Failed,
         Status::OverLimit,
         Status::Interrupted,
+        Status::Skipped,
         Status::Pending,
     ];
     let states = states.iter().filter(|s| count(**s) > 0);
@@ -134,6 +151,7 @@ fn facts(results: &Results) -> String {
         row("version", format!("sph {}", results.version)),
         row("commit", results.commit.clone().unwrap_or("unknown".into())),
     ];
+    rows.retain(|row| !row[1].is_empty());
     let commits = commits(results);
     if commits.len() > 1 {
         rows.push(row("variants ran at", commits.join(", ")));

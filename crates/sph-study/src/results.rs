@@ -4,12 +4,15 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::file::Bounds;
 use crate::fingerprint::VERSION;
+use crate::frontier::Frontier;
 use crate::machine::Machine;
 use crate::order::Orders;
 use crate::pareto::pareto;
 use crate::plan::{Study, Variant};
-use crate::record::{Error, Record, Status};
+use crate::record::{Error, Health, Record, Status};
+use crate::verdict::{Verdict, verdict};
 
 /// Version of the layout of `study.json`.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -45,6 +48,9 @@ pub struct Results {
     pub version: String,
     /// Commit of the program's repository, if it is known.
     pub commit: Option<String>,
+    /// How far each axis holds, of studies that go along axes until they break.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub frontiers: Vec<Frontier>,
     /// Variants in the order of the study.
     pub variants: Vec<VariantResult>,
     /// Variants that differ in their refinement only.
@@ -66,6 +72,12 @@ pub struct VariantResult {
     pub status: Status,
     /// Why it did not end well.
     pub reason: Option<String>,
+    /// Green, yellow or red, of a run along an axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
+    /// How sound the run was.
+    #[serde(default)]
+    pub health: Health,
     /// All errors against the scene's references.
     pub errors: BTreeMap<String, Error>,
     /// Observed order between this and the next coarser variant, of the first judged error.
@@ -105,6 +117,9 @@ pub struct WallSeconds {
     pub spread: Option<f64>,
     /// All of them.
     pub all: Vec<f64>,
+    /// Of the repetition that did not come to its end.
+    #[serde(default)]
+    pub spent: f64,
 }
 
 /// Variants that differ in their refinement only, from coarse to fine.
@@ -128,7 +143,8 @@ impl Results {
     ) -> Self {
         let axes: Vec<String> = study.axes.iter().map(|a| a.name.clone()).collect();
         let variants = study.variants.iter().zip(records);
-        let variants = variants.map(|(v, record)| VariantResult::new(v, record, &axes));
+        let judge = |v: &Variant| v.rung.map(|r| &study.ladders[r.ladder].judge);
+        let variants = variants.map(|(v, record)| VariantResult::new(v, record, judge(v), &axes));
         let variants = variants.collect();
         let mut results = Results {
             schema_version: SCHEMA_VERSION,
@@ -144,11 +160,16 @@ impl Results {
             machine,
             version: VERSION.into(),
             commit,
+            frontiers: Vec::new(),
             variants,
             axes,
             series: Vec::new(),
             pareto: Vec::new(),
         };
+        if !study.ladders.is_empty() {
+            results.frontiers = Frontier::all(study, &results.variants);
+            return results;
+        }
         results.series = results.make_series(study);
         results.note_orders();
         results.pareto = results.make_pareto();
@@ -239,13 +260,15 @@ impl Results {
 }
 
 impl VariantResult {
-    fn new(v: &Variant, record: &Record, axes: &[String]) -> Self {
+    fn new(v: &Variant, record: &Record, judge: Option<&Bounds>, axes: &[String]) -> Self {
         VariantResult {
             name: v.name.clone(),
             values: axes.iter().cloned().zip(v.labels.iter().cloned()).collect(),
             refinement: v.refinement,
             status: record.status,
             reason: record.reason.clone(),
+            verdict: judge.and_then(|bounds| verdict(record, bounds)),
+            health: record.health.clone(),
             errors: match record.status {
                 Status::Done => record.errors.clone(),
                 _ => BTreeMap::new(),
@@ -255,6 +278,7 @@ impl VariantResult {
                 min: record.least_seconds(),
                 spread: record.spread(),
                 all: record.wall_seconds.clone(),
+                spent: record.spent,
             },
             threads: record.threads,
             particles: record.particles,

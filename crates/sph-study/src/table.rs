@@ -6,11 +6,15 @@ use std::path::Path;
 use sph_core::number;
 use sph_io::{Durability, IoError, write_atomic};
 
+use crate::matrix;
 use crate::record::Status;
 use crate::results::{Results, VariantResult};
 
 /// One row per variant, the first one being the heads of the columns.
 pub fn rows(results: &Results) -> Vec<Vec<String>> {
+    if !results.frontiers.is_empty() {
+        return matrix::summary(results);
+    }
     let mut heads: Vec<String> = results.axes.clone();
     if heads.is_empty() {
         heads.push("variant".into());
@@ -84,7 +88,8 @@ fn csv(results: &Results, file: &mut dyn Write) -> std::io::Result<()> {
     heads.extend(results.axes.iter().cloned());
     heads.push(results.refinement.clone().unwrap_or("refinement".into()));
     heads.push("status".into());
-    heads.extend(results.errors.iter().map(|e| format!("error.{e}")));
+    let errors = errors(results);
+    heads.extend(errors.iter().map(|e| format!("error.{e}")));
     let rest = [
         "order",
         "wall_seconds",
@@ -93,6 +98,16 @@ fn csv(results: &Results, file: &mut dyn Write) -> std::io::Result<()> {
         "steps",
         "particles",
         "dt_limiter",
+        "colour",
+        "why",
+        "first_trouble",
+        "energy_drift",
+        "energy_rise",
+        "momentum_drift",
+        "least_density",
+        "largest_density",
+        "mach",
+        "escaped",
         "reason",
     ];
     heads.extend(rest.map(String::from));
@@ -103,7 +118,9 @@ fn csv(results: &Results, file: &mut dyn Write) -> std::io::Result<()> {
         row.extend(results.axes.iter().map(|a| v.values[a].clone()));
         row.push(number(v.refinement));
         row.push(v.status.name().into());
-        row.extend(results.errors.iter().map(|e| number(v.error(e))));
+        row.extend(errors.iter().map(|e| number(v.error(e))));
+        let health = &v.health;
+        let verdict = v.verdict.as_ref();
         row.extend([
             number(v.order),
             number(v.wall_seconds.min),
@@ -112,11 +129,35 @@ fn csv(results: &Results, file: &mut dyn Write) -> std::io::Result<()> {
             v.steps.to_string(),
             v.particles.to_string(),
             v.dt_limiter.clone().unwrap_or_default(),
+            verdict.map_or("", |v| v.colour.name()).to_string(),
+            verdict.map_or(String::new(), |v| v.why.clone()),
+            health
+                .first_trouble
+                .as_ref()
+                .map_or(String::new(), matrix::trouble),
+            number(health.energy_drift),
+            number(health.energy_rise),
+            number(health.momentum_drift),
+            number(health.density_range.map(|r| r[0])),
+            number(health.density_range.map(|r| r[1])),
+            number(health.mach),
+            health.escaped.to_string(),
             v.reason.clone().unwrap_or_default(),
         ]);
         line(file, &row)?;
     }
     Ok(())
+}
+
+/// Names of all errors that are told.
+fn errors(results: &Results) -> Vec<String> {
+    let mut all = results.errors.clone();
+    for name in results.frontiers.iter().flat_map(|f| &f.errors) {
+        if !all.contains(name) {
+            all.push(name.clone());
+        }
+    }
+    all
 }
 
 fn line(file: &mut dyn Write, cells: &[String]) -> std::io::Result<()> {

@@ -1,0 +1,58 @@
+//! What the equations keep, and the discrete system must keep as well.
+
+use std::path::Path;
+
+use sph_core::{StepLimit, System, Vect, fields};
+use sph_scene::{Override, load, parse};
+use sph_solver::{Assembled, assemble};
+
+mod conservation;
+mod scales;
+mod symmetry;
+mod walls;
+
+/// A shipped scene with overrides.
+fn shipped(name: &str, overrides: &[&str]) -> Assembled<2> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"));
+    let loaded = load(&path, &given(overrides)).unwrap_or_else(|e| panic!("{e}"));
+    assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// A scene from its text with overrides.
+fn written(text: &str, overrides: &[&str]) -> Assembled<2> {
+    let loaded = parse(text, "scene.toml", &given(overrides)).unwrap_or_else(|e| panic!("{e}"));
+    assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn given(overrides: &[&str]) -> Vec<Override> {
+    let all = overrides.iter().map(|text| Override::parse(text).unwrap());
+    all.collect()
+}
+
+/// Position and velocity of every particle, by its number.
+type States = Vec<(Vect<2>, Vect<2>)>;
+
+fn states(parts: &Assembled<2>) -> States {
+    let free = &parts.flow.world.free;
+    let positions = free.get(fields::POSITION).unwrap();
+    let velocities = free.get(fields::VELOCITY).unwrap();
+    let mut states = vec![(Vect::zeros(), Vect::zeros()); free.len()];
+    for (k, i) in free.get(fields::IDENTITY).unwrap().iter().enumerate() {
+        states[*i as usize] = (positions[k], velocities[k]);
+    }
+    states
+}
+
+/// Steps of a given length, or of the longest that the plugins allow; the rates are those of the end.
+fn fly(parts: &mut Assembled<2>, steps: usize, dt: Option<f64>) {
+    for _ in 0..steps {
+        parts.flow.evaluate().unwrap();
+        let dt = dt.unwrap_or_else(|| {
+            let limits = parts.flow.step_limits().unwrap();
+            StepLimit::least(&limits).expect("a limit").dt
+        });
+        parts.flow.world.dt = dt;
+        parts.integrator.step(&mut parts.flow, dt).unwrap();
+    }
+    parts.flow.evaluate().unwrap();
+}
