@@ -94,3 +94,9 @@ fn a_slide_draws_the_water_down_and_pushes_a_crest() {
         toe[toe.len() - 1]
     );
 }
+
+/// Friction that grows with the strain rate in a viscous fluid: the closed form, between the speeds that were measured.
+#[test]
+fn an_avalanche_under_a_viscous_fluid_has_its_steady_speed() {
+    finished("submarine-avalanche", &[]).error("speed", 0.08, 0.0407);
+}
