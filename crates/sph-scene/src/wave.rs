@@ -104,7 +104,30 @@ impl Wave {
     pub fn above<const D: usize>(&self, x: &[f64; D]) -> f64 {
         let surface = |x: f64| self.still() + self.elevation(x);
         let up = x[D - 1] - surface(x[0]);
-        nearest(surface, up.abs(), x[0], x[D - 1]).copysign(up)
+        // Its curvature is 2 H k² at most: nearer than half its radius there is one nearest point, and Newton's
+        // iteration finds it in a tenth of the time of a search.
+        let (k, curvature) = (
+            self.wave_number(),
+            2.0 * self.height * self.wave_number().powi(2),
+        );
+        if up.abs() * curvature > 0.5 {
+            return nearest(surface, up.abs(), x[0], x[D - 1]).copysign(up);
+        }
+        let (mut s, mut below) = (0.0, -up);
+        for _ in 0..20 {
+            let phase = k * (x[0] + s - self.crest);
+            let raised = self.height / phase.cosh().powi(2);
+            let share = raised / self.height;
+            let slope = -2.0 * k * raised * phase.tanh();
+            let bend = self.height * k * k * (4.0 - 6.0 * share) * share;
+            below = self.still() + raised - x[D - 1];
+            let change = (s + below * slope) / (1.0 + slope * slope + below * bend);
+            s -= change;
+            if change.abs() <= 1e-12 * self.depth {
+                break;
+            }
+        }
+        s.hypot(below).copysign(up)
     }
 }
 
@@ -163,7 +186,14 @@ mod tests {
     fn distances_are_those_of_the_densely_sampled_surface() {
         let wave = tsunami();
         let height = |x: f64| wave.still() + wave.elevation(x);
-        for (x, y) in [(-3.21, 0.3), (-3.0, 0.6), (-2.5, 0.7), (-5.0, 0.21)] {
+        for (x, y) in [
+            (-3.21, 0.3),
+            (-3.0, 0.6),
+            (-2.5, 0.7),
+            (-5.0, 0.21),
+            (-2.9, 0.4),
+            (-3.7, 0.41),
+        ] {
             let all = (-100_000..100_000).map(|k| x + 1e-5 * f64::from(k));
             let sampled = all.map(|s| (s - x).hypot(height(s) - y));
             let sampled = sampled.fold(f64::INFINITY, f64::min);
