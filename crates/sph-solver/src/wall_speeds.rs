@@ -3,47 +3,53 @@
 use sph_boundary::{Drawing, WallSpec};
 use sph_core::SceneProblem;
 
-/// Times at which the motion of a wall is looked at.
-const SAMPLES: usize = 500;
+/// Times at which the motion of walls is looked at.
+const SAMPLES: usize = 1000;
 
-/// Walls of which a corner is faster than `sound`, m/s, at some time before `end`, s.
+/// Walls of which a corner is faster than `sound`, m/s, against the slowest wall at some time before `end`, s.
+///
+/// A vessel whose walls all move together carries its fluid along and may be of any speed.
 pub fn too_fast<const D: usize>(walls: &[WallSpec<D>], sound: f64, end: f64) -> Vec<SceneProblem> {
-    let mut problems: Vec<SceneProblem> = Vec::new();
-    for wall in walls.iter().filter(|w| w.motion.moves()) {
-        let corners: Vec<[f64; D]> = match &wall.drawing {
-            Drawing::Line(line) => line
-                .points
-                .iter()
-                .map(|p| std::array::from_fn(|k| p[k]))
-                .collect(),
-            Drawing::Surface(surface) => {
-                let points = surface.points.iter();
-                points.map(|p| std::array::from_fn(|k| p[k])).collect()
-            }
-        };
-        let motion = &wall.motion;
-        let last = motion.stop.min(end);
-        let times = (0..SAMPLES)
-            .map(|n| motion.start + (last - motion.start) * (n as f64 + 0.5) / SAMPLES as f64);
-        let at = |time: f64| {
-            let pose = motion.pose(time);
-            let speed = |corner: &[f64; D]| {
-                let place = pose.map()(*corner);
-                motion.movement(place, time).velocity.norm()
-            };
-            corners.iter().map(speed).fold(0.0, f64::max)
-        };
-        let fastest = times.map(at).fold(0.0, f64::max);
-        if fastest >= sound {
-            let name = wall.drawing.name();
-            problems.push(SceneProblem::new(
-                format!("wall.{name}.motion"),
-                format!(
-                    "the wall moves with {fastest:.3} m/s, faster than sound in the slowest phase, {sound:.3} m/s: what is \
-                     before it would be pressed together; slow it down, or raise `speed_of_sound`"
-                ),
-            ));
-        }
+    if !walls.iter().any(|w| w.motion.moves()) {
+        return Vec::new();
     }
-    problems
+    let times = (0..SAMPLES).map(|n| end * (n as f64 + 0.5) / SAMPLES as f64);
+    let mut fastest = vec![0.0_f64; walls.len()];
+    for time in times {
+        let speeds: Vec<f64> = walls.iter().map(|wall| speed(wall, time)).collect();
+        let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
+        let against = fastest.iter_mut().zip(&speeds);
+        against.for_each(|(most, speed)| *most = most.max(speed - slowest));
+    }
+    let loud = walls.iter().zip(&fastest).filter(|(_, v)| **v >= sound);
+    loud.map(|(wall, v)| {
+        SceneProblem::new(
+            format!("wall.{}.motion", wall.drawing.name()),
+            format!(
+                "the wall moves with {v:.3} m/s, faster than sound in the slowest phase, {sound:.3} m/s: what is \
+                 before it would be pressed together; slow it down, or raise `speed_of_sound`"
+            ),
+        )
+    })
+    .collect()
+}
+
+/// Largest speed of the corners of a wall, m/s.
+fn speed<const D: usize>(wall: &WallSpec<D>, time: f64) -> f64 {
+    if !wall.motion.moves() {
+        return 0.0;
+    }
+    let pose = wall.motion.pose(time);
+    let at = |corner: [f64; D]| {
+        wall.motion
+            .movement(pose.map()(corner), time)
+            .velocity
+            .norm()
+    };
+    let point = |p: &[f64]| at(std::array::from_fn(|k| p[k]));
+    let largest = |speeds: &mut dyn Iterator<Item = f64>| speeds.fold(0.0, f64::max);
+    match &wall.drawing {
+        Drawing::Line(line) => largest(&mut line.points.iter().map(|p| point(p))),
+        Drawing::Surface(surface) => largest(&mut surface.points.iter().map(|p| point(p))),
+    }
 }
