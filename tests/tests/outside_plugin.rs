@@ -1,4 +1,4 @@
-//! Plugins from outside: a kernel, a force and a rheology that no crate of the workspace knows.
+//! Plugins from outside: a kernel, a force, a rheology and an eddy viscosity that no crate of the workspace knows.
 //!
 //! Everything between the two lines could be a crate of its own. A binary that mentions it,
 //! `use my_plugins as _;`, and calls `sph_cli::main()` has the plugins in all its commands.
@@ -7,10 +7,11 @@ use std::any::Any;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Access, StepError, fields, register};
+use sph_core::{Access, Declares, Stage, StepError, fields, register};
 use sph_kernels::{Kernel, Sampler, ScalarSampler};
 use sph_neighbours::{Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, World};
 use sph_rheology::{Inputs, Needs, Rheology, RheologyEntry};
+use sph_stress::{EddyViscosity, EddyViscosityEntry};
 
 // ------------------------------------------------------------------------------------------------
 
@@ -124,6 +125,55 @@ register!(
     "breakfast"
 );
 
+/// η_t = η₀ + ρ (C δr)² γ̇: Smagorinsky's, with a constant part.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Eddies {
+    /// η₀.
+    #[schemars(extend("unit" = "Pa s"))]
+    constant: f64,
+    /// C.
+    coefficient: f64,
+}
+
+impl Declares for Eddies {
+    fn name(&self) -> String {
+        "eddies".into()
+    }
+    fn access(&self) -> Access {
+        let access = Access::none()
+            .here(fields::DENSITY)
+            .here(fields::STRAIN_RATE);
+        access.writes(fields::EDDY_VISCOSITY)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for Eddies {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let density = world.free.get(fields::DENSITY)?.iter();
+        let rates = density.zip(world.free.get(fields::STRAIN_RATE)?);
+        let squared = (self.coefficient * world.spacing).powi(2);
+        let eddies = rates
+            .map(|(rho, rate)| self.constant + rho * squared * rate)
+            .collect();
+        Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
+    }
+}
+
+impl<const D: usize> EddyViscosity<D> for Eddies {
+    fn stage(&self) -> Box<dyn Stage<World<D>>> {
+        Box::new(*self)
+    }
+}
+
+register!(
+    EddyViscosityEntry [2, 3],
+    Eddies,
+    "eddies",
+    "a constant and Smagorinsky's",
+    "Smagorinsky 1963"
+);
+
 // ------------------------------------------------------------------------------------------------
 
 use sph_scene::parse;
@@ -193,10 +243,32 @@ fn a_rheology_of_ones_own_is_as_good_as_a_built_in_one() {
     state(&ours).assert_same(&state(&theirs), "syrup and a Newtonian fluid");
 }
 
+/// 1 mPa s of water and 9 of eddies are 10 mPa s; with Smagorinsky's part the flow loses more.
+#[test]
+fn an_eddy_viscosity_of_ones_own_adds_to_that_of_the_fluid() {
+    let eddies = |c: f64| {
+        let table = format!("[eddy-viscosity.eddies]\nconstant = \"9 mPa s\"\ncoefficient = {c}\n");
+        run_text(&format!("{DAM_BREAK}\n{table}"))
+            .unwrap()
+            .0
+            .kinetic_energy
+    };
+    let thick = DAM_BREAK.replace("viscosity = \"1 mPa s\"", "viscosity = \"10 mPa s\"");
+    assert_ne!(thick, DAM_BREAK);
+    let together = run_text(&thick).unwrap().0.kinetic_energy;
+    let found = eddies(0.0);
+    assert!(
+        (found / together - 1.0).abs() < 1e-9,
+        "{found} J for {together} J"
+    );
+    let more = eddies(0.3);
+    assert!(more < found * (1.0 - 1e-6), "{more} J for {found} J");
+}
+
 #[test]
 fn an_outside_plugin_is_in_the_schema_for_editors() {
     let schema = sph_scene::schema().to_string();
-    for name in ["gaussian", "linear-drag", "syrup"] {
+    for name in ["gaussian", "linear-drag", "syrup", "eddies"] {
         assert!(
             schema.contains(&format!("\"{name}\"")),
             "{name} is not in the schema"

@@ -32,6 +32,9 @@ pub const STRAIN_RATE: Field<Scalar> = Field::new(
     "1/s",
     "magnitude √(2 D:D) of the deviatoric strain rate D",
 );
+/// Viscosity of the eddies that particles do not resolve.
+pub const EDDY_VISCOSITY: Field<Scalar> =
+    Field::new("eddy_viscosity", "Pa s", "viscosity of unresolved eddies");
 /// Pressure between the grains of a soil: what friction feels.
 pub const EFFECTIVE_PRESSURE: Field<Scalar> = Field::new(
     "effective_pressure",

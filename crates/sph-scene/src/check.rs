@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use crate::{Scene, Source, check_geometry, check_names, check_time, overlap};
 
 /// Kinds of which a scene has one plugin at most.
-pub(crate) const SINGLE_KINDS: [&str; 13] = [
+pub(crate) const SINGLE_KINDS: [&str; 14] = [
     "kernel",
     "formulation",
     "integrator",
@@ -18,6 +18,7 @@ pub(crate) const SINGLE_KINDS: [&str; 13] = [
     "elastic-force",
     "effective-pressure",
     "seepage",
+    "eddy-viscosity",
     "smoother",
     "shifting",
 ];

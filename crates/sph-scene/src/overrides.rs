@@ -7,7 +7,7 @@ use toml::{Table, Value};
 const DEEPEST: usize = 32;
 
 /// Tables that hold exactly one plugin, as the segments that lead to them.
-const SINGLE: [&[&str]; 16] = [
+const SINGLE: [&[&str]; 17] = [
     &["kernel"],
     &["formulation"],
     &["integrator"],
@@ -19,6 +19,7 @@ const SINGLE: [&[&str]; 16] = [
     &["elastic-force"],
     &["effective-pressure"],
     &["seepage"],
+    &["eddy-viscosity"],
     &["smoother"],
     &["shifting"],
     &["phase", "*", "equation-of-state"],

@@ -71,6 +71,10 @@ pub struct Scene {
     #[serde(default)]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
     pub seepage: Plugins,
+    /// Viscosity of eddies that particles do not resolve, `[eddy-viscosity.PLUGIN]`; none if left out.
+    #[serde(default, rename = "eddy-viscosity")]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub eddy_viscosity: Plugins,
     /// Smoothing of the density, `[smoother.PLUGIN]`; none if left out.
     #[serde(default)]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
@@ -166,7 +170,7 @@ impl Scene {
 
     /// The plugin that the scene chooses for a kind of which it has one at most: `kernel`,
     /// `formulation`, `integrator`, `walls`, `viscous-operator`, `implicit-viscosity`, `linear-solver`,
-    /// `velocity-gradient`, `elastic-force`, `effective-pressure`, `seepage`, `smoother` or `shifting`.
+    /// `velocity-gradient`, `elastic-force`, `effective-pressure`, `seepage`, `eddy-viscosity`, `smoother` or `shifting`.
     pub fn choice(&self, kind: &'static str) -> Option<PluginChoice> {
         let plugins = match kind {
             "kernel" => &self.kernel,
@@ -180,6 +184,7 @@ impl Scene {
             "elastic-force" => &self.elastic_force,
             "effective-pressure" => &self.effective_pressure,
             "seepage" => &self.seepage,
+            "eddy-viscosity" => &self.eddy_viscosity,
             "smoother" => &self.smoother,
             "shifting" => &self.shifting,
             _ => return None,

@@ -241,15 +241,20 @@ fn limiters_of<const D: usize>(
             coefficient: c.force,
         }),
     ];
-    let kinematic = kinematic_viscosities.iter().copied().fold(0.0, f64::max);
+    let eddies = choices.eddy_viscosity.is_some();
+    let kinematic = match eddies {
+        true => f64::INFINITY,
+        false => kinematic_viscosities.iter().copied().fold(0.0, f64::max),
+    };
     if kinematic > 0.0 && choices.implicit_viscosity.is_none() {
         limiters.push(Box::new(ViscousLimit {
             coefficient: c.viscous / choices.viscous_operator.stiffness(),
             largest: kinematic,
-            constant: choices
-                .rheologies
-                .iter()
-                .all(|l| l.uniform_viscosity().is_some()),
+            constant: !eddies
+                && choices
+                    .rheologies
+                    .iter()
+                    .all(|l| l.uniform_viscosity().is_some()),
         }));
     }
     let stiffness = choices

@@ -18,8 +18,8 @@ use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry};
 use sph_rheology::{Rheology, RheologyEntry};
 use sph_scene::{PluginChoice, Scene};
 use sph_stress::{
-    EffectivePressure, EffectivePressureEntry, ElasticForce, ElasticForceEntry, Seepage,
-    SeepageEntry, VelocityGradient, VelocityGradientEntry,
+    EddyViscosity, EddyViscosityEntry, EffectivePressure, EffectivePressureEntry, ElasticForce,
+    ElasticForceEntry, Seepage, SeepageEntry, VelocityGradient, VelocityGradientEntry,
 };
 
 use crate::defaults;
@@ -40,6 +40,7 @@ pub struct Choices<const D: usize> {
     pub elastic_force: Option<Box<dyn ElasticForce<D>>>,
     pub effective_pressure: Option<Box<dyn EffectivePressure<D>>>,
     pub seepage: Option<Box<dyn Seepage<D>>>,
+    pub eddy_viscosity: Option<Box<dyn EddyViscosity<D>>>,
     pub smoother: Option<Box<dyn Smoother<D>>>,
     pub shifting: Option<Box<dyn Shifting<D>>>,
     pub interfaces: Vec<Box<dyn InterfaceModel<D>>>,
@@ -193,8 +194,14 @@ impl<const D: usize> Choices<D> {
             let law = law.and_then(|c| b.build::<RheologyEntry, _>(&c, |e| (e.build)(&c.table)));
             rheologies.extend(law);
         }
+        let eddy_viscosity = one!(
+            "eddy-viscosity",
+            EddyViscosityEntry,
+            |e: &EddyViscosityEntry, t| e.build::<D>(t)
+        );
         let mut laws = rheologies.iter();
-        let strained = laws.any(|law| law.needs().strain_rate || law.elastic().is_some());
+        let strained = eddy_viscosity.is_some()
+            || laws.any(|law| law.needs().strain_rate || law.elastic().is_some());
         let velocity_gradient = match strained {
             true => one!(
                 "velocity-gradient",
@@ -274,6 +281,7 @@ impl<const D: usize> Choices<D> {
                     elastic_force,
                     effective_pressure,
                     seepage,
+                    eddy_viscosity,
                     smoother,
                     shifting,
                     interfaces,

@@ -67,7 +67,8 @@ pub fn plan_stages<const D: usize>(
     };
     let mut terms = vec![choices.formulation.pressure_term()];
     let rheologies: Rheologies = std::mem::take(&mut choices.rheologies).into();
-    let viscosity = viscosity_of(&rheologies);
+    let eddies = choices.eddy_viscosity.take();
+    let viscosity = viscosity_of(&rheologies, eddies.is_some());
     let elastic_force = choices.elastic_force.take();
     let elastic = elastic_force.is_some();
     let felt = Felt {
@@ -179,7 +180,12 @@ pub fn plan_stages<const D: usize>(
     if gradient.is_some() {
         offered.push(Box::new(StrainRate));
     }
-    offered.push(Box::new(ViscosityStage(felt.clone())));
+    let viscosity_stage = || ViscosityStage {
+        felt: felt.clone(),
+        eddies: eddies.is_some(),
+    };
+    offered.extend(eddies.iter().map(|e| with_gamma(e.stage())));
+    offered.push(Box::new(viscosity_stage()));
     if elastic {
         offered.push(Box::new(CarriedStress(felt.clone())));
         offered.push(Box::new(Yielded(felt.clone())));
@@ -192,7 +198,7 @@ pub fn plan_stages<const D: usize>(
         lagged = vec![
             Box::new(stage),
             Box::new(StrainRate),
-            Box::new(ViscosityStage(felt.clone())),
+            Box::new(viscosity_stage()),
         ];
     }
     let elastic = stage_of_gradient().zip(elastic_force);
@@ -289,10 +295,10 @@ fn refuse_interfaces_of_one(scene: &Scene) -> Result<(), SolverError> {
 }
 
 /// One viscosity for all, or a column.
-fn viscosity_of(laws: &Rheologies) -> Viscosity {
+fn viscosity_of(laws: &Rheologies, eddies: bool) -> Viscosity {
     let uniform: Vec<_> = laws.iter().map(|l| l.uniform_viscosity()).collect();
     match uniform.first() {
-        Some(Some(first)) if uniform.iter().all(|v| v == &Some(*first)) => {
+        Some(Some(first)) if !eddies && uniform.iter().all(|v| v == &Some(*first)) => {
             Viscosity::Uniform(*first)
         }
         _ if laws.len() > 1 => Viscosity::PerPhase,

@@ -10,6 +10,7 @@
 //! * [`EffectivePressure`] is a kind of plugin: the pressure between the grains, where it is not that
 //!   of the equation of state. [`Laplace`] is one. [`PorePressure`] is what is left for the water.
 //! * [`Seepage`] is a kind of plugin: water that moves through the pores. [`DarcyForchheimer`] is one.
+//! * [`EddyViscosity`] is a kind of plugin, added to the viscosity of the laws. None is built in.
 //! * [`CoulombFriction`] brakes soils on walls that have a coefficient of friction.
 //!
 //! Nothing here runs in a scene whose laws do not ask for it.
@@ -21,6 +22,7 @@ mod coulomb;
 mod darcy_forchheimer;
 mod displacement;
 mod divergence;
+mod eddy_viscosity;
 mod effective_pressure;
 mod elastic;
 mod elastic_force;
@@ -48,6 +50,7 @@ pub use coulomb::CoulombFriction;
 pub use darcy_forchheimer::DarcyForchheimer;
 pub use displacement::{Displacement, DisplacementForce};
 pub use divergence::{Divergence, StressDivergence};
+pub use eddy_viscosity::{EddyViscosity, EddyViscosityEntry};
 pub use effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 pub use elastic::ElasticMotion;
 pub use elastic_force::{Blend, ElasticForce, ElasticForceEntry};

@@ -7,27 +7,43 @@ use crate::{Blend, Felt};
 
 /// η of every particle by the law of its phase; where phases differ or a law depends on the flow. Where forces are
 /// blended it is that of the liquid alone.
-pub struct ViscosityStage(pub Felt);
+pub struct ViscosityStage {
+    /// The laws and what they feel.
+    pub felt: Felt,
+    /// Whether there is an eddy viscosity to add.
+    pub eddies: bool,
+}
 
 impl Declares for ViscosityStage {
     fn name(&self) -> String {
         "rheology".into()
     }
     fn access(&self) -> Access {
-        self.0.access().writes(fields::VISCOSITY)
+        let access = self.felt.access().writes(fields::VISCOSITY);
+        match self.eddies {
+            true => access.here(fields::EDDY_VISCOSITY),
+            false => access,
+        }
     }
 }
 
 impl<const D: usize> Stage<World<D>> for ViscosityStage {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let blend = self.0.blend;
+        let blend = self.felt.blend;
         let mut viscosity = world.free.take(fields::VISCOSITY)?;
-        self.0.each(world, &mut viscosity, |law, inputs, _, out| {
-            match law.elastic().filter(|elastic| elastic.blends()) {
-                Some(elastic) if blend == Blend::Forces => elastic.liquid_viscosity(inputs, out),
-                _ => law.viscosity(inputs, out),
-            }
-        })?;
+        self.felt
+            .each(world, &mut viscosity, |law, inputs, _, out| {
+                match law.elastic().filter(|elastic| elastic.blends()) {
+                    Some(elastic) if blend == Blend::Forces => {
+                        elastic.liquid_viscosity(inputs, out)
+                    }
+                    _ => law.viscosity(inputs, out),
+                }
+            })?;
+        if self.eddies {
+            let eddies = world.free.get(fields::EDDY_VISCOSITY)?;
+            viscosity.iter_mut().zip(eddies).for_each(|(v, e)| *v += e);
+        }
         Ok(world.free.put(fields::VISCOSITY, viscosity)?)
     }
 }
