@@ -47,7 +47,8 @@ fn a_dam_break_digs_its_bed_and_keeps_the_sand() {
     let mut still = 0;
     for k in 0..x.len() {
         assert!(surface[k] >= interface[k], "at {} m", x[k]);
-        assert!(!(limit[k] > interface[k] + 1e-12), "at {} m", x[k]);
+        let out_of_the_bed = limit[k] > interface[k] + 1e-12;
+        assert!(!out_of_the_bed, "at {} m", x[k]);
         if x[k] > front + 0.3 && x[k] < 2.9 {
             still += 1;
             assert!(
