@@ -40,7 +40,7 @@ fn the_code_of_the_plugin_page_is_that_of_a_test() {
     let (binary, quoted): (Vec<_>, Vec<_>) = blocks(PLUGINS, "rust")
         .into_iter()
         .partition(|block| block.starts_with("use my_plugins as _;"));
-    assert_eq!((binary.len(), quoted.len()), (1, 3));
+    assert_eq!((binary.len(), quoted.len()), (1, 4));
     for block in quoted {
         assert!(QUOTED.contains(block), "not in outside_plugin.rs:\n{block}");
     }
