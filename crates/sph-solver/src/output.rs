@@ -240,7 +240,7 @@ fn pieces<'a, const D: usize>(
     pieces
 }
 
-/// A column of a probe's table as a map over the first two, with the edges of the walls from above.
+/// A column of a probe's table as a map over the first two.
 fn map<const D: usize>(
     flow: &Flow<D>,
     rows: &[Vec<f64>],
@@ -252,7 +252,7 @@ fn map<const D: usize>(
     let world = &flow.world;
     let points: Vec<[f64; 3]> = rows.iter().map(|row| [row[0], row[1], 0.0]).collect();
     let values: Vec<f64> = rows.iter().map(|row| row[column]).collect();
-    // Cells are squares that touch: discs of their width leave no more than the corners.
+    // Cells are as wide as the nearest ones are apart.
     let apart = |[a, b]: [&[f64; 3]; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs();
     let pairs = points.windows(2).map(|pair| apart([&pair[0], &pair[1]]));
     let diameter = pairs.fold(f64::INFINITY, f64::min);
