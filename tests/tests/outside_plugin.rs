@@ -177,7 +177,7 @@ register!(
 // ------------------------------------------------------------------------------------------------
 
 use sph_scene::parse;
-use sph_solver::{RunOptions, SolverError, Summary, run};
+use sph_solver::{RunOptions, SolverError, Start, Summary, run};
 use sph_tests::{DAM_BREAK, FinalState, PERIODIC};
 
 fn run_text(scene: &str) -> Result<(Summary, tempfile::TempDir), SolverError> {
@@ -185,7 +185,7 @@ fn run_text(scene: &str) -> Result<(Summary, tempfile::TempDir), SolverError> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let options = RunOptions {
         out: folder.path().to_path_buf(),
-        resume: false,
+        start: Start::Afresh,
         threads: Some(2),
         identity: scene.to_string(),
     };

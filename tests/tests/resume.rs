@@ -144,3 +144,46 @@ fn ctrl_c_leaves_a_checkpoint_and_says_how_to_go_on() {
     let resumed = FinalState::of(&bench.path("stopped"));
     whole.assert_same(&resumed, "interrupted by Ctrl-C");
 }
+
+/// One number of a summary.
+fn summary_number(bench: &Bench, out: &str, key: &str) -> f64 {
+    let summary = bench.read(&format!("{out}/summary.json"));
+    let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
+    summary[key].as_f64().unwrap_or(f64::NAN)
+}
+
+#[test]
+fn a_run_starts_from_the_state_of_another() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    bench.done("run scene.toml --quiet --out half --set run.end=0.2");
+    bench.done("run scene.toml --quiet --out whole");
+    bench.done("run scene.toml --quiet --out rest --from half");
+    assert_eq!(summary_number(&bench, "rest", "started_at"), 0.2);
+    let steps = |out: &str| summary_number(&bench, out, "steps");
+    assert_eq!(steps("half") + steps("rest"), steps("whole"));
+    // Lists are built anew, so that sums are those of another order: apart by rounding, which an impact enlarges.
+    let energy = |out: &str| summary_number(&bench, out, "kinetic_energy");
+    let apart = (energy("rest") / energy("whole") - 1.0).abs();
+    assert!(apart < 1e-6, "kinetic energies apart by {apart:.1e}");
+
+    // Other settings go on from the same state; the rest of the first run is resumed as usual.
+    bench
+        .done("run scene.toml --quiet --out other --from half/checkpoint.sph --set run.safety=0.5");
+    assert!(steps("other") > 1.5 * steps("rest"));
+}
+
+#[test]
+fn a_state_that_does_not_fit_is_refused() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    bench.done("run scene.toml --quiet --out half --set run.end=0.02");
+    let refused = |words: &str, code: i32, why: &str| {
+        let outcome = bench.call(&format!("run scene.toml {words}"));
+        assert_eq!(outcome.code, Some(code), "{}", outcome.err);
+        assert!(outcome.err.contains(why), "{}", outcome.err);
+    };
+    refused("--out new --from nowhere", 2, "no checkpoint in nowhere");
+    refused("--out half --from half", 2, "would be overwritten");
+    refused("--out new --from half --resume", 2, "cannot be used with");
+    let fewer = "--out new --from half --set numerics.spacing=0.04";
+    refused(fewer, 1, "particles, the scene");
+}

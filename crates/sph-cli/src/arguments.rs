@@ -35,6 +35,7 @@ Examples:
   sph run scenes/couette-2d.toml
   sph run pool.toml --set numerics.spacing='5 mm' --out results/fine --threads 4
   sph run pool.toml --out results/fine --set numerics.spacing='5 mm' --resume
+  sph run pool.toml --from results/pool --set integrator.leap-frog={} --out results/other
 
 Leaves behind in DIR:
   pictures/*.png    pictures of the fields named in output.picture
@@ -45,7 +46,8 @@ Leaves behind in DIR:
   bad_state.vtu     after a failure: the state in which it failed
 
 Ctrl-C writes a checkpoint and stops; a second Ctrl-C stops at once. A resumed run gives bit for
-bit what the uninterrupted one gives, also with another number of threads.
+bit what the uninterrupted one gives, also with another number of threads. --from takes the particles
+alone: other plugins, steps or materials go on from there.
 
 Exit codes: 0 done, 1 failed or interrupted, 2 bad usage or a bad scene (nothing written).")]
     Run(RunArguments),
@@ -167,6 +169,9 @@ pub struct RunArguments {
     /// Go on from the checkpoint in the folder of the results
     #[arg(long)]
     pub resume: bool,
+    /// Begin with the particles and the time of another run of the same bodies: its folder or checkpoint
+    #[arg(long, value_name = "DIR", conflicts_with = "resume")]
+    pub from: Option<PathBuf>,
     /// Print summary.json on stdout; diagnostics as a JSON array if there are any
     #[arg(long)]
     pub json: bool,

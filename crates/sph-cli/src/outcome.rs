@@ -42,8 +42,11 @@ fn cost(s: &Summary) -> Vec<Vec<String>> {
         0 => String::new(),
         n => format!(", {n} rolled back"),
     };
+    let since = s.started_at.map_or(String::new(), |t| {
+        format!("from t = {} s of another run ", number::plain(t))
+    });
     let steps = format!(
-        "{} to t = {} s{back}",
+        "{} {since}to t = {} s{back}",
         number::count(s.steps as f64),
         number::plain(s.simulated_seconds)
     );

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
-use sph_solver::{RunOptions, SolverError, Status, Summary, run};
+use sph_solver::{RunOptions, SolverError, Start, Status, Summary, run};
 
 use crate::arguments::RunArguments;
 use crate::progress::Watcher;
@@ -25,7 +25,7 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
     look_before_writing(arguments, &out)?;
     let options = RunOptions {
         out: out.clone(),
-        resume: arguments.resume,
+        start: start(arguments, &out)?,
         threads: arguments.threads.map(usize::from),
         identity: opened.identity(),
     };
@@ -36,6 +36,34 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
     watcher.finish();
     let summary = result.map_err(|error| trouble(error, &opened, &out))?;
     conclude(arguments, &summary, &out)
+}
+
+/// Where the run begins.
+fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
+    let Some(other) = &arguments.from else {
+        return Ok(match arguments.resume {
+            true => Start::Resumed,
+            false => Start::Afresh,
+        });
+    };
+    let file = match other.is_dir() {
+        true => other.join(CHECKPOINT),
+        false => other.clone(),
+    };
+    let real = file.canonicalize().map_err(|_| {
+        Trouble::usage(format!(
+            "there is no checkpoint in {} to start from",
+            other.display()
+        ))
+    })?;
+    let own = out.join(CHECKPOINT).canonicalize();
+    if own.is_ok_and(|own| own == real) {
+        let out = out.display();
+        return Err(Trouble::usage(format!(
+            "{out} would be overwritten, and the run starts from it: name another folder with --out"
+        )));
+    }
+    Ok(Start::From(file))
 }
 
 /// What is refused, or worth saying, before the folder is touched.

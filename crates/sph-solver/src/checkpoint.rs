@@ -87,15 +87,66 @@ pub fn load<const D: usize, T: DeserializeOwned>(
     path: &Path,
     scene: &str,
 ) -> Result<T, SolverError> {
+    let (checkpoint, meta) = read::<D, T>(path)?;
+    if meta.scene != scene {
+        let why = "it was written by a different scene or with other `--set` options; start \
+                   afresh in another folder (`--from` takes the state alone), or restore the scene";
+        return Err(refused(path, why));
+    }
+    fill(flow, &checkpoint, path)?;
+    let reference: Vec<Vect<D>> = positions(&checkpoint, path, REFERENCE)?;
+    let wall_reference: Vec<Vect<D>> = positions(&checkpoint, path, WALL_REFERENCE)?;
+    if reference.len() != flow.world.free.len()
+        || wall_reference.len() != flow.world.walls.points.position.len()
+    {
+        return Err(refused(path, "its number of particles is not the scene's"));
+    }
+    set_clock(flow, &meta.clock, path)?;
+    flow.world.build_lists_from(reference, wall_reference);
+    flow.world.lists.builds = meta.clock.list_builds;
+    Ok(meta.run)
+}
+
+/// Puts the particles of another run of the same bodies, with its time, into an assembled flow of other settings.
+///
+/// All that the flow remembers must be in the checkpoint; more is left aside.
+pub fn start_from<const D: usize>(flow: &mut Flow<D>, path: &Path) -> Result<(), SolverError> {
+    let (checkpoint, meta) = read::<D, serde::de::IgnoredAny>(path)?;
+    let identity = checkpoint.column(fields::IDENTITY.name).map(|c| &c.data);
+    let there = match identity {
+        Some(ColumnData::U32(v)) => v.len(),
+        _ => 0,
+    };
+    let here = flow.world.free.len();
+    if there > here || (there < here && flow.outlets.is_empty()) {
+        let why = format!("it has {there} particles, the scene {here}");
+        return Err(refused(path, why));
+    }
+    fill(flow, &checkpoint, path)?;
+    set_clock(flow, &meta.clock, path)?;
+    flow.world.rebuild_lists()?;
+    Ok(())
+}
+
+fn read<const D: usize, T: DeserializeOwned>(
+    path: &Path,
+) -> Result<(Checkpoint, Meta<T>), SolverError> {
     let checkpoint = Checkpoint::load(path)?;
     let meta: Meta<T> = serde_json::from_value(checkpoint.meta.clone())
         .map_err(|e| refused(path, format!("its header is not one of this version ({e})")))?;
-    if meta.scene != scene || meta.dimension != D {
-        let why = "it was written by a different scene or with other `--set` options; start \
-                   afresh in another folder, or restore the scene";
+    if meta.dimension != D {
+        let why = format!("it has {} dimensions, the scene {D}", meta.dimension);
         return Err(refused(path, why));
     }
-    // By an outlet particles have left.
+    Ok((checkpoint, meta))
+}
+
+/// Sets all columns that carry the state; takes out who has left by an outlet.
+fn fill<const D: usize>(
+    flow: &mut Flow<D>,
+    checkpoint: &Checkpoint,
+    path: &Path,
+) -> Result<(), SolverError> {
     if let Some(ColumnData::U32(v)) = checkpoint
         .column(fields::IDENTITY.name)
         .map(|c| &c.data)
@@ -116,26 +167,32 @@ pub fn load<const D: usize, T: DeserializeOwned>(
             }
         }
     }
-    let positions = |name: &str| match checkpoint.column(name).map(|c| &c.data) {
+    Ok(())
+}
+
+fn positions<const D: usize>(
+    checkpoint: &Checkpoint,
+    path: &Path,
+    name: &str,
+) -> Result<Vec<Vect<D>>, SolverError> {
+    match checkpoint.column(name).map(|c| &c.data) {
         Some(ColumnData::F64(v)) => Ok(v.chunks_exact(D).map(Vect::from_column_slice).collect()),
         _ => Err(refused(path, format!("it lacks the column `{name}`"))),
-    };
-    let reference: Vec<Vect<D>> = positions(REFERENCE)?;
-    let wall_reference: Vec<Vect<D>> = positions(WALL_REFERENCE)?;
-    if reference.len() != flow.world.free.len()
-        || wall_reference.len() != flow.world.walls.points.position.len()
-    {
-        return Err(refused(path, "its number of particles is not the scene's"));
     }
-    flow.world.time = f64::from_bits(meta.clock.time);
-    flow.world.dt = f64::from_bits(meta.clock.dt);
-    // The lists are built where the walls were at the last build, then the walls move on.
+}
+
+/// Time and step; walls go where they are at that time.
+fn set_clock<const D: usize>(
+    flow: &mut Flow<D>,
+    clock: &Clock,
+    path: &Path,
+) -> Result<(), SolverError> {
+    flow.world.time = f64::from_bits(clock.time);
+    flow.world.dt = f64::from_bits(clock.dt);
     if let Some(walls) = &flow.walls {
         let now = flow.world.time;
         let moved = crate::stages::lock(walls).move_to(&mut flow.world.walls, now);
         moved.map_err(|e| refused(path, e.to_string()))?;
     }
-    flow.world.build_lists_from(reference, wall_reference);
-    flow.world.lists.builds = meta.clock.list_builds;
-    Ok(meta.run)
+    Ok(())
 }

@@ -101,6 +101,7 @@ impl<const D: usize> Running<'_, D> {
             steps,
             steps_rolled_back: self.counters.rolled_back,
             simulated_seconds: world.time,
+            started_at: self.counters.started_at.map(f64::from_bits),
             wall_seconds,
             wall_seconds_by_stage: stage_seconds,
             threads,

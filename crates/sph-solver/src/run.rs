@@ -1,11 +1,11 @@
 //! The run: evaluate, write what is due, step; roll back what fails.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use sph_core::{StepError, StepLimit, System};
+use sph_io::IoError;
 use sph_scene::Scene;
 
 use crate::assemble::{Assembled, assemble};
@@ -13,25 +13,13 @@ use crate::balance::Balance;
 use crate::driver::{Command, Observer, Progress};
 use crate::error::SolverError;
 use crate::estimate::tiny_steps;
+use crate::options::{RunOptions, Start};
 use crate::output::Outputs;
 use crate::series::Series;
 use crate::snapshot::Snapshot;
 use crate::summary::{Status, Summary};
 use crate::trouble::Trouble;
 use crate::{checkpoint, guard, references};
-
-/// How a scene is run.
-#[derive(Clone, Debug)]
-pub struct RunOptions {
-    /// Folder of all files of the run; it is created.
-    pub out: PathBuf,
-    /// Go on from the folder's checkpoint.
-    pub resume: bool,
-    /// Threads; `None` for all cores.
-    pub threads: Option<usize>,
-    /// Text that identifies the scene with its overrides; a checkpoint belongs to one text.
-    pub identity: String,
-}
 
 /// Runs a scene.
 ///
@@ -68,6 +56,9 @@ pub(crate) struct Counters {
     pub(crate) series_peaks: Option<[u64; 2]>,
     #[serde(default)]
     pub(crate) first_trouble: Option<Trouble>,
+    /// Time at which a run began that started from another's state.
+    #[serde(default)]
+    pub(crate) started_at: Option<u64>,
     pub(crate) checkpoints: u64,
     pub(crate) limited: BTreeMap<String, u64>,
     /// Σ 1/Δt of every bound, 1/s.
@@ -111,21 +102,30 @@ fn run_in<const D: usize>(
         step_scale: 1f64.to_bits(),
         ..Counters::default()
     };
-    if options.resume {
+    if options.start == Start::Resumed {
         counters = checkpoint::load(&mut parts.flow, &file, &options.identity)?;
         parts.flow.recount(&counters.left);
         observer.message(&format!(
             "resuming at t = {:.6} s, step {}",
             parts.flow.world.time, counters.steps
         ));
-    } else if file.exists() {
+    } else {
+        if let Start::From(other) = &options.start {
+            checkpoint::start_from(&mut parts.flow, other)?;
+            let time = parts.flow.world.time;
+            observer.message(&format!(
+                "starting at t = {time:.6} s from {}",
+                other.display()
+            ));
+            counters.started_at = Some(time.to_bits());
+        }
         // An old checkpoint must not be resumed into the files of this run.
-        std::fs::remove_file(&file).map_err(|source| sph_io::IoError::Write {
-            path: file.clone(),
-            source,
-        })?;
+        if file.exists() {
+            let path = file.clone();
+            std::fs::remove_file(&file).map_err(|source| IoError::Write { path, source })?;
+        }
     }
-    let resumed = options.resume.then_some(&counters);
+    let resumed = (options.start == Start::Resumed).then_some(&counters);
     let outputs = Outputs::open(
         scene,
         &parts.probes,
@@ -163,8 +163,10 @@ impl<const D: usize> Running<'_, D> {
         let mut snapshot = Snapshot::default();
         let mut have_snapshot = false;
         let mut retries = 0;
-        if !self.options.resume {
-            self.counters.next_output = self.next_output(-1.0);
+        match (&self.options.start, self.parts.flow.world.time) {
+            (Start::Afresh, _) => self.counters.next_output = self.next_output(-1.0),
+            (Start::From(_), time) => self.counters.next_output = self.next_output(time),
+            (Start::Resumed, _) => {}
         }
         loop {
             if let Err(cause) = self.evaluate() {

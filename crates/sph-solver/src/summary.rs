@@ -95,6 +95,9 @@ pub struct Summary {
     pub steps_rolled_back: u64,
     /// Simulated time, s.
     pub simulated_seconds: f64,
+    /// Time at which the run took over the state of another, s, if it did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub started_at: Option<f64>,
     /// Wall-clock time of all parts of the run, s.
     pub wall_seconds: f64,
     /// Wall-clock time per stage, s.

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use sph_io::IoError;
-use sph_solver::{Command, Observer, Progress, RunOptions, SolverError, run};
+use sph_solver::{Command, Observer, Progress, RunOptions, SolverError, Start, run};
 
 use crate::execute::{Options, Watcher};
 use crate::fingerprint::VERSION;
@@ -96,7 +96,10 @@ impl Job<'_> {
         self.watcher.started(self.variant, repetition);
         let mut options = RunOptions {
             out: folder.to_path_buf(),
-            resume: folder.join(CHECKPOINT).exists(),
+            start: match folder.join(CHECKPOINT).exists() {
+                true => Start::Resumed,
+                false => Start::Afresh,
+            },
             threads: Some(self.threads),
             identity: format!("{} repetition {repetition}", self.variant.fingerprint),
         };
@@ -108,8 +111,8 @@ impl Job<'_> {
         };
         let scene = &self.variant.loaded.scene;
         let mut result = run(scene, &options, &mut observer);
-        if options.resume && result.as_ref().is_err_and(cannot_resume) {
-            options.resume = false;
+        if options.start == Start::Resumed && result.as_ref().is_err_and(cannot_resume) {
+            options.start = Start::Afresh;
             observer.since = Instant::now();
             observer.left = self.study.file.time_limit;
             result = run(scene, &options, &mut observer);

@@ -5,7 +5,7 @@ use std::path::Path;
 use proptest::prelude::*;
 use sph_core::{Vect, fields};
 use sph_scene::load;
-use sph_solver::{Assembled, RunOptions, run};
+use sph_solver::{Assembled, RunOptions, Start, run};
 
 use crate::{fly, given, shipped};
 
@@ -164,7 +164,7 @@ fn energy_rise(name: &str, overrides: &[&str]) -> f64 {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let options = RunOptions {
         out: folder.path().to_path_buf(),
-        resume: false,
+        start: Start::Afresh,
         threads: Some(1),
         identity: name.to_string(),
     };

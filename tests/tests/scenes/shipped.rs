@@ -4,7 +4,7 @@ use std::path::Path;
 
 use sph_io::{Table, read_table};
 use sph_scene::{Override, load};
-use sph_solver::{RunOptions, Status, Summary, run};
+use sph_solver::{RunOptions, Start, Status, Summary, run};
 use tempfile::TempDir;
 
 /// A finished run.
@@ -24,7 +24,7 @@ pub fn finished(name: &str, overrides: &[&str]) -> Finished {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let options = RunOptions {
         out: folder.path().to_path_buf(),
-        resume: false,
+        start: Start::Afresh,
         threads: Some(1),
         identity: name.to_string(),
     };

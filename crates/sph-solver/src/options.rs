@@ -1,0 +1,28 @@
+//! How a scene is run.
+
+use std::path::PathBuf;
+
+/// How a scene is run.
+#[derive(Clone, Debug)]
+pub struct RunOptions {
+    /// Folder of all files of the run; it is created.
+    pub out: PathBuf,
+    /// Where the run begins.
+    pub start: Start,
+    /// Threads; `None` for all cores.
+    pub threads: Option<usize>,
+    /// Text that identifies the scene with its overrides; a checkpoint belongs to one text.
+    pub identity: String,
+}
+
+/// Where a run begins.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Start {
+    /// With the scene's bodies at t = 0.
+    #[default]
+    Afresh,
+    /// With the checkpoint in the run's own folder, as if it had never stopped.
+    Resumed,
+    /// With the particles and the time of a checkpoint of another run of the same bodies, whatever its other settings.
+    From(PathBuf),
+}
