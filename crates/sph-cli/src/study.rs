@@ -167,6 +167,9 @@ fn text(results: &Results, out: &Path) -> String {
             text.push_str(&format!("order{of}: {order:.2}\n"));
         }
     }
+    for line in results.scale.iter().flat_map(sph_study::Scale::lines) {
+        text.push_str(&format!("{line}\n"));
+    }
     text.push_str(&format!("on {}\n", results.machine));
     text.push_str(&format!(
         "written to {}: report.html shows all of it\n",

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sph_solver::Progress;
-use sph_study::{Options, Record, Status, Study, Variant, to_run, verdict};
+use sph_study::{Cost, Options, Record, Status, Study, Variant, to_run, verdict};
 
 use crate::{console, number};
 
@@ -43,6 +43,7 @@ pub struct Watcher {
 /// What is told of a variant that is done.
 enum Judged {
     Error(String),
+    Cost(Cost),
     Bounds(BTreeMap<String, [f64; 2]>),
 }
 
@@ -53,6 +54,10 @@ impl Judged {
                 Some(error) => format!("{name} {}", number::plain(error)),
                 None => format!("no {name}"),
             },
+            Judged::Cost(cost) => {
+                let seconds = record.cost(*cost);
+                seconds.map_or(String::new(), |s| format!("{} {s:.2e} s", cost.name()))
+            }
             Judged::Bounds(bounds) => match verdict(record, bounds) {
                 Some(found) if found.why.is_empty() => found.colour.name().to_string(),
                 Some(found) => format!("{}, {}", found.colour.name(), found.why),
@@ -65,7 +70,10 @@ impl Judged {
 fn judged(study: &Study, variant: &Variant) -> (String, Judged) {
     let judged = match variant.rung {
         Some(rung) => Judged::Bounds(study.ladders[rung.ladder].judge.clone()),
-        None => Judged::Error(study.errors.first().cloned().unwrap_or_default()),
+        None => match (study.errors.first(), &study.file.scaling) {
+            (None, Some(scaling)) => Judged::Cost(scaling.cost),
+            (error, _) => Judged::Error(error.cloned().unwrap_or_default()),
+        },
     };
     (variant.name.clone(), judged)
 }

@@ -57,9 +57,10 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
         let mut watch = Watch::new(METHOD, tolerance, right)?;
         let mut r = residual(matrix, right, x);
         if let Some(residual) = watch.reached(norm(&r))? {
-            return Ok(watch.report(residual));
+            return Ok(watch.report(residual, size_of_val(&r[..])));
         }
         let precondition = self.preconditioner.bind(matrix, METHOD)?;
+        let bytes = 7 * size_of_val(&r[..]) + precondition.bytes();
         let zeros = || vec![Vect::<D>::zeros(); right.len()];
         let shadow = r.clone();
         let (mut p, mut v, mut y, mut z, mut t) = (zeros(), zeros(), zeros(), zeros(), zeros());
@@ -90,7 +91,7 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
             add(x, omega, &z);
             add(&mut r, -omega, &t);
             if let Some(residual) = watch.reached(norm(&r))? {
-                return Ok(watch.report(residual));
+                return Ok(watch.report(residual, bytes));
             }
         }
     }

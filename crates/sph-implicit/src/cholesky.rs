@@ -76,7 +76,7 @@ impl<const D: usize> LinearSolver<D> for Cholesky {
         x: &mut [Vect<D>],
     ) -> Result<Report, SolveError> {
         if right.is_empty() {
-            return Ok(report(0.0));
+            return Ok(report(0.0, 0));
         }
         let blocks = matches!(matrix.entries, Entries::Block(_));
         let fits = |kept: &Kept| kept.blocks == blocks && kept.pattern == matrix.pattern;
@@ -102,7 +102,7 @@ impl<const D: usize> LinearSolver<D> for Cholesky {
         }
         let relative = norm(&rest) / scale;
         match relative <= REFUSE {
-            true => Ok(report(relative)),
+            true => Ok(report(relative, self.bytes())),
             false if relative.is_finite() => Err(SolveError::NotConverged {
                 method: METHOD.into(),
                 wanted: REFUSE,
@@ -129,11 +129,12 @@ register!(
     "faer 0.24; Davis 2006"
 );
 
-fn report(residual: f64) -> Report {
+fn report(residual: f64, bytes: usize) -> Report {
     Report {
         method: METHOD,
         iterations: 0,
         residual,
+        bytes,
     }
 }
 

@@ -70,9 +70,10 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
         let mut watch = Watch::new(METHOD, tolerance, right)?;
         let mut r = residual(matrix, right, x);
         if let Some(residual) = watch.reached(norm(&r))? {
-            return Ok(watch.report(residual));
+            return Ok(watch.report(residual, size_of_val(&r[..])));
         }
         let precondition = self.preconditioner.bind(matrix, METHOD)?;
+        let bytes = 4 * size_of_val(&r[..]) + precondition.bytes();
         let mut z = vec![Vect::zeros(); r.len()];
         precondition.apply(&r, &mut z);
         let mut direction = z.clone();
@@ -88,7 +89,7 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
             add(x, length, &direction);
             add(&mut r, -length, &image);
             if let Some(residual) = watch.reached(norm(&r))? {
-                return Ok(watch.report(residual));
+                return Ok(watch.report(residual, bytes));
             }
             precondition.apply(&r, &mut z);
             let next = dot(&r, &z);

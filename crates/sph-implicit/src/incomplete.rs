@@ -62,6 +62,17 @@ impl<E: Copy + Send + Sync> Incomplete<E> {
         Err(row)
     }
 
+    /// Memory of the factor.
+    pub fn bytes(&self) -> usize {
+        let part = |p: &Part<E>| {
+            size_of_val(&p.starts[..])
+                + size_of_val(&p.columns[..])
+                + size_of_val(&p.lower[..])
+                + size_of_val(&p.inverse_pivots[..])
+        };
+        self.parts.iter().map(part).sum()
+    }
+
     /// z = (P + Lᵀ)⁻¹ P (P + L)⁻¹ r.
     pub fn solve<const D: usize>(&self, r: &[Vect<D>], z: &mut [Vect<D>])
     where

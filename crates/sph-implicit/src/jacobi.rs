@@ -34,10 +34,11 @@ impl<const D: usize> LinearSolver<D> for Jacobi {
         let mut watch = Watch::new(METHOD, tolerance, right)?;
         let diagonal = Preconditioner::BlockJacobi.bind(matrix, METHOD)?;
         let mut step = vec![Vect::zeros(); right.len()];
+        let bytes = 2 * size_of_val(&step[..]) + diagonal.bytes();
         loop {
             let r = residual(matrix, right, x);
             if let Some(residual) = watch.reached(norm(&r))? {
-                return Ok(watch.report(residual));
+                return Ok(watch.report(residual, bytes));
             }
             diagonal.apply(&r, &mut step);
             x.iter_mut().zip(&step).for_each(|(x, step)| *x += step);

@@ -81,11 +81,12 @@ impl Watch {
     }
 
     /// What the solve took.
-    pub fn report(&self, residual: f64) -> Report {
+    pub fn report(&self, residual: f64, bytes: usize) -> Report {
         Report {
             method: self.method,
             iterations: self.iterations(),
             residual,
+            bytes,
         }
     }
 

@@ -103,6 +103,16 @@ impl<const D: usize> Matrix<D> {
         self.pattern.len()
     }
 
+    /// Memory of entries and pattern.
+    pub fn bytes(&self) -> usize {
+        let entry = match &self.entries {
+            Entries::Scalar(_) => size_of::<f64>(),
+            Entries::Block(_) => size_of::<Block<D>>(),
+        };
+        let (rows, others) = (self.rows(), self.pattern.columns.len());
+        (rows + others) * entry + (rows + 1 + others) * size_of::<u32>()
+    }
+
     /// y = A x.
     pub fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
         match &self.entries {

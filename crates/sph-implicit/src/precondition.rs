@@ -91,6 +91,17 @@ fn inverted<const D: usize, E: Entry<D>>(
 }
 
 impl<const D: usize> Bound<D> {
+    /// Memory that it takes.
+    pub fn bytes(&self) -> usize {
+        match self {
+            Bound::Nothing => 0,
+            Bound::Scalar(inverse) => size_of_val(&inverse[..]),
+            Bound::Block(inverse) => size_of_val(&inverse[..]),
+            Bound::IncompleteScalar(factor) => factor.bytes(),
+            Bound::IncompleteBlock(factor) => factor.bytes(),
+        }
+    }
+
     /// z ≈ A⁻¹ r.
     pub fn apply(&self, r: &[Vect<D>], z: &mut [Vect<D>]) {
         match self {

@@ -13,6 +13,8 @@ pub struct Report {
     pub iterations: usize,
     /// |b − A x| / |b|.
     pub residual: f64,
+    /// Most bytes held at a time besides matrix, right-hand side and solution: factors, preconditioner, search directions.
+    pub bytes: usize,
 }
 
 /// Solves symmetric positive definite systems.

@@ -96,6 +96,10 @@ pub trait Elastic: Send + Sync {
     fn blends(&self) -> bool {
         false
     }
+    /// Whether its viscosity damps the solid too, which is known where stresses are blended.
+    fn damps(&self) -> bool {
+        false
+    }
     /// How a batch yields, from a remembered stress that need not be cut.
     fn yielding(&self, _inputs: &Inputs<'_>, _stress: &[Symmetric], yielding: &mut [Yielding]) {
         yielding.fill(Yielding::NONE);

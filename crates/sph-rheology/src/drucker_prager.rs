@@ -277,6 +277,9 @@ impl Elastic for DruckerPrager {
     fn blends(&self) -> bool {
         true
     }
+    fn damps(&self) -> bool {
+        self.damping > 0.0
+    }
     fn yielding(&self, inputs: &Inputs<'_>, stress: &[Symmetric], yielding: &mut [Yielding]) {
         let bound = self.bound();
         for (k, (yielding, stress)) in yielding.iter_mut().zip(stress).enumerate() {

@@ -48,6 +48,12 @@ pub fn refuse_what_is_not_known<const D: usize>(
                        [implicit-viscosity] out, or blend \"stresses\"";
             return Err(SolverError::at(key, why));
         }
+        let damps = |law: &dyn sph_rheology::Rheology| law.elastic().is_some_and(|e| e.damps());
+        if felt.laws.iter().any(|law| damps(&**law)) {
+            let why = "where forces are blended the solid has no viscosity, and the `damping` of the law would do \
+                       nothing: let it be 0, or blend \"stresses\"";
+            return Err(SolverError::at(key, why));
+        }
     }
     if adjoint && force.displaced() {
         return Err(SolverError::at(

@@ -4,6 +4,7 @@
 //! other forces. Where K depends on the velocity, it follows it (Picard). Pairs whose friction is weak act with uⁿ if θ = 1. Ghaïtanellis 2017, Eq. 5.3–5.6, made symmetric by the factor m_a γ_a.
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use sph_core::{Stage, StepError, Vect, fields};
@@ -29,6 +30,12 @@ pub struct Solves {
     pub most_iterations: usize,
     /// Largest relative residual.
     pub largest_residual: f64,
+    /// Wall-clock time of all solves, without putting the systems together, s.
+    #[serde(default)]
+    pub seconds: f64,
+    /// Most bytes of a matrix and of what the solver held for it.
+    #[serde(default)]
+    pub most_bytes: usize,
     /// How often the viscosity followed the velocity, where it depends on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outer: Option<OuterSolves>,
@@ -60,7 +67,9 @@ impl OuterSolves {
 }
 
 impl Solves {
-    fn add(&mut self, report: &Report) {
+    fn add(&mut self, report: &Report, seconds: f64, matrix: usize) {
+        self.seconds += seconds;
+        self.most_bytes = self.most_bytes.max(matrix + report.bytes);
         *self.by_method.entry(report.method.to_string()).or_default() += 1;
         let all: u64 = self.by_method.values().sum();
         self.mean_iterations += (report.iterations as f64 - self.mean_iterations) / all as f64;
@@ -162,6 +171,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             }
         }
         let (matrix, right) = (&system.matrix, &system.right);
+        let start = Instant::now();
         let solved = match self.lagged.is_empty() {
             true => self.solver.solve(matrix, right, velocity),
             false => {
@@ -174,7 +184,8 @@ impl<const D: usize> ImplicitViscosity<D> {
             stage: "implicit viscosity".into(),
             reason: e.to_string(),
         })?;
-        self.solves.add(&report);
+        let seconds = start.elapsed().as_secs_f64();
+        self.solves.add(&report, seconds, matrix.bytes());
         Ok(())
     }
 

@@ -7,6 +7,8 @@ use serde::Deserialize;
 use serde_json::Value as Json;
 use toml::{Table, Value};
 
+use crate::scaling::Scaling;
+
 /// A table whose keys are those of a scene.
 type SceneValues = serde_json::Map<String, Json>;
 
@@ -44,6 +46,8 @@ pub struct StudyFile {
     pub combine: Combine,
     /// Key of the scene over which the order of convergence is computed; `numerics.spacing` if left out and varied.
     pub refinement: Option<String>,
+    /// Cost against the number of particles, told besides `error` or without one.
+    pub scaling: Option<Scaling>,
     /// How often a variant is run; its time is the least.
     #[serde(default = "one")]
     #[schemars(range(min = 1, max = 1000))]

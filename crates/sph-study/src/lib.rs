@@ -9,6 +9,7 @@
 //!    CSV, plots and a page.
 //!    A study of axes that are gone along until they break has a [`Frontier`] for each, from the [`verdict()`]
 //!    on every run of its [`Ladder`].
+//!    Costs against the number of particles, and which choice is the fastest at which size, are a [`Scale`].
 //! 4. [`compare`] tells what changed between two [`Results`].
 
 mod axis;
@@ -33,6 +34,7 @@ mod record;
 mod repeat;
 mod report;
 mod results;
+mod scaling;
 mod table;
 mod verdict;
 
@@ -49,5 +51,6 @@ pub use plan::{FindScene, ReadError, SceneText, Study, Variant};
 pub use publish::publish;
 pub use record::{Error, Health, Record, Status};
 pub use results::{Results, SeriesResult, VariantResult, WallSeconds};
+pub use scaling::{Cost, Reign, Scale, Scaling, SeriesCost, SolveCost};
 pub use table::{rows, write_csv};
 pub use verdict::{Colour, QUANTITIES, Verdict, verdict};

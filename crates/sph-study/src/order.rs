@@ -30,7 +30,7 @@ impl Orders {
 }
 
 /// Slope of the least-squares line.
-fn slope(points: &[[f64; 2]]) -> f64 {
+pub(crate) fn slope(points: &[[f64; 2]]) -> f64 {
     let n = points.len() as f64;
     let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / n;
     let (x, y) = (mean(0), mean(1));

@@ -180,9 +180,15 @@ impl Parts<'_> {
         let axes = axis::axes(&file.vary).map_err(refused)?;
         let all = combinations(&axes, file.combine, &file.skip).map_err(refused)?;
         let errors = file.error.paths("error");
-        if errors.is_empty() {
-            let problem = SceneProblem::new("error", "a study judges by an error");
-            return Err(refused(vec![problem]));
+        if errors.is_empty() && file.scaling.is_none() {
+            let why = "a study judges by an error, or tells the `scaling` of a cost";
+            return Err(refused(vec![SceneProblem::new("error", why)]));
+        }
+        let between = file.scaling.as_ref().and_then(|s| s.between.as_ref());
+        if let Some(name) = between.filter(|name| !axes.iter().any(|a| a.name == **name)) {
+            let near = suggestion(name, axes.iter().map(|a| a.name.as_str()));
+            let why = format!("there is no axis `{name}`{near}");
+            return Err(refused(vec![SceneProblem::new("scaling.between", why)]));
         }
         let scene = match &file.scene {
             Some(scene) => (self.find)(scene),

@@ -40,6 +40,7 @@ pub fn work_precision(results: &Results) -> Plot {
 /// Error against refinement with the observed orders, if there is a refinement.
 pub fn convergence(results: &Results) -> Option<Plot> {
     let key = results.refinement.as_ref()?;
+    results.errors.first()?;
     let of = |s: &SeriesResult| {
         let points = results.convergence(&s.variants, results.judged());
         let order = s.orders.get(results.judged()).and_then(Orders::main);

@@ -29,11 +29,13 @@ pub fn publish(results: &Results, folder: &Path) -> Result<(), IoError> {
 
 /// The plots of variants of one scene.
 fn compared(results: &Results, folder: &Path) -> Result<(), IoError> {
-    both(
-        &plots::work_precision(results),
-        folder,
-        "error-against-time",
-    )?;
+    if !results.errors.is_empty() {
+        let plot = plots::work_precision(results);
+        both(&plot, folder, "error-against-time")?;
+    }
+    if let Some(scale) = &results.scale {
+        both(&scale.plot(&results.title), folder, "cost-against-size")?;
+    }
     if let Some(plot) = plots::convergence(results) {
         both(&plot, folder, "error-against-refinement")?;
     }

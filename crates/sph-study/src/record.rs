@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 use sph_io::IoError;
 use sph_solver::{ErrorEntry, Summary, Trouble};
 
+use crate::scaling::{Cost, SolveCost};
+
 /// Name of the record in a variant's folder.
 const FILE: &str = "record.json";
 
@@ -75,6 +77,8 @@ pub struct Record {
     pub dt_limiters: BTreeMap<String, f64>,
     /// How sound it was.
     pub health: Health,
+    /// What implicit solves took in the last repetition.
+    pub solves: Option<SolveCost>,
     /// Wall-clock seconds per stage, of the fastest repetition.
     pub wall_seconds_by_stage: BTreeMap<String, f64>,
     /// Version of the program.
@@ -194,6 +198,7 @@ impl Record {
         self.steps_rolled_back = summary.steps_rolled_back;
         self.simulated_seconds = summary.simulated_seconds;
         self.dt_limiters.clone_from(&summary.dt_limiters);
+        self.solves = summary.implicit_viscosity.as_ref().map(SolveCost::of);
         self.health = Health::of(summary);
     }
 
@@ -215,6 +220,11 @@ impl Record {
     /// Wall-clock seconds of the fastest repetition.
     pub fn least_seconds(&self) -> Option<f64> {
         self.wall_seconds.iter().copied().reduce(f64::min)
+    }
+
+    /// Seconds of a step or a solve.
+    pub fn cost(&self, cost: Cost) -> Option<f64> {
+        cost.seconds(self.least_seconds(), self.steps, self.solves.as_ref())
     }
 
     /// Slowest repetition over the fastest, less one.

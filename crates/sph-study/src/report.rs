@@ -56,15 +56,26 @@ pub fn html(results: &Results) -> Result<String, IoError> {
 /// Errors, times and orders of variants of one scene.
 fn compared(results: &Results) -> Result<String, IoError> {
     let mut page = String::new();
-    let _ = writeln!(page, "<h2>Error against run time</h2>");
-    page.push_str(&plots::work_precision(results).to_svg()?);
+    if !results.errors.is_empty() {
+        let _ = writeln!(page, "<h2>Error against run time</h2>");
+        page.push_str(&plots::work_precision(results).to_svg()?);
+    }
     if let Some(plot) = plots::convergence(results) {
         let _ = writeln!(page, "<h2>Convergence</h2>");
         page.push_str(&plot.to_svg()?);
         page.push_str(&orders(results));
     }
-    let _ = writeln!(page, "<h2>Not beaten in both error and time</h2>");
-    page.push_str(&best(results));
+    if let Some(scale) = &results.scale {
+        let _ = writeln!(page, "<h2>Cost against size</h2>");
+        page.push_str(&scale.plot(&results.title).to_svg()?);
+        for line in scale.lines() {
+            let _ = writeln!(page, "<p>{}</p>", escape(&line));
+        }
+    }
+    if !results.errors.is_empty() {
+        let _ = writeln!(page, "<h2>Not beaten in both error and time</h2>");
+        page.push_str(&best(results));
+    }
     let _ = writeln!(page, "<h2>Variants</h2>");
     page.push_str(&variants(results));
     page.push_str(&failures(results));

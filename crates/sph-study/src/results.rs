@@ -12,6 +12,7 @@ use crate::order::Orders;
 use crate::pareto::pareto;
 use crate::plan::{Study, Variant};
 use crate::record::{Error, Health, Record, Status};
+use crate::scaling::{Cost, Scale, SolveCost};
 use crate::verdict::{Verdict, verdict};
 
 /// Version of the layout of `study.json`.
@@ -57,6 +58,9 @@ pub struct Results {
     pub series: Vec<SeriesResult>,
     /// Variants that no other one beats in both error and time, fastest first.
     pub pareto: Vec<String>,
+    /// Costs against the number of particles, of studies that ask for them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<Scale>,
 }
 
 /// What came out of a variant.
@@ -98,6 +102,9 @@ pub struct VariantResult {
     pub dt_limiter: Option<String>,
     /// Share of the steps limited by each bound.
     pub dt_limiters: BTreeMap<String, f64>,
+    /// What implicit solves took.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub solves: Option<SolveCost>,
     /// Wall-clock seconds per stage, of the fastest repetition.
     pub wall_seconds_by_stage: BTreeMap<String, f64>,
     /// Version of the program that ran it.
@@ -165,6 +172,7 @@ impl Results {
             axes,
             series: Vec::new(),
             pareto: Vec::new(),
+            scale: None,
         };
         if !study.ladders.is_empty() {
             results.frontiers = Frontier::all(study, &results.variants);
@@ -173,6 +181,7 @@ impl Results {
         results.series = results.make_series(study);
         results.note_orders();
         results.pareto = results.make_pareto();
+        results.scale = results.make_scale(study);
         results
     }
 
@@ -250,6 +259,18 @@ impl Results {
         }
     }
 
+    fn make_scale(&self, study: &Study) -> Option<Scale> {
+        let scaling = study.file.scaling.as_ref()?;
+        let refining = |name: &str| {
+            let key = self.refinement.as_deref();
+            let axis = study.axes.iter().find(|a| a.name == name);
+            axis.zip(key).is_some_and(|(axis, key)| axis.touches(key))
+        };
+        let variant = |name: &str| self.variant(name).cloned();
+        let (axes, series) = (&self.axes, &self.series);
+        Some(Scale::new(scaling, axes, refining, series, variant))
+    }
+
     fn make_pareto(&self) -> Vec<String> {
         let points = self.variants.iter().filter_map(|v| {
             let error = v.error(self.judged())?;
@@ -287,11 +308,17 @@ impl VariantResult {
             simulated_seconds: record.simulated_seconds,
             dt_limiter: record.limiter().map(String::from),
             dt_limiters: record.dt_limiters.clone(),
+            solves: record.solves.clone(),
             wall_seconds_by_stage: record.wall_seconds_by_stage.clone(),
             version: record.version.clone(),
             commit: record.commit.clone(),
             fingerprint: v.fingerprint.clone(),
         }
+    }
+
+    /// Seconds of a step or a solve.
+    pub fn cost(&self, cost: Cost) -> Option<f64> {
+        cost.seconds(self.wall_seconds.min, self.steps, self.solves.as_ref())
     }
 
     /// An error, if the variant is finished and has it.

@@ -9,6 +9,7 @@ use sph_io::{Durability, IoError, write_atomic};
 use crate::matrix;
 use crate::record::Status;
 use crate::results::{Results, VariantResult};
+use crate::scaling::Cost;
 
 /// One row per variant, the first one being the heads of the columns.
 pub fn rows(results: &Results) -> Vec<Vec<String>> {
@@ -20,8 +21,10 @@ pub fn rows(results: &Results) -> Vec<Vec<String>> {
         heads.push("variant".into());
     }
     heads.extend(results.errors.clone());
-    let refined = results.refinement.is_some();
+    let refined = results.refinement.is_some() && !results.errors.is_empty();
     heads.extend(refined.then(|| "order".to_string()));
+    let scale = results.scale.as_ref().map(|s| s.cost);
+    heads.extend(scale.iter().flat_map(|c| costs_heads(*c)));
     heads.extend(["wall time", "steps", "particles", "limited by", "status"].map(String::from));
     let mut all = vec![heads];
     all.extend(results.variants.iter().map(|v| row(results, v, refined)));
@@ -39,6 +42,9 @@ fn row(results: &Results, v: &VariantResult, refined: bool) -> Vec<String> {
     row.extend(errors.map(|e| e.map_or_else(none, number::plain)));
     if refined {
         row.push(v.order.map_or_else(none, |o| format!("{o:.2}")));
+    }
+    if let Some(scale) = &results.scale {
+        row.extend(costs(scale.cost, v).map(|c| c.unwrap_or_else(none)));
     }
     let begun = v.steps > 0;
     row.push(seconds(v).unwrap_or_else(none));
@@ -60,6 +66,27 @@ fn row(results: &Results, v: &VariantResult, refined: bool) -> Vec<String> {
         (status, _) => status.name().to_string(),
     });
     row
+}
+
+/// Heads of what a cost is told by.
+fn costs_heads(cost: Cost) -> Vec<String> {
+    let heads: &[&str] = match cost {
+        Cost::Step => &["time per step"],
+        Cost::Solve => &["time per solve", "iterations", "memory"],
+    };
+    heads.iter().map(|h| h.to_string()).collect()
+}
+
+/// What stands below them.
+fn costs(cost: Cost, v: &VariantResult) -> impl Iterator<Item = Option<String>> {
+    let milliseconds = |s: f64| format!("{} ms", number::plain((s * 1e6).round() / 1e3));
+    let mut cells = vec![v.cost(cost).map(milliseconds)];
+    if cost == Cost::Solve {
+        let solves = v.solves.as_ref();
+        cells.push(solves.map(|s| format!("{:.1}", s.iterations)));
+        cells.push(solves.map(|s| format!("{:.1} MB", s.bytes as f64 / 1e6)));
+    }
+    cells.into_iter()
 }
 
 /// The least time, with the spread where there are several.
@@ -94,6 +121,10 @@ fn csv(results: &Results, file: &mut dyn Write) -> std::io::Result<()> {
         "order",
         "wall_seconds",
         "wall_spread",
+        "solves",
+        "solve_seconds",
+        "solve_iterations",
+        "solve_bytes",
         "threads",
         "steps",
         "particles",
@@ -125,6 +156,10 @@ fn csv(results: &Results, file: &mut dyn Write) -> std::io::Result<()> {
             number(v.order),
             number(v.wall_seconds.min),
             number(v.wall_seconds.spread),
+            number(v.solves.as_ref().map(|s| s.count as f64)),
+            number(v.solves.as_ref().map(|s| s.seconds)),
+            number(v.solves.as_ref().map(|s| s.iterations)),
+            number(v.solves.as_ref().map(|s| s.bytes as f64)),
             v.threads.to_string(),
             v.steps.to_string(),
             v.particles.to_string(),

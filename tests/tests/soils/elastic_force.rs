@@ -284,6 +284,13 @@ fn what_cannot_be_combined_is_refused_at_its_key() {
             &blend,
             &["implicit-viscosity"],
         );
+        let explicit = "implicit-viscosity={}";
+        refused(
+            "infinite-slope",
+            &[&forces, explicit],
+            &blend,
+            &["`damping`"],
+        );
         refused("elastic-shear-wave", &[&forces], &blend, &["liquid"]);
     }
     let force = "elastic-force.displacement={}";

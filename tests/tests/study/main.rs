@@ -10,6 +10,7 @@ mod along;
 mod failures;
 mod refusals;
 mod results;
+mod scaling;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
