@@ -171,6 +171,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         coulomb: planned.coulomb,
         seepage: planned.seepage,
         moved: true,
+        restored: false,
         dilatation: compressed.map(|c| Dilatation::new(c, choices.formulation.divergence())),
         kept: Snapshot::default(),
         kept_rates: Vec::new(),

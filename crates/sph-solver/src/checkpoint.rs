@@ -137,5 +137,6 @@ pub fn load<const D: usize, T: DeserializeOwned>(
     }
     flow.world.build_lists_from(reference, wall_reference);
     flow.world.lists.builds = meta.clock.list_builds;
+    flow.restored = true;
     Ok(meta.run)
 }

@@ -13,6 +13,9 @@ use crate::edges::wall_lines;
 use crate::series::Probes;
 use crate::{Flow, SolverError};
 
+/// Folders of numbered files.
+const FOLDERS: [&str; 3] = ["pictures", "fields", "curves"];
+
 /// Writes frames, pictures and curves into a run's folder.
 pub struct Outputs {
     folder: PathBuf,
@@ -35,6 +38,12 @@ impl Outputs {
     ) -> Result<Self, IoError> {
         if written.is_none() {
             forget_earlier_run(folder);
+        }
+        // What a killed run was about to write.
+        for below in FOLDERS.map(|name| folder.join(name)) {
+            if below.is_dir() {
+                sph_io::sweep_temporaries(below)?;
+            }
         }
         let path = folder.join("fields.pvd");
         let series = match (scene.output.vtk, written) {
@@ -130,7 +139,7 @@ fn forget_earlier_run(folder: &Path) {
             && number.len() >= 4
             && number.bytes().all(|b| b.is_ascii_digit())
     };
-    for sub in ["pictures", "fields", "curves"] {
+    for sub in FOLDERS {
         let entries = std::fs::read_dir(folder.join(sub))
             .into_iter()
             .flatten()

@@ -144,8 +144,11 @@ fn listing(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = entries
         .filter_map(|e| e.file_name().into_string().ok())
         .filter(|n| !n.starts_with('.'))
+        // Which is about to be written.
+        .chain(["summary.json".to_string()])
         .collect();
     names.sort();
+    names.dedup();
     names
 }
 

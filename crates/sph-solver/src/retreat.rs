@@ -21,14 +21,13 @@ impl<const D: usize> Running<'_, D> {
         &mut self,
         cause: StepError,
         snapshot: Option<&Snapshot<D>>,
-        retries: &mut u32,
         observer: &mut (dyn Observer + Send),
     ) -> Result<(), SolverError> {
         self.note_trouble(&cause);
-        let Some(kept) = snapshot.filter(|_| *retries < self.scene.run.retries) else {
+        let Some(kept) = snapshot.filter(|_| self.counters.retries < self.scene.run.retries) else {
             return Err(self.fail(cause, snapshot, observer));
         };
-        *retries += 1;
+        self.counters.retries += 1;
         self.counters.rolled_back += 1;
         kept.restore(&mut self.parts.flow)?;
         let scale = 0.5 * f64::from_bits(self.counters.step_scale);

@@ -13,6 +13,7 @@ use crate::balance::Balance;
 use crate::driver::{Command, Observer, Progress};
 use crate::error::SolverError;
 use crate::estimate::tiny_steps;
+use crate::implicit::Solves;
 use crate::output::Outputs;
 use crate::series::Series;
 use crate::snapshot::Snapshot;
@@ -58,9 +59,15 @@ pub fn run(
 pub(crate) struct Counters {
     pub(crate) steps: u64,
     pub(crate) rolled_back: u64,
+    /// Roll-backs since the step had its whole length.
+    #[serde(default)]
+    pub(crate) retries: u32,
     pub(crate) outputs: usize,
     pub(crate) next_output: Option<u64>,
     pub(crate) rows: u64,
+    /// Time of the last row, as bits: a run that is over has its last row.
+    #[serde(default)]
+    pub(crate) last_row: Option<u64>,
     pub(crate) series_position: u64,
     pub(crate) series_extrema: [u64; 4],
     /// Highest energy and largest Mach number of all rows.
@@ -81,6 +88,9 @@ pub(crate) struct Counters {
     /// Mass (as bits) and number of particles that have left, by outlet and phase.
     #[serde(default)]
     pub(crate) left: Vec<[u64; 2]>,
+    /// What implicit solves took so far.
+    #[serde(default)]
+    pub(crate) solves: Option<Solves>,
 }
 
 pub(crate) struct Running<'a, const D: usize> {
@@ -114,6 +124,9 @@ fn run_in<const D: usize>(
     if options.resume {
         counters = checkpoint::load(&mut parts.flow, &file, &options.identity)?;
         parts.flow.recount(&counters.left);
+        if let Some((implicit, solves)) = parts.flow.implicit.as_mut().zip(counters.solves.take()) {
+            implicit.solves = solves;
+        }
         observer.message(&format!(
             "resuming at t = {:.6} s, step {}",
             parts.flow.world.time, counters.steps
@@ -162,18 +175,17 @@ impl<const D: usize> Running<'_, D> {
         let end = self.scene.run.end;
         let mut snapshot = Snapshot::default();
         let mut have_snapshot = false;
-        let mut retries = 0;
         if !self.options.resume {
             self.counters.next_output = self.next_output(-1.0);
         }
         loop {
             if let Err(cause) = self.evaluate() {
                 let kept = have_snapshot.then_some(&snapshot);
-                self.go_back(cause, kept, &mut retries, observer)?;
+                self.go_back(cause, kept, observer)?;
                 continue;
             }
             if have_snapshot && f64::from_bits(self.counters.step_scale) >= 1.0 {
-                retries = 0;
+                self.counters.retries = 0;
             }
             let time = self.parts.flow.world.time;
             self.write_what_is_due(time)?;
@@ -204,7 +216,7 @@ impl<const D: usize> Running<'_, D> {
             let stepped = stepped.and_then(|()| flow.let_out());
             if let Err(cause) = stepped {
                 let kept = have_snapshot.then_some(&snapshot);
-                self.go_back(cause, kept, &mut retries, observer)?;
+                self.go_back(cause, kept, observer)?;
                 continue;
             }
             // A drift in parts may end one rounding short of its aim, and the sliver that is left
@@ -295,7 +307,8 @@ impl<const D: usize> Running<'_, D> {
         let every = self.scene.output.series_interval(self.scene.run.end);
         let end = self.scene.run.end;
         let due = |rows: u64| rows as f64 * every;
-        if time >= due(self.counters.rows) || time >= end {
+        let written = self.counters.last_row == Some(time.to_bits());
+        if !written && (time >= due(self.counters.rows) || time >= end) {
             let dt = self.parts.flow.world.dt;
             let balance = self
                 .series
@@ -304,6 +317,7 @@ impl<const D: usize> Running<'_, D> {
                 self.remember_start(&balance);
             }
             self.counters.rows = (time / every).floor() as u64 + 1;
+            self.counters.last_row = Some(time.to_bits());
         }
         if self
             .counters
@@ -339,6 +353,7 @@ impl<const D: usize> Running<'_, D> {
         let counters = Counters {
             wall_seconds: self.wall_seconds(),
             stage_seconds: self.stage_seconds(),
+            solves: self.parts.flow.implicit.as_ref().map(|i| i.solves.clone()),
             ..self.counters.clone()
         };
         let path = self.options.out.join(checkpoint::FILE);
