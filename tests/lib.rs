@@ -20,5 +20,7 @@ pub const PADDLE: &str = include_str!("scenes/paddle.toml");
 pub const SOIL: &str = include_str!("scenes/soil.toml");
 /// Sand and water behind a gate, a sluice that swings and an outlet; every kind of output.
 pub const SOAK: &str = include_str!("scenes/soak.toml");
+/// A tank in three dimensions with a block that slides and a blade that turns.
+pub const STIRRER: &str = include_str!("scenes/stirrer-3d.toml");
 /// A fluid without walls, periodic in both directions.
 pub const PERIODIC: &str = include_str!("scenes/periodic.toml");

@@ -186,6 +186,7 @@ fn run_text(scene: &str) -> Result<(Summary, tempfile::TempDir), SolverError> {
     let options = RunOptions {
         out: folder.path().to_path_buf(),
         resume: false,
+        changed: false,
         threads: Some(2),
         identity: scene.to_string(),
     };

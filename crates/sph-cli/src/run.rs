@@ -26,6 +26,7 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
     let options = RunOptions {
         out: out.clone(),
         resume: arguments.resume,
+        changed: arguments.changed,
         threads: arguments.threads.map(usize::from),
         identity: opened.identity(),
     };

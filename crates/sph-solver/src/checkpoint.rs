@@ -81,18 +81,19 @@ fn refused(path: &Path, reason: impl Into<String>) -> SolverError {
     }
 }
 
-/// Puts a saved state into an assembled flow; returns what the driver saved.
+/// Puts a saved state into an assembled flow, which must be of the `scene` if one is given; returns what the driver saved.
 pub fn load<const D: usize, T: DeserializeOwned>(
     flow: &mut Flow<D>,
     path: &Path,
-    scene: &str,
+    scene: Option<&str>,
 ) -> Result<T, SolverError> {
     let checkpoint = Checkpoint::load(path)?;
     let meta: Meta<T> = serde_json::from_value(checkpoint.meta.clone())
         .map_err(|e| refused(path, format!("its header is not one of this version ({e})")))?;
-    if meta.scene != scene || meta.dimension != D {
+    if scene.is_some_and(|scene| meta.scene != scene) || meta.dimension != D {
         let why = "it was written by a different scene or with other `--set` options; start \
-                   afresh in another folder, or restore the scene";
+                   afresh in another folder, restore the scene, or go on from it all the same \
+                   with --changed";
         return Err(refused(path, why));
     }
     // By an outlet particles have left.

@@ -60,6 +60,8 @@ pub struct Flow<const D: usize> {
     pub(crate) kinematic_viscosities: Vec<f64>,
     /// The pair terms of the interaction sweep.
     pub(crate) terms: std::sync::Arc<[Box<dyn Interaction<D>>]>,
+    /// What plugin every term comes from, by the term's name.
+    pub(crate) kinds: Vec<(String, &'static str)>,
     /// Friction that is solved for, as a term.
     pub(crate) solved: Option<Box<dyn Interaction<D>>>,
     pub(crate) implicit: Option<ImplicitViscosity<D>>,
@@ -345,7 +347,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// The terms that push particles, friction that is solved for included.
-    fn forces(&self) -> Vec<&dyn Interaction<D>> {
+    pub(crate) fn forces(&self) -> Vec<&dyn Interaction<D>> {
         let terms = self.terms.iter().map(|t| &**t);
         terms.chain(self.solved.as_deref()).collect()
     }

@@ -28,6 +28,8 @@ pub struct RunOptions {
     pub out: PathBuf,
     /// Go on from the folder's checkpoint.
     pub resume: bool,
+    /// Go on from it although the scene has another text or other overrides than it was written with.
+    pub changed: bool,
     /// Threads; `None` for all cores.
     pub threads: Option<usize>,
     /// Text that identifies the scene with its overrides; a checkpoint belongs to one text.
@@ -102,6 +104,8 @@ pub(crate) struct Running<'a, const D: usize> {
     pub(crate) series: Series,
     pub(crate) started: Instant,
     pub(crate) output_seconds: f64,
+    /// The last step that was tried, s, and what limited it.
+    pub(crate) tried: (f64, &'static str),
 }
 
 fn run_in<const D: usize>(
@@ -122,7 +126,8 @@ fn run_in<const D: usize>(
         ..Counters::default()
     };
     if options.resume {
-        counters = checkpoint::load(&mut parts.flow, &file, &options.identity)?;
+        let identity = (!options.changed).then_some(options.identity.as_str());
+        counters = checkpoint::load(&mut parts.flow, &file, identity)?;
         parts.flow.recount(&counters.left);
         if let Some((implicit, solves)) = parts.flow.implicit.as_mut().zip(counters.solves.take()) {
             implicit.solves = solves;
@@ -162,7 +167,12 @@ fn run_in<const D: usize>(
         series,
         started: Instant::now(),
         output_seconds: 0.0,
+        tried: (0.0, "none"),
     };
+    if options.changed {
+        let time = running.parts.flow.world.time;
+        running.counters.next_output = running.next_output(time);
+    }
     let status = running.go(observer)?;
     running.finish(status)
 }
@@ -209,6 +219,7 @@ impl<const D: usize> Running<'_, D> {
                 snapshot.take(&self.parts.flow)?;
                 have_snapshot = true;
             }
+            self.tried = (dt, limiter);
             self.parts.flow.world.dt = dt;
             self.parts.flow.outlets.forget();
             let flow = &mut self.parts.flow;

@@ -82,6 +82,12 @@ impl<const D: usize> Snapshot<D> {
         Ok(())
     }
 
+    /// Where the particle of a number was.
+    pub fn position_of(&self, number: u32) -> Option<Vect<D>> {
+        let place = self.identity.iter().position(|i| *i == number)?;
+        self.position.get(place).copied()
+    }
+
     /// Where every particle of now is in the copy; `None` if the order is the same.
     pub fn places(&self, flow: &Flow<D>) -> Result<Option<Vec<u32>>, FieldError> {
         let now = flow.world.free.get(fields::IDENTITY)?;

@@ -97,6 +97,7 @@ impl Job<'_> {
         let mut options = RunOptions {
             out: folder.to_path_buf(),
             resume: folder.join(CHECKPOINT).exists(),
+            changed: false,
             threads: Some(self.threads),
             identity: format!("{} repetition {repetition}", self.variant.fingerprint),
         };

@@ -165,6 +165,7 @@ fn energy_rise(name: &str, overrides: &[&str]) -> f64 {
     let options = RunOptions {
         out: folder.path().to_path_buf(),
         resume: false,
+        changed: false,
         threads: Some(1),
         identity: name.to_string(),
     };

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use sph_tests::{Bench, DAM_BREAK, PADDLE, Results, SOIL};
 
+mod failing;
 mod soak;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");

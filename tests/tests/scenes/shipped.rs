@@ -25,6 +25,7 @@ pub fn finished(name: &str, overrides: &[&str]) -> Finished {
     let options = RunOptions {
         out: folder.path().to_path_buf(),
         resume: false,
+        changed: false,
         threads: Some(1),
         identity: name.to_string(),
     };
