@@ -53,14 +53,15 @@ fn a_ring_is_drawn_around_its_place_and_not_outside_the_frame() {
     let ringed = |ring: Option<[f64; 3]>| {
         let picture = Picture {
             diameter: 0.3,
-            width: 600,
+            width: 1200,
             ring,
             ..Picture::of(&points, &[f64::NAN, 1.0, 2.0])
         };
         count(&drawn(&picture), red)
     };
     assert_eq!(ringed(None), 0);
-    assert!(ringed(Some([1.0, 0.0, 0.0])) > 200);
+    let found = ringed(Some([1.0, 0.0, 0.0]));
+    assert!(found > 200, "{found} pixels of a ring");
     for nowhere in [[50.0, 0.0, 0.0], [f64::NAN, 0.0, 0.0], [1e308, -1e308, 0.0]] {
         assert_eq!(ringed(Some(nowhere)), 0, "{nowhere:?}");
     }
