@@ -52,7 +52,8 @@ impl Cover {
         self.near.par_iter().map(share).collect()
     }
 
-    /// Whether nodes have moved against each other by more than half a spacing since the search.
+    /// Whether a node may have come near since the search: from 2 spacings to where it is covered (7/6) two walls may each
+    /// come nearer by 0.4.
     fn outdated<const D: usize>(&self, nodes: &[(Vect<D>, usize)], spacing: f64) -> bool {
         if self.searched_at.len() != nodes.len() {
             return true;
@@ -61,7 +62,7 @@ impl Cover {
             let now = padded(x);
             (0..3).map(|k| (now[k] - old[k]).powi(2)).sum::<f64>()
         });
-        moved.fold(0.0, f64::max) > (0.5 * spacing).powi(2)
+        moved.fold(0.0, f64::max) > (0.4 * spacing).powi(2)
     }
 }
 

@@ -92,6 +92,10 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     /// Positions, normals and movements of points and elements at a time.
     fn place(&mut self, walls: &mut WallSet<D>, time: f64) {
         let nodes: Vec<_> = self.outline.mesh.points().collect();
+        // All anew: shares follow from the time alone, whatever places a wall has been to.
+        for (v, node) in nodes.iter().enumerate() {
+            walls.points.share[v] = node.theta * node.size;
+        }
         for (v, share) in self.outline.covered(&nodes) {
             walls.points.share[v] = share;
         }

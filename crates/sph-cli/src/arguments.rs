@@ -36,6 +36,7 @@ Examples:
   sph run pool.toml --set numerics.spacing='5 mm' --out results/fine --threads 4
   sph run pool.toml --out results/fine --set numerics.spacing='5 mm' --resume
   sph run pool.toml --from results/pool --set integrator.leap-frog={} --out results/other
+  sph run pool.toml --resume --changed --set run.safety=0.5    go on after a failure with shorter steps
 
 Leaves behind in DIR:
   pictures/*.png    pictures of the fields named in output.picture
@@ -43,7 +44,9 @@ Leaves behind in DIR:
   series.csv        time, step, energies, momenta, extrema and probes
   summary.json      what the run was, what it cost, errors against the references
   checkpoint.sph    the last state, for --resume
-  bad_state.vtu     after a failure: the state in which it failed
+  bad_state.vtu, bad_state.png, bad_state_near.png
+                    after a failure: the state in which it failed; pictures of all of it and around
+                    the particle at fault
 
 Ctrl-C writes a checkpoint and stops; a second Ctrl-C stops at once. A resumed run gives bit for
 bit what the uninterrupted one gives, also with another number of threads. --from takes the particles
@@ -172,6 +175,9 @@ pub struct RunArguments {
     /// Begin with the particles and the time of another run of the same bodies: its folder or checkpoint
     #[arg(long, value_name = "DIR", conflicts_with = "resume")]
     pub from: Option<PathBuf>,
+    /// With --resume: go on although the scene or --set has changed since the checkpoint, for instance to mend what failed
+    #[arg(long, requires = "resume")]
+    pub changed: bool,
     /// Print summary.json on stdout; diagnostics as a JSON array if there are any
     #[arg(long)]
     pub json: bool,

@@ -17,6 +17,7 @@ mod check;
 mod console;
 mod diagnostics;
 mod explain;
+mod failed;
 mod interrupt;
 mod layout;
 mod new;

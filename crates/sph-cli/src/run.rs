@@ -41,9 +41,10 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
 /// Where the run begins.
 fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
     let Some(other) = &arguments.from else {
-        return Ok(match arguments.resume {
-            true => Start::Resumed,
-            false => Start::Afresh,
+        return Ok(match (arguments.resume, arguments.changed) {
+            (true, true) => Start::Changed,
+            (true, false) => Start::Resumed,
+            _ => Start::Afresh,
         });
     };
     let file = match other.is_dir() {

@@ -1,15 +1,15 @@
 //! Everything that keeps a command from its end, and how it is told.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::{Value as Json, json};
 use sph_core::SceneProblem;
 use sph_scene::{LoadError, Source};
-use sph_solver::{Failure, SolverError};
+use sph_solver::SolverError;
 use sph_study::{ReadError, Refused};
 
+use crate::console;
 use crate::diagnostics::{self, Located};
-use crate::{console, layout};
 
 /// Why a command did not do what it was asked for.
 pub enum Trouble {
@@ -113,7 +113,7 @@ impl Trouble {
 fn failed(error: &SolverError) -> String {
     let mut text = format!("error: {error}\n");
     match error {
-        SolverError::Failed(failure) => text.push_str(&traces(failure)),
+        SolverError::Failed(failure) => text.push_str(&crate::failed::text(failure)),
         SolverError::Resume { .. } => {}
         SolverError::Io(io) if is_checkpoint(io.path()) => text.push_str(
             "a checkpoint that cannot be read cannot be resumed: start again without --resume\n",
@@ -125,29 +125,4 @@ fn failed(error: &SolverError) -> String {
 
 fn is_checkpoint(path: &Path) -> bool {
     path.extension().is_some_and(|e| e == "sph")
-}
-
-/// What to try, and where to look.
-fn traces(failure: &Failure) -> String {
-    let mut text = String::new();
-    if !failure.advice.is_empty() {
-        text.push_str("what may help\n");
-        text.push_str(&layout::remarks(&failure.advice));
-    }
-    let left = |what: &str, path: &Option<PathBuf>| {
-        let path = path.as_ref()?;
-        Some(vec![what.to_string(), path.display().to_string()])
-    };
-    let rows: Vec<Vec<String>> = [
-        left("the bad state, for ParaView", &failure.bad_state),
-        left("the last good state, for --resume", &failure.checkpoint),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
-    if !rows.is_empty() {
-        text.push_str("written\n");
-        text.push_str(&layout::columns(2, &rows));
-    }
-    text
 }

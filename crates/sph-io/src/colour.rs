@@ -20,6 +20,8 @@ impl Colour {
     pub(crate) const PALE: Self = Self::hex(0xc4c4c4);
     /// What stands out in a plot, behind its lines.
     pub(crate) const HIGHLIGHT: Self = Self::hex(0xffe08a);
+    /// What is pointed at.
+    pub(crate) const RING: Self = Self::hex(0xd0021b);
     /// Particles without a finite value.
     pub(crate) const MISSING: Self = Self::hex(0xff00ff);
 

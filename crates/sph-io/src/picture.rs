@@ -64,6 +64,8 @@ pub struct Picture<'a> {
     /// What is shown, as `[[left, right], [bottom, top]]` in metres; if absent,
     /// the walls and the particles that are not far outside them.
     pub window: Option<[[f64; 2]; 2]>,
+    /// A place in metres that is ringed, if any.
+    pub ring: Option<[f64; 3]>,
     /// Values at the ends of the colour bar; if absent, the least and the largest.
     pub range: Option<[f64; 2]>,
     /// Colours of the field.
@@ -86,6 +88,7 @@ impl<'a> Picture<'a> {
             walls: &[],
             view: View::Plane,
             window: None,
+            ring: None,
             range: None,
             colours: ColourMap::Viridis,
             width: 1200,
@@ -115,6 +118,9 @@ impl<'a> Picture<'a> {
         self.draw_particles(&mut canvas, &axes, range);
         if self.view == View::Plane {
             self.draw_walls(&mut canvas, &axes);
+        }
+        if let Some(place) = self.ring {
+            self.draw_ring(&mut canvas, &axes, place);
         }
         axes.draw(&mut canvas);
         bar.draw(&mut canvas, &axes.frame);
@@ -230,6 +236,37 @@ impl<'a> Picture<'a> {
             let [a, b] = ends.map(|p| self.flat(p)).map(|[x, y]| axes.spot(x, y));
             if let Some(inside) = axes.frame.clipped(a, b) {
                 canvas.line(&inside, pen);
+            }
+        }
+    }
+
+    /// A ring with four strokes towards it, to be found among many particles.
+    fn draw_ring(&self, canvas: &mut Canvas, axes: &Axes, place: [f64; 3]) {
+        let [x, y] = self.flat(place);
+        let centre = axes.spot(x, y);
+        if !(centre.iter().all(|c| c.is_finite()) && axes.frame.holds(centre)) {
+            return;
+        }
+        let scale = axes.frame.width() / (axes.x.hi - axes.x.lo);
+        let radius = (0.75 * self.diameter * scale).max(0.5 * axes.size);
+        let at = |r: f64, turn: f64| {
+            let angle = std::f64::consts::TAU * turn;
+            [centre[0] + r * angle.cos(), centre[1] + r * angle.sin()]
+        };
+        let mut lines: Vec<Vec<[f64; 2]>> = (0..48)
+            .map(|k| [k, k + 1].map(|k| at(radius, f64::from(k) / 48.0)).to_vec())
+            .collect();
+        lines.extend((0..4).map(|k| {
+            let turn = f64::from(k) / 4.0;
+            vec![at(radius, turn), at(radius + 1.2 * axes.size, turn)]
+        }));
+        // A light edge shows it on dark ground.
+        for (colour, width) in [(Colour::WHITE, 0.3), (Colour::RING, 0.15)] {
+            let pen = Pen::solid(colour, width * axes.size);
+            for line in &lines {
+                if let Some(inside) = axes.frame.clipped(line[0], line[1]) {
+                    canvas.line(&inside, pen);
+                }
             }
         }
     }

@@ -47,6 +47,27 @@ fn discs_have_the_colours_of_their_values() {
 }
 
 #[test]
+fn a_ring_is_drawn_around_its_place_and_not_outside_the_frame() {
+    let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [f64::NAN, 0.0, 0.0]];
+    let red = Colour([0xd0, 0x02, 0x1b]);
+    let ringed = |ring: Option<[f64; 3]>| {
+        let picture = Picture {
+            diameter: 0.3,
+            width: 1200,
+            ring,
+            ..Picture::of(&points, &[f64::NAN, 1.0, 2.0])
+        };
+        count(&drawn(&picture), red)
+    };
+    assert_eq!(ringed(None), 0);
+    let found = ringed(Some([1.0, 0.0, 0.0]));
+    assert!(found > 200, "{found} pixels of a ring");
+    for nowhere in [[50.0, 0.0, 0.0], [f64::NAN, 0.0, 0.0], [1e308, -1e308, 0.0]] {
+        assert_eq!(ringed(Some(nowhere)), 0, "{nowhere:?}");
+    }
+}
+
+#[test]
 fn in_front_view_the_nearest_is_on_top() {
     let near_last = [[0.0, 1.0, 0.0], [0.0, 0.0, 0.0]];
     let near_first = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]];

@@ -19,6 +19,7 @@ mod kernels;
 mod list;
 mod reaction;
 mod row;
+mod shares;
 mod sweep;
 mod term;
 mod walk;
@@ -33,9 +34,10 @@ pub use kernels::KernelEntry;
 pub use list::{CHUNK, NeighbourList};
 pub use reaction::{WallForce, cross, wall_forces, wall_parts};
 pub use row::{Neighbourhood, Row, Scratch};
+pub use shares::{TermShare, shares_at};
 pub use sweep::{interactions, interactions_with, kernel_sums, pack, shepard};
 pub use term::{
-    BoundTerm, Fused, Interaction, Pair, PairTerm, Rates, RowTerm, Term, TermEntry, There,
+    BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, Term, TermEntry, There,
 };
 pub use walk::{Around, Rows, Surroundings, Values, walk, walk_some};
 pub use walls::{Contact, Contacts, Coulomb, Elements, Frame, WallPoints, WallSet};

@@ -87,6 +87,14 @@ pub trait PairTerm<const D: usize>: Send + Sync + 'static {
     /// # Errors
     /// If a column is missing.
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError>;
+    /// The terms that this one is fused of, each on its own; for those who ask what a term does, not for the sweep.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    fn parts<'a>(&'a self, world: &'a World<D>) -> Result<Vec<Part<'a, D>>, StepError> {
+        let row: Box<dyn RowTerm<D> + 'a> = Box::new(Fused(self.bind(world)?));
+        Ok(vec![(self.name(), row)])
+    }
 }
 
 /// A term called once per particle with its whole neighbourhood.
@@ -94,6 +102,9 @@ pub trait RowTerm<const D: usize>: Sync {
     /// Adds the term's rates for one particle.
     fn row(&self, neighbourhood: &Neighbourhood<'_, D>, rates: &mut Rates<D>);
 }
+
+/// A term on its own: its name, and the term with its columns.
+pub type Part<'a, const D: usize> = (String, Box<dyn RowTerm<D> + 'a>);
 
 /// A term as the assembler holds it. Implement [`PairTerm`] and wrap it in [`Term`], or
 /// implement this to work on whole rows.
@@ -107,6 +118,13 @@ pub trait Interaction<const D: usize>: Send + Sync {
     /// # Errors
     /// If a column is missing.
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError>;
+    /// The terms that this one is fused of, each on its own.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    fn parts<'a>(&'a self, world: &'a World<D>) -> Result<Vec<Part<'a, D>>, StepError> {
+        Ok(vec![(self.name(), self.bind(world)?)])
+    }
     /// The concrete term, so that known terms can be fused.
     fn as_any_ref(&self) -> &dyn Any;
     /// The concrete term, to be taken apart.
@@ -130,6 +148,9 @@ impl<const D: usize, T: PairTerm<D>> Interaction<D> for Term<T> {
     }
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
         Ok(Box::new(Fused(self.0.bind(world)?)))
+    }
+    fn parts<'a>(&'a self, world: &'a World<D>) -> Result<Vec<Part<'a, D>>, StepError> {
+        self.0.parts(world)
     }
     fn as_any_ref(&self) -> &dyn Any {
         self
@@ -216,6 +237,11 @@ macro_rules! fused_tuple {
             }
             fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError> {
                 Ok(($(self.$k.bind(world)?,)+))
+            }
+            fn parts<'a>(&'a self, world: &'a World<D>) -> Result<Vec<Part<'a, D>>, StepError> {
+                let mut parts = Vec::new();
+                $(parts.extend(self.$k.parts(world)?);)+
+                Ok(parts)
             }
         }
     };

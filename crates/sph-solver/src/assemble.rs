@@ -57,6 +57,8 @@ pub struct Assembled<const D: usize> {
     pub relaxation: Option<Relaxation>,
     /// Extent of all bodies along gravity, m.
     pub height: f64,
+    /// Body that a particle came from, by its number.
+    pub body_of: Vec<u32>,
 }
 
 /// Builds the plugins, the particles and the plan.
@@ -161,6 +163,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         stages: planned.stages,
         pruned: planned.pruned,
         terms: planned.terms,
+        kinds: planned.kinds,
         solved,
         implicit,
         limiters,
@@ -171,6 +174,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         coulomb: planned.coulomb,
         seepage: planned.seepage,
         moved: true,
+        restored: false,
         dilatation: compressed.map(|c| Dilatation::new(c, choices.formulation.divergence())),
         kept: Snapshot::default(),
         kept_rates: Vec::new(),
@@ -198,6 +202,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         warnings,
         relaxation,
         height: height(scene, &drawn.regions),
+        body_of: placed.body,
     })
 }
 

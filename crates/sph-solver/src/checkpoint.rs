@@ -81,16 +81,17 @@ fn refused(path: &Path, reason: impl Into<String>) -> SolverError {
     }
 }
 
-/// Puts a saved state into an assembled flow; returns what the driver saved.
+/// Puts a saved state into an assembled flow, which must be of the `scene` if one is given; returns what the driver saved.
 pub fn load<const D: usize, T: DeserializeOwned>(
     flow: &mut Flow<D>,
     path: &Path,
-    scene: &str,
+    scene: Option<&str>,
 ) -> Result<T, SolverError> {
     let (checkpoint, meta) = read::<D, T>(path)?;
-    if meta.scene != scene {
-        let why = "it was written by a different scene or with other `--set` options; start \
-                   afresh in another folder (`--from` takes the state alone), or restore the scene";
+    if scene.is_some_and(|scene| meta.scene != scene) {
+        let why = "it was written by a different scene or with other `--set` options; restore the scene, go on \
+                   from it all the same with --changed, or take its state alone into another folder \
+                   with --from";
         return Err(refused(path, why));
     }
     fill(flow, &checkpoint, path)?;
@@ -104,6 +105,7 @@ pub fn load<const D: usize, T: DeserializeOwned>(
     set_clock(flow, &meta.clock, path)?;
     flow.world.build_lists_from(reference, wall_reference);
     flow.world.lists.builds = meta.clock.list_builds;
+    flow.restored = true;
     Ok(meta.run)
 }
 

@@ -6,7 +6,7 @@ use sph_core::{PlanError, SceneProblem, StepError};
 use sph_io::IoError;
 use thiserror::Error;
 
-use crate::{Summary, Trouble};
+use crate::{Findings, Summary, Trouble};
 
 /// A run that stopped before its end.
 #[derive(Debug, Error)]
@@ -22,12 +22,14 @@ pub struct Failure {
     pub first: Trouble,
     /// What there is to tell of the run so far.
     pub summary: Option<Box<Summary>>,
-    /// What to try.
-    pub advice: Vec<String>,
+    /// Whom it happened to, what was largest, what to try.
+    pub findings: Findings,
     /// Checkpoint of the last good state, if one was written.
     pub checkpoint: Option<PathBuf>,
-    /// Picture file of the bad state, if one was written.
+    /// All columns of the bad state for ParaView, if they were written.
     pub bad_state: Option<PathBuf>,
+    /// Pictures of the bad state, as far as they were written: all of it, and what is around the particle.
+    pub pictures: Vec<PathBuf>,
 }
 
 /// Anything that keeps a scene from its result.

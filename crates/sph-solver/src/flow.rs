@@ -47,6 +47,8 @@ pub struct Flow<const D: usize> {
     pub(crate) seepage: Option<Box<dyn PoreFlow<D>>>,
     /// Whether somebody moved since the last evaluation.
     pub(crate) moved: bool,
+    /// Whether the columns of state are those that the last evaluation before a checkpoint left.
+    pub(crate) restored: bool,
     /// What motion compresses.
     pub(crate) dilatation: Option<Dilatation<D>>,
     /// The state that an integrator keeps within a step.
@@ -58,6 +60,8 @@ pub struct Flow<const D: usize> {
     pub(crate) kinematic_viscosities: Vec<f64>,
     /// The pair terms of the interaction sweep.
     pub(crate) terms: std::sync::Arc<[Box<dyn Interaction<D>>]>,
+    /// What plugin every term comes from, by the term's name.
+    pub(crate) kinds: Vec<(String, &'static str)>,
     /// Friction that is solved for, as a term.
     pub(crate) solved: Option<Box<dyn Interaction<D>>>,
     pub(crate) implicit: Option<ImplicitViscosity<D>>,
@@ -238,8 +242,18 @@ impl<const D: usize> Flow<D> {
         self.world.refresh_lists()?;
         self.timings[LISTS].spent += start.elapsed();
         self.moved = false;
+        let restored = std::mem::take(&mut self.restored);
+        let state = match restored {
+            true => self.state_columns(),
+            false => Vec::new(),
+        };
+        // What only writes state has been done: a solve would start from its own result.
+        let done = |stage: &dyn Stage<World<D>>| {
+            let writes = stage.access().writes;
+            restored && writes.iter().all(|f| state.contains(&f.name))
+        };
         for (k, stage) in self.stages.iter_mut().enumerate() {
-            if !wanted(&**stage) {
+            if !wanted(&**stage) || done(&**stage) {
                 continue;
             }
             let start = Instant::now();
@@ -333,7 +347,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// The terms that push particles, friction that is solved for included.
-    fn forces(&self) -> Vec<&dyn Interaction<D>> {
+    pub(crate) fn forces(&self) -> Vec<&dyn Interaction<D>> {
         let terms = self.terms.iter().map(|t| &**t);
         terms.chain(self.solved.as_deref()).collect()
     }

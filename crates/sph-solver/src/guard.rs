@@ -1,9 +1,15 @@
 //! The guard: values that end a step.
+//!
+//! Positions before the lists are built, densities and accelerations after the sweep. What else can become something that is not a
+//! number (velocities after a solve, stresses, effective pressures, rates of the density constant) is found by these three in the
+//! same step or the next; energies and probes are made of them and change nothing.
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_multiphase::BoundState;
 use sph_neighbours::World;
+
+use crate::Flow;
 
 const BATCH: usize = 4096;
 
@@ -104,4 +110,15 @@ pub fn rates<const D: usize>(
         return Err(report(world, "acceleration", i, value, "not finite".into()));
     }
     Ok(())
+}
+
+impl<const D: usize> Flow<D> {
+    /// All that is asked of a state, as in every evaluation of a run.
+    ///
+    /// # Errors
+    /// The first particle that is out of bounds.
+    pub fn guard(&self, density_bounds: [f64; 2]) -> Result<(), StepError> {
+        positions(&self.world)?;
+        rates(&self.world, &self.laws, density_bounds)
+    }
 }

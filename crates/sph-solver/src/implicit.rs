@@ -32,7 +32,7 @@ pub struct Solves {
     pub largest_residual: f64,
     /// Wall-clock time of all solves, without putting the systems together, s.
     #[serde(default)]
-    pub seconds: f64,
+    pub wall_seconds: f64,
     /// Most bytes of a matrix and of what the solver held for it.
     #[serde(default)]
     pub most_bytes: usize,
@@ -68,7 +68,7 @@ impl OuterSolves {
 
 impl Solves {
     fn add(&mut self, report: &Report, seconds: f64, matrix: usize) {
-        self.seconds += seconds;
+        self.wall_seconds += seconds;
         self.most_bytes = self.most_bytes.max(matrix + report.bytes);
         *self.by_method.entry(report.method.to_string()).or_default() += 1;
         let all: u64 = self.by_method.values().sum();

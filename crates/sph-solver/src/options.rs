@@ -23,6 +23,15 @@ pub enum Start {
     Afresh,
     /// With the checkpoint in the run's own folder, as if it had never stopped.
     Resumed,
+    /// The same, although the scene has another text or other overrides than the checkpoint was written with.
+    Changed,
     /// With the particles and the time of a checkpoint of another run of the same bodies, whatever its other settings.
     From(PathBuf),
+}
+
+impl Start {
+    /// Whether the run's own files are gone on with.
+    pub fn goes_on(&self) -> bool {
+        matches!(self, Start::Resumed | Start::Changed)
+    }
 }

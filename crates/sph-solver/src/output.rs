@@ -7,11 +7,18 @@ use sph_io::{
     Cells, ColourMap, FieldData, FieldValues, Frame, IoError, Location, Picture, Piece, PvdSeries,
     View,
 };
+use sph_neighbours::World;
 use sph_scene::Scene;
 
 use crate::edges::wall_lines;
 use crate::series::Probes;
-use crate::{Flow, SolverError};
+use crate::{Flow, SolverError, bad_pictures};
+
+/// All columns of the state in which a run failed.
+pub const BAD_STATE: &str = "bad_state.vtu";
+
+/// Folders of numbered files.
+const FOLDERS: [&str; 3] = ["pictures", "fields", "curves"];
 
 /// Writes frames, pictures and curves into a run's folder.
 pub struct Outputs {
@@ -35,6 +42,16 @@ impl Outputs {
     ) -> Result<Self, IoError> {
         if written.is_none() {
             forget_earlier_run(folder);
+        }
+        // A failure that was is not one that is.
+        for name in [BAD_STATE, bad_pictures::WHOLE, bad_pictures::NEAR] {
+            let _ = std::fs::remove_file(folder.join(name));
+        }
+        // What a killed run was about to write.
+        for below in FOLDERS.map(|name| folder.join(name)) {
+            if below.is_dir() {
+                sph_io::sweep_temporaries(below)?;
+            }
         }
         let path = folder.join("fields.pvd");
         let series = match (scene.output.vtk, written) {
@@ -130,7 +147,7 @@ fn forget_earlier_run(folder: &Path) {
             && number.len() >= 4
             && number.bytes().all(|b| b.is_ascii_digit())
     };
-    for sub in ["pictures", "fields", "curves"] {
+    for sub in FOLDERS {
         let entries = std::fs::read_dir(folder.join(sub))
             .into_iter()
             .flatten()
@@ -140,7 +157,6 @@ fn forget_earlier_run(folder: &Path) {
             let _ = std::fs::remove_file(path);
         }
     }
-    let _ = std::fs::remove_file(folder.join("bad_state.vtu"));
 }
 
 /// A frame of all columns, for the state in which a run failed.
@@ -151,7 +167,7 @@ pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<(
     Ok(())
 }
 
-fn padded<const D: usize>(x: &sph_core::Vect<D>) -> [f64; 3] {
+pub fn padded<const D: usize>(x: &sph_core::Vect<D>) -> [f64; 3] {
     std::array::from_fn(|k| if k < D { x[k] } else { 0.0 })
 }
 
@@ -272,6 +288,37 @@ fn map<const D: usize>(
     Ok(picture.save(path)?)
 }
 
+/// A column with its label, vectors by their lengths; `None` if the scene does not have it.
+pub fn column_of<const D: usize>(flow: &Flow<D>, name: &str) -> Option<(String, Vec<f64>)> {
+    let found = flow.world.free.columns().find(|(n, ..)| *n == name);
+    let (_, unit, _, components, values) = found?;
+    let values: Vec<f64> = match values {
+        Plain::Index(v) => v.iter().map(|x| f64::from(*x)).collect(),
+        Plain::Real(v) if components == 1 => v.into_owned(),
+        Plain::Real(v) => v
+            .chunks(components)
+            .map(|c| c.iter().map(|x| x * x).sum::<f64>().sqrt())
+            .collect(),
+    };
+    let label = match unit {
+        "1" => name.replace('_', " "),
+        unit => format!("{} [{unit}]", name.replace('_', " ")),
+    };
+    Some((label, values))
+}
+
+/// The walls as lines.
+pub fn drawn_walls<const D: usize>(world: &World<D>) -> Vec<[[f64; 3]; 2]> {
+    // A line whose ends are a period apart is drawn at neither side.
+    let longest = 3.0 * world.spacing;
+    let points = &world.walls.points.position;
+    wall_lines(world)
+        .into_iter()
+        .map(|ends| ends.map(|c| padded(&points[c as usize])))
+        .filter(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1]) < longest)
+        .collect()
+}
+
 fn picture<const D: usize>(
     flow: &Flow<D>,
     points: &[[f64; 3]],
@@ -281,30 +328,10 @@ fn picture<const D: usize>(
     path: &Path,
 ) -> Result<(), SolverError> {
     let world = &flow.world;
-    let found = world.free.columns().find(|(n, ..)| *n == name);
-    let Some((_, unit, _, components, values)) = found else {
+    let Some((label, values)) = column_of(flow, name) else {
         return Ok(());
     };
-    let values: Vec<f64> = match values {
-        Plain::Index(v) => v.iter().map(|x| f64::from(*x)).collect(),
-        Plain::Real(v) if components == 1 => v.into_owned(),
-        Plain::Real(v) => v
-            .chunks(components)
-            .map(|c| c.iter().map(|x| x * x).sum::<f64>().sqrt())
-            .collect(),
-    };
-    // A line whose ends are a period apart is drawn at neither side.
-    let longest = 3.0 * world.spacing;
-    let points_of_walls = &world.walls.points.position;
-    let walls: Vec<[[f64; 3]; 2]> = wall_lines(world)
-        .into_iter()
-        .map(|ends| ends.map(|c| padded(&points_of_walls[c as usize])))
-        .filter(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1]) < longest)
-        .collect();
-    let label = match unit {
-        "1" => name.replace('_', " "),
-        unit => format!("{} [{unit}]", name.replace('_', " ")),
-    };
+    let walls = drawn_walls(world);
     let picture = Picture {
         title,
         time: Some(world.time),

@@ -32,6 +32,8 @@ pub struct Planned<const D: usize> {
     pub pruned: Vec<String>,
     /// The pair terms of the sweep.
     pub terms: SharedTerms<D>,
+    /// What plugin every term comes from, by the term's name.
+    pub kinds: Vec<(String, &'static str)>,
     /// Friction that is solved for instead.
     pub friction: Option<Friction<D>>,
     /// What gives the viscosity of the present velocity, where it depends on it.
@@ -66,6 +68,7 @@ pub fn plan_stages<const D: usize>(
         false => Access::none(),
     };
     let mut terms = vec![choices.formulation.pressure_term()];
+    let mut kinds = vec![(terms[0].name(), "formulation")];
     let rheologies: Rheologies = std::mem::take(&mut choices.rheologies).into();
     let eddies = choices.eddy_viscosity.take();
     let viscosity = viscosity_of(&rheologies, eddies.is_some());
@@ -85,10 +88,13 @@ pub fn plan_stages<const D: usize>(
     let mut solved = None;
     if viscosity != Viscosity::Uniform(0.0) {
         let term = choices.viscous_operator.term(viscosity);
+        kinds.push((term.name(), "viscous-operator"));
         friction = choices.viscous_operator.stages(viscosity);
         match choices.implicit_viscosity.is_some() {
             false if felt.blend == Blend::Forces => {
-                terms.push(Box::new(Blended::friction(term, &rheologies)));
+                let share = Blended::friction(term, &rheologies);
+                kinds.push((share.name(), "viscous-operator"));
+                terms.push(Box::new(share));
             }
             false => terms.push(term),
             true => {
@@ -117,16 +123,26 @@ pub fn plan_stages<const D: usize>(
             solved.is_some(),
             world,
         )?;
-        terms.push(elastic::term(&**force, &felt, adjoint));
+        let term = elastic::term(&**force, &felt, adjoint);
+        kinds.push((term.name(), "elastic-force"));
+        terms.push(term);
     }
     if let Some(smoother) = &choices.smoother {
-        terms.push(smoother.term(laws));
+        let term = smoother.term(laws);
+        kinds.push((term.name(), "smoother"));
+        terms.push(term);
     }
     refuse_interfaces_of_one(scene)?;
-    terms.extend(choices.interfaces.iter().map(|i| i.term(laws)));
+    for interface in &choices.interfaces {
+        let term = interface.term(laws);
+        kinds.push((term.name(), "interface"));
+        terms.push(term);
+    }
     let summed = choices.formulation.compressed().is_none();
     let transport = choices.shifting.iter().find_map(|s| s.term(summed));
     let density_changes = choices.smoother.is_some() || transport.is_some();
+    kinds.extend(transport.iter().map(|t| (t.name(), "shifting")));
+    kinds.extend(choices.terms.iter().map(|t| (t.name(), "term")));
     terms.extend(transport);
     terms.append(&mut choices.terms);
     let diffused = choices.formulation.diffused();
@@ -274,6 +290,7 @@ pub fn plan_stages<const D: usize>(
         stages,
         pruned,
         terms,
+        kinds,
         friction: solved,
         lagged,
         elastic,

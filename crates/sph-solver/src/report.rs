@@ -3,8 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use sph_core::StepError;
-
 use crate::adviser::{self, Costs};
 use crate::balance::Balance;
 use crate::error::{Failure, SolverError};
@@ -27,7 +25,7 @@ impl<const D: usize> Running<'_, D> {
         let mut warnings = self.parts.warnings.clone();
         if let Some(failure) = failure {
             warnings.push(failure.to_string());
-            warnings.extend(failure.advice.iter().cloned());
+            warnings.extend(failure.findings.advice.iter().cloned());
         }
         let series = self.options.out.join("series.csv");
         let errors = match status {
@@ -123,6 +121,7 @@ impl<const D: usize> Running<'_, D> {
             mach,
             nearest: world.nearest()?.map(|d| d / world.spacing),
             first_trouble: self.counters.first_trouble.clone(),
+            failure: failure.map(|f| f.findings.clone()),
             density_constant_range: flow.density_constant_range(),
             escaped,
             left: flow
@@ -145,26 +144,10 @@ fn listing(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = entries
         .filter_map(|e| e.file_name().into_string().ok())
         .filter(|n| !n.starts_with('.'))
+        // Which is about to be written.
+        .chain(["summary.json".to_string()])
         .collect();
     names.sort();
+    names.dedup();
     names
-}
-
-/// What a person can change, by what went wrong.
-pub fn advice(cause: &StepError) -> Vec<String> {
-    let StepError::Bad { quantity, .. } = cause else {
-        return Vec::new();
-    };
-    let text: &[&str] = match *quantity {
-        "density" => &[
-            "particles are squeezed: raise `speed_of_sound` of the phase to ten times the largest \
-             speed, or give `velocity_scale`",
-            "if a splash folds the surface, `numerics.density_bounds` may be too narrow",
-        ],
-        "position" => &[
-            "a particle left the domain: close the wall it went through, or widen `numerics.domain`",
-        ],
-        _ => &["lower `run.safety`, or give the scene a smoother (`[smoother.brezzi-pitkaranta]`)"],
-    };
-    text.iter().map(|s| s.to_string()).collect()
 }

@@ -13,6 +13,7 @@ use crate::balance::Balance;
 use crate::driver::{Command, Observer, Progress};
 use crate::error::SolverError;
 use crate::estimate::tiny_steps;
+use crate::implicit::Solves;
 use crate::options::{RunOptions, Start};
 use crate::output::Outputs;
 use crate::series::Series;
@@ -46,9 +47,15 @@ pub fn run(
 pub(crate) struct Counters {
     pub(crate) steps: u64,
     pub(crate) rolled_back: u64,
+    /// Roll-backs since the step had its whole length.
+    #[serde(default)]
+    pub(crate) retries: u32,
     pub(crate) outputs: usize,
     pub(crate) next_output: Option<u64>,
     pub(crate) rows: u64,
+    /// Time of the last row, as bits: a run that is over has its last row.
+    #[serde(default)]
+    pub(crate) last_row: Option<u64>,
     pub(crate) series_position: u64,
     pub(crate) series_extrema: [u64; 4],
     /// Highest energy and largest Mach number of all rows.
@@ -72,6 +79,9 @@ pub(crate) struct Counters {
     /// Mass (as bits) and number of particles that have left, by outlet and phase.
     #[serde(default)]
     pub(crate) left: Vec<[u64; 2]>,
+    /// What implicit solves took so far.
+    #[serde(default)]
+    pub(crate) solves: Option<Solves>,
 }
 
 pub(crate) struct Running<'a, const D: usize> {
@@ -83,6 +93,8 @@ pub(crate) struct Running<'a, const D: usize> {
     pub(crate) series: Series,
     pub(crate) started: Instant,
     pub(crate) output_seconds: f64,
+    /// The last step that was tried, s, and what limited it.
+    pub(crate) tried: (f64, &'static str),
 }
 
 fn run_in<const D: usize>(
@@ -102,9 +114,14 @@ fn run_in<const D: usize>(
         step_scale: 1f64.to_bits(),
         ..Counters::default()
     };
-    if options.start == Start::Resumed {
-        counters = checkpoint::load(&mut parts.flow, &file, &options.identity)?;
+    if options.start.goes_on() {
+        let same = options.start == Start::Resumed;
+        let identity = same.then_some(options.identity.as_str());
+        counters = checkpoint::load(&mut parts.flow, &file, identity)?;
         parts.flow.recount(&counters.left);
+        if let Some((implicit, solves)) = parts.flow.implicit.as_mut().zip(counters.solves.take()) {
+            implicit.solves = solves;
+        }
         observer.message(&format!(
             "resuming at t = {:.6} s, step {}",
             parts.flow.world.time, counters.steps
@@ -125,7 +142,7 @@ fn run_in<const D: usize>(
             std::fs::remove_file(&file).map_err(|source| IoError::Write { path, source })?;
         }
     }
-    let resumed = (options.start == Start::Resumed).then_some(&counters);
+    let resumed = options.start.goes_on().then_some(&counters);
     let outputs = Outputs::open(
         scene,
         &parts.probes,
@@ -149,6 +166,7 @@ fn run_in<const D: usize>(
         series,
         started: Instant::now(),
         output_seconds: 0.0,
+        tried: (0.0, "none"),
     };
     let status = running.go(observer)?;
     running.finish(status)
@@ -162,20 +180,21 @@ impl<const D: usize> Running<'_, D> {
         let end = self.scene.run.end;
         let mut snapshot = Snapshot::default();
         let mut have_snapshot = false;
-        let mut retries = 0;
         match (&self.options.start, self.parts.flow.world.time) {
             (Start::Afresh, _) => self.counters.next_output = self.next_output(-1.0),
-            (Start::From(_), time) => self.counters.next_output = self.next_output(time),
+            (Start::From(_) | Start::Changed, time) => {
+                self.counters.next_output = self.next_output(time);
+            }
             (Start::Resumed, _) => {}
         }
         loop {
             if let Err(cause) = self.evaluate() {
                 let kept = have_snapshot.then_some(&snapshot);
-                self.go_back(cause, kept, &mut retries, observer)?;
+                self.go_back(cause, kept, observer)?;
                 continue;
             }
             if have_snapshot && f64::from_bits(self.counters.step_scale) >= 1.0 {
-                retries = 0;
+                self.counters.retries = 0;
             }
             let time = self.parts.flow.world.time;
             self.write_what_is_due(time)?;
@@ -199,6 +218,7 @@ impl<const D: usize> Running<'_, D> {
                 snapshot.take(&self.parts.flow)?;
                 have_snapshot = true;
             }
+            self.tried = (dt, limiter);
             self.parts.flow.world.dt = dt;
             self.parts.flow.outlets.forget();
             let flow = &mut self.parts.flow;
@@ -206,7 +226,7 @@ impl<const D: usize> Running<'_, D> {
             let stepped = stepped.and_then(|()| flow.let_out());
             if let Err(cause) = stepped {
                 let kept = have_snapshot.then_some(&snapshot);
-                self.go_back(cause, kept, &mut retries, observer)?;
+                self.go_back(cause, kept, observer)?;
                 continue;
             }
             // A drift in parts may end one rounding short of its aim, and the sliver that is left
@@ -297,7 +317,8 @@ impl<const D: usize> Running<'_, D> {
         let every = self.scene.output.series_interval(self.scene.run.end);
         let end = self.scene.run.end;
         let due = |rows: u64| rows as f64 * every;
-        if time >= due(self.counters.rows) || time >= end {
+        let written = self.counters.last_row == Some(time.to_bits());
+        if !written && (time >= due(self.counters.rows) || time >= end) {
             let dt = self.parts.flow.world.dt;
             let balance = self
                 .series
@@ -306,6 +327,7 @@ impl<const D: usize> Running<'_, D> {
                 self.remember_start(&balance);
             }
             self.counters.rows = (time / every).floor() as u64 + 1;
+            self.counters.last_row = Some(time.to_bits());
         }
         if self
             .counters
@@ -341,6 +363,7 @@ impl<const D: usize> Running<'_, D> {
         let counters = Counters {
             wall_seconds: self.wall_seconds(),
             stage_seconds: self.stage_seconds(),
+            solves: self.parts.flow.implicit.as_ref().map(|i| i.solves.clone()),
             ..self.counters.clone()
         };
         let path = self.options.out.join(checkpoint::FILE);

@@ -24,7 +24,11 @@ pub struct Snapshot<const D: usize> {
     elastic_displacement: Vec<Vect<D>>,
     /// Mass, flux and pressure where water seeps; empty elsewhere.
     seeping: Seeping<D>,
+    /// From which the next solve starts; empty where there is none.
+    effective_pressure: Vec<f64>,
     time: f64,
+    /// The step before, s.
+    dt: f64,
     /// What had left.
     taken: Vec<Taken>,
 }
@@ -70,8 +74,18 @@ impl<const D: usize> Snapshot<D> {
             copy(&mut self.seeping.flux, free.get(SEEPAGE_VELOCITY)?);
             copy(&mut self.seeping.pressure, free.get(SEEPAGE_PRESSURE)?);
         }
+        if let Ok(pressure) = free.get(fields::EFFECTIVE_PRESSURE) {
+            copy(&mut self.effective_pressure, pressure);
+        }
         self.time = flow.world.time;
+        self.dt = flow.world.dt;
         Ok(())
+    }
+
+    /// Where the particle of a number was.
+    pub fn position_of(&self, number: u32) -> Option<Vect<D>> {
+        let place = self.identity.iter().position(|i| *i == number)?;
+        self.position.get(place).copied()
     }
 
     /// Where every particle of now is in the copy; `None` if the order is the same.
@@ -187,7 +201,11 @@ impl<const D: usize> Snapshot<D> {
             free.get_mut(SEEPAGE_PRESSURE)?
                 .copy_from_slice(&kept.pressure);
         }
+        if let Ok(pressure) = free.get_mut(fields::EFFECTIVE_PRESSURE) {
+            pressure.copy_from_slice(&self.effective_pressure);
+        }
         flow.world.time = self.time;
+        flow.world.dt = self.dt;
         self.walls_back(flow);
         flow.world.rebuild_lists()
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
-use crate::{Left, Relaxation, Solves, Trouble};
+use crate::{Findings, Left, Relaxation, Solves, Trouble};
 
 /// Version of the summary's layout.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -135,6 +135,9 @@ pub struct Summary {
     /// The first step that failed, if any did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_trouble: Option<Trouble>,
+    /// What a failed run tells.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub failure: Option<Findings>,
     /// Least and largest K/ρ₀ at the end, where the formulation has a density constant.
     pub density_constant_range: Option<[f64; 2]>,
     /// Particles behind a wall at the end.

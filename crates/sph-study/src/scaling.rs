@@ -68,7 +68,7 @@ impl SolveCost {
     pub(crate) fn of(solves: &sph_solver::Solves) -> Self {
         SolveCost {
             count: solves.by_method.values().sum(),
-            seconds: solves.seconds,
+            seconds: solves.wall_seconds,
             iterations: solves.mean_iterations,
             bytes: solves.most_bytes,
         }

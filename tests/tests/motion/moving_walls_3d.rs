@@ -4,10 +4,9 @@
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, FinalState};
+use sph_tests::{Bench, FinalState, STIRRER};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
-const STIRRER: &str = include_str!("../../scenes/stirrer-3d.toml");
 
 fn run(bench: &Bench, out: &str, words: &str) -> FinalState {
     bench.done(&format!("run scene.toml --quiet --out {out} {words}"));

@@ -5,7 +5,10 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL};
+use sph_tests::{Bench, DAM_BREAK, PADDLE, Results, SOIL};
+
+mod failing;
+mod soak;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -33,13 +36,13 @@ fn wait_for(child: &mut Child, bench: &Bench, out: &str, time: f64) {
     }
 }
 
-fn uninterrupted(bench: &Bench) -> FinalState {
+fn uninterrupted(bench: &Bench) -> Results {
     bench.done("run scene.toml --quiet --out whole --threads 2");
-    FinalState::of(&bench.path("whole"))
+    Results::of(&bench.path("whole"))
 }
 
 /// Starts a run, kills it at a simulated time, resumes it with some number of threads.
-fn killed_and_resumed(bench: &Bench, time: f64, threads: u32) -> FinalState {
+fn killed_and_resumed(bench: &Bench, time: f64, threads: u32) -> Results {
     let out = format!("killed-{time}-{threads}");
     let run = format!("run scene.toml --quiet --out {out}");
     let mut child = bench
@@ -51,7 +54,7 @@ fn killed_and_resumed(bench: &Bench, time: f64, threads: u32) -> FinalState {
     let status = child.wait().expect("the end of the run");
     assert_eq!(status.code(), None, "killed by a signal, not ended");
     bench.done(&format!("{run} --resume --threads {threads}"));
-    FinalState::of(&bench.path(&out))
+    Results::of(&bench.path(&out))
 }
 
 #[test]
@@ -91,7 +94,7 @@ fn what_has_left_by_an_outlet_stays_away_and_counted() {
         &format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.45\n"),
     );
     let whole = uninterrupted(&bench);
-    assert!(whole.series.contains("outlet.end.water[kg]"));
+    assert!(whole.state.series.contains("outlet.end.water[kg]"));
     for time in [0.11, 0.29] {
         let resumed = killed_and_resumed(&bench, time, 1);
         whole.assert_same(&resumed, &format!("an outlet, killed at t = {time} s"));
@@ -103,7 +106,7 @@ fn displacements_go_on_where_they_were() {
     let asked = DAM_BREAK.replace("fields = [", "fields = [\"displacement\", ");
     let bench = Bench::with(PROGRAM, &asked);
     let whole = uninterrupted(&bench);
-    assert!(whole.columns.contains_key("displacement"));
+    assert!(whole.state.columns.contains_key("displacement"));
     let resumed = killed_and_resumed(&bench, 0.11, 1);
     whole.assert_same(&resumed, "with displacements");
 }
@@ -112,9 +115,18 @@ fn displacements_go_on_where_they_were() {
 fn what_a_soil_remembers_of_its_way_goes_on_where_it_was() {
     let bench = Bench::with(PROGRAM, SOIL);
     let whole = uninterrupted(&bench);
-    assert!(whole.columns.contains_key("elastic_turn"));
+    assert!(whole.state.columns.contains_key("elastic_turn"));
     let resumed = killed_and_resumed(&bench, 0.04, 1);
     whole.assert_same(&resumed, "with elastic displacements");
+}
+
+#[test]
+fn a_run_that_is_over_stays_as_it_is() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let whole = uninterrupted(&bench);
+    bench.done("run scene.toml --quiet --out whole --threads 1 --resume");
+    let again = Results::of(&bench.path("whole"));
+    whole.assert_same(&again, "resumed at its end");
 }
 
 #[test]
@@ -141,7 +153,7 @@ fn ctrl_c_leaves_a_checkpoint_and_says_how_to_go_on() {
     assert!(reached(&bench, "stopped") < 0.4, "it went on to the end");
 
     bench.done("run scene.toml --quiet --out stopped --resume");
-    let resumed = FinalState::of(&bench.path("stopped"));
+    let resumed = Results::of(&bench.path("stopped"));
     whole.assert_same(&resumed, "interrupted by Ctrl-C");
 }
 

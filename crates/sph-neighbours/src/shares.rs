@@ -1,0 +1,67 @@
+//! What every term does to one particle.
+
+use sph_core::{StepError, Vect};
+
+use crate::sweep::pack;
+use crate::{Interaction, Neighbourhood, Part, Rates, Rows, Scratch, Surroundings, World};
+
+/// What one term does to a particle.
+#[derive(Clone, Debug)]
+pub struct TermShare<const D: usize> {
+    /// Name of the term.
+    pub name: String,
+    /// Its rates.
+    pub rates: Rates<D>,
+    /// The part that walls have in them: the whole less what the other particles would contribute with γ = 1.
+    pub of_walls: Rates<D>,
+}
+
+/// What every term does to a particle at the state of the last sweep, fused terms one by one.
+///
+/// # Errors
+/// If a term misses a column.
+pub fn shares_at<const D: usize>(
+    world: &World<D>,
+    terms: &[&dyn Interaction<D>],
+    particle: usize,
+) -> Result<Vec<TermShare<D>>, StepError> {
+    let mut parts: Vec<Part<'_, D>> = Vec::new();
+    for term in terms {
+        parts.extend(term.parts(world)?);
+    }
+    let mut states = Vec::new();
+    pack(world, &mut states);
+    let surroundings = Surroundings::new(world)?;
+    let mut rows = Rows::default();
+    let whole = Neighbourhood {
+        states: &states,
+        ..surroundings.of(particle, &mut rows)
+    };
+    let none = Scratch::<D>::new();
+    let fluid = Neighbourhood {
+        wall: none.row(),
+        contacts: &[],
+        inverse_renormalisation: 1.0,
+        ..whole
+    };
+    let shares = parts.iter().map(|(name, term)| {
+        let of = |neighbourhood: &Neighbourhood<'_, D>| {
+            let mut rates = Rates {
+                acceleration: Vect::zeros(),
+                scalar: 0.0,
+            };
+            term.row(neighbourhood, &mut rates);
+            rates
+        };
+        let (rates, fluid) = (of(&whole), of(&fluid));
+        TermShare {
+            name: name.clone(),
+            rates,
+            of_walls: Rates {
+                acceleration: rates.acceleration - fluid.acceleration,
+                scalar: rates.scalar - fluid.scalar,
+            },
+        }
+    });
+    Ok(shares.collect())
+}
