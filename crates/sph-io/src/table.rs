@@ -72,6 +72,17 @@ pub fn read_columns(path: impl AsRef<Path>, names: &[&str]) -> Result<Table> {
     Source::open(path.as_ref())?.read(Some(names))
 }
 
+impl Table {
+    /// Reads all columns of a text; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// The line and the column that hold no number.
+    pub fn parse(text: &str, name: &str) -> Result<Self> {
+        let (path, text) = (name.into(), text.to_string());
+        Source { path, text }.read(None)
+    }
+}
+
 /// The text of a table and how it is cut.
 struct Source {
     path: PathBuf,

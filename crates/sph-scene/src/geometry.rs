@@ -147,24 +147,7 @@ impl Wall {
         if has_ending(&path.to_string_lossy(), "svg") {
             return svg::read(path, TOLERANCE * spacing);
         }
-        let mut lines = Vec::new();
-        for block in rows::read(path)? {
-            let line = block.first().map_or(0, |row| row.line);
-            let points = block.iter().map(|row| row.values).collect();
-            let tidy = Line {
-                points,
-                closed: false,
-            }
-            .tidied(0.0);
-            if tidy.points.len() < 2 {
-                return Err(format!(
-                    "`{}`: the line that begins in line {line} has one corner only",
-                    path.display()
-                ));
-            }
-            lines.push(tidy);
-        }
-        Ok(lines)
+        rows::lines(&rows::text(path)?, &path.display().to_string())
     }
 
     /// The surface of a shape, facing outwards.

@@ -92,15 +92,52 @@ fn memory_available() -> Option<f64> {
     Some(1024.0 * kilobytes)
 }
 
+/// How large a scene is, known before memory is touched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Size {
+    /// About how many free particles, counted in the boxes around the bodies.
+    pub particles: f64,
+    /// About how many wall points.
+    pub wall_points: f64,
+    /// Memory for both, bytes.
+    pub bytes: f64,
+}
+
+impl Size {
+    fn of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Self {
+        let spacing = scene.numerics.spacing;
+        let particles = estimate(&drawn.regions, spacing);
+        let wall_points = drawn.measure / spacing.powi(D as i32 - 1);
+        let bytes = (particles + wall_points) * BYTES_PER_PARTICLE[usize::from(D == 3)];
+        Size {
+            particles,
+            wall_points,
+            bytes,
+        }
+    }
+}
+
+/// How large a scene is; its walls are drawn for it, and files of walls are read.
+///
+/// # Errors
+/// If a wall or a body cannot be drawn.
+pub fn size(scene: &Scene) -> Result<Size, SolverError> {
+    Ok(match scene.dimension {
+        3 => Size::of(scene, &Drawn::<3>::of(scene)?),
+        _ => Size::of(scene, &Drawn::<2>::of(scene)?),
+    })
+}
+
 /// Refuses a scene that cannot fit into memory, before any memory is touched.
 pub fn refuse_the_absurd<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,
 ) -> Result<(), SolverError> {
-    let spacing = scene.numerics.spacing;
-    let particles = estimate(&drawn.regions, spacing);
-    let points = drawn.measure / spacing.powi(D as i32 - 1);
-    let needed = (particles + points) * BYTES_PER_PARTICLE[usize::from(D == 3)];
+    let Size {
+        particles,
+        wall_points: points,
+        bytes: needed,
+    } = Size::of(scene, drawn);
     let limit = memory_available().unwrap_or(64e9);
     // Indices are 32 bits wide.
     if needed < limit && particles + points < 4e9 {
