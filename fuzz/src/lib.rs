@@ -5,6 +5,9 @@ use sph_scene::{Loaded, Override};
 /// Most particles and wall points of a scene that is assembled.
 const MOST: f64 = 2_000.0;
 
+/// Most steps of its relaxation: they are all alike, and in space they take long.
+const RELAXED: u32 = 3;
+
 /// A file beside the shipped scenes, so that the data that these name are found.
 pub const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/fuzzed.toml");
 
@@ -27,10 +30,15 @@ pub fn check(text: &str, overrides: &[Override]) {
 
 /// Assembles a scene unless it is large.
 pub fn assemble(loaded: &Loaded) {
-    let scene = &loaded.scene;
-    match sph_solver::size(scene) {
-        Ok(size) if size.particles + size.wall_points <= MOST => {
-            let _ = sph_solver::examine(scene, 1);
+    let mut scene = loaded.scene.clone();
+    if let Some(relax) = &mut scene.numerics.relax {
+        relax.steps = relax.steps.min(RELAXED);
+    }
+    // A particle in space has five times the neighbours of one in the plane.
+    let most = MOST / if scene.dimension == 3 { 5.0 } else { 1.0 };
+    match sph_solver::size(&scene) {
+        Ok(size) if size.particles + size.wall_points <= most => {
+            let _ = sph_solver::examine(&scene, 1);
         }
         _ => {}
     }

@@ -95,6 +95,7 @@ pub fn load<const D: usize, T: DeserializeOwned>(
                    afresh in another folder, or restore the scene";
         return Err(refused(path, why));
     }
+    let born = flow.world.free.len();
     // By an outlet particles have left.
     if let Some(ColumnData::U32(v)) = checkpoint
         .column(fields::IDENTITY.name)
@@ -127,6 +128,13 @@ pub fn load<const D: usize, T: DeserializeOwned>(
     {
         return Err(refused(path, "its number of particles is not the scene's"));
     }
+    if let Some(why) = nonsense(flow, born, [&reference, &wall_reference])? {
+        return Err(refused(path, why));
+    }
+    let clock = [meta.clock.time, meta.clock.dt].map(f64::from_bits);
+    if !clock.iter().all(|t| t.is_finite()) {
+        return Err(refused(path, "its time is not finite"));
+    }
     flow.world.time = f64::from_bits(meta.clock.time);
     flow.world.dt = f64::from_bits(meta.clock.dt);
     // The lists are built where the walls were at the last build, then the walls move on.
@@ -138,4 +146,34 @@ pub fn load<const D: usize, T: DeserializeOwned>(
     flow.world.build_lists_from(reference, wall_reference);
     flow.world.lists.builds = meta.clock.list_builds;
     Ok(meta.run)
+}
+
+/// What cannot be in a state of this scene, though the file is whole: numbers of particles and phases
+/// that there are none of, places that are none.
+fn nonsense<const D: usize>(
+    flow: &Flow<D>,
+    born: usize,
+    references: [&[Vect<D>]; 2],
+) -> Result<Option<&'static str>, SolverError> {
+    let free = &flow.world.free;
+    let mut seen = vec![false; born];
+    let mut new = |id: u32| {
+        let place = seen.get_mut(id as usize);
+        place.is_some_and(|seen| !std::mem::replace(seen, true))
+    };
+    let positions = references.into_iter().chain([free.get(fields::POSITION)?]);
+    Ok(if !free.get(fields::IDENTITY)?.iter().all(|id| new(*id)) {
+        Some("its particles are not the scene's")
+    } else if free.has(fields::PHASE.name)
+        && free
+            .get(fields::PHASE)?
+            .iter()
+            .any(|p| *p as usize >= flow.laws.len())
+    {
+        Some("its phases are not the scene's")
+    } else if positions.flatten().flatten().any(|x| !x.is_finite()) {
+        Some("it has particles that are nowhere")
+    } else {
+        None
+    })
 }

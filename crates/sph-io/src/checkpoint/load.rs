@@ -7,8 +7,8 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::{
-    Checkpoint, CheckpointFault as Fault, Column, ColumnData, Header, Kind, MAGIC, PREFIX, SUFFIX,
-    Shape, VERSION,
+    COLUMNS, Checkpoint, CheckpointFault as Fault, Column, ColumnData, HEADER, Header, Kind, MAGIC,
+    PREFIX, SUFFIX, Shape, VERSION,
 };
 use crate::error::{IoError, Result};
 
@@ -131,6 +131,10 @@ impl<R: Read> Source<R> {
             let said = format!("a header of {size} bytes where {room} are left");
             return Err(Fault::Sizes(said).into());
         }
+        if size > HEADER {
+            let said = format!("a header of {size} bytes, more than {HEADER}");
+            return Err(Fault::Sizes(said).into());
+        }
         let text = self.bytes(size)?;
         let actual = crc32fast::hash(&text);
         if actual != sum {
@@ -193,6 +197,11 @@ impl<R: Read> Source<R> {
 
 /// Whether the columns take up exactly `room` bytes and are well formed.
 fn fits(columns: &[Shape], room: u64) -> std::result::Result<(), Fault> {
+    let count = columns.len();
+    if count > COLUMNS {
+        let said = format!("{count} columns, more than {COLUMNS}");
+        return Err(Fault::Sizes(said));
+    }
     let mut total: u64 = 0;
     for (i, shape) in columns.iter().enumerate() {
         let name = &shape.name;
