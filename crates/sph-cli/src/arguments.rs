@@ -156,6 +156,9 @@ pub struct SceneArguments {
     /// Put a value on top of the scene: --set numerics.spacing=0.01 (may be repeated)
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,
+    /// Let the scene read files of a folder other than its own (may be repeated)
+    #[arg(long, value_name = "DIR")]
+    pub allow_path: Vec<PathBuf>,
 }
 
 /// Arguments of `sph run`.
@@ -204,6 +207,9 @@ pub struct StudyArguments {
     /// Put a value on top of every variant: --set run.end=0.1 (may be repeated)
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,
+    /// Let the study and its scenes read files of a folder other than their own (may be repeated)
+    #[arg(long, value_name = "DIR")]
+    pub allow_path: Vec<PathBuf>,
     /// Run finished variants again
     #[arg(long)]
     pub fresh: bool,

@@ -113,6 +113,9 @@ fn going_on(arguments: &RunArguments, out: &Path) -> String {
     for set in &arguments.scene.set {
         words.extend(["--set".to_string(), quoted(set)]);
     }
+    for folder in &arguments.scene.allow_path {
+        words.extend(["--allow-path".into(), quoted(&folder.display().to_string())]);
+    }
     words.push("--resume".to_string());
     words.join(" ")
 }

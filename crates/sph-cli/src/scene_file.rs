@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use sph_core::suggestion;
-use sph_scene::{Loaded, Override, load, parse, read_text};
+use sph_scene::{Loaded, Override, Source, load_allowing, read, read_text, within};
 use sph_study::SceneText;
 
 use crate::arguments::SceneArguments;
@@ -54,23 +54,37 @@ pub fn overrides(set: &[String]) -> Result<Vec<Override>, Trouble> {
     set.iter().map(parse).collect()
 }
 
+/// The folders of `--allow-path`, which must be there.
+pub fn allowed(folders: &[PathBuf]) -> Result<&[PathBuf], Trouble> {
+    match folders.iter().find(|f| !f.is_dir()) {
+        Some(gone) => {
+            let gone = gone.display();
+            Err(Trouble::usage(format!(
+                "--allow-path {gone}: there is no such folder"
+            )))
+        }
+        None => Ok(folders),
+    }
+}
+
 /// Reads the scene, by its path or by the name of a shipped one.
 pub fn open(arguments: &SceneArguments) -> Result<Opened, Trouble> {
     let overrides = overrides(&arguments.set)?;
+    let allowed = allowed(&arguments.allow_path)?;
     let path = Path::new(&arguments.scene);
     // A pipe is as good as a file.
     if path.exists() && !path.is_dir() {
-        return from_file(path, &overrides);
+        return from_file(path, &overrides, allowed);
     }
     match shipped::find(&arguments.scene) {
         Some(Shipped {
             file: Some(file), ..
-        }) => from_file(&file, &overrides),
+        }) => from_file(&file, &overrides, allowed),
         Some(Shipped {
             name,
             text: Some(text),
             ..
-        }) => compiled_in(&name, text, &overrides),
+        }) => compiled_in(&name, text, &overrides, allowed),
         _ => Err(Trouble::Usage(not_found(&arguments.scene))),
     }
 }
@@ -82,9 +96,10 @@ pub struct Found {
     _unpacked: Option<Unpacked>,
 }
 
-/// Finds a scene by its path from a folder, or by the name of a shipped one.
-pub fn find(folder: &Path, scene: &str) -> Result<Found, String> {
-    let path = folder.join(scene);
+/// Finds the scene that a study in a folder names: by its path from there, within that folder or an
+/// allowed one, or by the name of a shipped one.
+pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, String> {
+    let path = within(folder, scene, allowed).map_err(|e| e.to_string())?;
     let file = match path.exists() && !path.is_dir() {
         true => Some(path),
         false => None,
@@ -98,9 +113,13 @@ pub fn find(folder: &Path, scene: &str) -> Result<Found, String> {
         (Some(file), _) => {
             let shown = file.display().to_string();
             let text = read_text(&file).map_err(|why| format!("cannot read `{shown}`: {why}"))?;
-            let file = shown;
             Ok(Found {
-                scene: SceneText { name, text, file },
+                scene: SceneText {
+                    name,
+                    text,
+                    file: shown,
+                    allowed: allowed.to_vec(),
+                },
                 _unpacked: None,
             })
         }
@@ -108,7 +127,12 @@ pub fn find(folder: &Path, scene: &str) -> Result<Found, String> {
             let text = text.unwrap_or_default().to_string();
             let (file, unpacked) = unpacked(&name, &text)?;
             Ok(Found {
-                scene: SceneText { name, text, file },
+                scene: SceneText {
+                    name,
+                    text,
+                    file,
+                    allowed: allowed.to_vec(),
+                },
                 _unpacked: unpacked,
             })
         }
@@ -119,18 +143,24 @@ fn stem(path: &Path) -> &str {
     path.file_stem().and_then(|s| s.to_str()).unwrap_or("scene")
 }
 
-fn from_file(path: &Path, overrides: &[Override]) -> Result<Opened, Trouble> {
+fn from_file(path: &Path, overrides: &[Override], allowed: &[PathBuf]) -> Result<Opened, Trouble> {
     Ok(Opened {
-        loaded: load(path, overrides)?,
+        loaded: load_allowing(path, overrides, allowed)?,
         stem: stem(path).to_string(),
         _unpacked: None,
     })
 }
 
 /// A scene in the program; the data it is compared with are put where it can read them.
-fn compiled_in(name: &str, text: &str, overrides: &[Override]) -> Result<Opened, Trouble> {
+fn compiled_in(
+    name: &str,
+    text: &str,
+    overrides: &[Override],
+    allowed: &[PathBuf],
+) -> Result<Opened, Trouble> {
     let (file, unpacked) = unpacked(name, text).map_err(Trouble::Usage)?;
-    let loaded = parse(text, &file, overrides).map_err(|refused| {
+    let source = Source::new(text, &file, overrides).allowing(allowed);
+    let loaded = read(source).map_err(|refused| {
         Trouble::Scene(diagnostics::located(&refused.source, &refused.diagnostics))
     })?;
     Ok(Opened {

@@ -11,7 +11,7 @@ use sph_study::{
 
 use crate::arguments::StudyArguments;
 use crate::layout::columns;
-use crate::scene_file::{Found, find, overrides};
+use crate::scene_file::{Found, allowed, find, overrides};
 use crate::shell::quoted;
 use crate::shipped;
 use crate::study_progress::Watcher;
@@ -101,8 +101,9 @@ fn read(
     scenes: &RefCell<Vec<Found>>,
 ) -> Result<Study, Trouble> {
     let set = overrides(&arguments.set)?;
+    let allowed = allowed(&arguments.allow_path)?;
     let look = |folder: &Path, name: &str| -> Result<SceneText, String> {
-        let found = find(folder, name)?;
+        let found = find(folder, name, allowed)?;
         let scene = found.scene.clone();
         scenes.borrow_mut().push(found);
         Ok(scene)
@@ -213,6 +214,9 @@ fn going_on(arguments: &StudyArguments, name: &str) -> String {
     }
     for set in &arguments.set {
         with("--set", set);
+    }
+    for folder in &arguments.allow_path {
+        with("--allow-path", &folder.display().to_string());
     }
     words.join(" ")
 }

@@ -31,6 +31,10 @@ const MAGIC: [u8; 8] = *b"SPHCKPT\0";
 const VERSION: u32 = 1;
 /// Bytes before the JSON header.
 const PREFIX: u64 = 32;
+/// Longest JSON header, bytes: what it says takes many times that in memory.
+const HEADER: u64 = 64 << 20;
+/// Most columns.
+const COLUMNS: usize = 10_000;
 /// Bytes of the checksum at the end.
 const SUFFIX: u64 = 4;
 

@@ -10,6 +10,21 @@ use crate::error::{IoError, Result, is_full};
 /// Size of the test file in bytes: one block, so that a full disk shows.
 const BLOCK: usize = 4096;
 
+/// Refuses what is no plain file, or has more than `most` bytes, before it is opened.
+///
+/// # Errors
+/// What it is instead: a folder, a pipe, a file that is too long or not there.
+pub fn readable(path: impl AsRef<Path>, most: u64) -> Result<()> {
+    let path = path.as_ref();
+    let known = fs::metadata(path).map_err(|e| IoError::read(path, e))?;
+    let refused = |why: String| Err(IoError::read(path, io::Error::other(why)));
+    match known.len() {
+        _ if !known.is_file() => refused("it is not a file".to_string()),
+        n if n > most => refused(format!("it is longer than {} MiB", most >> 20)),
+        _ => Ok(()),
+    }
+}
+
 /// Creates `folder` with its parents if need be and proves by a test file,
 /// removed again, that it can be written.
 pub fn writable(folder: impl AsRef<Path>) -> Result<()> {

@@ -70,7 +70,7 @@ pub use atomic::{AtomicFile, Durability, sweep_temporaries, write_atomic};
 pub use checkpoint::{Checkpoint, CheckpointFault, Column, ColumnData};
 pub use colour::{Colour, ColourMap};
 pub use error::{IoError, Result};
-pub use folder::writable;
+pub use folder::{readable, writable};
 pub use frame::{Cells, FieldData, FieldValues, Frame, Location, Piece};
 pub use panels::Panels;
 pub use picture::{Picture, View};

@@ -72,6 +72,17 @@ pub fn read_columns(path: impl AsRef<Path>, names: &[&str]) -> Result<Table> {
     Source::open(path.as_ref())?.read(Some(names))
 }
 
+impl Table {
+    /// Reads all columns of a text; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// The line and the column that hold no number.
+    pub fn parse(text: &str, name: &str) -> Result<Self> {
+        let (path, text) = (name.into(), text.to_string());
+        Source { path, text }.read(None)
+    }
+}
+
 /// The text of a table and how it is cut.
 struct Source {
     path: PathBuf,
@@ -80,11 +91,21 @@ struct Source {
 
 impl Source {
     fn open(path: &Path) -> Result<Self> {
-        let text = fs::read_to_string(path).map_err(|e| IoError::read(path, e))?;
-        Ok(Self {
-            path: path.to_path_buf(),
-            text,
-        })
+        let bytes = fs::read(path).map_err(|e| IoError::read(path, e))?;
+        let path = path.to_path_buf();
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(Self { path, text }),
+            Err(e) => {
+                let before = &e.as_bytes()[..e.utf8_error().valid_up_to()];
+                let line = 1 + before.iter().filter(|b| **b == b'\n').count();
+                let problem = "this is no UTF-8 text".to_string();
+                Err(IoError::Table {
+                    path,
+                    line,
+                    problem,
+                })
+            }
+        }
     }
 
     fn read(&self, names: Option<&[&str]>) -> Result<Table> {

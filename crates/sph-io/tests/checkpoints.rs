@@ -177,6 +177,19 @@ fn absurd_headers_with_right_checksums_are_refused() {
         let found = fault(&path, &forged(text, &[0; 8]));
         assert!(matches!(found, Fault::Header(_)), "{found}");
     }
+    // What is declared empty costs no bytes of the file, and must cost no time either.
+    let one = |k| format!(r#"{{"name":"{k}","type":"f64","components":1,"count":0}}"#);
+    let many: Vec<String> = (0..200_000).map(one).collect();
+    let text = format!(r#"{{"meta":1,"columns":[{}]}}"#, many.join(","));
+    let found = fault(&path, &forged(&text, &[]));
+    assert!(
+        found
+            .to_string()
+            .contains("200000 columns, more than 10000")
+    );
+    let long = format!(r#"{{"meta":[{}1],"columns":[]}}"#, "1,".repeat(35 << 20));
+    let found = fault(&path, &forged(&long, &[]));
+    assert!(found.to_string().contains("more than 67108864"), "{found}");
     fs::write(&path, forged(&shape(1, 1), &[0; 8])).unwrap();
     assert!(Checkpoint::load(&path).is_ok());
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use sph_core::SceneProblem;
 
+use crate::limits::TIMES;
 use crate::motion::{Motion, Rotation, Translate};
 use crate::rows;
 use crate::vector::unit;
@@ -166,6 +167,13 @@ fn chosen(
     let path = path.ok_or_else(|| problem("the course is missing".to_string()))?;
     let blocks = rows::read(path).map_err(problem)?;
     let rows: Vec<rows::Row> = blocks.into_iter().flatten().collect();
+    if rows.len() > TIMES {
+        return Err(problem(format!(
+            "`{}` holds {} rows, more than {TIMES}",
+            path.display(),
+            rows.len()
+        )));
+    }
     if rows.len() < 2 {
         return Err(problem(format!(
             "`{}` holds {} rows, and a course needs at least 2",

@@ -3,6 +3,7 @@
 use sph_core::{SceneProblem, parse_unit};
 
 use crate::facets::Facets;
+use crate::limits::{LINES, WALL_CORNERS};
 use crate::outlines::{Line, bounds, oriented, rectangle};
 use crate::placing::Placing;
 use crate::vector::array;
@@ -31,6 +32,14 @@ impl Wall {
         let problem = |why: String| SceneProblem::new(format!("{place}.{key}"), why);
         let factor = self.factor();
         let drawn = self.drawn(spacing / factor).map_err(problem)?;
+        let corners: usize = drawn.iter().map(|line| line.points.len()).sum();
+        if drawn.len() > LINES || corners > WALL_CORNERS {
+            return Err(problem(format!(
+                "the drawing has {} lines with {corners} corners; at most {LINES} lines with {WALL_CORNERS} \
+                 corners are read",
+                drawn.len()
+            )));
+        }
         // The sides of an open box run anticlockwise; there is no asking what they enclose.
         let open_box = self.bounds.is_some() && !self.open.is_empty();
         let side = match self.side() {
@@ -107,6 +116,24 @@ impl Wall {
         Ok(facets)
     }
 
+    /// How many corners or facets the shape of the wall will have, where that is not in the length of the
+    /// scene itself; none of a file, which says so when it is read.
+    pub fn declared(&self, spacing: f64) -> usize {
+        let spacing = spacing / self.factor();
+        let sides = |given: Option<usize>, radius: f64| {
+            given.unwrap_or_else(|| divide::sides(radius / spacing))
+        };
+        let disc = self.disc.iter().map(|d| sides(d.sides, d.radius));
+        let ball = self.sphere.iter().map(|b| {
+            let parts = b.subdivisions;
+            let parts = parts.unwrap_or_else(|| divide::subdivisions(b.radius / spacing));
+            20 * parts * parts
+        });
+        let cylinder = self.cylinder.iter().map(|c| 4 * sides(c.sides, c.radius));
+        let cone = self.cone.iter().map(|c| 2 * sides(c.sides, c.radius));
+        disc.chain(ball).chain(cylinder).chain(cone).sum()
+    }
+
     /// Factor from the numbers of the geometry to metres.
     pub(crate) fn factor(&self) -> f64 {
         let unit = self.unit.as_deref().and_then(|u| parse_unit(u).ok());
@@ -147,24 +174,7 @@ impl Wall {
         if has_ending(&path.to_string_lossy(), "svg") {
             return svg::read(path, TOLERANCE * spacing);
         }
-        let mut lines = Vec::new();
-        for block in rows::read(path)? {
-            let line = block.first().map_or(0, |row| row.line);
-            let points = block.iter().map(|row| row.values).collect();
-            let tidy = Line {
-                points,
-                closed: false,
-            }
-            .tidied(0.0);
-            if tidy.points.len() < 2 {
-                return Err(format!(
-                    "`{}`: the line that begins in line {line} has one corner only",
-                    path.display()
-                ));
-            }
-            lines.push(tidy);
-        }
-        Ok(lines)
+        rows::lines(&rows::text(path)?, &path.display().to_string())
     }
 
     /// The surface of a shape, facing outwards.

@@ -9,7 +9,9 @@ pub(crate) const FILE_BYTES: usize = 4 << 20;
 pub(crate) const WALL_CORNERS: usize = 1_000_000;
 /// Most corners of a polygon that is filled.
 pub(crate) const BODY_CORNERS: usize = 10_000;
-/// Most tables of one kind.
+/// Most lines of a drawing: which lies within which is asked of every two.
+pub(crate) const LINES: usize = 20_000;
+/// Most tables of one kind, and most fields of an output.
 pub(crate) const TABLES: usize = 1_000;
 /// Most output times, and most rows of a course.
 pub(crate) const TIMES: usize = 1_000_000;
@@ -66,6 +68,11 @@ pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
     }
     if let Some(times) = scene.get("output").and_then(|o| o.get("times")) {
         longer(times, TIMES, "output.times", &mut found);
+    }
+    for key in ["fields", "picture"] {
+        if let Some(fields) = scene.get("output").and_then(|o| o.get(key)) {
+            longer(fields, TABLES, &format!("output.{key}"), &mut found);
+        }
     }
     found
 }

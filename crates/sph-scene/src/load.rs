@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sph_core::{SceneProblem, conform, schema_of};
 use thiserror::Error;
@@ -77,12 +77,25 @@ pub enum LoadError {
 /// # Errors
 /// If the file cannot be read, or with every mistake in it.
 pub fn load(path: &Path, overrides: &[Override]) -> Result<Loaded, LoadError> {
+    load_allowing(path, overrides, &[])
+}
+
+/// Reads a scene file that may name files in further folders than its own.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_allowing(
+    path: &Path,
+    overrides: &[Override],
+    folders: &[PathBuf],
+) -> Result<Loaded, LoadError> {
     let file = path.display().to_string();
     let text = read_text(path).map_err(|reason| LoadError::Unreadable {
         file: file.clone(),
         reason,
     })?;
-    parse(&text, &file, overrides).map_err(|refused| LoadError::Refused(Box::new(refused)))
+    let source = Source::new(&text, &file, overrides).allowing(folders);
+    read(source).map_err(|refused| LoadError::Refused(Box::new(refused)))
 }
 
 /// Reads a file of the size that a scene may have.
@@ -101,7 +114,8 @@ pub fn read_text(path: &Path) -> Result<String, String> {
     }
     String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
-        format!("byte {at} is not UTF-8 text")
+        let line = 1 + e.as_bytes()[..at].iter().filter(|b| **b == b'\n').count();
+        format!("byte {at}, in line {line}, is not UTF-8 text")
     })
 }
 
@@ -110,7 +124,14 @@ pub fn read_text(path: &Path) -> Result<String, String> {
 /// # Errors
 /// Every mistake found.
 pub fn parse(text: &str, name: &str, overrides: &[Override]) -> Result<Loaded, Refused> {
-    let source = Source::new(text, name, overrides);
+    read(Source::new(text, name, overrides))
+}
+
+/// Reads the scene of a text that knows where it comes from.
+///
+/// # Errors
+/// Every mistake found.
+pub fn read(source: Source) -> Result<Loaded, Refused> {
     match scene(&source) {
         Ok(scene) => Ok(Loaded { scene, source }),
         Err(diagnostics) => Err(Refused {

@@ -46,6 +46,8 @@ pub struct Override {
     path: String,
     segments: Vec<Segment>,
     value: Value,
+    /// Whether it stood on the command line.
+    users: bool,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +57,7 @@ enum Segment {
 }
 
 impl Override {
-    /// Reads `path.to.key=value`.
+    /// Reads `path.to.key=value` from the command line; a file that it names is the user's own choice.
     ///
     /// # Errors
     /// If there is no `=`, the path is not one, or the value is broken TOML.
@@ -73,11 +75,12 @@ impl Override {
         };
         Ok(Override {
             text: text.to_string(),
+            users: true,
             ..Override::new(path, value)?
         })
     }
 
-    /// The value for a dotted path, for programs that vary scenes.
+    /// The value for a dotted path, for programs that vary scenes; it may name no files but those of the scene.
     ///
     /// # Errors
     /// If the path is not one.
@@ -88,6 +91,7 @@ impl Override {
             path: path.to_string(),
             segments,
             value,
+            users: false,
         })
     }
 
@@ -104,6 +108,17 @@ impl Override {
     /// The value.
     pub fn value(&self) -> &Value {
         &self.value
+    }
+
+    /// Whether it stood on the command line.
+    pub(crate) fn is_the_users(&self) -> bool {
+        self.users
+    }
+
+    /// Whether the value of a key is its own or within its own.
+    pub(crate) fn gives(&self, key: &str) -> bool {
+        let rest = key.strip_prefix(self.path.as_str());
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
     }
 
     /// Sets the value in a scene's table, making tables on the way where there are none.

@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use crate::Line;
+
 /// Longest text file, bytes.
 const BYTES: u64 = 64 << 20;
 
@@ -14,8 +16,8 @@ pub(crate) struct Row {
     pub values: [f64; 2],
 }
 
-/// Opens a plain file that is neither empty nor longer than `most` bytes; with its length.
-pub(crate) fn open(path: &Path, most: u64) -> Result<(File, u64), String> {
+/// The bytes of a plain file that is neither empty nor longer than `most` bytes.
+pub(crate) fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, String> {
     let name = path.display();
     let refused = |e: std::io::Error| format!("cannot read `{name}`: {e}");
     // Asked before it is opened: opening a pipe would wait for its writer.
@@ -23,30 +25,58 @@ pub(crate) fn open(path: &Path, most: u64) -> Result<(File, u64), String> {
     if !known.is_file() {
         return Err(format!("`{name}` is not a file"));
     }
-    match known.len() {
-        0 => Err(format!("`{name}` is empty")),
-        n if n > most => Err(format!("`{name}` is longer than {} MiB", most >> 20)),
-        n => Ok((File::open(path).map_err(refused)?, n)),
-    }
+    let length = match known.len() {
+        0 => return Err(format!("`{name}` is empty")),
+        n if n > most => return Err(format!("`{name}` is longer than {} MiB", most >> 20)),
+        n => n,
+    };
+    let mut bytes = Vec::with_capacity(length as usize);
+    let file = File::open(path).map_err(refused)?;
+    file.take(most).read_to_end(&mut bytes).map_err(refused)?;
+    Ok(bytes)
 }
 
 /// The text of a file of UTF-8 that is neither empty nor too long.
 pub(crate) fn text(path: &Path) -> Result<String, String> {
-    let (file, _) = open(path, BYTES)?;
-    let mut text = String::new();
-    let read = file.take(BYTES).read_to_string(&mut text);
-    read.map_err(|e| format!("cannot read `{}`: {e}", path.display()))?;
-    Ok(text)
+    String::from_utf8(bytes(path, BYTES)?).map_err(|e| {
+        let before = &e.as_bytes()[..e.utf8_error().valid_up_to()];
+        let line = 1 + before.iter().filter(|b| **b == b'\n').count();
+        format!("`{}`, line {line}: this is no UTF-8 text", path.display())
+    })
 }
 
 /// The rows of a file, in blocks separated by blank lines and comments; never none.
 pub(crate) fn read(path: &Path) -> Result<Vec<Vec<Row>>, String> {
-    let text = text(path)?;
-    let blocks = parse(&text).map_err(|why| format!("`{}`, {why}", path.display()))?;
+    named(&text(path)?, &path.display().to_string())
+}
+
+/// The same from the text of a file called `name`.
+pub(crate) fn named(text: &str, name: &str) -> Result<Vec<Vec<Row>>, String> {
+    let blocks = parse(text).map_err(|why| format!("`{name}`, {why}"))?;
     match blocks.is_empty() {
-        true => Err(format!("`{}` holds no numbers", path.display())),
+        true => Err(format!("`{name}` holds no numbers")),
         false => Ok(blocks),
     }
+}
+
+/// The lines of the text of a file called `name`: a block of rows is one.
+pub(crate) fn lines(text: &str, name: &str) -> Result<Vec<Line>, String> {
+    let line = |block: Vec<Row>| {
+        let begins = block.first().map_or(0, |row| row.line);
+        let points = block.iter().map(|row| row.values).collect();
+        let line = Line {
+            points,
+            closed: false,
+        };
+        let tidy = line.tidied(0.0);
+        match tidy.points.len() {
+            0 | 1 => Err(format!(
+                "`{name}`: the line that begins in line {begins} has one corner only"
+            )),
+            _ => Ok(tidy),
+        }
+    };
+    named(text, name)?.into_iter().map(line).collect()
 }
 
 /// Columns are separated by commas, semicolons or blanks; the first line may name them.

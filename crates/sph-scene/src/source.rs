@@ -1,7 +1,7 @@
 //! The text of a scene, kept so that a mistake found at any time can be shown in it.
 
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use sph_core::SceneProblem;
 use toml::Table;
@@ -11,7 +11,7 @@ use crate::diagnostic::{Diagnostic, Origin, floor_char, line_and_column};
 use crate::load;
 use crate::locate::locate;
 use crate::overrides::Override;
-use crate::paths::{PathProblem, resolve};
+use crate::paths::{PathProblem, joined, within};
 
 /// The text of a scene file and the overrides on top of it.
 #[derive(Clone, Debug)]
@@ -19,6 +19,7 @@ pub struct Source {
     file: String,
     text: String,
     overrides: Vec<Override>,
+    allowed: Vec<PathBuf>,
 }
 
 impl Source {
@@ -28,7 +29,14 @@ impl Source {
             file: file.to_string(),
             text: text.to_string(),
             overrides: overrides.to_vec(),
+            allowed: Vec::new(),
         }
+    }
+
+    /// The same, free to name files in further folders.
+    pub fn allowing(mut self, folders: &[PathBuf]) -> Self {
+        self.allowed.extend_from_slice(folders);
+        self
     }
 
     /// Name of the scene file.
@@ -131,13 +139,17 @@ impl Source {
 
     /// The path of a file that the scene names in the value of a key.
     ///
-    /// A relative path starts at the scene's folder and stays within that folder's parent;
-    /// an absolute one is taken from an override only.
+    /// It starts at the scene's folder and stays there or in an allowed folder, links followed. A path that
+    /// the command line gives is taken as it is.
     ///
     /// # Errors
-    /// If the path leaves the parent folder, or is absolute and written in the scene file.
+    /// If the path leads elsewhere.
     pub fn resolve(&self, key: &str, file: &str) -> Result<PathBuf, PathProblem> {
-        let by_override = self.overrides.iter().any(|o| o.path() == key);
-        resolve(&self.file, file, by_override)
+        let folder = Path::new(&self.file).parent().unwrap_or(Path::new(""));
+        let by = self.overrides.iter().rfind(|o| o.gives(key));
+        match by.is_some_and(Override::is_the_users) {
+            true => joined(folder, file),
+            false => within(folder, file, &self.allowed),
+        }
     }
 }

@@ -1,12 +1,12 @@
 //! Triangles from STL files, ascii and binary.
 
-use std::io::{Cursor, Read};
+use std::io::Cursor;
 use std::path::Path;
 
 use stl_io::{Triangle, create_stl_reader};
 
 use crate::facets::{Facets, Welder, cross, dot, minus};
-use crate::rows::open;
+use crate::rows::bytes;
 
 /// Most triangles of a file.
 const TRIANGLES: usize = 5_000_000;
@@ -19,11 +19,11 @@ const BYTES: u64 = 512 << 20;
 
 /// The surface in a file, and the first facet whose normal is not that of its corners' order.
 pub(crate) fn read(path: &Path) -> Result<(Facets, Option<usize>), String> {
-    let name = path.display();
-    let (file, length) = open(path, BYTES)?;
-    let mut bytes = Vec::with_capacity(length as usize);
-    let read = file.take(BYTES).read_to_end(&mut bytes);
-    read.map_err(|e| format!("cannot read `{name}`: {e}"))?;
+    parse(bytes(path, BYTES)?, &path.display().to_string())
+}
+
+/// The same from the bytes of a file called `name`.
+pub(crate) fn parse(bytes: Vec<u8>, name: &str) -> Result<(Facets, Option<usize>), String> {
     let bytes = prepared(bytes).map_err(|why| format!("`{name}` {why}"))?;
     let mut cursor = Cursor::new(bytes);
     let reader = create_stl_reader(&mut cursor);

@@ -24,14 +24,18 @@ const SHARES: [f64; 2] = [0.1, 0.8];
 /// The origin is the lower left corner of the `viewBox`, else of the width and height, else the
 /// upper left corner.
 pub(crate) fn read(path: &Path, tolerance: f64) -> Result<Vec<Line>, String> {
-    let text = text(path)?;
-    let told = |why: String| format!("`{}`: {why}", path.display());
+    parse(&text(path)?, &path.display().to_string(), tolerance)
+}
+
+/// The same from the text of a file called `name`.
+pub(crate) fn parse(text: &str, name: &str, tolerance: f64) -> Result<Vec<Line>, String> {
+    let told = |why: String| format!("`{name}`: {why}");
     let options = ParsingOptions {
         allow_dtd: true,
         nodes_limit: NODES,
         ..ParsingOptions::default()
     };
-    let document = Document::parse_with_options(&text, options)
+    let document = Document::parse_with_options(text, options)
         .map_err(|e| told(format!("it is no SVG drawing: {e}")))?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {

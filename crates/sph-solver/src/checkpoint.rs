@@ -149,6 +149,7 @@ fn fill<const D: usize>(
     checkpoint: &Checkpoint,
     path: &Path,
 ) -> Result<(), SolverError> {
+    let born = flow.world.free.len();
     if let Some(ColumnData::U32(v)) = checkpoint
         .column(fields::IDENTITY.name)
         .map(|c| &c.data)
@@ -169,7 +170,10 @@ fn fill<const D: usize>(
             }
         }
     }
-    Ok(())
+    match nonsense(flow, born)? {
+        Some(why) => Err(refused(path, why)),
+        None => Ok(()),
+    }
 }
 
 fn positions<const D: usize>(
@@ -178,6 +182,9 @@ fn positions<const D: usize>(
     name: &str,
 ) -> Result<Vec<Vect<D>>, SolverError> {
     match checkpoint.column(name).map(|c| &c.data) {
+        Some(ColumnData::F64(v)) if !v.iter().all(|x| x.is_finite()) => {
+            Err(refused(path, "it has particles that are nowhere"))
+        }
         Some(ColumnData::F64(v)) => Ok(v.chunks_exact(D).map(Vect::from_column_slice).collect()),
         _ => Err(refused(path, format!("it lacks the column `{name}`"))),
     }
@@ -189,12 +196,45 @@ fn set_clock<const D: usize>(
     clock: &Clock,
     path: &Path,
 ) -> Result<(), SolverError> {
-    flow.world.time = f64::from_bits(clock.time);
-    flow.world.dt = f64::from_bits(clock.dt);
+    let [time, dt] = [clock.time, clock.dt].map(f64::from_bits);
+    if !(time.is_finite() && dt.is_finite()) {
+        return Err(refused(path, "its time is not finite"));
+    }
+    flow.world.time = time;
+    flow.world.dt = dt;
     if let Some(walls) = &flow.walls {
         let now = flow.world.time;
         let moved = crate::stages::lock(walls).move_to(&mut flow.world.walls, now);
         moved.map_err(|e| refused(path, e.to_string()))?;
     }
     Ok(())
+}
+
+/// What cannot be in a state of this scene, though the file is whole: numbers of particles and phases
+/// that there are none of, places that are none.
+fn nonsense<const D: usize>(
+    flow: &Flow<D>,
+    born: usize,
+) -> Result<Option<&'static str>, SolverError> {
+    let free = &flow.world.free;
+    let mut seen = vec![false; born];
+    let mut new = |id: u32| {
+        let place = seen.get_mut(id as usize);
+        place.is_some_and(|seen| !std::mem::replace(seen, true))
+    };
+    let positions = free.get(fields::POSITION)?;
+    Ok(if !free.get(fields::IDENTITY)?.iter().all(|id| new(*id)) {
+        Some("its particles are not the scene's")
+    } else if free.has(fields::PHASE.name)
+        && free
+            .get(fields::PHASE)?
+            .iter()
+            .any(|p| *p as usize >= flow.laws.len())
+    {
+        Some("its phases are not the scene's")
+    } else if positions.iter().flatten().any(|x| !x.is_finite()) {
+        Some("it has particles that are nowhere")
+    } else {
+        None
+    })
 }

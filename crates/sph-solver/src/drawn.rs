@@ -10,6 +10,20 @@ use sph_scene::{Facets, FrictionForm, Line, Region, Scene};
 
 use crate::error::SolverError;
 
+/// Most corners of lines, or facets of surfaces, of all walls.
+const PIECES: usize = 10_000_000;
+
+/// Refuses the wall with which there are too many corners or facets.
+fn few(pieces: usize, place: &str) -> Result<(), SolverError> {
+    match pieces > PIECES {
+        false => Ok(()),
+        true => Err(SolverError::at(
+            place,
+            format!("with this wall there are {pieces} corners or facets, more than {PIECES}"),
+        )),
+    }
+}
+
 /// Walls and bodies.
 pub struct Drawn<const D: usize> {
     /// The walls; one that is drawn in several pieces is there once per piece.
@@ -34,6 +48,12 @@ impl<const D: usize> Drawn<D> {
             measure: 0.0,
             regions: Vec::new(),
         };
+        let mut pieces = 0;
+        // Those of shapes are known before any is drawn.
+        for (name, wall) in &scene.wall {
+            pieces += wall.declared(scene.numerics.spacing);
+            few(pieces, &format!("wall.{name}"))?;
+        }
         for (name, wall) in &scene.wall {
             let place = format!("wall.{name}");
             let motion = motion_of::<D>(wall, &place)?;
@@ -51,6 +71,13 @@ impl<const D: usize> Drawn<D> {
             let surface = wall.velocity.as_deref();
             let surface_velocity = surface.map_or_else(Vect::zeros, Vect::from_column_slice);
             for drawing in drawn.drawings(scene, name, wall, &place)? {
+                if wall.path.is_some() {
+                    pieces += match &drawing {
+                        Drawing::Line(line) => line.points.len(),
+                        Drawing::Surface(surface) => surface.triangles.len(),
+                    };
+                    few(pieces, &place)?;
+                }
                 drawn.walls.push(WallSpec {
                     drawing,
                     condition,

@@ -5,11 +5,14 @@ use sph_core::StepLimit;
 use sph_scene::{Scene, estimate};
 
 use crate::Flow;
+use crate::defaults;
 use crate::drawn::Drawn;
 use crate::error::SolverError;
 
 /// Bytes per particle of columns, lists and buffers together, a generous mean.
 const BYTES_PER_PARTICLE: [f64; 2] = [700.0, 2500.0];
+/// Bytes per neighbour while lists are built, where these outweigh the columns.
+const BYTES_PER_NEIGHBOUR: f64 = 6.0;
 /// Nanoseconds of one core per particle and step, from `docs/performance.md`.
 const NANOSECONDS: [f64; 2] = [550.0, 1800.0];
 /// Bytes per particle in one compressed output.
@@ -92,21 +95,75 @@ fn memory_available() -> Option<f64> {
     Some(1024.0 * kilobytes)
 }
 
+/// How large a scene is, known before memory is touched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Size {
+    /// About how many free particles, counted in the boxes around the bodies.
+    pub particles: f64,
+    /// About how many wall points.
+    pub wall_points: f64,
+    /// Memory for both, bytes.
+    pub bytes: f64,
+}
+
+/// Neighbours of a particle in the list, for a kernel that reaches two smoothing lengths.
+fn neighbours<const D: usize>(scene: &Scene) -> f64 {
+    let numerics = &scene.numerics;
+    let skin = numerics.skin.unwrap_or(defaults::SKIN);
+    let reach = 2.0 * numerics.smoothing_ratio * (1.0 + skin);
+    match D {
+        3 => 4.0 / 3.0 * std::f64::consts::PI * reach.powi(3),
+        _ => std::f64::consts::PI * reach.powi(2),
+    }
+}
+
+impl Size {
+    fn of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Self {
+        let spacing = scene.numerics.spacing;
+        let particles = estimate(&drawn.regions, spacing);
+        let wall_points = drawn.measure / spacing.powi(D as i32 - 1);
+        let all = particles + wall_points;
+        let listed = neighbours::<D>(scene).min(all) * BYTES_PER_NEIGHBOUR;
+        let bytes = all * BYTES_PER_PARTICLE[usize::from(D == 3)].max(listed);
+        Size {
+            particles,
+            wall_points,
+            bytes,
+        }
+    }
+}
+
+/// How large a scene is; its walls are drawn for it, and files of walls are read.
+///
+/// # Errors
+/// If a wall or a body cannot be drawn.
+pub fn size(scene: &Scene) -> Result<Size, SolverError> {
+    Ok(match scene.dimension {
+        3 => Size::of(scene, &Drawn::<3>::of(scene)?),
+        _ => Size::of(scene, &Drawn::<2>::of(scene)?),
+    })
+}
+
 /// Refuses a scene that cannot fit into memory, before any memory is touched.
 pub fn refuse_the_absurd<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,
 ) -> Result<(), SolverError> {
-    let spacing = scene.numerics.spacing;
-    let particles = estimate(&drawn.regions, spacing);
-    let points = drawn.measure / spacing.powi(D as i32 - 1);
-    let needed = (particles + points) * BYTES_PER_PARTICLE[usize::from(D == 3)];
+    let Size {
+        particles,
+        wall_points: points,
+        bytes: needed,
+    } = Size::of(scene, drawn);
     let limit = memory_available().unwrap_or(64e9);
     // Indices are 32 bits wide.
     if needed < limit && particles + points < 4e9 {
         return Ok(());
     }
+    let usual = BYTES_PER_PARTICLE[usize::from(D == 3)];
     let advice = match points > particles {
+        _ if needed > 1.5 * usual * (particles + points) => {
+            "take a smaller `smoothing_ratio`, or a smaller `skin`"
+        }
         true => "take a larger spacing, or are the walls drawn in another unit, such as \"mm\"?",
         false => "take a larger spacing or smaller bodies",
     };

@@ -61,7 +61,7 @@ mod walls;
 pub use assemble::{Assembled, assemble};
 pub use driver::{Command, Observer, Progress};
 pub use error::{Failure, SolverError};
-pub use estimate::Estimate;
+pub use estimate::{Estimate, Size, size};
 pub use examine::{Examination, FieldUse, StageUse, examine};
 pub use findings::{Findings, Share, Sighting, Suspect};
 pub use flow::Flow;

@@ -1,12 +1,11 @@
 //! What probes learn from the scene before they measure.
 
-use std::path::PathBuf;
-
 use sph_core::{SceneProblem, suggestion};
 use sph_probes::Probe;
 use sph_scene::Scene;
 
 use crate::SolverError;
+use crate::references::LONGEST;
 
 /// Tells the probes the names of the phases and what is in their files, and refuses references to columns that no probe has.
 ///
@@ -58,8 +57,9 @@ fn learn<const D: usize>(
         return Ok(());
     };
     let path = scene.probe_files.get(name);
-    let path = path.map_or_else(|| PathBuf::from(&file), PathBuf::clone);
-    let table = sph_io::read_table(&path).map_err(|e| e.to_string())?;
+    let path = path.ok_or_else(|| format!("`{file}` is not the value of the key `file`"))?;
+    let read = sph_io::readable(path, LONGEST).and_then(|()| sph_io::read_table(path));
+    let table = read.map_err(|e| e.to_string())?;
     let [x, y, ..] = table.columns.as_slice() else {
         return Err(format!("`{file}` has one column where two are expected"));
     };

@@ -308,8 +308,12 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<(), SolverError> {
     Ok(())
 }
 
+/// Longest file of a reference or a probe, bytes.
+pub const LONGEST: u64 = 64 << 20;
+
 /// The reference's columns: time, value, and for a band the upper limit.
 fn reference_table(reference: &Reference, path: &Path) -> Result<Table, sph_io::IoError> {
+    sph_io::readable(path, LONGEST)?;
     if let (Norm::Band, Some(low), Some(high)) =
         (reference.norm(), &reference.lower, &reference.upper)
     {

@@ -9,7 +9,7 @@ use crate::axis::{Axis, label};
 use crate::file::Combine;
 
 /// Most variants of a study.
-const MOST: usize = 10_000;
+pub(crate) const MOST: usize = 10_000;
 /// Longest name of a variant's folder.
 const LONGEST: usize = 120;
 

@@ -8,6 +8,9 @@ use toml::{Table, Value};
 /// Version of the program, part of every fingerprint.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
+/// Longest data file, bytes.
+const LONGEST: u64 = 512 << 20;
+
 /// A fingerprint of the resolved scene, the content of its data files, and the program's version.
 ///
 /// Titles and descriptions do not count.
@@ -28,6 +31,7 @@ pub fn fingerprint(loaded: &Loaded) -> Result<String, (String, String)> {
             .source
             .resolve(&key, &named)
             .map_err(|e| told(e.to_string()))?;
+        sph_io::readable(&path, LONGEST).map_err(|e| told(e.to_string()))?;
         let bytes = std::fs::read(path).map_err(|e| told(e.to_string()))?;
         text.push_str(&format!(
             "{key} {} {:08x}\n",

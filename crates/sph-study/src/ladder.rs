@@ -4,7 +4,7 @@ use sph_core::{SceneProblem, suggestion};
 use sph_scene::{Override, Source};
 
 use crate::axis::{self, Axis, Choice, label};
-use crate::combine::{combinations, safe};
+use crate::combine::{MOST, combinations, safe};
 use crate::file::{self, Bounds, Combine, StudyFile};
 use crate::mistake::Refused;
 use crate::plan::{SceneText, Variant};
@@ -94,6 +94,11 @@ pub fn read(
         let common = common.map_err(|p| Refused::of(source, &[p]))?;
         let all = combinations(&found.axes, Combine::Product, &[]);
         let all = all.map_err(|problems| Refused::of(source, &problems))?;
+        if variants.len() + all.len() > MOST {
+            let message = format!("with this axis there are more than {MOST} variants");
+            let problem = SceneProblem::new(format!("axis[{k}]"), message);
+            return Err(Refused::of(source, &[problem]));
+        }
         let errors = &file.axis[k].error;
         let reader = Reader {
             file,

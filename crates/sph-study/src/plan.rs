@@ -1,6 +1,6 @@
 //! From a study file to variants that are known to be good, before any of them is run.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sph_core::{RegistryError, SceneProblem, suggestion, typed};
 use sph_scene::{Loaded, Override, Source, read_text};
@@ -23,6 +23,8 @@ pub struct SceneText {
     pub text: String,
     /// Its file.
     pub file: String,
+    /// Folders besides its own whose files it may name.
+    pub allowed: Vec<PathBuf>,
 }
 
 /// Finds the scene that a study names, from the study's folder; the error is told as it is.

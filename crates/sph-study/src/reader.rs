@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sph_core::{SceneProblem, suggestion};
-use sph_scene::{Loaded, Override, Source, parse};
+use sph_scene::{Loaded, Override, Source, read};
 use toml::{Table, Value};
 
 use crate::axis::{Axis, Set};
@@ -89,7 +89,13 @@ impl Reader<'_> {
             study: self.source,
             given_by: &given_by,
         };
-        let loaded = parse(&self.scene.text, &self.scene.file, &overrides);
+        let SceneText {
+            text,
+            file,
+            allowed,
+            ..
+        } = self.scene;
+        let loaded = read(Source::new(text, file, &overrides).allowing(allowed));
         let loaded = loaded.map_err(|r| blame.place(&r.source, &r.diagnostics))?;
         let mut problems = self.missing_references(&loaded);
         let refinement = self

@@ -7,8 +7,8 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::{
-    Checkpoint, CheckpointFault as Fault, Column, ColumnData, Header, Kind, MAGIC, PREFIX, SUFFIX,
-    Shape, VERSION,
+    COLUMNS, Checkpoint, CheckpointFault as Fault, Column, ColumnData, HEADER, Header, Kind, MAGIC,
+    PREFIX, SUFFIX, Shape, VERSION,
 };
 use crate::error::{IoError, Result};
 
@@ -23,16 +23,30 @@ impl Checkpoint {
         let failed = |e| IoError::read(path, e);
         let file = File::open(path).map_err(failed)?;
         let length = file.metadata().map_err(failed)?.len();
-        let source = Source {
-            input: BufReader::with_capacity(CHUNK, file),
-            sum: crc32fast::Hasher::new(),
-            length,
-        };
-        source.checkpoint().map_err(|trouble| match trouble {
+        let input = BufReader::with_capacity(CHUNK, file);
+        let read = Source::new(input, length).checkpoint();
+        read.map_err(|trouble| match trouble {
             Trouble::Read(source) => IoError::read(path, source),
             Trouble::Fault(fault) => IoError::Checkpoint {
                 path: path.to_path_buf(),
                 fault,
+            },
+        })
+    }
+
+    /// Reads a checkpoint that is in memory.
+    ///
+    /// # Errors
+    /// Which check it failed.
+    pub fn from_bytes(bytes: &[u8]) -> std::result::Result<Self, Fault> {
+        let found = bytes.len() as u64;
+        let read = Source::new(bytes, found).checkpoint();
+        read.map_err(|trouble| match trouble {
+            Trouble::Fault(fault) => fault,
+            // Sizes are checked first, so that there is always enough to read.
+            Trouble::Read(_) => Fault::Length {
+                expected: PREFIX + SUFFIX,
+                found,
             },
         })
     }
@@ -57,14 +71,22 @@ impl From<Fault> for Trouble {
 }
 
 /// The file and the checksum of what has been read of it.
-struct Source {
-    input: BufReader<File>,
+struct Source<R> {
+    input: R,
     sum: crc32fast::Hasher,
     /// Length of the file in bytes.
     length: u64,
 }
 
-impl Source {
+impl<R: Read> Source<R> {
+    fn new(input: R, length: u64) -> Self {
+        Source {
+            input,
+            sum: crc32fast::Hasher::new(),
+            length,
+        }
+    }
+
     fn checkpoint(mut self) -> std::result::Result<Checkpoint, Trouble> {
         let header = self.header()?;
         let mut columns = Vec::with_capacity(header.columns.len());
@@ -107,6 +129,10 @@ impl Source {
         let room = found - least;
         if size > room {
             let said = format!("a header of {size} bytes where {room} are left");
+            return Err(Fault::Sizes(said).into());
+        }
+        if size > HEADER {
+            let said = format!("a header of {size} bytes, more than {HEADER}");
             return Err(Fault::Sizes(said).into());
         }
         let text = self.bytes(size)?;
@@ -171,6 +197,11 @@ impl Source {
 
 /// Whether the columns take up exactly `room` bytes and are well formed.
 fn fits(columns: &[Shape], room: u64) -> std::result::Result<(), Fault> {
+    let count = columns.len();
+    if count > COLUMNS {
+        let said = format!("{count} columns, more than {COLUMNS}");
+        return Err(Fault::Sizes(said));
+    }
     let mut total: u64 = 0;
     for (i, shape) in columns.iter().enumerate() {
         let name = &shape.name;

@@ -1,5 +1,13 @@
-//! Files that fail a run: folders that cannot be written, full disks, damaged checkpoints.
+//! Files that fail a run: folders that cannot be written, full disks, damaged checkpoints, and whatever else a
+//! file may hold that nobody meant.
 
+mod mutated;
+#[cfg(unix)]
+mod reach;
+#[cfg(target_os = "linux")]
+mod sizes;
+
+use sph_io::{Checkpoint, ColumnData};
 use sph_tests::{Bench, DAM_BREAK, Disk, files_with_extension};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
@@ -43,6 +51,56 @@ fn a_damaged_checkpoint_is_not_resumed() {
         assert!(outcome.err.contains("without --resume"), "{}", outcome.err);
         assert_eq!(bench.read("r/series.csv"), series, "the series was touched");
     }
+}
+
+/// Whole and of this scene, but with numbers in it that no run writes.
+#[test]
+fn a_checkpoint_of_nonsense_is_not_resumed() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    short_run(&bench);
+    let path = bench.path("r/checkpoint.sph");
+    let whole = Checkpoint::load(&path).expect("a checkpoint");
+    let refused = |forged: &Checkpoint, word: &str| {
+        forged.save(&path).expect("saved");
+        let outcome = bench.call("run scene.toml --out r --set run.end=0.02 --resume");
+        assert_eq!(outcome.code, Some(1), "{word}: {}", outcome.err);
+        for said in ["checkpoint.sph", word] {
+            assert!(outcome.err.contains(said), "no `{said}` in {}", outcome.err);
+        }
+    };
+    let change = |name: &str, to: &dyn Fn(&mut ColumnData)| {
+        let mut forged = whole.clone();
+        let mut columns = forged.columns.iter_mut();
+        to(&mut columns.find(|c| c.name == name).expect("the column").data);
+        forged
+    };
+    let real = |x: f64| {
+        move |data: &mut ColumnData| match data {
+            ColumnData::F64(values) => values[3] = x,
+            _ => panic!("no reals"),
+        }
+    };
+    for x in [f64::NAN, f64::INFINITY] {
+        refused(&change("position", &real(x)), "nowhere");
+        refused(&change("list_reference", &real(x)), "nowhere");
+    }
+    for number in [0, u32::MAX] {
+        let to = |data: &mut ColumnData| match data {
+            ColumnData::U32(ids) => ids[1..3].fill(number),
+            _ => panic!("no numbers"),
+        };
+        refused(&change("identity", &to), "particles are not the scene's");
+    }
+    let mut forged = whole.clone();
+    forged.meta["clock"]["time"] = f64::NAN.to_bits().into();
+    refused(&forged, "time is not finite");
+    forged.meta = serde_json::json!({});
+    refused(&forged, "not one of this version");
+    let mut forged = whole.clone();
+    forged.columns.retain(|c| c.name != "velocity");
+    refused(&forged, "lacks the column `velocity`");
+    whole.save(&path).expect("saved");
+    bench.done("run scene.toml --quiet --out r --set run.end=0.02 --resume");
 }
 
 #[test]
