@@ -344,3 +344,32 @@ fn explain_shows_that_nothing_unused_is_allocated() {
         assert!(shown.contains(word), "no `{word}` in\n{shown}");
     }
 }
+
+/// A tank with two bodies of water side by side.
+const TWO_BODIES: &str = r#"title = "Two bodies"
+dimension = 2
+run.end = 0.1
+numerics = { spacing = 0.02, gravity = [0.0, -9.81] }
+smoother.brezzi-pitkaranta = {}
+phase.water = { density = 1000.0, velocity_scale = 2.0, rheology.newtonian = { viscosity = 1e-3 } }
+wall.tank = { box = [[0.0, 0.0], [0.6, 0.6]], open = ["y+"] }
+body.left = { phase = "water", box = [[0.0, 0.0], [0.2, 0.3]] }
+body.right = { phase = "water", box = [[0.2, 0.0], [0.4, 0.3]] }
+"#;
+
+#[test]
+fn bodies_a_third_of_a_spacing_off_are_remarked_upon() {
+    let bench = Bench::with(PROGRAM, TWO_BODIES);
+    let told = |right: &str| {
+        let outcome = bench.done(&format!("check scene.toml --set body.right.box={right}"));
+        outcome.out.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let fits = told("[[0.2,0.0],[0.4,0.3]]");
+    assert!(!fits.contains("into place"), "{fits}");
+    let apart = told("[[0.2066,0.0],[0.4,0.3]]");
+    let gap = "the particles of `left` and `right` are 1.33 spacings apart";
+    assert!(apart.contains(gap), "{apart}");
+    let high = told("[[0.2,0.007],[0.4,0.3]]");
+    let row = "the first row of `right` is 1.35 spacings from the wall `tank`";
+    assert!(high.contains(row), "{high}");
+}

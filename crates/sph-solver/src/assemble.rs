@@ -25,6 +25,7 @@ use crate::flow::Flow;
 use crate::ground::Ground;
 use crate::implicit::{ImplicitViscosity, Solves};
 use crate::initial::InitialState;
+use crate::lattices;
 use crate::layers::Layers;
 use crate::measured;
 use crate::outlets::Outlets;
@@ -193,6 +194,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     check_output_fields(scene, &flow)?;
     let relaxation = start(scene, &drawn, &choices, &mut flow, &placed.body)?;
     warnings.extend(ground.remarks(scene, &flow)?);
+    warnings.extend(lattices::remarks(scene, &flow, &placed.body)?);
     Ok(Assembled {
         flow,
         integrator: choices.integrator,

@@ -34,6 +34,7 @@ mod guard;
 mod implicit;
 mod initial;
 mod kept;
+mod lattices;
 mod layers;
 mod measured;
 mod options;
