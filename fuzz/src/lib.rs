@@ -35,7 +35,7 @@ pub fn assemble(loaded: &Loaded) {
         relax.steps = relax.steps.min(RELAXED);
     }
     // A particle in space has five times the neighbours of one in the plane.
-    let most = MOST / if scene.dimension == 3 { 5.0 } else { 1.0 };
+    let most = MOST / if scene.dimension == 3 { 2.0 } else { 1.0 };
     match sph_solver::size(&scene) {
         Ok(size) if size.particles + size.wall_points <= most => {
             let _ = sph_solver::examine(&scene, 1);
