@@ -75,6 +75,9 @@ impl SolveCost {
     }
 }
 
+/// A name with its particles and seconds, by size.
+type Competitor = (String, Vec<[f64; 2]>);
+
 /// Costs of all series, and who is the fastest where.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Scale {
@@ -118,7 +121,7 @@ impl Scale {
         variant: impl Fn(&str) -> Option<VariantResult>,
     ) -> Self {
         let mut costs = Vec::new();
-        let mut groups: BTreeMap<String, Vec<(String, Vec<[f64; 2]>)>> = BTreeMap::new();
+        let mut groups: BTreeMap<String, Vec<Competitor>> = BTreeMap::new();
         for one in series {
             let all: Vec<VariantResult> = one.variants.iter().filter_map(|n| variant(n)).collect();
             let mut points: Vec<[f64; 2]> = all
@@ -204,7 +207,7 @@ impl SeriesCost {
 }
 
 /// Who is the fastest of some competitors, from the least to the largest size.
-fn reigns(among: &str, all: &[(String, Vec<[f64; 2]>)]) -> Vec<Reign> {
+fn reigns(among: &str, all: &[Competitor]) -> Vec<Reign> {
     let mut sizes: Vec<f64> = all.iter().flat_map(|(_, p)| p).map(|p| p[0]).collect();
     sizes.sort_by(f64::total_cmp);
     sizes.dedup();
