@@ -2,14 +2,17 @@
 //!
 //! `step` contains one question of two (the positions); `guard` asks both, `snapshot` copies.
 
+mod running;
+
 use std::fmt::{self, Display};
 use std::path::Path;
 
 use divan::Bencher;
 use rayon::ThreadPoolBuilder;
-use sph_core::{StepLimit, System};
 use sph_scene::Override;
-use sph_solver::{Assembled, Snapshot, assemble};
+use sph_solver::{Snapshot, assemble};
+
+use running::advance;
 
 /// Scene, spacing, dimension, threads.
 #[derive(Clone, Copy)]
@@ -83,14 +86,4 @@ fn timed_in<const D: usize>(bencher: Bencher, case: Case, what: What) {
             What::Snapshot => kept.take(&parts.flow).expect("all columns"),
         });
     });
-}
-
-/// What a run does between two outputs.
-fn advance<const D: usize>(parts: &mut Assembled<D>) {
-    parts.flow.evaluate().expect("finite rates");
-    let limits = parts.flow.step_limits().expect("all columns");
-    let dt = StepLimit::least(&limits).expect("sound always limits").dt;
-    parts.flow.world.dt = dt;
-    let stepped = parts.integrator.step(&mut parts.flow, dt);
-    stepped.expect("a good step");
 }

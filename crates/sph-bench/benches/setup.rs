@@ -18,6 +18,7 @@ use sph_neighbours::{
     Domain, Fused, KernelEntry, PairTerm, Terms, There, World, fuse_all, interactions,
     interactions_with, kernel_sums, pack,
 };
+use sph_scene::SplitMix;
 
 /// Viscosity of the terms, Pa s.
 const VISCOSITY: f64 = 1e-3;
@@ -42,7 +43,7 @@ pub fn one_thread() {
 /// `side`² displaced particles in a periodic unit square, sorted, with fresh and pruned lists.
 pub fn world(side: usize) -> World<2> {
     let spacing = 1.0 / side as f64;
-    let mut numbers = Numbers(1);
+    let mut numbers = Numbers(SplitMix(1));
     let count = side * side;
     let at = |k: usize, shift: f64| (k as f64 + 0.5 + JITTER * shift) * spacing;
     let position: Vec<Vect<2>> = (0..count)
@@ -88,7 +89,7 @@ fn column<T, E: Debug>(found: Result<T, E>) -> T {
 /// Adds a column that varies with a number between −1 and 1.
 fn fill(world: &mut World<2>, field: Field<Scalar>, value: impl Fn(f64) -> f64) {
     world.free.add(field, Role::Derived);
-    let mut numbers = Numbers(7);
+    let mut numbers = Numbers(SplitMix(7));
     for x in column(world.free.get_mut(field)) {
         *x = value(numbers.next());
     }
@@ -237,16 +238,11 @@ impl Sampler for WendlandC2 {
     }
 }
 
-/// Numbers between −1 and 1, the same in every run (SplitMix64).
-struct Numbers(u64);
+/// Numbers between −1 and 1, the same in every run.
+struct Numbers(SplitMix);
 
 impl Numbers {
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        2.0 * self.0.unit() - 1.0
     }
 }

@@ -2,14 +2,17 @@
 //!
 //! Items are particles × neighbours, so that the throughput is comparable with that of one sweep.
 
+mod running;
+
 use std::fmt::{self, Display};
 use std::path::Path;
 
 use divan::{Bencher, counter::ItemsCount};
 use rayon::ThreadPoolBuilder;
-use sph_core::{StepLimit, System};
 use sph_scene::Override;
 use sph_solver::{Assembled, assemble};
+
+use running::advance;
 
 const SCENE: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
@@ -59,14 +62,4 @@ fn dam_break(spacing: &str) -> Assembled<2> {
     let spacing = Override::parse(&format!("numerics.spacing={spacing}")).expect("a length");
     let loaded = sph_scene::load(Path::new(SCENE), &[spacing]).expect("a shipped scene");
     assemble::<2>(&loaded.scene).expect("a shipped scene")
-}
-
-/// What a run does between two outputs.
-fn advance(parts: &mut Assembled<2>) {
-    parts.flow.evaluate().expect("finite rates");
-    let limits = parts.flow.step_limits().expect("all columns");
-    let dt = StepLimit::least(&limits).expect("sound always limits").dt;
-    parts.flow.world.dt = dt;
-    let stepped = parts.integrator.step(&mut parts.flow, dt);
-    stepped.expect("a good step");
 }

@@ -32,11 +32,17 @@ pub fn noise<const D: usize>(particle: u32, amplitude: f64, seed: u64) -> [f64; 
     std::array::from_fn(|_| amplitude * (2.0 * random.unit() - 1.0))
 }
 
-/// splitmix64 (Steele, Lea & Flood 2014).
-struct SplitMix(u64);
+/// Numbers without a pattern from a seed, the same on every machine: splitmix64 (Steele, Lea & Flood 2014).
+#[derive(Clone, Debug)]
+pub struct SplitMix(pub u64);
 
+#[expect(
+    clippy::should_implement_trait,
+    reason = "the numbers have no end, so that an iterator's option would always be there"
+)]
 impl SplitMix {
-    fn next(&mut self) -> u64 {
+    /// 64 bits.
+    pub fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -45,7 +51,7 @@ impl SplitMix {
     }
 
     /// A number in [0, 1).
-    fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 }

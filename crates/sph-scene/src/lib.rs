@@ -107,7 +107,7 @@ pub use body::{Body, Cutout, Filling, Pressure};
 pub use body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 pub use course::{Course, Courses, Turning};
 pub use diagnostic::{Diagnostic, Origin};
-pub use disorder::{disturb, noise};
+pub use disorder::{SplitMix, disturb, noise};
 pub use drawing::DrawingError;
 pub use estimate::estimate;
 pub use facets::Facets;

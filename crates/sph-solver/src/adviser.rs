@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::flow::LISTS_NAME;
+use crate::clocks::LISTS_NAME;
 
 /// Share of the steps, or of the time, above which something is worth a word.
 const MOST: f64 = 0.5;

@@ -4,15 +4,11 @@ use std::sync::{Arc, Mutex};
 
 use sph_core::{AnyField, Field, Role, Scalar, SceneProblem, Store, fields};
 use sph_integrators::Integrator;
-use sph_multiphase::{
-    BoundState, Compressed, Diffused, ForceLimit, InterfaceLimit, Limiter, Reference, SoundLimit,
-    ViscousLimit,
-};
+use sph_multiphase::{BoundState, Compressed, Diffused, Reference};
 use sph_neighbours::{WallSet, World};
 use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
-use sph_stress::ElasticWaveLimit;
 
 use crate::choices::Choices;
 use crate::defaults;
@@ -27,6 +23,7 @@ use crate::implicit::{ImplicitViscosity, Solves};
 use crate::initial::InitialState;
 use crate::lattices;
 use crate::layers::Layers;
+use crate::limits::limiters_of;
 use crate::measured;
 use crate::outlets::Outlets;
 use crate::placed::place;
@@ -231,63 +228,6 @@ fn kinematic_viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Vec<f64> 
     phases
         .map(|(phase, law)| law.largest_viscosity() / phase.density)
         .collect()
-}
-
-fn limiters_of<const D: usize>(
-    choices: &Choices<D>,
-    laws: &Arc<[Box<dyn BoundState>]>,
-    kinematic_viscosities: &[f64],
-) -> Vec<Box<dyn Limiter<D>>> {
-    let c = choices.integrator.coefficients();
-    let mut limiters: Vec<Box<dyn Limiter<D>>> = vec![
-        Box::new(SoundLimit {
-            courant: c.courant,
-            laws: laws.clone(),
-        }),
-        Box::new(ForceLimit {
-            coefficient: c.force,
-        }),
-    ];
-    let eddies = choices.eddy_viscosity.is_some();
-    let kinematic = match eddies {
-        true => f64::INFINITY,
-        false => kinematic_viscosities.iter().copied().fold(0.0, f64::max),
-    };
-    if kinematic > 0.0 && choices.implicit_viscosity.is_none() {
-        limiters.push(Box::new(ViscousLimit {
-            coefficient: c.viscous / choices.viscous_operator.stiffness(),
-            largest: kinematic,
-            constant: !eddies
-                && choices
-                    .rheologies
-                    .iter()
-                    .all(|l| l.uniform_viscosity().is_some()),
-        }));
-    }
-    let stiffness = choices
-        .elastic_force
-        .as_ref()
-        .map_or(0.0, |f| f.stiffness());
-    let stiff = laws
-        .iter()
-        .zip(&choices.rheologies)
-        .filter_map(|(law, rheology)| {
-            let reference = law.reference();
-            let shear = rheology.elastic()?.shear_modulus() / reference.density;
-            Some((reference.sound_speed.powi(2) + stiffness * shear).sqrt())
-        });
-    if let Some(speed) = stiff.reduce(f64::max) {
-        limiters.push(Box::new(ElasticWaveLimit {
-            courant: c.courant,
-            speed,
-            stiffness,
-        }));
-    }
-    if laws.len() > 1 {
-        limiters.push(Box::new(InterfaceLimit { laws: laws.clone() }));
-    }
-    limiters.extend(choices.interfaces.iter().filter_map(|i| i.limiter(laws)));
-    limiters
 }
 
 /// What the integrator changes besides positions and velocities.

@@ -1,6 +1,6 @@
 //! A flow in motion: evaluation of all stages, kicks and drifts.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use rayon::prelude::*;
 use sph_core::{
@@ -10,21 +10,13 @@ use sph_multiphase::{BoundState, Limiter};
 use sph_neighbours::{Interaction, World, wall_forces};
 use sph_stress::{CoulombFriction, ElasticMotion, PoreFlow};
 
+use crate::clocks::{LISTS, MOTION, SEEPAGE_NAME, Timing};
 use crate::dilatation::Dilatation;
 use crate::implicit::ImplicitViscosity;
 use crate::kept::Kept;
 use crate::outlets::Outlets;
 use crate::snapshot::Snapshot;
 use crate::stages::{SharedWall, lock};
-
-/// Wall-clock time of one kind of work.
-#[derive(Clone, Debug)]
-pub struct Timing {
-    /// Stage or service.
-    pub name: String,
-    /// Time spent so far.
-    pub spent: Duration,
-}
 
 /// The assembled system of one scene.
 pub struct Flow<const D: usize> {
@@ -70,38 +62,7 @@ pub struct Flow<const D: usize> {
     pub(crate) outlets: Outlets<D>,
 }
 
-/// Place of the list refresh among the timings; the stages follow.
-const LISTS: usize = 0;
-/// Name of the time spent on neighbour lists.
-pub(crate) const LISTS_NAME: &str = "neighbour lists";
-/// Name of the time spent on water in pores.
-const SEEPAGE_NAME: &str = "seepage";
-/// Place of kicks and drifts among the timings.
-const MOTION: usize = 1;
-
 impl<const D: usize> Flow<D> {
-    pub(crate) fn reset_timings(&mut self) {
-        let services = [LISTS_NAME, "kick and drift"].map(String::from);
-        let seepage = self.seepage.iter().map(|_| SEEPAGE_NAME.into());
-        let solves = self.implicit.iter().map(|_| "implicit viscosity".into());
-        let names = services
-            .into_iter()
-            .chain(self.stages.iter().map(|s| s.name()))
-            .chain(seepage)
-            .chain(solves);
-        self.timings = names
-            .map(|name| Timing {
-                name,
-                spent: Duration::ZERO,
-            })
-            .collect();
-    }
-
-    /// Time spent per stage and service since the assembly.
-    pub fn timings(&self) -> &[Timing] {
-        &self.timings
-    }
-
     /// Smallest step limit with its name; the smallest of all plugins.
     ///
     /// # Errors

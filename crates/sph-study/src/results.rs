@@ -266,7 +266,7 @@ impl Results {
             let axis = study.axes.iter().find(|a| a.name == name);
             axis.zip(key).is_some_and(|(axis, key)| axis.touches(key))
         };
-        let variant = |name: &str| self.variant(name).cloned();
+        let variant = |name: &str| self.variant(name);
         let (axes, series) = (&self.axes, &self.series);
         Some(Scale::new(scaling, axes, refining, series, variant))
     }

@@ -113,17 +113,17 @@ pub struct Reign {
 
 impl Scale {
     /// From the series of a study.
-    pub(crate) fn new(
+    pub(crate) fn new<'a>(
         scaling: &Scaling,
         axes: &[String],
         refining: impl Fn(&str) -> bool,
         series: &[SeriesResult],
-        variant: impl Fn(&str) -> Option<VariantResult>,
+        variant: impl Fn(&str) -> Option<&'a VariantResult>,
     ) -> Self {
         let mut costs = Vec::new();
         let mut groups: BTreeMap<String, Vec<Competitor>> = BTreeMap::new();
         for one in series {
-            let all: Vec<VariantResult> = one.variants.iter().filter_map(|n| variant(n)).collect();
+            let all: Vec<&VariantResult> = one.variants.iter().filter_map(|n| variant(n)).collect();
             let mut points: Vec<[f64; 2]> = all
                 .iter()
                 .filter_map(|v| Some([v.particles as f64, v.cost(scaling.cost)?]))

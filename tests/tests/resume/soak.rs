@@ -9,29 +9,22 @@ use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime};
 
 use sph_io::Checkpoint;
+use sph_scene::SplitMix;
 use sph_tests::{Bench, Results, SOAK, files_with_extension};
 
 use crate::PROGRAM;
 
-/// Numbers without a pattern (splitmix64).
-struct Draws(u64);
+/// What happens when.
+struct Draws(SplitMix);
 
 impl Draws {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
     /// Less than `n`.
     fn below(&mut self, n: u64) -> u64 {
-        self.next() % n
+        self.0.next() % n
     }
 
     fn part_of(&mut self, whole: Duration) -> Duration {
-        whole.mul_f64(self.below(1 << 20) as f64 / (1 << 20) as f64)
+        whole.mul_f64(self.0.unit())
     }
 }
 
@@ -237,7 +230,7 @@ fn soak(set: &'static str, life: Duration, most: usize, at_least: Duration) -> T
         now.map_or(1, |t| t.as_nanos() as u64)
     });
     println!("SPH_SOAK_SEED={seed}");
-    let mut draws = Draws(seed);
+    let mut draws = Draws(SplitMix(seed));
     let bench = Bench::with(PROGRAM, SOAK);
     bench.done(&format!(
         "run scene.toml --quiet --out whole --threads 2 {set}"

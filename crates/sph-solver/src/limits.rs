@@ -1,0 +1,66 @@
+//! What bounds the time step of a scene.
+
+use std::sync::Arc;
+
+use sph_multiphase::{BoundState, ForceLimit, InterfaceLimit, Limiter, SoundLimit, ViscousLimit};
+use sph_stress::ElasticWaveLimit;
+
+use crate::choices::Choices;
+
+/// The bounds that the chosen plugins ask for: sound and forces always; viscosity where it is explicit, elastic waves, interfaces.
+pub(crate) fn limiters_of<const D: usize>(
+    choices: &Choices<D>,
+    laws: &Arc<[Box<dyn BoundState>]>,
+    kinematic_viscosities: &[f64],
+) -> Vec<Box<dyn Limiter<D>>> {
+    let c = choices.integrator.coefficients();
+    let mut limiters: Vec<Box<dyn Limiter<D>>> = vec![
+        Box::new(SoundLimit {
+            courant: c.courant,
+            laws: laws.clone(),
+        }),
+        Box::new(ForceLimit {
+            coefficient: c.force,
+        }),
+    ];
+    let eddies = choices.eddy_viscosity.is_some();
+    let kinematic = match eddies {
+        true => f64::INFINITY,
+        false => kinematic_viscosities.iter().copied().fold(0.0, f64::max),
+    };
+    if kinematic > 0.0 && choices.implicit_viscosity.is_none() {
+        limiters.push(Box::new(ViscousLimit {
+            coefficient: c.viscous / choices.viscous_operator.stiffness(),
+            largest: kinematic,
+            constant: !eddies
+                && choices
+                    .rheologies
+                    .iter()
+                    .all(|l| l.uniform_viscosity().is_some()),
+        }));
+    }
+    let stiffness = choices
+        .elastic_force
+        .as_ref()
+        .map_or(0.0, |f| f.stiffness());
+    let stiff = laws
+        .iter()
+        .zip(&choices.rheologies)
+        .filter_map(|(law, rheology)| {
+            let reference = law.reference();
+            let shear = rheology.elastic()?.shear_modulus() / reference.density;
+            Some((reference.sound_speed.powi(2) + stiffness * shear).sqrt())
+        });
+    if let Some(speed) = stiff.reduce(f64::max) {
+        limiters.push(Box::new(ElasticWaveLimit {
+            courant: c.courant,
+            speed,
+            stiffness,
+        }));
+    }
+    if laws.len() > 1 {
+        limiters.push(Box::new(InterfaceLimit { laws: laws.clone() }));
+    }
+    limiters.extend(choices.interfaces.iter().filter_map(|i| i.limiter(laws)));
+    limiters
+}
