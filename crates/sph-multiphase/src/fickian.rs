@@ -13,8 +13,8 @@ use crate::{Shifting, ShiftingEntry, Stages};
 /// Particles move, besides their velocity, down the gradient of their concentration,
 /// s_a = −A h U 1/γ_a [Σ_b θ_b V_b (1 + R (w_ab/w(δr))ⁿ) ∇w_ab − Σ_s ∇γ_as], |s| ≤ C U.
 ///
-/// Symbols: s shift velocity (m/s); h smoothing length (m); U largest speed against the mean
-/// velocity (m/s), so that s vanishes at rest and in a uniform wind; A, R, n, C numbers. The first
+/// Symbols: s shift velocity (m/s); h smoothing length (m); U largest speed of a particle's phase against
+/// the mean velocity (m/s), so that s vanishes at rest and in a uniform wind, and a gust of air does not stir the water; A, R, n, C numbers. The first
 /// term evens the particles out; the second, among free neighbours, keeps pairs from clumping. A h U is kept below h²/4Δt,
 /// beyond which an explicit diffusion would overshoot.
 ///
@@ -30,6 +30,8 @@ use crate::{Shifting, ShiftingEntry, Stages};
 /// nearer than δr/2. (s·∇)u does not conserve momentum to rounding (1e-4 of Σm|u| in the vortices, 1.2e-3 in 1000 steps of a noisy box; `density` does).
 /// With a free surface and gravity a transported density lets the fluid swell: the energy of a
 /// collapsing column rose by 6 % where it fell by 3 % without shifting and rose by 1 % with `nothing`.
+/// Two phases that churn in a box under gravity do the same: at a density ratio of 10 the energy rose by 69 % with a transported
+/// density and by less than 2 %, up to a ratio of 1000, with `nothing`. A drop without gravity is the quieter for the transport.
 ///
 /// Source: Lind et al. 2012 (form, R, n); Sun et al. 2017 (scale U, limit,
 /// surfaces); Sun et al. 2019 (transport). A is ours: 50² Taylor–Green vortices that start from a
@@ -154,15 +156,17 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity {
             surface,
             ..
         } = self.0;
-        let fastest = largest_speed(world)?;
+        let fastest = largest_speeds(world)?;
         let mut shift = world.free.take(fields::SHIFT_VELOCITY)?;
-        if fastest > 0.0 {
+        let phase = world.free.get(fields::PHASE).ok();
+        if fastest.iter().any(|u| *u > 0.0) {
             let h = world.kernel.smoothing_length();
-            let diffusivity = (strength * h * fastest).min(STABLE * h * h / world.dt);
             let all = evenness(world, tensile, exponent)?;
             let normals = held_normals(world, &all, surface)?;
             let results = shift.par_iter_mut().zip(&all).enumerate();
             results.with_min_len(1024).for_each(|(i, (s, even))| {
+                let fastest = fastest[phase.map_or(0, |p| p[i] as usize)];
+                let diffusivity = (strength * h * fastest).min(STABLE * h * h / world.dt);
                 *s = along(even, -diffusivity * even.push, limit * fastest);
                 if let Some(normals) = &normals {
                     *s = normals[i].held(*s);
@@ -199,11 +203,12 @@ fn keep_off<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vect<
     }
 }
 
-/// The largest speed against the mean velocity, m/s.
-fn largest_speed<const D: usize>(world: &World<D>) -> Result<f64, StepError> {
+/// The largest speed of every phase against the mean velocity of all, m/s.
+fn largest_speeds<const D: usize>(world: &World<D>) -> Result<Vec<f64>, StepError> {
     const BATCH: usize = 4096;
     let velocity = world.free.get(fields::VELOCITY)?;
     let mass = world.free.get(fields::MASS)?;
+    let phase = world.free.get(fields::PHASE).ok();
     // Batch by batch in order: the same bits whatever the number of threads.
     let batches = velocity.par_chunks(BATCH).zip(mass.par_chunks(BATCH));
     let sums: Vec<(Vect<D>, f64)> = batches
@@ -214,14 +219,19 @@ fn largest_speed<const D: usize>(world: &World<D>) -> Result<f64, StepError> {
         .collect();
     let momentum: Vect<D> = sums.iter().map(|s| s.0).sum();
     let mean = momentum / sums.iter().map(|s| s.1).sum::<f64>();
-    let squares = velocity.par_iter().with_min_len(BATCH);
-    let largest = squares.map(|u| (u - mean).norm_squared());
+    let phases = phase.map_or(1, |p| p.iter().max().map_or(1, |m| *m as usize + 1));
     let scale = mean.norm_squared();
-    let largest = largest.reduce(|| 0.0, f64::max);
-    // A uniform wind differs from its own mean by rounding.
-    Ok(if largest > 1e-24 * scale {
-        largest.sqrt()
-    } else {
-        0.0
-    })
+    let largest = |k: usize| {
+        let all = velocity.par_iter().enumerate().with_min_len(BATCH);
+        let of_phase = all.filter(|(i, _)| phase.is_none_or(|p| p[*i] as usize == k));
+        let squares = of_phase.map(|(_, u)| (u - mean).norm_squared());
+        let largest = squares.reduce(|| 0.0, f64::max);
+        // A uniform wind differs from its own mean by rounding.
+        if largest > 1e-24 * scale {
+            largest.sqrt()
+        } else {
+            0.0
+        }
+    };
+    Ok((0..phases).map(largest).collect())
 }

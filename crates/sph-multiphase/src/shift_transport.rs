@@ -6,7 +6,8 @@ use sph_neighbours::{BoundTerm, Contact, Elements, Pair, PairTerm, Rates, There,
 /// du/dt += (s·∇)u and dρ/dt += s·∇ρ with the shift velocity s, the gradients from differences:
 /// s·∇f = 1/γ_a [Σ_b θ_b V_b (f_b − f_a) s_a·∇w_ab − Σ_s (f_s − f_a) s_a·∇γ_as].
 ///
-/// ρ from neighbours of the same phase, u also from walls that rub. Where the density is a sum
+/// From neighbours of the same phase, u also from walls that rub: a heavy particle that took up the velocity of light ones
+/// would take momentum from nowhere. Where the density is a sum
 /// over positions (ρ = (K + mΣθw)/γ), the move changes the sum by
 /// 1/γ_a [m_a Σ_b θ_b (s_a − s_b)·∇w_ab − ρ_a s_a·Σ_s ∇γ_as], which is taken back.
 ///
@@ -104,8 +105,8 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     fn free(&self, own: &Own<D>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Self::Sum) {
         let along = own.shift.dot(&pair.separation);
         let weight = there.volume * along * pair.factor;
-        sum.0 += (there.velocity - own.velocity) * weight;
         if self.phase.is_none_or(|p| p[j] == own.phase) {
+            sum.0 += (there.velocity - own.velocity) * weight;
             sum.1 += (there.density - own.density) * weight;
         }
         let nearer = along - self.shift[j].dot(&pair.separation);

@@ -165,16 +165,46 @@ fn a_lone_row_and_a_lone_particle_stay() {
     assert!(shifts.iter().all(|s| s.norm() < 1e-12), "{shifts:?}");
 }
 
+/// With the phases on two sides of a flat interface.
+fn lower_half_is_another_phase(layers: &mut World<2>) {
+    layers.free.add(fields::PHASE, Role::State);
+    let phases = layers.free.get(fields::POSITION).unwrap().iter();
+    let phases = phases.map(|x| u32::from(x[1] < 0.5)).collect();
+    *layers.free.get_mut(fields::PHASE).unwrap() = phases;
+}
+
+/// Air blows over water at rest: the water is not shifted by the speed of the air, and does not take it up.
+#[test]
+fn a_phase_at_rest_is_not_stirred_by_another() {
+    let mut layers = world(disorder::<2>(20, 0.2, 3), periodic(), 0.05, 2.0);
+    lower_half_is_another_phase(&mut layers);
+    // Without a mean: the mean is what a speed is measured against.
+    let mut sign = 1.0;
+    set_velocity(&mut layers, |x| {
+        sign = if x[1] < 0.5 { sign } else { -sign };
+        Vect::<2>::new(if x[1] < 0.5 { 0.0 } else { sign }, 0.0)
+    });
+    let shifting = Fickian::default();
+    let shifts = shift(&mut layers, shifting);
+    let term = Shifting::<2>::term(&shifting, true).expect("a term");
+    let (acceleration, _) = rates(&layers, &vec![term]);
+    let positions = layers.free.get(fields::POSITION).unwrap();
+    let of = |below: bool, all: &[Vect<2>]| {
+        let some = positions.iter().zip(all);
+        let some = some.filter(|(x, _)| (x[1] < 0.5) == below);
+        some.map(|(_, v)| v.norm()).fold(0.0, f64::max)
+    };
+    assert!(of(false, &shifts) > 0.01 && of(false, &acceleration) > 0.1);
+    assert!(of(true, &shifts) < 1e-12, "{:e}", of(true, &shifts));
+    assert_eq!(of(true, &acceleration), 0.0);
+}
+
 #[test]
 fn across_an_interface_nothing_is_shifted() {
     let n = 20;
     let mut layers = world(disorder::<2>(n, 0.2, 3), periodic(), 0.05, 2.0);
     stir(&mut layers);
-    layers.free.add(fields::PHASE, Role::State);
-    // The phases stand in columns of the lattice: a flat interface.
-    let phases = layers.free.get(fields::POSITION).unwrap().iter();
-    let phases = phases.map(|x| u32::from(x[1] < 0.5)).collect();
-    *layers.free.get_mut(fields::PHASE).unwrap() = phases;
+    lower_half_is_another_phase(&mut layers);
     let shifts = shift(&mut layers, Fickian::default());
     let positions = layers.free.get(fields::POSITION).unwrap();
     let near = || {
