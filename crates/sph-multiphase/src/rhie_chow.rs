@@ -8,9 +8,9 @@ use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There,
 use crate::{Laws, Smoother, SmootherEntry, Stages};
 use sph_neighbours::{Around, Values, walk};
 
-/// dρ_a/dt += Λ ρ_a Δt [L_a{1/ρ, p} − D⁺_a{G⁻{p}/ρ}], over free neighbours, with
+/// dρ_a/dt += Λ ρ_a Δt [L_a{1/ρ, p} − D⁺_a{G⁻{1/ρ, p}}], over free neighbours, with
 /// L_a = 2/γ_a Σ_b V_b 2/(ρ_a + ρ_b) (p_a − p_b) F_ab,
-/// G⁻_a{p} = −V_a/γ_a Σ_b (p_a − p_b) ∇w_ab and
+/// G⁻_a{1/ρ, p} = −V_a/γ_a Σ_b 2/(ρ_a + ρ_b) (p_a − p_b) ∇w_ab and
 /// D⁺_a{A} = 1/(γ_a V_a) Σ_b (A_a V_a² + A_b V_b²)·∇w_ab.
 ///
 /// Symbols: Λ number; p pressure (Pa); V volume (m^d); F = w'/r. The difference of a narrow and a
@@ -22,7 +22,8 @@ use sph_neighbours::{Around, Values, walk};
 /// bottom pressure after 4 s.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 2.96–2.98, corrected: Δt D{G{p}/ρ} is subtracted; volume form of
-/// Ghaïtanellis et al. 2018, Eq. 24–26.
+/// Ghaïtanellis et al. 2018, Eq. 24–26. With the mean density of a pair in G⁻ as in L, ours: printed is G⁻{p}/ρ_a, which next to a
+/// phase ρ_b/ρ_a times heavier is as many times too steep, and fills or empties the light phase there.
 ///
 /// ```toml
 /// [smoother.rhie-chow]
@@ -66,7 +67,7 @@ register!(
 pub const PRESSURE_SLOPE: Field<Vector> = Field::new(
     "pressure_slope",
     "m/s²",
-    "gradient of the pressure, from differences between free neighbours, over the density",
+    "gradient of the pressure over the density, from differences between free neighbours",
 );
 
 /// [`PRESSURE_SLOPE`].
@@ -80,8 +81,8 @@ impl Declares for PressureSlope {
         Access::none()
             .both(fields::POSITION)
             .both(fields::PRESSURE)
+            .both(fields::DENSITY)
             .here(fields::VOLUME)
-            .here(fields::DENSITY)
             .writes(PRESSURE_SLOPE)
     }
 }
@@ -95,10 +96,11 @@ impl<const D: usize> Stage<World<D>> for PressureSlope {
             let (row, i) = (&around.rows.free, around.rows.particle);
             let mut sum = Vect::<D>::zeros();
             for (k, &j) in row.index.iter().enumerate() {
-                let rise = pressure[j as usize] - pressure[i];
+                let j = j as usize;
+                let rise = (pressure[j] - pressure[i]) / (density[i] + density[j]);
                 sum += row.separation[k] * (rise * row.factor[k]);
             }
-            sum * (volume[i] / density[i] * around.rows.inverse_renormalisation)
+            sum * (2.0 * volume[i] * around.rows.inverse_renormalisation)
         })?;
         Ok(world.free.put(PRESSURE_SLOPE, slopes)?)
     }
