@@ -1,7 +1,7 @@
-//! Scalars that the motion compresses: d ln(value)/dt = exponent · D{u}.
+//! Scalars that the motion compresses: d ln(value)/dt = exponent · D{u}, down to a particle alone.
 
 use rayon::prelude::*;
-use sph_core::{StepError, Vect};
+use sph_core::{StepError, Vect, fields};
 use sph_multiphase::Compressed;
 use sph_neighbours::{Interaction, There, World, interactions};
 
@@ -27,7 +27,11 @@ impl<const D: usize> Dilatation<D> {
         }
     }
 
-    /// value ← value · exp(exponent · D{u} · dt) at the present positions and velocities.
+    /// value ← value · exp(exponent · D{u} · dt) at the present positions and velocities, the volume at most 1/w(0).
+    ///
+    /// That is what a particle alone has where densities are sums, ρ = m w(0). Spray flies apart within the supports of its
+    /// particles, and would thin out to 2 % of the fluid; with 50 times their volume such particles throw the fluid about when
+    /// they fall back into it.
     pub fn apply(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         self.unused.resize(world.free.len(), Vect::zeros());
         self.divergence.resize(world.free.len(), 0.0);
@@ -38,13 +42,23 @@ impl<const D: usize> Dilatation<D> {
             &mut self.unused,
             Some(&mut self.divergence),
         )?;
-        let factor = self.compressed.exponent * dt;
+        let exponent = self.compressed.exponent;
+        let factor = exponent * dt;
+        let own_share = world.kernel.value_at_zero();
         let mut value = world.free.take(self.compressed.value)?;
+        let mass = world.free.get(fields::MASS)?;
+        let changes = self.divergence.par_iter().zip(mass);
         value
             .par_iter_mut()
-            .zip(&self.divergence)
+            .zip(changes)
             .with_min_len(2048)
-            .for_each(|(v, d)| *v *= (factor * d).exp());
+            .for_each(|(v, (divergence, mass))| {
+                *v *= (factor * divergence).exp();
+                *v = match exponent < 0.0 {
+                    true => v.max(mass * own_share),
+                    false => v.min(1.0 / own_share),
+                };
+            });
         Ok(world.free.put(self.compressed.value, value)?)
     }
 }
