@@ -131,11 +131,18 @@ pub trait Shifting<const D: usize>: Send {
     /// The stages; the last one writes [`SHIFT_VELOCITY`](sph_core::fields::SHIFT_VELOCITY).
     fn stages(&self) -> Stages<D>;
     /// What particles take up where they are shifted to, as rates of velocity and density.
-    ///
-    /// `summed` says that the density is a sum over positions, which the shifting changes.
-    fn term(&self, _summed: bool) -> Option<Box<dyn Interaction<D>>> {
+    fn term(&self, _flow: ShiftedFlow) -> Option<Box<dyn Interaction<D>>> {
         None
     }
+}
+
+/// What shifting may ask of a scene.
+#[derive(Clone, Copy, Debug)]
+pub struct ShiftedFlow {
+    /// Whether the density is a sum over positions, which the shifting changes.
+    pub summed: bool,
+    /// Whether there is gravity.
+    pub gravity: bool,
 }
 
 contract!(

@@ -53,8 +53,8 @@ pub use colagrossi_landrini::ColagrossiLandrini;
 pub use compressible_grains::CompressibleGrains;
 pub use contract::{
     Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, InterfaceModel, Laws,
-    Shifting, ShiftingEntry, Smoother, SmootherEntry, Stages, Viscosity, ViscousOperator,
-    ViscousOperatorEntry,
+    ShiftedFlow, Shifting, ShiftingEntry, Smoother, SmootherEntry, Stages, Viscosity,
+    ViscousOperator, ViscousOperatorEntry,
 };
 pub use coupling::{BoundCoupling, Coupling, CouplingRow};
 pub use delta_multiphase::{Balance, DeltaMultiphase};

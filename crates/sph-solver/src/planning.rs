@@ -4,7 +4,7 @@ use std::ops::Not;
 use std::sync::Arc;
 
 use sph_core::{Access, AnyField, Declares, Stage, fields, plan};
-use sph_multiphase::{BoundState, Coupling, PressureStage, Viscosity};
+use sph_multiphase::{BoundState, Coupling, PressureStage, ShiftedFlow, Viscosity};
 use sph_neighbours::{Interaction, World, fuse_all};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
@@ -138,8 +138,11 @@ pub fn plan_stages<const D: usize>(
         kinds.push((term.name(), "interface"));
         terms.push(term);
     }
-    let summed = choices.formulation.compressed().is_none();
-    let transport = choices.shifting.iter().find_map(|s| s.term(summed));
+    let shifted = ShiftedFlow {
+        summed: choices.formulation.compressed().is_none(),
+        gravity: scene.gravity::<D>().norm() > 0.0,
+    };
+    let transport = choices.shifting.iter().find_map(|s| s.term(shifted));
     let density_changes = choices.smoother.is_some() || transport.is_some();
     kinds.extend(transport.iter().map(|t| (t.name(), "shifting")));
     kinds.extend(choices.terms.iter().map(|t| (t.name(), "term")));

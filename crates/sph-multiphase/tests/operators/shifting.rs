@@ -1,11 +1,17 @@
 //! Shifting: nothing to do on a lattice, at rest and across surfaces; evens out the rest.
 
 use sph_core::{Role, Vect, fields};
-use sph_multiphase::{Fickian, Formulation, HuAdams, Shifting, Transport};
+use sph_multiphase::{Fickian, Formulation, HuAdams, ShiftedFlow, Shifting, Transport};
 use sph_neighbours::{Domain, World};
 
 use crate::evaluate::rates;
 use crate::world::{Random, disorder, lattice, periodic, set, set_velocity, world};
+
+/// Densities are sums, and nothing falls.
+const WEIGHTLESS: ShiftedFlow = ShiftedFlow {
+    summed: true,
+    gravity: false,
+};
 
 fn shift<const D: usize>(world: &mut World<D>, shifting: Fickian) -> Vec<Vect<D>> {
     world.free.add(fields::SHIFT_VELOCITY, Role::State);
@@ -186,7 +192,7 @@ fn a_phase_at_rest_is_not_stirred_by_another() {
     });
     let shifting = Fickian::default();
     let shifts = shift(&mut layers, shifting);
-    let term = Shifting::<2>::term(&shifting, true).expect("a term");
+    let term = Shifting::<2>::term(&shifting, WEIGHTLESS).expect("a term");
     let (acceleration, _) = rates(&layers, &vec![term]);
     let positions = layers.free.get(fields::POSITION).unwrap();
     let of = |below: bool, all: &[Vect<2>]| {
@@ -227,7 +233,7 @@ fn a_summed_density_does_not_notice_the_shift() {
         Formulation::<2>::rebase(&formulation, &mut cloud).unwrap();
         let shifting = Fickian::default();
         let shifts = shift(&mut cloud, shifting);
-        let term = Shifting::<2>::term(&shifting, true).expect("a term");
+        let term = Shifting::<2>::term(&shifting, WEIGHTLESS).expect("a term");
         let rate = rates(&cloud, &vec![term]).1;
         let constant = cloud.free.get_mut(fields::DENSITY_CONSTANT).unwrap();
         constant
@@ -264,7 +270,11 @@ fn what_a_particle_carries_follows_the_fluid() {
     let shifting = Fickian::default();
     let shifts = shift(&mut cloud, shifting);
     // Integrated densities: s·∇ρ alone.
-    let term = Shifting::<2>::term(&shifting, false).expect("a term");
+    let integrated = ShiftedFlow {
+        summed: false,
+        ..WEIGHTLESS
+    };
+    let term = Shifting::<2>::term(&shifting, integrated).expect("a term");
     let (acceleration, rate) = rates(&cloud, &vec![term]);
     let positions = cloud.free.get(fields::POSITION).unwrap();
     let inner =
@@ -281,9 +291,17 @@ fn what_a_particle_carries_follows_the_fluid() {
     }
     // Plain gradients of linear fields in 10 % disorder.
     assert!(size > 0.0 && error < 0.01 * size, "{error} of {size}");
-    let nothing = Fickian {
-        transport: Transport::Nothing,
-        ..shifting
+    let asked = |transport, flow| {
+        let fickian = Fickian {
+            transport,
+            ..shifting
+        };
+        Shifting::<2>::term(&fickian, flow).is_some()
     };
-    assert!(Shifting::<2>::term(&nothing, true).is_none());
+    let heavy = ShiftedFlow {
+        gravity: true,
+        ..WEIGHTLESS
+    };
+    assert!(!asked(Some(Transport::Nothing), WEIGHTLESS) && asked(None, WEIGHTLESS));
+    assert!(asked(Some(Transport::All), heavy) && !asked(None, heavy));
 }
