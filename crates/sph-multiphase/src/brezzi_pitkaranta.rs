@@ -5,7 +5,8 @@ use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
-use crate::{Laws, Smoother, SmootherEntry};
+use crate::diffusion_limit::{DiffusionLimit, Diffusivity};
+use crate::{Laws, Limiter, Smoother, SmootherEntry};
 
 /// dρ_a/dt += Λ 2ρ_aΔt/γ_a Σ_b V_b [2/(ρ_a+ρ_b) (p_a − p_b) − g·r_ab] F_ab, free neighbours only.
 ///
@@ -39,6 +40,9 @@ impl Default for BrezziPitkaranta {
 impl<const D: usize> Smoother<D> for BrezziPitkaranta {
     fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
         Box::new(Term(*self))
+    }
+    fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
+        DiffusionLimit::of(Diffusivity::Step(self.strength), laws)
     }
 }
 

@@ -100,6 +100,10 @@ pub trait Smoother<const D: usize>: Send {
     /// The term; it adds dρ/dt to [`Rates::scalar`](sph_neighbours::Rates). It may read the phase
     /// column where there are several laws.
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>>;
+    /// Up to which step it evens out instead of overshooting.
+    fn limiter(&self, _laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
+        None
+    }
 }
 
 contract!(

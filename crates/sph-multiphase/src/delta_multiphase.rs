@@ -5,8 +5,9 @@ use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
 use sph_neighbours::{BoundTerm, Contact, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
+use crate::diffusion_limit::{DiffusionLimit, Diffusivity};
 use crate::phases::PerPhase;
-use crate::{Laws, Smoother, SmootherEntry};
+use crate::{Laws, Limiter, Smoother, SmootherEntry};
 
 /// dρ_a/dt += 2 δ h c_a ρ₀_a/γ_a [Σ_b V_b (β_a − β_b) F_ab − Σ_s (β_a − β_s)/d_s |∇γ_as|], β = ρ/ρ₀,
 /// over neighbours of all phases and over walls.
@@ -77,6 +78,9 @@ impl<const D: usize> Smoother<D> for DeltaMultiphase {
             sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
             laws: laws.clone(),
         }))
+    }
+    fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
+        DiffusionLimit::of(Diffusivity::Sound(self.strength), laws)
     }
 }
 

@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
+use crate::diffusion_limit::{DiffusionLimit, Diffusivity};
 use crate::phases::PerPhase;
-use crate::{Laws, Smoother, SmootherEntry, Stages};
+use crate::{Laws, Limiter, Smoother, SmootherEntry, Stages};
 use sph_neighbours::{Around, Values, walk};
 
 /// dρ_a/dt += 2 δ h c_a/γ_a Σ_b V_b [ρ_a − ρ_b − ½(∇ρ_a + ∇ρ_b)·r_ab] F_ab over free neighbours
@@ -72,6 +73,9 @@ impl<const D: usize> Smoother<D> for DeltaSph {
             smoother: *self,
             sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
         }))
+    }
+    fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
+        DiffusionLimit::of(Diffusivity::Sound(self.strength), laws)
     }
 }
 

@@ -16,6 +16,7 @@ mod contract;
 mod coupling;
 mod delta_multiphase;
 mod delta_sph;
+mod diffusion_limit;
 mod divergence;
 mod eos;
 mod espanol_revenga;

@@ -5,7 +5,8 @@ use serde::Deserialize;
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
-use crate::{Laws, Smoother, SmootherEntry, Stages};
+use crate::diffusion_limit::{DiffusionLimit, Diffusivity};
+use crate::{Laws, Limiter, Smoother, SmootherEntry, Stages};
 use sph_neighbours::{Around, Values, walk};
 
 /// dρ_a/dt += Λ ρ_a Δt [L_a{1/ρ, p} − D⁺_a{G⁻{1/ρ, p}}], over free neighbours, with
@@ -52,6 +53,9 @@ impl<const D: usize> Smoother<D> for RhieChow {
     }
     fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
         Box::new(Term(*self))
+    }
+    fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
+        DiffusionLimit::of(Diffusivity::Step(self.strength), laws)
     }
 }
 

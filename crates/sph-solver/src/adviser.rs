@@ -72,6 +72,9 @@ fn limiter(s: &Costs) -> Option<String> {
             "`numerics.reference_pressure = \"equal\"` makes all phases equally compressible and \
              takes this bound away; {then}"
         ),
+        "smoother" => {
+            format!("a smaller `strength` of the smoother lengthens the step; {then}")
+        }
         _ => format!("{then}; a coarser `numerics.spacing` lengthens it"),
     };
     let share = (100.0 * share).round();

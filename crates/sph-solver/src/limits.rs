@@ -61,6 +61,7 @@ pub(crate) fn limiters_of<const D: usize>(
     if laws.len() > 1 {
         limiters.push(Box::new(InterfaceLimit { laws: laws.clone() }));
     }
+    limiters.extend(choices.smoother.iter().filter_map(|s| s.limiter(laws)));
     limiters.extend(choices.interfaces.iter().filter_map(|i| i.limiter(laws)));
     limiters
 }
