@@ -131,12 +131,21 @@ impl<const D: usize> Store<D> {
         Ok(())
     }
 
-    /// Sorts every state column: entry `k` becomes the old entry `order[k]`.
+    /// Sorts every state column: entry `k` becomes the old entry `order[k]`. Derived ones are left as they are, to be computed anew.
     pub fn permute(&mut self, order: &[u32]) {
+        self.permute_role(Role::State, order);
+    }
+
+    /// Sorts the derived columns as [`Store::permute`] has sorted the state, for whoever goes on with them.
+    pub fn permute_derived(&mut self, order: &[u32]) {
+        self.permute_role(Role::Derived, order);
+    }
+
+    fn permute_role(&mut self, role: Role, order: &[u32]) {
         fn gather<T: Copy>(items: &mut Vec<T>, order: &[u32]) {
             *items = order.iter().map(|&o| items[o as usize]).collect();
         }
-        for entry in self.entries.iter_mut().filter(|e| e.role == Role::State) {
+        for entry in self.entries.iter_mut().filter(|e| e.role == role) {
             match &mut entry.column {
                 Column::Scalar(items) => gather(items, order),
                 Column::Vector(items) => gather(items, order),

@@ -80,6 +80,7 @@ impl<const D: usize> System for Flow<D> {
     fn evaluate_forces(&mut self) -> Result<(), StepError> {
         let state = [fields::DENSITY, fields::VOLUME, fields::PRESSURE].map(|f| f.any());
         let gives_state = |a: &Access| a.writes.iter().any(|f| state.contains(f));
+        self.refresh_lists_and_derived()?;
         self.run_stages(|stage| !gives_state(&stage.access()))
     }
 
@@ -286,8 +287,7 @@ impl<const D: usize> Flow<D> {
     }
 
     fn compress(&mut self, dilatation: &mut Dilatation<D>, dt: f64) -> Result<(), StepError> {
-        crate::guard::positions(&self.world)?;
-        self.world.refresh_lists()?;
+        self.refresh_lists_and_derived()?;
         if let Some(walls) = &self.walls {
             lock(walls).geometry(&mut self.world)?;
         }

@@ -54,6 +54,7 @@ mod run;
 mod seepage;
 mod series;
 mod snapshot;
+mod sorting;
 mod sound;
 mod stages;
 mod summary;

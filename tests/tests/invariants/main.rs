@@ -7,6 +7,7 @@ use sph_scene::{Override, load, parse};
 use sph_solver::{Assembled, assemble};
 
 mod conservation;
+mod lists;
 mod scales;
 mod symmetry;
 mod walls;
