@@ -46,7 +46,10 @@ fn a_study_tells_the_cost_of_a_solve_against_size() {
             direct,
             "{solves}"
         );
-        assert!(solves["count"].as_u64() > Some(3) && solves["seconds"].as_f64() > Some(0.0));
+        // Outputs do not cut the steps, which would make them less stiff than the study says.
+        let solved = solves["count"].as_u64();
+        assert!((Some(1)..=Some(6)).contains(&solved), "{solves}");
+        assert!(solves["seconds"].as_f64() > Some(0.0));
         // At least the matrix: 12 bytes for each of some 25 neighbours.
         let bytes = solves["bytes"].as_f64().expect("bytes");
         assert!(bytes > 200.0 * variant["particles"].as_f64().expect("particles"));
