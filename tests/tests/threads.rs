@@ -43,6 +43,36 @@ fn an_implicit_viscosity_gives_the_same_bits_with_every_solver() {
 }
 
 #[test]
+fn blocks_outer_iterations_and_other_schemes_give_the_same_bits() {
+    let blocks = "[viscous-operator.monaghan-gingold]";
+    let mud =
+        "--set phase.water.rheology={carreau={rest_viscosity=50,relaxation_time=1,exponent=0.5}}";
+    let water = "--set phase.water.rheology.newtonian.viscosity=50";
+    let half = "[implicit-viscosity.crank-nicolson]\n[integrator.leap-frog]";
+    for (tables, set) in [
+        (
+            format!("{blocks}\n[implicit-viscosity.backward-euler]"),
+            mud,
+        ),
+        (format!("{blocks}\n{half}"), water),
+        (
+            "[implicit-viscosity.backward-euler]\n[linear-solver.bicgstab]".into(),
+            water,
+        ),
+    ] {
+        same_for_all_threads(&format!("{DAM_BREAK}\n{tables}\n"), set);
+    }
+}
+
+#[test]
+fn stresses_of_the_end_of_the_step_give_the_same_bits() {
+    let asked = SOIL.replace(", \"elastic_displacement\", \"elastic_turn\"", "");
+    let set = "--set run.end=0.06 --set elastic-force={divergence={implicit=true}} \
+               --set implicit-viscosity={backward-euler={}}";
+    same_for_all_threads(&asked, set);
+}
+
+#[test]
 fn a_soil_that_remembers_displacements_gives_the_same_bits() {
     same_for_all_threads(SOIL, "--set run.end=0.06");
 }

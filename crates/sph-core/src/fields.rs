@@ -20,13 +20,13 @@ pub const PRESSURE: Field<Scalar> =
     Field::new("pressure", "Pa", "pressure of the equation of state");
 /// Dynamic viscosity where it differs between particles.
 pub const VISCOSITY: Field<Scalar> = Field::new("viscosity", "Pa s", "dynamic viscosity");
-/// Gradient of the velocity, ∂u_i/∂x_j.
+/// Gradient of the velocity, ∂u_i/∂x_j; zero in phases where nobody reads it.
 pub const VELOCITY_GRADIENT: Field<Tensor> = Field::new(
     "velocity_gradient",
     "1/s",
     "gradient of the velocity, ∂u_i/∂x_j",
 );
-/// Magnitude γ̇ = √(2 D:D) of the deviatoric strain rate D.
+/// Magnitude γ̇ = √(2 D:D) of the deviatoric strain rate D; zero in phases where nobody reads it.
 pub const STRAIN_RATE: Field<Scalar> = Field::new(
     "strain_rate",
     "1/s",
@@ -58,6 +58,12 @@ pub const CARRIED_STRESS: Field<SymmetricTensor> = Field::new(
     "carried_stress",
     "Pa",
     "deviatoric elastic stress that acts (xx, yy, zz, xy, yz, xz)",
+);
+/// Shear modulus of what acts, for the strain of the step to come.
+pub const ELASTIC_STIFFNESS: Field<Scalar> = Field::new(
+    "elastic_stiffness",
+    "Pa",
+    "shear modulus times the share that acts: of the step to come, which is solved for with the viscosity",
 );
 /// Way of an elastic material since it was last liquid.
 pub const ELASTIC_DISPLACEMENT: Field<Vector> = Field::new(

@@ -34,43 +34,45 @@ struct Buffers<E, const D: usize> {
 /// The matrix with −c_ij beside and own_i + Σ_j c_ij on the diagonal, and the sources.
 ///
 /// `row` gets a neighbourhood (without packed states) and writes one coupling c_ij for each of its free
-/// neighbours; those that are zero are left out. With `keep_skin` the pattern has all candidates of the lists, with zeros, also beyond the
-/// support, and stays the same as long as the lists do.
+/// neighbours; those that are zero are left out.
 ///
 /// # Errors
 /// If the world has no positions.
 pub fn assemble<const D: usize, E: Entry<D>>(
     world: &World<D>,
-    keep_skin: bool,
     row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<E>) -> Row<E, D> + Sync,
 ) -> Result<(Pattern, Values<E>, Vec<Vect<D>>), StepError> {
-    let mut surroundings = Surroundings::new(world)?;
-    if keep_skin {
-        surroundings = surroundings.with_skin();
-    }
+    assemble_some(world, |_| None, row)
+}
+
+/// The same with some rows that are `known` without their neighbours, to which they are not coupled.
+///
+/// # Errors
+/// If the world has no positions.
+pub fn assemble_some<const D: usize, E: Entry<D>>(
+    world: &World<D>,
+    known: impl Fn(usize) -> Option<Row<E, D>> + Sync,
+    row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<E>) -> Row<E, D> + Sync,
+) -> Result<(Pattern, Values<E>, Vec<Vect<D>>), StepError> {
+    let surroundings = Surroundings::new(world)?;
     let particles = surroundings.particles();
     let one = |buffers: &mut Buffers<E, D>, part: &mut Part<E, D>, i: usize| {
-        let neighbourhood = surroundings.of(i, &mut buffers.rows);
         buffers.couplings.clear();
-        let row = row(&neighbourhood, &mut buffers.couplings);
+        let (row, within) = match known(i) {
+            Some(row) => (row, &[][..]),
+            None => {
+                let neighbourhood = surroundings.of(i, &mut buffers.rows);
+                let row = row(&neighbourhood, &mut buffers.couplings);
+                (row, neighbourhood.free.index)
+            }
+        };
         let mut diagonal = row.own;
         let sorted = &mut buffers.sorted;
         sorted.clear();
-        for (&j, c) in neighbourhood.free.index.iter().zip(&buffers.couplings) {
+        for (&j, c) in within.iter().zip(&buffers.couplings) {
             diagonal = diagonal.plus(c);
-            if keep_skin || *c != E::ZERO {
+            if *c != E::ZERO {
                 sorted.push((j, c.times(-1.0)));
-            }
-        }
-        if keep_skin {
-            // The row is a part of the candidates, in their order.
-            let within = neighbourhood.free.index;
-            let mut next = 0;
-            for &j in surroundings.candidates(i) {
-                match within.get(next) == Some(&j) {
-                    true => next += 1,
-                    false => sorted.push((j, E::ZERO)),
-                }
             }
         }
         sorted.sort_unstable_by_key(|(j, _)| *j);

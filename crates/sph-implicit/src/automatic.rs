@@ -1,4 +1,4 @@
-//! The choice between the solvers, by size and stiffness.
+//! The choice between the solvers: iterations first, a factorisation where they take too long.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -9,16 +9,16 @@ use crate::{
     Report, SolveError,
 };
 
-/// Looks at every matrix and takes what is fastest for its kind:
+/// Iterates, and factorises where that takes too long:
 ///
-/// * stiffness (largest Σ|a_ij| over what is left of the diagonal, about 2νΔt/δr² at h = 2δr) below 5:
-///   conjugate gradients with `jacobi`;
-/// * in 2D with up to 200 000 particles and a stiffness above 2000, or above 20 000 where components
-///   mix: `cholesky`;
-/// * else conjugate gradients with `incomplete-diagonal`, or, where components mix, 25 iterations with `jacobi` and,
-///   if these were too few, more with `incomplete-cholesky`, whose factors cost as much as ten iterations.
+/// * conjugate gradients with `jacobi` where the stiffness (largest Σ|a_ij| over what is left of the diagonal, about 2νΔt/δr² at
+///   h = 2δr) is below 5, else with `incomplete-diagonal`; where components mix, 25 iterations with `jacobi` and, if these were too
+///   few, more with `incomplete-cholesky`, whose factors cost as much as ten iterations;
+/// * in 2D with up to 200 000 particles N, after √N iterations of the last one (2√N where components mix): `cholesky`. On two threads a
+///   factorisation is done in the time of about so many, and no system takes more than two to three times the time of the better one.
 ///
-/// Measured in docs/validation/implicit.md, blocks with a pile of grains and with a bed under a dam break.
+/// Nothing is remembered of the solves before, so that a resumed run takes the same ones. Measured in docs/validation/implicit.md, beds
+/// in docs/performance.md.
 ///
 /// ```toml
 /// [linear-solver.automatic]
@@ -59,14 +59,18 @@ impl Default for Automatic {
 
 /// Stiffness up to which the diagonal alone preconditions.
 const MILD: f64 = 5.0;
-/// Stiffness from which factorising pays, in 2D.
-const STIFF: f64 = 2000.0;
-/// The same for blocks, whose factors have four times the entries and eight times the work.
-const STIFF_BLOCKS: f64 = 20_000.0;
-/// Iterations after which factors are worth their making, for blocks.
-const PATIENCE: usize = 25;
+/// Iterations after which factors of blocks are worth their making.
+const BLOCK_PATIENCE: usize = 25;
 /// Particles up to which factorising is tried.
 const DIRECT_ROWS: usize = 200_000;
+
+/// Iterations in whose time a factorisation is done; `None` where it is not tried.
+fn patience<const D: usize>(matrix: &Matrix<D>) -> Option<usize> {
+    let root = (matrix.rows() as f64).sqrt().ceil() as usize;
+    let mixed = matches!(matrix.entries, Entries::Block(_));
+    let most = if mixed { 2 * root } else { root };
+    (D == 2 && matrix.rows() <= DIRECT_ROWS).then_some(most)
+}
 
 impl<const D: usize> LinearSolver<D> for Automatic {
     fn solve(
@@ -85,39 +89,47 @@ impl<const D: usize> LinearSolver<D> for Automatic {
         x: &mut [Vect<D>],
         enough: f64,
     ) -> Result<Report, SolveError> {
-        let stiffness = matrix.stiffness();
-        let mixed = matches!(matrix.entries, Entries::Block(_));
-        let stiff = if mixed { STIFF_BLOCKS } else { STIFF };
-        if D == 2 && matrix.rows() <= DIRECT_ROWS && stiffness > stiff {
-            return self.direct.solve(matrix, right, x);
-        }
-        let with = |preconditioner| ConjugateGradient {
-            tolerance: self.tolerance,
-            preconditioner,
-            ..ConjugateGradient::default()
-        };
-        let mut iterate = |mut solver: ConjugateGradient| {
-            LinearSolver::solve_roughly(&mut solver, matrix, right, x, enough)
-        };
-        if stiffness < MILD {
-            return iterate(with(Preconditioner::Jacobi));
-        }
-        if !mixed {
-            return iterate(with(Preconditioner::IncompleteDiagonal));
-        }
-        let first = iterate(ConjugateGradient {
-            iterations: PATIENCE,
-            ..with(Preconditioner::Jacobi)
-        });
-        match first {
-            // What they reached is where the next one starts.
-            Err(SolveError::NotConverged { .. }) => {
-                let mut report = iterate(with(Preconditioner::IncompleteCholesky))?;
-                report.iterations += PATIENCE;
-                Ok(report)
+        let mild = matrix.stiffness() < MILD;
+        let stages = match (mild, &matrix.entries) {
+            (true, _) => &[Preconditioner::Jacobi][..],
+            (false, Entries::Scalar(_)) => &[Preconditioner::IncompleteDiagonal],
+            (false, Entries::Block(_)) => {
+                &[Preconditioner::Jacobi, Preconditioner::IncompleteCholesky]
             }
-            other => other,
+        };
+        let patience = patience(matrix);
+        let mut spent = 0;
+        for (k, &preconditioner) in stages.iter().enumerate() {
+            let last = k + 1 == stages.len();
+            let whole = ConjugateGradient::default();
+            let mut solver = ConjugateGradient {
+                tolerance: self.tolerance,
+                preconditioner,
+                iterations: match last {
+                    false => BLOCK_PATIENCE,
+                    true => patience.unwrap_or(whole.iterations),
+                },
+            };
+            // What a stage reached is where the next one starts.
+            match solver.solve_roughly(matrix, right, x, enough) {
+                Err(SolveError::NotConverged { .. } | SolveError::NotPositive { .. })
+                    if !last || patience.is_some() =>
+                {
+                    spent += solver.iterations;
+                }
+                solved => {
+                    return solved.map(|report| Report {
+                        iterations: report.iterations + spent,
+                        ..report
+                    });
+                }
+            }
         }
+        let report = self.direct.solve(matrix, right, x)?;
+        Ok(Report {
+            iterations: spent,
+            ..report
+        })
     }
 }
 
@@ -125,6 +137,6 @@ register!(
     LinearSolverEntry [2, 3],
     Automatic,
     "automatic",
-    "Cholesky or conjugate gradients, by size and stiffness of every system",
+    "conjugate gradients, and in 2D Cholesky for the systems for which they take too long",
     "docs/validation/implicit.md"
 );

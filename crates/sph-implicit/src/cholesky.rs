@@ -115,10 +115,6 @@ impl<const D: usize> LinearSolver<D> for Cholesky {
             }),
         }
     }
-
-    fn keeps_pattern(&self) -> bool {
-        true
-    }
 }
 
 register!(

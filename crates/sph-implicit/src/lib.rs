@@ -36,7 +36,7 @@ mod scheme;
 mod solver;
 mod vector;
 
-pub use assemble::{Row, assemble};
+pub use assemble::{Row, assemble, assemble_some};
 pub use automatic::Automatic;
 pub use bicgstab::Bicgstab;
 pub use cholesky::Cholesky;

@@ -71,7 +71,7 @@ register!(
     "Ghaïtanellis 2017, §5.1.1"
 );
 
-/// θ = 1/2: second order, where the integrator is; stable for any Δt, but modes that are much faster
+/// θ = 1/2: second order, where the integrator is and viscosities do not follow the velocity (then first); stable for any Δt, but modes that are much faster
 /// than the step change their sign instead of dying away.
 ///
 /// Source: Crank & Nicolson 1947.

@@ -9,7 +9,7 @@ use crate::{Matrix, SolveError};
 pub struct Report {
     /// Who solved.
     pub method: &'static str,
-    /// Iterations; 0 for a factorisation.
+    /// Iterations; for a factorisation those that were spent before it was tried, 0 if it was the first.
     pub iterations: usize,
     /// |b − A x| / |b|.
     pub residual: f64,
@@ -22,7 +22,7 @@ pub trait LinearSolver<const D: usize>: Send {
     /// Solves A x = b, starting from x.
     ///
     /// # Errors
-    /// If x is not what was asked for; x is then of no use.
+    /// If x is not what was asked for; it is then no better than a start for another solver.
     fn solve(
         &mut self,
         matrix: &Matrix<D>,
@@ -43,11 +43,6 @@ pub trait LinearSolver<const D: usize>: Send {
         _enough: f64,
     ) -> Result<Report, SolveError> {
         self.solve(matrix, right, x)
-    }
-
-    /// Whether patterns that outlive several solves save it work.
-    fn keeps_pattern(&self) -> bool {
-        false
     }
 }
 

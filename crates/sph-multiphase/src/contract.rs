@@ -84,6 +84,10 @@ pub trait ViscousOperator<const D: usize>: Send {
     fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>>;
     /// How much stiffer than Morris's operator it is: divides the viscous step limit.
     fn stiffness(&self) -> f64;
+    /// Whether a rigid rotation feels nothing of it, at free surfaces too.
+    fn leaves_rotations(&self) -> bool {
+        false
+    }
 }
 
 contract!(

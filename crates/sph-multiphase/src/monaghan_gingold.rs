@@ -60,6 +60,10 @@ impl<const D: usize> ViscousOperator<D> for MonaghanGingold {
     fn stiffness(&self) -> f64 {
         2.7
     }
+    /// Pairs act along their line.
+    fn leaves_rotations(&self) -> bool {
+        true
+    }
 }
 
 register!(

@@ -48,20 +48,6 @@ impl<'w, const D: usize> Surroundings<'w, D> {
         })
     }
 
-    /// From the lists with their skin, also where shorter ones are at hand.
-    pub fn with_skin(self) -> Self {
-        Surroundings {
-            list: &self.world.lists.free,
-            pruned: false,
-            ..self
-        }
-    }
-
-    /// Who may be a neighbour.
-    pub fn candidates(&self, particle: usize) -> &'w [u32] {
-        self.list.row(particle)
-    }
-
     /// Number of particles.
     pub fn particles(&self) -> usize {
         self.position.len()

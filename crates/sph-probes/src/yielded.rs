@@ -13,7 +13,7 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 ///
 /// A regularised law has no plug that does not move at all: what counts as yielded is a choice. A
 /// phase without particles has no share, and without one that yields there is no mean: NaN. Only
-/// scenes with a law that feels the strain rate have one.
+/// scenes with a law that feels the strain rate have one; the probe then makes it known in all phases.
 ///
 /// Source: ours.
 ///
@@ -42,6 +42,10 @@ impl<const D: usize> Probe<D> for Yielded {
             unit,
         };
         vec![column(".share", "1"), column(".mean", "1/s")]
+    }
+
+    fn fields(&self) -> Vec<&str> {
+        vec![fields::STRAIN_RATE.name]
     }
 
     fn name_phases(&mut self, names: &[String]) -> Result<(), String> {

@@ -68,6 +68,11 @@ fn limiter(s: &Costs) -> Option<String> {
             "a lower `speed_of_sound` lengthens the step in proportion, as long as it stays ten \
              times the largest speed; {then}"
         ),
+        "elastic wave" => format!(
+            "`elastic-force.divergence.implicit = true` with [implicit-viscosity.backward-euler] and \
+             [viscous-operator.monaghan-gingold] takes this bound away, and damps what is faster \
+             than the step; {then}"
+        ),
         "interface" => format!(
             "`numerics.reference_pressure = \"equal\"` makes all phases equally compressible and \
              takes this bound away; {then}"
@@ -142,6 +147,16 @@ mod tests {
         let told = told(&[("viscosity", 0.9), ("sound", 0.1)], &limits, &[]);
         assert_eq!(told.len(), 1);
         assert!(told[0].contains("implicitly") && told[0].contains("`sound`, is 23 times"));
+    }
+
+    #[test]
+    fn a_stiff_run_is_told_of_the_end_of_the_step_and_a_solver_of_its_tolerance() {
+        let limits = [("elastic wave", 1e-5), ("sound", 1e-4)];
+        let told_of = told(&[("elastic wave", 1.0)], &limits, &[]);
+        assert!(told_of[0].contains("implicit = true") && told_of[0].contains("10 times"));
+        let solves = [("implicit viscosity", 9.0), ("interactions (a)", 1.0)];
+        let told_of = told(&[], &[], &solves);
+        assert!(told_of[0].contains("tolerance"), "{told_of:?}");
     }
 
     #[test]

@@ -151,6 +151,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
                 scheme,
                 solver,
                 lagged: planned.lagged,
+                stiffens: planned.ahead,
                 solves: Solves::default(),
             };
             (Some(implicit), Some(friction.term))

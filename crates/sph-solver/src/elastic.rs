@@ -1,5 +1,7 @@
 //! The elastic force among the terms: which one, and with what it cannot be combined.
 
+use sph_implicit::TimeScheme;
+use sph_multiphase::ViscousOperator;
 use sph_neighbours::{Interaction, World};
 use sph_scene::Scene;
 use sph_stress::{AdjointDivergence, Blend, Blended, ElasticForce, Felt};
@@ -31,11 +33,15 @@ pub fn refuse_what_is_not_known<const D: usize>(
     force: &dyn ElasticForce<D>,
     felt: &Felt,
     adjoint: bool,
-    implicit: bool,
+    scheme: Option<&dyn TimeScheme>,
+    operator: &dyn ViscousOperator<D>,
     world: &World<D>,
 ) -> Result<(), SolverError> {
     let chosen = scene.choice("elastic-force");
     let path = chosen.map_or("elastic-force".into(), |choice| choice.path);
+    if force.implicit() {
+        refuse_implicit(&path, scheme, operator.leaves_rotations(), adjoint)?;
+    }
     if force.blend() == Blend::Forces {
         let key = format!("{path}.blend");
         let blends = |law: &dyn sph_rheology::Rheology| law.elastic().is_some_and(|e| e.blends());
@@ -43,7 +49,7 @@ pub fn refuse_what_is_not_known<const D: usize>(
             let why = "no law of this scene is liquid where it yields: take `blend` out";
             return Err(SolverError::at(key, why));
         }
-        if implicit {
+        if scheme.is_some() {
             let why = "a share of a force is not known as a symmetric system: take \
                        [implicit-viscosity] out, or blend \"stresses\"";
             return Err(SolverError::at(key, why));
@@ -81,4 +87,32 @@ pub fn refuse_what_is_not_known<const D: usize>(
         ));
     }
     Ok(())
+}
+
+/// Refuses stresses of the end of the step where they are not known.
+fn refuse_implicit(
+    path: &str,
+    scheme: Option<&dyn TimeScheme>,
+    leaves_rotations: bool,
+    adjoint: bool,
+) -> Result<(), SolverError> {
+    let why = match scheme {
+        None => {
+            "what the step adds to the stress is solved for with the viscosity: add \
+             [implicit-viscosity.backward-euler], or take `implicit` out"
+        }
+        Some(scheme) if scheme.implicit_share() < 1.0 => {
+            "the stress of the end of the step is all of the force: take \
+             [implicit-viscosity.backward-euler], or take `implicit` out"
+        }
+        Some(_) if !leaves_rotations => {
+            "what the step adds to the stress must not brake rotations, as this viscous operator does at free surfaces: take \
+             [viscous-operator.monaghan-gingold], or take `implicit` out"
+        }
+        Some(_) if adjoint => {
+            "it was not shown to be stable with the `adjoint` force: take one of the two out"
+        }
+        Some(_) => return Ok(()),
+    };
+    Err(SolverError::at(format!("{path}.implicit"), why))
 }

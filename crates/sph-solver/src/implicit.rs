@@ -24,7 +24,7 @@ const INNER: f64 = 0.1;
 pub struct Solves {
     /// How many systems were solved by each method.
     pub by_method: BTreeMap<String, u64>,
-    /// Mean number of iterations of the iterative ones.
+    /// Mean number of iterations of all, those before a factorisation included.
     pub mean_iterations: f64,
     /// Largest number of iterations.
     pub most_iterations: usize,
@@ -85,6 +85,8 @@ pub struct ImplicitViscosity<const D: usize> {
     pub(crate) solver: Box<dyn LinearSolver<D>>,
     /// What gives the viscosity of the present velocity; empty where it does not depend on it.
     pub(crate) lagged: Vec<Box<dyn Stage<World<D>>>>,
+    /// Whether an elastic material stiffens while it is strained: 𝒢Δt then acts as a viscosity.
+    pub(crate) stiffens: bool,
     pub(crate) solves: Solves,
 }
 
@@ -123,7 +125,15 @@ impl<const D: usize> ImplicitViscosity<D> {
                 }
             }
             let mut velocity = world.free.get(fields::VELOCITY)?.to_vec();
-            self.solve(world, [earlier, &ahead], again, &mut velocity, dt)?;
+            let plain = match self.stiffens {
+                true => Some(stiffen(world)?),
+                false => None,
+            };
+            let solved = self.solve(world, [earlier, &ahead], again, &mut velocity, dt);
+            if let Some(plain) = plain {
+                world.free.put(fields::VISCOSITY, plain)?;
+            }
+            solved?;
             if again {
                 change = relative_change(world, &velocity, dt)?;
             }
@@ -232,32 +242,41 @@ impl<const D: usize> ImplicitViscosity<D> {
         let gamma = world.free.get(fields::RENORMALISATION).ok();
         let mass = world.free.get(fields::MASS)?.iter().enumerate();
         let mass: Vec<f64> = mass.map(|(i, m)| gamma.map_or(*m, |g| m * g[i])).collect();
-        let (pattern, values, right) = assemble(
-            world,
-            self.solver.keeps_pattern(),
-            |rows, out: &mut Vec<E>| {
-                let (wall, source) = friction(rows, out);
-                let (i, mut source) = (rows.particle, source * dt);
-                for (&j, c) in rows.free.index.iter().zip(out.iter_mut()) {
-                    let j = j as usize;
-                    *c = c.times(share * dt);
-                    if share == 1.0 && c.largest() <= SOFT * mass[i].min(mass[j]) {
-                        source -= c.apply(&(earlier[i] - earlier[j]));
-                        *c = E::ZERO;
-                    }
+        let (pattern, values, right) = assemble(world, |rows, out: &mut Vec<E>| {
+            let (wall, source) = friction(rows, out);
+            let (i, mut source) = (rows.particle, source * dt);
+            for (&j, c) in rows.free.index.iter().zip(out.iter_mut()) {
+                let j = j as usize;
+                *c = c.times(share * dt);
+                if share == 1.0 && c.largest() <= SOFT * mass[i].min(mass[j]) {
+                    source -= c.apply(&(earlier[i] - earlier[j]));
+                    *c = E::ZERO;
                 }
-                Row {
-                    own: E::unit(mass[i]).plus(&wall.times(share * dt)),
-                    source,
-                }
-            },
-        )?;
+            }
+            Row {
+                own: E::unit(mass[i]).plus(&wall.times(share * dt)),
+                source,
+            }
+        })?;
         Ok(System {
             matrix: Matrix::new(pattern, entries(values)),
             mass,
             right,
         })
     }
+}
+
+/// Adds what the strain of the step does to an elastic material, s𝒢Δt, to the viscosities, and gives those without it.
+///
+/// Δt is the whole step, over which stresses follow the velocity, also in a kick over a part of it.
+fn stiffen<const D: usize>(world: &mut World<D>) -> Result<Vec<f64>, StepError> {
+    let dt = world.dt;
+    let plain = world.free.take(fields::VISCOSITY)?;
+    let stiffness = world.free.get(fields::ELASTIC_STIFFNESS)?;
+    let both = plain.iter().zip(stiffness);
+    let stiff = both.map(|(eta, g)| eta + g * dt).collect();
+    world.free.put(fields::VISCOSITY, stiff)?;
+    Ok(plain)
 }
 
 /// √(Σm|u − u'|²/Σm(|u|² + Δt²|g|²)) of a velocity against the world's, with what drives the flow:

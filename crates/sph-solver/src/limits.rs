@@ -7,7 +7,7 @@ use sph_stress::ElasticWaveLimit;
 
 use crate::choices::Choices;
 
-/// The bounds that the chosen plugins ask for: sound and forces always; viscosity where it is explicit, elastic waves, interfaces.
+/// The bounds that the chosen plugins ask for: sound and forces always; viscosity and elastic waves where they are explicit, interfaces.
 pub(crate) fn limiters_of<const D: usize>(
     choices: &Choices<D>,
     laws: &Arc<[Box<dyn BoundState>]>,
@@ -51,7 +51,9 @@ pub(crate) fn limiters_of<const D: usize>(
             let shear = rheology.elastic()?.shear_modulus() / reference.density;
             Some((reference.sound_speed.powi(2) + stiffness * shear).sqrt())
         });
-    if let Some(speed) = stiff.reduce(f64::max) {
+    let force = choices.elastic_force.as_ref();
+    let implicit = force.is_some_and(|force| force.implicit());
+    if let (Some(speed), false) = (stiff.reduce(f64::max), implicit) {
         limiters.push(Box::new(ElasticWaveLimit {
             courant: c.courant,
             speed,

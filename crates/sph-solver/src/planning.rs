@@ -9,8 +9,9 @@ use sph_neighbours::{Interaction, World, fuse_all};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_stress::{
-    Blend, Blended, CarriedStress, CoulombFriction, ElasticMotion, Felt, GradientStage, PoreFlow,
-    PorePressure, Rheologies, StrainRate, StressCorrection, ViscosityStage, Yielded,
+    Blend, Blended, CarriedAhead, CarriedStress, CoulombFriction, ElasticMotion, Felt,
+    GradientStage, PoreFlow, PorePressure, Rheologies, StrainRate, StressCorrection,
+    ViscosityStage, Yielded,
 };
 
 use crate::choices::Choices;
@@ -38,6 +39,8 @@ pub struct Planned<const D: usize> {
     pub friction: Option<Friction<D>>,
     /// What gives the viscosity of the present velocity, where it depends on it.
     pub lagged: Stages<D>,
+    /// Whether elastic stresses are those of the end of the step.
+    pub ahead: bool,
     /// Remembered stresses that follow the motion.
     pub elastic: Option<ElasticMotion<D>>,
     /// Friction of soils on walls.
@@ -71,9 +74,10 @@ pub fn plan_stages<const D: usize>(
     let mut kinds = vec![(terms[0].name(), "formulation")];
     let rheologies: Rheologies = std::mem::take(&mut choices.rheologies).into();
     let eddies = choices.eddy_viscosity.take();
-    let viscosity = viscosity_of(&rheologies, eddies.is_some());
     let elastic_force = choices.elastic_force.take();
     let elastic = elastic_force.is_some();
+    let ahead = elastic_force.as_ref().is_some_and(|f| f.implicit());
+    let viscosity = viscosity_of(&rheologies, eddies.is_some() || ahead);
     let felt = Felt {
         laws: rheologies.clone(),
         pressure: match choices.effective_pressure {
@@ -120,7 +124,8 @@ pub fn plan_stages<const D: usize>(
             &**force,
             &felt,
             adjoint,
-            solved.is_some(),
+            choices.implicit_viscosity.as_ref().map(|(s, _)| &**s),
+            &*choices.viscous_operator,
             world,
         )?;
         let term = elastic::term(&**force, &felt, adjoint);
@@ -183,7 +188,26 @@ pub fn plan_stages<const D: usize>(
         offered.push(Box::new(PorePressure));
     }
     let gradient = choices.velocity_gradient.take();
-    let stage_of_gradient = || gradient.clone().map(GradientStage);
+    let smoother = choices.smoother.iter().flat_map(|s| s.stages(laws));
+    let interfaces = choices.interfaces.iter().flat_map(|i| i.stages());
+    let shifting = choices.shifting.iter().flat_map(|s| s.stages());
+    let extra = friction
+        .into_iter()
+        .chain(smoother)
+        .chain(interfaces)
+        .chain(shifting);
+    let extra: Stages<D> = extra.collect();
+    let others = offered.iter().chain(&extra).map(|s| s.access());
+    let others = others.chain(terms.iter().map(|t| t.access()));
+    let phases = match eddies.is_some() || gradients_are_read(scene, choices, others) {
+        true => None,
+        false => phases_with_gradients(&rheologies),
+    };
+    let stage_of_gradient = || {
+        let formula = gradient.clone()?;
+        let phases = phases.clone();
+        Some(GradientStage { formula, phases })
+    };
     // An elastic motion leaves the gradients of its drift.
     if let (Some(stage), false) = (stage_of_gradient(), elastic) {
         offered.push(with_gamma(Box::new(stage)));
@@ -206,7 +230,10 @@ pub fn plan_stages<const D: usize>(
     offered.extend(eddies.iter().map(|e| with_gamma(e.stage())));
     offered.push(Box::new(viscosity_stage()));
     if elastic {
-        offered.push(Box::new(CarriedStress(felt.clone())));
+        offered.push(match ahead {
+            true => Box::new(CarriedAhead(felt.clone())),
+            false => Box::new(CarriedStress(felt.clone())),
+        });
         offered.push(Box::new(Yielded(felt.clone())));
         if let Some(gradient) = adjoint {
             offered.push(with_gamma(Box::new(StressCorrection(gradient))));
@@ -226,20 +253,15 @@ pub fn plan_stages<const D: usize>(
         felt,
         displaced: force.displaced(),
     });
-    let smoother = choices.smoother.iter().flat_map(|s| s.stages(laws));
-    let interfaces = choices.interfaces.iter().flat_map(|i| i.stages());
-    let shifting = choices.shifting.iter().flat_map(|s| s.stages());
-    let extra = friction
-        .into_iter()
-        .chain(smoother)
-        .chain(interfaces)
-        .chain(shifting);
-    offered.extend(extra.map(with_gamma));
+    offered.extend(extra.into_iter().map(with_gamma));
     offered.push(with_gamma(Box::new(sweep)));
 
     let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
     if let Some(solved) = &solved {
         goals.extend(solved.coupling.access().reads());
+    }
+    if ahead {
+        goals.push(fields::ELASTIC_STIFFNESS.any());
     }
     if let Some(coulomb) = &coulomb {
         goals.extend(coulomb.access().reads());
@@ -296,10 +318,32 @@ pub fn plan_stages<const D: usize>(
         kinds,
         friction: solved,
         lagged,
+        ahead,
         elastic,
         coulomb,
         seepage,
     })
+}
+
+/// Whether somebody besides the laws reads velocity gradients or strain rates: stages or terms with the access of `others`, probes, outputs.
+fn gradients_are_read<const D: usize>(
+    scene: &Scene,
+    choices: &Choices<D>,
+    mut others: impl Iterator<Item = Access>,
+) -> bool {
+    let of_gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
+    let shown = scene.output.fields.iter().chain(&scene.output.picture);
+    let measured = choices.probes.iter().flat_map(|(_, p)| p.fields());
+    let mut named = shown.map(String::as_str).chain(measured);
+    named.any(|name| of_gradients.iter().any(|f| f.name == name))
+        || others.any(|a| a.reads().iter().any(|f| of_gradients.contains(f)))
+}
+
+/// By phase number, whether the law reads velocity gradients; `None` if all do.
+fn phases_with_gradients(rheologies: &Rheologies) -> Option<Arc<[bool]>> {
+    let reads = |law: &dyn Rheology| law.needs().strain_rate || law.elastic().is_some();
+    let phases: Arc<[bool]> = rheologies.iter().map(|law| reads(&**law)).collect();
+    phases.contains(&false).then_some(phases)
 }
 
 /// An interface needs two phases.
@@ -314,11 +358,11 @@ fn refuse_interfaces_of_one(scene: &Scene) -> Result<(), SolverError> {
     }
 }
 
-/// One viscosity for all, or a column.
-fn viscosity_of(laws: &Rheologies, eddies: bool) -> Viscosity {
+/// One viscosity for all, or a column, which something besides the laws may need.
+fn viscosity_of(laws: &Rheologies, column: bool) -> Viscosity {
     let uniform: Vec<_> = laws.iter().map(|l| l.uniform_viscosity()).collect();
     match uniform.first() {
-        Some(Some(first)) if !eddies && uniform.iter().all(|v| v == &Some(*first)) => {
+        Some(Some(first)) if !column && uniform.iter().all(|v| v == &Some(*first)) => {
             Viscosity::Uniform(*first)
         }
         _ if laws.len() > 1 => Viscosity::PerPhase,

@@ -26,6 +26,10 @@ pub struct Divergence {
     /// What is blended where a soil yields.
     #[schemars(extend("source" = "Ghaïtanellis 2017, Eq. 4.104 (forces), 4.84 and 4.105 (stresses)"))]
     pub blend: Blend,
+    /// Take the stress of the end of the step, so that elastic waves do not bound it: those that are faster than the step
+    /// are damped. Needs an implicit viscosity with which it is solved for.
+    #[schemars(extend("source" = "ours"))]
+    pub implicit: bool,
 }
 
 impl<const D: usize> ElasticForce<D> for Divergence {
@@ -34,6 +38,9 @@ impl<const D: usize> ElasticForce<D> for Divergence {
     }
     fn blend(&self) -> Blend {
         self.blend
+    }
+    fn implicit(&self) -> bool {
+        self.implicit
     }
 }
 

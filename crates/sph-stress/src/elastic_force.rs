@@ -25,6 +25,11 @@ pub trait ElasticForce<const D: usize>: Send {
     fn term(&self, felt: &Felt) -> Box<dyn Interaction<D>>;
     /// What is blended where the material yields.
     fn blend(&self) -> Blend;
+    /// Whether the stress is that of the end of the step: what the step adds is then solved for with the viscosity, and elastic
+    /// waves do not bound it.
+    fn implicit(&self) -> bool {
+        false
+    }
     /// Whether it is made of [displacements](sph_core::fields::ELASTIC_DISPLACEMENT), which are then remembered, and
     /// with them stresses that are not cut.
     fn displaced(&self) -> bool {

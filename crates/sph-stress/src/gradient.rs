@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::SMatrix;
 use sph_core::{Access, Declares, Stage, StepError, Vect, contract, fields};
-use sph_neighbours::{Around, Values, World, walk};
+use sph_neighbours::{Around, Values, World, walk_some};
 
 /// What a formula is made of: sums over neighbours, wall points and elements with the weights
 /// θ_b V_b ∇w_ab and −∇γ_as.
@@ -42,18 +42,36 @@ contract!(
 /// All phases count. An element stands at the foot of the particle on its plane. Walls that do not rub stop
 /// the velocity normal to them, and know nothing of that along them: they take part in the gradient of the
 /// normal component alone. (Without them a wall's force would do work that no strain answers.)
-pub struct GradientStage<const D: usize>(pub Arc<dyn VelocityGradient<D>>);
+#[derive(Clone)]
+pub struct GradientStage<const D: usize> {
+    /// The formula.
+    pub formula: Arc<dyn VelocityGradient<D>>,
+    /// By phase number, whose gradients anybody reads; those of the others are zero. All, if left out.
+    pub phases: Option<Arc<[bool]>>,
+}
+
+impl<const D: usize> GradientStage<D> {
+    /// For the particles of all phases.
+    pub fn everywhere(formula: Arc<dyn VelocityGradient<D>>) -> Self {
+        let phases = None;
+        GradientStage { formula, phases }
+    }
+}
 
 impl<const D: usize> Declares for GradientStage<D> {
     fn name(&self) -> String {
         "velocity gradient".into()
     }
     fn access(&self) -> Access {
-        Access::none()
+        let access = Access::none()
             .both(fields::POSITION)
             .both(fields::VELOCITY)
             .neighbours(fields::VOLUME)
-            .writes(fields::VELOCITY_GRADIENT)
+            .writes(fields::VELOCITY_GRADIENT);
+        match self.phases {
+            Some(_) => access.here(fields::PHASE),
+            None => access,
+        }
     }
 }
 
@@ -63,7 +81,12 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
         let volume = world.free.get(fields::VOLUME)?;
         let points = &world.walls.points;
         let elements = &world.walls.elements;
-        let gradients = walk(world, Values::Gradient, |around: &Around<'_, D>| {
+        let read = match &self.phases {
+            Some(phases) => Some((phases, world.free.get(fields::PHASE)?)),
+            None => None,
+        };
+        let wanted = |i: usize| read.is_none_or(|(phases, of)| phases[of[i] as usize]);
+        let gradients = walk_some(world, Values::Gradient, wanted, |around: &Around<'_, D>| {
             let rows = &around.rows;
             let own = velocity[rows.particle];
             let mut sums = NeighbourSums {
@@ -106,15 +129,17 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
                 slipping[1] += position * (1.0 - grip);
                 facing += contact.gradient * (1.0 - grip);
             }
-            let along = self.0.gradient(&sums);
+            let along = self.formula.gradient(&sums);
             let Some(normal) = facing.try_normalize(0.0) else {
                 return along;
             };
             sums.velocity += slipping[0];
             sums.position += slipping[1];
-            let across = self.0.gradient(&sums);
+            let across = self.formula.gradient(&sums);
             along + normal * (normal.transpose() * (across - along))
         })?;
+        let all = gradients.into_iter();
+        let gradients = all.map(|g| g.unwrap_or_else(SMatrix::zeros)).collect();
         Ok(world.free.put(fields::VELOCITY_GRADIENT, gradients)?)
     }
 }

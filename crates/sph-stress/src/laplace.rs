@@ -4,9 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, register};
 use sph_implicit::{
-    ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, Preconditioner, Report, Row, assemble,
+    ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, Preconditioner, Report, Row,
+    assemble_some,
 };
-use sph_neighbours::{Neighbourhood, Values, World, walk};
+use sph_neighbours::{Neighbourhood, Values, World, walk_some};
 
 use crate::effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 use crate::soil_surface::at_surface;
@@ -212,7 +213,6 @@ impl<const D: usize> Solve<D> {
         let row = |rows: &Neighbourhood<'_, D>, out: &mut Vec<f64>| {
             let own = volume[rows.particle];
             let Part::Inside(buoyant) = parts[rows.particle] else {
-                out.extend(rows.free.index.iter().map(|_| 0.0));
                 return known_row(parts[rows.particle].known());
             };
             let (mut held, mut source) = (0.0, 0.0);
@@ -244,7 +244,11 @@ impl<const D: usize> Solve<D> {
                 source: right,
             }
         };
-        let (pattern, values, right) = assemble(world, false, row)?;
+        let known = |i: usize| match parts[i] {
+            Part::Inside(_) => None,
+            part => Some(known_row(part.known())),
+        };
+        let (pattern, values, right) = assemble_some(world, known, row)?;
         let matrix = Matrix::new(pattern, Entries::Scalar(values));
         let mut pressure = world.free.take(fields::EFFECTIVE_PRESSURE)?;
         let mut x: Vec<Vect<D>> = pressure
@@ -308,15 +312,15 @@ impl<const D: usize> Solve<D> {
         let top = depth * world.gravity.norm();
         let length = world.kernel.smoothing_length();
         let points = &world.walls.points;
-        walk(world, Values::Gradient, |around| {
-            let Some(density) = buoyant(around.rows.particle) else {
-                return Part::Outside;
-            };
-            let soil = |j: usize| buoyant(j).is_some();
+        let soil = |j: usize| buoyant(j).is_some();
+        let parts = walk_some(world, Values::Gradient, soil, |around| {
+            let density = buoyant(around.rows.particle).unwrap_or(0.0);
             match at_surface(around, points, volume, length, soil) {
                 true => Part::Surface(density, top * density),
                 false => Part::Inside(density),
             }
-        })
+        })?;
+        let parts = parts.into_iter().map(|p| p.unwrap_or(Part::Outside));
+        Ok(parts.collect())
     }
 }

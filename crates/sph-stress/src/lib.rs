@@ -3,7 +3,7 @@
 //! * [`VelocityGradient`] is a kind of plugin: ∂u_i/∂x_j from a particle's neighbours and walls.
 //!   [`GradientStage`] applies it, [`StrainRate`] takes the magnitude.
 //! * [`ViscosityStage`] hands batches of particles to their phase's law.
-//! * [`ElasticMotion`] carries remembered stresses along, [`CarriedStress`] tells what of them acts,
+//! * [`ElasticMotion`] carries remembered stresses along, [`CarriedStress`] (or [`CarriedAhead`]) tells what of them acts,
 //!   and [`Yielded`] how the forces share where a material yields.
 //! * [`ElasticForce`] is a kind of plugin: [`Divergence`] takes [`StressDivergence`] or [`AdjointDivergence`] of the stress,
 //!   [`Displacement`] second differences of the way since the material was last liquid. [`Blended`] weighs forces.
@@ -45,7 +45,7 @@ mod yielded;
 
 pub use adjoint::{AdjointDivergence, StressCorrection};
 pub use blended::Blended;
-pub use carried::CarriedStress;
+pub use carried::{CarriedAhead, CarriedStress};
 pub use coulomb::CoulombFriction;
 pub use darcy_forchheimer::DarcyForchheimer;
 pub use displacement::{Displacement, DisplacementForce};

@@ -1,0 +1,51 @@
+//! Velocity gradients are computed where somebody reads them, and nowhere else.
+
+use std::path::Path;
+
+use sph_core::{System, Vect, fields};
+use sph_scene::{Override, load};
+use sph_solver::assemble;
+
+/// Largest strain rate of mud and of water that shear alike, 1/s.
+fn rates(overrides: &[&str]) -> [f64; 2] {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/submarine-landslide.toml");
+    let overrides = overrides.iter().map(|o| Override::parse(o).unwrap());
+    let overrides: Vec<_> = overrides.collect();
+    let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
+    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let laws: Vec<bool> = loaded
+        .scene
+        .phase
+        .keys()
+        .map(|name| name != "water")
+        .collect();
+    let free = &mut parts.flow.world.free;
+    let places = free.get(fields::POSITION).unwrap().to_vec();
+    let velocity = free.get_mut(fields::VELOCITY).unwrap();
+    for (u, x) in velocity.iter_mut().zip(&places) {
+        *u = Vect::from([x[1], 0.0]);
+    }
+    parts.flow.evaluate().unwrap();
+    let free = &parts.flow.world.free;
+    let phase = free.get(fields::PHASE).unwrap();
+    let rate = free.get(fields::STRAIN_RATE).unwrap();
+    let largest = |mud: bool| {
+        let all = rate.iter().zip(phase);
+        let all = all.filter(|(_, p)| laws[**p as usize] == mud);
+        all.fold(0.0_f64, |most, (rate, _)| most.max(*rate))
+    };
+    [largest(true), largest(false)]
+}
+
+#[test]
+fn water_beside_mud_has_a_strain_rate_where_it_is_asked_for() {
+    let coarse = "numerics.spacing=0.05";
+    let [mud, water] = rates(&[coarse]);
+    assert!(mud > 0.5 && water == 0.0, "{mud} and {water} 1/s");
+    let probed = rates(&[coarse, "probe.all={kind='yielded',strain_rate=0.1}"]);
+    let shown = rates(&[coarse, "output.fields=['strain_rate']"]);
+    for [same, water] in [probed, shown] {
+        assert_eq!(same, mud);
+        assert!(water > 0.5, "{water} 1/s");
+    }
+}
