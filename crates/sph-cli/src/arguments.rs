@@ -48,7 +48,7 @@ Leaves behind in DIR:
                     after a failure: the state in which it failed; pictures of all of it and around
                     the particle at fault
 
-Ctrl-C writes a checkpoint and stops; a second Ctrl-C stops at once. A resumed run gives bit for
+Ctrl-C or SIGTERM writes a checkpoint and stops; a second one stops at once. A resumed run gives bit for
 bit what the uninterrupted one gives, also with another number of threads. --from takes the particles
 alone: other plugins, steps or materials go on from there.
 

@@ -1,11 +1,11 @@
-//! Ctrl-C: once to stop with a checkpoint, twice to stop at once.
+//! Ctrl-C, or SIGTERM as from a batch system: once to stop with a checkpoint, twice to stop at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::console;
 
-/// A flag that the first Ctrl-C raises; the second ends the process with code 1.
+/// A flag that the first Ctrl-C (or SIGTERM) raises; the second ends the process with code 1.
 pub fn flag() -> Arc<AtomicBool> {
     let raised = Arc::new(AtomicBool::new(false));
     let seen = raised.clone();
@@ -25,5 +25,24 @@ pub fn flag() -> Arc<AtomicBool> {
             "note: Ctrl-C will stop without a checkpoint ({error})"
         ));
     }
+    terminated(&raised).unwrap_or_else(|error| {
+        console::err(&format!(
+            "note: SIGTERM will stop without a checkpoint ({error})"
+        ));
+    });
     raised
+}
+
+/// SIGTERM raises the flag too; where it is up, the process ends. SIGHUP is left to `nohup`.
+#[cfg(unix)]
+fn terminated(raised: &Arc<AtomicBool>) -> std::io::Result<()> {
+    use signal_hook::{consts::SIGTERM, flag};
+    flag::register_conditional_shutdown(SIGTERM, 1, raised.clone())?;
+    flag::register(SIGTERM, raised.clone())?;
+    Ok(())
+}
+
+#[cfg(not(unix))]
+fn terminated(_: &Arc<AtomicBool>) -> std::io::Result<()> {
+    Ok(())
 }

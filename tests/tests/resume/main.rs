@@ -121,6 +121,19 @@ fn what_a_soil_remembers_of_its_way_goes_on_where_it_was() {
 }
 
 #[test]
+fn stresses_of_the_end_of_the_step_go_on_as_well() {
+    let force = "[elastic-force.displacement]\nblend = \"forces\"";
+    let ahead = "[elastic-force.divergence]\nimplicit = true\n[implicit-viscosity.backward-euler]";
+    let asked = SOIL.replace(force, ahead);
+    let asked = asked.replace(", \"elastic_displacement\", \"elastic_turn\"", "");
+    let bench = Bench::with(PROGRAM, &asked);
+    let whole = uninterrupted(&bench);
+    assert!(whole.state.columns.contains_key("elastic_stress"));
+    let resumed = killed_and_resumed(&bench, 0.04, 1);
+    whole.assert_same(&resumed, "with stresses of the end of the step");
+}
+
+#[test]
 fn a_run_that_is_over_stays_as_it_is() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let whole = uninterrupted(&bench);
@@ -131,6 +144,17 @@ fn a_run_that_is_over_stays_as_it_is() {
 
 #[test]
 fn ctrl_c_leaves_a_checkpoint_and_says_how_to_go_on() {
+    stopped_by("-INT");
+}
+
+/// Batch systems end what is out of time so.
+#[cfg(unix)]
+#[test]
+fn sigterm_does_the_same() {
+    stopped_by("-TERM");
+}
+
+fn stopped_by(signal: &str) {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let whole = uninterrupted(&bench);
     let mut child = bench
@@ -139,8 +163,8 @@ fn ctrl_c_leaves_a_checkpoint_and_says_how_to_go_on() {
         .expect("a run");
     wait_for(&mut child, &bench, "stopped", 0.1);
     let pid = child.id().to_string();
-    let signal = Command::new("kill").args(["-INT", &pid]).status();
-    assert!(signal.expect("kill").success());
+    let sent = Command::new("kill").args([signal, &pid]).status();
+    assert!(sent.expect("kill").success());
     let output = child.wait_with_output().expect("the end of the run");
     let err = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{err}");
@@ -154,7 +178,7 @@ fn ctrl_c_leaves_a_checkpoint_and_says_how_to_go_on() {
 
     bench.done("run scene.toml --quiet --out stopped --resume");
     let resumed = Results::of(&bench.path("stopped"));
-    whole.assert_same(&resumed, "interrupted by Ctrl-C");
+    whole.assert_same(&resumed, &format!("interrupted by {signal}"));
 }
 
 /// One number of a summary.

@@ -43,7 +43,7 @@ enum End {
     Interrupted,
     /// `SIGINT`, and `SIGKILL` while it is about to stop.
     InterruptedAndKilled,
-    /// `SIGTERM`.
+    /// `SIGTERM`, on which it does the same.
     Terminated,
 }
 
@@ -112,11 +112,14 @@ impl Soak<'_> {
                 tally.steps = Results::of(&folder).steps();
                 return tally;
             }
-            let asked = matches!(end, Some(End::Interrupted | End::InterruptedAndKilled));
+            let asked = matches!(
+                end,
+                Some(End::Interrupted | End::InterruptedAndKilled | End::Terminated)
+            );
             let expected = ended && (output.status.code().is_none() || asked);
             assert!(expected, "{words}: {}\n{err}", output.status);
             match end {
-                Some(End::Interrupted) => tally.interrupts += 1,
+                Some(End::Interrupted | End::Terminated) => tally.interrupts += 1,
                 Some(End::KilledWriting) => {
                     tally.kills += 1;
                     tally.while_writing += 1;
