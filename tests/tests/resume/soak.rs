@@ -277,7 +277,8 @@ fn soak(set: &'static str, life: Duration, most: usize, at_least: Duration) -> T
 fn a_run_killed_at_random_moments_loses_no_step() {
     let set = "--set numerics.spacing=0.02 --set run.end=0.3";
     let tally = soak(set, Duration::from_millis(500), 12, Duration::ZERO);
-    assert!(tally.kills >= 4 && tally.resumes >= 3, "{tally:?}");
+    let ended = tally.kills + tally.interrupts;
+    assert!(ended >= 4 && tally.resumes >= 3, "{tally:?}");
 }
 
 #[test]
