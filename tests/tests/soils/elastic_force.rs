@@ -1,27 +1,19 @@
 //! The elastic force of displacements, and forces that are blended: against closed forms, momentum, refusals.
 
 use std::f64::consts::TAU;
-use std::path::Path;
 
 use sph_core::{Registry, Role, System, Vect, fields};
 use sph_multiphase::{Viscosity, ViscousOperatorEntry};
 use sph_neighbours::{Interaction, interactions};
 use sph_rheology::{DruckerPrager, Newtonian, Rheology};
-use sph_scene::{Override, load};
 use sph_solver::{Assembled, SolverError, assemble};
 use sph_stress::{Blended, Rheologies};
+
+use crate::tried;
 
 /// ρ and 𝒢 of `elastic-shear-wave`, kg/m³ and Pa.
 const DENSITY: f64 = 1000.0;
 const MODULUS: f64 = 1e5;
-
-fn tried(scene: &str, overrides: &[&str]) -> Result<Assembled<2>, SolverError> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{scene}.toml"));
-    let overrides = overrides.iter().map(|o| Override::parse(o).unwrap());
-    let overrides: Vec<_> = overrides.collect();
-    let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
-    assemble::<2>(&loaded.scene)
-}
 
 /// The periodic elastic block at rest, 0.5 m × 1 m, with a displacement of every particle; evaluated.
 fn displaced(overrides: &[&str], of: impl Fn(usize, &Vect<2>) -> Vect<2>) -> Assembled<2> {

@@ -1,24 +1,15 @@
 //! Velocity gradients are computed where somebody reads them, and nowhere else.
 
-use std::path::Path;
-
 use sph_core::{System, Vect, fields};
-use sph_scene::{Override, load};
-use sph_solver::assemble;
+
+use crate::tried;
+
+/// The first phase of the scene.
+const SLIDE: u32 = 0;
 
 /// Largest strain rate of mud and of water that shear alike, 1/s.
 fn rates(overrides: &[&str]) -> [f64; 2] {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/submarine-landslide.toml");
-    let overrides = overrides.iter().map(|o| Override::parse(o).unwrap());
-    let overrides: Vec<_> = overrides.collect();
-    let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
-    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
-    let laws: Vec<bool> = loaded
-        .scene
-        .phase
-        .keys()
-        .map(|name| name != "water")
-        .collect();
+    let mut parts = tried("submarine-landslide", overrides).unwrap_or_else(|e| panic!("{e}"));
     let free = &mut parts.flow.world.free;
     let places = free.get(fields::POSITION).unwrap().to_vec();
     let velocity = free.get_mut(fields::VELOCITY).unwrap();
@@ -31,7 +22,7 @@ fn rates(overrides: &[&str]) -> [f64; 2] {
     let rate = free.get(fields::STRAIN_RATE).unwrap();
     let largest = |mud: bool| {
         let all = rate.iter().zip(phase);
-        let all = all.filter(|(_, p)| laws[**p as usize] == mud);
+        let all = all.filter(|(_, p)| (**p == SLIDE) == mud);
         all.fold(0.0_f64, |most, (rate, _)| most.max(*rate))
     };
     [largest(true), largest(false)]

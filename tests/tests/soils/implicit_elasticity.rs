@@ -1,25 +1,17 @@
 //! Elastic stresses of the end of the step: the wave of the scheme, stiff blocks, soils that rest, refusals.
 
 use std::f64::consts::TAU;
-use std::path::Path;
 
 use sph_core::{System, Vect, fields};
-use sph_scene::{Override, load};
-use sph_solver::{Assembled, SolverError, assemble};
+use sph_solver::{Assembled, assemble};
+
+use crate::tried;
 
 const IMPLICIT: [&str; 3] = [
     "elastic-force.divergence.implicit=true",
     "implicit-viscosity.backward-euler={}",
     "viscous-operator={monaghan-gingold={within='arithmetic'}}",
 ];
-
-fn tried(scene: &str, overrides: &[&str]) -> Result<Assembled<2>, SolverError> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{scene}.toml"));
-    let overrides = overrides.iter().map(|o| Override::parse(o).unwrap());
-    let overrides: Vec<_> = overrides.collect();
-    let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
-    assemble::<2>(&loaded.scene)
-}
 
 fn with_implicit(scene: &str, overrides: &[&str]) -> Assembled<2> {
     let all: Vec<&str> = IMPLICIT.iter().chain(overrides).copied().collect();

@@ -7,3 +7,17 @@ mod gradients;
 mod implicit_elasticity;
 mod odd_beds;
 mod seepage;
+
+use std::path::Path;
+
+use sph_scene::{Override, load};
+use sph_solver::{Assembled, SolverError, assemble};
+
+/// A shipped scene in the plane with some changes, assembled.
+fn tried(scene: &str, overrides: &[&str]) -> Result<Assembled<2>, SolverError> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{scene}.toml"));
+    let overrides = overrides.iter().map(|o| Override::parse(o).unwrap());
+    let overrides: Vec<_> = overrides.collect();
+    let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
+    assemble::<2>(&loaded.scene)
+}
