@@ -18,6 +18,14 @@ pub const DAM_BREAK: &str = include_str!("scenes/dam-break.toml");
 pub const PADDLE: &str = include_str!("scenes/paddle.toml");
 /// A soil that remembers displacements and blends forces.
 pub const SOIL: &str = include_str!("scenes/soil.toml");
+/// [`SOIL`] with stresses of the end of the step.
+pub fn soil_of_the_end_of_the_step() -> String {
+    let force = "[elastic-force.displacement]\nblend = \"forces\"";
+    let ahead = "[elastic-force.divergence]\nimplicit = true\n[implicit-viscosity.backward-euler]";
+    let remembered = ", \"elastic_displacement\", \"elastic_turn\"";
+    assert!(SOIL.contains(force) && SOIL.contains(remembered));
+    SOIL.replace(force, ahead).replace(remembered, "")
+}
 /// Sand and water behind a gate, a sluice that swings and an outlet; every kind of output.
 pub const SOAK: &str = include_str!("scenes/soak.toml");
 /// A tank in three dimensions with a block that slides and a blade that turns.

@@ -1,6 +1,6 @@
 //! The number of threads changes the speed and not one bit of the result.
 
-use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL};
+use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL, soil_of_the_end_of_the_step};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -66,10 +66,7 @@ fn blocks_outer_iterations_and_other_schemes_give_the_same_bits() {
 
 #[test]
 fn stresses_of_the_end_of_the_step_give_the_same_bits() {
-    let asked = SOIL.replace(", \"elastic_displacement\", \"elastic_turn\"", "");
-    let set = "--set run.end=0.06 --set elastic-force={divergence={implicit=true}} \
-               --set implicit-viscosity={backward-euler={}}";
-    same_for_all_threads(&asked, set);
+    same_for_all_threads(&soil_of_the_end_of_the_step(), "--set run.end=0.06");
 }
 
 #[test]

@@ -72,7 +72,7 @@ Leaves behind in DIR:
   error-against-refinement.*   convergence with its orders, SVG and PNG
   variants/NAME/               summary.json, series.csv and the record of every variant
 
-A variant that fails is recorded and the study goes on. Ctrl-C stops with what is finished kept;
+A variant that fails is recorded and the study goes on. Ctrl-C or SIGTERM stops with what is finished kept;
 the same command goes on from there, and runs nothing twice unless the scene or the program's
 version has changed.
 

@@ -12,20 +12,31 @@ use sph_solver::assemble;
 
 const ETA: f64 = 3.0;
 
-/// A still fluid between slanted walls, cut from a lattice, then stirred and disturbed.
-fn wedge() -> World<2> {
-    let text = r#"
-        title = "wedge"
+/// A tank with a slanted wall, and what else stands in `[numerics]` and behind `[wall.tank]`.
+fn tank(numerics: &str, rest: &str) -> World<2> {
+    let text = format!(
+        r#"
+        title = "tank"
         dimension = 2
         [run]
         end = 1.0
         [numerics]
         spacing = 0.05
         smoothing_ratio = 2.0
+        {numerics}
         [walls.usaw]
         [wall.tank]
         polyline = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.7], [0.6, 1.0], [0.0, 1.0]]
         closed = true
+        {rest}
+    "#
+    );
+    disturbed(&text)
+}
+
+/// A still fluid between slanted walls, cut from a lattice, then stirred and disturbed.
+fn wedge() -> World<2> {
+    let fluid = r#"
         velocity = [0.3, 0.0]
         [phase.fluid]
         density = 2.0
@@ -36,7 +47,7 @@ fn wedge() -> World<2> {
         phase = "fluid"
         fill = "walls"
     "#;
-    disturbed(text)
+    tank("", fluid)
 }
 
 /// A box in three dimensions.
@@ -83,21 +94,9 @@ fn disturbed<const D: usize>(text: &str) -> World<D> {
     flow.world
 }
 
-/// Two liquids, 10⁶ times as viscous the lower one, at random places in a tank with a slanted wall.
+/// Two liquids, 10⁶ times as viscous the lower one, at random places.
 fn layers() -> World<2> {
-    let text = r#"
-        title = "layers"
-        dimension = 2
-        [run]
-        end = 1.0
-        [numerics]
-        spacing = 0.05
-        smoothing_ratio = 2.0
-        disorder = 0.4
-        [walls.usaw]
-        [wall.tank]
-        polyline = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.7], [0.6, 1.0], [0.0, 1.0]]
-        closed = true
+    let liquids = r#"
         [phase.honey]
         density = 3.0
         speed_of_sound = 10.0
@@ -116,7 +115,7 @@ fn layers() -> World<2> {
         box = [[0.0, 0.4], [1.0, 1.0]]
         clip = true
     "#;
-    disturbed(text)
+    tank("disorder = 0.4", liquids)
 }
 
 fn operators<const D: usize>() -> Vec<(&'static str, Box<dyn ViscousOperator<D>>)> {

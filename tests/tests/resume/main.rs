@@ -5,7 +5,7 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, DAM_BREAK, PADDLE, Results, SOIL};
+use sph_tests::{Bench, DAM_BREAK, PADDLE, Results, SOIL, soil_of_the_end_of_the_step};
 
 mod failing;
 mod soak;
@@ -122,11 +122,7 @@ fn what_a_soil_remembers_of_its_way_goes_on_where_it_was() {
 
 #[test]
 fn stresses_of_the_end_of_the_step_go_on_as_well() {
-    let force = "[elastic-force.displacement]\nblend = \"forces\"";
-    let ahead = "[elastic-force.divergence]\nimplicit = true\n[implicit-viscosity.backward-euler]";
-    let asked = SOIL.replace(force, ahead);
-    let asked = asked.replace(", \"elastic_displacement\", \"elastic_turn\"", "");
-    let bench = Bench::with(PROGRAM, &asked);
+    let bench = Bench::with(PROGRAM, &soil_of_the_end_of_the_step());
     let whole = uninterrupted(&bench);
     assert!(whole.state.columns.contains_key("elastic_stress"));
     let resumed = killed_and_resumed(&bench, 0.04, 1);

@@ -66,7 +66,7 @@ fn a_standing_wave_is_that_of_the_scheme() {
         }
         println!("a = {a}: off by {worst:.4} after {steps} steps, exact {u:.4}");
         assert!(
-            worst < 0.01,
+            worst < 0.005,
             "off by {worst} with a = {a}, 0.0021 at most was measured"
         );
     }
@@ -99,7 +99,7 @@ fn rings_out(integrator: &str) {
     let last = kinetic_energy(&parts);
     println!("{integrator}: {first:e} J, then {most:e} at most, {last:e} at the end, dt {dt:e}");
     assert!(most < first, "{integrator}: {most} J of {first}");
-    assert!(last < 1e-4 * first, "{integrator}: {last} J of {first}");
+    assert!(last < 1e-6 * first, "{integrator}: {last} J of {first}");
 }
 
 #[test]
@@ -159,10 +159,10 @@ fn a_disc_that_spins_freely_keeps_its_angular_momentum() {
     }
     let kept = spin(&parts) / first;
     println!("angular momentum after 1 rad: {kept}");
-    assert!((kept - 1.0).abs() < 1e-3, "{kept} of it");
+    assert!((kept - 1.0).abs() < 1e-5, "{kept} of it");
 }
 
-/// Friction 3° below what stands, E = 1 GPa: 0.1 s of a slope, in steps of sound.
+/// Friction 3° below what stands, E = 1 GPa, in steps of sound: 2·10⁻⁷ m/s after 0.1 s.
 #[test]
 fn a_stiff_slope_stands() {
     let stiff = ["phase.sand.rheology.drucker-prager.young_modulus=1e9"];
@@ -179,7 +179,7 @@ fn a_stiff_slope_stands() {
         }
     }
     println!("fastest {fastest:e} m/s");
-    assert!(fastest < 0.05, "{fastest} m/s after 0.1 s");
+    assert!(fastest < 1e-5, "{fastest} m/s after 0.1 s");
 }
 
 /// The speed of the highest particle, after the steps up to a time.
