@@ -1,4 +1,4 @@
-//! Compiles the shipped scenes with their data, and the shipped studies, into the binary.
+//! Compiles the shipped scenes with their data, and the shipped studies, into the binary; says what it is built with.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -47,6 +47,28 @@ fn main() {
     }
     let out = std::env::var("OUT_DIR").expect("cargo sets the output folder");
     std::fs::write(Path::new(&out).join("shipped.rs"), code).expect("the output folder is ours");
+    let lock = Path::new(&manifest).join("../../Cargo.lock");
+    println!("cargo:rerun-if-changed={}", lock.display());
+    println!("cargo:rustc-env=SPH_BUILT_WITH={}", built_with(&lock));
+}
+
+/// Compiler, optimisation, and the libraries that most of the time is spent in.
+fn built_with(lock: &Path) -> String {
+    let rustc = std::env::var_os("RUSTC").expect("cargo sets the compiler");
+    let said = std::process::Command::new(rustc).arg("--version").output();
+    let said = said.map(|o| String::from_utf8_lossy(&o.stdout).into_owned());
+    let level = std::env::var("OPT_LEVEL").expect("cargo sets the level");
+    let mut parts = vec![
+        said.unwrap_or_default().trim().to_string(),
+        format!("opt-level {level}"),
+    ];
+    let lock = std::fs::read_to_string(lock).unwrap_or_default();
+    for library in ["faer", "nalgebra", "rayon"] {
+        let name = format!("name = \"{library}\"\nversion = \"");
+        let version = lock.split_once(&name).and_then(|(_, t)| t.split_once('"'));
+        parts.extend(version.map(|(version, _)| format!("{library} {version}")));
+    }
+    parts.join(", ")
 }
 
 /// Files of a folder with one of these extensions, sorted; none if there is no folder.

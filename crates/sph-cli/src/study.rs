@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value as Json;
 use sph_core::suggestion;
 use sph_study::{
-    Machine, Options, Outcome, Results, SceneText, Status, Study, compare, execute, rows,
+    Options, Origin, Outcome, Results, SceneText, Status, Study, compare, execute, rows,
 };
 
 use crate::arguments::StudyArguments;
@@ -36,7 +36,7 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
         out: out.clone(),
         threads: arguments.threads.map(usize::from),
         fresh: arguments.fresh,
-        commit: sph_study::commit(),
+        origin: Origin::new(env!("SPH_BUILT_WITH")),
     };
     let watcher = Watcher::new(arguments.quiet, &study, &options, interrupt::flag());
     assemble(&study, &options, &watcher)?;
@@ -47,7 +47,7 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
     sph_io::writable(&out).map_err(|e| failed(e.into()))?;
     let outcome = execute(&study, &options, &watcher);
     watcher.finish();
-    let results = Results::new(&study, &outcome.records, Machine::this(), options.commit);
+    let results = Results::new(&study, &outcome.records, options.origin);
     let published = sph_study::publish(&results, &out);
     if let Some(error) = outcome.error {
         console::err(&kept(arguments, name, &outcome.records));
@@ -171,7 +171,7 @@ fn text(results: &Results, out: &Path) -> String {
     for line in results.scale.iter().flat_map(sph_study::Scale::lines) {
         text.push_str(&format!("{line}\n"));
     }
-    text.push_str(&format!("on {}\n", results.machine));
+    text.push_str(&format!("on {}\n", results.origin.machine));
     text.push_str(&format!(
         "written to {}: report.html shows all of it\n",
         out.display()

@@ -4,7 +4,6 @@ use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{BoundTerm, Contact, Contacts, Elements, Pair, PairTerm, Rates, There, World};
 
 use crate::ViscositySource;
-use crate::lattice::lattice_sum;
 use crate::viscosity::BoundViscosity;
 
 mod choice;
@@ -75,10 +74,7 @@ impl<const D: usize, F: PairFriction<D>, S: ViscositySource> PairTerm<D> for Vis
             elements: &world.walls.elements,
             contacts: &world.walls.contacts,
             corrected: self.2.wall_term == WallTerm::Corrected,
-            scale: match self.2.on_lattice {
-                OnLattice::Exact => 1.0 / lattice_response(self.0, world),
-                OnLattice::Literal => 1.0,
-            },
+            scale: self.2.on_lattice.scale(self.0, world),
             spacing: world.spacing,
         })
     }
@@ -131,21 +127,6 @@ pub struct Sum<const D: usize> {
     flux: Vect<D>,
     /// Σ ∇γ_as.
     gradient: Vect<D>,
-}
-
-/// What u = (y², 0, …) gives on a lattice with the scene's spacing and kernel, over the exact 2.
-pub fn lattice_response<const D: usize, F: PairFriction<D>>(friction: F, world: &World<D>) -> f64 {
-    let cell = world.spacing.powi(D as i32);
-    let sum = lattice_sum(world, |pair| {
-        let mut relative = Vect::zeros();
-        relative[0] = -pair.separation[1] * pair.separation[1];
-        friction.force(cell, cell, &relative, pair)[0]
-    });
-    match sum > 0.0 {
-        true => 0.5 * sum,
-        // A support smaller than the spacing: there is nothing to scale.
-        false => 1.0,
-    }
 }
 
 /// κ is left at 1 where |∇γ| δr is below this: opposite walls, or the edge of the support.

@@ -64,9 +64,7 @@ pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, OwnVolume, T
 pub use eos::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 pub use espanol_revenga::{EspanolRevenga, WithTransposed};
 pub use fickian::{Fickian, Transport};
-pub use friction::{
-    Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm, Within, lattice_response,
-};
+pub use friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm, Within};
 pub use gradient::{
     BetweenParticles, PairPressure, PressureGradient, Side, SquaredVolumes, SumOfPressures,
 };

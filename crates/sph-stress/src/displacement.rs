@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Symmetric, Vect, fields, register};
-use sph_multiphase::{OnLattice, PairFriction, WithTransposed, lattice_response};
+use sph_multiphase::{OnLattice, PairFriction, WithTransposed};
 use sph_neighbours::{
     BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
 };
@@ -125,10 +125,7 @@ impl<const D: usize> PairTerm<D> for DisplacementForce {
             wall_share: &points.share,
             wall_grip: &points.grip,
             elements: &world.walls.elements,
-            scale: match self.choice.on_lattice {
-                OnLattice::Exact => 1.0 / lattice_response(WithTransposed, world),
-                OnLattice::Literal => 1.0,
-            },
+            scale: self.choice.on_lattice.scale(WithTransposed, world),
             spacing: world.spacing,
         })
     }

@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 use sph_core::number;
 
+use crate::machine::Origin;
 use crate::results::Results;
 
 /// The difference of two studies, variant by variant.
@@ -123,13 +124,15 @@ fn notes(a: &Results, b: &Results) -> Vec<String> {
     };
     differ("study", a.study.clone(), b.study.clone());
     differ("scene", a.scene.clone(), b.scene.clone());
-    let commit = |r: &Results| r.commit.clone().unwrap_or("unknown".into());
-    differ("version", a.version.clone(), b.version.clone());
-    differ("commit", commit(a), commit(b));
+    let (x, y) = (&a.origin, &b.origin);
+    let commit = |o: &Origin| o.commit.clone().unwrap_or("unknown".into());
+    differ("version", x.version.clone(), y.version.clone());
+    differ("commit", commit(x), commit(y));
+    differ("built with", x.built_with.clone(), y.built_with.clone());
     differ(
         "machine, so that times cannot be compared",
-        a.machine.to_string(),
-        b.machine.to_string(),
+        x.machine.to_string(),
+        y.machine.to_string(),
     );
     let threads = |r: &Results| {
         let mut all: Vec<usize> = r.variants.iter().map(|v| v.threads).collect();

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use sph_solver::{Progress, SolverError};
 
+use crate::machine::Origin;
 use crate::plan::{Study, Variant};
 use crate::record::{Record, Status};
 use crate::repeat;
@@ -20,8 +21,8 @@ pub struct Options {
     pub threads: Option<usize>,
     /// Whether finished variants are run again.
     pub fresh: bool,
-    /// Commit of the program's repository, for the records.
-    pub commit: Option<String>,
+    /// On what and by what variants are run, for the records.
+    pub origin: Origin,
 }
 
 impl Options {

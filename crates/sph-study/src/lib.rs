@@ -44,7 +44,7 @@ pub use execute::{Options, Outcome, Watcher, execute, to_run};
 pub use file::{Combine, StudyFile};
 pub use frontier::Frontier;
 pub use ladder::{Ladder, Rung};
-pub use machine::{Machine, commit};
+pub use machine::{Machine, Origin};
 pub use mistake::{Mistake, Refused};
 pub use order::Orders;
 pub use plan::{FindScene, ReadError, SceneText, Study, Variant};

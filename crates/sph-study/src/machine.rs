@@ -1,9 +1,11 @@
-//! On what a study was run.
+//! On what and by what a study was run.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
 
 use serde::{Deserialize, Serialize};
+
+use crate::fingerprint::VERSION;
 
 /// A computer, as far as run times depend on it.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -24,6 +26,32 @@ impl Machine {
             cpu: cpu().unwrap_or_else(|| std::env::consts::ARCH.to_string()),
             cores,
             os: format!("{} {}", system(), std::env::consts::ARCH),
+        }
+    }
+}
+
+/// Where run times and last digits come from.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Origin {
+    /// On what it ran.
+    pub machine: Machine,
+    /// Version of the program.
+    pub version: String,
+    /// Commit of the program's repository, if it is known.
+    pub commit: Option<String>,
+    /// Compiler and libraries of the program.
+    pub built_with: String,
+}
+
+impl Origin {
+    /// Of what this program runs here and now.
+    pub fn new(built_with: &str) -> Self {
+        Origin {
+            machine: Machine::this(),
+            version: VERSION.into(),
+            commit: commit(),
+            built_with: built_with.into(),
         }
     }
 }
@@ -68,7 +96,7 @@ fn said(command: &mut Command) -> Option<String> {
 ///
 /// Taken from the build (`SPH_COMMIT`) if it says, else from the repository around the
 /// executable or the working folder, provided it is the one with this crate.
-pub fn commit() -> Option<String> {
+fn commit() -> Option<String> {
     if let Some(commit) = option_env!("SPH_COMMIT") {
         return Some(commit.to_string());
     }

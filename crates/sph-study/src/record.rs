@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use sph_io::IoError;
 use sph_solver::{ErrorEntry, Summary, Trouble};
 
+use crate::machine::Origin;
 use crate::scaling::{Cost, SolveCost};
 
 /// Name of the record in a variant's folder.
@@ -81,10 +82,9 @@ pub struct Record {
     pub solves: Option<SolveCost>,
     /// Wall-clock seconds per stage, of the fastest repetition.
     pub wall_seconds_by_stage: BTreeMap<String, f64>,
-    /// Version of the program.
-    pub version: String,
-    /// Commit of the program's repository, if it is known.
-    pub commit: Option<String>,
+    /// On what and by what it was run.
+    #[serde(flatten)]
+    pub origin: Origin,
 }
 
 /// What tells whether a run was sound; numbers that are not finite are left out.

@@ -7,7 +7,6 @@ use sph_io::IoError;
 use sph_solver::{Command, Observer, Progress, RunOptions, SolverError, Start, run};
 
 use crate::execute::{Options, Watcher};
-use crate::fingerprint::VERSION;
 use crate::plan::{Study, Variant};
 use crate::record::{Record, Status};
 
@@ -60,8 +59,7 @@ impl Job<'_> {
         }
         sph_io::writable(&folder)?;
         record.fingerprint.clone_from(&self.variant.fingerprint);
-        record.version = VERSION.into();
-        record.commit.clone_from(&self.options.commit);
+        record.origin.clone_from(&self.options.origin);
         record.time_limit = self.study.file.time_limit;
         record.reason = None;
         while record.wall_seconds.len() < self.study.file.repetitions {

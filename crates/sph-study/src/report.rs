@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use sph_core::number;
 use sph_io::{IoError, escape};
 
+use crate::machine::Origin;
 use crate::matrix;
 use crate::plots;
 use crate::record::Status;
@@ -153,19 +154,30 @@ fn facts(results: &Results) -> String {
         false => "variants side by side",
     };
     let row = |name: &str, value: String| vec![name.to_string(), value];
+    let origin = &results.origin;
     let mut rows = vec![
         row("scene", results.scene.clone()),
         row("judged by", results.errors.join(", ")),
         row("variants", states.join(", ")),
-        row("machine", results.machine.to_string()),
+        row("machine", origin.machine.to_string()),
         row("threads", format!("{}; {manner}", threads.join(", "))),
-        row("version", format!("sph {}", results.version)),
-        row("commit", results.commit.clone().unwrap_or("unknown".into())),
+        row("version", format!("sph {}", origin.version)),
+        row("commit", origin.commit.clone().unwrap_or("unknown".into())),
+        row("built with", origin.built_with.clone()),
     ];
     rows.retain(|row| !row[1].is_empty());
-    let commits = commits(results);
-    if commits.len() > 1 {
-        rows.push(row("variants ran at", commits.join(", ")));
+    for (name, of) in [
+        (
+            "variants ran at",
+            (|o| o.commit.clone()) as fn(&Origin) -> _,
+        ),
+        ("variants ran on", |o| Some(o.machine.to_string())),
+        ("variants ran with", |o| Some(o.built_with.clone())),
+    ] {
+        let all = unlike(results, of);
+        if all.len() > 1 {
+            rows.push(row(name, all.join("; ")));
+        }
     }
     if !results.set.is_empty() {
         rows.push(row("set for all", results.set.join(", ")));
@@ -173,13 +185,10 @@ fn facts(results: &Results) -> String {
     grid(&[], &rows, |_| String::new())
 }
 
-/// Commits that the variants ran at.
-fn commits(results: &Results) -> Vec<String> {
-    let mut all: Vec<String> = results
-        .variants
-        .iter()
-        .filter_map(|v| v.commit.clone())
-        .collect();
+/// In what the variants that have run differ.
+fn unlike(results: &Results, of: fn(&Origin) -> Option<String>) -> Vec<String> {
+    let ran = results.variants.iter().filter(|v| v.steps > 0);
+    let mut all: Vec<String> = ran.filter_map(|v| of(&v.origin)).collect();
     all.sort();
     all.dedup();
     all

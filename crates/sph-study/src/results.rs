@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::file::Bounds;
-use crate::fingerprint::VERSION;
 use crate::frontier::Frontier;
-use crate::machine::Machine;
+use crate::machine::Origin;
 use crate::order::Orders;
 use crate::pareto::pareto;
 use crate::plan::{Study, Variant};
@@ -43,12 +42,9 @@ pub struct Results {
     pub refinement: Option<String>,
     /// Whether variants ran one by one.
     pub serial: bool,
-    /// On what this part of the study was run.
-    pub machine: Machine,
-    /// Version of the program.
-    pub version: String,
-    /// Commit of the program's repository, if it is known.
-    pub commit: Option<String>,
+    /// On what and by what this was last run.
+    #[serde(flatten)]
+    pub origin: Origin,
     /// How far each axis holds, of studies that go along axes until they break.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub frontiers: Vec<Frontier>,
@@ -107,10 +103,9 @@ pub struct VariantResult {
     pub solves: Option<SolveCost>,
     /// Wall-clock seconds per stage, of the fastest repetition.
     pub wall_seconds_by_stage: BTreeMap<String, f64>,
-    /// Version of the program that ran it.
-    pub version: String,
-    /// Commit of the program that ran it.
-    pub commit: Option<String>,
+    /// On what and by what it was run.
+    #[serde(flatten)]
+    pub origin: Origin,
     /// What the result depends on.
     pub fingerprint: String,
 }
@@ -142,12 +137,7 @@ pub struct SeriesResult {
 
 impl Results {
     /// The results of a study from one record per variant.
-    pub fn new(
-        study: &Study,
-        records: &[Record],
-        machine: Machine,
-        commit: Option<String>,
-    ) -> Self {
+    pub fn new(study: &Study, records: &[Record], origin: Origin) -> Self {
         let axes: Vec<String> = study.axes.iter().map(|a| a.name.clone()).collect();
         let variants = study.variants.iter().zip(records);
         let judge = |v: &Variant| v.rung.map(|r| &study.ladders[r.ladder].judge);
@@ -164,9 +154,7 @@ impl Results {
             errors: study.errors.clone(),
             refinement: study.refinement.clone(),
             serial: study.file.serial,
-            machine,
-            version: VERSION.into(),
-            commit,
+            origin,
             frontiers: Vec::new(),
             variants,
             axes,
@@ -310,8 +298,7 @@ impl VariantResult {
             dt_limiters: record.dt_limiters.clone(),
             solves: record.solves.clone(),
             wall_seconds_by_stage: record.wall_seconds_by_stage.clone(),
-            version: record.version.clone(),
-            commit: record.commit.clone(),
+            origin: record.origin.clone(),
             fingerprint: v.fingerprint.clone(),
         }
     }

@@ -59,11 +59,80 @@ fn a_solver_that_gives_up_stops_the_run_with_its_reason() {
              --set phase.water.rheology.newtonian.viscosity=10"
         ));
         assert_eq!(outcome.code, Some(1), "{}", outcome.err);
-        assert!(
-            outcome.err.contains("implicit viscosity"),
-            "{}",
-            outcome.err
-        );
+        // How far it came: the first residual and that of its one iteration.
+        for word in ["implicit viscosity", "in 1 iterations (residuals: "] {
+            assert!(outcome.err.contains(word), "no `{word}` in {}", outcome.err);
+        }
         assert_eq!(outcome.err.contains("going back"), tried, "{}", outcome.err);
     }
+}
+
+/// The dam break with oil in a box, of friction from the end of the step.
+fn with_oil(viscosity: &str, oil: &str, rest: &str) -> String {
+    format!(
+        r#"{DAM_BREAK}
+{rest}
+[implicit-viscosity.backward-euler]
+[phase.oil]
+density = 900.0
+velocity_scale = 3.0
+[phase.oil.rheology.newtonian]
+viscosity = {viscosity}
+[body.oil]
+phase = "oil"
+box = {oil}
+[probe.oil]
+kind = "extent"
+phase = "oil"
+axis = "y"
+"#
+    )
+}
+
+/// Column of the last row of a series.
+fn last(series: &str, column: &str) -> f64 {
+    let mut lines = series.lines().filter(|l| !l.starts_with('#'));
+    let heads = lines.next().expect("a head");
+    let at = heads.split(',').position(|h| h.starts_with(column));
+    let row = lines.next_back().expect("a row");
+    let cell = row.split(',').nth(at.expect("the column")).expect("a cell");
+    cell.parse().expect("a number")
+}
+
+/// A row of the system without any other particle: it falls 0.5 g t² = 0.049 m.
+#[test]
+fn a_lone_particle_of_a_second_phase_falls_freely() {
+    let scene = with_oil("0.1", "[[0.4, 0.4], [0.44, 0.44]]", "");
+    let bench = Bench::with(PROGRAM, &scene);
+    bench.done("run scene.toml --out out --set run.end=0.1");
+    let fallen = 0.41 - last(&bench.read("out/series.csv"), "oil.lowest");
+    assert!((fallen - 0.04905).abs() < 0.0005, "fell by {fallen} m");
+}
+
+/// All its neighbours are of the other phase, and a million times less viscous: it goes down with the column around it.
+#[test]
+fn a_lone_particle_within_another_phase_is_carried() {
+    let hole = "subtract = [{ box = [[0.08, 0.2], [0.12, 0.24]] }]";
+    let column = "pressure = \"hydrostatic\"";
+    let scene = with_oil("1e3", "[[0.08, 0.2], [0.12, 0.24]]", "");
+    let scene = scene.replacen(column, &format!("{column}\n{hole}"), 1);
+    let bench = Bench::with(PROGRAM, &scene);
+    bench.done("run scene.toml --out out --set run.end=0.3 --set output.every=0.3");
+    let at = last(&bench.read("out/series.csv"), "oil.lowest");
+    assert!((0.05..0.15).contains(&at), "it is at {at} m");
+}
+
+/// Phases of no viscosity are rows of their own mass; the other one is solved for.
+#[test]
+fn one_of_two_phases_without_viscosity_runs_like_one_of_little() {
+    let floor = |water: &str| {
+        let scene = with_oil("1.0", "[[0.2, 0.0], [0.4, 0.2]]", "");
+        let bench = Bench::with(PROGRAM, &scene);
+        bench.done(&format!(
+            "run scene.toml --out out --set run.end=0.1 --set phase.water.rheology.newtonian.viscosity={water}"
+        ));
+        last(&bench.read("out/series.csv"), "front")
+    };
+    let (none, little) = (floor("0"), floor("1e-9"));
+    assert!((none / little - 1.0).abs() < 1e-6, "{none} m, {little} m");
 }

@@ -38,6 +38,7 @@ fn a_study_leaves_a_table_plots_and_a_page_and_runs_nothing_twice() {
     let told = json(&bench.read("results/studies/s/study.json"));
     assert_eq!(told["schema_version"], 1);
     assert!(told["machine"]["cores"].as_u64() > Some(0));
+    let told_machine = told["machine"]["cpu"].as_str().expect("a name").to_string();
     let variants = told["variants"].as_array().expect("variants");
     assert_eq!(variants.len(), 6);
     for variant in variants {
@@ -54,6 +55,24 @@ fn a_study_leaves_a_table_plots_and_a_page_and_runs_nothing_twice() {
     let page = bench.read("results/studies/s/report.html");
     for word in ["<svg", "Pareto", "Convergence", "0.05", "set.run.end"] {
         assert!(page.contains(word), "no `{word}` on the page");
+    }
+    let commit = told["commit"].as_str().unwrap_or("unknown").to_string();
+    let told = |key: &str| told[key].as_str().expect("a text").to_string();
+    for (name, value) in [
+        ("machine", told_machine),
+        ("version", format!("sph {}", told("version"))),
+        ("commit", commit),
+        ("built with", told("built_with")),
+    ] {
+        let row = format!("<td>{name}</td><td>{value}");
+        assert!(page.contains(&row), "no `{row}` on the page");
+    }
+    for library in ["rustc 1.", "faer 0.", "rayon 1."] {
+        assert!(
+            told("built_with").contains(library),
+            "{}",
+            told("built_with")
+        );
     }
     assert!(
         !page.contains("src=") && !page.contains("href="),

@@ -23,7 +23,12 @@ fn all<const D: usize>() -> Vec<(&'static str, Box<dyn ViscousOperator<D>>)> {
 
 /// The same as printed.
 fn printed<const D: usize>() -> Vec<(&'static str, Box<dyn ViscousOperator<D>>)> {
-    let on_lattice = OnLattice::Literal;
+    scaled(OnLattice::Literal)
+}
+
+fn scaled<const D: usize>(
+    on_lattice: OnLattice,
+) -> Vec<(&'static str, Box<dyn ViscousOperator<D>>)> {
     vec![
         (
             "morris",
@@ -85,6 +90,42 @@ fn shear<const D: usize>(x: &Vect<D>) -> Vect<D> {
     let mut u = Vect::zeros();
     u[0] = x[1] * x[1];
     u
+}
+
+/// Rows that slide past each other take all places to each other: the mean over them is exact with `rows`, and
+/// as far from it with `exact` as errors of layered channels stay however fine the spacing.
+#[test]
+fn sliding_rows_give_2_in_the_mean() {
+    let n = 15;
+    let slid = |share: f64| -> Vec<Vect<2>> {
+        let row = |x: &Vect<2>| (x[1] * n as f64).round() - (n / 2) as f64;
+        let mut all = lattice::<2>(n);
+        for x in &mut all {
+            x[0] += (row(x) * share).rem_euclid(1.0) / n as f64;
+        }
+        all
+    };
+    let mean = |operator: &dyn ViscousOperator<2>| -> f64 {
+        let places = (0..64).map(|k| (f64::from(k) + 0.5) / 64.0);
+        let forces = places.map(|s| in_the_middle(slid(s), n, 2.0, operator, shear)[0]);
+        forces.sum::<f64>() / 64.0
+    };
+    let expected = [
+        ("morris", 9.2e-5),
+        ("hu-adams", 9.2e-5),
+        ("espanol-revenga", 0.006471),
+        ("monaghan-gingold", 0.01312),
+        ("krimi", 0.002613),
+    ];
+    let both = scaled(OnLattice::Exact)
+        .into_iter()
+        .zip(scaled(OnLattice::Rows));
+    for (((name, exact), (_, rows)), (_, beyond)) in both.zip(expected) {
+        let (exact, rows) = (mean(&*exact) / 2.0 - 1.0, mean(&*rows) / 2.0 - 1.0);
+        println!("{name}: {exact:e} with `exact`, {rows:e} with `rows`");
+        assert!(rows.abs() < 1e-6, "{name}: {rows:e}");
+        assert!((exact - beyond).abs() <= 0.02 * beyond, "{name}: {exact:e}");
+    }
 }
 
 /// ∇²u = 2 of a sheared layer. As printed, the lattice error is a number of the ratio h/δr, not of
