@@ -92,24 +92,31 @@ fn shear<const D: usize>(x: &Vect<D>) -> Vect<D> {
     u
 }
 
-/// Rows that slide past each other take all places to each other: the mean over them is exact with `rows`, and
-/// as far from it with `exact` as errors of layered channels stay however fine the spacing.
-#[test]
-fn sliding_rows_give_2_in_the_mean() {
-    let n = 15;
-    let slid = |share: f64| -> Vec<Vect<2>> {
-        let row = |x: &Vect<2>| (x[1] * n as f64).round() - (n / 2) as f64;
-        let mut all = lattice::<2>(n);
+/// What a sheared layer feels in the mean over so many places of its rows.
+fn slid<const D: usize>(
+    n: usize,
+    ratio: f64,
+    places: u32,
+    operator: &dyn ViscousOperator<D>,
+) -> f64 {
+    let moved = |share: f64| -> Vec<Vect<D>> {
+        let row = |x: &Vect<D>| (x[1] * n as f64).round() - (n / 2) as f64;
+        let mut all = lattice::<D>(n);
         for x in &mut all {
             x[0] += (row(x) * share).rem_euclid(1.0) / n as f64;
         }
         all
     };
-    let mean = |operator: &dyn ViscousOperator<2>| -> f64 {
-        let places = (0..64).map(|k| (f64::from(k) + 0.5) / 64.0);
-        let forces = places.map(|s| in_the_middle(slid(s), n, 2.0, operator, shear)[0]);
-        forces.sum::<f64>() / 64.0
-    };
+    let shares = (0..places).map(|k| (f64::from(k) + 0.5) / f64::from(places));
+    let forces = shares.map(|s| in_the_middle(moved(s), n, ratio, operator, shear)[0]);
+    forces.sum::<f64>() / f64::from(places)
+}
+
+/// Rows that slide past each other take all places to each other: the mean over them is exact with `rows`, and
+/// as far from it with `exact` as errors of layered channels stay however fine the spacing.
+#[test]
+fn sliding_rows_give_2_in_the_mean() {
+    let mean = |operator: &dyn ViscousOperator<2>| slid(15, 2.0, 64, operator);
     let expected = [
         ("morris", 9.2e-5),
         ("hu-adams", 9.2e-5),
@@ -125,6 +132,11 @@ fn sliding_rows_give_2_in_the_mean() {
         println!("{name}: {exact:e} with `exact`, {rows:e} with `rows`");
         assert!(rows.abs() < 1e-6, "{name}: {rows:e}");
         assert!((exact - beyond).abs() <= 0.02 * beyond, "{name}: {exact:e}");
+    }
+    for (name, rows) in scaled::<3>(OnLattice::Rows) {
+        let rows = slid(9, 1.5, 32, &*rows) / 2.0 - 1.0;
+        println!("{name} in 3D: {rows:e}");
+        assert!(rows.abs() < 1e-4, "{name} in 3D: {rows:e}");
     }
 }
 
