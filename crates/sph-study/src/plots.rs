@@ -61,7 +61,7 @@ pub fn convergence(results: &Results) -> Option<Plot> {
     })
 }
 
-/// Every series; if there are too many to be told apart, only the most accurate on the Pareto line
+/// Every series of which anything has run; if there are too many to be told apart, only the most accurate on the Pareto line
 /// by name, and the others in the background.
 fn drawn(results: &Results, of: impl Fn(&SeriesResult) -> (String, Vec<[f64; 2]>)) -> Vec<Series> {
     let best = best(results);
@@ -69,6 +69,9 @@ fn drawn(results: &Results, of: impl Fn(&SeriesResult) -> (String, Vec<[f64; 2]>
     let mut others = Vec::new();
     for series in &results.series {
         let (name, points) = of(series);
+        if points.is_empty() {
+            continue;
+        }
         match results.series.len() <= MOST || best.contains(&series.name.as_str()) {
             true => named.push(Series::of(name, points, Style::LineAndMarkers)),
             false => others.push(Series::of(name, points, Style::Background)),
