@@ -52,9 +52,14 @@ impl SeriesWriter {
     /// Continues the series at the byte `offset` that [`position`](Self::position)
     /// gave when the run was checkpointed; what follows is cut off.
     ///
-    /// A file that is shorter, or has no end of row there, is refused untouched.
-    pub fn open_truncated(path: impl AsRef<Path>, offset: u64) -> Result<Self> {
+    /// A file that is shorter, has no end of row there, or has other columns, is refused untouched.
+    pub fn open_truncated<N: AsRef<str>, U: AsRef<str>>(
+        path: impl AsRef<Path>,
+        offset: u64,
+        columns: impl IntoIterator<Item = (N, U)>,
+    ) -> Result<Self> {
         let path = path.as_ref();
+        let cells = headings(path, columns)?;
         let failed = |e| IoError::read(path, e);
         let opened = OpenOptions::new().read(true).write(true).open(path);
         let mut file = opened.map_err(failed)?;
@@ -77,6 +82,9 @@ impl SeriesWriter {
         if header.pop() != Some(b'\n') {
             return Err(malformed("it has no header before that place"));
         }
+        if let Some(problem) = difference(&String::from_utf8_lossy(&header), &cells) {
+            return Err(malformed(&problem));
+        }
         let mut end = [0];
         file.seek(SeekFrom::Start(offset - 1)).map_err(failed)?;
         file.read_exact(&mut end).map_err(failed)?;
@@ -87,7 +95,7 @@ impl SeriesWriter {
         Ok(Self {
             path: path.to_path_buf(),
             file,
-            columns: header.split(|&b| b == b',').count(),
+            columns: cells.len(),
             position: offset,
         })
     }
@@ -124,6 +132,19 @@ impl SeriesWriter {
         }
         self.position += line.len() as u64;
         Ok(())
+    }
+}
+
+/// How a header differs from the columns that are to be written under it.
+fn difference(header: &str, cells: &[String]) -> Option<String> {
+    let before: Vec<&str> = header.split(',').collect();
+    let new = cells.iter().find(|c| !before.contains(&c.as_str()));
+    let gone = before.iter().find(|b| !cells.iter().any(|c| c == *b));
+    match (new, gone) {
+        _ if before == *cells => None,
+        (Some(cell), _) => Some(format!("it has no column `{cell}`")),
+        (None, Some(cell)) => Some(format!("its column `{cell}` is no longer measured")),
+        (None, None) => Some("its columns are in another order".into()),
     }
 }
 
@@ -197,16 +218,28 @@ mod tests {
         series.row(&[9.0, 9.0, 9.0]).unwrap();
         drop(series);
 
-        let mut series = SeriesWriter::open_truncated(&path, mark).unwrap();
+        let mut series = SeriesWriter::open_truncated(&path, mark, COLUMNS).unwrap();
         series.row(&[1.0, 1.0, 2.0]).unwrap();
         assert!(series.row(&[1.0]).is_err());
         assert_eq!(std::fs::read(&path).unwrap(), whole);
 
-        let beyond = SeriesWriter::open_truncated(&path, 1 << 20).unwrap_err();
+        let beyond = SeriesWriter::open_truncated(&path, 1 << 20, COLUMNS).unwrap_err();
         assert!(matches!(beyond, IoError::TooShort { .. }), "{beyond}");
         for inside in [0, 3, mark - 1] {
-            let error = SeriesWriter::open_truncated(&path, inside).unwrap_err();
+            let error = SeriesWriter::open_truncated(&path, inside, COLUMNS).unwrap_err();
             assert!(matches!(error, IoError::Malformed { .. }), "{error}");
+        }
+        let more = COLUMNS.into_iter().chain([("front", "m")]);
+        let turned = COLUMNS.into_iter().rev();
+        let other =
+            |columns: Vec<_>| SeriesWriter::open_truncated(&path, mark, columns).unwrap_err();
+        for (columns, why) in [
+            (more.collect(), "no column `front[m]`"),
+            (COLUMNS[..2].to_vec(), "`steps` is no longer measured"),
+            (turned.collect(), "another order"),
+        ] {
+            let error = other(columns).to_string();
+            assert!(error.contains(why), "{error}");
         }
         assert_eq!(std::fs::read(&path).unwrap(), whole);
     }

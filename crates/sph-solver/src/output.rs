@@ -33,12 +33,14 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// Starts anew, or goes on after `written` outputs.
+    /// Starts anew, or goes on after `written` outputs. With `changed_at` the scene's outputs may be others than before:
+    /// the list of fields goes on with what there is of it until that time, s, or begins there.
     pub fn open<const D: usize>(
         scene: &Scene,
         probes: &Probes<D>,
         folder: &Path,
         written: Option<usize>,
+        changed_at: Option<f64>,
     ) -> Result<Self, IoError> {
         if written.is_none() {
             forget_earlier_run(folder);
@@ -54,10 +56,11 @@ impl Outputs {
             }
         }
         let path = folder.join("fields.pvd");
-        let series = match (scene.output.vtk, written) {
-            (false, _) => None,
-            (true, None) => Some(PvdSeries::create(path)?),
-            (true, Some(frames)) => Some(PvdSeries::open_at(path, frames)?),
+        let series = match (scene.output.vtk, written, changed_at) {
+            (false, ..) => None,
+            (true, None, _) => Some(PvdSeries::create(path)?),
+            (true, _, Some(time)) => Some(PvdSeries::open_until(path, time)?),
+            (true, Some(frames), None) => Some(PvdSeries::open_at(path, frames)?),
         };
         let drawn = probes.iter().any(|(_, p)| p.drawn_column().is_some());
         if drawn || !scene.output.picture.is_empty() {

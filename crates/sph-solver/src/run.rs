@@ -143,14 +143,17 @@ fn run_in<const D: usize>(
         }
     }
     let resumed = options.start.goes_on().then_some(&counters);
+    let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
+    // First what may be refused: a changed scene may measure other columns.
+    let mut series = Series::open(&options.out, parts.flow.outlets.labels(), &parts.probes, at)?;
+    let changed = options.start == Start::Changed;
     let outputs = Outputs::open(
         scene,
         &parts.probes,
         &options.out,
         resumed.map(|c| c.outputs),
+        changed.then_some(parts.flow.world.time),
     )?;
-    let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
-    let mut series = Series::open(&options.out, parts.flow.outlets.labels(), &parts.probes, at)?;
     if let Some(peaks) = counters.series_peaks {
         series.peaks = peaks.map(f64::from_bits);
     }

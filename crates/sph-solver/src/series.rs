@@ -69,7 +69,11 @@ impl Series {
                 SeriesWriter::create(path, columns(left, probes))?,
                 [f64::INFINITY, f64::NEG_INFINITY, 0.0, 0.0],
             ),
-            Some((offset, extrema)) => (SeriesWriter::open_truncated(path, offset)?, extrema),
+            Some((offset, extrema)) => {
+                let columns = columns(left, probes);
+                let writer = SeriesWriter::open_truncated(path, offset, columns)?;
+                (writer, extrema)
+            }
         };
         Ok(Series {
             writer,

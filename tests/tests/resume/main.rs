@@ -205,6 +205,30 @@ fn a_run_starts_from_the_state_of_another() {
 }
 
 #[test]
+fn a_changed_run_may_begin_to_write_fields_but_not_measure_anew() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let run = "run scene.toml --quiet --out out";
+    bench.done(&format!("{run} --set run.end=0.1 --set output.vtk=false"));
+    assert!(!bench.path("out/fields.pvd").exists());
+    let before = bench.read("out/series.csv");
+    let refused = bench.call(&format!(
+        "{run} --resume --changed --set probe.mid.kind=front --set probe.mid.axis=x"
+    ));
+    assert_eq!(refused.code, Some(1), "{}", refused.err);
+    assert!(
+        refused.err.contains("no column `mid[m]`"),
+        "{}",
+        refused.err
+    );
+    assert_eq!(bench.read("out/series.csv"), before, "and nothing is lost");
+
+    bench.done(&format!("{run} --resume --changed"));
+    let listed = bench.read("out/fields.pvd").matches("<DataSet").count();
+    assert!(listed > 0, "no fields after 0.1 s");
+    assert_eq!(reached(&bench, "out"), 0.4);
+}
+
+#[test]
 fn a_state_that_does_not_fit_is_refused() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     bench.done("run scene.toml --quiet --out half --set run.end=0.02");
