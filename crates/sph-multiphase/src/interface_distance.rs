@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields};
 use sph_kernels::Sampler;
-use sph_neighbours::{World, shepard};
+use sph_neighbours::{World, shepard_some};
 
 /// Distance of a particle from the interface of its phase; the support's radius where there is
 /// none in reach.
@@ -45,12 +45,10 @@ impl<const D: usize> Stage<World<D>> for InterfaceDistance {
         let own = kernel.value_at_zero();
         let beyond = self.beyond.get_or_insert_with(|| Beyond::new(kernel));
         let list = world.lists.pruned.as_ref().unwrap_or(&world.lists.free);
-        let shares = shepard(world, positions, list, |i, row, w| {
+        // Far from interfaces there is one comparison per neighbour.
+        let near = |i: usize, row: &[u32]| row.iter().any(|&j| phase[j as usize] != phase[i]);
+        let shares = shepard_some(world, positions, list, near, |i, row, w| {
             let (mut other, mut all) = (0.0, volume[i] * own);
-            // Far from interfaces there is one comparison per neighbour.
-            if row.iter().all(|&j| phase[j as usize] == phase[i]) {
-                return 0.0;
-            }
             for (&j, w) in row.iter().zip(w) {
                 let j = j as usize;
                 let part = volume[j] * w;
@@ -60,7 +58,7 @@ impl<const D: usize> Stage<World<D>> for InterfaceDistance {
             other / all
         })?;
         let pairs = distance.par_iter_mut().zip(&shares).with_min_len(1024);
-        pairs.for_each(|(d, share)| *d = beyond.distance(*share));
+        pairs.for_each(|(d, share)| *d = beyond.distance(share.unwrap_or(0.0)));
         Ok(world.free.put(INTERFACE_DISTANCE, distance)?)
     }
 }

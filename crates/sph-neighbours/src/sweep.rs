@@ -207,6 +207,18 @@ pub fn shepard<const D: usize, R: Send>(
     list: &NeighbourList,
     use_row: impl Fn(usize, &[u32], &[f64]) -> R + Sync,
 ) -> Result<Vec<R>, StepError> {
+    let all = shepard_some(world, targets, list, |_, _| true, use_row)?;
+    Ok(all.into_iter().flatten().collect())
+}
+
+/// The same for the targets whose candidates are `wanted`; no kernel value is taken for the others.
+pub fn shepard_some<const D: usize, R: Send>(
+    world: &World<D>,
+    targets: &[Vect<D>],
+    list: &NeighbourList,
+    wanted: impl Fn(usize, &[u32]) -> bool + Sync,
+    use_row: impl Fn(usize, &[u32], &[f64]) -> R + Sync,
+) -> Result<Vec<Option<R>>, StepError> {
     let positions = world.free.get(fields::POSITION)?;
     let kernel = &*world.kernel;
     Ok(targets
@@ -215,9 +227,11 @@ pub fn shepard<const D: usize, R: Send>(
         .with_min_len(CHUNK)
         .map_init(Values::default, |values, (t, x)| {
             let row = list.row(t);
-            let domain = world.domain.any_periodic().then_some(&world.domain);
-            let w = values.fill(x, positions, row, domain, kernel);
-            use_row(t, row, w)
+            wanted(t, row).then(|| {
+                let domain = world.domain.any_periodic().then_some(&world.domain);
+                let w = values.fill(x, positions, row, domain, kernel);
+                use_row(t, row, w)
+            })
         })
         .collect())
 }

@@ -128,7 +128,11 @@ impl Study {
             .iter()
             .find(|p| !study.variants.iter().any(|v| fits(p, &v.name)))
         {
-            let near = suggestion(pattern, study.variants.iter().map(|v| v.name.as_str()));
+            let names = || study.variants.iter().map(|v| v.name.as_str());
+            let mut near = suggestion(pattern, names());
+            if let (true, Some(one)) = (near.is_empty(), names().next()) {
+                near = format!("; they are called like `{one}`");
+            }
             return Err(ReadError::Only(pattern.clone(), near));
         }
         Ok(study)
