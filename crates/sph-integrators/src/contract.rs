@@ -17,6 +17,10 @@ pub struct LimitCoefficients {
 pub trait Integrator: Send {
     /// Its stable shares of the time scales.
     fn coefficients(&self) -> LimitCoefficients;
+    /// Whether a step is one kick over all of it and then one drift over all of it.
+    fn kicks_once(&self) -> bool {
+        false
+    }
     /// Advances from t to t + dt.
     ///
     /// On entry the rates belong to the present state; on exit the clock stands at t + dt and

@@ -59,6 +59,10 @@ impl Integrator for SymplecticEuler {
         }
     }
 
+    fn kicks_once(&self) -> bool {
+        true
+    }
+
     fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<(), StepError> {
         system.kick(dt)?;
         system.drift(dt)

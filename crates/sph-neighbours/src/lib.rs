@@ -35,7 +35,9 @@ pub use list::{CHUNK, NeighbourList};
 pub use reaction::{WallForce, cross, wall_forces, wall_parts};
 pub use row::{Neighbourhood, Row, Scratch};
 pub use shares::{TermShare, shares_at};
-pub use sweep::{interactions, interactions_with, kernel_sums, pack, shepard, shepard_some};
+pub use sweep::{
+    accelerations_of, interactions, interactions_with, kernel_sums, pack, shepard, shepard_some,
+};
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, Term, TermEntry, There,
 };

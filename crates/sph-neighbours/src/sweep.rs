@@ -87,41 +87,13 @@ where
     K: Sampler + ?Sized,
     T: RowTerm<D> + ?Sized,
 {
-    let positions = world.free.get(fields::POSITION)?;
-    let renormalisation = world.free.get(fields::RENORMALISATION).ok();
+    let sweep = Sweep::new(world, states, kernel)?;
     let start = Rates {
         acceleration: world.gravity + world.driving,
         scalar: 0.0,
     };
-    let points = &world.walls.points.position[..];
-    let (list, pruned) = match &world.lists.pruned {
-        Some(list) => (list, true),
-        None => (&world.lists.free, false),
-    };
     let work = |from: usize, scratch: &mut [Scratch<D>; 2], i: usize| {
-        let i = from + i;
-        let x = &positions[i];
-        let domain = wrapping(&world.domain, x, world.reach());
-        let [free, wall] = scratch;
-        free.fill(x, positions, list.row(i), pruned, domain, kernel);
-        wall.clear();
-        if !points.is_empty() {
-            let candidates = world.lists.wall.row(i);
-            if !candidates.is_empty() {
-                wall.fill(x, points, candidates, false, domain, kernel);
-            }
-        }
-        let neighbourhood = Neighbourhood {
-            particle: i,
-            free: free.row(),
-            states,
-            wall: wall.row(),
-            contacts: world.walls.contacts.of(i),
-            inverse_renormalisation: renormalisation.map_or(1.0, |g| 1.0 / g[i]),
-        };
-        let mut rates = start;
-        term.row(&neighbourhood, &mut rates);
-        rates
+        sweep.rates(term, start, scratch, from + i)
     };
     let new_scratch = || [Scratch::new(), Scratch::new()];
     match scalar {
@@ -146,6 +118,101 @@ where
             }),
     }
     Ok(())
+}
+
+/// Accelerations that one term alone gives the particles that are `wanted`; zero for the others.
+///
+/// # Errors
+/// If the term misses a column.
+pub fn accelerations_of<const D: usize>(
+    world: &World<D>,
+    states: &[There<D>],
+    term: &dyn Interaction<D>,
+    wanted: impl Fn(usize) -> bool + Sync,
+    acceleration: &mut [Vect<D>],
+) -> Result<(), StepError> {
+    let bound = term.bind(world)?;
+    let sweep = Sweep::new(world, states, &*world.kernel)?;
+    let start = Rates {
+        acceleration: Vect::zeros(),
+        scalar: 0.0,
+    };
+    let all = acceleration.par_iter_mut().enumerate().with_min_len(CHUNK);
+    let new_scratch = || [Scratch::new(), Scratch::new()];
+    all.for_each_init(new_scratch, |scratch, (i, a)| {
+        *a = match wanted(i) {
+            true => sweep.rates(&*bound, start, scratch, i).acceleration,
+            false => Vect::zeros(),
+        };
+    });
+    Ok(())
+}
+
+/// What a walk over neighbourhoods looks at.
+struct Sweep<'a, const D: usize, K: ?Sized> {
+    world: &'a World<D>,
+    states: &'a [There<D>],
+    kernel: &'a K,
+    positions: &'a [Vect<D>],
+    points: &'a [Vect<D>],
+    renormalisation: Option<&'a [f64]>,
+    list: &'a NeighbourList,
+    /// Whether the list has nobody beyond the support.
+    pruned: bool,
+}
+
+impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
+    fn new(world: &'a World<D>, states: &'a [There<D>], kernel: &'a K) -> Result<Self, StepError> {
+        let (list, pruned) = match &world.lists.pruned {
+            Some(list) => (list, true),
+            None => (&world.lists.free, false),
+        };
+        Ok(Sweep {
+            world,
+            states,
+            kernel,
+            positions: world.free.get(fields::POSITION)?,
+            points: &world.walls.points.position,
+            renormalisation: world.free.get(fields::RENORMALISATION).ok(),
+            list,
+            pruned,
+        })
+    }
+
+    /// What a term adds to `start` for one particle.
+    #[inline(always)]
+    fn rates<T: RowTerm<D> + ?Sized>(
+        &self,
+        term: &T,
+        start: Rates<D>,
+        scratch: &mut [Scratch<D>; 2],
+        i: usize,
+    ) -> Rates<D> {
+        let world = self.world;
+        let x = &self.positions[i];
+        let domain = wrapping(&world.domain, x, world.reach());
+        let [free, wall] = scratch;
+        let row = self.list.row(i);
+        free.fill(x, self.positions, row, self.pruned, domain, self.kernel);
+        wall.clear();
+        if !self.points.is_empty() {
+            let candidates = world.lists.wall.row(i);
+            if !candidates.is_empty() {
+                wall.fill(x, self.points, candidates, false, domain, self.kernel);
+            }
+        }
+        let neighbourhood = Neighbourhood {
+            particle: i,
+            free: free.row(),
+            states: self.states,
+            wall: wall.row(),
+            contacts: world.walls.contacts.of(i),
+            inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[i]),
+        };
+        let mut rates = start;
+        term.row(&neighbourhood, &mut rates);
+        rates
+    }
 }
 
 fn wrapping<'a, const D: usize>(

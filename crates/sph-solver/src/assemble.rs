@@ -9,6 +9,7 @@ use sph_neighbours::{WallSet, World};
 use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
+use sph_stress::ElasticSubSteps;
 
 use crate::choices::Choices;
 use crate::defaults;
@@ -23,7 +24,7 @@ use crate::implicit::{ImplicitViscosity, Solves};
 use crate::initial::InitialState;
 use crate::lattices;
 use crate::layers::Layers;
-use crate::limits::limiters_of;
+use crate::limits::{elastic_wave, limiters_of};
 use crate::measured;
 use crate::outlets::Outlets;
 use crate::placed::place;
@@ -33,6 +34,7 @@ use crate::seepage;
 use crate::snapshot::Snapshot;
 use crate::sound::sound_speeds;
 use crate::stages::{SharedWall, WALL_STATE};
+use crate::sub_steps::SubSteps;
 use crate::summary::PluginInForce;
 use crate::wall_speeds;
 use crate::walls::{build_walls, wall_problem};
@@ -140,6 +142,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     let ground = Ground::of(&choices);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
     let limiters = limiters_of(&choices, &laws, &kinematic_viscosities);
+    let elastic_wave = elastic_wave(&choices, &laws);
     let planned = plan_stages(scene, &mut choices, &laws, walls.as_ref(), &world)?;
     let scheme = choices.implicit_viscosity.take();
     let implicit = planned.friction.zip(scheme);
@@ -157,6 +160,11 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
             (Some(implicit), Some(friction.term))
         }
     };
+    let sub_steps = planned.sub_stepped.zip(elastic_wave);
+    let sub_steps = sub_steps.map(|((term, felt), wave)| {
+        let longest = wave.longest(&world);
+        SubSteps::new(ElasticSubSteps::new(term, felt, longest))
+    });
     let mut flow = Flow {
         world,
         stages: planned.stages,
@@ -170,6 +178,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         evolved: vec![diffused.evolved],
         integrated: integrated(&diffused, compressed.as_ref()),
         elastic: planned.elastic,
+        sub_steps,
         coulomb: planned.coulomb,
         seepage: planned.seepage,
         moved: true,

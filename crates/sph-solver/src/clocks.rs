@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use crate::flow::Flow;
+use crate::sub_steps::SUB_STEPS_NAME;
 
 /// Wall-clock time of one kind of work.
 #[derive(Clone, Debug)]
@@ -26,10 +27,12 @@ impl<const D: usize> Flow<D> {
     pub(crate) fn reset_timings(&mut self) {
         let services = [LISTS_NAME, "kick and drift"].map(String::from);
         let seepage = self.seepage.iter().map(|_| SEEPAGE_NAME.into());
+        let sub_steps = self.sub_steps.iter().map(|_| SUB_STEPS_NAME.into());
         let solves = self.implicit.iter().map(|_| "implicit viscosity".into());
         let names = services
             .into_iter()
             .chain(self.stages.iter().map(|s| s.name()))
+            .chain(sub_steps)
             .chain(seepage)
             .chain(solves);
         self.timings = names

@@ -89,6 +89,34 @@ pub fn refuse_what_is_not_known<const D: usize>(
     Ok(())
 }
 
+/// Refuses sub-steps where they are not known.
+///
+/// # Errors
+/// The key of the scene that asks for them.
+pub fn refuse_sub_steps<const D: usize>(
+    scene: &Scene,
+    force: &dyn ElasticForce<D>,
+    adjoint: bool,
+    kicks_once: bool,
+) -> Result<(), SolverError> {
+    let why = if force.implicit() {
+        "stresses of the end of the step have no need of sub-steps: take one of `implicit` and `sub_steps` out"
+    } else if force.blend() == Blend::Forces {
+        "where forces are blended the share of the others is not known within the step: take `sub_steps` out, or \
+         blend \"stresses\""
+    } else if adjoint {
+        "the `adjoint` force was not tried in sub-steps: take one of the two out"
+    } else if !kicks_once {
+        "sub-steps go between one kick and one drift over all of the step: take [integrator.symplectic-euler], or take \
+         `sub_steps` out"
+    } else {
+        return Ok(());
+    };
+    let chosen = scene.choice("elastic-force");
+    let path = chosen.map_or("elastic-force".into(), |choice| choice.path);
+    Err(SolverError::at(format!("{path}.sub_steps"), why))
+}
+
 /// Refuses stresses of the end of the step where they are not known.
 fn refuse_implicit(
     path: &str,

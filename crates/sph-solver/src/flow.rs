@@ -17,6 +17,7 @@ use crate::kept::Kept;
 use crate::outlets::Outlets;
 use crate::snapshot::Snapshot;
 use crate::stages::{SharedWall, lock};
+use crate::sub_steps::SubSteps;
 
 /// The assembled system of one scene.
 pub struct Flow<const D: usize> {
@@ -33,6 +34,8 @@ pub struct Flow<const D: usize> {
     pub(crate) integrated: Vec<Field<Scalar>>,
     /// Remembered stresses that follow the motion.
     pub(crate) elastic: Option<ElasticMotion<D>>,
+    /// Elastic forces that have steps of their own.
+    pub(crate) sub_steps: Option<SubSteps<D>>,
     /// Friction of soils on walls.
     pub(crate) coulomb: Option<CoulombFriction<D>>,
     /// Water that moves through pores.
@@ -111,12 +114,11 @@ impl<const D: usize> System for Flow<D> {
         let mut velocity = self.world.free.take(fields::VELOCITY)?;
         let solved = self.implicit.is_some() || self.seepage.is_some();
         let earlier = if solved { velocity.clone() } else { Vec::new() };
-        let acceleration = self.world.free.get(fields::ACCELERATION)?;
-        velocity
-            .par_iter_mut()
-            .zip(acceleration)
-            .with_min_len(2048)
-            .for_each(|(u, a)| *u += a * dt);
+        if self.sub_steps.is_none() {
+            let acceleration = self.world.free.get(fields::ACCELERATION)?;
+            let all = velocity.par_iter_mut().zip(acceleration);
+            all.with_min_len(2048).for_each(|(u, a)| *u += a * dt);
+        }
         self.world.free.put(fields::VELOCITY, velocity)?;
         for evolved in &self.evolved {
             let mut value = self.world.free.take(evolved.value)?;
@@ -129,6 +131,7 @@ impl<const D: usize> System for Flow<D> {
             self.world.free.put(evolved.value, value)?;
         }
         self.timings[MOTION].spent += start.elapsed();
+        self.vibrate(dt)?;
         self.rub(&earlier, dt)?;
         if let Some((coulomb, pressed)) = self.coulomb.as_mut().zip(pressed) {
             coulomb.apply(&mut self.world, &pressed, dt)?;
@@ -138,10 +141,14 @@ impl<const D: usize> System for Flow<D> {
 
     fn drift(&mut self, dt: f64) -> Result<(), StepError> {
         let start = Instant::now();
+        // Places go with the mean of sub-steps, what is left of the stress with the last.
+        self.shift_to_mean(1.0)?;
         if let Some(walls) = &self.walls {
             lock(walls).constrain(&mut self.world, dt)?;
         }
-        self.deform(dt)?;
+        self.shift_to_mean(-1.0)?;
+        self.deform(self.stress_behind(dt))?;
+        self.shift_to_mean(1.0)?;
         match self.dilatation.take() {
             None => self.advance(dt)?,
             Some(mut dilatation) => {
@@ -153,6 +160,7 @@ impl<const D: usize> System for Flow<D> {
                 self.advance(0.5 * dt)?;
             }
         }
+        self.shift_to_mean(-1.0)?;
         self.timings[MOTION].spent += start.elapsed();
         Ok(())
     }
@@ -307,10 +315,14 @@ impl<const D: usize> Flow<D> {
             .fold(0.0, f64::max)
     }
 
-    /// The terms that push particles, friction that is solved for included.
+    /// The terms that push particles, included friction that is solved for and what has steps of its own.
     pub(crate) fn forces(&self) -> Vec<&dyn Interaction<D>> {
         let terms = self.terms.iter().map(|t| &**t);
-        terms.chain(self.solved.as_deref()).collect()
+        let own_steps = self.sub_steps.iter().map(|sub| &*sub.of.term);
+        terms
+            .chain(own_steps)
+            .chain(self.solved.as_deref())
+            .collect()
     }
 
     /// Measures the forces on all walls at the state of the last evaluation.

@@ -57,6 +57,7 @@ mod snapshot;
 mod sorting;
 mod sound;
 mod stages;
+mod sub_steps;
 mod summary;
 mod trouble;
 mod wall_speeds;

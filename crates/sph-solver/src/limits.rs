@@ -39,26 +39,10 @@ pub(crate) fn limiters_of<const D: usize>(
                     .all(|l| l.uniform_viscosity().is_some()),
         }));
     }
-    let stiffness = choices
-        .elastic_force
-        .as_ref()
-        .map_or(0.0, |f| f.stiffness());
-    let stiff = laws
-        .iter()
-        .zip(&choices.rheologies)
-        .filter_map(|(law, rheology)| {
-            let reference = law.reference();
-            let shear = rheology.elastic()?.shear_modulus() / reference.density;
-            Some((reference.sound_speed.powi(2) + stiffness * shear).sqrt())
-        });
     let force = choices.elastic_force.as_ref();
-    let implicit = force.is_some_and(|force| force.implicit());
-    if let (Some(speed), false) = (stiff.reduce(f64::max), implicit) {
-        limiters.push(Box::new(ElasticWaveLimit {
-            courant: c.courant,
-            speed,
-            stiffness,
-        }));
+    let bound = force.is_some_and(|force| !force.implicit() && !force.sub_steps());
+    if let (Some(wave), true) = (elastic_wave(choices, laws), bound) {
+        limiters.push(Box::new(wave));
     }
     if laws.len() > 1 {
         limiters.push(Box::new(InterfaceLimit { laws: laws.clone() }));
@@ -66,4 +50,23 @@ pub(crate) fn limiters_of<const D: usize>(
     limiters.extend(choices.smoother.iter().filter_map(|s| s.limiter(laws)));
     limiters.extend(choices.interfaces.iter().filter_map(|i| i.limiter(laws)));
     limiters
+}
+
+/// The step that elastic waves allow, where a phase is elastic.
+pub fn elastic_wave<const D: usize>(
+    choices: &Choices<D>,
+    laws: &Arc<[Box<dyn BoundState>]>,
+) -> Option<ElasticWaveLimit> {
+    let stiffness = choices.elastic_force.as_ref()?.stiffness();
+    let both = laws.iter().zip(&choices.rheologies);
+    let speeds = both.filter_map(|(law, rheology)| {
+        let reference = law.reference();
+        let shear = rheology.elastic()?.shear_modulus() / reference.density;
+        Some((reference.sound_speed.powi(2) + stiffness * shear).sqrt())
+    });
+    Some(ElasticWaveLimit {
+        courant: choices.integrator.coefficients().courant,
+        speed: speeds.reduce(f64::max)?,
+        stiffness,
+    })
 }

@@ -43,6 +43,8 @@ pub struct Planned<const D: usize> {
     pub ahead: bool,
     /// Remembered stresses that follow the motion.
     pub elastic: Option<ElasticMotion<D>>,
+    /// The elastic force, if it has steps of its own, and what its laws feel.
+    pub sub_stepped: Option<(Box<dyn Interaction<D>>, Felt)>,
     /// Friction of soils on walls.
     pub coulomb: Option<CoulombFriction<D>>,
     /// Water that moves through pores.
@@ -90,6 +92,7 @@ pub fn plan_stages<const D: usize>(
     };
     let mut friction = Vec::new();
     let mut solved = None;
+    let mut sub_stepped = None;
     if viscosity != Viscosity::Uniform(0.0) {
         let term = choices.viscous_operator.term(viscosity);
         kinds.push((term.name(), "viscous-operator"));
@@ -128,9 +131,16 @@ pub fn plan_stages<const D: usize>(
             &*choices.viscous_operator,
             world,
         )?;
+        if force.sub_steps() {
+            let once = choices.integrator.kicks_once();
+            elastic::refuse_sub_steps(scene, &**force, adjoint, once)?;
+        }
         let term = elastic::term(&**force, &felt, adjoint);
         kinds.push((term.name(), "elastic-force"));
-        terms.push(term);
+        match force.sub_steps() {
+            true => sub_stepped = Some((term, felt.clone())),
+            false => terms.push(term),
+        }
     }
     if let Some(smoother) = &choices.smoother {
         let term = smoother.term(laws);
@@ -263,6 +273,9 @@ pub fn plan_stages<const D: usize>(
     if ahead {
         goals.push(fields::ELASTIC_STIFFNESS.any());
     }
+    if let Some((term, _)) = &sub_stepped {
+        goals.extend(term.access().reads());
+    }
     if let Some(coulomb) = &coulomb {
         goals.extend(coulomb.access().reads());
     }
@@ -320,6 +333,7 @@ pub fn plan_stages<const D: usize>(
         lagged,
         ahead,
         elastic,
+        sub_stepped,
         coulomb,
         seepage,
     })

@@ -30,6 +30,10 @@ pub struct Divergence {
     /// are damped. Needs an implicit viscosity with which it is solved for.
     #[schemars(extend("source" = "ours"))]
     pub implicit: bool,
+    /// Take steps of its own within that of the flow, as long as elastic waves allow, while places, pressures and
+    /// viscosities stay: for soils that are much stiffer than their water. With the integrator `symplectic-euler`.
+    #[schemars(extend("source" = "ours, after Tuckerman et al. 1992, J. Chem. Phys. 97, 1990"))]
+    pub sub_steps: bool,
 }
 
 impl<const D: usize> ElasticForce<D> for Divergence {
@@ -41,6 +45,9 @@ impl<const D: usize> ElasticForce<D> for Divergence {
     }
     fn implicit(&self) -> bool {
         self.implicit
+    }
+    fn sub_steps(&self) -> bool {
+        self.sub_steps
     }
 }
 

@@ -30,6 +30,11 @@ pub trait ElasticForce<const D: usize>: Send {
     fn implicit(&self) -> bool {
         false
     }
+    /// Whether it takes steps of its own within that of the flow, in which nothing but velocities and remembered stresses
+    /// changes.
+    fn sub_steps(&self) -> bool {
+        false
+    }
     /// Whether it is made of [displacements](sph_core::fields::ELASTIC_DISPLACEMENT), which are then remembered, and
     /// with them stresses that are not cut.
     fn displaced(&self) -> bool {

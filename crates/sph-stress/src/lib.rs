@@ -6,7 +6,8 @@
 //! * [`ElasticMotion`] carries remembered stresses along, [`CarriedStress`] (or [`CarriedAhead`]) tells what of them acts,
 //!   and [`Yielded`] how the forces share where a material yields.
 //! * [`ElasticForce`] is a kind of plugin: [`Divergence`] takes [`StressDivergence`] or [`AdjointDivergence`] of the stress,
-//!   [`Displacement`] second differences of the way since the material was last liquid. [`Blended`] weighs forces.
+//!   [`Displacement`] second differences of the way since the material was last liquid. [`Blended`] weighs forces,
+//!   and [`ElasticSubSteps`] gives a force steps of its own.
 //! * [`EffectivePressure`] is a kind of plugin: the pressure between the grains, where it is not that
 //!   of the equation of state. [`Laplace`] is one. [`PorePressure`] is what is left for the water.
 //! * [`Seepage`] is a kind of plugin: water that moves through the pores. [`DarcyForchheimer`] is one.
@@ -26,6 +27,7 @@ mod eddy_viscosity;
 mod effective_pressure;
 mod elastic;
 mod elastic_force;
+mod elastic_sub_steps;
 mod felt;
 mod gradient;
 mod isotropic;
@@ -54,6 +56,7 @@ pub use eddy_viscosity::{EddyViscosity, EddyViscosityEntry};
 pub use effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 pub use elastic::ElasticMotion;
 pub use elastic_force::{Blend, ElasticForce, ElasticForceEntry};
+pub use elastic_sub_steps::ElasticSubSteps;
 pub use felt::Felt;
 pub use gradient::{GradientStage, NeighbourSums, VelocityGradient, VelocityGradientEntry};
 pub use isotropic::Isotropic;

@@ -15,13 +15,16 @@ pub struct ElasticWaveLimit {
     pub stiffness: f64,
 }
 
+impl ElasticWaveLimit {
+    /// The longest step, s.
+    pub fn longest<const D: usize>(&self, world: &World<D>) -> f64 {
+        self.courant * world.kernel.smoothing_length() / self.speed
+    }
+}
+
 impl<const D: usize> Limiter<D> for ElasticWaveLimit {
     fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
-        let h = world.kernel.smoothing_length();
-        Ok(StepLimit::new(
-            "elastic wave",
-            self.courant * h / self.speed,
-        ))
+        Ok(StepLimit::new("elastic wave", self.longest(world)))
     }
     fn formula(&self) -> String {
         format!(

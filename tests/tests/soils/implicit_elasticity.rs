@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 
 use sph_core::{System, Vect, fields};
-use sph_solver::{Assembled, assemble};
+use sph_solver::Assembled;
 
+use crate::stepping::{NESTED, crest, disc, kinetic_energy, longest, spin, step, top_at};
 use crate::tried;
 
 const IMPLICIT: [&str; 3] = [
@@ -17,37 +18,6 @@ fn with_implicit(scene: &str, overrides: &[&str]) -> Assembled<2> {
     let all: Vec<&str> = IMPLICIT.iter().chain(overrides).copied().collect();
     tried(scene, &all).unwrap_or_else(|e| panic!("{e}"))
 }
-
-fn step(parts: &mut Assembled<2>, dt: f64) {
-    parts.flow.world.dt = dt;
-    parts.integrator.step(&mut parts.flow, dt).unwrap();
-    parts.flow.evaluate().unwrap();
-}
-
-/// The part of the velocity along x that goes with sin 2πy.
-fn crest(parts: &Assembled<2>) -> f64 {
-    let free = &parts.flow.world.free;
-    let places = free.get(fields::POSITION).unwrap();
-    let all = places.iter().zip(free.get(fields::VELOCITY).unwrap());
-    let sum: f64 = all.map(|(x, u)| u[0] * (TAU * x[1]).sin()).sum();
-    2.0 * sum / places.len() as f64
-}
-
-/// Relative to the centre of mass, J.
-fn kinetic_energy(parts: &Assembled<2>) -> f64 {
-    let free = &parts.flow.world.free;
-    let mass = free.get(fields::MASS).unwrap();
-    let velocity = free.get(fields::VELOCITY).unwrap();
-    let all = || mass.iter().zip(velocity);
-    let whole: f64 = mass.iter().sum();
-    let mean = all().map(|(m, u)| u * (m / whole)).sum::<Vect<2>>();
-    all()
-        .map(|(m, u)| 0.5 * m * (u - mean).norm_squared())
-        .sum()
-}
-
-/// What nested differences leave of k² with 40 rows and h = 2 δr: the frequency is 1.4 % low.
-const NESTED: f64 = 0.986 * 0.986;
 
 /// u' = (u + σ)/(1 + a), σ' = σ − b u' with a = 𝒢Δt²k²/ρ of the second differences and b of the nested ones.
 #[test]
@@ -114,45 +84,12 @@ fn a_stiff_block_rings_out_with_the_step_of_sound_and_any_integrator() {
     }
 }
 
-const DISC: &str = r#"
-title = "A disc that spins freely"
-dimension = 2
-[run]
-end = 1.0
-[numerics]
-spacing = 0.025
-smoothing_ratio = 2.0
-[elastic-force.divergence]
-implicit = true
-[implicit-viscosity.backward-euler]
-[viscous-operator.monaghan-gingold]
-within = "arithmetic"
-[phase.rubber]
-density = 1000.0
-speed_of_sound = 20.0
-[phase.rubber.equation-of-state.linear]
-[phase.rubber.rheology.elastic]
-young_modulus = 2.8e5
-poisson_ratio = 0.4
-[body.disc]
-phase = "rubber"
-ellipse = { centre = [0.0, 0.0], semi_axes = [0.25, 0.25] }
-[body.disc.initial.rigid-rotation]
-angular_velocity = 1.0
-"#;
-
 /// What is solved for acts along the lines between particles: nothing brakes a disc that nothing holds.
 #[test]
 fn a_disc_that_spins_freely_keeps_its_angular_momentum() {
-    let loaded = sph_scene::parse(DISC, "disc.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
-    parts.flow.evaluate().unwrap();
-    let spin = |parts: &Assembled<2>| {
-        let free = &parts.flow.world.free;
-        let places = free.get(fields::POSITION).unwrap();
-        let all = places.iter().zip(free.get(fields::VELOCITY).unwrap());
-        all.map(|(x, u)| x[0] * u[1] - x[1] * u[0]).sum::<f64>()
-    };
+    let ahead =
+        "[elastic-force.divergence]\nimplicit = true\n[implicit-viscosity.backward-euler]\n";
+    let mut parts = disc(ahead);
     let first = spin(&parts);
     for _ in 0..1000 {
         step(&mut parts, 1e-3);
@@ -170,8 +107,7 @@ fn a_stiff_slope_stands() {
     parts.flow.evaluate().unwrap();
     let mut fastest = 0.0_f64;
     while parts.flow.world.time < 0.2 {
-        let limits = parts.flow.step_limits().unwrap();
-        let dt = limits.iter().map(|l| l.dt).fold(f64::INFINITY, f64::min);
+        let dt = longest(&parts);
         step(&mut parts, dt);
         if parts.flow.world.time > 0.1 {
             let all = parts.flow.world.free.get(fields::VELOCITY).unwrap();
@@ -180,21 +116,6 @@ fn a_stiff_slope_stands() {
     }
     println!("fastest {fastest:e} m/s");
     assert!(fastest < 1e-5, "{fastest} m/s after 0.1 s");
-}
-
-/// The speed of the highest particle, after the steps up to a time.
-fn top_at(parts: &mut Assembled<2>, time: f64) -> f64 {
-    while parts.flow.world.time < time {
-        let limits = parts.flow.step_limits().unwrap();
-        let dt = limits.iter().map(|l| l.dt).fold(f64::INFINITY, f64::min);
-        let left = time - parts.flow.world.time;
-        step(parts, dt.min(left));
-    }
-    let free = &parts.flow.world.free;
-    let places = free.get(fields::POSITION).unwrap();
-    let all = places.iter().zip(free.get(fields::VELOCITY).unwrap());
-    let highest = all.max_by(|(x, _), (y, _)| x[1].total_cmp(&y[1]));
-    highest.map_or(0.0, |(_, u)| u[0])
 }
 
 /// The same tilted by 33°, 3° more than stands: a layer gains 0.593 m/s². It begins to flow 0.2 s later than a soft one, since

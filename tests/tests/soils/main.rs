@@ -3,10 +3,12 @@
 mod effective_pressure;
 mod elastic_force;
 mod elastic_operator;
+mod elastic_sub_steps;
 mod gradients;
 mod implicit_elasticity;
 mod odd_beds;
 mod seepage;
+mod stepping;
 
 use std::path::Path;
 

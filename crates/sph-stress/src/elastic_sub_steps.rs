@@ -1,0 +1,149 @@
+//! Steps of the elastic force within that of the flow.
+
+use rayon::prelude::*;
+use sph_core::{Stage, StepError, Vect, fields};
+use sph_neighbours::{Interaction, There, World, accelerations_of, pack};
+
+use crate::{CarriedStress, ElasticMotion, Felt};
+
+/// u and τ over a step of the flow, N times, at places, volumes, pressures and viscosities that stay:
+///
+/// ```text
+/// u ← u + δ (f/m + div(s τ)/ρ),   τ ← τ + δ (2𝒢D′(u) + ωτ − τω),   δ = Δt/N
+/// ```
+///
+/// f being all other forces. Where a soil rests both parts of its acceleration cancel in every sub-step; an
+/// impulse Δt f would shake it by more than the strain rate at which a stiff soil yields. Friction that is solved for comes after; the
+/// last step of τ is left to the drift, which knows the velocity after friction.
+///
+/// Particles drift with ū + (1 − 1/N)/2 (uᴺ − u⁰), ū being the mean of u¹ … uᴺ: without elastic forces that is uᴺ, so that what the others do stays symplectic,
+/// and added up over the steps it is the way that the stress has seen, but for half a step: vibrations faster than the flow's step take nothing along.
+///
+/// Only soils and those who have one among their neighbours take part. With sub-steps elastic waves are resolved in time, those
+/// also that are faster than the flow's step.
+///
+/// Ours, after the multiple time steps of Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97, 1990.
+pub struct ElasticSubSteps<const D: usize> {
+    /// The force.
+    pub term: Box<dyn Interaction<D>>,
+    felt: Felt,
+    longest: f64,
+    states: Vec<There<D>>,
+    touched: Vec<bool>,
+    acceleration: Vec<Vect<D>>,
+    /// What the velocity of the drift has more than the last.
+    mean: Vec<Vect<D>>,
+}
+
+impl<const D: usize> ElasticSubSteps<D> {
+    /// For a force that reads no velocity, the laws of the scene, and the longest sub-step, s.
+    pub fn new(term: Box<dyn Interaction<D>>, felt: Felt, longest: f64) -> Self {
+        ElasticSubSteps {
+            term,
+            felt,
+            longest,
+            states: Vec::new(),
+            touched: Vec::new(),
+            acceleration: Vec::new(),
+            mean: Vec::new(),
+        }
+    }
+
+    /// N for a step Δt, s.
+    pub fn count(&self, dt: f64) -> usize {
+        (dt / self.longest - 1e-9).ceil().max(1.0) as usize
+    }
+
+    /// N sub-steps with the forces of the last evaluation; returns δ, by which τ is still behind.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn kick(
+        &mut self,
+        world: &mut World<D>,
+        motion: &mut ElasticMotion<D>,
+        dt: f64,
+    ) -> Result<f64, StepError> {
+        let count = self.count(dt);
+        let part = dt / count as f64;
+        self.find_touched(world)?;
+        pack(world, &mut self.states);
+        let particles = world.free.len();
+        self.acceleration.resize(particles, Vect::zeros());
+        let more = 0.5 * (1.0 - 1.0 / count as f64);
+        let before = world.free.get(fields::VELOCITY)?;
+        self.mean.clear();
+        self.mean.extend(before.iter().map(|u| -u * more));
+        for step in 1..=count {
+            if step > 1 {
+                CarriedStress(self.felt.clone()).run(world)?;
+            }
+            let touched = &self.touched;
+            accelerations_of(
+                world,
+                &self.states,
+                &*self.term,
+                |i| touched[i],
+                &mut self.acceleration,
+            )?;
+            let mut velocity = world.free.take(fields::VELOCITY)?;
+            let others = world.free.get(fields::ACCELERATION)?;
+            let all = velocity.par_iter_mut().zip(&self.acceleration).zip(others);
+            let all = all.zip(&mut self.mean).with_min_len(2048);
+            all.for_each(|(((u, a), others), mean)| {
+                *u += (a + others) * part;
+                *mean += *u / count as f64;
+            });
+            world.free.put(fields::VELOCITY, velocity)?;
+            if step < count {
+                motion.apply(world, part)?;
+            }
+        }
+        let velocity = world.free.get(fields::VELOCITY)?;
+        let all = self.mean.par_iter_mut().zip(velocity);
+        let all = all.zip(&self.touched).with_min_len(2048);
+        all.for_each(|((mean, u), touched)| {
+            *mean = match touched {
+                true => *mean - u * (1.0 - more),
+                false => Vect::zeros(),
+            };
+        });
+        Ok(part)
+    }
+
+    /// Adds `share` of what the velocity of the drift has more than that of the last sub-step.
+    ///
+    /// # Errors
+    /// If there is no velocity.
+    pub fn shift(&self, world: &mut World<D>, share: f64) -> Result<(), StepError> {
+        let velocity = world.free.get_mut(fields::VELOCITY)?;
+        let all = velocity.par_iter_mut().zip(&self.mean);
+        all.with_min_len(2048)
+            .for_each(|(u, more)| *u += more * share);
+        Ok(())
+    }
+
+    /// Who carries stress or has a neighbour that does.
+    fn find_touched(&mut self, world: &World<D>) -> Result<(), StepError> {
+        let carries: Vec<bool> = self
+            .felt
+            .laws
+            .iter()
+            .map(|l| l.elastic().is_some())
+            .collect();
+        let touched = &mut self.touched;
+        touched.clear();
+        touched.resize(world.free.len(), true);
+        if carries.iter().all(|c| *c) {
+            return Ok(());
+        }
+        let phase = world.free.get(fields::PHASE)?;
+        let list = world.lists.pruned.as_ref().unwrap_or(&world.lists.free);
+        let carries = |i: usize| carries[phase[i] as usize];
+        let all = touched.par_iter_mut().enumerate().with_min_len(2048);
+        all.for_each(|(i, touched)| {
+            *touched = carries(i) || list.row(i).iter().any(|&j| carries(j as usize));
+        });
+        Ok(())
+    }
+}

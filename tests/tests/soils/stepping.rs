@@ -1,0 +1,100 @@
+//! Elastic bodies and slopes advanced step by step.
+
+use std::f64::consts::TAU;
+
+use sph_core::{System, Vect, fields};
+use sph_solver::{Assembled, assemble};
+
+/// A step, and the forces after it.
+pub fn step(parts: &mut Assembled<2>, dt: f64) {
+    parts.flow.world.dt = dt;
+    parts.integrator.step(&mut parts.flow, dt).unwrap();
+    parts.flow.evaluate().unwrap();
+}
+
+/// The longest step, s.
+pub fn longest(parts: &Assembled<2>) -> f64 {
+    let limits = parts.flow.step_limits().unwrap();
+    limits.iter().map(|l| l.dt).fold(f64::INFINITY, f64::min)
+}
+
+/// The part of the velocity along x that goes with sin 2πy.
+pub fn crest(parts: &Assembled<2>) -> f64 {
+    let free = &parts.flow.world.free;
+    let places = free.get(fields::POSITION).unwrap();
+    let all = places.iter().zip(free.get(fields::VELOCITY).unwrap());
+    let sum: f64 = all.map(|(x, u)| u[0] * (TAU * x[1]).sin()).sum();
+    2.0 * sum / places.len() as f64
+}
+
+/// Relative to the centre of mass, J.
+pub fn kinetic_energy(parts: &Assembled<2>) -> f64 {
+    let free = &parts.flow.world.free;
+    let mass = free.get(fields::MASS).unwrap();
+    let velocity = free.get(fields::VELOCITY).unwrap();
+    let all = || mass.iter().zip(velocity);
+    let whole: f64 = mass.iter().sum();
+    let mean = all().map(|(m, u)| u * (m / whole)).sum::<Vect<2>>();
+    all()
+        .map(|(m, u)| 0.5 * m * (u - mean).norm_squared())
+        .sum()
+}
+
+/// What nested differences leave of k² with 40 rows and h = 2 δr: the frequency is 1.4 % low.
+pub const NESTED: f64 = 0.986 * 0.986;
+
+/// The speed of the highest particle, after the steps up to a time.
+pub fn top_at(parts: &mut Assembled<2>, time: f64) -> f64 {
+    while parts.flow.world.time < time {
+        let dt = longest(parts);
+        let left = time - parts.flow.world.time;
+        step(parts, dt.min(left));
+    }
+    let free = &parts.flow.world.free;
+    let places = free.get(fields::POSITION).unwrap();
+    let all = places.iter().zip(free.get(fields::VELOCITY).unwrap());
+    let highest = all.max_by(|(x, _), (y, _)| x[1].total_cmp(&y[1]));
+    highest.map_or(0.0, |(_, u)| u[0])
+}
+
+/// Without an elastic force of its own.
+pub const DISC: &str = r#"
+title = "A disc that spins freely"
+dimension = 2
+[run]
+end = 1.0
+[numerics]
+spacing = 0.025
+smoothing_ratio = 2.0
+[viscous-operator.monaghan-gingold]
+within = "arithmetic"
+[phase.rubber]
+density = 1000.0
+speed_of_sound = 20.0
+[phase.rubber.equation-of-state.linear]
+[phase.rubber.rheology.elastic]
+young_modulus = 2.8e5
+poisson_ratio = 0.4
+[body.disc]
+phase = "rubber"
+ellipse = { centre = [0.0, 0.0], semi_axes = [0.25, 0.25] }
+[body.disc.initial.rigid-rotation]
+angular_velocity = 1.0
+"#;
+
+/// A disc that spins freely with 1 rad/s, its elastic force as in `table`.
+pub fn disc(table: &str) -> Assembled<2> {
+    let text = format!("{DISC}{table}");
+    let loaded = sph_scene::parse(&text, "disc.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    parts.flow.evaluate().unwrap();
+    parts
+}
+
+/// Σ x × u.
+pub fn spin(parts: &Assembled<2>) -> f64 {
+    let free = &parts.flow.world.free;
+    let places = free.get(fields::POSITION).unwrap();
+    let all = places.iter().zip(free.get(fields::VELOCITY).unwrap());
+    all.map(|(x, u)| x[0] * u[1] - x[1] * u[0]).sum()
+}
