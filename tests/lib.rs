@@ -18,13 +18,18 @@ pub const DAM_BREAK: &str = include_str!("scenes/dam-break.toml");
 pub const PADDLE: &str = include_str!("scenes/paddle.toml");
 /// A soil that remembers displacements and blends forces.
 pub const SOIL: &str = include_str!("scenes/soil.toml");
-/// [`SOIL`] with stresses of the end of the step.
-pub fn soil_of_the_end_of_the_step() -> String {
+/// Stresses of the end of the step, for [`soil_with`].
+pub const END_OF_THE_STEP: &str =
+    "[elastic-force.divergence]\nimplicit = true\n[implicit-viscosity.backward-euler]";
+/// Elastic forces in steps of their own, for [`soil_with`].
+pub const SUB_STEPS: &str = "[elastic-force.divergence]\nsub_steps = true";
+/// [`SOIL`] with another elastic force, a hundred times as stiff.
+pub fn soil_with(elastic_force: &str) -> String {
     let force = "[elastic-force.displacement]\nblend = \"forces\"";
-    let ahead = "[elastic-force.divergence]\nimplicit = true\n[implicit-viscosity.backward-euler]";
     let remembered = ", \"elastic_displacement\", \"elastic_turn\"";
     assert!(SOIL.contains(force) && SOIL.contains(remembered));
-    SOIL.replace(force, ahead).replace(remembered, "")
+    let soft = SOIL.replace(force, elastic_force).replace(remembered, "");
+    soft.replace("0.8 MPa", "80 MPa")
 }
 /// Sand and water behind a gate, a sluice that swings and an outlet; every kind of output.
 pub const SOAK: &str = include_str!("scenes/soak.toml");

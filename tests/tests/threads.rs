@@ -1,6 +1,8 @@
 //! The number of threads changes the speed and not one bit of the result.
 
-use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL, soil_of_the_end_of_the_step};
+use sph_tests::{
+    Bench, DAM_BREAK, END_OF_THE_STEP, FinalState, PADDLE, SOIL, SUB_STEPS, soil_with,
+};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -65,8 +67,10 @@ fn blocks_outer_iterations_and_other_schemes_give_the_same_bits() {
 }
 
 #[test]
-fn stresses_of_the_end_of_the_step_give_the_same_bits() {
-    same_for_all_threads(&soil_of_the_end_of_the_step(), "--set run.end=0.06");
+fn stresses_of_the_end_of_the_step_and_of_sub_steps_give_the_same_bits() {
+    for force in [END_OF_THE_STEP, SUB_STEPS] {
+        same_for_all_threads(&soil_with(force), "--set run.end=0.06");
+    }
 }
 
 #[test]

@@ -22,8 +22,11 @@ impl<'a> Legend<'a> {
         let widths = named.iter().map(|m| text::width(&m.series.name, size));
         let width = widths.fold(0.0, f64::max) + 4.2 * size;
         let height = (1.45 * named.len() as f64 + 0.5) * size;
-        let spots = visited(marks, axes);
-        let hidden = |place: &Rect| spots.iter().filter(|&&s| place.holds(s)).count();
+        // Rather what is grey than what the legend names.
+        let spots = |named: bool| visited(marks.iter().filter(|m| m.is_named() == named), axes);
+        let spots = [true, false].map(spots);
+        let under = |place: &Rect, k: usize| spots[k].iter().filter(|&&s| place.holds(s)).count();
+        let hidden = |place: &Rect| (under(place, 0), under(place, 1));
         let places = corners(&axes.frame, width, height, 0.6 * size);
         let place = places.into_iter().min_by_key(hidden);
         Self {
@@ -73,7 +76,7 @@ fn corners(frame: &Rect, width: f64, height: f64, gap: f64) -> [Rect; 4] {
 }
 
 /// Spots along all series, close enough together to see what a box hides.
-fn visited(marks: &[Mark], axes: &Axes) -> Vec<Spot> {
+fn visited<'a>(marks: impl Iterator<Item = &'a Mark<'a>>, axes: &Axes) -> Vec<Spot> {
     let step = axes.size;
     let mut spots = Vec::new();
     for mark in marks {

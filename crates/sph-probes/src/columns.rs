@@ -87,6 +87,16 @@ impl Columns {
         Some(own[1] + (x - own[0]) / (other[0] - own[0]) * (other[1] - own[1]))
     }
 
+    /// Distance of a point from the line between neighbouring places, m; none without a place.
+    pub fn distance(&self, point: [f64; 2]) -> Option<f64> {
+        let pairs = self.places.windows(2).filter_map(|w| Some([w[0]?, w[1]?]));
+        let alone = self.places.iter().flatten().map(|place| [*place; 2]);
+        pairs
+            .chain(alone)
+            .map(|[from, to]| from_stretch(point, from, to))
+            .reduce(f64::min)
+    }
+
     /// Middles of the columns, m, without the additional ones at the ends.
     pub fn middles(&self) -> impl Iterator<Item = f64> {
         let inner = 1..self.places.len().saturating_sub(1);
@@ -97,4 +107,16 @@ impl Columns {
     pub fn places(&self) -> impl Iterator<Item = [f64; 2]> {
         self.places.iter().copied().flatten()
     }
+}
+
+/// Distance of a point from the straight line between two places, m.
+fn from_stretch(point: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let off = [point[0] - from[0], point[1] - from[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
+    let part = match square > 0.0 {
+        true => ((off[0] * along[0] + off[1] * along[1]) / square).clamp(0.0, 1.0),
+        false => 0.0,
+    };
+    (off[0] - part * along[0]).hypot(off[1] - part * along[1])
 }

@@ -23,8 +23,8 @@ pub enum LineOf {
     Limit,
 }
 
-/// Root mean square of the height of a line over a reference's, at the reference's points, and the
-/// share of these points where there is a line.
+/// Root mean square of the height of a line over a reference's, at the reference's points, the
+/// share of these points where there is a line, and the root mean square of their distances from it, in whatever direction.
 ///
 /// The line goes through the highest particle of every column of two spacings' width, half a spacing
 /// above it; with `of = "failure"` through the highest that has moved by less than `moved` since the
@@ -33,8 +33,8 @@ pub enum LineOf {
 /// `threshold` now, and along the surface where none is: the limit of a moving bed
 /// ([`BedLines`](crate::BedLines)). Between
 /// two particles the line is straight, beyond the last ones level; a column without a particle
-/// interrupts it. Points of the reference without a line do not count in the first value:
-/// look at both. Without any the first is NaN.
+/// interrupts it. Points of the reference without a line do not count in the first and the last value:
+/// look at the share, too. Without any they are NaN. A steep line is nearer than it is high.
 ///
 /// Displacements are kept for such probes only.
 ///
@@ -122,7 +122,11 @@ impl Probe<2> for Line {
             suffix: suffix.into(),
             unit,
         };
-        vec![column(".rms", "m"), column(".share", "1")]
+        vec![
+            column(".rms", "m"),
+            column(".share", "1"),
+            column(".distance", "m"),
+        ]
     }
 
     fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
@@ -150,18 +154,20 @@ impl Probe<2> for Line {
 
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {
         let line = self.drawn(world)?;
-        let (mut squares, mut count) = (0.0, 0_usize);
+        let (mut heights, mut distances, mut count) = (0.0, 0.0, 0_usize);
         for [x, y] in &self.reference {
-            if let Some(height) = line.height(*x) {
-                squares += (height - y).powi(2);
+            if let (Some(height), Some(distance)) = (line.height(*x), line.distance([*x, *y])) {
+                heights += (height - y).powi(2);
+                distances += distance.powi(2);
                 count += 1;
             }
         }
-        let rms = match count {
+        let rms = |squares: f64| match count {
             0 => f64::NAN,
             count => (squares / count as f64).sqrt(),
         };
-        Ok(vec![rms, count as f64 / self.reference.len().max(1) as f64])
+        let share = count as f64 / self.reference.len().max(1) as f64;
+        Ok(vec![rms(heights), share, rms(distances)])
     }
 }
 

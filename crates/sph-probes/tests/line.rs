@@ -55,6 +55,8 @@ fn a_straight_surface_is_met_and_a_shift_is_its_distance() {
     assert!(found[0] < 1e-12 && found[1] == 1.0, "{found:?}");
     let found = measured("of = \"surface\"", &world(0.3), line(0.02));
     assert!((found[0] - 0.02).abs() < 1e-12, "{found:?}");
+    let across = 0.02 / (1.0_f64 + 0.3 * 0.3).sqrt();
+    assert!((found[2] - across).abs() < 1e-12, "{found:?}");
 }
 
 #[test]

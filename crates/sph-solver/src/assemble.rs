@@ -162,7 +162,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     };
     let sub_steps = planned.sub_stepped.zip(elastic_wave);
     let sub_steps = sub_steps.map(|((term, felt), wave)| {
-        let longest = wave.longest(&world);
+        let longest = wave.longest_sub_step(&world);
         SubSteps::new(ElasticSubSteps::new(term, felt, longest))
     });
     let mut flow = Flow {

@@ -145,7 +145,9 @@ fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examinati
         dimension: D,
         derived: derived::<D>(scene, flow, assembled.height),
         step_limits: limits.iter().map(|l| (l.name.to_string(), l.dt)).collect(),
-        limit_formulas: flow.limiters.iter().map(|l| l.formula()).collect(),
+        limit_formulas: (flow.limiters.iter().map(|l| l.formula()))
+            .chain(flow.sub_steps.iter().map(|sub| sub.formula()))
+            .collect(),
         plugins: assembled.plugins,
         fields,
         bytes_per_particle: world.free.bytes_per_particle(),

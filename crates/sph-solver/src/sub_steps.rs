@@ -21,6 +21,14 @@ impl<const D: usize> SubSteps<D> {
     pub(crate) fn new(of: ElasticSubSteps<D>) -> Self {
         SubSteps { of, behind: 0.0 }
     }
+
+    /// What bounds them, for plans.
+    pub(crate) fn formula(&self) -> String {
+        format!(
+            "elastic sub-steps: {:.2e} s at most, as many within a step as it takes",
+            self.of.longest()
+        )
+    }
 }
 
 impl<const D: usize> Flow<D> {

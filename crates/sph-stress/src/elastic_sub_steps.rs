@@ -49,6 +49,11 @@ impl<const D: usize> ElasticSubSteps<D> {
         }
     }
 
+    /// The longest sub-step, s.
+    pub fn longest(&self) -> f64 {
+        self.longest
+    }
+
     /// N for a step Δt, s.
     pub fn count(&self, dt: f64) -> usize {
         (dt / self.longest - 1e-9).ceil().max(1.0) as usize

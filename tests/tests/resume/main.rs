@@ -5,7 +5,7 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, DAM_BREAK, PADDLE, Results, SOIL, soil_of_the_end_of_the_step};
+use sph_tests::{Bench, DAM_BREAK, END_OF_THE_STEP, PADDLE, Results, SOIL, SUB_STEPS, soil_with};
 
 mod failing;
 mod soak;
@@ -121,12 +121,14 @@ fn what_a_soil_remembers_of_its_way_goes_on_where_it_was() {
 }
 
 #[test]
-fn stresses_of_the_end_of_the_step_go_on_as_well() {
-    let bench = Bench::with(PROGRAM, &soil_of_the_end_of_the_step());
-    let whole = uninterrupted(&bench);
-    assert!(whole.state.columns.contains_key("elastic_stress"));
-    let resumed = killed_and_resumed(&bench, 0.04, 1);
-    whole.assert_same(&resumed, "with stresses of the end of the step");
+fn stresses_of_the_end_of_the_step_and_of_sub_steps_go_on_as_well() {
+    for force in [END_OF_THE_STEP, SUB_STEPS] {
+        let bench = Bench::with(PROGRAM, &soil_with(force));
+        let whole = uninterrupted(&bench);
+        assert!(whole.state.columns.contains_key("elastic_stress"));
+        let resumed = killed_and_resumed(&bench, 0.04, 1);
+        whole.assert_same(&resumed, force);
+    }
 }
 
 #[test]

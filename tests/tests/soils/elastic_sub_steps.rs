@@ -17,7 +17,7 @@ fn with_sub_steps(scene: &str, overrides: &[&str]) -> Assembled<2> {
     parts
 }
 
-/// 𝒢 = 10 MPa: a step of sound is six of elastic waves, ten of them a period.
+/// 𝒢 = 10 MPa: a step of sound is three sub-steps, ten of them a period.
 #[test]
 fn a_standing_wave_keeps_its_frequency_and_its_height() {
     let stiff = ["phase.rubber.rheology.elastic.young_modulus=2.8e7"];
@@ -34,7 +34,7 @@ fn a_standing_wave_keeps_its_frequency_and_its_height() {
     assert!(worst < 0.1, "off by {worst}");
 }
 
-/// 𝒢 = 1 GPa, 60 sub-steps: shaken at random and undamped, a block neither gains energy nor comes to rest.
+/// 𝒢 = 1 GPa, 30 sub-steps: shaken at random and undamped, a block neither gains energy nor comes to rest.
 #[test]
 fn a_stiff_block_that_is_shaken_gains_nothing() {
     let shaken = [
@@ -84,8 +84,8 @@ fn one_sub_step_is_the_step_itself() {
     assert!(apart < 1e-12, "{apart} m/s apart");
 }
 
-/// E = 1 GPa, 38 sub-steps. The layer that should stand rattles with 2.2 mm/s; one 3° steeper has 0.271 m/s after 0.5 s, and 0.263 m/s without sub-steps (0.158 with
-/// stresses of the end of the step).
+/// E = 1 GPa, 19 sub-steps. The layer that should stand creeps with 0.4 mm/s; one 3° steeper has 0.291 m/s after 0.5 s (0.297 if it
+/// flowed at once; 0.263 without sub-steps, 0.158 with stresses of the end of the step).
 #[test]
 fn stiff_slopes_stand_and_flow_as_without() {
     let stiff = "phase.sand.rheology.drucker-prager.young_modulus=1e9";
@@ -96,7 +96,7 @@ fn stiff_slopes_stand_and_flow_as_without() {
     let half = top_at(&mut parts, 0.5);
     println!("{resting:e} m/s at rest, {half} m/s after 0.5 s");
     assert!(resting.abs() < 5e-3, "{resting} m/s where it should stand");
-    assert!((half - 0.263).abs() < 0.02, "{half} m/s after 0.5 s");
+    assert!((half - 0.28).abs() < 0.03, "{half} m/s after 0.5 s");
 }
 
 #[test]
