@@ -31,7 +31,7 @@ fn a_standing_wave_keeps_its_frequency_and_its_height() {
         worst = worst.max((crest(&parts) / first - exact).abs());
     }
     println!("dt {dt:e} s, off by {worst:.4} in four periods");
-    assert!(worst < 0.1, "off by {worst}");
+    assert!(worst < 0.1, "off by {worst}, 0.0965 was measured");
 }
 
 /// 𝒢 = 1 GPa, 30 sub-steps: shaken at random and undamped, a block neither gains energy nor comes to rest.
@@ -84,7 +84,7 @@ fn one_sub_step_is_the_step_itself() {
     assert!(apart < 1e-12, "{apart} m/s apart");
 }
 
-/// E = 1 GPa, 19 sub-steps. The layer that should stand creeps with 0.4 mm/s; one 3° steeper has 0.291 m/s after 0.5 s (0.297 if it
+/// E = 1 GPa, 19 sub-steps. The layer that should stand creeps with 2.1 mm/s; one 3° steeper has 0.290 m/s after 0.5 s (0.297 if it
 /// flowed at once; 0.263 without sub-steps, 0.158 with stresses of the end of the step).
 #[test]
 fn stiff_slopes_stand_and_flow_as_without() {
