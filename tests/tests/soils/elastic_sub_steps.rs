@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use sph_core::{System, Vect, fields};
 use sph_solver::Assembled;
 
-use crate::stepping::{NESTED, crest, disc, kinetic_energy, longest, spin, step, top_at};
+use crate::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, step, top_at};
 use crate::tried;
 
 const SUB_STEPS: &str = "elastic-force.divergence.sub_steps=true";
@@ -64,9 +64,8 @@ fn a_stiff_block_that_is_shaken_gains_nothing() {
 /// With steps that elastic waves would allow there is one sub-step, and the scheme is that without.
 #[test]
 fn one_sub_step_is_the_step_itself() {
-    let soft = ["run.safety=0.5", "integrator.symplectic-euler.courant=0.4"];
-    let mut with = with_sub_steps("elastic-shear-wave", &soft);
-    let mut without = tried("elastic-shear-wave", &soft).unwrap_or_else(|e| panic!("{e}"));
+    let mut with = with_sub_steps("elastic-shear-wave", &[]);
+    let mut without = tried("elastic-shear-wave", &[]).unwrap_or_else(|e| panic!("{e}"));
     without.flow.evaluate().unwrap();
     let dt = 0.5 * longest(&without);
     for _ in 0..100 {
@@ -96,17 +95,15 @@ fn stiff_slopes_stand_and_flow_as_without() {
     let half = top_at(&mut parts, 0.5);
     println!("{resting:e} m/s at rest, {half} m/s after 0.5 s");
     assert!(resting.abs() < 5e-3, "{resting} m/s where it should stand");
-    assert!((half - 0.28).abs() < 0.03, "{half} m/s after 0.5 s");
+    assert!(
+        (0.263..0.297).contains(&half),
+        "{half} m/s after 0.5 s: not between the explicit scheme and a flow from the start"
+    );
 }
 
 #[test]
 fn a_disc_that_spins_freely_keeps_its_angular_momentum() {
-    let mut parts = disc("[elastic-force.divergence]\nsub_steps = true\n");
-    let first = spin(&parts);
-    for _ in 0..1000 {
-        step(&mut parts, 1e-3);
-    }
-    let kept = spin(&parts) / first;
+    let kept = spin_kept("[elastic-force.divergence]\nsub_steps = true\n");
     println!("angular momentum after 1 rad: {kept}");
     assert!((kept - 1.0).abs() < 1e-5, "{kept} of it");
 }
