@@ -17,6 +17,7 @@ impl Symmetric {
     pub const ZERO: Symmetric = Symmetric([0.0; 6]);
 
     /// ½(A + Aᵀ).
+    #[inline]
     pub fn part_of(a: &Matrix3<f64>) -> Self {
         let mean = |i, j| 0.5 * (a[(i, j)] + a[(j, i)]);
         Symmetric([
@@ -30,17 +31,20 @@ impl Symmetric {
     }
 
     /// As a full matrix.
+    #[inline]
     pub fn matrix(&self) -> Matrix3<f64> {
         let [xx, yy, zz, xy, yz, xz] = self.0;
         Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
     }
 
     /// A_xx + A_yy + A_zz.
+    #[inline]
     pub fn trace(&self) -> f64 {
         self.0[0] + self.0[1] + self.0[2]
     }
 
     /// A − ⅓ tr(A) I.
+    #[inline]
     pub fn deviator(&self) -> Self {
         let third = self.trace() / 3.0;
         let [xx, yy, zz, xy, yz, xz] = self.0;
@@ -48,6 +52,7 @@ impl Symmetric {
     }
 
     /// A:B = Σ A_ij B_ij.
+    #[inline]
     pub fn contract(&self, other: &Self) -> f64 {
         let (a, b) = (&self.0, &other.0);
         let diagonal = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -65,6 +70,7 @@ impl Symmetric {
 
 impl Add for Symmetric {
     type Output = Self;
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Symmetric(std::array::from_fn(|k| self.0[k] + other.0[k]))
     }
@@ -72,6 +78,7 @@ impl Add for Symmetric {
 
 impl Sub for Symmetric {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Symmetric(std::array::from_fn(|k| self.0[k] - other.0[k]))
     }
@@ -79,6 +86,7 @@ impl Sub for Symmetric {
 
 impl Mul<f64> for Symmetric {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, factor: f64) -> Self {
         Symmetric(self.0.map(|c| c * factor))
     }

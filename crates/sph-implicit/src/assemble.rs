@@ -27,20 +27,21 @@ struct Part<E, const D: usize> {
 /// Buffers of one thread.
 struct Buffers<E, const D: usize> {
     rows: Rows<D>,
-    couplings: Vec<E>,
-    sorted: Vec<(u32, E)>,
+    couplings: Vec<(u32, E)>,
+    /// Columns in the upper half, places in `couplings` in the lower.
+    order: Vec<u64>,
 }
 
 /// The matrix with −c_ij beside and own_i + Σ_j c_ij on the diagonal, and the sources.
 ///
-/// `row` gets a neighbourhood (without packed states) and writes one coupling c_ij for each of its free
-/// neighbours; those that are zero are left out.
+/// `row` gets a neighbourhood (without packed states) and writes j and the coupling c_ij for each of its free
+/// neighbours that is coupled.
 ///
 /// # Errors
 /// If the world has no positions.
 pub fn assemble<const D: usize, E: Entry<D>>(
     world: &World<D>,
-    row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<E>) -> Row<E, D> + Sync,
+    row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<(u32, E)>) -> Row<E, D> + Sync,
 ) -> Result<(Pattern, Values<E>, Vec<Vect<D>>), StepError> {
     assemble_some(world, |_| None, row)
 }
@@ -52,40 +53,38 @@ pub fn assemble<const D: usize, E: Entry<D>>(
 pub fn assemble_some<const D: usize, E: Entry<D>>(
     world: &World<D>,
     known: impl Fn(usize) -> Option<Row<E, D>> + Sync,
-    row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<E>) -> Row<E, D> + Sync,
+    row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<(u32, E)>) -> Row<E, D> + Sync,
 ) -> Result<(Pattern, Values<E>, Vec<Vect<D>>), StepError> {
     let surroundings = Surroundings::new(world)?;
     let particles = surroundings.particles();
     let one = |buffers: &mut Buffers<E, D>, part: &mut Part<E, D>, i: usize| {
-        buffers.couplings.clear();
-        let (row, within) = match known(i) {
-            Some(row) => (row, &[][..]),
-            None => {
-                let neighbourhood = surroundings.of(i, &mut buffers.rows);
-                let row = row(&neighbourhood, &mut buffers.couplings);
-                (row, neighbourhood.free.index)
-            }
+        let couplings = &mut buffers.couplings;
+        couplings.clear();
+        let row = match known(i) {
+            Some(row) => row,
+            None => row(&surroundings.of(i, &mut buffers.rows), couplings),
         };
         let mut diagonal = row.own;
-        let sorted = &mut buffers.sorted;
-        sorted.clear();
-        for (&j, c) in within.iter().zip(&buffers.couplings) {
+        let order = &mut buffers.order;
+        order.clear();
+        for (k, (j, c)) in couplings.iter().enumerate() {
             diagonal = diagonal.plus(c);
-            if *c != E::ZERO {
-                sorted.push((j, c.times(-1.0)));
-            }
+            order.push(u64::from(*j) << 32 | k as u64);
         }
-        sorted.sort_unstable_by_key(|(j, _)| *j);
-        part.counts.push(sorted.len() as u32);
-        part.columns.extend(sorted.iter().map(|(j, _)| *j));
-        part.others.extend(sorted.iter().map(|(_, c)| *c));
+        order.sort_unstable();
+        let place = |key: &u64| *key as u32 as usize;
+        part.counts.push(order.len() as u32);
+        part.columns
+            .extend(order.iter().map(|key| (key >> 32) as u32));
+        part.others
+            .extend(order.iter().map(|key| couplings[place(key)].1.times(-1.0)));
         part.diagonal.push(diagonal);
         part.sources.push(row.source);
     };
     let new = || Buffers {
         rows: Rows::default(),
         couplings: Vec::new(),
-        sorted: Vec::new(),
+        order: Vec::new(),
     };
     let chunks = particles.div_ceil(CHUNK);
     let parts: Vec<Part<E, D>> = (0..chunks)

@@ -19,26 +19,41 @@ pub trait Coupling<const D: usize>: Send + Sync {
     -> Result<Box<dyn BoundCoupling<D> + 'a>, StepError>;
 }
 
-/// What walls do to a particle.
+/// What a particle gets from walls and weak pairs.
 #[derive(Clone, Copy, Debug)]
 pub struct CouplingRow<W, const D: usize> {
     /// W_a, N s/m.
     pub wall: W,
-    /// s_a, N: from the velocities of walls.
+    /// s_a, N: from the velocities of walls and of weak pairs.
     pub source: Vect<D>,
+}
+
+/// Pairs that are coupled too weakly to be solved for: −C_ab (u_a − u_b) of a given velocity goes to the source.
+#[derive(Clone, Copy, Debug)]
+pub struct Weak<'a, const D: usize> {
+    /// With which they act, m/s.
+    pub velocity: &'a [Vect<D>],
+    /// The norm of C_ab is not above that of either particle, N s/m.
+    pub limit: &'a [f64],
 }
 
 /// A [`Coupling`] with its columns.
 pub trait BoundCoupling<const D: usize>: Sync {
-    /// Appends C_ab (N s/m) for every free neighbour; for couplings that do not mix components.
+    /// Appends b and C_ab (N s/m) for every free neighbour that is not `weak`; for couplings that do not mix components.
     ///
     /// At a wall the normal part of the velocity is that of the present state.
-    fn scalar_row(&self, rows: &Neighbourhood<'_, D>, out: &mut Vec<f64>) -> CouplingRow<f64, D>;
+    fn scalar_row(
+        &self,
+        rows: &Neighbourhood<'_, D>,
+        weak: Option<Weak<'_, D>>,
+        out: &mut Vec<(u32, f64)>,
+    ) -> CouplingRow<f64, D>;
 
-    /// Appends C_ab (N s/m) for every free neighbour.
+    /// Appends b and C_ab (N s/m) for every free neighbour that is not `weak`.
     fn block_row(
         &self,
         rows: &Neighbourhood<'_, D>,
-        out: &mut Vec<SMatrix<f64, D, D>>,
+        weak: Option<Weak<'_, D>>,
+        out: &mut Vec<(u32, SMatrix<f64, D, D>)>,
     ) -> CouplingRow<SMatrix<f64, D, D>, D>;
 }

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::register;
 use sph_neighbours::{Interaction, Pair};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
@@ -79,9 +79,11 @@ pub struct WithTransposed;
 impl<const D: usize> PairFriction<D> for WithTransposed {
     const NAME: &'static str = "Español–Revenga viscosity";
     #[inline(always)]
-    fn force(self, _: f64, there: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
-        let r = &pair.separation;
-        let along = (D + 2) as f64 * relative.dot(r) / pair.distance2.max(f64::MIN_POSITIVE);
-        (r * along + relative) * (there * pair.factor)
+    fn strengths(self, _: f64, there: f64, pair: &Pair<D>) -> [f64; 2] {
+        let even = there * pair.factor;
+        [
+            even,
+            (D + 2) as f64 * even / pair.distance2.max(f64::MIN_POSITIVE),
+        ]
     }
 }

@@ -16,14 +16,26 @@ pub use choice::{Across, Choice, OnLattice, WallTerm, Within};
 pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
     /// Name in plans.
     const NAME: &'static str;
-    /// Whether a sheared layer's response depends on its direction.
+    /// Whether a sheared layer's response depends on its direction: else β is not looked at.
     const DIRECTIONAL: bool = true;
+    /// α, 1/m², and β, 1/m⁴, of f(u) = α u + β (u·r) r.
+    fn strengths(self, volume: f64, there: f64, pair: &Pair<D>) -> [f64; 2];
     /// f, 1/m² times the relative velocity u_ab.
-    fn force(self, volume: f64, there: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D>;
+    #[inline(always)]
+    fn force(self, volume: f64, there: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
+        let [even, along] = self.strengths(volume, there, pair);
+        match Self::DIRECTIONAL {
+            true => relative * even + pair.separation * (along * relative.dot(&pair.separation)),
+            false => relative * even,
+        }
+    }
     /// ½ t·f(t): what a unit velocity along t gives.
     #[inline(always)]
     fn shear(self, volume: f64, there: f64, along: &Vect<D>, pair: &Pair<D>) -> f64 {
-        0.5 * self.force(volume, there, along, pair).dot(along)
+        match Self::DIRECTIONAL {
+            true => 0.5 * self.force(volume, there, along, pair).dot(along),
+            false => 0.5 * self.strengths(volume, there, pair)[0],
+        }
     }
     /// η̄ of a pair; that of the source.
     #[inline(always)]

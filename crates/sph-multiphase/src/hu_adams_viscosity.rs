@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::register;
 use sph_neighbours::{Interaction, Pair};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
@@ -78,12 +78,8 @@ impl<const D: usize> PairFriction<D> for BothVolumes {
     const NAME: &'static str = "Hu–Adams viscosity";
     const DIRECTIONAL: bool = false;
     #[inline(always)]
-    fn force(self, volume: f64, there: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
-        relative * ((volume + there * there / volume) * pair.factor)
-    }
-    #[inline(always)]
-    fn shear(self, volume: f64, there: f64, _: &Vect<D>, pair: &Pair<D>) -> f64 {
-        0.5 * (volume + there * there / volume) * pair.factor
+    fn strengths(self, volume: f64, there: f64, pair: &Pair<D>) -> [f64; 2] {
+        [(volume + there * there / volume) * pair.factor, 0.0]
     }
     #[inline(always)]
     fn at_element(self, volume: f64, there: f64) -> f64 {

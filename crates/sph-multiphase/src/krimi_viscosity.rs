@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::register;
 use sph_neighbours::{Interaction, Pair};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
@@ -103,11 +103,9 @@ impl BetweenStresses {
 impl<const D: usize> PairFriction<D> for BetweenStresses {
     const NAME: &'static str = "Krimi viscosity";
     #[inline(always)]
-    fn force(self, volume: f64, there: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
-        let r = &pair.separation;
-        let along = relative.dot(r) / pair.distance2.max(f64::MIN_POSITIVE);
-        let weight = self.strength(D) * (volume + there * there / volume) * pair.factor;
-        (r * along + relative) * weight
+    fn strengths(self, volume: f64, there: f64, pair: &Pair<D>) -> [f64; 2] {
+        let even = self.strength(D) * (volume + there * there / volume) * pair.factor;
+        [even, even / pair.distance2.max(f64::MIN_POSITIVE)]
     }
     #[inline(always)]
     fn mean<S: BoundViscosity>(

@@ -57,7 +57,7 @@ pub use contract::{
     ShiftedFlow, Shifting, ShiftingEntry, Smoother, SmootherEntry, Stages, Viscosity,
     ViscousOperator, ViscousOperatorEntry,
 };
-pub use coupling::{BoundCoupling, Coupling, CouplingRow};
+pub use coupling::{BoundCoupling, Coupling, CouplingRow, Weak};
 pub use delta_multiphase::{Balance, DeltaMultiphase};
 pub use delta_sph::{DENSITY_GRADIENT, DeltaForm, DeltaSph};
 pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, OwnVolume, TheirVolume};

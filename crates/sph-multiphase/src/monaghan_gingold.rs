@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::register;
 use sph_neighbours::{Interaction, Pair};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
@@ -81,9 +81,8 @@ pub struct Central;
 impl<const D: usize> PairFriction<D> for Central {
     const NAME: &'static str = "Monaghan–Gingold viscosity";
     #[inline(always)]
-    fn force(self, _: f64, there: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
-        let r = &pair.separation;
-        let along = relative.dot(r) / pair.distance2.max(f64::MIN_POSITIVE);
-        r * ((2 * (D + 2)) as f64 * along * there * pair.factor)
+    fn strengths(self, _: f64, there: f64, pair: &Pair<D>) -> [f64; 2] {
+        let along = (2 * (D + 2)) as f64 * there * pair.factor;
+        [0.0, along / pair.distance2.max(f64::MIN_POSITIVE)]
     }
 }

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::register;
 use sph_neighbours::{Interaction, Pair};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm, Within};
@@ -93,11 +93,7 @@ impl<const D: usize> PairFriction<D> for FirstDifferences {
     const NAME: &'static str = "Morris viscosity";
     const DIRECTIONAL: bool = false;
     #[inline(always)]
-    fn force(self, _: f64, there: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
-        relative * (2.0 * there * pair.factor)
-    }
-    #[inline(always)]
-    fn shear(self, _: f64, there: f64, _: &Vect<D>, pair: &Pair<D>) -> f64 {
-        there * pair.factor
+    fn strengths(self, _: f64, there: f64, pair: &Pair<D>) -> [f64; 2] {
+        [2.0 * there * pair.factor, 0.0]
     }
 }

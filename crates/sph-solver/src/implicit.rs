@@ -9,8 +9,8 @@ use std::time::Instant;
 use serde::{Deserialize, Serialize};
 use sph_core::{Stage, StepError, Vect, fields};
 use sph_implicit::{Entries, Entry, LinearSolver, Matrix, Report, Row, TimeScheme, assemble, dot};
-use sph_multiphase::Coupling;
-use sph_neighbours::World;
+use sph_multiphase::{Coupling, Weak};
+use sph_neighbours::{Neighbourhood, World};
 
 /// Coupling of a pair over its smaller mass up to which it is taken explicitly: hundreds of neighbours together are far from
 /// the bound of 1, and a step of water beside mud has a matrix of the mud alone.
@@ -206,16 +206,10 @@ impl<const D: usize> ImplicitViscosity<D> {
         part: [f64; 2],
     ) -> Result<System<D>, StepError> {
         let bound = self.coupling.bind(world)?;
-        self.system(
-            world,
-            earlier,
-            part,
-            Entries::Scalar,
-            |rows, out: &mut Vec<f64>| {
-                let row = bound.scalar_row(rows, out);
-                (row.wall, row.source)
-            },
-        )
+        self.system(world, earlier, part, Entries::Scalar, |rows, weak, out| {
+            let row = bound.scalar_row(rows, weak, out);
+            (row.wall, row.source)
+        })
     }
 
     fn block_system(
@@ -225,8 +219,8 @@ impl<const D: usize> ImplicitViscosity<D> {
         part: [f64; 2],
     ) -> Result<System<D>, StepError> {
         let bound = self.coupling.bind(world)?;
-        self.system(world, earlier, part, Entries::Block, |rows, out| {
-            let row = bound.block_row(rows, out);
+        self.system(world, earlier, part, Entries::Block, |rows, weak, out| {
+            let row = bound.block_row(rows, weak, out);
             (row.wall, row.source)
         })
     }
@@ -237,25 +231,27 @@ impl<const D: usize> ImplicitViscosity<D> {
         earlier: &[Vect<D>],
         [share, dt]: [f64; 2],
         entries: impl FnOnce(sph_implicit::Values<E>) -> Entries<D>,
-        friction: impl Fn(&sph_neighbours::Neighbourhood<'_, D>, &mut Vec<E>) -> (E, Vect<D>) + Sync,
+        friction: impl Fn(
+            &Neighbourhood<'_, D>,
+            Option<Weak<'_, D>>,
+            &mut Vec<(u32, E)>,
+        ) -> (E, Vect<D>)
+        + Sync,
     ) -> Result<System<D>, StepError> {
         let gamma = world.free.get(fields::RENORMALISATION).ok();
         let mass = world.free.get(fields::MASS)?.iter().enumerate();
         let mass: Vec<f64> = mass.map(|(i, m)| gamma.map_or(*m, |g| m * g[i])).collect();
-        let (pattern, values, right) = assemble(world, |rows, out: &mut Vec<E>| {
-            let (wall, source) = friction(rows, out);
-            let (i, mut source) = (rows.particle, source * dt);
-            for (&j, c) in rows.free.index.iter().zip(out.iter_mut()) {
-                let j = j as usize;
-                *c = c.times(share * dt);
-                if share == 1.0 && c.largest() <= SOFT * mass[i].min(mass[j]) {
-                    source -= c.apply(&(earlier[i] - earlier[j]));
-                    *c = E::ZERO;
-                }
-            }
+        let limit: Vec<f64> = mass.iter().map(|m| SOFT / dt * m).collect();
+        let weak = (share == 1.0).then_some(Weak {
+            velocity: earlier,
+            limit: &limit,
+        });
+        let (pattern, values, right) = assemble(world, |rows, out: &mut Vec<(u32, E)>| {
+            let (wall, source) = friction(rows, weak, out);
+            out.iter_mut().for_each(|(_, c)| *c = c.times(share * dt));
             Row {
-                own: E::unit(mass[i]).plus(&wall.times(share * dt)),
-                source,
+                own: E::unit(mass[rows.particle]).plus(&wall.times(share * dt)),
+                source: source * dt,
             }
         })?;
         Ok(System {

@@ -210,7 +210,7 @@ impl<const D: usize> Solve<D> {
         let parts = self.parts(world)?;
         let volume = world.free.get(fields::VOLUME)?;
         let gravity = world.gravity;
-        let row = |rows: &Neighbourhood<'_, D>, out: &mut Vec<f64>| {
+        let row = |rows: &Neighbourhood<'_, D>, out: &mut Vec<(u32, f64)>| {
             let own = volume[rows.particle];
             let Part::Inside(buoyant) = parts[rows.particle] else {
                 return known_row(parts[rows.particle].known());
@@ -218,25 +218,26 @@ impl<const D: usize> Solve<D> {
             let (mut held, mut source) = (0.0, 0.0);
             for (k, &j) in rows.free.index.iter().enumerate() {
                 let coupling = -own * volume[j as usize] * rows.free.factor[k];
-                let there = parts[j as usize];
-                let (between, density) = match there {
-                    Part::Inside(density) => (coupling, density),
+                if coupling == 0.0 {
+                    continue;
+                }
+                let density = match parts[j as usize] {
+                    Part::Inside(density) => {
+                        out.push((j, coupling));
+                        density
+                    }
                     Part::Surface(density, pressure) => {
                         held += coupling;
                         source += coupling * pressure;
-                        (0.0, density)
+                        density
                     }
-                    Part::Outside => {
-                        out.push(0.0);
-                        continue;
-                    }
+                    Part::Outside => continue,
                 };
-                out.push(between);
                 let mean = 0.5 * (buoyant + density);
                 source += coupling * mean * gravity.dot(&rows.free.separation[k]);
             }
             // Soil that fills a closed box has no surface: the level is then that of zero.
-            let all: f64 = out.iter().sum();
+            let all: f64 = out.iter().map(|(_, c)| c).sum();
             let mut right = Vect::zeros();
             right[0] = source;
             Row {

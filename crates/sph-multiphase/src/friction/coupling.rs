@@ -6,7 +6,7 @@ use sph_neighbours::{BoundTerm, Neighbourhood, Pair, PairTerm, Row, World};
 
 use super::{Bound, Here, PairFriction, Sum, ViscousTerm};
 use crate::viscosity::BoundViscosity;
-use crate::{BoundCoupling, Coupling, CouplingRow, ViscositySource};
+use crate::{BoundCoupling, Coupling, CouplingRow, ViscositySource, Weak};
 
 impl<const D: usize, F: PairFriction<D>, S: ViscositySource> Coupling<D> for ViscousTerm<F, S> {
     fn access(&self) -> Access {
@@ -25,6 +25,14 @@ impl<const D: usize, F: PairFriction<D>, S: ViscositySource> Coupling<D> for Vis
 
 type Block<const D: usize> = SMatrix<f64, D, D>;
 
+/// α 1 + β r rᵀ.
+#[inline(always)]
+fn block<const D: usize>([even, along]: [f64; 2], pair: &Pair<D>) -> Block<D> {
+    let r = &pair.separation;
+    let scaled = r * along;
+    Block::from_fn(|i, k| scaled[i] * r[k] + if i == k { even } else { 0.0 })
+}
+
 fn pairs<'a, const D: usize>(row: &'a Row<'_, D>) -> impl Iterator<Item = (usize, Pair<D>)> + 'a {
     (0..row.index.len()).map(|k| {
         let pair = Pair {
@@ -37,25 +45,43 @@ fn pairs<'a, const D: usize>(row: &'a Row<'_, D>) -> impl Iterator<Item = (usize
 }
 
 impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
-    /// −f for a unit velocity along the first axis.
+    /// −α and −β of a pair times its viscosity.
     #[inline(always)]
-    fn strength(&self, here: &Here<D, S::Here>, there: f64, pair: &Pair<D>) -> f64 {
-        let mut unit = Vect::zeros();
-        unit[0] = 1.0;
-        -self.friction.force(here.volume, there, &unit, pair)[0]
+    fn strengths(&self, here: &Here<D, S::Here>, there: f64, pair: &Pair<D>, eta: f64) -> [f64; 2] {
+        let strengths = self.friction.strengths(here.volume, there, pair);
+        strengths.map(|s| -(s * eta))
     }
 
-    /// −f for unit velocities along all axes.
+    /// Appends what couples `here` to free neighbours as `entry` writes it; the force of the weak pairs.
     #[inline(always)]
-    fn strengths(&self, here: &Here<D, S::Here>, there: f64, pair: &Pair<D>) -> Block<D> {
-        let mut block = Block::<D>::zeros();
-        for k in 0..D {
-            let mut unit = Vect::zeros();
-            unit[k] = 1.0;
-            let force = self.friction.force(here.volume, there, &unit, pair);
-            block.set_column(k, &-force);
+    fn couple<E>(
+        &self,
+        here: &Here<D, S::Here>,
+        rows: &Neighbourhood<'_, D>,
+        weak: Option<Weak<'_, D>>,
+        out: &mut Vec<(u32, E)>,
+        entry: impl Fn([f64; 2], &Pair<D>) -> E,
+    ) -> Vect<D> {
+        let scale = self.scale * here.volume;
+        let mut source = Vect::zeros();
+        let own = weak.map(|w| (w.velocity[rows.particle], w.limit[rows.particle]));
+        for (j, pair) in pairs(&rows.free) {
+            let eta = scale * self.mean_with(here, j);
+            let [even, along] = self.strengths(here, self.volume[j], &pair, eta);
+            let norm = even.abs() + along.abs() * pair.distance2;
+            if norm == 0.0 {
+                continue;
+            }
+            if let (Some(weak), Some((velocity, limit))) = (weak, own)
+                && norm <= limit.min(weak.limit[j])
+            {
+                let u = velocity - weak.velocity[j];
+                source -= u * even + pair.separation * (along * u.dot(&pair.separation));
+                continue;
+            }
+            out.push((j as u32, entry([even, along], &pair)));
         }
-        block
+        source
     }
 
     /// κ from what the explicit term sums.
@@ -92,16 +118,19 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
 impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundCoupling<D>
     for Bound<'_, D, F, S>
 {
-    fn scalar_row(&self, rows: &Neighbourhood<'_, D>, out: &mut Vec<f64>) -> CouplingRow<f64, D> {
+    fn scalar_row(
+        &self,
+        rows: &Neighbourhood<'_, D>,
+        weak: Option<Weak<'_, D>>,
+        out: &mut Vec<(u32, f64)>,
+    ) -> CouplingRow<f64, D> {
         let here = self.here(rows.particle);
         let scale = self.scale * here.volume;
-        out.extend(pairs(&rows.free).map(|(j, pair)| {
-            scale * self.mean_with(&here, j) * self.strength(&here, self.volume[j], &pair)
-        }));
+        let of_weak = self.couple(&here, rows, weak, out, |[even, _], _| even);
         let (mut wall, mut source) = (0.0, Vect::zeros());
         for (v, pair) in pairs(&rows.wall) {
             let rubbing = self.rubbing(v, &pair) * here.own_viscosity;
-            let friction = rubbing * self.strength(&here, self.wall_volume[v], &pair);
+            let [friction, _] = self.strengths(&here, self.wall_volume[v], &pair, rubbing);
             wall += friction;
             source += self.wall_velocity[v] * friction;
         }
@@ -117,25 +146,24 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundCoupling<D>
         }
         CouplingRow {
             wall: scale * wall,
-            source: source * scale,
+            source: source * scale + of_weak,
         }
     }
 
     fn block_row(
         &self,
         rows: &Neighbourhood<'_, D>,
-        out: &mut Vec<Block<D>>,
+        weak: Option<Weak<'_, D>>,
+        out: &mut Vec<(u32, Block<D>)>,
     ) -> CouplingRow<Block<D>, D> {
         let here = self.here(rows.particle);
         let scale = self.scale * here.volume;
-        out.extend(pairs(&rows.free).map(|(j, pair)| {
-            let mean = self.mean_with(&here, j);
-            self.strengths(&here, self.volume[j], &pair) * (scale * mean)
-        }));
+        let of_weak = self.couple(&here, rows, weak, out, block);
         let (mut wall, mut source) = (Block::zeros(), Vect::zeros());
         for (v, pair) in pairs(&rows.wall) {
             let rubbing = self.rubbing(v, &pair) * here.own_viscosity;
-            let friction = self.strengths(&here, self.wall_volume[v], &pair) * rubbing;
+            let strengths = self.strengths(&here, self.wall_volume[v], &pair, rubbing);
+            let friction = block(strengths, &pair);
             wall += friction;
             source += friction * self.wall_velocity[v];
         }
@@ -150,7 +178,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundCoupling<D>
         }
         CouplingRow {
             wall: wall * scale,
-            source: source * scale,
+            source: source * scale + of_weak,
         }
     }
 }
