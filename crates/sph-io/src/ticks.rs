@@ -29,12 +29,7 @@ pub(crate) fn linear(lo: f64, hi: f64, wanted: usize) -> Ticks {
         }
     }
     let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let power = if largest > 0.0 {
-        largest.log10().floor() as i32
-    } else {
-        0
-    };
-    let power = if (-3..5).contains(&power) { 0 } else { power };
+    let power = shared_power(largest);
     let unit = 10_f64.powi(power);
     let decimals = (-(step / unit).log10() - slack).ceil().clamp(0.0, 12.0) as usize;
     Ticks {
@@ -54,6 +49,10 @@ pub(crate) fn logarithmic(lo: f64, hi: f64, wanted: usize) -> Ticks {
     let first = (lo.log10() - slack).ceil() as i32;
     let last = (hi.log10() + slack).floor() as i32;
     if last - first < 1 {
+        let ticks = ones_twos_and_fives(lo, hi);
+        if ticks.major.len() > 2 {
+            return ticks;
+        }
         let mut ticks = linear(lo, hi, wanted);
         ticks.major.retain(|(v, _)| *v > 0.0);
         return ticks;
@@ -74,6 +73,31 @@ pub(crate) fn logarithmic(lo: f64, hi: f64, wanted: usize) -> Ticks {
         minor: parts.filter(|v| (lo..=hi).contains(v)).collect(),
         factor: None,
     }
+}
+
+/// 1, 2 and 5 times the powers of ten within `lo`…`hi`, both positive: nearly even on a logarithmic axis.
+fn ones_twos_and_fives(lo: f64, hi: f64) -> Ticks {
+    let power = shared_power(hi);
+    let [first, last] = [lo, hi].map(|v| v.log10().floor() as i32);
+    let all = (first..=last).flat_map(|k| [1.0, 2.0, 5.0].map(|m| (m, k)));
+    let marks = all.map(|(m, k)| {
+        let label = format!("{}", m * 10_f64.powi(k - power));
+        (m * 10_f64.powi(k), minus(label))
+    });
+    Ticks {
+        major: marks.filter(|(v, _)| (lo..=hi).contains(v)).collect(),
+        minor: Vec::new(),
+        factor: (power != 0).then(|| format!("×{}", power_of_ten(power))),
+    }
+}
+
+/// The power of ten that labels up to `largest` leave out.
+fn shared_power(largest: f64) -> i32 {
+    let power = match largest > 0.0 {
+        true => largest.log10().floor() as i32,
+        false => 0,
+    };
+    if (-3..5).contains(&power) { 0 } else { power }
 }
 
 /// `lo`…`hi` widened so that it has an extent; finite ends assumed.
@@ -173,6 +197,10 @@ mod tests {
         assert!(ticks.minor.contains(&0.02) || ticks.minor.iter().any(|v| (v - 0.02).abs() < 1e-9));
         assert!(logarithmic(1e-40, 1e40, 6).major.len() <= 9);
         assert!(logarithmic(2.0, 7.0, 5).major.len() >= 3);
+        assert_eq!(labels(&logarithmic(0.3, 9.0, 6)), ["0.5", "1", "2", "5"]);
+        let ticks = logarithmic(2.4e-7, 3.1e-6, 6);
+        assert_eq!(labels(&ticks), ["0.5", "1", "2"]);
+        assert_eq!(ticks.factor.as_deref(), Some("×10⁻⁶"));
     }
 
     #[test]

@@ -15,7 +15,8 @@ const GAP: f64 = 2.0;
 
 /// Deepest scour and highest deposit (m), and volume scoured (m³) of a bed.
 ///
-/// The bed is seen from above in square cells two spacings wide. Its height in a cell is half a spacing above the
+/// The bed is seen from above in cells two spacings wide, or a little wider so that whole ones fill the part that counts: where a
+/// bed begins in the middle of a cell, its grains leave the half cell for the next. Its height in a cell is half a spacing above the
 /// last grain, from the bottom up, over which there is a gap of two spacings: what is in suspension does not count.
 /// The depth of scour is `level` less that height, negative where the bed has risen.
 ///
@@ -46,6 +47,14 @@ pub struct ScourMap {
     number: Option<u32>,
 }
 
+/// How the part that counts is divided, m.
+struct Grid {
+    corner: [f64; 2],
+    width: [f64; 2],
+    /// Cells along x and y, if there is an end.
+    cells: [i64; 2],
+}
+
 /// A cell: its middle and the height of the bed, m.
 struct Cell {
     middle: [f64; 2],
@@ -53,9 +62,31 @@ struct Cell {
 }
 
 impl ScourMap {
+    fn grid(&self, spacing: f64) -> Grid {
+        let least = WIDTH * spacing;
+        let Some([low, high]) = self.within else {
+            return Grid {
+                corner: [0.0; 2],
+                width: [least; 2],
+                cells: [i64::MAX; 2],
+            };
+        };
+        let long = [0, 1].map(|k| high[k] - low[k]);
+        let cells = long.map(|l| (l / least + 1e-9).floor().max(1.0));
+        Grid {
+            corner: low,
+            width: [0, 1].map(|k| long[k] / cells[k]),
+            cells: cells.map(|n| n as i64),
+        }
+    }
+
     fn cells(&self, world: &World<3>) -> Result<Vec<Cell>, StepError> {
         let bed = Counted::of(world, Some(&self.phase), self.number)?;
-        let width = WIDTH * world.spacing;
+        let grid = self.grid(world.spacing);
+        let cell = |k: usize, x: f64| {
+            let n = ((x - grid.corner[k]) / grid.width[k]).floor() as i64;
+            n.min(grid.cells[k] - 1)
+        };
         let inside = |x: f64, y: f64| {
             let between = |[low, high]: [f64; 2], v: f64| low <= v && v <= high;
             self.within
@@ -64,7 +95,7 @@ impl ScourMap {
         let positions = world.free.get(fields::POSITION)?.iter().enumerate();
         let grains = positions.filter(|(k, x)| bed.has(*k) && inside(x[0], x[1]));
         let mut grains: Vec<([i64; 2], f64)> = grains
-            .map(|(_, x)| ([0, 1].map(|axis| (x[axis] / width).floor() as i64), x[2]))
+            .map(|(_, x)| ([0, 1].map(|k| cell(k, x[k])), x[2]))
             .collect();
         grains.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let columns = grains.chunk_by(|a, b| a.0 == b.0);
@@ -77,8 +108,12 @@ impl ScourMap {
                     }
                     top = *height;
                 }
+                let middle = |k: usize| {
+                    let n = column[0].0[k] as f64;
+                    grid.corner[k] + (n + 0.5) * grid.width[k]
+                };
                 Cell {
-                    middle: column[0].0.map(|n| (n as f64 + 0.5) * width),
+                    middle: [middle(0), middle(1)],
                     height: top + 0.5 * world.spacing,
                 }
             })
@@ -103,7 +138,8 @@ impl Probe<3> for ScourMap {
     fn measure(&self, world: &World<3>) -> Result<Vec<f64>, StepError> {
         let cells = self.cells(world)?;
         let depths = || cells.iter().map(|cell| self.level - cell.height);
-        let area = (WIDTH * world.spacing).powi(2);
+        let [long, wide] = self.grid(world.spacing).width;
+        let area = long * wide;
         Ok(vec![
             depths().fold(f64::NAN, f64::max),
             -depths().fold(f64::NAN, f64::min),

@@ -66,6 +66,20 @@ fn a_pit_has_its_depth_and_volume_and_grains_in_suspension_do_not_fill_it() {
     near(outside[2], 0.0);
 }
 
+/// Seven columns from x = 0.05 on: three cells, not four of which one is half outside.
+#[test]
+fn whole_cells_fill_the_part_that_counts() {
+    let probe = probe("within = [[0.05, 0.0], [0.4, 0.4]]");
+    let rows = probe.curves(&world()).unwrap();
+    let mut across: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    across.dedup();
+    assert_eq!(across.len(), 3);
+    for (n, x) in across.iter().enumerate() {
+        near(*x, 0.05 + (n as f64 + 0.5) * 0.35 / 3.0);
+    }
+    assert_eq!(rows.len(), 12);
+}
+
 #[test]
 fn the_map_has_a_row_for_every_cell_of_two_spacings() {
     let probe = probe("");
