@@ -11,7 +11,6 @@ use sph_neighbours::{
 };
 
 use crate::lattice::lattice_sum;
-use crate::limits::largest;
 use crate::{InterfaceEntry, InterfaceModel, Laws, Limiter};
 
 /// m_a a = h Σ_b 2 m_a m_b/(ρ_a + ρ_b) v_ab (u_ab·r_ab)/r² ∇w_ab over the pairs with at least one particle that
@@ -102,8 +101,8 @@ impl Damping {
     }
 }
 
-/// Δt ≤ 1/λ for the rate λ at which a light particle among heavy ones is stopped, if it closes with all of them at twice the
-/// largest speed.
+/// Δt ≤ 1/λ for the rate λ at which a light particle among heavy ones is stopped, if it closes with them at the speed of sound.
+/// With the present speed in its place the step would be 1.2 times as long, and single particles of air fast enough to fail.
 struct DampingLimit(Damping);
 
 impl<const D: usize> Limiter<D> for DampingLimit {
@@ -113,21 +112,13 @@ impl<const D: usize> Limiter<D> for DampingLimit {
             -pair.factor * pair.separation[0].powi(2) / pair.distance2
         });
         let cell = world.spacing.powi(D as i32);
-        let closing = (2.0 * largest_speed(world)?).min(fastest);
-        let signal = self.0.strength * fastest + self.0.shocks * closing;
-        let rate = 2.0 * signal * world.kernel.smoothing_length() * sum * cell;
+        let strength = self.0.strength + self.0.shocks;
+        let rate = 2.0 * strength * world.kernel.smoothing_length() * fastest * sum * cell;
         Ok(StepLimit::new("interface friction", 1.0 / rate))
     }
     fn formula(&self) -> String {
         "interface friction: dt <= 1/rate at which a light particle is stopped".into()
     }
-}
-
-/// Of particles and walls, m/s.
-fn largest_speed<const D: usize>(world: &World<D>) -> Result<f64, StepError> {
-    let of = |column: &[Vect<D>]| largest(column, |u| u.norm_squared()).sqrt();
-    let free = of(world.free.get(fields::VELOCITY)?);
-    Ok(free.max(of(&world.walls.elements.velocity)))
 }
 
 impl<const D: usize> PairTerm<D> for Damping {

@@ -147,7 +147,7 @@ impl<const D: usize> Limiter<D> for ForceLimit {
 }
 
 /// The largest value of a column; a value that is not a number counts as infinite.
-pub(crate) fn largest<T: Sync>(column: &[T], value: impl Fn(&T) -> f64 + Sync) -> f64 {
+fn largest<T: Sync>(column: &[T], value: impl Fn(&T) -> f64 + Sync) -> f64 {
     let all = column.par_iter().with_min_len(1024).map(|x| {
         let v = value(x);
         if v.is_nan() { f64::INFINITY } else { v }
