@@ -60,6 +60,16 @@ pub struct Values<E> {
     pub others: Vec<E>,
 }
 
+impl<E> Default for Values<E> {
+    /// No rows.
+    fn default() -> Self {
+        Values {
+            diagonal: Vec::new(),
+            others: Vec::new(),
+        }
+    }
+}
+
 /// The entries of a matrix.
 #[derive(Clone, Debug)]
 pub enum Entries<const D: usize> {

@@ -156,6 +156,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
                 lagged: planned.lagged,
                 stiffens: planned.ahead,
                 solves: Solves::default(),
+                former: None,
             };
             (Some(implicit), Some(friction.term))
         }

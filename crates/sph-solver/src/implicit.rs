@@ -8,7 +8,9 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use sph_core::{Stage, StepError, Vect, fields};
-use sph_implicit::{Entries, Entry, LinearSolver, Matrix, Report, Row, TimeScheme, assemble, dot};
+use sph_implicit::{
+    Block, Entries, Entry, LinearSolver, Matrix, Report, Row, TimeScheme, Values, assemble, dot,
+};
 use sph_multiphase::{Coupling, Weak};
 use sph_neighbours::{Neighbourhood, World};
 
@@ -88,6 +90,8 @@ pub struct ImplicitViscosity<const D: usize> {
     /// Whether an elastic material stiffens while it is strained: 𝒢Δt then acts as a viscosity.
     pub(crate) stiffens: bool,
     pub(crate) solves: Solves,
+    /// The entries of the last matrix, for their memory.
+    pub(crate) former: Option<Entries<D>>,
 }
 
 /// A system on the way to its solver.
@@ -161,9 +165,15 @@ impl<const D: usize> ImplicitViscosity<D> {
         dt: f64,
     ) -> Result<(), StepError> {
         let share = self.scheme.implicit_share();
-        let mut system = match self.coupling.mixes_components() {
-            false => self.scalar_system(world, earlier, [share, dt])?,
-            true => self.block_system(world, earlier, [share, dt])?,
+        let mut system = match (self.coupling.mixes_components(), self.former.take()) {
+            (false, Some(Entries::Scalar(former))) => {
+                self.scalar_system(world, earlier, [share, dt], former)?
+            }
+            (false, _) => self.scalar_system(world, earlier, [share, dt], Values::default())?,
+            (true, Some(Entries::Block(former))) => {
+                self.block_system(world, earlier, [share, dt], former)?
+            }
+            (true, _) => self.block_system(world, earlier, [share, dt], Values::default())?,
         };
         let rows = system.right.iter_mut().zip(ahead).zip(&system.mass);
         rows.for_each(|((b, u), m)| *b += u * *m);
@@ -196,6 +206,7 @@ impl<const D: usize> ImplicitViscosity<D> {
         })?;
         let seconds = start.elapsed().as_secs_f64();
         self.solves.add(&report, seconds, matrix.bytes());
+        self.former = Some(system.matrix.entries);
         Ok(())
     }
 
@@ -204,9 +215,11 @@ impl<const D: usize> ImplicitViscosity<D> {
         world: &World<D>,
         earlier: &[Vect<D>],
         part: [f64; 2],
+        former: Values<f64>,
     ) -> Result<System<D>, StepError> {
         let bound = self.coupling.bind(world)?;
-        self.system(world, earlier, part, Entries::Scalar, |rows, weak, out| {
+        let entries = (former, Entries::Scalar);
+        self.system(world, earlier, part, entries, |rows, weak, out| {
             let row = bound.scalar_row(rows, weak, out);
             (row.wall, row.source)
         })
@@ -217,9 +230,11 @@ impl<const D: usize> ImplicitViscosity<D> {
         world: &World<D>,
         earlier: &[Vect<D>],
         part: [f64; 2],
+        former: Values<Block<D>>,
     ) -> Result<System<D>, StepError> {
         let bound = self.coupling.bind(world)?;
-        self.system(world, earlier, part, Entries::Block, |rows, weak, out| {
+        let entries = (former, Entries::Block);
+        self.system(world, earlier, part, entries, |rows, weak, out| {
             let row = bound.block_row(rows, weak, out);
             (row.wall, row.source)
         })
@@ -230,7 +245,7 @@ impl<const D: usize> ImplicitViscosity<D> {
         world: &World<D>,
         earlier: &[Vect<D>],
         [share, dt]: [f64; 2],
-        entries: impl FnOnce(sph_implicit::Values<E>) -> Entries<D>,
+        (former, entries): (Values<E>, impl FnOnce(Values<E>) -> Entries<D>),
         friction: impl Fn(
             &Neighbourhood<'_, D>,
             Option<Weak<'_, D>>,
@@ -246,7 +261,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             velocity: earlier,
             limit: &limit,
         });
-        let (pattern, values, right) = assemble(world, |rows, out: &mut Vec<(u32, E)>| {
+        let (pattern, values, right) = assemble(world, former, |rows, out: &mut Vec<(u32, E)>| {
             let (wall, source) = friction(rows, weak, out);
             out.iter_mut().for_each(|(_, c)| *c = c.times(share * dt));
             Row {

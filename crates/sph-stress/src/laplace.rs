@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, register};
 use sph_implicit::{
     ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, Preconditioner, Report, Row,
-    assemble_some,
+    Values as MatrixValues, assemble_some,
 };
 use sph_neighbours::{Neighbourhood, Values, World, walk_some};
 
@@ -249,7 +249,7 @@ impl<const D: usize> Solve<D> {
             Part::Inside(_) => None,
             part => Some(known_row(part.known())),
         };
-        let (pattern, values, right) = assemble_some(world, known, row)?;
+        let (pattern, values, right) = assemble_some(world, MatrixValues::default(), known, row)?;
         let matrix = Matrix::new(pattern, Entries::Scalar(values));
         let mut pressure = world.free.take(fields::EFFECTIVE_PRESSURE)?;
         let mut x: Vec<Vect<D>> = pressure

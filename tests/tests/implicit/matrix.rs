@@ -1,7 +1,9 @@
 //! The matrix is the explicit term's: the same accelerations, symmetric, positive definite.
 
 use sph_core::{System, Vect, fields};
-use sph_implicit::{Cholesky, Entries, Entry, LinearSolver, Matrix, Row, assemble as matrix_of};
+use sph_implicit::{
+    Cholesky, Entries, Entry, LinearSolver, Matrix, Row, Values, assemble as matrix_of,
+};
 use sph_multiphase::{
     EspanolRevenga, HuAdamsViscosity, KrimiViscosity, MonaghanGingold, Morris, OnLattice,
     Viscosity, ViscousOperator, WallTerm, Weak,
@@ -145,7 +147,7 @@ fn friction<const D: usize>(
     let bound = coupling.bind(world).unwrap();
     match coupling.mixes_components() {
         false => {
-            let (pattern, values, source) = matrix_of(world, |rows, out| {
+            let (pattern, values, source) = matrix_of(world, Values::default(), |rows, out| {
                 let row = bound.scalar_row(rows, weak, out);
                 Row {
                     own: row.wall,
@@ -156,7 +158,7 @@ fn friction<const D: usize>(
             (Matrix::new(pattern, Entries::Scalar(values)), source)
         }
         true => {
-            let (pattern, values, source) = matrix_of(world, |rows, out| {
+            let (pattern, values, source) = matrix_of(world, Values::default(), |rows, out| {
                 let row = bound.block_row(rows, weak, out);
                 Row {
                     own: row.wall,
