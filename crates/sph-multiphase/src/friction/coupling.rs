@@ -64,7 +64,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
     ) -> Vect<D> {
         let scale = self.scale * here.volume;
         let mut source = Vect::zeros();
-        let own = weak.map(|w| (w.velocity[rows.particle], w.limit[rows.particle]));
+        let i = rows.particle;
         for (j, pair) in pairs(&rows.free) {
             let eta = scale * self.mean_with(here, j);
             let [even, along] = self.strengths(here, self.volume[j], &pair, eta);
@@ -72,10 +72,10 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
             if norm == 0.0 {
                 continue;
             }
-            if let (Some(weak), Some((velocity, limit))) = (weak, own)
-                && norm <= limit.min(weak.limit[j])
+            if let Some(weak) = weak
+                && norm <= weak.limit[i].min(weak.limit[j])
             {
-                let u = velocity - weak.velocity[j];
+                let u = weak.velocity[i] - weak.velocity[j];
                 source -= u * even + pair.separation * (along * u.dot(&pair.separation));
                 continue;
             }
