@@ -65,11 +65,9 @@ impl<N: Copy + Send + Sync> NearLists<N> {
             .par_chunks(BATCH)
             .map(|batch| {
                 let (mut counts, mut elements) = (Vec::with_capacity(batch.len()), Vec::new());
-                for x in batch {
-                    let row = outline.mesh.near(x, reach);
-                    counts.push(row.len() as u32);
-                    elements.extend_from_slice(&row);
-                }
+                outline
+                    .mesh
+                    .near_all(batch, reach, &mut counts, &mut elements);
                 (counts, elements)
             })
             .collect();

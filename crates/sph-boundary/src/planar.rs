@@ -176,11 +176,19 @@ impl WallMesh<2> for PlanarWalls {
         Ok(())
     }
 
-    fn near(&self, point: &Vect<2>, radius: f64) -> Vec<NearSegment> {
+    fn near_all(
+        &self,
+        points: &[Vect<2>],
+        radius: f64,
+        counts: &mut Vec<u32>,
+        rows: &mut Vec<NearSegment>,
+    ) {
         let radius = radius.min(self.reach);
-        self.grid
-            .near(&self.mesh, [point[0], point[1]], radius)
-            .collect()
+        for point in points {
+            let from = rows.len();
+            rows.extend(self.grid.near(&self.mesh, [point[0], point[1]], radius));
+            counts.push((rows.len() - from) as u32);
+        }
     }
 
     fn gamma(

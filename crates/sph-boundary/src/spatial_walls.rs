@@ -187,13 +187,18 @@ impl WallMesh<3> for SpatialWalls {
         Ok(())
     }
 
-    /// Also those of which only the circle around them is in reach: to look closer costs more than
-    /// to see them left out by every γ.
-    fn near(&self, point: &Vect<3>, radius: f64) -> Vec<NearTriangle> {
-        let mut near = self.grid.around((*point).into(), radius.min(self.reach));
-        // Face by face, as the triangles are.
-        near.sort_unstable_by_key(|n| (n.image, n.triangle));
-        near
+    /// Also those of which only the sphere around them is in reach: to look closer costs more than
+    /// to see them left out by every γ. Face by face, as the triangles are.
+    fn near_all(
+        &self,
+        points: &[Vect<3>],
+        radius: f64,
+        counts: &mut Vec<u32>,
+        rows: &mut Vec<NearTriangle>,
+    ) {
+        let points: Vec<[f64; 3]> = points.iter().map(|p| (*p).into()).collect();
+        self.grid
+            .rows(&points, radius.min(self.reach), counts, rows);
     }
 
     /// γ and the sum of ∇γ are exact over every planar face; the sum is shared out to the face's

@@ -5,7 +5,7 @@
 //! * `edges`, `lattice`, `fill`: the pieces cut into triangles of about the spacing, alike on
 //!   both sides of every edge;
 //! * `solid_angle`, `openings`: what a node stands for, and where the walls end;
-//! * `motion`, `inside`, `closest`, `grid`: what a flow asks of the mesh.
+//! * `motion`, `inside`, `closest`, `grid`, `rows`: what a flow asks of the mesh.
 
 mod build;
 mod closest;
@@ -22,6 +22,7 @@ mod openings;
 mod patches;
 mod places;
 mod removal;
+mod rows;
 mod solid_angle;
 mod tree;
 mod vector;

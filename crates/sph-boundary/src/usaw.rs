@@ -43,7 +43,7 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     /// Positions and version of the near lists for which the contacts were found.
     found_for: (u64, Vec<Vect<D>>),
     /// What was found last, batch by batch; kept for its memory.
-    found: Vec<Found<D>>,
+    found: Vec<Found>,
     /// Least height of the particles of the near lists over the planes of their contacts, m; ∞ for
     /// those on no plane's fluid side.
     clearance: Vec<f64>,
@@ -59,20 +59,18 @@ register!(
 /// Particles that one task works through.
 const BATCH: usize = 64;
 
-/// γ and contacts of a batch of particles.
+/// γ of a batch of particles, and where their contacts end.
 #[derive(Debug, Default)]
-struct Found<const D: usize> {
+struct Found {
     gamma: Vec<f64>,
-    contacts: Vec<Contact<D>>,
     /// Contacts up to and including each particle's.
     ends: Vec<u32>,
     clearance: Vec<f64>,
 }
 
-impl<const D: usize> Found<D> {
+impl Found {
     fn clear(&mut self) {
         self.gamma.clear();
-        self.contacts.clear();
         self.ends.clear();
         self.clearance.clear();
     }
@@ -138,49 +136,30 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         false
     }
 
-    /// Finds γ and contacts of all particles of the near lists.
-    fn find(&mut self, positions: &[Vect<D>]) {
+    /// Finds γ and contacts of all particles of the near lists, a block per batch.
+    fn find(&mut self, positions: &[Vect<D>], blocks: &mut Vec<Vec<Contact<D>>>) {
         let (near, mesh, integrals) = (&self.near, &self.outline.mesh, &self.integrals);
         let batches = near.particles.par_chunks(BATCH);
         self.found.resize_with(batches.len(), Found::default);
-        let batches = self.found.par_iter_mut().zip(batches).enumerate();
-        batches.for_each(|(b, (found, batch))| {
+        blocks.resize_with(batches.len(), Vec::new);
+        let all = self.found.par_iter_mut().zip(blocks).zip(batches);
+        all.enumerate().for_each(|(b, ((found, contacts), batch))| {
             found.clear();
+            contacts.clear();
             for (k, &particle) in batch.iter().enumerate() {
                 let (x, row) = (&positions[particle as usize], near.row(b * BATCH + k));
-                let from = found.contacts.len();
-                let gamma = mesh.gamma(integrals, x, row, &mut found.contacts);
-                let heights = found.contacts[from..].iter().map(|c| c.distance);
+                let from = contacts.len();
+                let gamma = mesh.gamma(integrals, x, row, contacts);
+                let heights = contacts[from..].iter().map(|c| c.distance);
                 let least = heights.filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
                 found.gamma.push(gamma);
-                found.ends.push(found.contacts.len() as u32);
+                found.ends.push(contacts.len() as u32);
                 found.clearance.push(least);
             }
         });
         self.clearance.clear();
         let least = self.found.iter().flat_map(|f| &f.clearance);
         self.clearance.extend(least);
-    }
-
-    /// Puts the contacts of all batches one behind the other.
-    fn join(&self, contacts: &mut Vec<Contact<D>>) {
-        let nothing = Contact {
-            element: 0,
-            gradient: Vect::zeros(),
-            distance: 0.0,
-        };
-        let total = self.found.iter().map(|f| f.contacts.len()).sum();
-        contacts.resize(total, nothing);
-        let mut rest = &mut contacts[..];
-        let places: Vec<_> = (self.found.iter())
-            .map(|found| {
-                let (place, after) = std::mem::take(&mut rest).split_at_mut(found.contacts.len());
-                rest = after;
-                (place, &found.contacts)
-            })
-            .collect();
-        let places = places.into_par_iter().with_min_len(4);
-        places.for_each(|(place, found)| place.copy_from_slice(found));
     }
 }
 
@@ -254,26 +233,19 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         let mut renormalisation = world.free.take(fields::RENORMALISATION)?;
         renormalisation.fill(1.0);
         let positions = world.free.get(fields::POSITION)?;
-        set_up.find(positions);
         let contacts = &mut world.walls.contacts;
-        set_up.join(&mut contacts.contacts);
-        contacts.particles.clear();
-        contacts.starts.clear();
-        contacts.starts.push(0);
-        contacts.place.clear();
-        contacts.place.resize(positions.len(), u32::MAX);
-        let mut offset = 0;
-        for (batch, found) in set_up.near.particles.chunks(BATCH).zip(&set_up.found) {
+        let mut blocks = contacts.take_blocks(positions.len());
+        set_up.find(positions, &mut blocks);
+        contacts.put_blocks(blocks);
+        let batches = set_up.near.particles.chunks(BATCH).zip(&set_up.found);
+        for (b, (batch, found)) in batches.enumerate() {
+            let mut start = 0;
             let results = found.gamma.iter().zip(&found.ends);
             for (&particle, (&gamma, &end)) in batch.iter().zip(results) {
                 renormalisation[particle as usize] = gamma;
-                if offset + end > *contacts.starts.last().unwrap_or(&0) {
-                    contacts.place[particle as usize] = contacts.particles.len() as u32;
-                    contacts.particles.push(particle);
-                    contacts.starts.push(offset + end);
-                }
+                contacts.place(particle, b, start..end);
+                start = end;
             }
-            offset += found.contacts.len() as u32;
         }
         Ok(world.free.put(fields::RENORMALISATION, renormalisation)?)
     }

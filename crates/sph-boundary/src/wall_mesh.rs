@@ -91,8 +91,27 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     /// If a wall cannot follow.
     fn move_walls(&mut self, poses: &[Pose<D>]) -> Result<(), BoundaryError>;
 
-    /// Elements within a radius of a point, ascending.
-    fn near(&self, point: &Vect<D>, radius: f64) -> Vec<Self::Near>;
+    /// For every point the elements within a radius, or a few more: their number, and all of them one behind the other,
+    /// each point's ascending.
+    fn near_all(
+        &self,
+        points: &[Vect<D>],
+        radius: f64,
+        counts: &mut Vec<u32>,
+        rows: &mut Vec<Self::Near>,
+    );
+
+    /// Elements within a radius of a point, or a few more, ascending.
+    fn near(&self, point: &Vect<D>, radius: f64) -> Vec<Self::Near> {
+        let mut row = Vec::new();
+        self.near_all(
+            std::slice::from_ref(point),
+            radius,
+            &mut Vec::new(),
+            &mut row,
+        );
+        row
+    }
 
     /// γ at a point from all elements that may be within the support; those that are become
     /// contacts.

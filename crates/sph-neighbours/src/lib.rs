@@ -12,6 +12,7 @@
 //! bits for any number of threads.
 
 mod batches;
+mod contacts;
 mod domain;
 mod fuse;
 mod grid;
@@ -27,6 +28,7 @@ mod walls;
 mod world;
 
 pub use batches::by_phase;
+pub use contacts::{Contact, Contacts};
 pub use domain::Domain;
 pub use fuse::{FusionEntry, Terms, fuse_all, fuse_three, fuse_two};
 pub use grid::CellGrid;
@@ -42,5 +44,5 @@ pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, Term, TermEntry, There,
 };
 pub use walk::{Around, Rows, Surroundings, Values, walk, walk_some};
-pub use walls::{Contact, Contacts, Coulomb, Elements, Frame, WallPoints, WallSet};
+pub use walls::{Coulomb, Elements, Frame, WallPoints, WallSet};
 pub use world::{Lists, World};

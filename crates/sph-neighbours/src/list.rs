@@ -139,6 +139,9 @@ impl NeighbourList {
 }
 
 /// Writes the members of a contiguous range that are near; branch-free in the distance test.
+///
+/// A call of its own: among the loops over cells its registers are spilled for every candidate.
+#[inline(never)]
 fn keep_sorted<const D: usize>(
     slots: &mut [u32],
     x: &Vect<D>,

@@ -34,6 +34,16 @@ impl<const D: usize> WallForce<D> {
         }
     }
 
+    /// A force that nobody measured.
+    fn unknown() -> Self {
+        WallForce {
+            force: Vect::repeat(f64::NAN),
+            moment: [f64::NAN; 3],
+            pressure_force: Vect::repeat(f64::NAN),
+            pressure_moment: [f64::NAN; 3],
+        }
+    }
+
     /// Adds the force and the moment of something else on the same wall.
     pub fn add(&mut self, other: &Self) {
         self.force += other.force;
@@ -57,7 +67,9 @@ fn add(sum: &mut [f64; 3], more: [f64; 3]) {
     sum.iter_mut().zip(more).for_each(|(s, m)| *s += m);
 }
 
-/// Forces on all walls, in the order of their names, at the state of the last sweep.
+/// Forces on the wanted ones of all walls, in the order of their names, at the state of the last sweep; NaN on the others.
+///
+/// It costs several sweeps over the particles that see a wanted wall, nothing for the others.
 ///
 /// The walls' part of an acceleration is the whole less what the other particles would contribute
 /// with γ = 1, which is equal and opposite between two particles and leaves no momentum. Each
@@ -69,10 +81,22 @@ fn add(sum: &mut [f64; 3], more: [f64; 3]) {
 pub fn wall_forces<const D: usize>(
     world: &World<D>,
     terms: &[&dyn Interaction<D>],
+    wanted: &[bool],
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let positions = world.free.get(fields::POSITION)?;
-    let mut forces = vec![WallForce::zero(); world.walls.names.len()];
-    for (i, parts) in wall_parts(world, terms)?.iter().enumerate() {
+    let force = |wanted: &bool| match wanted {
+        true => WallForce::zero(),
+        false => WallForce::unknown(),
+    };
+    let mut forces: Vec<_> = wanted.iter().map(force).collect();
+    let (walls, lists) = (&world.walls, &world.lists.wall);
+    let sees = |i: usize| {
+        let mut contacts = walls.contacts.of(i).iter();
+        let points = if lists.is_empty() { &[] } else { lists.row(i) };
+        contacts.any(|c| wanted[walls.elements.wall[c.element as usize] as usize])
+            || (points.iter()).any(|v| wanted[walls.points.wall[*v as usize] as usize])
+    };
+    for (i, parts) in wall_parts(world, terms, sees)?.iter().enumerate() {
         for (wall, force) in parts {
             let total = &mut forces[*wall as usize];
             total.force += force;
@@ -92,7 +116,7 @@ pub fn wall_forces<const D: usize>(
     Ok(forces)
 }
 
-/// What every particle exerts on which wall, N: the parts of [`wall_forces`]. Nothing for particles
+/// What every wanted particle exerts on which wall, N: the parts of [`wall_forces`]. Nothing for particles
 /// that see no wall.
 ///
 /// # Errors
@@ -100,6 +124,7 @@ pub fn wall_forces<const D: usize>(
 pub fn wall_parts<const D: usize>(
     world: &World<D>,
     terms: &[&dyn Interaction<D>],
+    wanted: impl Fn(usize) -> bool + Sync,
 ) -> Result<Vec<Vec<(u32, Vect<D>)>>, StepError> {
     let bound = terms
         .iter()
@@ -119,7 +144,7 @@ pub fn wall_parts<const D: usize>(
         .into_par_iter()
         .with_min_len(256)
         .map_init(WallRow::default, |row, i| {
-            if !near_wall(i) {
+            if !near_wall(i) || !wanted(i) {
                 return Vec::new();
             }
             row.gather(world, &positions[i], i);

@@ -4,7 +4,7 @@
 
 use sph_core::Vect;
 
-use crate::{Domain, WallForce};
+use crate::{Contacts, Domain, WallForce};
 
 /// Wall points that take part in sums like particles: USAW vertices, dummy particles.
 #[derive(Clone, Debug, Default)]
@@ -81,44 +81,6 @@ impl<const D: usize> Elements<D> {
     }
 }
 
-/// A wall element within the support of a particle.
-#[derive(Clone, Copy, Debug)]
-pub struct Contact<const D: usize> {
-    /// Which element.
-    pub element: u32,
-    /// Its share of ∇γ at the particle, along the inward normal, 1/m.
-    pub gradient: Vect<D>,
-    /// Distance of the particle from the element's plane, m; negative behind it.
-    pub distance: f64,
-}
-
-/// The contacts of every free particle, near walls only.
-#[derive(Clone, Debug, Default)]
-pub struct Contacts<const D: usize> {
-    /// Particles that have contacts, ascending.
-    pub particles: Vec<u32>,
-    /// First contact of every such particle, one more than there are particles.
-    pub starts: Vec<u32>,
-    /// The contacts.
-    pub contacts: Vec<Contact<D>>,
-    /// For every free particle its place in `particles`, or `u32::MAX`.
-    pub place: Vec<u32>,
-}
-
-impl<const D: usize> Contacts<D> {
-    /// The contacts of a particle.
-    #[inline(always)]
-    pub fn of(&self, particle: usize) -> &[Contact<D>] {
-        match self.place.get(particle) {
-            Some(&p) if p != u32::MAX => {
-                let p = p as usize;
-                &self.contacts[self.starts[p] as usize..self.starts[p + 1] as usize]
-            }
-            _ => &[],
-        }
-    }
-}
-
 /// Where a moving wall is: x = R X + b, with X the place at which it was drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame<const D: usize> {
@@ -149,8 +111,8 @@ pub struct WallSet<const D: usize> {
     pub contacts: Contacts<D>,
     /// Where every wall is, in the order of the names; empty where no wall ever moves.
     pub frames: Vec<Frame<D>>,
-    /// Forces of the fluid on every wall, in the order of the names; measured only where a probe
-    /// asks for them, empty otherwise.
+    /// Forces of the fluid on every wall, in the order of the names; NaN on walls that no probe asks for, empty if none
+    /// asks for any.
     pub forces: Vec<WallForce<D>>,
 }
 

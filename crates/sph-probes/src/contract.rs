@@ -38,9 +38,9 @@ pub trait Probe<const D: usize>: Send {
     fn name_phases(&mut self, _names: &[String]) -> Result<(), String> {
         Ok(())
     }
-    /// Whether it reads the forces on walls, which are measured for such probes only.
-    fn needs_wall_forces(&self) -> bool {
-        false
+    /// The wall whose force it reads; forces are measured on such walls only.
+    fn force_on(&self) -> Option<&str> {
+        None
     }
     /// Whether it reads the displacement of the particles, which is kept for such probes only.
     fn needs_displacement(&self) -> bool {

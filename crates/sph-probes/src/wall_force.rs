@@ -57,8 +57,8 @@ impl<const D: usize> Probe<D> for WallForceProbe {
         columns
     }
 
-    fn needs_wall_forces(&self) -> bool {
-        true
+    fn force_on(&self) -> Option<&str> {
+        Some(&self.wall)
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

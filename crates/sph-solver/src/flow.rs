@@ -325,15 +325,16 @@ impl<const D: usize> Flow<D> {
             .collect()
     }
 
-    /// Measures the forces on all walls at the state of the last evaluation.
+    /// Measures the forces on the wanted walls at the state of the last evaluation; those on others are NaN.
     ///
     /// # Errors
     /// If a term misses a column.
-    pub fn measure_wall_forces(&mut self) -> Result<(), StepError> {
+    pub fn measure_wall_forces(&mut self, wanted: impl Fn(&str) -> bool) -> Result<(), StepError> {
         if !self.world.free.has(fields::ACCELERATION.name) || self.world.lists.builds == 0 {
             return Ok(());
         }
-        let mut forces = wall_forces(&self.world, &self.forces())?;
+        let wanted: Vec<bool> = self.world.walls.names.iter().map(|n| wanted(n)).collect();
+        let mut forces = wall_forces(&self.world, &self.forces(), &wanted)?;
         if let Some(coulomb) = &self.coulomb {
             let walls = forces.iter_mut().zip(&coulomb.forces);
             walls.for_each(|(whole, friction)| whole.add(friction));

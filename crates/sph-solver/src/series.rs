@@ -154,10 +154,11 @@ pub fn rehearse<const D: usize>(
     Ok(())
 }
 
-/// Measures the forces on walls if any probe reads them.
+/// Measures the forces on walls that probes read.
 fn measure_walls<const D: usize>(flow: &mut Flow<D>, probes: &Probes<D>) -> Result<(), StepError> {
-    match probes.iter().any(|(_, p)| p.needs_wall_forces()) {
-        true => flow.measure_wall_forces(),
-        false => Ok(()),
+    let read: Vec<&str> = probes.iter().filter_map(|(_, p)| p.force_on()).collect();
+    match read.is_empty() {
+        true => Ok(()),
+        false => flow.measure_wall_forces(|name| read.contains(&name)),
     }
 }

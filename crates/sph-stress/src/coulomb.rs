@@ -52,7 +52,13 @@ impl<const D: usize> CoulombFriction<D> {
         if elements.coulomb.iter().all(|c| c.literal) {
             return Ok(vec![0.0; elements.centre.len()]);
         }
-        Ok(self.soil(world)?.pressed(&wall_parts(world, terms)?))
+        let soil = self.soil(world)?;
+        let rubbed = |c: &Contact<D>| {
+            let coulomb = elements.coulomb[c.element as usize];
+            coulomb.coefficient > 0.0 && !coulomb.literal
+        };
+        let slides = |i: usize| soil.rubs(i) && world.walls.contacts.of(i).iter().any(rubbed);
+        Ok(soil.pressed(&wall_parts(world, terms, slides)?))
     }
 
     /// Brakes all particles at walls over a kick of `dt`, with what the elements get of

@@ -76,7 +76,7 @@ impl<const D: usize> Flowing<D> {
 
     /// Forces of the fluid on the walls with their names.
     pub fn forces(&mut self) -> Vec<(String, WallForce<D>)> {
-        self.0.flow.measure_wall_forces().expect("forces");
+        self.0.flow.measure_wall_forces(|_| true).expect("forces");
         let walls = &self.0.flow.world.walls;
         let all = walls.names.iter().cloned();
         all.zip(walls.forces.iter().copied()).collect()

@@ -37,7 +37,10 @@ wall = "box"
 
 /// What the probe of a wall tells.
 fn measured(flow: &mut Flowing<2>, wall: &str) -> Vec<f64> {
-    flow.0.flow.measure_wall_forces().unwrap();
+    flow.0
+        .flow
+        .measure_wall_forces(|name| name == wall)
+        .unwrap();
     let mut probes = flow.0.probes.iter();
     let probe = probes.find(|(name, _)| name == wall).expect("the probe");
     probe.1.measure(&flow.0.flow.world).expect("a measurement")

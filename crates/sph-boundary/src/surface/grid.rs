@@ -10,11 +10,8 @@ const CELLS_PER_ENTRY: usize = 8;
 /// Size of a cell over the reach.
 const PART_OF_REACH: f64 = 0.5;
 
-/// Triangles that a list has room for at first.
-const USUAL: usize = 96;
-
 /// What rounding may do to a squared distance, relatively.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 
 /// A uniform grid whose cells list the triangles with their centre in them.
 ///
@@ -23,23 +20,23 @@ const ROUNDING: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub struct TriangleGrid {
     reach: f64,
-    /// Largest extent of a triangle from its centre along each axis, m.
-    margin: [f64; 3],
+    /// Largest radius of a sphere, m.
+    widest: f64,
     lower: [f64; 3],
     per_cell: f64,
     cells: [usize; 3],
     /// Start of every cell's list, and the end of the last one.
     starts: Vec<u32>,
-    entries: Vec<NearTriangle>,
+    pub(super) entries: Vec<NearTriangle>,
     /// Around every entry.
-    spheres: Vec<Sphere>,
+    pub(super) spheres: Vec<Sphere>,
 }
 
 /// The sphere about the mean of a triangle's corners in which it is, m.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sphere {
-    centre: Point,
-    radius: f64,
+pub(super) struct Sphere {
+    pub(super) centre: Point,
+    pub(super) radius: f64,
 }
 
 impl TriangleGrid {
@@ -70,7 +67,7 @@ impl TriangleGrid {
         let cells = extent.map(|width| (width / size) as usize + 1);
         let mut grid = Self {
             reach,
-            margin,
+            widest: radii.iter().copied().fold(0.0, f64::max),
             lower,
             per_cell: 1.0 / size,
             cells,
@@ -115,6 +112,11 @@ impl TriangleGrid {
         (k * self.cells[1] + j) * self.cells[0] + i
     }
 
+    /// Largest radius of a query, m.
+    pub(super) fn reach(&self) -> f64 {
+        self.reach
+    }
+
     /// Images of triangles nearer than `radius` to a point, ascending by triangle, then image;
     /// `radius` at most the reach of the grid.
     pub fn near<'a>(
@@ -123,8 +125,10 @@ impl TriangleGrid {
         point: [f64; 3],
         radius: f64,
     ) -> impl Iterator<Item = NearTriangle> + 'a {
+        debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
         let mut found = Vec::new();
-        self.visit(point, radius, |near, distance2| {
+        self.visit(point, radius, |place, distance2| {
+            let near = self.entries[place];
             // The mean of the corners is in the triangle.
             let surely = distance2 < radius * radius * (1.0 - ROUNDING);
             if surely || {
@@ -138,23 +142,9 @@ impl TriangleGrid {
         found.into_iter()
     }
 
-    /// Images of triangles that may be nearer than `radius` to a point, because the spheres around
-    /// them are; cell by cell. `radius` at most the reach of the grid.
-    pub(crate) fn around(&self, point: [f64; 3], radius: f64) -> Vec<NearTriangle> {
-        let mut found = Vec::new();
-        self.visit(point, radius, |near, _| {
-            if found.is_empty() {
-                found.reserve(USUAL);
-            }
-            found.push(near);
-        });
-        found
-    }
-
-    /// Calls `found` for every image whose sphere is in reach with its centre's squared distance.
+    /// Calls `found` with the place of every image whose sphere is in reach and its centre's squared distance, m².
     #[inline]
-    fn visit(&self, point: Point, radius: f64, mut found: impl FnMut(NearTriangle, f64)) {
-        debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
+    pub(super) fn visit(&self, point: Point, radius: f64, mut found: impl FnMut(usize, f64)) {
         let Some([first, last]) = self.cells_within(point, radius) else {
             return;
         };
@@ -162,24 +152,23 @@ impl TriangleGrid {
             for j in first[1]..=last[1] {
                 let from = self.starts[self.index([first[0], j, k])] as usize;
                 let to = self.starts[self.index([last[0], j, k]) + 1] as usize;
-                let all = self.spheres[from..to].iter().zip(&self.entries[from..to]);
-                for (sphere, near) in all {
+                for (place, sphere) in (from..).zip(&self.spheres[from..to]) {
                     let offset = sub(sphere.centre, point);
                     let (distance2, limit) = (dot(offset, offset), radius + sphere.radius);
                     if distance2 < limit * limit {
-                        found(*near, distance2);
+                        found(place, distance2);
                     }
                 }
             }
         }
     }
 
-    /// First and last cell along each axis with centres of triangles that may be in reach.
+    /// First and last cell along each axis with centres of spheres that may be in reach.
     fn cells_within(&self, point: [f64; 3], radius: f64) -> Option<[[usize; 3]; 2]> {
         let mut range = [[0; 3]; 2];
         for k in 0..3 {
             let at = (point[k] - self.lower[k]) * self.per_cell;
-            let around = (radius + self.margin[k]) * self.per_cell;
+            let around = (radius + self.widest) * self.per_cell;
             let (low, high) = (at - around, at + around);
             if self.entries.is_empty() || high < 0.0 || low >= self.cells[k] as f64 {
                 return None;

@@ -101,7 +101,7 @@ fn every_dummy_is_a_whole_particle() {
     let walls = &bench.world.walls;
     assert!(walls.points.share.iter().all(|s| *s == 1.0));
     assert!(walls.points.volume.iter().all(|v| *v == SPACING * SPACING));
-    assert!(walls.elements.centre.is_empty() && walls.contacts.contacts.is_empty());
+    assert!(walls.elements.centre.is_empty() && walls.contacts.is_empty());
     assert!(!bench.wall.renormalises());
     assert!(bench.gamma().iter().all(|g| *g == 0.0), "nobody wrote γ");
 }

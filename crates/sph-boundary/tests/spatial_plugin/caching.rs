@@ -34,7 +34,7 @@ fn bench() -> Bench<3> {
 
 /// Element, gradient and distance of every contact.
 fn contacts(bench: &Bench<3>) -> Vec<(u32, Vect<3>, f64)> {
-    let contacts = bench.world.walls.contacts.contacts.iter();
+    let contacts = bench.world.walls.contacts.all();
     contacts
         .map(|c| (c.element, c.gradient, c.distance))
         .collect()

@@ -51,7 +51,7 @@ fn over_a_plane_gamma_and_its_gradient_are_as_printed_to_nine_digits() {
 fn beyond_the_support_gamma_is_one_and_not_nearly_one() {
     let bench = over_a_floor(&[2.0, 2.2, 30.0]);
     assert_eq!(bench.gamma(), [1.0, 1.0, 1.0]);
-    assert!(bench.world.walls.contacts.contacts.is_empty());
+    assert!(bench.world.walls.contacts.is_empty());
 }
 
 /// Nodes and weights of Gauss' rule of five points on (−1, 1).

@@ -119,6 +119,51 @@ fn the_grid_finds_all_and_only_those() {
 }
 
 #[test]
+fn rows_of_points_together_hold_what_is_near_each() {
+    let pipe = prism("pipe", &polygon(12, 1.0), [0.0, 2.0], false).reversed();
+    let domain = periodic([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0], [true, false, true]);
+    let body = block("body", [1.25, -0.2, 0.5], [1.75, 0.2, 1.0]);
+    let mesh = mesh_in(&[pipe, body], 0.25, &domain);
+    let mut random = Random(12);
+    let (mut found, mut besides) = (0, 0);
+    for (reach, radius) in [(0.6, 0.6), (1.1, 0.8)] {
+        let grid = TriangleGrid::build(&mesh, reach);
+        // Points side by side, and now and then one far away.
+        let mut points = Vec::new();
+        for _ in 0..40 {
+            let first = random.point([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0]);
+            let beside = |k: usize| [0, 1, 2].map(|x| first[x] + 0.1 * (k >> x & 1) as f64);
+            points.extend((0..8).map(beside));
+        }
+        let (mut counts, mut rows) = (Vec::new(), Vec::new());
+        grid.rows(&points, radius, &mut counts, &mut rows);
+        assert_eq!(counts.len(), points.len());
+        let mut rest = &rows[..];
+        for (point, count) in points.iter().zip(counts) {
+            let (row, after) = rest.split_at(count as usize);
+            rest = after;
+            assert!(row.windows(2).all(|w| {
+                let key = |n: &NearTriangle| (n.image, n.triangle);
+                key(&w[0]) < key(&w[1])
+            }));
+            let near = all_near(&mesh, *point, radius);
+            assert!(near.iter().all(|n| row.contains(n)), "{point:?}");
+            // A sphere around a triangle of 0.25 has at most its diagonal.
+            let out = |n: &NearTriangle| mesh.closest(*point, *n).distance() > radius + 0.5;
+            assert!(!row.iter().any(out), "{point:?}");
+            // The same whoever is served with it.
+            let (mut alone, mut same) = (Vec::new(), Vec::new());
+            grid.rows(&[*point], radius, &mut alone, &mut same);
+            assert_eq!(same, row);
+            found += near.len();
+            besides += row.len() - near.len();
+        }
+        assert!(rest.is_empty());
+    }
+    println!("{found} triangles found, as by brute force, and {besides} more");
+}
+
+#[test]
 fn a_node_is_the_same_vector_in_all_triangles() {
     let pipe = prism("pipe", &polygon(24, 1.0), [0.1, 2.1], false).reversed();
     let domain = periodic([-1.5, -1.5, 0.1], [1.5, 1.5, 2.1], [false, false, true]);

@@ -131,30 +131,31 @@ impl Channel {
         let world = &mut self.world;
         let mut gammas = Vec::new();
         let contacts = &mut world.walls.contacts;
-        *contacts = Default::default();
-        contacts.starts.push(0);
+        let mut blocks = contacts.take_blocks(world.free.len());
+        blocks.clear();
         let elements = &world.walls.elements;
         for (p, x) in world.free.get(fields::POSITION).unwrap().iter().enumerate() {
             let kernel = &*world.kernel;
             let above = self.top.map_or(1.0, |top| gamma(kernel, top - x[1]));
             gammas.push(gamma(kernel, x[1]) + above - 1.0);
-            contacts.place.push(p as u32);
-            contacts.particles.push(p as u32);
+            let mut block = Vec::new();
             for (s, centre) in elements.centre.iter().enumerate() {
                 let apart = world.domain.nearest_image(x - centre);
                 let distance = apart.dot(&elements.normal[s]);
                 let half = 0.5 * SPACING;
                 let share = stretch(kernel, distance, apart[0] - half, apart[0] + half);
                 if share > 0.0 {
-                    contacts.contacts.push(Contact {
+                    block.push(Contact {
                         element: s as u32,
                         gradient: elements.normal[s] * share,
                         distance,
                     });
                 }
             }
-            contacts.starts.push(contacts.contacts.len() as u32);
+            contacts.place(p as u32, p, 0..block.len() as u32);
+            blocks.push(block);
         }
+        contacts.put_blocks(blocks);
         *world.free.get_mut(fields::RENORMALISATION).unwrap() = gammas;
     }
 }

@@ -1,0 +1,144 @@
+//! Triangles near many points that lie close together.
+
+use super::grid::{ROUNDING, Sphere};
+use super::vector::{Point, bounds, dot, norm, sub};
+use super::{NearTriangle, TriangleGrid};
+
+/// Diagonal of the box around points that are served together, over the radius.
+const TOGETHER: f64 = 0.75;
+
+/// What may be near one of several points.
+#[derive(Default)]
+struct Candidates {
+    /// By image and triangle.
+    found: Vec<NearTriangle>,
+    spheres: Vec<Sphere>,
+    /// Image and triangle as one number, and the place in the grid.
+    keys: Vec<(u64, u32)>,
+}
+
+impl TriangleGrid {
+    /// For every point the images of triangles that may be nearer than `radius`, because the spheres around them are: their
+    /// number, and all of them one behind the other, each point's by image and triangle. `radius` at most the reach of the grid.
+    ///
+    /// The grid is walked once, and what it holds is sorted once, for neighbouring points that follow one another; each
+    /// takes what is in its own reach.
+    pub fn rows(
+        &self,
+        points: &[Point],
+        radius: f64,
+        counts: &mut Vec<u32>,
+        rows: &mut Vec<NearTriangle>,
+    ) {
+        debug_assert!(radius <= self.reach(), "query beyond the reach of the grid");
+        let mut candidates = Candidates::default();
+        let mut rest = points;
+        while !rest.is_empty() {
+            let (group, after) = rest.split_at(together(rest, TOGETHER * radius));
+            rest = after;
+            self.gather(group, radius, &mut candidates);
+            for point in group {
+                counts.push(candidates.reached(*point, radius, rows));
+            }
+        }
+    }
+
+    /// All that a point of the group may have, by image and triangle.
+    fn gather(&self, group: &[Point], radius: f64, candidates: &mut Candidates) {
+        let [lower, upper] = bounds(group.iter().copied());
+        let half = sub(upper, lower).map(|x| 0.5 * x);
+        let centre: Point = std::array::from_fn(|k| lower[k] + half[k]);
+        let spread = norm(half) * (1.0 + ROUNDING) + ROUNDING * radius;
+        let Candidates {
+            found,
+            spheres,
+            keys,
+        } = candidates;
+        keys.clear();
+        self.visit(centre, radius + spread, |place, _| {
+            keys.push((key(&self.entries[place]), place as u32));
+        });
+        keys.sort_unstable();
+        let places = || keys.iter().map(|(_, place)| *place as usize);
+        found.clear();
+        found.extend(places().map(|place| self.entries[place]));
+        spheres.clear();
+        spheres.extend(places().map(|place| self.spheres[place]));
+    }
+}
+
+impl Candidates {
+    /// Appends those in reach of a point; how many.
+    fn reached(&self, point: Point, radius: f64, rows: &mut Vec<NearTriangle>) -> u32 {
+        let from = rows.len();
+        rows.resize(from + self.found.len(), NearTriangle::default());
+        let (slots, mut n) = (&mut rows[from..], 0);
+        for (near, sphere) in self.found.iter().zip(&self.spheres) {
+            slots[n] = *near;
+            n += usize::from(sphere.reaches(point, radius));
+        }
+        rows.truncate(from + n);
+        n as u32
+    }
+}
+
+impl Sphere {
+    #[inline(always)]
+    fn reaches(&self, point: Point, radius: f64) -> bool {
+        let offset = sub(self.centre, point);
+        let limit = radius + self.radius;
+        dot(offset, offset) < limit * limit
+    }
+}
+
+/// How many points from the first on lie in a box of at most this diagonal, m.
+fn together(points: &[Point], diagonal: f64) -> usize {
+    let (mut lower, mut upper) = (points[0], points[0]);
+    let apart = |point: &Point| {
+        lower = std::array::from_fn(|k| lower[k].min(point[k]));
+        upper = std::array::from_fn(|k| upper[k].max(point[k]));
+        let across = sub(upper, lower);
+        dot(across, across) > diagonal * diagonal
+    };
+    let rest = &points[1..];
+    1 + rest.iter().position(apart).unwrap_or(rest.len())
+}
+
+/// Ascending by image, then triangle.
+fn key(near: &NearTriangle) -> u64 {
+    let place = |periods: i8| u64::from((i16::from(periods) + 128) as u16);
+    let image = near
+        .image
+        .iter()
+        .fold(0, |all, periods| (all << 8) | place(*periods));
+    (image << 32) | u64::from(near.triangle)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_ascend_by_image_and_triangle() {
+        let near = |triangle, image| NearTriangle { triangle, image };
+        let ascending = [
+            near(9, [-127, 4, 0]),
+            near(0, [-1, 127, 127]),
+            near(u32::MAX, [0, -1, 0]),
+            near(3, [0, 0, -1]),
+            near(2, [0, 0, 0]),
+            near(3, [0, 0, 0]),
+            near(0, [127, 0, 0]),
+        ];
+        assert!(ascending.map(|n| key(&n)).is_sorted());
+        assert!(ascending.map(|n| (n.image, n.triangle)).is_sorted());
+    }
+
+    #[test]
+    fn points_go_together_while_their_box_is_small() {
+        let points = [0.0, 0.4, -0.3, 0.8, 0.9].map(|x| [x, 0.1, 0.0]);
+        assert_eq!(together(&points, 0.75), 3);
+        assert_eq!(together(&points[3..], 0.75), 2);
+        assert_eq!(together(&points, 0.0), 1);
+    }
+}
