@@ -103,13 +103,14 @@ impl<const D: usize> CellGrid<D> {
         (c as usize).min(self.counts[axis] - 1)
     }
 
-    fn cell_of(&self, x: &Vect<D>) -> usize {
+    /// The cell that a point counts for.
+    pub(crate) fn cell_of(&self, x: &Vect<D>) -> usize {
         (0..D).rev().fold(0, |cell, axis| {
             cell * self.counts[axis] + self.coordinate(x, axis)
         })
     }
 
-    /// Calls `visit` with ranges of places that together hold every point within `radius`.
+    /// Calls `visit` with ranges of places that together hold every point within `radius`; the same for all points of a cell.
     #[inline]
     pub fn ranges(&self, x: &Vect<D>, radius: f64, mut visit: impl FnMut(std::ops::Range<usize>)) {
         let mut spans = [[(0usize, 0usize); 2]; 3];

@@ -1,5 +1,7 @@
 //! Verlet lists: candidates within the support plus a skin, in cell order.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use sph_core::Vect;
 
@@ -48,24 +50,24 @@ impl NeighbourList {
                 let mut len = 0;
                 let from = b * CHUNK;
                 let to = (from + CHUNK).min(targets.len());
+                let mut around = Around::default();
                 for (i, x) in targets[from..to].iter().enumerate() {
                     let own = if skip_self { from + i } else { usize::MAX };
-                    let wraps = domain.near_periodic_face(x, reach);
-                    grid.ranges(x, reach, |range| {
-                        let room = len + range.len();
-                        if block.candidates.len() < room {
-                            block.candidates.resize(room.next_power_of_two(), 0);
-                        }
-                        let slots = &mut block.candidates[len..room];
-                        len += if grid.is_sorted() && !wraps {
-                            keep_sorted(slots, x, sources, range, reach2, own)
-                        } else {
-                            let order = &grid.order()[range];
-                            keep(slots, order, own, |j| {
-                                domain.nearest_image(x - sources[j]).norm_squared() < reach2
-                            })
-                        };
-                    });
+                    around.go_to(x, grid, reach);
+                    let room = len + around.places;
+                    if block.candidates.len() < room {
+                        block.candidates.resize(room.next_power_of_two(), 0);
+                    }
+                    let slots = &mut block.candidates[len..room];
+                    len += if grid.is_sorted() && !domain.near_periodic_face(x, reach) {
+                        keep_sorted(slots, x, sources, &around.ranges, reach2, own)
+                    } else {
+                        let ranges = around.ranges.iter();
+                        let members = ranges.flat_map(|range| &grid.order()[range.clone()]);
+                        keep(slots, members, own, |j| {
+                            domain.nearest_image(x - sources[j]).norm_squared() < reach2
+                        })
+                    };
                     block.starts.push(len as u32);
                 }
             });
@@ -138,29 +140,59 @@ impl NeighbourList {
     }
 }
 
-/// Writes the members of a contiguous range that are near; branch-free in the distance test.
+/// The places of a grid around one of its cells; targets that follow one another mostly share them.
+#[derive(Default)]
+struct Around {
+    cell: Option<usize>,
+    ranges: Vec<Range<usize>>,
+    /// In all ranges.
+    places: usize,
+}
+
+impl Around {
+    /// Looks around the cell of a point, unless that has been done.
+    fn go_to<const D: usize>(&mut self, x: &Vect<D>, grid: &CellGrid<D>, reach: f64) {
+        let cell = Some(grid.cell_of(x));
+        if self.cell == cell {
+            return;
+        }
+        self.cell = cell;
+        self.ranges.clear();
+        grid.ranges(x, reach, |range| self.ranges.push(range));
+        self.places = self.ranges.iter().map(Range::len).sum();
+    }
+}
+
+/// Writes the members of contiguous ranges that are near; branch-free in the distance test.
 ///
-/// A call of its own: among the loops over cells its registers are spilled for every candidate.
+/// A call of its own: within the loops around it registers would be spilled for every candidate.
 #[inline(never)]
 fn keep_sorted<const D: usize>(
     slots: &mut [u32],
     x: &Vect<D>,
     sources: &[Vect<D>],
-    range: std::ops::Range<usize>,
+    ranges: &[Range<usize>],
     reach2: f64,
     own: usize,
 ) -> usize {
     let mut n = 0;
-    for (j, y) in range.clone().zip(&sources[range]) {
-        let near = ((x - y).norm_squared() < reach2) & (j != own);
-        slots[n] = j as u32;
-        n += usize::from(near);
+    for range in ranges {
+        for (j, y) in range.clone().zip(&sources[range.clone()]) {
+            let near = ((x - y).norm_squared() < reach2) & (j != own);
+            slots[n] = j as u32;
+            n += usize::from(near);
+        }
     }
     n
 }
 
 /// Writes the members of a list that are near.
-fn keep(slots: &mut [u32], members: &[u32], own: usize, near: impl Fn(usize) -> bool) -> usize {
+fn keep<'a>(
+    slots: &mut [u32],
+    members: impl Iterator<Item = &'a u32>,
+    own: usize,
+    near: impl Fn(usize) -> bool,
+) -> usize {
     let mut n = 0;
     for &j in members {
         if near(j as usize) && j as usize != own {
