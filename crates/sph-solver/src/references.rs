@@ -288,12 +288,21 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<(), SolverError> {
             column.iter().map(|v| v * scale + offset).collect()
         };
         let at = scaled(0, reference.scale_time, reference.offset_time);
-        let value = |k: usize| scaled(k, reference.scale_value, reference.offset_value);
+        let shown = shown(&at, scene.run.end);
+        let of = |column: Vec<f64>| -> Vec<f64> {
+            shown
+                .iter()
+                .filter_map(|k| column.get(*k).copied())
+                .collect()
+        };
+        let value = |k: usize| of(scaled(k, reference.scale_value, reference.offset_value));
+        let at = of(at);
         let pairs = |x: &[f64], y: &[f64]| -> Vec<[f64; 2]> {
             x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
         };
         let given = match reference.norm() {
             Norm::Band => Series::band("reference band", pairs(&at, &value(1)), value(2)),
+            _ if at.len() > MOST_MARKERS => Series::line("reference", pairs(&at, &value(1))),
             _ => Series::markers("reference", pairs(&at, &value(1))),
         };
         let plot = Plot {
@@ -306,6 +315,21 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<(), SolverError> {
         plot.save_png(plots.join(format!("{name}.png")))?;
     }
     Ok(())
+}
+
+/// More points than this are drawn as a line: markers would cover one another, and the run.
+const MOST_MARKERS: usize = 200;
+
+/// A reference is shown this much beyond the end of the run, over its length.
+const BEYOND: f64 = 0.05;
+
+/// Which of a reference's times a picture shows: those to a little beyond the end of the run, or all if there are none.
+fn shown(times: &[f64], end: f64) -> Vec<usize> {
+    let shown = (0..times.len()).filter(|k| times[*k] <= end * (1.0 + BEYOND));
+    match shown.collect::<Vec<_>>() {
+        none if none.is_empty() => (0..times.len()).collect(),
+        shown => shown,
+    }
 }
 
 /// Longest file of a reference or a probe, bytes.
@@ -353,4 +377,16 @@ fn decay<const D: usize>(
     let window = [t[0], t[t.len() - 1]];
     let value = (norm::slope(&t, &ln) / exact - 1.0).abs();
     Ok(entry(value, reference, t.len(), window))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_ends_with_the_run_unless_nothing_were_left() {
+        assert_eq!(shown(&[0.0, 2.6, 1.0, 2.7], 2.5), [0, 1, 2]);
+        assert_eq!(shown(&[3.0, 4.0], 2.5), [0, 1]);
+        assert!(shown(&[], 2.5).is_empty());
+    }
 }
