@@ -270,7 +270,10 @@ fn soak(
         all.fresh_starts += tally.fresh_starts;
         all.steps += tally.steps;
         std::fs::remove_dir_all(folder).expect("a folder less");
-        assert!(all.kills * 10 >= round, "nobody is killed: {all:?}");
+        assert!(
+            all.kills * 10 >= round && all.resumes * 10 >= round,
+            "hardly anybody is killed or resumed: {all:?}"
+        );
         if enough(&all, start.elapsed()) {
             break;
         }
@@ -284,7 +287,8 @@ fn a_run_killed_at_random_moments_loses_no_step() {
     let set = "--set numerics.spacing=0.02 --set run.end=0.3";
     // A fast machine may be through before the fourth kill, and is given another round.
     let enough = |tally: &Tally, _| tally.kills >= 4 && tally.resumes >= 3;
-    soak(set, Duration::from_millis(500), 12, enough);
+    let tally = soak(set, Duration::from_millis(500), 12, enough);
+    assert!(tally.kills >= 4 && tally.resumes >= 3, "{tally:?}");
 }
 
 #[test]

@@ -39,6 +39,16 @@ pub(super) struct Sphere {
     pub(super) radius: f64,
 }
 
+impl Sphere {
+    /// Squared distance of the centre from a point, m², if the sphere is nearer than `radius`.
+    #[inline(always)]
+    pub(super) fn within(&self, point: Point, radius: f64) -> Option<f64> {
+        let offset = sub(self.centre, point);
+        let (distance2, limit) = (dot(offset, offset), radius + self.radius);
+        (distance2 < limit * limit).then_some(distance2)
+    }
+}
+
 impl TriangleGrid {
     /// Lists for the present position of the walls and queries up to the radius `reach`, m.
     ///
@@ -153,9 +163,7 @@ impl TriangleGrid {
                 let from = self.starts[self.index([first[0], j, k])] as usize;
                 let to = self.starts[self.index([last[0], j, k]) + 1] as usize;
                 for (place, sphere) in (from..).zip(&self.spheres[from..to]) {
-                    let offset = sub(sphere.centre, point);
-                    let (distance2, limit) = (dot(offset, offset), radius + sphere.radius);
-                    if distance2 < limit * limit {
+                    if let Some(distance2) = sphere.within(point, radius) {
                         found(place, distance2);
                     }
                 }

@@ -75,19 +75,10 @@ impl Candidates {
         let (slots, mut n) = (&mut rows[from..], 0);
         for (near, sphere) in self.found.iter().zip(&self.spheres) {
             slots[n] = *near;
-            n += usize::from(sphere.reaches(point, radius));
+            n += usize::from(sphere.within(point, radius).is_some());
         }
         rows.truncate(from + n);
         n as u32
-    }
-}
-
-impl Sphere {
-    #[inline(always)]
-    fn reaches(&self, point: Point, radius: f64) -> bool {
-        let offset = sub(self.centre, point);
-        let limit = radius + self.radius;
-        dot(offset, offset) < limit * limit
     }
 }
 
