@@ -37,8 +37,8 @@ impl Cover {
         let nodes: Vec<_> = nodes.collect();
         if self.outdated(&nodes, spacing) {
             let others = |(x, group): &(Vect<D>, usize)| {
-                let other = |wall: usize| groups[wall] != *group;
-                mesh.signed_distance(x, 2.0 * spacing, &other).is_some()
+                let others = nearby(mesh, x, 2.0 * spacing, |w| groups[w] != *group);
+                M::signed_distance(&others, &Vect::zeros(), 2.0 * spacing).is_some()
             };
             let all = nodes.par_iter().enumerate();
             let near = all.filter(|(_, node)| others(node)).map(|(v, _)| v);
@@ -70,6 +70,18 @@ fn padded<const D: usize>(x: &Vect<D>) -> [f64; 3] {
     std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0))
 }
 
+/// Elements of some walls that may be within a radius of a point, as seen from there.
+fn nearby<const D: usize, M: WallMesh<D>>(
+    mesh: &M,
+    x: &Vect<D>,
+    radius: f64,
+    of: impl Fn(usize) -> bool,
+) -> Vec<M::Seen> {
+    let near = mesh.near(x, radius).into_iter();
+    let of_these = near.filter(|n| of(mesh.wall_of(*n)));
+    of_these.map(|n| mesh.seen(x, n)).collect()
+}
+
 fn visible<const D: usize, M: WallMesh<D>>(
     mesh: &M,
     groups: &[usize],
@@ -78,9 +90,8 @@ fn visible<const D: usize, M: WallMesh<D>>(
     spacing: f64,
 ) -> f64 {
     let apart = 0.5 * spacing / f64::from(SAMPLES);
-    let others = |w: usize| groups[w] != group;
-    // The distance changes by half a spacing at most within the ball.
-    let Some(distance) = mesh.signed_distance(x, 2.0 * spacing, &others) else {
+    let mut others = nearby(mesh, x, 2.0 * spacing, |w| groups[w] != group);
+    let Some(distance) = M::signed_distance(&others, &Vect::zeros(), 2.0 * spacing) else {
         return 1.0;
     };
     if distance >= spacing + apart {
@@ -89,9 +100,15 @@ fn visible<const D: usize, M: WallMesh<D>>(
     if distance <= -(0.5 * spacing + apart) {
         return 0.0;
     }
-    let reach = [0.0, distance.abs()].map(|d| d + 0.5 * spacing + apart);
     let ramp = |d: f64| (0.5 + d / apart).clamp(0.0, 1.0);
-    let (mut own, mut both) = (0.0, 0.0);
+    let left = |d: f64| 0.5 * (ramp(d) + ramp(d - 0.5 * spacing));
+    // What is farther from the node than its wall by twice the radius of the ball is the nearest of no sample.
+    let reach = [0.0, distance.abs()].map(|d| d + 0.5 * spacing + apart);
+    let own = nearby(mesh, x, reach[0] + 0.5 * spacing, |w| groups[w] == group);
+    let around = reach[1] + 0.5 * spacing;
+    let alone = std::slice::from_ref;
+    others.retain(|n| M::signed_distance(alone(n), &Vect::zeros(), around).is_some());
+    let (mut all, mut both) = (0.0, 0.0);
     // No sample is in a plane through the node, where a side would be undecided.
     let side = 2 * SAMPLES;
     let middle = f64::from(SAMPLES) - 0.5;
@@ -101,15 +118,12 @@ fn visible<const D: usize, M: WallMesh<D>>(
         if offset.norm() > 0.5 * spacing {
             continue;
         }
-        let at = x + offset;
-        let mine = mesh.signed_distance(&at, reach[0], &|w| groups[w] == group);
-        let mine = mine.map_or(1.0, ramp);
+        let mine = M::signed_distance(&own, &offset, reach[0]).map_or(1.0, ramp);
         if mine > 0.0 {
-            let other = mesh.signed_distance(&at, reach[1], &others);
-            let left = other.map_or(1.0, |d| 0.5 * (ramp(d) + ramp(d - 0.5 * spacing)));
-            own += mine;
-            both += mine * left;
+            let other = M::signed_distance(&others, &offset, reach[1]);
+            all += mine;
+            both += mine * other.map_or(1.0, left);
         }
     }
-    if own > 0.0 { both / own } else { 1.0 }
+    if all > 0.0 { both / all } else { 1.0 }
 }

@@ -101,7 +101,7 @@ pub use dummy::DummyParticles;
 pub use error::{BoundaryError, WallWarning};
 pub use gamma::{Contact, GammaSum, Renormalisation2d, SegmentIntegral};
 pub use grid::{NearSegment, SegmentGrid};
-pub use mesh::{FreeEnd, Segment, SegmentMesh, Vertex, WallEnd};
+pub use mesh::{FreeEnd, SeenSegment, Segment, SegmentMesh, Vertex, WallEnd};
 pub use motion::{Movement, RigidMotion, Rotation, Translation};
 pub use periodic::PeriodicBox;
 pub use planar::PlanarWalls;
@@ -111,8 +111,8 @@ pub use pose::Pose;
 pub use spatial::{FacetIntegral, GammaSum3d, Renormalisation3d};
 pub use spatial_walls::SpatialWalls;
 pub use surface::{
-    Closest, Face, FaceEdge, Feature, FreeEdge, NearTriangle, Node, Opening, Surface, SurfaceError,
-    Triangle, TriangleGrid, TriangleMesh,
+    Closest, Face, FaceEdge, Feature, FreeEdge, NearTriangle, Node, Opening, SeenTriangle, Surface,
+    SurfaceError, Triangle, TriangleGrid, TriangleMesh,
 };
 pub use usaw::Usaw;
 pub use wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};

@@ -4,8 +4,10 @@ mod build;
 mod ends;
 mod joints;
 mod motion;
+mod signed;
 
 pub use ends::{FreeEnd, WallEnd};
+pub use signed::SeenSegment;
 
 use crate::error::{BoundaryError, WallWarning};
 use crate::grid::NearSegment;

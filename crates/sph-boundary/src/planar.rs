@@ -11,7 +11,7 @@ use crate::touching::without_shared;
 use crate::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
 use crate::{
     BoundaryError, Drawing, GammaSum, NearSegment, PeriodicBox, Polyline, Pose, Renormalisation2d,
-    Segment, SegmentGrid, SegmentMesh, Vertex, WallSpec,
+    SeenSegment, Segment, SegmentGrid, SegmentMesh, Vertex, WallSpec,
 };
 
 /// Polylines cut into segments, with the grid that finds them.
@@ -94,6 +94,7 @@ impl PlanarWalls {
 
 impl WallMesh<2> for PlanarWalls {
     type Near = NearSegment;
+    type Seen = SeenSegment;
     type Integrals = Renormalisation2d;
 
     fn build(
@@ -232,45 +233,24 @@ impl WallMesh<2> for PlanarWalls {
     /// The side of the nearest segment if a wall is near, else of all walls together. Open walls
     /// have no inside, but they have a front.
     fn contains(&self, point: &Vect<2>) -> bool {
-        match self.signed_distance(point, self.reach, &|_| true) {
+        let near = self.near(point, self.reach);
+        let seen: Vec<_> = near.into_iter().map(|n| self.seen(point, n)).collect();
+        match Self::signed_distance(&seen, &Vect::zeros(), self.reach) {
             Some(distance) => distance >= 0.0,
             None => self.mesh.contains([point[0], point[1]]),
         }
     }
 
-    fn signed_distance(
-        &self,
-        point: &Vect<2>,
-        within: f64,
-        of: &dyn Fn(usize) -> bool,
-    ) -> Option<f64> {
-        let point = [point[0], point[1]];
-        let mut nearest = (f64::INFINITY, 0.0, 0.0);
-        let within = within.min(self.reach);
-        for near in self.grid.near(&self.mesh, point, within) {
-            let segment = self.segment(near.segment);
-            if !of(self.wall_of[segment.wall]) {
-                continue;
-            }
-            let [start, end] = self.mesh.seen_from(point, near);
-            let distance2 = distance_squared(start, end);
-            let normal = segment.normal;
-            let height = -(start[0] * normal[0] + start[1] * normal[1]);
-            // Two segments at a corner are equally near; the one seen more from above decides.
-            // Both faces of a plate of zero thickness are, too; the one seen from its front does.
-            let same = (distance2 - nearest.0).abs() <= 1e-9 * distance2;
-            let faces = (height + nearest.2).abs() <= 1e-9 * nearest.1;
-            let decides = match (same, faces) {
-                (true, true) => height > 0.0,
-                (true, false) => height.abs() > nearest.1,
-                (false, _) => distance2 < nearest.0,
-            };
-            if decides {
-                nearest = (distance2, height.abs(), height);
-            }
-        }
-        let sign = if nearest.2 >= 0.0 { 1.0 } else { -1.0 };
-        nearest.0.is_finite().then(|| sign * nearest.0.sqrt())
+    fn wall_of(&self, near: NearSegment) -> usize {
+        self.wall_of[self.segment(near.segment).wall]
+    }
+
+    fn seen(&self, point: &Vect<2>, near: NearSegment) -> SeenSegment {
+        self.mesh.seen((*point).into(), near)
+    }
+
+    fn signed_distance(seen: &[SeenSegment], place: &Vect<2>, within: f64) -> Option<f64> {
+        SeenSegment::signed_distance(seen, (*place).into(), within)
     }
 
     fn nearest(&self, point: &Vect<2>, within: f64) -> Option<(f64, usize)> {

@@ -9,7 +9,7 @@ use crate::spatial::{Foot, Patch, Plane};
 use crate::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
 use crate::{
     BoundaryError, Closest, Drawing, FaceEdge, Feature, GammaSum3d, NearTriangle, PeriodicBox,
-    Pose, Renormalisation3d, Surface, TriangleGrid, TriangleMesh, WallSpec,
+    Pose, Renormalisation3d, SeenTriangle, Surface, TriangleGrid, TriangleMesh, WallSpec,
 };
 
 /// Surfaces remeshed at the particle spacing, with the grid that finds their triangles.
@@ -117,6 +117,7 @@ impl SpatialWalls {
 
 impl WallMesh<3> for SpatialWalls {
     type Near = NearTriangle;
+    type Seen = SeenTriangle;
     type Integrals = Renormalisation3d;
 
     fn build(
@@ -315,36 +316,16 @@ impl WallMesh<3> for SpatialWalls {
         .map(|(d, triangle)| (d, self.mesh.triangles()[triangle as usize].wall))
     }
 
-    fn signed_distance(
-        &self,
-        point: &Vect<3>,
-        within: f64,
-        of: &dyn Fn(usize) -> bool,
-    ) -> Option<f64> {
-        let x: [f64; 3] = (*point).into();
-        let mut nearest = (f64::INFINITY, 0.0_f64);
-        for near in self.grid.near(&self.mesh, x, within.min(self.reach)) {
-            if !of(self.mesh.triangles()[near.triangle as usize].wall) {
-                continue;
-            }
-            let closest = self.mesh.closest(x, near);
-            let distance = Vect::from(closest.offset).norm();
-            // Triangles at an edge are equally near; the one seen more from above decides, and of
-            // two that face each other the one seen from its front.
-            let same = (distance - nearest.0).abs() <= 1e-9 * distance;
-            let decides = match same {
-                true => {
-                    let (new, old) = (closest.height.abs(), nearest.1.abs());
-                    new > old * (1.0 + 1e-9) || (new >= old * (1.0 - 1e-9) && closest.height > 0.0)
-                }
-                false => distance < nearest.0,
-            };
-            if decides {
-                nearest = (distance, closest.height);
-            }
-        }
-        let sign = if nearest.1 >= 0.0 { 1.0 } else { -1.0 };
-        nearest.0.is_finite().then_some(sign * nearest.0)
+    fn wall_of(&self, near: NearTriangle) -> usize {
+        self.mesh.triangles()[near.triangle as usize].wall
+    }
+
+    fn seen(&self, point: &Vect<3>, near: NearTriangle) -> SeenTriangle {
+        self.mesh.seen((*point).into(), near)
+    }
+
+    fn signed_distance(seen: &[SeenTriangle], place: &Vect<3>, within: f64) -> Option<f64> {
+        SeenTriangle::signed_distance(seen, (*place).into(), within)
     }
 
     fn bounds(&self) -> Option<(Vect<3>, Vect<3>)> {

@@ -5,7 +5,7 @@
 //! * `edges`, `lattice`, `fill`: the pieces cut into triangles of about the spacing, alike on
 //!   both sides of every edge;
 //! * `solid_angle`, `openings`: what a node stands for, and where the walls end;
-//! * `motion`, `inside`, `closest`, `grid`, `rows`: what a flow asks of the mesh.
+//! * `motion`, `inside`, `closest`, `signed`, `grid`, `rows`: what a flow asks of the mesh.
 
 mod build;
 mod closest;
@@ -23,6 +23,7 @@ mod patches;
 mod places;
 mod removal;
 mod rows;
+mod signed;
 mod solid_angle;
 mod tree;
 mod vector;
@@ -32,6 +33,7 @@ use std::sync::OnceLock;
 pub use closest::{Closest, Feature};
 pub use error::SurfaceError;
 pub use grid::TriangleGrid;
+pub use signed::SeenTriangle;
 
 use crate::error::{BoundaryError, WallWarning};
 use crate::periodic::PeriodicBox;

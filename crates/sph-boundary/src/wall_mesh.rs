@@ -55,6 +55,8 @@ pub struct Hindrance<const D: usize> {
 pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'static {
     /// An element, or one of its periodic images, near a point.
     type Near: Copy + Send + Sync + std::fmt::Debug;
+    /// An element relative to a point.
+    type Seen: Send + Sync;
     /// The wall integrals of a kernel.
     type Integrals: Send + Sync + std::fmt::Debug;
 
@@ -138,14 +140,15 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     /// Distance of the nearest wall, m, and its index, if nearer than `within`.
     fn nearest(&self, point: &Vect<D>, within: f64) -> Option<(f64, usize)>;
 
-    /// Distance of the nearest of some walls, m, positive on its fluid's side; `None` if none of
-    /// them is nearer than `within`.
-    fn signed_distance(
-        &self,
-        point: &Vect<D>,
-        within: f64,
-        of: &dyn Fn(usize) -> bool,
-    ) -> Option<f64>;
+    /// Index of the wall of an element.
+    fn wall_of(&self, near: Self::Near) -> usize;
+
+    /// An element as seen from a point.
+    fn seen(&self, point: &Vect<D>, near: Self::Near) -> Self::Seen;
+
+    /// Distance of the nearest of some elements from a place relative to the point they are seen from, m, positive on its
+    /// fluid's side; `None` if none of them is nearer than `within`.
+    fn signed_distance(seen: &[Self::Seen], place: &Vect<D>, within: f64) -> Option<f64>;
 
     /// Lower and upper corner of the box around all walls, m.
     fn bounds(&self) -> Option<(Vect<D>, Vect<D>)>;

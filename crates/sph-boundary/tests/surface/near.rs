@@ -1,6 +1,6 @@
 //! Triangles near a point, and the nearest place on them.
 
-use sph_boundary::{Feature, NearTriangle, TriangleGrid, TriangleMesh};
+use sph_boundary::{Feature, NearTriangle, SeenTriangle, TriangleGrid, TriangleMesh};
 
 use crate::shapes::*;
 
@@ -197,4 +197,33 @@ fn a_node_is_the_same_vector_in_all_triangles() {
         known > 10,
         "{known} corners of faces are corners of triangles"
     );
+}
+
+/// A block seen from points around it: distance and side are those of the block itself.
+#[test]
+fn the_nearest_of_some_triangles_tells_the_side_of_a_block() {
+    let mesh = mesh(&[block("block", [0.0; 3], [1.0, 2.0, 1.5])], 0.25);
+    let grid = TriangleGrid::build(&mesh, 2.0);
+    let mut random = Random(8);
+    let (mut found, mut largest) = (0, 0.0_f64);
+    for _ in 0..400 {
+        let at = random.point([-0.5; 3], [1.5, 2.5, 2.0]);
+        let offset = random.point([-0.3; 3], [0.3; 3]);
+        let near = grid.near(&mesh, at, 1.5);
+        let seen: Vec<_> = near.map(|n| mesh.seen(at, n)).collect();
+        let place: [f64; 3] = std::array::from_fn(|k| at[k] + offset[k]);
+        // Beyond the sides along every axis, negative between them.
+        let [x, y, z] = [0, 1, 2].map(|k| (-place[k]).max(place[k] - [1.0, 2.0, 1.5][k]));
+        let outside = norm([x, y, z].map(|d| d.max(0.0)));
+        let exact = outside + x.max(y).max(z).min(0.0);
+        match SeenTriangle::signed_distance(&seen, offset, 0.9) {
+            Some(distance) => {
+                found += 1;
+                largest = largest.max((distance - exact).abs());
+            }
+            None => assert!(exact.abs() >= 0.9, "{exact} m from {place:?}"),
+        }
+    }
+    println!("{found} of 400, {largest:.1e} m");
+    assert!(found > 300 && largest < 1e-14, "{found}: {largest:e}");
 }
