@@ -8,6 +8,10 @@ use crate::wall_mesh::{MeshPoint, WallMesh};
 /// Samples along a radius of the ball around a node; half a sample from its centre is the first.
 const SAMPLES: i32 = 3;
 
+/// How far around a node elements are looked for, over the spacing: those within 2 spacings, and those that may come
+/// there until the next search.
+const FAR: f64 = 2.8;
+
 /// Nodes near walls that move otherwise than their own, and what is left of their fluid.
 ///
 /// A node stands for the fluid in a ball of half a spacing around it. Of that ball a wall that
@@ -16,17 +20,35 @@ const SAMPLES: i32 = 3;
 /// stood for by the nodes of both. The visible share is the mean over samples of the ball of
 /// H(d_own) [H(d_other) + H(d_other − δr/2)]/2 over that of H(d_own), d being signed distances and
 /// H a ramp as wide as the samples are apart.
-#[derive(Debug, Default)]
-pub(crate) struct Cover {
+#[derive(Debug)]
+pub(crate) struct Cover<N> {
     /// Nodes within reach of other walls at the last search.
-    near: Vec<usize>,
+    near: Vec<Surrounded<N>>,
     /// Positions of all nodes at the last search, m.
     searched_at: Vec<[f64; 3]>,
 }
 
-impl Cover {
+/// A node and what may be near it until the next search.
+#[derive(Debug)]
+struct Surrounded<N> {
+    node: usize,
+    /// Elements of walls that move with it, and of others.
+    own: Vec<N>,
+    others: Vec<N>,
+}
+
+impl<N> Default for Cover<N> {
+    fn default() -> Self {
+        Cover {
+            near: Vec::new(),
+            searched_at: Vec::new(),
+        }
+    }
+}
+
+impl<N: Copy + Send + Sync> Cover<N> {
     /// The nodes whose visible share may differ from 1, with that share.
-    pub fn shares<const D: usize, M: WallMesh<D>>(
+    pub fn shares<const D: usize, M: WallMesh<D, Near = N>>(
         &mut self,
         mesh: &M,
         points: &[MeshPoint<D>],
@@ -36,18 +58,20 @@ impl Cover {
         let nodes = points.iter().map(|p| (p.position, groups[p.wall]));
         let nodes: Vec<_> = nodes.collect();
         if self.outdated(&nodes, spacing) {
-            let others = |(x, group): &(Vect<D>, usize)| {
-                let others = nearby(mesh, x, 2.0 * spacing, |w| groups[w] != *group);
-                M::signed_distance(&others, &Vect::zeros(), 2.0 * spacing).is_some()
+            let near = |(node, (x, group)): (usize, &(Vect<D>, usize))| {
+                let all = mesh.near(x, FAR * spacing).into_iter();
+                let own = |n: &N| groups[mesh.wall_of(*n)] == *group;
+                let (own, others): (Vec<_>, Vec<_>) = all.partition(own);
+                let seen = seen(mesh, x, &others);
+                let found = M::signed_distance(&seen, &Vect::zeros(), 2.0 * spacing);
+                found.map(|_| Surrounded { node, own, others })
             };
-            let all = nodes.par_iter().enumerate();
-            let near = all.filter(|(_, node)| others(node)).map(|(v, _)| v);
-            self.near = near.collect();
+            self.near = nodes.par_iter().enumerate().filter_map(near).collect();
             self.searched_at = nodes.iter().map(|(x, _)| padded(x)).collect();
         }
-        let share = |&v: &usize| {
-            let (x, group) = &nodes[v];
-            (v, visible(mesh, groups, *group, x, spacing))
+        let share = |near: &Surrounded<N>| {
+            let (x, _) = &nodes[near.node];
+            (near.node, visible(mesh, near, x, spacing))
         };
         self.near.par_iter().map(share).collect()
     }
@@ -70,27 +94,19 @@ fn padded<const D: usize>(x: &Vect<D>) -> [f64; 3] {
     std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0))
 }
 
-/// Elements of some walls that may be within a radius of a point, as seen from there.
-fn nearby<const D: usize, M: WallMesh<D>>(
-    mesh: &M,
-    x: &Vect<D>,
-    radius: f64,
-    of: impl Fn(usize) -> bool,
-) -> Vec<M::Seen> {
-    let near = mesh.near(x, radius).into_iter();
-    let of_these = near.filter(|n| of(mesh.wall_of(*n)));
-    of_these.map(|n| mesh.seen(x, n)).collect()
+/// Elements as seen from a point.
+fn seen<const D: usize, M: WallMesh<D>>(mesh: &M, x: &Vect<D>, near: &[M::Near]) -> Vec<M::Seen> {
+    near.iter().map(|n| mesh.seen(x, *n)).collect()
 }
 
 fn visible<const D: usize, M: WallMesh<D>>(
     mesh: &M,
-    groups: &[usize],
-    group: usize,
+    around: &Surrounded<M::Near>,
     x: &Vect<D>,
     spacing: f64,
 ) -> f64 {
     let apart = 0.5 * spacing / f64::from(SAMPLES);
-    let mut others = nearby(mesh, x, 2.0 * spacing, |w| groups[w] != group);
+    let mut others = seen(mesh, x, &around.others);
     let Some(distance) = M::signed_distance(&others, &Vect::zeros(), 2.0 * spacing) else {
         return 1.0;
     };
@@ -104,10 +120,11 @@ fn visible<const D: usize, M: WallMesh<D>>(
     let left = |d: f64| 0.5 * (ramp(d) + ramp(d - 0.5 * spacing));
     // What is farther from the node than its wall by twice the radius of the ball is the nearest of no sample.
     let reach = [0.0, distance.abs()].map(|d| d + 0.5 * spacing + apart);
-    let own = nearby(mesh, x, reach[0] + 0.5 * spacing, |w| groups[w] == group);
-    let around = reach[1] + 0.5 * spacing;
-    let alone = std::slice::from_ref;
-    others.retain(|n| M::signed_distance(alone(n), &Vect::zeros(), around).is_some());
+    let mut own = seen(mesh, x, &around.own);
+    for (elements, reach) in [&mut own, &mut others].into_iter().zip(reach) {
+        let (alone, far) = (std::slice::from_ref, reach + 0.5 * spacing);
+        elements.retain(|e| M::signed_distance(alone(e), &Vect::zeros(), far).is_some());
+    }
     let (mut all, mut both) = (0.0, 0.0);
     // No sample is in a plane through the node, where a side would be undecided.
     let side = 2 * SAMPLES;

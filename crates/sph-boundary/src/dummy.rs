@@ -143,9 +143,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
         if !set_up.outline.moves() {
             return Ok(());
         }
-        if set_up.outline.move_to(time)? {
-            set_up.near.expire();
-        }
+        set_up.outline.move_to(time)?;
         set_up.place(&mut walls.points, time);
         walls.frames = set_up.outline.frames();
         Ok(())
@@ -153,7 +151,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
 
     fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         match &mut self.set_up {
-            Some(set_up) => set_up.near.refresh(&set_up.outline, world),
+            Some(set_up) => set_up.near.refresh(&mut set_up.outline, world),
             None => Ok(()),
         }
     }

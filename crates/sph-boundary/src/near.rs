@@ -24,7 +24,7 @@ const TURNS: usize = 4;
 #[derive(Debug)]
 pub(crate) struct NearLists<N> {
     built_for: u64,
-    /// Counts what makes contacts old: new lists and moves of walls.
+    /// Builds so far.
     pub version: u64,
     /// Particles with an element near, ascending.
     pub particles: Vec<u32>,
@@ -45,34 +45,43 @@ impl<N> Default for NearLists<N> {
 }
 
 impl<N: Copy + Send + Sync> NearLists<N> {
-    /// Forgets the lists: a wall moved.
-    pub fn expire(&mut self) {
-        self.built_for = 0;
-    }
-
-    /// Builds the lists anew if the neighbour lists were.
+    /// Builds the lists anew if the neighbour lists were, for particles and walls where these found them: they stand
+    /// as long, wherever the walls move meanwhile.
     pub fn refresh<const D: usize, M: WallMesh<D, Near = N>>(
         &mut self,
-        outline: &Outline<D, M>,
+        outline: &mut Outline<D, M>,
         world: &World<D>,
     ) -> Result<(), StepError> {
         if self.built_for == world.lists.builds {
             return Ok(());
         }
+        self.built_for = world.lists.builds;
+        self.version += 1;
+        let (reach, support) = (world.reach(), outline.support);
         let positions = &world.lists.reference;
-        let reach = world.reach();
+        let search = |mesh: &M| {
+            self.search(mesh, positions, reach);
+            let close = self.particles.iter().map(|&p| positions[p as usize]);
+            mesh.check_free_ends(&close.collect::<Vec<_>>(), support)
+        };
+        let searched = outline.at(world.lists.time, search);
+        searched.and_then(|checked| checked).map_err(stage_error)
+    }
+
+    fn search<const D: usize, M: WallMesh<D, Near = N>>(
+        &mut self,
+        mesh: &M,
+        positions: &[Vect<D>],
+        reach: f64,
+    ) {
         let batches: Vec<(Vec<u32>, Vec<N>)> = positions
             .par_chunks(BATCH)
             .map(|batch| {
                 let (mut counts, mut elements) = (Vec::with_capacity(batch.len()), Vec::new());
-                outline
-                    .mesh
-                    .near_all(batch, reach, &mut counts, &mut elements);
+                mesh.near_all(batch, reach, &mut counts, &mut elements);
                 (counts, elements)
             })
             .collect();
-        self.built_for = world.lists.builds;
-        self.version += 1;
         self.particles.clear();
         self.elements.clear();
         self.starts.clear();
@@ -89,13 +98,6 @@ impl<N: Copy + Send + Sync> NearLists<N> {
                 particle += 1;
             }
         }
-        let close: Vec<_> = self
-            .particles
-            .iter()
-            .map(|&p| positions[p as usize])
-            .collect();
-        let checked = outline.mesh.check_free_ends(&close, outline.support);
-        checked.map_err(stage_error)
     }
 
     /// The elements near the particle at a place of `particles`.
@@ -155,7 +157,7 @@ impl<N: Copy + Send + Sync> NearLists<N> {
 }
 
 /// What a step would do to a particle next to a wall.
-struct Impact<'a, const D: usize, M> {
+struct Impact<'a, const D: usize, M: WallMesh<D>> {
     outline: &'a Outline<D, M>,
     spacing: f64,
     time: f64,

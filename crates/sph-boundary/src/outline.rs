@@ -9,14 +9,14 @@ use crate::{BoundaryError, Movement, PeriodicBox, Pose, WallSetup, WallSpec};
 
 /// The walls of a scene as a mesh, with what the scene says of each.
 #[derive(Debug)]
-pub(crate) struct Outline<const D: usize, M> {
+pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub mesh: M,
     pub support: f64,
     poses: Vec<Pose<D>>,
     /// Walls with the same number move together.
     groups: Vec<usize>,
     spacing: f64,
-    cover: Cover,
+    cover: Cover<M::Near>,
     pub specs: Vec<WallSpec<D>>,
 }
 
@@ -92,15 +92,31 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         self.specs.iter().any(|s| s.condition.slip_length() > 0.0)
     }
 
+    fn poses_at(&self, time: f64) -> Vec<Pose<D>> {
+        self.specs.iter().map(|s| s.motion.pose(time)).collect()
+    }
+
     /// Moves the mesh; says whether anything moved.
     pub fn move_to(&mut self, time: f64) -> Result<bool, BoundaryError> {
-        let poses: Vec<_> = self.specs.iter().map(|s| s.motion.pose(time)).collect();
+        let poses = self.poses_at(time);
         if poses == self.poses {
             return Ok(false);
         }
         self.mesh.move_walls(&poses)?;
         self.poses = poses;
         Ok(true)
+    }
+
+    /// Asks the mesh something as if the walls were where they are at a time.
+    pub fn at<R>(&mut self, time: f64, ask: impl FnOnce(&M) -> R) -> Result<R, BoundaryError> {
+        let poses = self.poses_at(time);
+        if poses == self.poses {
+            return Ok(ask(&self.mesh));
+        }
+        self.mesh.move_walls(&poses)?;
+        let answer = ask(&self.mesh);
+        self.mesh.move_walls(&self.poses)?;
+        Ok(answer)
     }
 
     pub fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {

@@ -1,5 +1,7 @@
 //! Walls in the plane: segments for the wall treatments.
 
+use std::sync::OnceLock;
+
 use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::Contact;
@@ -18,7 +20,8 @@ use crate::{
 #[derive(Debug)]
 pub struct PlanarWalls {
     pub(crate) mesh: SegmentMesh,
-    grid: SegmentGrid,
+    /// Of the present position, made when somebody asks.
+    grid: OnceLock<SegmentGrid>,
     reach: f64,
     spacing: f64,
     names: Vec<String>,
@@ -27,6 +30,11 @@ pub struct PlanarWalls {
 }
 
 impl PlanarWalls {
+    fn grid(&self) -> &SegmentGrid {
+        let make = || SegmentGrid::build(&self.mesh, self.reach);
+        self.grid.get_or_init(make)
+    }
+
     fn normal(&self, vertex: &Vertex) -> Vect<2> {
         let of = |s: Option<usize>| s.map_or(Vect::zeros(), |s| self.segment(s).normal.into());
         let sum: Vect<2> = of(vertex.previous) + of(vertex.next);
@@ -121,7 +129,7 @@ impl WallMesh<2> for PlanarWalls {
         let mesh = SegmentMesh::build(&lines, spacing, domain)?;
         let names = walls.iter().map(|w| w.drawing.name().to_string()).collect();
         Ok(PlanarWalls {
-            grid: SegmentGrid::build(&mesh, reach),
+            grid: OnceLock::new(),
             mesh,
             reach,
             spacing,
@@ -173,7 +181,7 @@ impl WallMesh<2> for PlanarWalls {
             return Ok(());
         }
         self.mesh.move_walls(&poses)?;
-        self.grid = SegmentGrid::build(&self.mesh, self.reach);
+        self.grid = OnceLock::new();
         Ok(())
     }
 
@@ -184,10 +192,10 @@ impl WallMesh<2> for PlanarWalls {
         counts: &mut Vec<u32>,
         rows: &mut Vec<NearSegment>,
     ) {
-        let radius = radius.min(self.reach);
+        let (radius, grid) = (radius.min(self.reach), self.grid());
         for point in points {
             let from = rows.len();
-            rows.extend(self.grid.near(&self.mesh, [point[0], point[1]], radius));
+            rows.extend(grid.near(&self.mesh, [point[0], point[1]], radius));
             counts.push((rows.len() - from) as u32);
         }
     }
@@ -255,7 +263,7 @@ impl WallMesh<2> for PlanarWalls {
 
     fn nearest(&self, point: &Vect<2>, within: f64) -> Option<(f64, usize)> {
         let point = [point[0], point[1]];
-        let near = self.grid.near(&self.mesh, point, within.min(self.reach));
+        let near = self.grid().near(&self.mesh, point, within.min(self.reach));
         near.map(|near| {
             let [start, end] = self.mesh.seen_from(point, near);
             (distance_squared(start, end), near.segment)

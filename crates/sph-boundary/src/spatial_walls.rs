@@ -1,5 +1,7 @@
 //! Walls in space: triangles for the wall treatments.
 
+use std::sync::OnceLock;
+
 use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::Contact;
@@ -16,7 +18,8 @@ use crate::{
 #[derive(Debug)]
 pub struct SpatialWalls {
     mesh: TriangleMesh,
-    grid: TriangleGrid,
+    /// Of the present position, made when somebody asks.
+    grid: OnceLock<TriangleGrid>,
     planes: Planes,
     reach: f64,
     domain: PeriodicBox<3>,
@@ -87,6 +90,11 @@ const SAME_PLANE: f64 = 1e-6;
 type Seen<'a> = (&'a NearTriangle, Closest, Vect<3>, f64);
 
 impl SpatialWalls {
+    fn grid(&self) -> &TriangleGrid {
+        let make = || TriangleGrid::build(&self.mesh, self.reach);
+        self.grid.get_or_init(make)
+    }
+
     /// The triangles of a row, sorted by image and triangle, by face and image.
     fn faces<'a>(
         &'a self,
@@ -138,7 +146,7 @@ impl WallMesh<3> for SpatialWalls {
         }
         let mesh = TriangleMesh::build(&surfaces, &groups(walls), spacing, domain)?;
         Ok(SpatialWalls {
-            grid: TriangleGrid::build(&mesh, reach),
+            grid: OnceLock::new(),
             planes: Planes::new(&mesh),
             mesh,
             reach,
@@ -183,7 +191,7 @@ impl WallMesh<3> for SpatialWalls {
 
     fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {
         self.mesh.move_walls(poses)?;
-        self.grid = TriangleGrid::build(&self.mesh, self.reach);
+        self.grid = OnceLock::new();
         self.planes = Planes::new(&self.mesh);
         Ok(())
     }
@@ -198,7 +206,7 @@ impl WallMesh<3> for SpatialWalls {
         rows: &mut Vec<NearTriangle>,
     ) {
         let points: Vec<[f64; 3]> = points.iter().map(|p| (*p).into()).collect();
-        self.grid
+        self.grid()
             .rows(&points, radius.min(self.reach), counts, rows);
     }
 
@@ -307,7 +315,7 @@ impl WallMesh<3> for SpatialWalls {
 
     fn nearest(&self, point: &Vect<3>, within: f64) -> Option<(f64, usize)> {
         let x: [f64; 3] = (*point).into();
-        let near = self.grid.near(&self.mesh, x, within.min(self.reach));
+        let near = self.grid().near(&self.mesh, x, within.min(self.reach));
         near.map(|near| {
             let offset = Vect::from(self.mesh.closest(x, near).offset);
             (offset.norm(), near.triangle)

@@ -40,8 +40,10 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     integrals: M::Integrals,
     spacing: f64,
     near: NearLists<M::Near>,
-    /// Positions and version of the near lists for which the contacts were found.
-    found_for: (u64, Vec<Vect<D>>),
+    /// Moves of walls so far.
+    moves: u64,
+    /// Version of the near lists, moves and positions for which the contacts were found.
+    found_for: (u64, u64, Vec<Vect<D>>),
     /// What was found last, batch by batch; kept for its memory.
     found: Vec<Found>,
     /// Least height of the particles of the near lists over the planes of their contacts, m; ∞ for
@@ -127,12 +129,13 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     /// Whether the contacts were found for these very positions of particles and walls.
     fn is_fresh(&mut self, positions: &[Vect<D>]) -> bool {
         let here = || self.near.particles.iter().map(|p| positions[*p as usize]);
-        let (version, known) = &self.found_for;
-        if *version == self.near.version && here().eq(known.iter().copied()) {
+        let (version, moves, known) = &self.found_for;
+        let walls = (*version, *moves) == (self.near.version, self.moves);
+        if walls && here().eq(known.iter().copied()) {
             return true;
         }
         let here: Vec<_> = here().collect();
-        self.found_for = (self.near.version, here);
+        self.found_for = (self.near.version, self.moves, here);
         false
     }
 
@@ -198,7 +201,8 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             integrals,
             spacing: setup.spacing,
             near: NearLists::default(),
-            found_for: (0, Vec::new()),
+            moves: 0,
+            found_for: (0, 0, Vec::new()),
             found: Vec::new(),
             clearance: Vec::new(),
         };
@@ -216,17 +220,14 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         if !set_up.outline.moves() {
             return Ok(());
         }
-        if set_up.outline.move_to(time)? {
-            // A moved wall changes which elements are near whom.
-            set_up.near.expire();
-        }
+        set_up.moves += u64::from(set_up.outline.move_to(time)?);
         set_up.place(walls, time);
         Ok(())
     }
 
     fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
-        set_up.near.refresh(&set_up.outline, world)?;
+        set_up.near.refresh(&mut set_up.outline, world)?;
         if set_up.is_fresh(world.free.get(fields::POSITION)?) {
             return Ok(());
         }

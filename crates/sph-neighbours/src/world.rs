@@ -26,6 +26,8 @@ pub struct Lists<const D: usize> {
     reference_points: Vec<Vect<D>>,
     /// Builds so far.
     pub builds: u64,
+    /// Time of the last build, s: the walls were where they are at that time.
+    pub time: f64,
 }
 
 impl<const D: usize> Lists<D> {
@@ -112,14 +114,14 @@ impl<const D: usize> World<D> {
 
     fn build_lists_at(&mut self, positions: Vec<Vect<D>>) {
         let points = self.walls.points.position.clone();
-        self.build_lists_from(positions, points);
+        self.build_lists_from(positions, points, self.time);
     }
 
-    /// Builds all lists for given positions of the (sorted) free particles and wall points.
+    /// Builds all lists for given positions of the (sorted) free particles and wall points, those of a time, s.
     ///
-    /// A resumed run passes the positions of the last build, so that its lists, and with them
+    /// A resumed run passes positions and time of the last build, so that its lists, and with them
     /// the order of its sums, are those of the run that was interrupted.
-    pub fn build_lists_from(&mut self, positions: Vec<Vect<D>>, points: Vec<Vect<D>>) {
+    pub fn build_lists_from(&mut self, positions: Vec<Vect<D>>, points: Vec<Vect<D>>, time: f64) {
         let reach = self.reach();
         let grid = CellGrid::new(&positions, reach, &self.domain);
         let lists = &mut self.lists;
@@ -148,6 +150,7 @@ impl<const D: usize> World<D> {
         }
         lists.reference_points = points;
         lists.reference = positions;
+        lists.time = time;
         lists.builds += 1;
     }
 

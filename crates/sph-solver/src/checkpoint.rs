@@ -19,6 +19,8 @@ struct Clock {
     time: u64,
     dt: u64,
     list_builds: u64,
+    /// Of the last build of the lists. Runs of before it was kept go on with walls where they were saved.
+    list_time: Option<u64>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -67,6 +69,7 @@ pub fn save<const D: usize, T: Serialize>(
             time: world.time.to_bits(),
             dt: world.dt.to_bits(),
             list_builds: world.lists.builds,
+            list_time: Some(world.lists.time.to_bits()),
         },
         run,
     };
@@ -103,7 +106,9 @@ pub fn load<const D: usize, T: DeserializeOwned>(
         return Err(refused(path, "its number of particles is not the scene's"));
     }
     set_clock(flow, &meta.clock, path)?;
-    flow.world.build_lists_from(reference, wall_reference);
+    let list_time = meta.clock.list_time.map_or(flow.world.time, f64::from_bits);
+    flow.world
+        .build_lists_from(reference, wall_reference, list_time);
     flow.world.lists.builds = meta.clock.list_builds;
     flow.restored = true;
     Ok(meta.run)

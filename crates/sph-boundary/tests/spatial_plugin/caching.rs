@@ -104,3 +104,49 @@ fn a_particle_out_of_reach_may_fly_without_anything_being_found_anew() {
     bench.refresh();
     assert!(bench.gamma().iter().all(|g| *g == MARK));
 }
+
+/// A particle by the bits of its place, γ and its contacts.
+type Known = ([u64; 3], f64, Vec<(u32, Vect<3>, f64)>);
+
+fn known(bench: &Bench<3>) -> Vec<Known> {
+    let particles = bench.positions().iter().enumerate();
+    let mut known: Vec<Known> = particles
+        .map(|(i, x)| {
+            let contacts = bench.world.walls.contacts.of(i).iter();
+            let contacts = contacts.map(|c| (c.element, c.gradient, c.distance));
+            let place = [0, 1, 2].map(|k| f64::to_bits(x[k]));
+            (place, bench.gamma()[i], contacts.collect())
+        })
+        .collect();
+    known.sort_by_key(|(place, ..)| *place);
+    known
+}
+
+/// Particles go by nearly half a skin of 0.16 m, the wall by as much, forth and, after the lists are built anew there, back.
+#[test]
+fn lists_of_before_the_walls_moved_miss_nothing() {
+    let mut bench = bench();
+    let mut random = Random::new(4);
+    for time in [2.5, 1.0] {
+        let builds = bench.world.lists.builds;
+        for x in bench.world.free.get_mut(fields::POSITION).unwrap() {
+            let way = random.point::<3>(-1.0, 1.0);
+            *x += way * (0.075 / way.norm().max(1.0));
+        }
+        bench.move_to(time);
+        assert_eq!(bench.world.lists.builds, builds, "the lists stood");
+        let found = known(&bench);
+        bench.world.rebuild_lists().unwrap();
+        bench.refresh();
+        assert_eq!(bench.world.lists.builds, builds + 1);
+        let (mut contacts, mut worst) = (0, 0.0_f64);
+        for (old, new) in found.iter().zip(&known(&bench)) {
+            assert_eq!(old.0, new.0);
+            assert_eq!(old.2, new.2, "γ {} or {}", old.1, new.1);
+            worst = worst.max((old.1 - new.1).abs());
+            contacts += new.2.len();
+        }
+        println!("t = {time}: {contacts} contacts, γ to {worst:.1e}");
+        assert!(contacts > 1000 && worst < 1e-15, "{contacts} {worst:e}");
+    }
+}

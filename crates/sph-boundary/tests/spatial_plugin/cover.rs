@@ -175,3 +175,31 @@ fn a_lifted_gate_and_the_floor_below_have_their_shares_again() {
     assert_eq!(shares.len(), 2);
     assert!(shares.iter().all(|share| (share - 0.75).abs() < 1e-15));
 }
+
+/// Largest difference between the shares after many small moves and those of walls that came there at once.
+fn memory<S: Scene<D>, const D: usize>(velocity: Vect<D>) -> f64 {
+    let mut stepping = S::bench(velocity);
+    let mut most = 0.0_f64;
+    for k in 1..=60 {
+        let time = 0.02 * SPACING * f64::from(k);
+        stepping.move_to(time);
+        if k % 7 != 0 {
+            continue;
+        }
+        let mut leaping = S::bench(velocity);
+        leaping.move_to(time);
+        let shares = |bench: &Bench<D>| bench.world.walls.points.share.clone();
+        let pairs = shares(&stepping).into_iter().zip(shares(&leaping));
+        most = pairs.fold(most, |most, (a, b)| most.max((a - b).abs()));
+    }
+    most
+}
+
+#[test]
+fn shares_follow_from_where_the_walls_are_alone() {
+    assert_eq!(memory::<Plane, 2>(Vect::x()), 0.0);
+    assert_eq!(memory::<Plane, 2>(Vect::y()), 0.0);
+    assert_eq!(memory::<Space, 3>(Vect::x()), 0.0);
+    assert_eq!(memory::<Space, 3>(Vect::z()), 0.0);
+    assert_eq!(memory::<Space, 3>(Vect::repeat(0.7)), 0.0);
+}
