@@ -20,6 +20,27 @@ const LEAST: f64 = 1e-3;
 #[derive(Default)]
 pub struct InterfaceDistance {
     beyond: Option<Beyond>,
+    mixed: Mixed,
+}
+
+/// Who has another phase within the reach of its list; phases change with the lists only.
+#[derive(Default)]
+struct Mixed {
+    built_for: u64,
+    near: Vec<bool>,
+}
+
+impl Mixed {
+    fn refresh<const D: usize>(&mut self, world: &World<D>, phase: &[u32]) {
+        if self.built_for == world.lists.builds && self.near.len() == phase.len() {
+            return;
+        }
+        self.built_for = world.lists.builds;
+        let list = &world.lists.free;
+        let near = |i: usize| list.row(i).iter().any(|&j| phase[j as usize] != phase[i]);
+        let all = (0..phase.len()).into_par_iter().with_min_len(1024);
+        all.map(near).collect_into_vec(&mut self.near);
+    }
 }
 
 impl Declares for InterfaceDistance {
@@ -45,8 +66,10 @@ impl<const D: usize> Stage<World<D>> for InterfaceDistance {
         let own = kernel.value_at_zero();
         let beyond = self.beyond.get_or_insert_with(|| Beyond::new(kernel));
         let list = world.lists.pruned.as_ref().unwrap_or(&world.lists.free);
-        // Far from interfaces there is one comparison per neighbour.
-        let near = |i: usize, row: &[u32]| row.iter().any(|&j| phase[j as usize] != phase[i]);
+        self.mixed.refresh(world, phase);
+        let mixed = &self.mixed.near;
+        let near =
+            |i: usize, row: &[u32]| mixed[i] && row.iter().any(|&j| phase[j as usize] != phase[i]);
         let shares = shepard_some(world, positions, list, near, |i, row, w| {
             let (mut other, mut all) = (0.0, volume[i] * own);
             for (&j, w) in row.iter().zip(w) {

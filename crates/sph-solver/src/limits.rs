@@ -44,8 +44,8 @@ pub(crate) fn limiters_of<const D: usize>(
     if let (Some(wave), true) = (elastic_wave(choices, laws), bound) {
         limiters.push(Box::new(wave));
     }
-    if laws.len() > 1 {
-        limiters.push(Box::new(InterfaceLimit { laws: laws.clone() }));
+    if let Some(limit) = InterfaceLimit::of(laws) {
+        limiters.push(Box::new(limit));
     }
     limiters.extend(choices.smoother.iter().filter_map(|s| s.limiter(laws)));
     limiters.extend(choices.interfaces.iter().filter_map(|i| i.limiter(laws)));

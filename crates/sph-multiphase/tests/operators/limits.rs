@@ -1,55 +1,118 @@
-//! The step limit of a light particle among heavy ones.
+//! The step limit of mixtures of light and heavy particles.
 
 use sph_core::{Vect, fields};
 use sph_multiphase::{
     EquationOfState, Formulation, HuAdams, InterfaceLimit, Limiter, Linear, Reference,
 };
+use sph_neighbours::World;
 
 use crate::evaluate::{acceleration, pressure};
-use crate::world::{at, lattice, periodic, set, world};
+use crate::world::{Random, lattice, periodic, set, world};
 
 const LIGHT: f64 = 1.0 / 842.0;
 const SOUND: f64 = 10.0;
+const N: usize = 20;
 
-/// A light particle is displaced by 1e-4 δr: its acceleration gives ω² = −a/x, and the limit is 1/ω.
-#[test]
-fn a_light_particle_swings_with_one_over_the_limit_to_1_per_cent() {
-    let n = 20;
-    let mut water = world(lattice::<2>(n), periodic(), 1.0 / n as f64, 2.0);
-    let cell = (n as f64).powi(-2);
-    let middle = at(&water, Vect::repeat(0.5));
-    let place = water.free.get(fields::POSITION).unwrap()[middle];
-    let density = |x: &Vect<2>| if *x == place { LIGHT } else { 1.0 };
-    set(&mut water, fields::DENSITY, density);
-    set(&mut water, fields::MASS, |x| density(x) * cell);
-    HuAdams::default().rebase(&mut water).unwrap();
-    let moved = 1e-4 / n as f64;
-    water.free.get_mut(fields::POSITION).unwrap()[middle][0] += moved;
-    Formulation::<2>::stages(&HuAdams::default())[0]
-        .run(&mut water)
-        .unwrap();
-    // p = c²(ρ − ρ₀), in both phases with the sound of the water.
-    let rho = water.free.get(fields::DENSITY).unwrap().to_vec();
-    let rest = |i: usize| if i == middle { LIGHT } else { 1.0 };
-    let p = rho.iter().enumerate();
-    let p = p.map(|(i, rho)| SOUND * SOUND * (rho - rest(i))).collect();
-    *water.free.get_mut(fields::PRESSURE).unwrap() = p;
-    let pull = acceleration(&water, pressure())[middle][0];
-    let swing = (-pull / moved).sqrt();
+/// A lattice at rest, heavy where the share says so, light elsewhere.
+fn mixture(heavy: impl FnMut(usize) -> bool) -> World<2> {
+    let mut mixture = world(lattice::<2>(N), periodic(), 1.0 / N as f64, 2.0);
+    let density: Vec<f64> = (0..N * N)
+        .map(heavy)
+        .map(|heavy| if heavy { 1.0 } else { LIGHT })
+        .collect();
+    let cell = (N as f64).powi(-2);
+    for (field, scale) in [(fields::DENSITY, 1.0), (fields::MASS, cell)] {
+        let mut next = density.iter();
+        set(&mut mixture, field, |_| next.next().unwrap() * scale);
+    }
+    HuAdams::default().rebase(&mut mixture).unwrap();
+    mixture
+}
 
-    let law = |density: f64| {
+/// The accelerations that small displacements give, p = c²(ρ − ρ₀) with one c for both.
+fn pull(mixture: &mut World<2>, displacement: &[Vect<2>]) -> Vec<Vect<2>> {
+    let rest = mixture.free.get(fields::POSITION).unwrap().to_vec();
+    let mass = mixture.free.get(fields::MASS).unwrap().to_vec();
+    let moved = rest.iter().zip(displacement).map(|(x, d)| x + d).collect();
+    *mixture.free.get_mut(fields::POSITION).unwrap() = moved;
+    let mut stages = Formulation::<2>::stages(&HuAdams::default());
+    stages[0].run(mixture).unwrap();
+    let rho = mixture.free.get(fields::DENSITY).unwrap().iter().zip(&mass);
+    let above = |(rho, m): (&f64, &f64)| SOUND * SOUND * (rho - m * (N * N) as f64);
+    *mixture.free.get_mut(fields::PRESSURE).unwrap() = rho.map(above).collect();
+    let pull = acceleration(mixture, pressure());
+    *mixture.free.get_mut(fields::POSITION).unwrap() = rest;
+    pull
+}
+
+/// The largest ω, by power iteration.
+fn fastest(mixture: &mut World<2>) -> f64 {
+    let mut random = Random::new(5);
+    let mut shape: Vec<Vect<2>> = (0..N * N)
+        .map(|_| Vect::from_fn(|_, _| random.between(-1.0, 1.0)))
+        .collect();
+    let mut swing = 0.0;
+    for _ in 0..200 {
+        let most = shape.iter().map(Vect::norm).fold(0.0, f64::max);
+        let step = 1e-7 / most;
+        shape.iter_mut().for_each(|d| *d *= step);
+        let pulled = pull(mixture, &shape);
+        let product: f64 = shape.iter().zip(&pulled).map(|(d, a)| -d.dot(a)).sum();
+        let squared: f64 = shape.iter().map(Vect::norm_squared).sum();
+        swing = (product / squared).sqrt();
+        shape = pulled;
+    }
+    swing
+}
+
+fn limit(densities: [f64; 2], sounds: [f64; 2]) -> Option<InterfaceLimit> {
+    let law = |k: usize| {
         Linear::default().bind(Reference {
-            density,
-            sound_speed: SOUND,
+            density: densities[k],
+            sound_speed: sounds[k],
         })
     };
-    let limit = InterfaceLimit {
-        laws: vec![law(1.0), law(LIGHT)].into(),
-    };
-    let limit = Limiter::<2>::limit(&limit, &water).unwrap().dt;
-    assert!(
-        (swing * limit - 1.0).abs() < 0.01,
-        "ω = {swing:.1}/s, limit {limit:.3e} s: ωΔt = {:.4}",
-        swing * limit
-    );
+    InterfaceLimit::of(&[law(0), law(1)])
+}
+
+/// ωΔt of the fastest swing at the limit.
+fn at_the_limit(mixture: &mut World<2>) -> f64 {
+    let limit = limit([1.0, LIGHT], [SOUND; 2]).unwrap();
+    fastest(mixture) * Limiter::<2>::limit(&limit, mixture).unwrap().dt
+}
+
+/// Half of all, at random, and one in ten of either: ωΔt at the limit is 1.22, 1.32, 1.03. The theory of a
+/// smooth mixture says 1, a step is too long from 2 on, and 1.4 leaves the friction its share of that.
+#[test]
+fn mixtures_swing_with_no_more_than_the_limit_knows() {
+    for heavy in [0.1, 0.5, 0.9] {
+        let mut random = Random::new(1);
+        let mut mixture = mixture(|_| random.between(0.0, 1.0) < heavy);
+        let product = at_the_limit(&mut mixture);
+        assert!(
+            product > 1.0 && product < 1.4,
+            "{heavy} heavy: ωΔt = {product:.3}"
+        );
+    }
+}
+
+/// A light one among heavy ones with 0.60 of the limit's ω, the light ones around a heavy one with 0.84.
+#[test]
+fn a_lone_particle_swings_slower_than_a_mixture() {
+    for lone_is_heavy in [false, true] {
+        let mut alone = mixture(|k| (k == N * N / 2 + N / 2) == lone_is_heavy);
+        let product = at_the_limit(&mut alone);
+        assert!(
+            product > 0.5 && product < 0.9,
+            "heavy {lone_is_heavy}: ωΔt = {product:.3}"
+        );
+    }
+}
+
+#[test]
+fn equally_stiff_phases_have_no_limit() {
+    assert!(limit([1.0, LIGHT], [1.0, LIGHT.powf(-0.5)]).is_none());
+    assert!(limit([1.0, LIGHT], [1.0, 1.0]).is_some());
+    // The light one is the stiffer one: as a whole it is faster than a mixture.
+    assert!(limit([1.0, 0.9], [1.0, 2.0]).is_none());
 }
