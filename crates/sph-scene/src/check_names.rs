@@ -151,10 +151,8 @@ fn reference_keys(reference: &Reference, path: &str, found: &mut Problems) {
         _ => {}
     }
     measured(reference, path, found);
-    // The norms `mean` and `period` compare with a number of the reference itself.
-    let number = matches!(reference.norm(), Norm::Mean | Norm::Period);
     match (&reference.file, &reference.solution) {
-        (None, None) if number => {}
+        (None, None) if reference.stands_alone() => {}
         (None, None) => {
             found.add(
                 path,
@@ -214,7 +212,7 @@ fn measured(reference: &Reference, path: &str, found: &mut Problems) {
         (Norm::L2Mean, None, Some(_)) => {
             found.add(format!("{path}.norm"), about("l2-mean", "fields"));
         }
-        (norm @ (Norm::Mean | Norm::Period), Some(_), None) => {
+        (norm, Some(_), None) if reference.stands_alone() => {
             found.add(format!("{path}.norm"), about(norm.name(), "probes"));
         }
         _ => {}
@@ -223,9 +221,9 @@ fn measured(reference: &Reference, path: &str, found: &mut Problems) {
         ("file", reference.file.is_some()),
         ("solution", reference.solution.is_some()),
     ] {
-        if given && matches!(reference.norm(), Norm::Mean | Norm::Period) {
+        if given && reference.stands_alone() {
             let message = format!(
-                "the norm `{}` compares with a number",
+                "the norm `{}` compares with no file or solution",
                 reference.norm().name()
             );
             found.add(format!("{path}.{key}"), message);

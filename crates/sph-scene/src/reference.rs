@@ -98,6 +98,8 @@ pub enum Norm {
     Lag,
     /// |mean of u over `window` − `value`| / |`value`|.
     Mean,
+    /// Mean of u over `window`, in its unit: for a probe that is an error itself.
+    ErrorMean,
     /// Relative difference of the period of u, from where it crosses its mean, and `period`.
     Period,
     /// Relative difference of the times at which u and e are largest.
@@ -108,7 +110,7 @@ pub enum Norm {
 
 impl Norm {
     /// Every norm.
-    pub const ALL: [Norm; 15] = [
+    pub const ALL: [Norm; 16] = [
         Norm::RmsOverRange,
         Norm::L2,
         Norm::L2Mean,
@@ -121,6 +123,7 @@ impl Norm {
         Norm::Range,
         Norm::Lag,
         Norm::Mean,
+        Norm::ErrorMean,
         Norm::Period,
         Norm::PeakTime,
         Norm::Band,
@@ -141,6 +144,7 @@ impl Norm {
             Norm::Range => "range",
             Norm::Lag => "lag",
             Norm::Mean => "mean",
+            Norm::ErrorMean => "error-mean",
             Norm::Period => "period",
             Norm::PeakTime => "peak-time",
             Norm::Band => "band",
@@ -149,6 +153,11 @@ impl Norm {
 }
 
 impl Reference {
+    /// Whether the norm compares with nothing but a number of the reference, or with nothing at all.
+    pub fn stands_alone(&self) -> bool {
+        matches!(self.norm(), Norm::Mean | Norm::ErrorMean | Norm::Period)
+    }
+
     /// The norm in force.
     pub fn norm(&self) -> Norm {
         let default = match self.field {

@@ -169,7 +169,7 @@ fn against_series<const D: usize>(
     let counts = |t: f64| counts(reference, t);
     match reference.norm() {
         Norm::DecayRate => return Ok(decay(reference, times, values, solution, counts)),
-        Norm::Mean | Norm::Period => return Ok(averaged(reference, times, values)),
+        _ if reference.stands_alone() => return Ok(averaged(reference, times, values)),
         _ => {}
     }
     let Some(path) = &reference.path else {
@@ -246,7 +246,12 @@ fn against_series<const D: usize>(
             let found = norm::lag([times, values], [&instants, &compared], 0.5 * period);
             (found.map_or(f64::NAN, |lag| lag.abs() / period), "1")
         }
-        Norm::Rms | Norm::DecayRate | Norm::L2Mean | Norm::Mean | Norm::Period => {
+        Norm::Rms
+        | Norm::DecayRate
+        | Norm::L2Mean
+        | Norm::Mean
+        | Norm::ErrorMean
+        | Norm::Period => {
             return Ok(Err("this norm is for fields".into()));
         }
     };
