@@ -25,7 +25,7 @@ x = [0.0, 1.0]
 y = [0.0, 1.0]
 [formulation.hu-adams]
 [smoother.brezzi-pitkaranta]
-strength = 0.1
+strength = 0.04
 [phase.lower]
 density = 1000.0
 speed_of_sound = 10.0

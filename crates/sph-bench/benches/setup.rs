@@ -11,8 +11,9 @@ use std::fmt::Debug;
 use sph_core::{Contract, Field, Registry, Role, Scalar, Vect, fields};
 use sph_kernels::Sampler;
 use sph_multiphase::{
-    BrezziPitkaranta, Choice, FirstDifferences, FormulationEntry, PressureGradient, SmootherEntry,
-    SquaredVolumes, Uniform, Viscosity, ViscousOperatorEntry, ViscousTerm,
+    BrezziPitkaranta, Choice, EquationOfState, FirstDifferences, FormulationEntry, Laws, Linear,
+    PressureGradient, Reference, SmootherEntry, SquaredVolumes, Uniform, Viscosity,
+    ViscousOperatorEntry, ViscousTerm,
 };
 use sph_neighbours::{
     Domain, Fused, KernelEntry, PairTerm, Terms, There, World, fuse_all, interactions,
@@ -107,6 +108,15 @@ pub fn pairs(world: &World<2>) -> usize {
     pruned.expect("kernel sums leave it").candidates()
 }
 
+/// One phase, c = 20 m/s.
+fn laws() -> Laws {
+    let reference = Reference {
+        density: 1000.0,
+        sound_speed: 20.0,
+    };
+    vec![Linear::default().bind(reference)].into()
+}
+
 /// Pressure, viscosity and smoother, each from its registry.
 pub fn terms_by_name() -> Terms<2> {
     let table = Default::default();
@@ -118,7 +128,7 @@ pub fn terms_by_name() -> Terms<2> {
     vec![
         column(formulation).pressure_term(),
         column(viscous).term(Viscosity::Uniform(VISCOSITY)),
-        column(smoother).term(&Vec::new().into()),
+        column(smoother).term(&laws()),
     ]
 }
 
@@ -158,7 +168,7 @@ impl Sums {
 
     /// One sweep with kernel and terms as types.
     pub fn by_type(&mut self, world: &World<2>, kernel: &WendlandC2) {
-        let smoother = BrezziPitkaranta { strength: STRENGTH };
+        let smoother = BrezziPitkaranta { strength: STRENGTH }.of(&laws());
         let terms = (
             PressureGradient(SquaredVolumes),
             ViscousTerm(FirstDifferences, Uniform(VISCOSITY), Choice::default()),

@@ -195,7 +195,8 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
     fn wall_velocity(&self, hindrance: &Hindrance<D>) -> Vect<D> {
         let wall = hindrance.wall;
         let movement = self.outline.movement(wall, &hindrance.place, self.time);
-        movement.velocity
+        // Its mean over the step: where a wall turns, what follows its velocity leaves it by ½ a Δt².
+        movement.velocity + movement.acceleration * (0.5 * self.dt)
     }
 
     /// The change of velocity that a hindrance asks for.

@@ -16,13 +16,22 @@ use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup
 /// Walls of segments or triangles with vertex particles; sums are renormalised by γ, the share of
 /// the kernel inside the walls, and completed by ∇γ. γ is geometry here (a closed form, no history).
 ///
-/// Vertices carry the share θ_v of a particle's volume that is fluid; the pressure on vertices
-/// and elements is the Shepard mean of p + ρ (g − a_w)·(r_wall − r) over the fluid (∂p*/∂n = 0).
+/// The pressure on elements and vertices is the Shepard mean of p + ρ (g − a_w)·(r_wall − r) over
+/// the fluid (∂p*/∂n = 0).
 ///
-/// Source: Ghaïtanellis 2017, §2.5, Eq. 2.63–2.91; γ by the divergence theorem.
+/// With `vertices` the first row of particles lies at δr, and vertices carry the half row of fluid
+/// between: the share θ_v of a particle's volume. That half row stays at the wall. Under a lid that
+/// moves along itself it takes a flux of U δr/2 into a corner where nothing turns it down, an error of
+/// first order; and points that stand while rows of particles pass make a rough wall, which stirs
+/// the fluid the more the stiffer it is. Without vertices the first row lies at δr/2, all of the
+/// fluid is in particles, and the wall is smooth.
+///
+/// Source: Ghaïtanellis 2017, §2.5, Eq. 2.63–2.91; γ by the divergence theorem; walls without vertices
+/// are ours.
 ///
 /// ```toml
 /// [walls.usaw]
+/// vertices = false
 /// [wall.tank]
 /// polyline = [[0, 0.6], [0, 0], [1, 0], [1, 0.6]]
 /// ```
@@ -30,8 +39,17 @@ use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup
 #[serde(deny_unknown_fields, bound = "")]
 #[schemars(rename = "Usaw", bound = "")]
 pub struct Usaw<const D: usize, M: WallMesh<D>> {
+    /// Whether vertices carry the half row of fluid next to the wall, as in the source.
+    #[serde(default = "with_vertices")]
+    #[schemars(extend("source" = "Ghaïtanellis 2017, §2.5; without them: ours"))]
+    vertices: bool,
     #[serde(skip)]
     set_up: Option<SetUp<D, M>>,
+}
+
+/// As in the source.
+fn with_vertices() -> bool {
+    true
 }
 
 #[derive(Debug)]
@@ -92,12 +110,14 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     /// Positions, normals and movements of points and elements at a time.
     fn place(&mut self, walls: &mut WallSet<D>, time: f64) {
         let nodes: Vec<_> = self.outline.mesh.points().collect();
-        // All anew: shares follow from the time alone, whatever places a wall has been to.
-        for (v, node) in nodes.iter().enumerate() {
-            walls.points.share[v] = node.theta * node.size;
-        }
-        for (v, share) in self.outline.covered(&nodes) {
-            walls.points.share[v] = share;
+        if walls.points.in_sums() {
+            // All anew: shares follow from the time alone, whatever places a wall has been to.
+            for (v, node) in nodes.iter().enumerate() {
+                walls.points.share[v] = node.theta * node.size;
+            }
+            for (v, share) in self.outline.covered(&nodes) {
+                walls.points.share[v] = share;
+            }
         }
         let outline = &self.outline;
         walls.frames = outline.frames();
@@ -168,7 +188,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
 
 impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
     fn lattice_offset(&self) -> f64 {
-        0.0
+        if self.vertices { 0.0 } else { 0.5 }
     }
 
     fn renormalises(&self) -> bool {
@@ -196,6 +216,10 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             frames: Vec::new(),
             forces: Vec::new(),
         };
+        if !self.vertices {
+            walls.points.corners_only = true;
+            walls.points.share.fill(0.0);
+        }
         let mut set_up = SetUp {
             outline,
             integrals,
@@ -263,13 +287,16 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         let whole = spacing.powi(D as i32);
         let (points, elements) = (&world.walls.points, &world.walls.elements);
         let lists = &world.lists;
-        let at_points = wall_means(
-            world,
-            &points.position,
-            &points.acceleration,
-            &lists.of_points,
-            whole,
-        )?;
+        let at_points = match points.in_sums() {
+            true => wall_means(
+                world,
+                &points.position,
+                &points.acceleration,
+                &lists.of_points,
+                whole,
+            )?,
+            false => Vec::new(),
+        };
         let at_elements = wall_means(
             world,
             &elements.centre,
@@ -286,6 +313,25 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             walls.elements.pressure[s] = mean.pressure;
             walls.elements.volume[s] = mean.volume;
         }
+        if walls.points.corners_only {
+            pressure_at_corners(walls);
+        }
         Ok(())
+    }
+}
+
+/// Means over the elements around each corner, for pictures.
+fn pressure_at_corners<const D: usize>(walls: &mut WallSet<D>) {
+    let (points, elements) = (&mut walls.points, &walls.elements);
+    let mut around = vec![0u32; points.pressure.len()];
+    points.pressure.fill(0.0);
+    for (corners, pressure) in elements.corners.iter().zip(&elements.pressure) {
+        for corner in corners.map(|c| c as usize) {
+            around[corner] += 1;
+            points.pressure[corner] += pressure;
+        }
+    }
+    for (pressure, n) in points.pressure.iter_mut().zip(around) {
+        *pressure /= f64::from(n.max(1));
     }
 }

@@ -139,6 +139,12 @@ pub const SHIFT_VELOCITY: Field<Vector> = Field::new(
     "m/s",
     "velocity of the shifting that keeps particles evenly spread",
 );
+/// How much of a particle's neighbourhood is empty, by its arrangement.
+pub const EMPTINESS: Field<Scalar> = Field::new(
+    "emptiness",
+    "1",
+    "1 - sum of volume times kernel over the renormalisation; 0 within reach of free surfaces and of wall points",
+);
 /// Way from where a particle was at the start, across periodic borders. Only where somebody asks for it.
 pub const DISPLACEMENT: Field<Vector> = Field::new(
     "displacement",

@@ -5,28 +5,30 @@ use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
-use crate::diffusion_limit::{DiffusionLimit, Diffusivity};
+use crate::diffusion_limit::{DiffusionLimit, fastest};
 use crate::{Laws, Limiter, Smoother, SmootherEntry};
 
-/// dρ_a/dt += Λ 2ρ_aΔt/γ_a Σ_b V_b [2/(ρ_a+ρ_b) (p_a − p_b) − g·r_ab] F_ab, free neighbours only.
+/// dρ_a/dt += δ (h/c) 2ρ_a/γ_a Σ_b V_b [2/(ρ_a+ρ_b) (p_a − p_b) − g·r_ab] F_ab, free neighbours only.
+///
+/// Symbols: δ strength; c speed of sound of the fastest phase (m/s). The source has a step, ΛΔt, in the place of δ h/c: a strength
+/// that goes with whatever limits the step. At the sound's limit, Δt = 0.4 h/c, it is δ = 0.4 Λ.
 ///
 /// The bracket vanishes for a hydrostatic field. Across a density jump it does so for pairs that
 /// are mirrored at the interface; on a lattice 7 % of the unbalanced rate is left at a ratio of 2. The thesis prints
 /// other signs, with which the term is anti-diffusive (a tank at rest blows up after 0.09 s).
 ///
 /// Limits: the bracket knows gravity and no other force. Where friction or elasticity bears a part of the weight
-/// it is not zero at rest, and pushes the material on, the more the longer the step: a pile of beads
-/// runs twice as far with four times the step. [`DeltaSph`](crate::DeltaSph) is the same diffusion (δ = ΛΔt c/h) less
+/// it is not zero at rest, and pushes the material on. [`DeltaSph`](crate::DeltaSph) is the same diffusion less
 /// whatever gradient there is: take it for soils.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 2.92–2.95 and 2.99, corrected.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BrezziPitkaranta {
-    /// Weight Λ: 0.1 in most cases of the thesis, 1 for tanks at rest and impacts.
+    /// Strength δ: the diffusivity of the density over h c. The source's 0.04 in most cases, 0.4 for tanks at rest and impacts.
     #[schemars(
-        range(min = 0.0, max = 10.0),
-        extend("unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 2.100")
+        range(min = 0.0, max = 4.0),
+        extend("unit" = "1", "source" = "Antuono et al. 2010; Ghaïtanellis 2017, Eq. 2.100: 0.4 Λ")
     )]
     pub strength: f64,
 }
@@ -38,11 +40,11 @@ impl Default for BrezziPitkaranta {
 }
 
 impl<const D: usize> Smoother<D> for BrezziPitkaranta {
-    fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Term(*self))
+    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
+        Box::new(Term(self.of(laws)))
     }
     fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        DiffusionLimit::of(Diffusivity::Step(self.strength), laws)
+        DiffusionLimit::of(self.strength, laws)
     }
 }
 
@@ -54,7 +56,23 @@ register!(
     "Ghaïtanellis 2017, Eq. 2.92–2.99"
 );
 
-impl<const D: usize> PairTerm<D> for BrezziPitkaranta {
+impl BrezziPitkaranta {
+    /// Its term for the phases of a scene.
+    pub fn of(&self, laws: &Laws) -> PressureDiffusion {
+        PressureDiffusion {
+            slowness: self.strength / fastest(laws),
+        }
+    }
+}
+
+/// The term of [`BrezziPitkaranta`].
+#[derive(Clone, Copy, Debug)]
+pub struct PressureDiffusion {
+    /// δ/c, s/m.
+    slowness: f64,
+}
+
+impl<const D: usize> PairTerm<D> for PressureDiffusion {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -73,12 +91,12 @@ impl<const D: usize> PairTerm<D> for BrezziPitkaranta {
             pressure: world.free.get(fields::PRESSURE)?,
             density: world.free.get(fields::DENSITY)?,
             gravity: world.gravity,
-            weight: 2.0 * self.strength * world.dt,
+            weight: 2.0 * self.slowness * world.kernel.smoothing_length(),
         })
     }
 }
 
-/// [`BrezziPitkaranta`] with its columns.
+/// [`PressureDiffusion`] with its columns.
 pub struct Bound<'a, const D: usize> {
     pressure: &'a [f64],
     density: &'a [f64],

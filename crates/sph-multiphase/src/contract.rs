@@ -137,7 +137,7 @@ contract!(
 /// What keeps particles evenly spread.
 pub trait Shifting<const D: usize>: Send {
     /// The stages; the last one writes [`SHIFT_VELOCITY`](sph_core::fields::SHIFT_VELOCITY).
-    fn stages(&self) -> Stages<D>;
+    fn stages(&self, laws: &Laws) -> Stages<D>;
     /// What particles take up where they are shifted to, as rates of velocity and density.
     fn term(&self, _flow: ShiftedFlow) -> Option<Box<dyn Interaction<D>>> {
         None
@@ -149,8 +149,6 @@ pub trait Shifting<const D: usize>: Send {
 pub struct ShiftedFlow {
     /// Whether the density is a sum over positions, which the shifting changes.
     pub summed: bool,
-    /// Whether there is gravity.
-    pub gravity: bool,
 }
 
 contract!(

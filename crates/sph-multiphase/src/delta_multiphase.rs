@@ -5,7 +5,7 @@ use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
 use sph_neighbours::{BoundTerm, Contact, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
-use crate::diffusion_limit::{DiffusionLimit, Diffusivity};
+use crate::diffusion_limit::DiffusionLimit;
 use crate::phases::PerPhase;
 use crate::{Laws, Limiter, Smoother, SmootherEntry};
 
@@ -80,7 +80,7 @@ impl<const D: usize> Smoother<D> for DeltaMultiphase {
         }))
     }
     fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        DiffusionLimit::of(Diffusivity::Sound(self.strength), laws)
+        DiffusionLimit::of(self.strength, laws)
     }
 }
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
-use crate::diffusion_limit::{DiffusionLimit, Diffusivity};
+use crate::diffusion_limit::DiffusionLimit;
 use crate::phases::PerPhase;
 use crate::{Laws, Limiter, Smoother, SmootherEntry, Stages};
 use sph_neighbours::{Around, Values, walk};
@@ -75,7 +75,7 @@ impl<const D: usize> Smoother<D> for DeltaSph {
         }))
     }
     fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        DiffusionLimit::of(Diffusivity::Sound(self.strength), laws)
+        DiffusionLimit::of(self.strength, laws)
     }
 }
 

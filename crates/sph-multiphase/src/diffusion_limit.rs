@@ -9,37 +9,30 @@ use crate::{Laws, Limiter};
 /// Of λΔt: 1.45 for a chequerboard on a lattice, where it may be 2, and particles are not on one.
 const STABLE: f64 = 1.25;
 
-/// What is diffused how fast.
-#[derive(Clone, Copy, Debug)]
-pub enum Diffusivity {
-    /// Densities with δ h c.
-    Sound(f64),
-    /// Pressures over c² with Λ Δt c².
-    Step(f64),
+/// The speed of sound of the fastest phase at rest, m/s.
+pub(crate) fn fastest(laws: &Laws) -> f64 {
+    let speeds = laws.iter().map(|l| l.reference().sound_speed);
+    speeds.fold(0.0, f64::max)
 }
 
-/// λΔt ≤ 1.25 with λ = 2 D Σ_b V |F_ab| on a lattice, 7/8 of the rate at which a chequerboard dies away under the diffusivity D: Δt ≤ 1.25/(2 δ h c ΣV|F|) for
-/// D = δ h c, Δt ≤ √(1.25/(2 Λ ΣV|F|))/c for D = Λ Δt c², with the fastest phase at rest.
+/// λΔt ≤ 1.25 with λ = 2 D Σ_b V |F_ab| on a lattice, 7/8 of the rate at which a chequerboard dies away under the diffusivity D = δ h c:
+/// Δt ≤ 1.25/(2 δ h c ΣV|F|) with the fastest phase at rest.
 ///
-/// ΣV|F| is 3.5/h² for Wendland C2. With Δt = 0.4 h/c it binds from δ = 0.45 and Λ = 1.1 on; without it δ = 1 and Λ = 3 blow a tank at
+/// ΣV|F| is 3.5/h² for Wendland C2. With Δt = 0.4 h/c it binds from δ = 0.45 on; without it δ = 1 blows a tank at
 /// rest up. Ours.
 #[derive(Clone, Debug)]
 pub struct DiffusionLimit {
-    diffusivity: Diffusivity,
+    /// δ.
+    strength: f64,
     fastest: f64,
 }
 
 impl DiffusionLimit {
     /// Of a smoother; nothing for one that does nothing.
-    pub fn of<const D: usize>(
-        diffusivity: Diffusivity,
-        laws: &Laws,
-    ) -> Option<Box<dyn Limiter<D>>> {
-        let (Diffusivity::Sound(strength) | Diffusivity::Step(strength)) = diffusivity;
-        let speeds = laws.iter().map(|l| l.reference().sound_speed);
+    pub fn of<const D: usize>(strength: f64, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         let limit = DiffusionLimit {
-            diffusivity,
-            fastest: speeds.fold(0.0, f64::max),
+            strength,
+            fastest: fastest(laws),
         };
         (strength > 0.0).then(|| Box::new(limit) as _)
     }
@@ -50,20 +43,11 @@ impl<const D: usize> Limiter<D> for DiffusionLimit {
         let cell = world.spacing.powi(D as i32);
         let sum = 2.0 * cell * lattice_sum(world, |pair| -pair.factor);
         let h = world.kernel.smoothing_length();
-        let dt = match self.diffusivity {
-            Diffusivity::Sound(delta) => STABLE / (delta * h * self.fastest * sum),
-            Diffusivity::Step(weight) => (STABLE / (weight * sum)).sqrt() / self.fastest,
-        };
+        let dt = STABLE / (self.strength * h * self.fastest * sum);
         Ok(StepLimit::new("smoother", dt))
     }
     fn formula(&self) -> String {
-        match self.diffusivity {
-            Diffusivity::Sound(delta) => {
-                format!("smoother: dt <= {STABLE} / (2 {delta} h c ΣV|F|)")
-            }
-            Diffusivity::Step(weight) => {
-                format!("smoother: dt <= √({STABLE} / (2 {weight} ΣV|F|)) / c")
-            }
-        }
+        let delta = self.strength;
+        format!("smoother: dt <= {STABLE} / (2 {delta} h c ΣV|F|)")
     }
 }

@@ -4,14 +4,17 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::World;
 
-use sph_neighbours::{Around, Values, walk, walk_some};
+use crate::lattice::lattice_sum;
+
+use sph_neighbours::{Around, Contact, Values, walk, walk_some};
 
 /// What the neighbourhood of a particle says of its arrangement.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Evenness<const D: usize> {
-    /// ΣθVw/γ: 1 in the bulk.
+    /// The concentration C = ΣθVw/γ: 1 in the bulk.
     pub filling: f64,
-    /// Gradient of the concentration, 1/m: into the fluid at a surface.
+    /// ∇C = (ΣθV∇w − C Σ∇γ)/γ, 1/m: into the fluid at a surface, and 0 for an even
+    /// arrangement of any concentration beside a wall.
     pub gradient: Vect<D>,
     /// The same with the term against clumping, 1/m.
     pub push: Vect<D>,
@@ -33,11 +36,18 @@ pub(crate) fn evenness<const D: usize>(
     let points = &world.walls.points;
     let own = world.kernel.value_at_zero();
     let between = 1.0 / world.kernel.at(world.spacing).0;
+    let mirrored = !points.in_sums();
     let least = AT_INTERFACE / world.kernel.smoothing_length();
     // A power with a known exponent is two products.
     let power = move |ratio: f64| match exponent {
         4 => (ratio * ratio) * (ratio * ratio),
         n => ratio.powi(n),
+    };
+    // An image stands for the row of images of a lattice, which pushes as much and the more for those aside.
+    let row = if mirrored {
+        row_of_images(world, &power)
+    } else {
+        0.0
     };
     walk(world, Values::Both, |around: &Around<'_, D>| {
         let (rows, i) = (&around.rows, around.rows.particle);
@@ -60,19 +70,71 @@ pub(crate) fn evenness<const D: usize>(
             let part = points.share[v as usize] * points.volume[v as usize];
             filling += part * w;
             gradient += rows.wall.separation[k] * (part * rows.wall.factor[k]);
-        }
-        for contact in rows.contacts {
-            gradient -= contact.gradient;
+            if part > 0.0 {
+                // However little of it is fluid, a particle is not to come nearer to a point than to another.
+                let whole = points.volume[v as usize] * rows.wall.factor[k];
+                push += rows.wall.separation[k] * (whole * tensile * power(w * between));
+            }
         }
         let inverse = rows.inverse_renormalisation;
+        let concentration = filling * inverse;
+        for contact in rows.contacts {
+            gradient -= contact.gradient * concentration;
+        }
+        if mirrored {
+            push +=
+                images(world, rows.contacts, |w| row * tensile * power(w * between)) * volume[i];
+        }
         Evenness {
-            filling: filling * inverse,
+            filling: concentration,
             gradient: gradient * inverse,
             push: (gradient + push) * inverse,
             interface: colour.try_normalize(least),
         }
     })
 }
+
+/// Σ F y (w/w(δr))ⁿ over the half of a lattice behind a plane midway between rows, over its largest term.
+fn row_of_images<const D: usize>(world: &World<D>, power: impl Fn(f64) -> f64) -> f64 {
+    let (between, factor) = world.kernel.at(world.spacing);
+    let sum = lattice_sum(world, |pair| {
+        let height = pair.separation[D - 1];
+        let w = world.kernel.at(pair.separation.norm()).0;
+        height.max(0.0) * pair.factor * power(w / between)
+    });
+    sum / (world.spacing * factor)
+}
+
+/// Elements whose normals differ by less than 45° are one wall.
+const ONE_WALL: f64 = 0.7;
+
+/// Σ weight(w) ∇w over the images of a particle behind the walls around it: one behind each wall, at twice the distance.
+fn images<const D: usize>(
+    world: &World<D>,
+    contacts: &[Contact<D>],
+    weight: impl Fn(f64) -> f64,
+) -> Vect<D> {
+    let normal = |c: &Contact<D>| world.walls.elements.normal[c.element as usize];
+    let mut sum = Vect::zeros();
+    for contact in contacts {
+        let apart = 2.0 * contact.distance.max(0.0);
+        let (w, factor) = world.kernel.at(apart);
+        let weight = weight(w);
+        if weight < FAINT {
+            continue;
+        }
+        // The elements of a wall share its image.
+        let own = normal(contact);
+        let one_wall = contacts.iter().filter(|c| normal(c).dot(&own) > ONE_WALL);
+        let all: f64 = one_wall.map(|c| c.gradient.norm()).sum();
+        let share = contact.gradient.norm() / all;
+        sum += own * (share * weight * apart * factor);
+    }
+    sum
+}
+
+/// Least weight of an image that is looked at.
+const FAINT: f64 = 1e-4;
 
 /// What a particle near a free surface may not do.
 #[derive(Clone, Copy, Debug)]

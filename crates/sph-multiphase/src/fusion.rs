@@ -4,7 +4,7 @@ use sph_core::reexport::inventory;
 use sph_neighbours::{FusionEntry, fuse_three, fuse_two};
 
 use crate::{
-    BrezziPitkaranta as Smooth, HuAdamsPressure as Pressure, InSeries, MorrisTerm, PerParticle,
+    HuAdamsPressure as Pressure, InSeries, MorrisTerm, PerParticle, PressureDiffusion as Smooth,
     Uniform,
 };
 

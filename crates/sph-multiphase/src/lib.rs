@@ -49,7 +49,7 @@ mod tait;
 mod viscosity;
 mod volume;
 
-pub use brezzi_pitkaranta::BrezziPitkaranta;
+pub use brezzi_pitkaranta::{BrezziPitkaranta, PressureDiffusion};
 pub use colagrossi_landrini::ColagrossiLandrini;
 pub use compressible_grains::CompressibleGrains;
 pub use contract::{

@@ -5,16 +5,16 @@ use serde::Deserialize;
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
-use crate::diffusion_limit::{DiffusionLimit, Diffusivity};
+use crate::diffusion_limit::{DiffusionLimit, fastest};
 use crate::{Laws, Limiter, Smoother, SmootherEntry, Stages};
 use sph_neighbours::{Around, Values, walk};
 
-/// dρ_a/dt += Λ ρ_a Δt [L_a{1/ρ, p} − D⁺_a{G⁻{1/ρ, p}}], over free neighbours, with
+/// dρ_a/dt += δ (h/c) ρ_a [L_a{1/ρ, p} − D⁺_a{G⁻{1/ρ, p}}], over free neighbours, with
 /// L_a = 2/γ_a Σ_b V_b 2/(ρ_a + ρ_b) (p_a − p_b) F_ab,
 /// G⁻_a{1/ρ, p} = −V_a/γ_a Σ_b 2/(ρ_a + ρ_b) (p_a − p_b) ∇w_ab and
 /// D⁺_a{A} = 1/(γ_a V_a) Σ_b (A_a V_a² + A_b V_b²)·∇w_ab.
 ///
-/// Symbols: Λ number; p pressure (Pa); V volume (m^d); F = w'/r. The difference of a narrow and a
+/// Symbols: δ strength; c speed of sound of the fastest phase (m/s), with which δ h/c stands for the source's ΛΔt; p pressure (Pa); V volume (m^d); F = w'/r. The difference of a narrow and a
 /// wide Laplacian: it sees noise and not what the wide one resolves, so it needs no gravity part.
 /// One more walk over the neighbours.
 ///
@@ -28,22 +28,22 @@ use sph_neighbours::{Around, Values, walk};
 ///
 /// ```toml
 /// [smoother.rhie-chow]
-/// strength = 1.0
+/// strength = 0.4
 /// ```
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RhieChow {
-    /// Weight Λ.
+    /// Strength δ: the diffusivity of the density over h c.
     #[schemars(
-        range(min = 0.0, max = 10.0),
-        extend("unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 2.101")
+        range(min = 0.0, max = 4.0),
+        extend("unit" = "1", "source" = "Antuono et al. 2010; Ghaïtanellis 2017, Eq. 2.101: 0.4 Λ")
     )]
     pub strength: f64,
 }
 
 impl Default for RhieChow {
     fn default() -> Self {
-        RhieChow { strength: 1.0 }
+        RhieChow { strength: 0.4 }
     }
 }
 
@@ -51,11 +51,13 @@ impl<const D: usize> Smoother<D> for RhieChow {
     fn stages(&self, _laws: &Laws) -> Stages<D> {
         vec![Box::new(PressureSlope)]
     }
-    fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Term(*self))
+    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
+        Box::new(Term(NarrowLessWide {
+            slowness: self.strength / fastest(laws),
+        }))
     }
     fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        DiffusionLimit::of(Diffusivity::Step(self.strength), laws)
+        DiffusionLimit::of(self.strength, laws)
     }
 }
 
@@ -110,7 +112,14 @@ impl<const D: usize> Stage<World<D>> for PressureSlope {
     }
 }
 
-impl<const D: usize> PairTerm<D> for RhieChow {
+/// The term of [`RhieChow`].
+#[derive(Clone, Copy, Debug)]
+struct NarrowLessWide {
+    /// δ/c, s/m.
+    slowness: f64,
+}
+
+impl<const D: usize> PairTerm<D> for NarrowLessWide {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -131,12 +140,12 @@ impl<const D: usize> PairTerm<D> for RhieChow {
             density: world.free.get(fields::DENSITY)?,
             volume: world.free.get(fields::VOLUME)?,
             slope: world.free.get(PRESSURE_SLOPE)?,
-            weight: self.strength * world.dt,
+            weight: self.slowness * world.kernel.smoothing_length(),
         })
     }
 }
 
-/// [`RhieChow`] with its columns.
+/// [`NarrowLessWide`] with its columns.
 pub struct Bound<'a, const D: usize> {
     pressure: &'a [f64],
     density: &'a [f64],

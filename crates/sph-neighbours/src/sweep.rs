@@ -172,7 +172,10 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
             states,
             kernel,
             positions: world.free.get(fields::POSITION)?,
-            points: &world.walls.points.position,
+            points: match world.walls.points.in_sums() {
+                true => &world.walls.points.position,
+                false => &[],
+            },
             renormalisation: world.free.get(fields::RENORMALISATION).ok(),
             list,
             pruned,
@@ -247,7 +250,7 @@ pub fn kernel_sums<const D: usize>(
         let domain = wrapping(&world.domain, x, world.reach());
         let (n, w) = values.prune(x, positions, list.row(i), limit, domain, kernel, slots);
         let mut sum = own + total(w);
-        if !points.position.is_empty() {
+        if points.in_sums() {
             let row = world.lists.wall.row(i);
             if !row.is_empty() {
                 let w = values.fill(x, &points.position, row, domain, kernel);

@@ -64,8 +64,8 @@ impl<'w, const D: usize> Surroundings<'w, D> {
         rows.free
             .fill(x, self.position, candidates, self.pruned, domain, kernel);
         rows.wall.clear();
-        let points = &world.walls.points.position[..];
-        if !points.is_empty() {
+        if world.walls.points.in_sums() {
+            let points = &world.walls.points.position[..];
             let candidates = world.lists.wall.row(particle);
             if !candidates.is_empty() {
                 rows.wall.fill(x, points, candidates, false, domain, kernel);

@@ -30,6 +30,16 @@ pub struct WallPoints<const D: usize> {
     pub slip: Vec<(f64, Vect<D>)>,
     /// Which named wall the point belongs to.
     pub wall: Vec<u32>,
+    /// Whether the points are the corners of elements alone, without any fluid of their own: they
+    /// are in no list and in no sum.
+    pub corners_only: bool,
+}
+
+impl<const D: usize> WallPoints<D> {
+    /// Whether there are points that take part in sums.
+    pub fn in_sums(&self) -> bool {
+        !self.corners_only && !self.position.is_empty()
+    }
 }
 
 /// Wall elements: segments in 2D, triangles in 3D.

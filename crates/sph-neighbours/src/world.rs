@@ -129,7 +129,7 @@ impl<const D: usize> World<D> {
         lists
             .free
             .build(&positions, &positions, &grid, reach, domain, true);
-        if !points.is_empty() {
+        if self.walls.points.in_sums() {
             let wall_grid = CellGrid::new(&points, reach, domain);
             lists
                 .wall
@@ -172,9 +172,9 @@ impl<const D: usize> World<D> {
                 .row(i)
                 .iter()
                 .filter(|&&j| near(x, &positions[j as usize]));
-            let wall = match points.is_empty() {
-                true => &[][..],
-                false => self.lists.wall.row(i),
+            let wall = match self.walls.points.in_sums() {
+                false => &[][..],
+                true => self.lists.wall.row(i),
             };
             free.count()
                 + wall

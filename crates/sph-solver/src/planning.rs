@@ -155,7 +155,6 @@ pub fn plan_stages<const D: usize>(
     }
     let shifted = ShiftedFlow {
         summed: choices.formulation.compressed().is_none(),
-        gravity: scene.gravity::<D>().norm() > 0.0,
     };
     let transport = choices.shifting.iter().find_map(|s| s.term(shifted));
     let density_changes = choices.smoother.is_some() || transport.is_some();
@@ -200,7 +199,7 @@ pub fn plan_stages<const D: usize>(
     let gradient = choices.velocity_gradient.take();
     let smoother = choices.smoother.iter().flat_map(|s| s.stages(laws));
     let interfaces = choices.interfaces.iter().flat_map(|i| i.stages());
-    let shifting = choices.shifting.iter().flat_map(|s| s.stages());
+    let shifting = choices.shifting.iter().flat_map(|s| s.stages(laws));
     let extra = friction
         .into_iter()
         .chain(smoother)

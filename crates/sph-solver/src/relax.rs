@@ -206,7 +206,7 @@ fn concentrations<const D: usize>(world: &World<D>) -> Result<Vec<Concentration<
         };
         row.fill(x, position, world.lists.free.row(i), false, domain, kernel);
         add(row.row(), values, &|_| 1.0);
-        if !points.position.is_empty() {
+        if points.in_sums() {
             let candidates = world.lists.wall.row(i);
             row.fill(x, &points.position, candidates, false, domain, kernel);
             add(row.row(), values, &|v| points.share[v as usize]);

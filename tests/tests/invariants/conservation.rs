@@ -73,7 +73,7 @@ const PLUGINS: [&[&str]; 10] = [
         "integrator.predictor-corrector={}",
         "shifting={}",
     ],
-    &["smoother.rhie-chow.strength=0.1", "shifting={}"],
+    &["smoother.rhie-chow.strength=0.04", "shifting={}"],
     &[
         "smoother.delta-sph.strength=0.1",
         "implicit-viscosity.backward-euler={}",

@@ -16,7 +16,7 @@ run.end = {end:e}
 spacing = {spacing:e}
 gravity = [0.0, {gravity:e}]
 [smoother.brezzi-pitkaranta]
-strength = 0.1
+strength = 0.04
 [walls.usaw]
 [wall.tank]
 polyline = [[0.0, 0.0], [{width:e}, 0.0], [{width:e}, {width:e}], [0.0, {width:e}]]

@@ -37,7 +37,7 @@ run.end = 1
 spacing = 0.0625
 gravity = {gravity:?}
 [smoother.brezzi-pitkaranta]
-strength = 0.1
+strength = 0.04
 [walls.usaw]
 [wall.tank]
 polyline = [{}]

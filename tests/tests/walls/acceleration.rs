@@ -12,7 +12,7 @@ run.end = 10.0
 [numerics]
 spacing = 0.05
 [smoother.brezzi-pitkaranta]
-strength = 0.1
+strength = 0.04
 [walls.{treatment}]
 [wall.box]
 box = [[0.0, 0.0], [1.0, 0.6]]

@@ -32,7 +32,7 @@ spacing = {spacing}
 gravity = [{down}]
 relax = {{ steps = 100, tolerance = 0.005 }}
 [smoother.brezzi-pitkaranta]
-strength = 1.0
+strength = 0.4
 [walls.{treatment}]
 [wall.tank]
 box = [[{low}], [{high}]]

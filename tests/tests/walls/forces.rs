@@ -6,7 +6,7 @@ use crate::bench::{Flowing, flowing};
 
 const FLUID: &str = r#"
 [smoother.brezzi-pitkaranta]
-strength = 0.1
+strength = 0.04
 [phase.water]
 density = 1000.0
 velocity_scale = 3.0

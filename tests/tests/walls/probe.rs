@@ -13,7 +13,7 @@ run.end = 1.0
 spacing = 0.05
 gravity = [1.0, -9.81]
 [smoother.brezzi-pitkaranta]
-strength = 0.1
+strength = 0.04
 [walls.usaw]
 [wall.box]
 box = [[0.0, 0.0], [1.0, 0.8]]

@@ -19,7 +19,7 @@ spacing = {spacing}
 driving = [{driving}, 0.0]
 periodic = {{ x = [0.0, {length}] }}
 [smoother.brezzi-pitkaranta]
-strength = 0.1
+strength = 0.04
 [walls.{treatment}]
 [wall.bottom]
 polyline = [[0.0, 0.0], [{length}, 0.0]]

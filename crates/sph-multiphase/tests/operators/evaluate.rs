@@ -2,8 +2,8 @@
 
 use sph_core::Vect;
 use sph_multiphase::{
-    BrezziPitkaranta, Formulation, HuAdams, Morris, OnLattice, Smoother, Viscosity,
-    ViscousOperator, WallTerm,
+    BrezziPitkaranta, EquationOfState, Formulation, HuAdams, Laws, Linear, Morris, OnLattice,
+    Reference, Smoother, Viscosity, ViscousOperator, WallTerm,
 };
 use sph_neighbours::{Interaction, Terms, World, interactions};
 
@@ -58,5 +58,16 @@ pub fn viscosity_column<const D: usize>() -> Box<dyn Interaction<D>> {
 }
 
 pub fn smoother<const D: usize>(strength: f64) -> Box<dyn Interaction<D>> {
-    BrezziPitkaranta { strength }.term(&Vec::new().into())
+    BrezziPitkaranta { strength }.term(&laws(&[(1000.0, 20.0)]))
+}
+
+/// Linear laws with these reference densities and speeds of sound.
+pub fn laws(references: &[(f64, f64)]) -> Laws {
+    let bind = |(density, sound_speed): &(f64, f64)| {
+        Linear::default().bind(Reference {
+            density: *density,
+            sound_speed: *sound_speed,
+        })
+    };
+    references.iter().map(bind).collect::<Vec<_>>().into()
 }

@@ -4,20 +4,22 @@ use sph_core::{Role, Vect, fields};
 use sph_multiphase::{Fickian, Formulation, HuAdams, ShiftedFlow, Shifting, Transport};
 use sph_neighbours::{Domain, World};
 
-use crate::evaluate::rates;
+use crate::channel::{Channel, SPACING};
+use crate::evaluate::{laws, rates};
 use crate::world::{Random, disorder, lattice, periodic, set, set_velocity, world};
 
-/// Densities are sums, and nothing falls.
-const WEIGHTLESS: ShiftedFlow = ShiftedFlow {
-    summed: true,
-    gravity: false,
-};
+/// Densities are sums.
+const SUMMED: ShiftedFlow = ShiftedFlow { summed: true };
+
+/// The speed of sound of every phase, m/s.
+const SOUND: f64 = 20.0;
 
 fn shift<const D: usize>(world: &mut World<D>, shifting: Fickian) -> Vec<Vect<D>> {
     world.free.add(fields::SHIFT_VELOCITY, Role::State);
+    world.free.add(fields::EMPTINESS, Role::Derived);
     // So short that the bound of an explicit diffusion does not count.
     world.dt = 1e-4;
-    for mut stage in Shifting::<D>::stages(&shifting) {
+    for mut stage in Shifting::<D>::stages(&shifting, &laws(&[(1.0, SOUND), (1.0, SOUND)])) {
         stage.run(world).unwrap();
     }
     world.free.get(fields::SHIFT_VELOCITY).unwrap().to_vec()
@@ -192,7 +194,7 @@ fn a_phase_at_rest_is_not_stirred_by_another() {
     });
     let shifting = Fickian::default();
     let shifts = shift(&mut layers, shifting);
-    let term = Shifting::<2>::term(&shifting, WEIGHTLESS).expect("a term");
+    let term = Shifting::<2>::term(&shifting, SUMMED).expect("a term");
     let (acceleration, _) = rates(&layers, &vec![term]);
     let positions = layers.free.get(fields::POSITION).unwrap();
     let of = |below: bool, all: &[Vect<2>]| {
@@ -231,9 +233,13 @@ fn a_summed_density_does_not_notice_the_shift() {
         stir(&mut cloud);
         let formulation = HuAdams::default();
         Formulation::<2>::rebase(&formulation, &mut cloud).unwrap();
-        let shifting = Fickian::default();
+        // Without the way back, which is not of the shift's making.
+        let shifting = Fickian {
+            relaxation: 0.0,
+            ..Fickian::default()
+        };
         let shifts = shift(&mut cloud, shifting);
-        let term = Shifting::<2>::term(&shifting, WEIGHTLESS).expect("a term");
+        let term = Shifting::<2>::term(&shifting, SUMMED).expect("a term");
         let rate = rates(&cloud, &vec![term]).1;
         let constant = cloud.free.get_mut(fields::DENSITY_CONSTANT).unwrap();
         constant
@@ -267,13 +273,13 @@ fn what_a_particle_carries_follows_the_fluid() {
     let mut cloud = world(disorder::<2>(20, 0.1, 1), open(), 0.05, 2.0);
     set_velocity(&mut cloud, |x| Vect::<2>::new(3.0 * x[1], x[0]));
     set(&mut cloud, fields::DENSITY, |x| 1000.0 + 2.0 * x[1]);
-    let shifting = Fickian::default();
+    let shifting = Fickian {
+        relaxation: 0.0,
+        ..Fickian::default()
+    };
     let shifts = shift(&mut cloud, shifting);
     // Integrated densities: s·∇ρ alone.
-    let integrated = ShiftedFlow {
-        summed: false,
-        ..WEIGHTLESS
-    };
+    let integrated = ShiftedFlow { summed: false };
     let term = Shifting::<2>::term(&shifting, integrated).expect("a term");
     let (acceleration, rate) = rates(&cloud, &vec![term]);
     let positions = cloud.free.get(fields::POSITION).unwrap();
@@ -291,17 +297,60 @@ fn what_a_particle_carries_follows_the_fluid() {
     }
     // Plain gradients of linear fields in 10 % disorder.
     assert!(size > 0.0 && error < 0.01 * size, "{error} of {size}");
-    let asked = |transport, flow| {
+    let asked = |transport| {
         let fickian = Fickian {
             transport,
             ..shifting
         };
-        Shifting::<2>::term(&fickian, flow).is_some()
+        Shifting::<2>::term(&fickian, SUMMED).is_some()
     };
-    let heavy = ShiftedFlow {
-        gravity: true,
-        ..WEIGHTLESS
+    assert!(!asked(Transport::Nothing) && asked(Transport::All));
+}
+
+/// Beside a wall, too, a concentration that is c times as high has a gradient c times as large: an even arrangement of
+/// any concentration is left alone. (With 1 for C at the wall, what is thin is pulled away from it.)
+#[test]
+fn beside_walls_the_shift_is_linear_in_the_concentration() {
+    let shifting = Fickian {
+        strength: 1e-3,
+        tensile: 0.0,
+        surface: 0.0,
+        ..Fickian::default()
     };
-    assert!(!asked(Some(Transport::Nothing), WEIGHTLESS) && asked(None, WEIGHTLESS));
-    assert!(asked(Some(Transport::All), heavy) && !asked(None, heavy));
+    let with_volume = |share: f64| {
+        let mut channel = Channel::closed(9);
+        let cell = SPACING * SPACING;
+        set(&mut channel.world, fields::VOLUME, |_| share * cell);
+        channel.world.walls.points.volume.fill(share * cell);
+        set_velocity(&mut channel.world, |x| Vect::<2>::new(x[1], 0.0));
+        shift(&mut channel.world, shifting)
+    };
+    let (full, thin) = (with_volume(1.0), with_volume(0.8));
+    assert!(largest(&full) > 1e-6, "{:e}", largest(&full));
+    for (full, thin) in full.iter().zip(&thin) {
+        let apart = (full * 0.8 - thin).norm();
+        assert!(apart < 1e-12 * SOUND, "{apart:e}");
+    }
+}
+
+/// The density comes back to that of the arrangement as fast as this is rearranged: not at all in a rigid rotation.
+#[test]
+fn a_density_comes_back_where_particles_are_rearranged() {
+    let back = |turn: bool| {
+        let mut cloud = world(disorder::<2>(20, 0.2, 1), periodic(), 0.05, 2.0);
+        let sense = if turn { -1.0 } else { 1.0 };
+        set_velocity(&mut cloud, |x| Vect::<2>::new(sense * x[1], x[0]));
+        cloud.free.add(fields::SHIFT_VELOCITY, Role::State);
+        cloud.free.add(fields::EMPTINESS, Role::Derived);
+        set(&mut cloud, fields::EMPTINESS, |_| 0.01);
+        let term = Shifting::<2>::term(&Fickian::default(), SUMMED).expect("a term");
+        let rates = rates(&cloud, &vec![term]).1;
+        let positions = cloud.free.get(fields::POSITION).unwrap();
+        let inner = |x: &Vect<2>| (0..2).all(|k| (x[k] - 0.5).abs() < 0.3);
+        let inner = positions.iter().zip(rates).filter(|(x, _)| inner(x));
+        inner.map(|(_, r)| r).collect::<Vec<_>>()
+    };
+    // Away from the edges, across which the velocity jumps.
+    assert!(back(true).iter().all(|r| r.abs() < 1e-12));
+    assert!(back(false).iter().all(|r| *r < 0.0));
 }

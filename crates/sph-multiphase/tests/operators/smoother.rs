@@ -38,7 +38,7 @@ fn a_hydrostatic_field_is_left_alone_to_rounding() {
         "{balanced:e} of {unbalanced:e}"
     );
     assert!(
-        unbalanced > 1000.0,
+        unbalanced > 100.0,
         "without its gravity part it would act: {unbalanced}"
     );
 }
@@ -111,7 +111,7 @@ fn it_only_dissipates_elastic_energy() {
 }
 
 #[test]
-fn it_is_linear_in_its_strength_and_the_step_and_zero_without_them() {
+fn it_is_linear_in_its_strength_and_does_not_go_with_the_step() {
     let mut cloud = world(disorder::<2>(20, 0.3, 5), periodic(), 0.05, 2.0);
     set(&mut cloud, fields::PRESSURE, |x| (20.0 * x[0]).sin());
     let whole = rate(&cloud, 1.0);
@@ -123,10 +123,7 @@ fn it_is_linear_in_its_strength_and_the_step_and_zero_without_them() {
         "halving is exact"
     );
     cloud.dt = 0.25;
-    let quarter = rate(&cloud, 1.0);
-    assert!(whole.iter().zip(&quarter).all(|(w, q)| *w == 4.0 * q));
-    cloud.dt = 0.0;
-    assert_eq!(largest(&rate(&cloud, 1.0)), 0.0, "no step");
+    assert_eq!(whole, rate(&cloud, 1.0));
 }
 
 /// Layers at rest under gravity, the heavy one of density 1 below the interface.

@@ -3,24 +3,13 @@
 use sph_core::{Role, Vect, fields};
 use sph_kernels::{Kernel, quintic_spline};
 use sph_multiphase::{
-    BrezziPitkaranta, DENSITY_GRADIENT, DeltaForm, DeltaMultiphase, DeltaSph, EquationOfState,
-    Laws, Linear, PRESSURE_SLOPE, Reference, RhieChow, Smoother,
+    BrezziPitkaranta, DENSITY_GRADIENT, DeltaForm, DeltaMultiphase, DeltaSph, Laws, PRESSURE_SLOPE,
+    RhieChow, Smoother,
 };
 use sph_neighbours::{Domain, World};
 
-use crate::evaluate::rates;
+use crate::evaluate::{laws, rates};
 use crate::world::{Random, at, disorder, lattice, periodic, set, world};
-
-/// Linear laws with these reference densities and speeds of sound.
-fn laws(references: &[(f64, f64)]) -> Laws {
-    let bind = |(density, sound_speed): &(f64, f64)| {
-        Linear::default().bind(Reference {
-            density: *density,
-            sound_speed: *sound_speed,
-        })
-    };
-    references.iter().map(bind).collect::<Vec<_>>().into()
-}
 
 /// dρ/dt of a smoother after its stages.
 fn rate<const D: usize>(world: &mut World<D>, smoother: &dyn Smoother<D>, laws: &Laws) -> Vec<f64> {
@@ -174,10 +163,12 @@ fn rhie_chow_leaves_a_light_layer_at_rest_beside_a_heavy_one() {
             .map(|(x, r)| (r / density(x)).abs())
             .fold(0.0, f64::max)
     };
-    // Measured: 0.148 and 0.150 /s; with G{p}/ρ 2.8 and 29 /s. Δt g/h is 0.12 /s.
+    // What is left of pairs across the interface is of the order of δ g/c = 0.2 /s (measured: 0.236 and
+    // 0.240 /s); with G{p}/ρ it is as many times more as the densities are apart.
     for ratio in [100.0, 1000.0] {
         let found = relative(1000.0, 1000.0 / ratio);
-        assert!(found < 0.2, "{ratio}: {found} 1/s");
+        let scale = RhieChow::default().strength * 9.81 / 20.0;
+        assert!(found < 2.0 * scale, "{ratio}: {found} 1/s");
     }
     // One fluid: a linear pressure.
     let alone = relative(1000.0, 1000.0);
