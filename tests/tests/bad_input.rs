@@ -77,7 +77,7 @@ fn a_misspelt_key() {
 
 #[test]
 fn a_misspelt_parameter_of_a_plugin() {
-    let scene = with("strength = 0.1", "strenght = 0.1");
+    let scene = with("strength = 0.04", "strenght = 0.04");
     refused(&scene, "strenght", &["did you mean `strength`"]);
 }
 
@@ -92,7 +92,7 @@ fn a_negative_spacing() {
 
 #[test]
 fn not_a_number_in_a_parameter() {
-    let scene = with("strength = 0.1", "strength = nan");
+    let scene = with("strength = 0.04", "strength = nan");
     refused(
         &scene,
         "strength",

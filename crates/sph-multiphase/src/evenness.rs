@@ -45,7 +45,7 @@ pub(crate) fn evenness<const D: usize>(
     };
     // An image stands for the row of images of a lattice, which pushes as much and the more for those aside.
     let row = if mirrored {
-        row_of_images(world, &power)
+        row_of_images(world, power)
     } else {
         0.0
     };

@@ -1,7 +1,7 @@
 //! What a run measures and what it is compared with.
 //!
 //! * [`Probe`]: columns of the time series, from the state of the flow ([`Front`],
-//!   [`PressureProbe`], [`VelocityProbe`], [`DisplacementProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`StreamFunction`]), and of
+//!   [`PressureProbe`], [`VelocityProbe`], [`DisplacementProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`StreamFunction`], [`Profile`]), and of
 //!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
 //!   [`SurfaceSlope`], [`Line`]), and of a bed under water ([`BedLines`], [`ErodedMass`],
 //!   [`PorePressureProbe`]).
