@@ -80,7 +80,8 @@ pub struct Numerics {
     #[serde(default = "one_seed")]
     #[schemars(range(min = 0))]
     pub seed: u64,
-    /// Settling of the particles before the start; none if left out.
+    /// Settling of the particles before the start. If left out, particles beside walls settle where a body starts under
+    /// pressure; `{ steps = 0 }` leaves them on their lattice.
     pub relax: Option<Relax>,
 }
 
@@ -108,7 +109,7 @@ pub enum PressureOf {
 #[serde(deny_unknown_fields, default)]
 pub struct Relax {
     /// Largest number of steps.
-    #[schemars(range(min = 1, max = 1_000_000))]
+    #[schemars(range(min = 0, max = 1_000_000))]
     pub steps: u32,
     /// Largest error of the density, relative to the reference density, at which it ends.
     #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
@@ -119,7 +120,7 @@ impl Default for Relax {
     fn default() -> Self {
         Relax {
             steps: 200,
-            tolerance: 0.01,
+            tolerance: 0.002,
         }
     }
 }

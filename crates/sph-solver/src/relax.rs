@@ -5,13 +5,13 @@ use serde::{Deserialize, Serialize};
 use sph_boundary::Wall;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{CHUNK, Domain, Row, Scratch, World};
-use sph_scene::Scene;
+use sph_scene::{Pressure, Relax, Scene};
 
 use crate::drawn::Drawn;
 use crate::stages::{SharedWall, lock};
 
-/// Share of h² ∇C by which a particle moves in one step; larger ones were not tried.
-const MOBILITY: f64 = 0.2;
+/// Share of h² ∇C by which a particle moves in one step; 1 does not converge.
+const MOBILITY: f64 = 0.4;
 /// Largest displacement in one step over the spacing.
 const STRIDE: f64 = 0.1;
 /// No particle is moved nearer to a wall than this share of the spacing.
@@ -44,7 +44,20 @@ struct Concentration<const D: usize> {
     gradient: Vect<D>,
 }
 
-/// Relaxes the first particles if the scene asks for it.
+/// What a scene asks for; if it asks for nothing, the default where a body starts under pressure beside walls.
+///
+/// On a lattice the sums over wall points differ by 2 % from the walls' integrals. A pressure p then pushes the first rows with
+/// some 0.02 p/(ρh), half of gravity in 25 rows of water at rest, and the sound of it rings for seconds.
+fn settings(scene: &Scene) -> Option<Relax> {
+    let under_pressure = scene.body.values().any(|b| b.pressure != Pressure::Zero);
+    let wanted = scene.numerics.relax.or_else(|| {
+        let walls = !scene.wall.is_empty();
+        (walls && under_pressure).then(Relax::default)
+    });
+    wanted.filter(|r| r.steps > 0)
+}
+
+/// Relaxes the first particles if they [need it](settings).
 ///
 /// # Errors
 /// If a wall stage fails.
@@ -54,7 +67,7 @@ pub fn relax<const D: usize>(
     world: &mut World<D>,
     walls: Option<&SharedWall<D>>,
 ) -> Result<Option<Relaxation>, StepError> {
-    let (Some(settings), Some(walls)) = (scene.numerics.relax, walls) else {
+    let (Some(settings), Some(walls)) = (settings(scene), walls) else {
         return Ok(None);
     };
     let support = world.kernel.support_radius();
@@ -76,7 +89,9 @@ fn near_surface<const D: usize>(
     walls: &dyn Wall<D>,
     support: f64,
 ) -> bool {
-    let inside = |x: &Vect<D>| drawn.regions.iter().any(|r| r.depth(&(*x).into()) > 0.0);
+    // A place on a wall is on the edge of a body, too: not air.
+    let edge = -1e-6 * support;
+    let inside = |x: &Vect<D>| drawn.regions.iter().any(|r| r.depth(&(*x).into()) > edge);
     (0..5_usize.pow(D as u32)).any(|n| {
         let offset = Vect::<D>::from_fn(|k, _| (n / 5_usize.pow(k as u32) % 5) as f64 - 2.0);
         let Some(direction) = offset.try_normalize(0.5) else {
