@@ -1,4 +1,4 @@
-//! Plugins from outside: a kernel, a force, a rheology and an eddy viscosity that no crate of the workspace knows.
+//! Plugins from outside: a kernel, a force, a rheology and eddy viscosities that no crate of the workspace knows.
 //!
 //! Everything between the two lines could be a crate of its own. A binary that mentions it,
 //! `use my_plugins as _;`, and calls `sph_cli::main()` has the plugins in all its commands.
@@ -7,7 +7,7 @@ use std::any::Any;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Access, Declares, Stage, StepError, fields, register};
+use sph_core::{Access, Declares, Field, Role, Scalar, Stage, StepError, fields, register};
 use sph_kernels::{Kernel, Sampler, ScalarSampler};
 use sph_neighbours::{Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, World};
 use sph_rheology::{Inputs, Needs, Rheology, RheologyEntry};
@@ -174,6 +174,71 @@ register!(
     "Smagorinsky 1963"
 );
 
+/// No eddies, a column of its own that remembers, and a step that fails.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Remembering {
+    /// The first evaluation after this time fails.
+    #[schemars(extend("unit" = "s"))]
+    fails_after: f64,
+    /// Whether it has.
+    #[serde(skip)]
+    failed: bool,
+}
+
+/// The latest time that a particle has seen.
+const LATEST: Field<Scalar> = Field::new("latest", "s", "the latest time that was seen");
+
+impl Declares for Remembering {
+    fn name(&self) -> String {
+        "remembering".into()
+    }
+    fn access(&self) -> Access {
+        let access = Access::none().writes(fields::EDDY_VISCOSITY);
+        access.writes(LATEST)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for Remembering {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let refused = |reason: String| StepError::Stage {
+            stage: "remembering".into(),
+            reason,
+        };
+        let now = world.time;
+        world.free.add(LATEST, Role::State);
+        for latest in world.free.get_mut(LATEST)? {
+            if *latest > now {
+                let why =
+                    format!("a particle remembers {latest} s, which is yet to come at {now} s");
+                return Err(refused(why));
+            }
+            *latest = now;
+        }
+        world.free.get_mut(fields::EDDY_VISCOSITY)?.fill(0.0);
+        let fails = !self.failed && now > self.fails_after;
+        self.failed |= fails;
+        match fails {
+            true => Err(refused("it was told to".into())),
+            false => Ok(()),
+        }
+    }
+}
+
+impl<const D: usize> EddyViscosity<D> for Remembering {
+    fn stage(&self) -> Box<dyn Stage<World<D>>> {
+        Box::new(*self)
+    }
+}
+
+register!(
+    EddyViscosityEntry [2, 3],
+    Remembering,
+    "remembering",
+    "none, with a memory",
+    "nobody"
+);
+
 // ------------------------------------------------------------------------------------------------
 
 use sph_scene::parse;
@@ -263,6 +328,17 @@ fn an_eddy_viscosity_of_ones_own_adds_to_that_of_the_fluid() {
     );
     let more = eddies(0.3);
     assert!(more < found * (1.0 - 1e-6), "{more} J for {found} J");
+}
+
+/// The step that fails has written 0.1 s and more into the plugin's column; the shorter one must not find it there.
+#[test]
+fn a_column_of_ones_own_that_remembers_is_rolled_back_with_the_step() {
+    for integrator in ["symplectic-euler", "predictor-corrector"] {
+        let plugin = "[eddy-viscosity.remembering]\nfails_after = 0.1\n";
+        let scene = format!("{DAM_BREAK}\n[integrator.{integrator}]\n{plugin}");
+        let (summary, _) = run_text(&scene).unwrap_or_else(|e| panic!("{integrator}: {e}"));
+        assert_eq!(summary.steps_rolled_back, 1, "{integrator}");
+    }
 }
 
 #[test]

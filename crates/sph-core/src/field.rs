@@ -4,6 +4,18 @@ use nalgebra::SMatrix;
 
 use crate::{Symmetric, Vect};
 
+macro_rules! each_column {
+    ($column:expr, $items:ident => $done:expr) => {
+        match $column {
+            Column::Scalar($items) => $done,
+            Column::Vector($items) => $done,
+            Column::Index($items) => $done,
+            Column::Tensor($items) => $done,
+            Column::SymmetricTensor($items) => $done,
+        }
+    };
+}
+
 /// One real number per particle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scalar;
@@ -38,6 +50,34 @@ pub enum Column<const D: usize> {
     Tensor(Vec<SMatrix<f64, D, D>>),
     /// Symmetric tensors in space.
     SymmetricTensor(Vec<Symmetric>),
+}
+
+impl<const D: usize> Column<D> {
+    /// Number of entries.
+    pub fn len(&self) -> usize {
+        each_column!(self, items => items.len())
+    }
+
+    /// Whether there is no entry.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// `n` zero entries of the same type.
+    pub(crate) fn zeros(&self, n: usize) -> Self {
+        match self {
+            Column::Scalar(_) => Scalar::column(n),
+            Column::Vector(_) => Vector::column(n),
+            Column::Index(_) => Index::column(n),
+            Column::Tensor(_) => Tensor::column(n),
+            Column::SymmetricTensor(_) => SymmetricTensor::column(n),
+        }
+    }
+
+    /// No entry, of the same type.
+    pub(crate) fn empty(&self) -> Self {
+        self.zeros(0)
+    }
 }
 
 /// The type of a field's entries.

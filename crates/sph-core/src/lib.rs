@@ -30,6 +30,7 @@ pub mod number;
 mod plan;
 mod quantity;
 mod registry;
+mod saved;
 mod stage;
 mod store;
 mod symmetric;
@@ -47,6 +48,7 @@ pub use registry::{
     Contract, ContractInfo, Parameter, PluginInfo, Registry, contracts, parameters,
     registry_contract_info, schema_of, typed,
 };
+pub use saved::Saved;
 pub use stage::{Access, Declares, Stage};
 pub use store::{Plain, Role, Store};
 pub use symmetric::Symmetric;

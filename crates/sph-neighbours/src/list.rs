@@ -16,6 +16,33 @@ struct Block {
     candidates: Vec<u32>,
 }
 
+impl Block {
+    /// No row yet.
+    fn begin(&mut self) {
+        self.starts.clear();
+        self.starts.reserve_exact(CHUNK + 1);
+        self.starts.push(0);
+    }
+
+    /// Takes the candidates of all rows over, in a buffer that is at most a quarter too large: vectors that grow by doubling would be by half, in the mean,
+    /// and lists are most of what a run needs.
+    fn keep(&mut self, candidates: &[u32]) {
+        let (needed, held) = (candidates.len(), self.candidates.capacity());
+        if needed > held || needed + needed / 4 < held {
+            self.candidates = Vec::with_capacity(needed + needed / 16);
+        }
+        self.candidates.clear();
+        self.candidates.extend_from_slice(candidates);
+    }
+}
+
+/// Makes room for `room` candidates in a buffer that is used again and again.
+fn make_room(buffer: &mut Vec<u32>, room: usize) {
+    if buffer.len() < room {
+        buffer.resize(room.next_power_of_two(), 0);
+    }
+}
+
 /// For every target the indices of the sources that may be within reach.
 #[derive(Clone, Debug, Default)]
 pub struct NeighbourList {
@@ -44,9 +71,8 @@ impl NeighbourList {
         self.blocks
             .par_iter_mut()
             .enumerate()
-            .for_each(|(b, block)| {
-                block.starts.clear();
-                block.starts.push(0);
+            .for_each_init(Vec::new, |buffer, (b, block)| {
+                block.begin();
                 let mut len = 0;
                 let from = b * CHUNK;
                 let to = (from + CHUNK).min(targets.len());
@@ -55,10 +81,8 @@ impl NeighbourList {
                     let own = if skip_self { from + i } else { usize::MAX };
                     around.go_to(x, grid, reach);
                     let room = len + around.places;
-                    if block.candidates.len() < room {
-                        block.candidates.resize(room.next_power_of_two(), 0);
-                    }
-                    let slots = &mut block.candidates[len..room];
+                    make_room(buffer, room);
+                    let slots = &mut buffer[len..room];
                     len += if grid.is_sorted() && !domain.near_periodic_face(x, reach) {
                         keep_sorted(slots, x, sources, &around.ranges, reach2, own)
                     } else {
@@ -70,6 +94,7 @@ impl NeighbourList {
                     };
                     block.starts.push(len as u32);
                 }
+                block.keep(&buffer[..len]);
             });
     }
 
@@ -91,22 +116,23 @@ impl NeighbourList {
             .par_iter_mut()
             .zip(numbers.par_chunks_mut(CHUNK))
             .enumerate()
-            .for_each_init(scratch, |scratch, (b, (block, numbers))| {
-                block.starts.clear();
-                block.starts.push(0);
-                let mut used = 0;
-                for (k, number) in numbers.iter_mut().enumerate() {
-                    let i = b * CHUNK + k;
-                    let room = used + capacity(i);
-                    if block.candidates.len() < room {
-                        block.candidates.resize(room.next_power_of_two(), 0);
+            .for_each_init(
+                || (scratch(), Vec::new()),
+                |(scratch, buffer), (b, (block, numbers))| {
+                    block.begin();
+                    let mut used = 0;
+                    for (k, number) in numbers.iter_mut().enumerate() {
+                        let i = b * CHUNK + k;
+                        let room = used + capacity(i);
+                        make_room(buffer, room);
+                        let (written, value) = row(scratch, i, &mut buffer[used..room]);
+                        *number = value;
+                        used += written;
+                        block.starts.push(used as u32);
                     }
-                    let (written, value) = row(scratch, i, &mut block.candidates[used..room]);
-                    *number = value;
-                    used += written;
-                    block.starts.push(used as u32);
-                }
-            });
+                    block.keep(&buffer[..used]);
+                },
+            );
     }
 
     /// The candidates of a target.

@@ -42,7 +42,7 @@ pub struct Flow<const D: usize> {
     pub(crate) seepage: Option<Box<dyn PoreFlow<D>>>,
     /// Whether somebody moved since the last evaluation.
     pub(crate) moved: bool,
-    /// Whether the columns of state are those that the last evaluation before a checkpoint left.
+    /// Whether the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
     pub(crate) restored: bool,
     /// What motion compresses.
     pub(crate) dilatation: Option<Dilatation<D>>,
@@ -220,7 +220,7 @@ impl<const D: usize> Flow<D> {
         // What only writes state has been done: a solve would start from its own result.
         let done = |stage: &dyn Stage<World<D>>| {
             let writes = stage.access().writes;
-            restored && writes.iter().all(|f| state.contains(&f.name))
+            restored && !writes.is_empty() && writes.iter().all(|f| state.contains(&f.name))
         };
         for (k, stage) in self.stages.iter_mut().enumerate() {
             if !wanted(&**stage) || done(&**stage) {
@@ -367,6 +367,12 @@ impl<const D: usize> Flow<D> {
             range = [range[0].min(ratio), range[1].max(ratio)];
         }
         Some(range)
+    }
+
+    /// Names of the columns that the stages of the plan write.
+    pub(crate) fn written_by_stages(&self) -> Vec<&'static str> {
+        let writes = self.stages.iter().flat_map(|s| s.access().writes);
+        writes.map(|f| f.name).collect()
     }
 
     /// Names of the columns that carry history, in order of allocation.

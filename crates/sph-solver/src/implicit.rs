@@ -14,6 +14,8 @@ use sph_implicit::{
 use sph_multiphase::{Coupling, Weak};
 use sph_neighbours::{Neighbourhood, World};
 
+use crate::held_back::HeldBack;
+
 /// Coupling of a pair over its smaller mass up to which it is taken explicitly: hundreds of neighbours together are far from
 /// the bound of 1, and a step of water beside mud has a matrix of the mud alone.
 const SOFT: f64 = 1e-3;
@@ -41,6 +43,9 @@ pub struct Solves {
     /// How often the viscosity followed the velocity, where it depends on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outer: Option<OuterSolves>,
+    /// What held a soil beyond its strength, with stresses of the end of the step.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub held_back: Option<HeldBack>,
 }
 
 /// What iterating on the viscosity took.
@@ -143,6 +148,10 @@ impl<const D: usize> ImplicitViscosity<D> {
             }
             world.free.put(fields::VELOCITY, velocity)?;
             iterations += 1;
+        }
+        if self.stiffens && !self.lagged.is_empty() {
+            let held = self.solves.held_back.get_or_insert_default();
+            held.add(world, &ahead, dt)?;
         }
         if !self.lagged.is_empty() {
             let converged = change <= outer.tolerance;

@@ -32,6 +32,7 @@ mod findings;
 mod flow;
 mod ground;
 mod guard;
+mod held_back;
 mod implicit;
 mod initial;
 mod kept;

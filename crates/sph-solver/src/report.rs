@@ -79,6 +79,9 @@ impl<const D: usize> Running<'_, D> {
         if escaped > 0 {
             warnings.push(format!("{escaped} particles are behind a wall at the end"));
         }
+        let solves = flow.implicit.as_ref().map(|i| &i.solves);
+        let held = solves.and_then(|s| s.held_back);
+        warnings.extend(held.and_then(|held| held.warning()));
         let [highest, mach] = self.series.peaks;
         if mach > INCOMPRESSIBLE {
             advice.push(format!(

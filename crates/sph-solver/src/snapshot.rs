@@ -1,31 +1,13 @@
 //! The state before a step, to fall back on when the step fails.
 
-use nalgebra::SMatrix;
-use sph_core::{FieldError, Recall, Symmetric, Taken, Vect, fields};
-
-use sph_stress::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
+use sph_core::{FieldError, Recall, Saved, Taken, Vect, fields};
 
 use crate::Flow;
 
-/// The columns that a step changes, in the order the particles had.
+/// All columns that carry history, whoever declared them, in the order the particles had, and the clock.
 #[derive(Default)]
 pub struct Snapshot<const D: usize> {
-    identity: Vec<u32>,
-    position: Vec<Vect<D>>,
-    /// Empty where nobody asks for it.
-    displacement: Vec<Vect<D>>,
-    velocity: Vec<Vect<D>>,
-    evolved: Vec<Vec<f64>>,
-    /// Remembered stresses, and the gradients of the last drift; empty where nothing is elastic.
-    stress: Vec<Symmetric>,
-    gradient: Vec<SMatrix<f64, D, D>>,
-    /// What a force of displacements remembers; empty where there is none.
-    turn: Vec<Symmetric>,
-    elastic_displacement: Vec<Vect<D>>,
-    /// Mass, flux and pressure where water seeps; empty elsewhere.
-    seeping: Seeping<D>,
-    /// From which the next solve starts; empty where there is none.
-    effective_pressure: Vec<f64>,
+    columns: Saved<D>,
     time: f64,
     /// The step before, s.
     dt: f64,
@@ -33,50 +15,13 @@ pub struct Snapshot<const D: usize> {
     taken: Vec<Taken>,
 }
 
-/// What seepage changes.
-#[derive(Default)]
-struct Seeping<const D: usize> {
-    mass: Vec<f64>,
-    flux: Vec<Vect<D>>,
-    pressure: Vec<f64>,
-}
-
 impl<const D: usize> Snapshot<D> {
     /// Copies the state; reuses its buffers.
     pub fn take(&mut self, flow: &Flow<D>) -> Result<(), FieldError> {
-        fn copy<T: Copy>(to: &mut Vec<T>, from: &[T]) {
-            to.clear();
-            to.extend_from_slice(from);
-        }
         let free = &flow.world.free;
-        copy(&mut self.identity, free.get(fields::IDENTITY)?);
-        copy(&mut self.taken, free.taken());
-        copy(&mut self.position, free.get(fields::POSITION)?);
-        if let Ok(displacement) = free.get(fields::DISPLACEMENT) {
-            copy(&mut self.displacement, displacement);
-        }
-        copy(&mut self.velocity, free.get(fields::VELOCITY)?);
-        self.evolved.resize(flow.integrated.len(), Vec::new());
-        for (copied, field) in self.evolved.iter_mut().zip(&flow.integrated) {
-            copy(copied, free.get(*field)?);
-        }
-        if flow.elastic.is_some() {
-            copy(&mut self.stress, free.get(fields::ELASTIC_STRESS)?);
-            copy(&mut self.gradient, free.get(fields::VELOCITY_GRADIENT)?);
-        }
-        if let Ok(turn) = free.get(fields::ELASTIC_TURN) {
-            copy(&mut self.turn, turn);
-            let displacement = free.get(fields::ELASTIC_DISPLACEMENT)?;
-            copy(&mut self.elastic_displacement, displacement);
-        }
-        if flow.seepage.is_some() {
-            copy(&mut self.seeping.mass, free.get(fields::MASS)?);
-            copy(&mut self.seeping.flux, free.get(SEEPAGE_VELOCITY)?);
-            copy(&mut self.seeping.pressure, free.get(SEEPAGE_PRESSURE)?);
-        }
-        if let Ok(pressure) = free.get(fields::EFFECTIVE_PRESSURE) {
-            copy(&mut self.effective_pressure, pressure);
-        }
+        self.taken.clear();
+        self.taken.extend_from_slice(free.taken());
+        free.save_state(&mut self.columns)?;
         self.time = flow.world.time;
         self.dt = flow.world.dt;
         Ok(())
@@ -84,70 +29,48 @@ impl<const D: usize> Snapshot<D> {
 
     /// Where the particle of a number was.
     pub fn position_of(&self, number: u32) -> Option<Vect<D>> {
-        let place = self.identity.iter().position(|i| *i == number)?;
-        self.position.get(place).copied()
+        let identity = self.columns.get(fields::IDENTITY);
+        let place = identity.iter().position(|i| *i == number)?;
+        self.columns.get(fields::POSITION).get(place).copied()
     }
 
     /// Where every particle of now is in the copy; `None` if the order is the same.
     pub fn places(&self, flow: &Flow<D>) -> Result<Option<Vec<u32>>, FieldError> {
         let now = flow.world.free.get(fields::IDENTITY)?;
-        if now == self.identity {
+        let then = self.columns.get(fields::IDENTITY);
+        if now == then {
             return Ok(None);
         }
         // Who has left is missing among the identities.
-        let ids = self.identity.iter().max().map_or(0, |id| *id as usize + 1);
+        let ids = then.iter().max().map_or(0, |id| *id as usize + 1);
         let mut place = vec![0u32; ids];
-        for (k, &id) in self.identity.iter().enumerate() {
+        for (k, &id) in then.iter().enumerate() {
             place[id as usize] = k as u32;
         }
         Ok(Some(now.iter().map(|&id| place[id as usize]).collect()))
     }
 
     /// Puts part of the state back, whatever order the particles are in now.
+    ///
+    /// State that stages write (a shift, from what a solve starts) is left as the last evaluation made it: only motion is undone.
     pub fn recall(&self, flow: &mut Flow<D>, what: Recall) -> Result<(), FieldError> {
-        fn put<T: Copy>(to: &mut [T], from: &[T], places: Option<&[u32]>) {
-            match places {
-                None => to.copy_from_slice(from),
-                Some(places) => {
-                    let from = places.iter().map(|&p| from[p as usize]);
-                    to.iter_mut().zip(from).for_each(|(to, from)| *to = from);
-                }
-            }
-        }
         let places = self.places(flow)?;
-        let places = places.as_deref();
+        let integrated: Vec<&str> = flow.integrated.iter().map(|f| f.name).collect();
+        let by_stages: Vec<&str> = match what {
+            Recall::State => flow.written_by_stages(),
+            Recall::Motion | Recall::Scalars => Vec::new(),
+        };
+        let wanted = |name: &str| {
+            integrated.contains(&name)
+                || match what {
+                    Recall::Scalars => false,
+                    Recall::Motion => name == fields::VELOCITY.name,
+                    Recall::State => name != fields::IDENTITY.name && !by_stages.contains(&name),
+                }
+        };
         let free = &mut flow.world.free;
-        for (copied, field) in self.evolved.iter().zip(&flow.integrated) {
-            put(free.get_mut(*field)?, copied, places);
-        }
-        if what == Recall::Scalars {
-            return Ok(());
-        }
-        put(free.get_mut(fields::VELOCITY)?, &self.velocity, places);
+        free.put_state(&self.columns, places.as_deref(), wanted)?;
         if what == Recall::State {
-            put(free.get_mut(fields::POSITION)?, &self.position, places);
-            if let Ok(displacement) = free.get_mut(fields::DISPLACEMENT) {
-                put(displacement, &self.displacement, places);
-            }
-            if flow.elastic.is_some() {
-                put(free.get_mut(fields::ELASTIC_STRESS)?, &self.stress, places);
-                put(
-                    free.get_mut(fields::VELOCITY_GRADIENT)?,
-                    &self.gradient,
-                    places,
-                );
-            }
-            if let Ok(turn) = free.get_mut(fields::ELASTIC_TURN) {
-                put(turn, &self.turn, places);
-                let displacement = free.get_mut(fields::ELASTIC_DISPLACEMENT)?;
-                put(displacement, &self.elastic_displacement, places);
-            }
-            if flow.seepage.is_some() {
-                let kept = &self.seeping;
-                put(free.get_mut(fields::MASS)?, &kept.mass, places);
-                put(free.get_mut(SEEPAGE_VELOCITY)?, &kept.flux, places);
-                put(free.get_mut(SEEPAGE_PRESSURE)?, &kept.pressure, places);
-            }
             flow.world.time = self.time;
             self.walls_back(flow);
         }
@@ -165,48 +88,73 @@ impl<const D: usize> Snapshot<D> {
     /// order; those that left by an outlet since come back.
     pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), FieldError> {
         flow.take_back(&self.taken);
-        if let Some(places) = self.places(flow)? {
-            let mut order = vec![0u32; places.len()];
-            for (k, &p) in places.iter().enumerate() {
-                order[p as usize] = k as u32;
-            }
-            flow.world.free.permute(&order);
-        }
-        let free = &mut flow.world.free;
-        free.get_mut(fields::POSITION)?
-            .copy_from_slice(&self.position);
-        if let Ok(displacement) = free.get_mut(fields::DISPLACEMENT) {
-            displacement.copy_from_slice(&self.displacement);
-        }
-        free.get_mut(fields::VELOCITY)?
-            .copy_from_slice(&self.velocity);
-        for (copied, field) in self.evolved.iter().zip(&flow.integrated) {
-            free.get_mut(*field)?.copy_from_slice(copied);
-        }
-        if flow.elastic.is_some() {
-            free.get_mut(fields::ELASTIC_STRESS)?
-                .copy_from_slice(&self.stress);
-            free.get_mut(fields::VELOCITY_GRADIENT)?
-                .copy_from_slice(&self.gradient);
-        }
-        if let Ok(turn) = free.get_mut(fields::ELASTIC_TURN) {
-            turn.copy_from_slice(&self.turn);
-            free.get_mut(fields::ELASTIC_DISPLACEMENT)?
-                .copy_from_slice(&self.elastic_displacement);
-        }
-        if flow.seepage.is_some() {
-            let kept = &self.seeping;
-            free.get_mut(fields::MASS)?.copy_from_slice(&kept.mass);
-            free.get_mut(SEEPAGE_VELOCITY)?.copy_from_slice(&kept.flux);
-            free.get_mut(SEEPAGE_PRESSURE)?
-                .copy_from_slice(&kept.pressure);
-        }
-        if let Ok(pressure) = free.get_mut(fields::EFFECTIVE_PRESSURE) {
-            pressure.copy_from_slice(&self.effective_pressure);
-        }
+        flow.world.free.put_state(&self.columns, None, |_| true)?;
+        // What the evaluation of this state has left is among it.
+        flow.restored = true;
         flow.world.time = self.time;
         flow.world.dt = self.dt;
         self.walls_back(flow);
         flow.world.rebuild_lists()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sph_core::{Access, Declares, Field, Role, Scalar, Stage, StepError, System};
+    use sph_neighbours::World;
+
+    const SCENE: &str = "title = \"t\"\ndimension = 2\nrun.end = 1\nnumerics.spacing = 0.1\n\
+         numerics.periodic = { x = [0, 1], y = [0, 1] }\n\
+         phase.a = { density = 1, velocity_scale = 1, rheology.newtonian = { viscosity = 1 } }\n\
+         body.a = { phase = \"a\", box = [[0, 0], [1, 1]], velocity = [1, 0] }\n";
+
+    const SEEN: Field<Scalar> = Field::new("seen", "1", "evaluations seen");
+
+    /// Counts evaluations in a column of its own, as a plugin from outside may.
+    struct Counting;
+
+    impl Declares for Counting {
+        fn name(&self) -> String {
+            "counting".into()
+        }
+        fn access(&self) -> Access {
+            Access::none().writes(SEEN)
+        }
+    }
+
+    impl<const D: usize> Stage<World<D>> for Counting {
+        fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+            world.free.add(SEEN, Role::State);
+            world.free.get_mut(SEEN)?.iter_mut().for_each(|n| *n += 1.0);
+            Ok(())
+        }
+    }
+
+    /// Two evaluations, the second of which is rolled back and done again: one and one are two, and never three.
+    #[test]
+    fn a_state_column_that_the_solver_does_not_know_is_rolled_back_and_not_advanced_twice() {
+        let scene = sph_scene::parse(SCENE, "t.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+        let parts = crate::assemble::<2>(&scene.scene).unwrap_or_else(|e| panic!("{e}"));
+        let mut flow = parts.flow;
+        flow.stages.push(Box::new(Counting));
+        flow.reset_timings();
+        flow.evaluate().unwrap();
+        let seen = |flow: &Flow<2>| flow.world.free.get(SEEN).unwrap().to_vec();
+        let first = |flow: &Flow<2>| flow.world.free.get(fields::POSITION).unwrap()[0];
+        let mut snapshot = Snapshot::default();
+        snapshot.take(&flow).unwrap();
+        let before = first(&flow);
+        flow.drift(0.3).unwrap();
+        flow.evaluate().unwrap();
+        assert!(seen(&flow).iter().all(|n| *n == 2.0) && flow.world.time == 0.3);
+        snapshot.restore(&mut flow).unwrap();
+        assert_eq!((first(&flow), flow.world.time), (before, 0.0));
+        assert!(seen(&flow).iter().all(|n| *n == 1.0), "{:?}", seen(&flow));
+        flow.evaluate().unwrap();
+        assert!(seen(&flow).iter().all(|n| *n == 1.0), "{:?}", seen(&flow));
+        flow.drift(0.1).unwrap();
+        flow.evaluate().unwrap();
+        assert!(seen(&flow).iter().all(|n| *n == 2.0), "{:?}", seen(&flow));
     }
 }

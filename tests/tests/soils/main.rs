@@ -4,6 +4,7 @@ mod effective_pressure;
 mod elastic_force;
 mod elastic_operator;
 mod elastic_sub_steps;
+mod falling_cliff;
 mod gradients;
 mod implicit_elasticity;
 mod odd_beds;

@@ -1,0 +1,137 @@
+//! Copies of what a store remembers, to go back to.
+
+use crate::field::Column;
+use crate::{Field, FieldError, Kind, Role, Store};
+
+/// Copies of all [`State`](Role::State) columns of a store, whoever declared them, in the order the particles had.
+#[derive(Clone, Debug, Default)]
+pub struct Saved<const D: usize> {
+    columns: Vec<(&'static str, Column<D>)>,
+}
+
+macro_rules! both {
+    ($to:expr, $from:expr, $name:expr, $work:expr) => {
+        match ($to, $from) {
+            (Column::Scalar(to), Column::Scalar(from)) => $work(to, from),
+            (Column::Vector(to), Column::Vector(from)) => $work(to, from),
+            (Column::Index(to), Column::Index(from)) => $work(to, from),
+            (Column::Tensor(to), Column::Tensor(from)) => $work(to, from),
+            (Column::SymmetricTensor(to), Column::SymmetricTensor(from)) => $work(to, from),
+            _ => return Err(FieldError::Type($name)),
+        }
+    };
+}
+
+fn copy<T: Copy>(to: &mut Vec<T>, from: &[T]) {
+    to.clear();
+    to.extend_from_slice(from);
+}
+
+fn put<T: Copy>(to: &mut [T], from: &[T], places: Option<&[u32]>) {
+    match places {
+        None => to.copy_from_slice(from),
+        Some(places) => {
+            let from = places.iter().map(|&p| from[p as usize]);
+            to.iter_mut().zip(from).for_each(|(to, from)| *to = from);
+        }
+    }
+}
+
+impl<const D: usize> Saved<D> {
+    fn column(&self, name: &str) -> Option<&Column<D>> {
+        let found = self.columns.iter().find(|(n, _)| *n == name);
+        found.map(|(_, column)| column)
+    }
+
+    /// The copy of a column; empty where nothing has been saved.
+    pub fn get<K: Kind>(&self, field: Field<K>) -> &[K::Item<D>] {
+        let items = self.column(field.name).and_then(K::items);
+        items.map_or(&[], Vec::as_slice)
+    }
+}
+
+impl<const D: usize> Store<D> {
+    /// Copies every state column; reuses the buffers.
+    ///
+    /// # Errors
+    /// If a column has changed its type since it was copied last.
+    pub fn save_state(&self, saved: &mut Saved<D>) -> Result<(), FieldError> {
+        let state = || self.entries.iter().filter(|e| e.role == Role::State);
+        let same = state()
+            .map(|e| e.name)
+            .eq(saved.columns.iter().map(|c| c.0));
+        if !same {
+            saved.columns = state().map(|e| (e.name, e.column.empty())).collect();
+        }
+        for (entry, (name, to)) in state().zip(&mut saved.columns) {
+            both!(to, &entry.column, name, copy);
+        }
+        Ok(())
+    }
+
+    /// Puts the copies of the state columns back whose names are `wanted`; `places` tells where every particle of now is in the copies,
+    /// and is `None` if the order is the same. Wanted state columns that have come since the copies were made become zero.
+    ///
+    /// # Errors
+    /// If a column has changed its type, or another number of particles was copied.
+    pub fn put_state(
+        &mut self,
+        saved: &Saved<D>,
+        places: Option<&[u32]>,
+        wanted: impl Fn(&str) -> bool,
+    ) -> Result<(), FieldError> {
+        let len = self.len;
+        let state = |e: &&mut crate::store::Entry<D>| e.role == Role::State && wanted(e.name);
+        for entry in self.entries.iter_mut().filter(state) {
+            let Some(from) = saved.column(entry.name) else {
+                entry.column = entry.column.zeros(len);
+                continue;
+            };
+            if places.map_or(from.len(), <[u32]>::len) != len {
+                return Err(FieldError::Length(entry.name, from.len(), len));
+            }
+            both!(
+                &mut entry.column,
+                from,
+                entry.name,
+                |to: &mut Vec<_>, from: &Vec<_>| put(to, from, places)
+            );
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fields;
+
+    /// Every column that was declared as state comes back, in another order too; derived ones do not.
+    #[test]
+    fn what_was_saved_comes_back_in_any_order() {
+        let mut store = Store::<2>::new(3);
+        store.add(fields::MASS, Role::State);
+        store.add(fields::IDENTITY, Role::State);
+        store.add(fields::DENSITY, Role::Derived);
+        *store.get_mut(fields::MASS).unwrap() = vec![1.0, 2.0, 3.0];
+        *store.get_mut(fields::IDENTITY).unwrap() = vec![0, 1, 2];
+        let mut saved = Saved::default();
+        store.save_state(&mut saved).unwrap();
+        store.permute(&[2, 0, 1]);
+        store.get_mut(fields::MASS).unwrap().fill(9.0);
+        store.get_mut(fields::DENSITY).unwrap().fill(9.0);
+        store.add(fields::PRESSURE, Role::State);
+        store.get_mut(fields::PRESSURE).unwrap().fill(9.0);
+        let only = |name: &str| name == "mass" || name == "pressure";
+        store.put_state(&saved, Some(&[2, 0, 1]), only).unwrap();
+        assert_eq!(store.get(fields::MASS).unwrap(), [3.0, 1.0, 2.0]);
+        assert_eq!(store.get(fields::IDENTITY).unwrap(), [2, 0, 1]);
+        assert_eq!(store.get(fields::DENSITY).unwrap(), [9.0; 3]);
+        assert_eq!(store.get(fields::PRESSURE).unwrap(), [0.0; 3], "new since");
+        store.put_state(&saved, None, |_| true).unwrap();
+        assert_eq!(store.get(fields::IDENTITY).unwrap(), [0, 1, 2]);
+        let fewer = store.take_out(&[true]);
+        assert!(store.put_state(&saved, None, |_| true).is_err());
+        assert_eq!(fewer.len(), 1);
+    }
+}
