@@ -252,7 +252,7 @@ fn run_text(scene: &str) -> Result<(Summary, tempfile::TempDir), SolverError> {
         out: folder.path().to_path_buf(),
         start: Start::Afresh,
         threads: Some(2),
-        identity: scene.to_string(),
+        identity: sph_solver::Identity::of_text(scene),
     };
     Ok((run(&loaded.scene, &options, &mut ())?, folder))
 }

@@ -1,11 +1,15 @@
 //! Mistakes of a scene, shown in its text.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, sources};
 use serde_json::{Value as Json, json};
+use sph_core::MOST_PROBLEMS;
 use sph_scene::{Diagnostic, Source};
 use sph_study::Mistake;
+
+use crate::clean::clean;
 
 /// Diagnostics shown one by one; of the others only the number.
 const MOST: usize = 20;
@@ -13,7 +17,7 @@ const MOST: usize = 20;
 /// A diagnostic with the text it points into.
 pub struct Located {
     diagnostic: Diagnostic,
-    text: String,
+    text: Arc<str>,
 }
 
 impl From<Mistake> for Located {
@@ -29,7 +33,7 @@ impl From<Mistake> for Located {
 pub fn located(source: &Source, diagnostics: &[Diagnostic]) -> Vec<Located> {
     let with_text = |d: &Diagnostic| Located {
         diagnostic: d.clone(),
-        text: source.text_of(d).to_string(),
+        text: source.shared_text_of(d),
     };
     diagnostics.iter().map(with_text).collect()
 }
@@ -48,6 +52,7 @@ pub fn render(all: &[Located], colour: bool) -> String {
         .or(files.clone().next());
     let count = match all.len() {
         1 => "1 problem".to_string(),
+        n if n >= MOST_PROBLEMS => format!("{n} problems and perhaps more"),
         n => format!("{n} problems"),
     };
     if more > 0 {
@@ -55,16 +60,17 @@ pub fn render(all: &[Located], colour: bool) -> String {
     }
     text.push_str(&format!(
         "{count} in {}; nothing was written\n",
-        file.unwrap_or("the scene")
+        clean(file.unwrap_or("the scene"))
     ));
     text
 }
 
 fn one(located: &Located, colour: bool) -> String {
-    let d = &located.diagnostic;
+    let d = &cleaned(&located.diagnostic);
+    let text = clean(&located.text);
     let plain = || format!("error: {d}\n");
     // A problem of the scene as a whole has no line to be shown.
-    let Some(place) = visible(&located.text, &d.span) else {
+    let Some(place) = visible(&text, &d.span) else {
         return plain();
     };
     let span = |range: Range<usize>| (d.file.clone(), range);
@@ -89,13 +95,23 @@ fn one(located: &Located, colour: bool) -> String {
         .with_label(label)
         .finish();
     let mut bytes = Vec::new();
-    let cache = sources([(d.file.clone(), located.text.as_str())]);
+    let cache = sources([(d.file.clone(), &*text)]);
     match report
         .write(cache, &mut bytes)
         .map(|()| String::from_utf8(bytes))
     {
         Ok(Ok(text)) => text.replacen("Error:", "error:", 1),
         _ => plain(),
+    }
+}
+
+/// A diagnostic without characters that a terminal obeys; spans stay where they are.
+fn cleaned(d: &Diagnostic) -> Diagnostic {
+    Diagnostic {
+        message: clean(&d.message).replace('\n', " "),
+        path: clean(&d.path).replace('\n', " "),
+        file: clean(&d.file).replace('\n', " "),
+        ..d.clone()
     }
 }
 

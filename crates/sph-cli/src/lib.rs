@@ -14,6 +14,7 @@
 mod app;
 mod arguments;
 mod check;
+mod clean;
 mod console;
 mod diagnostics;
 mod explain;

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sph_solver::{Command, Observer, Progress};
 
+use crate::clean::clean;
 use crate::{console, number};
 
 /// Wall-clock time between two updates of the bar.
@@ -69,7 +70,7 @@ impl Watcher {
 
     fn say(&self, text: &str) {
         match &self.display {
-            Display::Bar(bar) => bar.println(text),
+            Display::Bar(bar) => bar.println(clean(text)),
             Display::Lines => console::err(text),
             Display::Silent => {}
         }

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
-use sph_solver::{RunOptions, SolverError, Start, Status, Summary, run};
+use sph_io::IoError;
+use sph_solver::{Identity, RunOptions, SolverError, Start, Status, Summary, run};
 
 use crate::arguments::RunArguments;
 use crate::progress::Watcher;
@@ -23,18 +24,19 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| Path::new("results").join(&opened.stem));
     look_before_writing(arguments, &out)?;
+    let told = |error| Trouble::of(error, &opened.loaded.source);
     let options = RunOptions {
         out: out.clone(),
         start: start(arguments, &out)?,
         threads: arguments.threads.map(usize::from),
-        identity: opened.identity(),
+        identity: Identity::of(&opened.loaded).map_err(told)?,
     };
     let title = &opened.loaded.scene.title;
     let start = format!("{title}: running into {}", out.display());
     let mut watcher = Watcher::new(arguments.quiet, start, interrupt::flag());
     let result = run(&opened.loaded.scene, &options, &mut watcher);
     watcher.finish();
-    let summary = result.map_err(|error| trouble(error, &opened, &out))?;
+    let summary = result.map_err(|error| trouble(error, arguments, &opened, &out))?;
     conclude(arguments, &summary, &out)
 }
 
@@ -67,20 +69,13 @@ fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
     Ok(Start::From(file))
 }
 
-/// What is refused, or worth saying, before the folder is touched.
+/// What is refused before the folder is touched.
 fn look_before_writing(arguments: &RunArguments, out: &Path) -> Result<(), Trouble> {
-    let checkpoint = out.join(CHECKPOINT).exists();
-    if arguments.resume && !checkpoint {
+    if arguments.resume && !out.join(CHECKPOINT).exists() {
         return Err(Trouble::usage(format!(
             "there is no checkpoint in {} to resume from: start without --resume",
             out.display()
         )));
-    }
-    if checkpoint && !arguments.resume && !arguments.quiet {
-        console::err(&format!(
-            "note: the earlier run in {} is overwritten (--resume would have gone on with it)",
-            out.display()
-        ));
     }
     Ok(())
 }
@@ -120,14 +115,34 @@ fn going_on(arguments: &RunArguments, out: &Path) -> String {
     words.join(" ")
 }
 
-fn trouble(error: SolverError, opened: &Opened, out: &Path) -> Trouble {
+fn trouble(error: SolverError, arguments: &RunArguments, opened: &Opened, out: &Path) -> Trouble {
     let ran = matches!(error, SolverError::Failed(_));
+    let advice = unwritten(&error)
+        .filter(|_| out.join(CHECKPOINT).exists())
+        .map(|why| {
+            format!(
+                "the last checkpoint stands: {why}, then go on with\n  {}",
+                going_on(arguments, out)
+            )
+        });
     match Trouble::of(error, &opened.loaded.source) {
         Trouble::Failed { error, .. } => Trouble::Failed {
             error,
             summary: ran.then(|| failed_summary(&out.join(SUMMARY))).flatten(),
+            advice,
         },
         other => other,
+    }
+}
+
+/// What is to be done first, if a file could not be written.
+fn unwritten(error: &SolverError) -> Option<&'static str> {
+    match error {
+        SolverError::Io(IoError::DiskFull { .. }) => Some("make room"),
+        SolverError::Io(IoError::Write { .. } | IoError::NotWritable { .. }) => {
+            Some("make the folder writable")
+        }
+        _ => None,
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use sph_core::suggestion;
 use sph_scene::{Loaded, Override, Source, load_allowing, read, read_text, within};
 use sph_study::SceneText;
+use tempfile::TempDir;
 
 use crate::arguments::SceneArguments;
 use crate::diagnostics;
@@ -18,31 +19,7 @@ pub struct Opened {
     /// Name without folder and extension.
     pub stem: String,
     /// Kept until the scene is done with.
-    _unpacked: Option<Unpacked>,
-}
-
-/// A folder that disappears with its owner.
-struct Unpacked(PathBuf);
-
-impl Drop for Unpacked {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
-impl Opened {
-    /// What a checkpoint of this scene belongs to: the text and what was put on top, not the
-    /// folder or the threads.
-    pub fn identity(&self) -> String {
-        let source = &self.loaded.source;
-        let set = source
-            .overrides()
-            .iter()
-            .map(|o| format!("\n--set {}", o.text()));
-        std::iter::once(source.text().to_string())
-            .chain(set)
-            .collect()
-    }
+    _unpacked: Option<TempDir>,
 }
 
 /// The values of `--set`.
@@ -93,7 +70,7 @@ pub fn open(arguments: &SceneArguments) -> Result<Opened, Trouble> {
 pub struct Found {
     /// Name, text and file.
     pub scene: SceneText,
-    _unpacked: Option<Unpacked>,
+    _unpacked: Option<TempDir>,
 }
 
 /// Finds the scene that a study in a folder names: by its path from there, within that folder or an
@@ -171,14 +148,20 @@ fn compiled_in(
 }
 
 /// The file name by which a compiled-in scene names its data, put into a folder if it has any.
-fn unpacked(name: &str, text: &str) -> Result<(String, Option<Unpacked>), String> {
+fn unpacked(name: &str, text: &str) -> Result<(String, Option<TempDir>), String> {
     if shipped::data_of(text).next().is_none() {
         return Ok((format!("{name}.toml"), None));
     }
-    let folder = std::env::temp_dir().join(format!("sph-{name}-{}", std::process::id()));
-    let file = folder.join(format!("{name}.toml")).display().to_string();
-    shipped::unpack_data(text, &folder)?;
-    Ok((file, Some(Unpacked(folder))))
+    // A name that nobody can guess, made by nobody else, for this user alone.
+    let folder = tempfile::Builder::new().prefix("sph-").tempdir();
+    let folder = folder.map_err(|e| format!("cannot put the data of `{name}` anywhere: {e}"))?;
+    let file = folder
+        .path()
+        .join(format!("{name}.toml"))
+        .display()
+        .to_string();
+    shipped::unpack_data(text, folder.path())?;
+    Ok((file, Some(folder)))
 }
 
 fn not_found(scene: &str) -> String {

@@ -43,7 +43,9 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
     let failed = |error| Trouble::Failed {
         error,
         summary: None,
+        advice: None,
     };
+    let _lock = sph_io::FolderLock::take(&out).map_err(|e| failed(e.into()))?;
     sph_io::writable(&out).map_err(|e| failed(e.into()))?;
     let outcome = execute(&study, &options, &watcher);
     watcher.finish();

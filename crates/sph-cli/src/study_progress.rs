@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sph_solver::Progress;
 use sph_study::{Cost, Options, Record, Status, Study, Variant, to_run, verdict};
 
+use crate::clean::clean;
 use crate::{console, number};
 
 /// Wall-clock time between two updates of the bar.
@@ -142,7 +143,7 @@ impl Watcher {
         if let Some(name) = self.names.get(k) {
             state.cost.insert(name.clone(), seconds.max(1e-3));
             if let Display::Bar(bar) = &self.display {
-                bar.set_message(format!("checked {name}"));
+                bar.set_message(clean(&format!("checked {name}")).into_owned());
             }
         }
         state.started = Instant::now();
@@ -161,7 +162,7 @@ impl Watcher {
 
     fn say(&self, text: &str) {
         match &self.display {
-            Display::Bar(bar) => bar.println(text),
+            Display::Bar(bar) => bar.println(clean(text)),
             Display::Lines => console::err(text),
             Display::Silent => {}
         }
@@ -186,7 +187,7 @@ impl Watcher {
         match &self.display {
             Display::Bar(bar) => {
                 bar.set_position((share * DIVISIONS as f64) as u64);
-                bar.set_message(text);
+                bar.set_message(clean(&text).into_owned());
             }
             Display::Lines => console::err(&format!("{:5.1} %  {text}", 100.0 * share)),
             Display::Silent => {}

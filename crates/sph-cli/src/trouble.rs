@@ -1,9 +1,8 @@
 //! Everything that keeps a command from its end, and how it is told.
 
-use std::path::Path;
-
 use serde_json::{Value as Json, json};
 use sph_core::SceneProblem;
+use sph_io::IoError;
 use sph_scene::{LoadError, Source};
 use sph_solver::SolverError;
 use sph_study::{ReadError, Refused};
@@ -23,6 +22,8 @@ pub enum Trouble {
         error: SolverError,
         /// Content of `summary.json`.
         summary: Option<Json>,
+        /// How to go on.
+        advice: Option<String>,
     },
     /// The run stopped with a checkpoint; everything has been said.
     Interrupted,
@@ -69,6 +70,7 @@ impl Trouble {
                 return Trouble::Failed {
                     error,
                     summary: None,
+                    advice: None,
                 };
             }
         };
@@ -93,13 +95,20 @@ impl Trouble {
                 }
             }
             Trouble::Scene(all) => {
-                console::err(&diagnostics::render(all, console::terminal()));
+                console::coloured(&diagnostics::render(all, console::terminal()));
                 if json {
                     console::json(&diagnostics::json(all));
                 }
             }
-            Trouble::Failed { error, summary } => {
+            Trouble::Failed {
+                error,
+                summary,
+                advice,
+            } => {
                 console::err(&failed(error));
+                if let Some(advice) = advice {
+                    console::err(advice);
+                }
                 if json {
                     let told = json!([{ "message": error.to_string() }]);
                     console::json(summary.as_ref().unwrap_or(&told));
@@ -114,8 +123,7 @@ fn failed(error: &SolverError) -> String {
     let mut text = format!("error: {error}\n");
     match error {
         SolverError::Failed(failure) => text.push_str(&crate::failed::text(failure)),
-        SolverError::Resume { .. } => {}
-        SolverError::Io(io) if is_checkpoint(io.path()) => text.push_str(
+        SolverError::Io(io) if is_unreadable_checkpoint(io) => text.push_str(
             "a checkpoint that cannot be read cannot be resumed: start again without --resume\n",
         ),
         _ => {}
@@ -123,6 +131,8 @@ fn failed(error: &SolverError) -> String {
     text
 }
 
-fn is_checkpoint(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e == "sph")
+/// Whether a checkpoint could not be read; one that could not be *written* leaves the one before.
+fn is_unreadable_checkpoint(error: &IoError) -> bool {
+    let read = matches!(error, IoError::Read { .. } | IoError::Checkpoint { .. });
+    read && error.path().extension().is_some_and(|e| e == "sph")
 }

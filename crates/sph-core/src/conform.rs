@@ -8,10 +8,13 @@ use toml::Value;
 
 use crate::{SceneProblem, parse_quantity, suggestion};
 
+/// Most problems that are told: of a text that is wrong throughout nobody reads more, and each takes room.
+pub const MOST_PROBLEMS: usize = 200;
+
 /// Checks `value` against `schema` and converts quantities to SI in place.
 ///
 /// # Errors
-/// All problems found, each with its path relative to `value`.
+/// The problems found, each with its path relative to `value`, at most [`MOST_PROBLEMS`].
 pub fn conform(value: &mut Value, schema: &Json) -> Result<(), Vec<SceneProblem>> {
     let mut walk = Walk {
         root: schema,
@@ -54,7 +57,15 @@ impl<'s> Walk<'s> {
         self.problems.push(SceneProblem::new(path, message));
     }
 
+    /// Whether as many problems are known as are told.
+    fn full(&self) -> bool {
+        self.problems.len() >= MOST_PROBLEMS
+    }
+
     fn value(&mut self, value: &mut Value, schema: &'s Json, path: &str, unit: Option<&'s str>) {
+        if self.full() {
+            return;
+        }
         let unit = schema.get("unit").and_then(Json::as_str).or(unit);
         let schema = self.resolve(schema);
         let unit = schema.get("unit").and_then(Json::as_str).or(unit);
@@ -245,6 +256,9 @@ impl<'s> Walk<'s> {
         }
         if let Some(schema) = schema.get("items") {
             for (k, item) in items.iter_mut().enumerate() {
+                if self.full() {
+                    return;
+                }
                 self.value(item, schema, &format!("{path}[{k}]"), unit);
             }
         }
@@ -262,6 +276,9 @@ impl<'s> Walk<'s> {
         let properties = schema.get("properties").and_then(Json::as_object);
         let others = schema.get("additionalProperties");
         for (key, item) in table.iter_mut() {
+            if self.full() {
+                return;
+            }
             match (properties.and_then(|p| p.get(key)), others) {
                 (Some(property), _) => self.value(item, property, &join(key), None),
                 (None, Some(Json::Bool(false))) => {
@@ -344,6 +361,15 @@ mod tests {
         conform(&mut value, &schema()).unwrap();
         assert_eq!(value["density"].as_float(), Some(1000.0));
         assert_eq!(value["gravity"][1].as_float(), Some(-9.81));
+    }
+
+    #[test]
+    fn no_more_problems_are_kept_than_are_told() {
+        let keys: String = (0..20_000).map(|k| format!("k{k} = 1\n")).collect();
+        assert_eq!(problems(&keys).len(), MOST_PROBLEMS);
+        let list = vec!["'x'"; 20_000].join(",");
+        let found = problems(&format!("density = 1\ngravity = [{list}]"));
+        assert_eq!(found.len(), MOST_PROBLEMS);
     }
 
     #[test]

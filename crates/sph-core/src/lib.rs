@@ -36,7 +36,7 @@ mod store;
 mod symmetric;
 mod taken;
 
-pub use conform::{conform, defaults};
+pub use conform::{MOST_PROBLEMS, conform, defaults};
 pub use error::{FieldError, PlanError, RegistryError, SceneProblem, StepError};
 pub use evolve::{Evolved, Recall, System};
 pub use field::{AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector};

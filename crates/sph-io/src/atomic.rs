@@ -146,9 +146,12 @@ pub fn sweep_temporaries(folder: impl AsRef<Path>) -> Result<usize> {
     Ok(removed)
 }
 
-/// Whether `name` has the form `.NAME.PID-SERIAL.tmp`.
+/// Whether `name` has the form `.NAME.PID-SERIAL.tmp`, or `.writable-PID` as earlier versions tried folders with.
 fn is_temporary(name: &str) -> bool {
     let digits = |s: &str| !s.is_empty() && s.bytes().all(|b| b.is_ascii_digit());
+    if name.strip_prefix(".writable-").is_some_and(digits) {
+        return true;
+    }
     name.strip_prefix('.')
         .and_then(|rest| rest.strip_suffix(".tmp"))
         .and_then(|rest| rest.rsplit_once('.'))
@@ -208,10 +211,16 @@ mod tests {
     #[test]
     fn only_temporaries_are_swept() {
         let folder = tempfile::tempdir().unwrap();
-        for name in [".a.vtu.12-3.tmp", ".hidden", "b.tmp", ".c.x-1.tmp"] {
+        for name in [
+            ".a.vtu.12-3.tmp",
+            ".writable-77",
+            ".hidden",
+            "b.tmp",
+            ".c.x-1.tmp",
+        ] {
             fs::write(folder.path().join(name), b"").unwrap();
         }
-        assert_eq!(sweep_temporaries(folder.path()).unwrap(), 1);
+        assert_eq!(sweep_temporaries(folder.path()).unwrap(), 2);
         assert_eq!(names(folder.path()).len(), 3);
     }
 }

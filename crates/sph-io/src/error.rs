@@ -31,6 +31,18 @@ pub enum IoError {
         /// What the operating system says.
         source: io::Error,
     },
+    /// Another run writes into the folder.
+    #[error(
+        "{} is in use by {by}, and two runs in one folder would spoil each other: wait for its end, or take \
+         another folder",
+        path.display()
+    )]
+    InUse {
+        /// The folder.
+        path: PathBuf,
+        /// Who holds it, since when.
+        by: String,
+    },
     /// No room left for the file (disk or quota).
     #[error("disk full while writing {}: {source}", path.display())]
     DiskFull {
@@ -146,6 +158,7 @@ impl IoError {
         match self {
             Self::CreateFolder { path, .. }
             | Self::NotWritable { path, .. }
+            | Self::InUse { path, .. }
             | Self::DiskFull { path, .. }
             | Self::Write { path, .. }
             | Self::Read { path, .. }

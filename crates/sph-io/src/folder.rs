@@ -1,9 +1,8 @@
 //! Is there a place to write to, before hours are spent computing?
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::Path;
-use std::process;
 
 use crate::error::{IoError, Result, is_full};
 
@@ -25,21 +24,60 @@ pub fn readable(path: impl AsRef<Path>, most: u64) -> Result<()> {
     }
 }
 
-/// Creates `folder` with its parents if need be and proves by a test file,
-/// removed again, that it can be written.
+/// What a file holds, in a few bytes.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Checksum {
+    /// Length, bytes.
+    pub bytes: u64,
+    /// CRC-32 of the content.
+    pub crc: u32,
+}
+
+impl std::fmt::Display for Checksum {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {:08x}", self.bytes, self.crc)
+    }
+}
+
+/// Length and CRC-32 of a plain file of at most `most` bytes, read piece by piece.
+///
+/// # Errors
+/// What [`readable`] refuses, and what the system says.
+pub fn checksum(path: impl AsRef<Path>, most: u64) -> Result<Checksum> {
+    let path = path.as_ref();
+    readable(path, most)?;
+    let read = || -> io::Result<Checksum> {
+        let mut file = File::open(path)?.take(most + 1);
+        let mut hasher = crc32fast::Hasher::new();
+        let mut piece = vec![0; 1 << 16];
+        let mut bytes = 0;
+        loop {
+            match file.read(&mut piece) {
+                Ok(0) => break,
+                Ok(n) => {
+                    hasher.update(&piece[..n]);
+                    bytes += n as u64;
+                }
+                Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
+                Err(e) => return Err(e),
+            }
+        }
+        let crc = hasher.finalize();
+        Ok(Checksum { bytes, crc })
+    };
+    read().map_err(|e| IoError::read(path, e))
+}
+
+/// Creates `folder` with its parents if need be and proves by a file without a name that it can be written.
+///
+/// A file without a name is gone with the process, however that ends.
 pub fn writable(folder: impl AsRef<Path>) -> Result<()> {
     let folder = folder.as_ref();
     fs::create_dir_all(folder).map_err(|source| IoError::CreateFolder {
         path: folder.to_path_buf(),
         source,
     })?;
-    let trial = folder.join(format!(".writable-{}", process::id()));
-    let written = write_block(&trial);
-    let removed = match fs::remove_file(&trial) {
-        Err(e) if e.kind() == io::ErrorKind::NotFound && written.is_err() => Ok(()),
-        other => other,
-    };
-    written.and(removed).map_err(|source| {
+    write_block(folder).map_err(|source| {
         let path = folder.to_path_buf();
         if is_full(&source) {
             IoError::DiskFull { path, source }
@@ -49,8 +87,8 @@ pub fn writable(folder: impl AsRef<Path>) -> Result<()> {
     })
 }
 
-fn write_block(path: &Path) -> io::Result<()> {
-    let mut file = File::create(path)?;
+fn write_block(folder: &Path) -> io::Result<()> {
+    let mut file = tempfile::tempfile_in(folder)?;
     file.write_all(&[0; BLOCK])?;
     // Some file systems report a full disk only when the data go out.
     file.sync_data()
@@ -66,6 +104,17 @@ mod tests {
         let deep = folder.path().join("a/b/c");
         writable(&deep).unwrap();
         assert_eq!(fs::read_dir(&deep).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn a_checksum_tells_contents_apart_and_refuses_what_is_long() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv");
+        fs::write(&path, b"123456789").unwrap();
+        // The check value of CRC-32 (ISO 3309).
+        let crc = 0xcbf4_3926;
+        assert_eq!(checksum(&path, 9).unwrap(), Checksum { bytes: 9, crc });
+        assert!(checksum(&path, 8).is_err() && checksum(folder.path(), 99).is_err());
     }
 
     #[test]

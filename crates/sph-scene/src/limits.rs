@@ -1,6 +1,6 @@
 //! What is refused for its size before anything is made of it.
 
-use sph_core::SceneProblem;
+use sph_core::{MOST_PROBLEMS, SceneProblem};
 use toml::{Table, Value};
 
 /// Longest scene file, bytes.
@@ -11,7 +11,7 @@ pub(crate) const WALL_CORNERS: usize = 1_000_000;
 pub(crate) const BODY_CORNERS: usize = 10_000;
 /// Most lines of a drawing: which lies within which is asked of every two.
 pub(crate) const LINES: usize = 20_000;
-/// Most tables of one kind, and most fields of an output.
+/// Most keys of a table, of whatever depth, and most fields of an output.
 pub(crate) const TABLES: usize = 1_000;
 /// Most output times, and most rows of a course.
 pub(crate) const TIMES: usize = 1_000_000;
@@ -19,17 +19,14 @@ pub(crate) const TIMES: usize = 1_000_000;
 /// Lists and tables that are too long.
 pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
     let mut found = Vec::new();
+    wide(scene, "", &mut found);
+    if !found.is_empty() {
+        return found;
+    }
     for (kind, value) in scene {
         let Value::Table(tables) = value else {
             continue;
         };
-        if tables.len() > TABLES {
-            let n = tables.len();
-            found.push(SceneProblem::new(
-                kind,
-                format!("{n} tables are more than {TABLES}"),
-            ));
-        }
         for (name, value) in tables {
             let Value::Table(keys) = value else { continue };
             for (key, value) in keys {
@@ -75,6 +72,46 @@ pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
         }
     }
     found
+}
+
+/// Tables of any depth with more keys than any table needs; what is in them is not looked at.
+fn wide(table: &Table, path: &str, found: &mut Vec<SceneProblem>) {
+    let n = table.len();
+    if n > TABLES {
+        let what = match table.values().all(Value::is_table) {
+            true => "tables",
+            false => "keys",
+        };
+        return found.push(SceneProblem::new(
+            path,
+            format!("{n} {what} are more than {TABLES}"),
+        ));
+    }
+    for (key, value) in table {
+        if found.len() >= MOST_PROBLEMS {
+            return;
+        }
+        if matches!(value, Value::Table(_) | Value::Array(_)) {
+            let path = match path {
+                "" => key.clone(),
+                _ => format!("{path}.{key}"),
+            };
+            nested(value, &path, found);
+        }
+    }
+}
+
+fn nested(value: &Value, path: &str, found: &mut Vec<SceneProblem>) {
+    match value {
+        Value::Table(table) => wide(table, path, found),
+        Value::Array(items) => {
+            let inner = |v: &&Value| matches!(v, Value::Table(_) | Value::Array(_));
+            for (k, item) in items.iter().enumerate().filter(|(_, v)| inner(v)) {
+                nested(item, &format!("{path}[{k}]"), found);
+            }
+        }
+        _ => {}
+    }
 }
 
 fn extrusion(value: &Value, path: &str, found: &mut Vec<SceneProblem>) {

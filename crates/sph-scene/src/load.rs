@@ -4,12 +4,12 @@ use std::fmt;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use sph_core::{SceneProblem, conform, schema_of};
+use sph_core::{MOST_PROBLEMS, SceneProblem, conform, schema_of};
 use thiserror::Error;
 use toml::de::DeTable;
 use toml::{Table, Value};
 
-use crate::diagnostic::{Diagnostic, Origin};
+use crate::diagnostic::{Diagnostic, Origin, line_and_column};
 use crate::limits::{self, FILE_BYTES};
 use crate::{Override, Scene, Source, check, columns};
 
@@ -98,11 +98,22 @@ pub fn load_allowing(
     read(source).map_err(|refused| LoadError::Refused(Box::new(refused)))
 }
 
+/// Whether a path is that of an open file of this process: `/dev/stdin`, or `<(command)` of a shell. Opening
+/// another pipe would wait for its writer, for ever if there is none.
+fn is_given(path: &Path) -> bool {
+    let open = ["/dev/stdin", "/dev/fd", "/proc/self/fd"];
+    open.iter().any(|p| path.starts_with(p))
+}
+
 /// Reads a file of the size that a scene may have.
 ///
 /// # Errors
 /// What the system says, or that it is too long or no text.
 pub fn read_text(path: &Path) -> Result<String, String> {
+    let known = std::fs::metadata(path).map_err(|e| e.to_string())?;
+    if !known.is_file() && !is_given(path) {
+        return Err("it is not a file (a pipe of the shell or /dev/stdin is taken as well)".into());
+    }
     let file = std::fs::File::open(path).map_err(|e| e.to_string())?;
     let mut bytes = Vec::new();
     let most = FILE_BYTES as u64 + 1;
@@ -114,8 +125,9 @@ pub fn read_text(path: &Path) -> Result<String, String> {
     }
     String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
-        let line = 1 + e.as_bytes()[..at].iter().filter(|b| **b == b'\n').count();
-        format!("byte {at}, in line {line}, is not UTF-8 text")
+        let before = String::from_utf8_lossy(&e.as_bytes()[..at]);
+        let (line, column) = line_and_column(&before, at);
+        format!("byte {at}, in line {line}, is not UTF-8 text (column {column})")
     })
 }
 
@@ -185,7 +197,7 @@ pub(crate) fn table(source: &Source) -> Result<Table, Vec<Diagnostic>> {
         )));
     }
     let syntax = |e: &toml::de::Error| {
-        let span = e.span().unwrap_or(0..0);
+        let span = e.span().unwrap_or_else(|| too_deep(text, e.message()));
         let message = match e.message() {
             long if long.contains("as i128") => "the integer does not fit into 64 bits",
             message => message,
@@ -194,7 +206,8 @@ pub(crate) fn table(source: &Source) -> Result<Table, Vec<Diagnostic>> {
     };
     let (_, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
-        let mut all: Vec<_> = errors.iter().map(syntax).collect();
+        let told = errors.iter().take(MOST_PROBLEMS);
+        let mut all: Vec<_> = told.map(syntax).collect();
         all.sort_by_key(|d| (d.span.start, d.span.end));
         all.dedup_by_key(|d| d.line);
         return Err(all);
@@ -206,4 +219,26 @@ pub(crate) fn table(source: &Source) -> Result<Table, Vec<Diagnostic>> {
         true => Ok(table),
         false => Err(source.diagnose(&problems)),
     }
+}
+
+/// Deepest nesting that the reader of TOML takes.
+const DEEPEST: usize = 80;
+
+/// Where a text is nested too deeply: the reader tells that without a place.
+fn too_deep(text: &str, message: &str) -> std::ops::Range<usize> {
+    if !message.contains("recursion") {
+        return 0..0;
+    }
+    let mut depth = 0_usize;
+    for (k, byte) in text.bytes().enumerate() {
+        match byte {
+            b'[' | b'{' => depth += 1,
+            b']' | b'}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if depth > DEEPEST {
+            return k..k + 1;
+        }
+    }
+    0..0
 }

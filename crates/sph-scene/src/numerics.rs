@@ -68,6 +68,9 @@ pub struct Numerics {
     #[serde(default = "loose_bounds")]
     #[schemars(inner(range(min = 0.0)), extend("unit" = "1"))]
     pub density_bounds: [f64; 2],
+    /// Whether more than a tenth of the mass may be faster than its sound; the run ends if not.
+    #[serde(default)]
+    pub supersonic: bool,
     /// Largest random displacement of a particle at the start along each axis, as a fraction of the spacing.
     #[serde(default)]
     #[schemars(extend("unit" = "1", "minimum" = 0.0, "exclusiveMaximum" = 0.5))]

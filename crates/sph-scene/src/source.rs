@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use sph_core::SceneProblem;
+use sph_core::{MOST_PROBLEMS, SceneProblem};
 use toml::Table;
 use toml::de::DeTable;
 
@@ -17,7 +18,7 @@ use crate::paths::{PathProblem, joined, within};
 #[derive(Clone, Debug)]
 pub struct Source {
     file: String,
-    text: String,
+    text: Arc<str>,
     overrides: Vec<Override>,
     allowed: Vec<PathBuf>,
 }
@@ -27,7 +28,7 @@ impl Source {
     pub fn new(text: &str, file: &str, overrides: &[Override]) -> Self {
         Source {
             file: file.to_string(),
-            text: text.to_string(),
+            text: text.into(),
             overrides: overrides.to_vec(),
             allowed: Vec::new(),
         }
@@ -67,6 +68,14 @@ impl Source {
         self.text_at(diagnostic.origin)
     }
 
+    /// The same, to keep: all diagnostics of a file share one copy.
+    pub fn shared_text_of(&self, diagnostic: &Diagnostic) -> Arc<str> {
+        match diagnostic.origin {
+            Origin::File => self.text.clone(),
+            Origin::Override(_) => self.text_of(diagnostic).into(),
+        }
+    }
+
     fn text_at(&self, origin: Origin) -> &str {
         match origin {
             Origin::File => &self.text,
@@ -75,11 +84,12 @@ impl Source {
     }
 
     /// Finds problems in the text: what an override set is shown there, the rest in the file.
-    /// Sorted by position, those of overrides last.
+    /// Sorted by position, those of overrides last. Of more than [`MOST_PROBLEMS`] the first are placed.
     pub fn diagnose(&self, problems: &[SceneProblem]) -> Vec<Diagnostic> {
         let table = DeTable::parse_recoverable(&self.text).0;
         let mut all: Vec<Diagnostic> = problems
             .iter()
+            .take(MOST_PROBLEMS)
             .map(|p| self.place(table.get_ref(), p))
             .collect();
         all.sort_by_key(|d| (d.origin, d.span.start, d.span.end));

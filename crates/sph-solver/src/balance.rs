@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use sph_core::{FieldError, Vect, fields};
 
 use crate::Flow;
+use crate::mach::{COMPRESSIBLE, SUPERSONIC};
 
 const BATCH: usize = 4096;
 
@@ -26,6 +27,8 @@ pub struct Balance<const D: usize> {
     pub fastest: f64,
     /// Largest |u| over the speed of sound of its phase, 1.
     pub mach: f64,
+    /// Mass that is faster than [`COMPRESSIBLE`] and than [`SUPERSONIC`] of its sound, kg.
+    pub faster: [f64; 2],
     /// Least density over reference density.
     pub least_density: f64,
     /// Largest density over reference density.
@@ -33,7 +36,7 @@ pub struct Balance<const D: usize> {
 }
 
 impl<const D: usize> Balance<D> {
-    fn zero() -> Self {
+    pub(crate) fn zero() -> Self {
         Balance {
             mass: 0.0,
             momentum: Vect::zeros(),
@@ -43,6 +46,7 @@ impl<const D: usize> Balance<D> {
             internal: 0.0,
             fastest: 0.0,
             mach: 0.0,
+            faster: [0.0; 2],
             least_density: f64::INFINITY,
             largest_density: f64::NEG_INFINITY,
         }
@@ -58,6 +62,7 @@ impl<const D: usize> Balance<D> {
             internal: self.internal + o.internal,
             fastest: self.fastest.max(o.fastest),
             mach: self.mach.max(o.mach),
+            faster: std::array::from_fn(|k| self.faster[k] + o.faster[k]),
             least_density: self.least_density.min(o.least_density),
             largest_density: self.largest_density.max(o.largest_density),
         }
@@ -94,6 +99,7 @@ impl<const D: usize> Balance<D> {
             let phase = phase.map_or(0, |p| p[i] as usize);
             let law = &laws[phase];
             let speed = u.norm();
+            let mach = speed / law.reference().sound_speed;
             let ratio = density[i] / law.reference().density;
             Balance {
                 mass: m,
@@ -103,7 +109,8 @@ impl<const D: usize> Balance<D> {
                 potential: -m * gravity.dot(&position[i]),
                 internal: m * law.internal_energy(density[i]) + strained(i, phase),
                 fastest: speed,
-                mach: speed / law.reference().sound_speed,
+                mach,
+                faster: [COMPRESSIBLE, SUPERSONIC].map(|most| if mach > most { m } else { 0.0 }),
                 least_density: ratio,
                 largest_density: ratio,
             }

@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use sph_core::{Plain, Role, Vect, fields};
 use sph_io::{Checkpoint, Column, ColumnData};
+use sph_scene::Scene;
 
-use crate::{Flow, SolverError};
+use crate::counters::{Counters, MOST};
+use crate::{Flow, Identity, SolverError};
 
 /// Name of the checkpoint in a run's folder.
 pub const FILE: &str = "checkpoint.sph";
@@ -25,7 +27,8 @@ struct Clock {
 
 #[derive(Serialize, Deserialize)]
 struct Meta<T> {
-    scene: String,
+    #[serde(flatten)]
+    identity: Identity,
     dimension: usize,
     clock: Clock,
     run: T,
@@ -35,7 +38,7 @@ struct Meta<T> {
 pub fn save<const D: usize, T: Serialize>(
     flow: &Flow<D>,
     path: &Path,
-    scene: &str,
+    identity: &Identity,
     run: &T,
 ) -> Result<(), SolverError> {
     let world = &flow.world;
@@ -63,7 +66,7 @@ pub fn save<const D: usize, T: Serialize>(
         });
     }
     let meta = Meta {
-        scene: scene.to_string(),
+        identity: identity.clone(),
         dimension: D,
         clock: Clock {
             time: world.time.to_bits(),
@@ -84,17 +87,29 @@ fn refused(path: &Path, reason: impl Into<String>) -> SolverError {
     }
 }
 
-/// Puts a saved state into an assembled flow, which must be of the `scene` if one is given; returns what the driver saved.
-pub fn load<const D: usize, T: DeserializeOwned>(
+/// Puts a saved state into the assembled flow of a scene, which must be the same as before if an identity is
+/// given; returns what the driver saved.
+pub fn load<const D: usize>(
     flow: &mut Flow<D>,
+    scene: &Scene,
     path: &Path,
-    scene: Option<&str>,
-) -> Result<T, SolverError> {
-    let (checkpoint, meta) = read::<D, T>(path)?;
-    if scene.is_some_and(|scene| meta.scene != scene) {
-        let why = "it was written by a different scene or with other `--set` options; restore the scene, go on \
-                   from it all the same with --changed, or take its state alone into another folder \
-                   with --from";
+    identity: Option<&Identity>,
+) -> Result<Counters, SolverError> {
+    let (checkpoint, meta) = read::<D, Counters>(path)?;
+    let mut counters = meta.run;
+    if let Some(why) = identity.and_then(|now| now.differs_from(&meta.identity)) {
+        let why = format!(
+            "{why}; restore what it was, go on from it all the same with --changed, or take its state alone \
+             into another folder with --from"
+        );
+        return Err(refused(path, why));
+    }
+    believable(&meta.clock, scene, path)?;
+    let time = f64::from_bits(meta.clock.time);
+    if identity.is_none() {
+        counters.recount(scene, time);
+    }
+    if let Some(why) = counters.nonsense(scene, time) {
         return Err(refused(path, why));
     }
     fill(flow, &checkpoint, path)?;
@@ -111,14 +126,19 @@ pub fn load<const D: usize, T: DeserializeOwned>(
         .build_lists_from(reference, wall_reference, list_time);
     flow.world.lists.builds = meta.clock.list_builds;
     flow.restored = true;
-    Ok(meta.run)
+    Ok(counters)
 }
 
 /// Puts the particles of another run of the same bodies, with its time, into an assembled flow of other settings.
 ///
 /// All that the flow remembers must be in the checkpoint; more is left aside.
-pub fn start_from<const D: usize>(flow: &mut Flow<D>, path: &Path) -> Result<(), SolverError> {
+pub fn start_from<const D: usize>(
+    flow: &mut Flow<D>,
+    scene: &Scene,
+    path: &Path,
+) -> Result<(), SolverError> {
     let (checkpoint, meta) = read::<D, serde::de::IgnoredAny>(path)?;
+    believable(&meta.clock, scene, path)?;
     let identity = checkpoint.column(fields::IDENTITY.name).map(|c| &c.data);
     let there = match identity {
         Some(ColumnData::U32(v)) => v.len(),
@@ -195,18 +215,40 @@ fn positions<const D: usize>(
     }
 }
 
+/// Refuses a clock that no run of the scene can have had.
+fn believable(clock: &Clock, scene: &Scene, path: &Path) -> Result<(), SolverError> {
+    let [time, dt] = [clock.time, clock.dt].map(f64::from_bits);
+    let end = scene.run.end;
+    let builds = clock.list_time.map_or(time, f64::from_bits);
+    let why = if !time.is_finite() {
+        "its time is not finite".to_string()
+    } else if time < 0.0 {
+        format!("its time, {time} s, is before the start")
+    } else if time > end {
+        format!("its time, {time} s, is past the end of the scene, {end} s")
+    } else if !(dt >= 0.0 && dt <= end) {
+        format!("its step, {dt} s, is none of a run of {end} s")
+    } else if !(0.0..=time).contains(&builds) {
+        format!("its lists are of t = {builds} s, which is no time of before")
+    } else if clock.list_builds > MOST {
+        format!(
+            "its lists were built {} times, which no run reaches",
+            clock.list_builds
+        )
+    } else {
+        return Ok(());
+    };
+    Err(refused(path, why))
+}
+
 /// Time and step; walls go where they are at that time.
 fn set_clock<const D: usize>(
     flow: &mut Flow<D>,
     clock: &Clock,
     path: &Path,
 ) -> Result<(), SolverError> {
-    let [time, dt] = [clock.time, clock.dt].map(f64::from_bits);
-    if !(time.is_finite() && dt.is_finite()) {
-        return Err(refused(path, "its time is not finite"));
-    }
-    flow.world.time = time;
-    flow.world.dt = dt;
+    flow.world.time = f64::from_bits(clock.time);
+    flow.world.dt = f64::from_bits(clock.dt);
     if let Some(walls) = &flow.walls {
         let now = flow.world.time;
         let moved = crate::stages::lock(walls).move_to(&mut flow.world.walls, now);
@@ -239,6 +281,19 @@ fn nonsense<const D: usize>(
         Some("its phases are not the scene's")
     } else if positions.iter().flatten().any(|x| !x.is_finite()) {
         Some("it has particles that are nowhere")
+    } else if free
+        .get(fields::MASS)?
+        .iter()
+        .any(|m| !(*m > 0.0 && m.is_finite()))
+    {
+        Some("it has particles without mass")
+    } else if free
+        .get(fields::VELOCITY)?
+        .iter()
+        .flatten()
+        .any(|u| !u.is_finite())
+    {
+        Some("it has velocities that are not finite")
     } else {
         None
     })

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::Identity;
+
 /// How a scene is run.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
@@ -11,8 +13,8 @@ pub struct RunOptions {
     pub start: Start,
     /// Threads; `None` for all cores.
     pub threads: Option<usize>,
-    /// Text that identifies the scene with its overrides; a checkpoint belongs to one text.
-    pub identity: String,
+    /// The scene with its overrides and files; a checkpoint belongs to one.
+    pub identity: Identity,
 }
 
 /// Where a run begins.
@@ -23,7 +25,7 @@ pub enum Start {
     Afresh,
     /// With the checkpoint in the run's own folder, as if it had never stopped.
     Resumed,
-    /// The same, although the scene has another text or other overrides than the checkpoint was written with.
+    /// The same, although the scene, its overrides, its files or the program are not those of the checkpoint.
     Changed,
     /// With the particles and the time of a checkpoint of another run of the same bodies, whatever its other settings.
     From(PathBuf),

@@ -3,24 +3,23 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-use serde::{Deserialize, Serialize};
 use sph_core::{StepError, StepLimit, System};
 use sph_io::IoError;
 use sph_scene::Scene;
 
 use crate::assemble::{Assembled, assemble};
 use crate::balance::Balance;
+use crate::counters::Counters;
 use crate::driver::{Command, Observer, Progress};
 use crate::error::SolverError;
 use crate::estimate::tiny_steps;
-use crate::implicit::Solves;
+use crate::mach::MachWatch;
 use crate::options::{RunOptions, Start};
 use crate::output::Outputs;
 use crate::series::Series;
 use crate::snapshot::Snapshot;
 use crate::summary::{Status, Summary};
-use crate::trouble::Trouble;
-use crate::{checkpoint, guard, references};
+use crate::{Flow, checkpoint, guard, references};
 
 /// Runs a scene.
 ///
@@ -42,48 +41,6 @@ pub fn run(
     })
 }
 
-/// What a resumed run must know besides the flow.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub(crate) struct Counters {
-    pub(crate) steps: u64,
-    pub(crate) rolled_back: u64,
-    /// Roll-backs since the step had its whole length.
-    #[serde(default)]
-    pub(crate) retries: u32,
-    pub(crate) outputs: usize,
-    pub(crate) next_output: Option<u64>,
-    pub(crate) rows: u64,
-    /// Time of the last row, as bits: a run that is over has its last row.
-    #[serde(default)]
-    pub(crate) last_row: Option<u64>,
-    pub(crate) series_position: u64,
-    pub(crate) series_extrema: [u64; 4],
-    /// Highest energy and largest Mach number of all rows.
-    #[serde(default)]
-    pub(crate) series_peaks: Option<[u64; 2]>,
-    #[serde(default)]
-    pub(crate) first_trouble: Option<Trouble>,
-    /// Time at which a run began that started from another's state.
-    #[serde(default)]
-    pub(crate) started_at: Option<u64>,
-    pub(crate) checkpoints: u64,
-    pub(crate) limited: BTreeMap<String, u64>,
-    /// Σ 1/Δt of every bound, 1/s.
-    #[serde(default)]
-    pub(crate) bounds: BTreeMap<String, f64>,
-    pub(crate) wall_seconds: f64,
-    pub(crate) stage_seconds: BTreeMap<String, f64>,
-    pub(crate) initial: [u64; 2],
-    pub(crate) initial_momentum: Vec<u64>,
-    pub(crate) step_scale: u64,
-    /// Mass (as bits) and number of particles that have left, by outlet and phase.
-    #[serde(default)]
-    pub(crate) left: Vec<[u64; 2]>,
-    /// What implicit solves took so far.
-    #[serde(default)]
-    pub(crate) solves: Option<Solves>,
-}
-
 pub(crate) struct Running<'a, const D: usize> {
     pub(crate) scene: &'a Scene,
     pub(crate) options: &'a RunOptions,
@@ -95,6 +52,7 @@ pub(crate) struct Running<'a, const D: usize> {
     pub(crate) output_seconds: f64,
     /// The last step that was tried, s, and what limited it.
     pub(crate) tried: (f64, &'static str),
+    pub(crate) mach: MachWatch,
 }
 
 fn run_in<const D: usize>(
@@ -107,41 +65,10 @@ fn run_in<const D: usize>(
     references::readable(scene)?;
     let tiny = tiny_steps(scene, &parts.flow, rayon::current_num_threads())?;
     parts.warnings.extend(tiny);
+    let _lock = crate::lock::take(&options.out, observer)?;
     sph_io::writable(&options.out)?;
     sph_io::sweep_temporaries(&options.out)?;
-    let file = options.out.join(checkpoint::FILE);
-    let mut counters = Counters {
-        step_scale: 1f64.to_bits(),
-        ..Counters::default()
-    };
-    if options.start.goes_on() {
-        let same = options.start == Start::Resumed;
-        let identity = same.then_some(options.identity.as_str());
-        counters = checkpoint::load(&mut parts.flow, &file, identity)?;
-        parts.flow.recount(&counters.left);
-        if let Some((implicit, solves)) = parts.flow.implicit.as_mut().zip(counters.solves.take()) {
-            implicit.solves = solves;
-        }
-        observer.message(&format!(
-            "resuming at t = {:.6} s, step {}",
-            parts.flow.world.time, counters.steps
-        ));
-    } else {
-        if let Start::From(other) = &options.start {
-            checkpoint::start_from(&mut parts.flow, other)?;
-            let time = parts.flow.world.time;
-            observer.message(&format!(
-                "starting at t = {time:.6} s from {}",
-                other.display()
-            ));
-            counters.started_at = Some(time.to_bits());
-        }
-        // An old checkpoint must not be resumed into the files of this run.
-        if file.exists() {
-            let path = file.clone();
-            std::fs::remove_file(&file).map_err(|source| IoError::Write { path, source })?;
-        }
-    }
+    let counters = begin(scene, options, &mut parts.flow, observer)?;
     let resumed = options.start.goes_on().then_some(&counters);
     let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
     // First what may be refused: a changed scene may measure other columns.
@@ -170,9 +97,53 @@ fn run_in<const D: usize>(
         started: Instant::now(),
         output_seconds: 0.0,
         tried: (0.0, "none"),
+        mach: MachWatch::default(),
     };
     let status = running.go(observer)?;
     running.finish(status)
+}
+
+/// Puts the flow where the run begins, and gives what has been counted until there.
+fn begin<const D: usize>(
+    scene: &Scene,
+    options: &RunOptions,
+    flow: &mut Flow<D>,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Counters, SolverError> {
+    let file = options.out.join(checkpoint::FILE);
+    let mut counters = Counters::begin();
+    if options.start.goes_on() {
+        let same = options.start == Start::Resumed;
+        let identity = same.then_some(&options.identity);
+        counters = checkpoint::load(flow, scene, &file, identity)?;
+        flow.recount(&counters.left);
+        if let Some((implicit, solves)) = flow.implicit.as_mut().zip(counters.solves.take()) {
+            implicit.solves = solves;
+        }
+        let time = flow.world.time;
+        observer.message(&format!(
+            "resuming at t = {time:.6} s, step {}",
+            counters.steps
+        ));
+        return Ok(counters);
+    }
+    if let Start::From(other) = &options.start {
+        checkpoint::start_from(flow, scene, other)?;
+        let time = flow.world.time;
+        let from = other.display();
+        observer.message(&format!("starting at t = {time:.6} s from {from}"));
+        counters.started_at = Some(time.to_bits());
+    }
+    // An old checkpoint must not be resumed into the files of this run.
+    if file.exists() {
+        observer.message(&format!(
+            "note: the earlier run in {} is overwritten (--resume would have gone on with it)",
+            options.out.display()
+        ));
+        let path = file.clone();
+        std::fs::remove_file(&file).map_err(|source| IoError::Write { path, source })?;
+    }
+    Ok(counters)
 }
 
 /// Factor by which a rolled-back step recovers per good step.
@@ -200,7 +171,11 @@ impl<const D: usize> Running<'_, D> {
                 self.counters.retries = 0;
             }
             let time = self.parts.flow.world.time;
-            self.write_what_is_due(time)?;
+            self.write_what_is_due(time, observer)?;
+            if let Some(cause) = self.mach.verdict(self.scene) {
+                let kept = have_snapshot.then_some(&snapshot);
+                return Err(self.fail(cause, kept, observer));
+            }
             if time >= end {
                 return Ok(Status::Done);
             }
@@ -315,7 +290,11 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    fn write_what_is_due(&mut self, time: f64) -> Result<(), SolverError> {
+    fn write_what_is_due(
+        &mut self,
+        time: f64,
+        observer: &mut (dyn Observer + Send),
+    ) -> Result<(), SolverError> {
         let start = Instant::now();
         let every = self.scene.output.series_interval(self.scene.run.end);
         let end = self.scene.run.end;
@@ -326,6 +305,9 @@ impl<const D: usize> Running<'_, D> {
             let balance = self
                 .series
                 .row(&mut self.parts.flow, &self.parts.probes, dt)?;
+            if let Some(told) = self.mach.look(&balance) {
+                observer.message(&told);
+            }
             if self.counters.rows == 0 {
                 self.remember_start(&balance);
             }

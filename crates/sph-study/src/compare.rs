@@ -69,6 +69,9 @@ impl Pair {
     }
 }
 
+/// Longest `study.json`, bytes.
+const LONGEST: u64 = 512 << 20;
+
 impl Results {
     /// Reads a `study.json`.
     ///
@@ -76,6 +79,7 @@ impl Results {
     /// In words, if the file cannot be read or is none.
     pub fn load(path: &Path) -> Result<Self, String> {
         let shown = path.display();
+        sph_io::readable(path, LONGEST).map_err(|e| e.to_string())?;
         let text = std::fs::read_to_string(path);
         let text = text.map_err(|e| format!("cannot read `{shown}`: {e}"))?;
         serde_json::from_str(&text).map_err(|e| format!("`{shown}` is no study.json: {e}"))

@@ -1,6 +1,7 @@
 //! Mistakes of a study, each in the text where it was made.
 
 use std::fmt;
+use std::sync::Arc;
 
 use sph_core::SceneProblem;
 use sph_scene::{Diagnostic, Origin, Source};
@@ -11,7 +12,7 @@ pub struct Mistake {
     /// What is wrong and where.
     pub diagnostic: Diagnostic,
     /// The text that its span is in.
-    pub text: String,
+    pub text: Arc<str>,
 }
 
 /// A study that cannot be run; nothing was written.
@@ -42,7 +43,7 @@ impl Refused {
     /// Mistakes that have a place in a source.
     pub(crate) fn from_diagnostics(source: &Source, found: Vec<Diagnostic>) -> Self {
         let mistake = |diagnostic: Diagnostic| Mistake {
-            text: source.text_of(&diagnostic).to_string(),
+            text: source.shared_text_of(&diagnostic),
             diagnostic,
         };
         Refused {

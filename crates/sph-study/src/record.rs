@@ -12,6 +12,8 @@ use crate::scaling::{Cost, SolveCost};
 
 /// Name of the record in a variant's folder.
 const FILE: &str = "record.json";
+/// Longest record, bytes.
+const LONGEST: u64 = 64 << 20;
 
 /// How a variant ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -156,7 +158,9 @@ impl From<&ErrorEntry> for Error {
 impl Record {
     /// The record in a variant's folder, if there is one that can be read.
     pub fn load(folder: &Path) -> Option<Self> {
-        let text = std::fs::read_to_string(folder.join(FILE)).ok()?;
+        let file = folder.join(FILE);
+        sph_io::readable(&file, LONGEST).ok()?;
+        let text = std::fs::read_to_string(file).ok()?;
         serde_json::from_str(&text).ok()
     }
 

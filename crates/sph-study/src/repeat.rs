@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use sph_io::IoError;
-use sph_solver::{Command, Observer, Progress, RunOptions, SolverError, Start, run};
+use sph_solver::{Command, Identity, Observer, Progress, RunOptions, SolverError, Start, run};
 
 use crate::execute::{Options, Watcher};
 use crate::plan::{Study, Variant};
@@ -82,6 +82,8 @@ impl Job<'_> {
         if kept {
             return Ok(());
         }
+        // Not from under the feet of a run that somebody started there.
+        let _lock = sph_io::FolderLock::take(folder)?;
         std::fs::remove_dir_all(folder).map_err(|source| {
             let path = folder.to_path_buf();
             SolverError::Io(IoError::Write { path, source })
@@ -99,7 +101,10 @@ impl Job<'_> {
                 false => Start::Afresh,
             },
             threads: Some(self.threads),
-            identity: format!("{} repetition {repetition}", self.variant.fingerprint),
+            identity: Identity::of_text(format!(
+                "{} repetition {repetition}",
+                self.variant.fingerprint
+            )),
         };
         let mut observer = Watching {
             job: self,

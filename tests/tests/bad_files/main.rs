@@ -1,6 +1,9 @@
 //! Files that fail a run: folders that cannot be written, full disks, damaged checkpoints, and whatever else a
 //! file may hold that nobody meant.
 
+mod forged;
+#[cfg(target_os = "linux")]
+mod hostile;
 mod mutated;
 #[cfg(unix)]
 mod reach;
@@ -130,6 +133,7 @@ fn a_full_disk_costs_the_last_output_and_no_other() {
     let outcome = bench.call(&format!("run scene.toml --out disk/r {set}"));
     assert_eq!(outcome.code, Some(1), "{}", outcome.err);
     assert!(outcome.err.contains("disk full"), "{}", outcome.err);
+    assert!(!outcome.err.contains("without --resume"), "{}", outcome.err);
 
     let folder = bench.path("disk/r");
     let ends = |extension: &str, end: &[u8]| {
@@ -161,4 +165,40 @@ fn a_full_disk_costs_the_last_output_and_no_other() {
         widths.iter().all(|w| *w == widths[0]),
         "a row of the series is cut"
     );
+}
+
+/// The advice is what one does, and it works.
+#[test]
+fn a_disk_that_is_full_at_a_checkpoint_is_resumed_once_there_is_room() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let at = bench.path("disk");
+    // Room for a checkpoint (a third of it), not for its successor beside it and the series.
+    let quiet =
+        "--set output.vtk=false --set output.series_every=0.4 --set run.checkpoint_every=0.05";
+    bench.done(&format!(
+        "run scene.toml --quiet --out size {quiet} --set run.end=0.05"
+    ));
+    let one = std::fs::metadata(bench.path("size/checkpoint.sph"))
+        .expect("a checkpoint")
+        .len();
+    let Some(disk) = Disk::of((one * 3 / 2 / 1024) as u32 + 8, &at) else {
+        println!("skipped: mounting a small file system is not permitted here");
+        return;
+    };
+    let outcome = bench.call(&format!("run scene.toml --out disk/r {quiet}"));
+    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
+    for told in [
+        "disk full",
+        "checkpoint.sph",
+        "make room",
+        "--out disk/r",
+        "--resume",
+    ] {
+        assert!(outcome.err.contains(told), "no `{told}` in {}", outcome.err);
+    }
+    assert!(!outcome.err.contains("start again"), "{}", outcome.err);
+    disk.grow(4096);
+    bench.done(&format!(
+        "run scene.toml --quiet --out disk/r {quiet} --resume"
+    ));
 }

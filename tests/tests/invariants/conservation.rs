@@ -166,7 +166,7 @@ fn energy_rise(name: &str, overrides: &[&str]) -> f64 {
         out: folder.path().to_path_buf(),
         start: Start::Afresh,
         threads: Some(1),
-        identity: name.to_string(),
+        identity: sph_solver::Identity::of_text(name),
     };
     let summary = run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{name}: {e}"));
     summary.drift.energy_rise

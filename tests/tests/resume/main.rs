@@ -8,6 +8,9 @@ use std::time::{Duration, Instant};
 use sph_tests::{Bench, DAM_BREAK, END_OF_THE_STEP, PADDLE, Results, SOIL, SUB_STEPS, soil_with};
 
 mod failing;
+mod identity;
+mod lock;
+mod mach;
 mod soak;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");

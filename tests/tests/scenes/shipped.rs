@@ -27,7 +27,7 @@ pub fn finished(name: &str, overrides: &[&str]) -> Finished {
         out: folder.path().to_path_buf(),
         start: Start::Afresh,
         threads: Some(1),
-        identity: name.to_string(),
+        identity: sph_solver::Identity::of_text(name),
     };
     let summary = run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{name}: {e}"));
     let finished = Finished { summary, folder };

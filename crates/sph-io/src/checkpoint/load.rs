@@ -11,6 +11,7 @@ use super::{
     PREFIX, SUFFIX, Shape, VERSION,
 };
 use crate::error::{IoError, Result};
+use crate::folder::readable;
 
 /// Bytes converted at a time.
 const CHUNK: usize = 1 << 16;
@@ -21,6 +22,8 @@ impl Checkpoint {
     pub fn load(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let failed = |e| IoError::read(path, e);
+        // Opening a pipe would wait for its writer.
+        readable(path, u64::MAX)?;
         let file = File::open(path).map_err(failed)?;
         let length = file.metadata().map_err(failed)?.len();
         let input = BufReader::with_capacity(CHUNK, file);

@@ -1,0 +1,77 @@
+//! Texts from files, so that a terminal shows them and does not obey them.
+//!
+//! Escape sequences move the cursor, set titles and clear what stands there; marks of direction show a text in
+//! another order than it has. Either may stand in a title, a key, a value or the name of a file.
+
+use std::borrow::Cow;
+
+/// Whether a terminal obeys a character instead of showing it; line ends and tabs are left alone.
+fn obeyed(c: char) -> bool {
+    let mark = matches!(c,
+        // Marks, embeddings, overrides and isolates of direction (Unicode Standard Annex 9).
+        '\u{061c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
+        // Separators of lines and paragraphs, characters without width, tags.
+        | '\u{2028}' | '\u{2029}' | '\u{200b}'..='\u{200d}' | '\u{2060}' | '\u{feff}'
+        | '\u{e0000}'..='\u{e007f}');
+    mark || (c.is_control() && !matches!(c, '\n' | '\t'))
+}
+
+/// The text with a stand-in for every such character, of as many bytes, so that places in it stay right.
+pub fn clean(text: &str) -> Cow<'_, str> {
+    match text.contains(obeyed) {
+        false => Cow::Borrowed(text),
+        true => Cow::Owned(text.chars().flat_map(shown).collect()),
+    }
+}
+
+/// A text of JSON with such characters as escapes: it is read back as it was.
+pub fn escaped(json: &str) -> Cow<'_, str> {
+    if !json.contains(obeyed) {
+        return Cow::Borrowed(json);
+    }
+    let mut text = String::with_capacity(json.len());
+    for c in json.chars() {
+        match obeyed(c) {
+            true => c
+                .encode_utf16(&mut [0; 2])
+                .iter()
+                .for_each(|u| text.push_str(&format!("\\u{u:04x}"))),
+            false => text.push(c),
+        }
+    }
+    Cow::Owned(text)
+}
+
+fn shown(c: char) -> impl Iterator<Item = char> {
+    let (stand_in, times) = match (obeyed(c), c.len_utf8()) {
+        (false, _) => (c, 1),
+        (true, 1) => ('?', 1),
+        (true, 2) => ('\u{bf}', 1),
+        (true, 3) => ('\u{fffd}', 1),
+        (true, bytes) => ('?', bytes),
+    };
+    std::iter::repeat_n(stand_in, times)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_left_to_obey_and_no_place_moves() {
+        let hostile = "a\u{1b}[2J\u{7}\rb\u{9b}1m\u{202e}c\u{2066}\u{e0041}d\u{7f}\n\te";
+        let shown = clean(hostile);
+        assert!(!shown.contains(obeyed), "{shown:?}");
+        assert_eq!(shown.len(), hostile.len());
+        for letter in ['a', 'b', 'c', 'd', 'e', '\n', '\t'] {
+            assert_eq!(shown.find(letter), hostile.find(letter));
+        }
+        let json = serde_json::json!([hostile]).to_string();
+        let quiet = escaped(&json);
+        assert!(!quiet.contains(obeyed), "{quiet:?}");
+        let back: Vec<String> = serde_json::from_str(&quiet).unwrap();
+        assert_eq!(back, [hostile]);
+        let plain = "η̃ = 1 Pa·s — ½ ≤ √2, 水";
+        assert!(matches!(clean(plain), Cow::Borrowed(same) if same == plain));
+    }
+}

@@ -1,0 +1,297 @@
+//! One writer per folder.
+//!
+//! The lock is one of the operating system on the file `.lock`: it ends with the process that holds it,
+//! however that ends, so that a stale one cannot keep anybody out. What stands in the file only tells people
+//! who holds it.
+
+use std::fmt;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Read, Seek, Write};
+use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{IoError, Result};
+
+/// Name of the file.
+const LOCK: &str = ".lock";
+/// Longest content that is read of it, bytes.
+const LONGEST: u64 = 4096;
+
+/// Who holds a folder.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Holder {
+    /// Number of the process.
+    pub pid: u32,
+    /// Name of the computer.
+    pub host: String,
+    /// When it took the folder: date and time, UTC.
+    pub since: String,
+}
+
+impl Holder {
+    /// This process, now.
+    fn this() -> Self {
+        let now = SystemTime::now().duration_since(UNIX_EPOCH);
+        Holder {
+            pid: std::process::id(),
+            host: host(),
+            since: date(now.map_or(0, |d| d.as_secs())),
+        }
+    }
+}
+
+impl fmt::Display for Holder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "process {} on {} since {}",
+            self.pid, self.host, self.since
+        )
+    }
+}
+
+/// A folder that nobody else who asks for it may write to, until this is dropped.
+#[derive(Debug)]
+pub struct FolderLock {
+    path: PathBuf,
+    /// `None` where the file system has no locks.
+    file: Option<File>,
+    before: Option<Holder>,
+}
+
+impl FolderLock {
+    /// Takes a folder, which is created with its parents if need be.
+    ///
+    /// # Errors
+    /// [`IoError::InUse`] if another run holds it; if the folder or the file in it cannot be made.
+    pub fn take(folder: impl AsRef<Path>) -> Result<Self> {
+        let folder = folder.as_ref();
+        fs::create_dir_all(folder).map_err(|source| IoError::CreateFolder {
+            path: folder.to_path_buf(),
+            source,
+        })?;
+        let path = folder.join(LOCK);
+        let failed = |source| IoError::NotWritable {
+            path: folder.to_path_buf(),
+            source,
+        };
+        loop {
+            let mut file = opened(&path).map_err(failed)?;
+            match file.try_lock() {
+                Ok(()) => {}
+                Err(TryLockError::WouldBlock) => {
+                    return Err(IoError::InUse {
+                        path: folder.to_path_buf(),
+                        by: holder(&mut file).map_or("another process".into(), |h| h.to_string()),
+                    });
+                }
+                Err(TryLockError::Error(e)) if e.kind() == io::ErrorKind::Unsupported => {
+                    let (file, before) = (None, None);
+                    return Ok(FolderLock { path, file, before });
+                }
+                Err(TryLockError::Error(e)) => return Err(failed(e)),
+            }
+            // Whoever held it may have removed the file between the opening and the lock.
+            if !is_at(&file, &path) {
+                continue;
+            }
+            let before = holder(&mut file);
+            // A full disk is told by what is written next, and in better words.
+            let _ = sign(&mut file);
+            let file = Some(file);
+            return Ok(FolderLock { path, file, before });
+        }
+    }
+
+    /// Who held it before and ended without giving it back.
+    pub fn taken_over_from(&self) -> Option<&Holder> {
+        self.before.as_ref()
+    }
+
+    /// Whether anybody is kept out: some file systems have no locks.
+    pub fn holds(&self) -> bool {
+        self.file.is_some()
+    }
+}
+
+impl Drop for FolderLock {
+    fn drop(&mut self) {
+        if let Some(file) = self.file.take() {
+            // First the name, then the lock, so that nobody's new file is removed.
+            if is_at(&file, &self.path) {
+                let _ = fs::remove_file(&self.path);
+            }
+        }
+    }
+}
+
+/// The file, made if it is not there; only a plain file is opened, no link and no pipe.
+fn opened(path: &Path) -> io::Result<File> {
+    match fs::symlink_metadata(path) {
+        Ok(known) if !known.is_file() => {
+            return Err(io::Error::other(format!("`{LOCK}` in it is not a file")));
+        }
+        _ => {}
+    }
+    let mut options = OpenOptions::new();
+    options.read(true).write(true).create(true).truncate(false);
+    options.open(path)
+}
+
+/// Whether the open file is still the one of that name.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let id = |m: fs::Metadata| (m.dev(), m.ino());
+    match (file.metadata(), fs::symlink_metadata(path)) {
+        (Ok(open), Ok(named)) => id(open) == id(named),
+        _ => false,
+    }
+}
+
+#[cfg(not(unix))]
+fn is_at(_: &File, path: &Path) -> bool {
+    path.exists()
+}
+
+fn holder(file: &mut File) -> Option<Holder> {
+    let mut text = String::new();
+    file.rewind().ok()?;
+    file.take(LONGEST).read_to_string(&mut text).ok()?;
+    serde_json::from_str(&text).ok()
+}
+
+fn sign(file: &mut File) -> io::Result<()> {
+    file.set_len(0)?;
+    file.rewind()?;
+    serde_json::to_writer(&mut *file, &Holder::this())?;
+    file.flush()
+}
+
+/// Name of this computer, as far as it is known without asking the network.
+fn host() -> String {
+    let files = ["/proc/sys/kernel/hostname", "/etc/hostname"];
+    let told = files.iter().find_map(|f| fs::read_to_string(f).ok());
+    let told = told.or_else(|| std::env::var("COMPUTERNAME").ok());
+    let told = told.or_else(|| std::env::var("HOSTNAME").ok());
+    let name = told.as_deref().map_or("", str::trim);
+    if name.is_empty() { "this host" } else { name }.to_string()
+}
+
+/// `2026-01-31 12:34:56 UTC` of seconds since 1970: civil date from days (Hinnant 2013).
+fn date(seconds: u64) -> String {
+    let (days, rest) = (seconds / 86_400, seconds % 86_400);
+    // Years that begin in March have their leap day at the end; 400 of them have 146 097 days.
+    let shifted = days + 719_468;
+    let (era, day) = (shifted / 146_097, shifted % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let of_year = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * of_year + 2) / 153;
+    let of_month = of_year - (153 * month + 2) / 5 + 1;
+    let (month, next) = if month < 10 {
+        (month + 3, 0)
+    } else {
+        (month - 9, 1)
+    };
+    let year = era * 400 + year + next;
+    let (hour, minute, second) = (rest / 3600, rest / 60 % 60, rest % 60);
+    format!("{year:04}-{month:02}-{of_month:02} {hour:02}:{minute:02}:{second:02} UTC")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_second_is_refused_and_told_who_holds_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("a/b");
+        let first = FolderLock::take(&out).unwrap();
+        assert!(first.holds() && first.taken_over_from().is_none());
+        let told = FolderLock::take(&out).unwrap_err();
+        assert!(matches!(told, IoError::InUse { .. }), "{told}");
+        let told = told.to_string();
+        let me = format!("process {} on {} since 20", std::process::id(), host());
+        assert!(told.contains(&me) && told.contains("a/b"), "{told}");
+        drop(first);
+        assert_eq!(
+            fs::read_dir(&out).unwrap().count(),
+            0,
+            "and nothing is left"
+        );
+        FolderLock::take(&out).unwrap();
+    }
+
+    #[test]
+    fn what_a_dead_process_left_is_taken_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let dead = Holder {
+            pid: 1,
+            host: "elsewhere".into(),
+            since: date(0),
+        };
+        let left = serde_json::to_string(&dead).unwrap();
+        fs::write(folder.path().join(LOCK), left).unwrap();
+        let lock = FolderLock::take(folder.path()).unwrap();
+        assert_eq!(lock.taken_over_from(), Some(&dead));
+        drop(lock);
+        fs::write(folder.path().join(LOCK), "{\"pid\": \"half of it").unwrap();
+        assert_eq!(FolderLock::take(folder.path()).unwrap().before, None);
+    }
+
+    #[test]
+    fn one_of_many_who_come_at_once_has_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let inside = std::sync::atomic::AtomicI32::new(0);
+        let got = std::sync::atomic::AtomicI32::new(0);
+        let come = || {
+            use std::sync::atomic::Ordering::SeqCst;
+            for _ in 0..200 {
+                let Ok(lock) = FolderLock::take(folder.path()) else {
+                    continue;
+                };
+                got.fetch_add(1, SeqCst);
+                assert_eq!(inside.fetch_add(1, SeqCst), 0, "two have it");
+                std::thread::yield_now();
+                inside.fetch_sub(1, SeqCst);
+                drop(lock);
+            }
+        };
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(come);
+            }
+        });
+        assert!(got.into_inner() >= 4, "nobody had it");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_in_its_place_is_not_followed() {
+        let folder = tempfile::tempdir().unwrap();
+        let precious = folder.path().join("precious");
+        fs::write(&precious, "kept").unwrap();
+        let out = folder.path().join("out");
+        fs::create_dir(&out).unwrap();
+        std::os::unix::fs::symlink(&precious, out.join(LOCK)).unwrap();
+        let told = FolderLock::take(&out).unwrap_err().to_string();
+        assert!(told.contains("not a file"), "{told}");
+        assert_eq!(fs::read_to_string(&precious).unwrap(), "kept");
+    }
+
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        for (seconds, told) in [
+            (0, "1970-01-01 00:00:00 UTC"),
+            (951_782_399, "2000-02-28 23:59:59 UTC"),
+            (951_782_400, "2000-02-29 00:00:00 UTC"),
+            (1_709_251_199, "2024-02-29 23:59:59 UTC"),
+            (1_735_689_599, "2024-12-31 23:59:59 UTC"),
+            (4_107_542_400, "2100-03-01 00:00:00 UTC"),
+        ] {
+            assert_eq!(date(seconds), told);
+        }
+    }
+}
