@@ -9,6 +9,7 @@ macro_rules! readmes {
 
 readmes! {
     Workspace "../README.md"
+    Flow "../crates/dem-flow/README.md"
     Triangulation "../crates/dem-triangulation/README.md"
     Boundary "../crates/sph-boundary/README.md"
     Core "../crates/sph-core/README.md"
