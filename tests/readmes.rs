@@ -9,6 +9,8 @@ macro_rules! readmes {
 
 readmes! {
     Workspace "../README.md"
+    Flow "../crates/dem-flow/README.md"
+    Triangulation "../crates/dem-triangulation/README.md"
     Boundary "../crates/sph-boundary/README.md"
     Core "../crates/sph-core/README.md"
     Integrators "../crates/sph-integrators/README.md"

@@ -1,0 +1,107 @@
+//! What is refused, and why.
+
+use thiserror::Error;
+
+/// Spheres, walls or conditions through which no flow can be computed.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum FlowError {
+    /// There are no walls.
+    #[error("pore flow needs the six walls of a box; the triangulation has {walls} walls")]
+    NoBox {
+        /// Given.
+        walls: usize,
+    },
+    /// Two walls are neither parallel nor at right angles.
+    #[error("walls {first} and {second} meet at an angle that is not a right one")]
+    ObliqueWalls {
+        /// A wall.
+        first: usize,
+        /// Another.
+        second: usize,
+    },
+    /// A list has not the length it should have.
+    #[error("there are {given} {what}; {needed} are needed")]
+    Length {
+        /// Of what.
+        what: &'static str,
+        /// Given.
+        given: usize,
+        /// Needed.
+        needed: usize,
+    },
+    /// Two spheres overlap deeply.
+    #[error(
+        "spheres {first} and {second} overlap by {overlap} m, more than a tenth of the smaller radius"
+    )]
+    Overlap {
+        /// A sphere.
+        first: usize,
+        /// Another.
+        second: usize,
+        /// Depth of the overlap, m.
+        overlap: f64,
+    },
+    /// A sphere reaches far into a wall.
+    #[error(
+        "sphere {sphere} reaches {overlap} m into wall {wall}, more than a tenth of its radius"
+    )]
+    InWall {
+        /// The sphere.
+        sphere: usize,
+        /// The wall.
+        wall: usize,
+        /// Depth, m.
+        overlap: f64,
+    },
+    /// A number that must be positive is not.
+    #[error("{what} is {value}; it must be positive and finite")]
+    NotPositive {
+        /// Of what.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A conductance is negative or not a number.
+    #[error("the throat between cells {cells:?} has the conductance {value} m⁴")]
+    BadConductance {
+        /// The cells on both sides.
+        cells: [usize; 2],
+        /// g µ.
+        value: f64,
+    },
+    /// Cells without any way to a pressure that is given.
+    #[error(
+        "no pressure is given in the pores around cell {cell}: all walls that they reach are closed, \
+         and pressures would be known but for a constant; give one pressure, or a compressible fluid"
+    )]
+    NoPressure {
+        /// One of them.
+        cell: usize,
+    },
+    /// Pressures are given in other cells than when the system was made.
+    #[error("cell {cell} changed between a given and an unknown pressure; make a new system")]
+    ConditionsChanged {
+        /// One of them.
+        cell: usize,
+    },
+    /// The factorisation broke down.
+    #[error("the matrix of {unknowns} unknown pressures is not positive definite")]
+    NotDefinite {
+        /// Its size.
+        unknowns: usize,
+    },
+    /// There is not enough memory for the factor.
+    #[error("not enough memory to factorise {unknowns} unknown pressures; use conjugate gradients")]
+    NoMemory {
+        /// Its size.
+        unknowns: usize,
+    },
+    /// Conjugate gradients did not end.
+    #[error("the residual is {residual:e} of the right side after {iterations} iterations")]
+    NotConverged {
+        /// Relative residual.
+        residual: f64,
+        /// Iterations made.
+        iterations: usize,
+    },
+}
