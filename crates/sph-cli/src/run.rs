@@ -128,7 +128,10 @@ fn trouble(error: SolverError, arguments: &RunArguments, opened: &Opened, out: &
     match Trouble::of(error, &opened.loaded.source) {
         Trouble::Failed { error, .. } => Trouble::Failed {
             error,
-            summary: ran.then(|| failed_summary(&out.join(SUMMARY))).flatten(),
+            summary: ran
+                .then(|| failed_summary(&out.join(SUMMARY)))
+                .flatten()
+                .map(Box::new),
             advice,
         },
         other => other,

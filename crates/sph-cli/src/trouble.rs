@@ -21,7 +21,7 @@ pub enum Trouble {
         /// What happened.
         error: SolverError,
         /// Content of `summary.json`.
-        summary: Option<Json>,
+        summary: Option<Box<Json>>,
         /// How to go on.
         advice: Option<String>,
     },
@@ -111,7 +111,7 @@ impl Trouble {
                 }
                 if json {
                     let told = json!([{ "message": error.to_string() }]);
-                    console::json(summary.as_ref().unwrap_or(&told));
+                    console::json(summary.as_deref().unwrap_or(&told));
                 }
             }
             Trouble::Interrupted => {}
