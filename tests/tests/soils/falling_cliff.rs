@@ -22,7 +22,7 @@ fn end_of(text: &str, overrides: &[&str]) -> Summary {
         out: folder.path().to_path_buf(),
         start: Start::Afresh,
         threads: Some(1),
-        identity: text.to_string(),
+        identity: sph_solver::Identity::of_text(text),
     };
     run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
 }
