@@ -7,7 +7,7 @@ use std::any::Any;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Access, Declares, Field, Role, Scalar, Stage, StepError, fields, register};
+use sph_core::{Access, Declares, Stage, StepError, fields, register};
 use sph_kernels::{Kernel, Sampler, ScalarSampler};
 use sph_neighbours::{Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, World};
 use sph_rheology::{Inputs, Needs, Rheology, RheologyEntry};
@@ -173,6 +173,8 @@ register!(
     "a constant and Smagorinsky's",
     "Smagorinsky 1963"
 );
+
+use sph_core::{Field, Role, Scalar};
 
 /// No eddies, a column of its own that remembers, and a step that fails.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
