@@ -84,7 +84,7 @@ pub struct Numerics {
     #[schemars(range(min = 0))]
     pub seed: u64,
     /// Settling of the particles before the start. If left out, particles beside walls settle where a body starts under
-    /// pressure, in at most 60 steps to 0.005; `{ steps = 0 }` leaves them on their lattice.
+    /// pressure and no phase is a soil, in at most 60 steps to 0.005; `{ steps = 0 }` leaves them on their lattice.
     pub relax: Option<Relax>,
 }
 
