@@ -83,8 +83,7 @@ pub struct Numerics {
     #[serde(default = "one_seed")]
     #[schemars(range(min = 0))]
     pub seed: u64,
-    /// Settling of the particles before the start. If left out, particles beside walls settle where a body starts under
-    /// pressure and no phase is a soil, in at most 60 steps to 0.005; `{ steps = 0 }` leaves them on their lattice.
+    /// Settling of the particles before the start; none if left out.
     pub relax: Option<Relax>,
 }
 
@@ -112,7 +111,7 @@ pub enum PressureOf {
 #[serde(deny_unknown_fields, default)]
 pub struct Relax {
     /// Largest number of steps.
-    #[schemars(range(min = 0, max = 1_000_000))]
+    #[schemars(range(min = 1, max = 1_000_000))]
     pub steps: u32,
     /// Largest error of the density, relative to the reference density, at which it ends.
     #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]

@@ -141,8 +141,6 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
 
     let ground = Ground::of(&choices);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
-    let mut rheologies = choices.rheologies.iter();
-    let soils = rheologies.any(|law| law.needs().pressure || law.elastic().is_some());
     let limiters = limiters_of(&choices, &laws, &kinematic_viscosities);
     let elastic_wave = elastic_wave(&choices, &laws);
     let planned = plan_stages(scene, &mut choices, &laws, walls.as_ref(), &world)?;
@@ -202,7 +200,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         flow.world.free.add(fields::DISPLACEMENT, Role::State);
     }
     check_output_fields(scene, &flow)?;
-    let relaxation = start(scene, soils, &drawn, &choices, &mut flow, &placed.body)?;
+    let relaxation = start(scene, &drawn, &choices, &mut flow, &placed.body)?;
     warnings.extend(ground.remarks(scene, &flow)?);
     warnings.extend(lattices::remarks(scene, &flow, &placed.body)?);
     Ok(Assembled {
@@ -313,7 +311,6 @@ fn check_output_fields<const D: usize>(scene: &Scene, flow: &Flow<D>) -> Result<
 /// Sorts the particles and gives them their initial state.
 fn start<const D: usize>(
     scene: &Scene,
-    soils: bool,
     drawn: &Drawn<D>,
     choices: &Choices<D>,
     flow: &mut Flow<D>,
@@ -321,7 +318,7 @@ fn start<const D: usize>(
 ) -> Result<Option<Relaxation>, SolverError> {
     let world = &mut flow.world;
     world.rebuild_lists()?;
-    let relaxation = relax(scene, soils, drawn, world, flow.walls.as_ref())?;
+    let relaxation = relax(scene, drawn, world, flow.walls.as_ref())?;
     let phases: Vec<&String> = scene.phase.keys().collect();
     let layers = Layers::of(scene, &drawn.regions);
     let mut states = Vec::new();

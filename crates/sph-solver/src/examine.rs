@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use sph_core::{Role, StepLimit};
-use sph_scene::{Relax, Scene};
+use sph_scene::Scene;
 
 use crate::assemble::assemble;
 use crate::estimate::tiny_steps;
@@ -82,21 +82,14 @@ pub struct Examination {
     pub warnings: Vec<String>,
 }
 
-/// Assembles a scene and tells what follows from it. Particles settle only if the scene asks for it by name: what they do by
-/// default changes nothing of what is told, and takes longer than all the rest.
+/// Assembles a scene and tells what follows from it.
 ///
 /// # Errors
 /// Every problem of the scene, with its path.
 pub fn examine(scene: &Scene, threads: usize) -> Result<Examination, SolverError> {
-    let mut scene = scene.clone();
-    let numerics = &mut scene.numerics;
-    numerics.relax = numerics.relax.or(Some(Relax {
-        steps: 0,
-        tolerance: 1.0,
-    }));
     match scene.dimension {
-        3 => examine_in::<3>(&scene, threads),
-        _ => examine_in::<2>(&scene, threads),
+        3 => examine_in::<3>(scene, threads),
+        _ => examine_in::<2>(scene, threads),
     }
 }
 

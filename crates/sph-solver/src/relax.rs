@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use sph_boundary::Wall;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{CHUNK, Domain, Row, Scratch, World};
-use sph_scene::{Pressure, Relax, Scene};
+use sph_scene::Scene;
 
 use crate::drawn::Drawn;
 use crate::stages::{SharedWall, lock};
@@ -44,39 +44,17 @@ struct Concentration<const D: usize> {
     gradient: Vect<D>,
 }
 
-/// How far particles settle that start under pressure: in `hydrostatic-tank` half a per cent of the weight stays unbalanced of 3 %,
-/// and a scene in three dimensions is ready in seconds.
-const UNDER_PRESSURE: Relax = Relax {
-    steps: 60,
-    tolerance: 0.005,
-};
-
-/// What a scene asks for; if it asks for nothing, the default where a body starts under pressure beside walls.
-///
-/// On a lattice the sums over wall points differ by 2 % from the walls' integrals. A pressure p then pushes the first rows with
-/// some 0.02 p/(ρh), half of gravity in 25 rows of water at rest, and the sound of it rings for seconds. Soils keep their lattice:
-/// their friction bears such pushes, and a collapsed column of bars came to rest five times as slowly from settled ones.
-fn settings(scene: &Scene, soils: bool) -> Option<Relax> {
-    let under_pressure = scene.body.values().any(|b| b.pressure != Pressure::Zero);
-    let wanted = scene.numerics.relax.or_else(|| {
-        let walls = !scene.wall.is_empty();
-        (walls && under_pressure && !soils).then_some(UNDER_PRESSURE)
-    });
-    wanted.filter(|r| r.steps > 0)
-}
-
-/// Relaxes the first particles if the scene asks for it, or by default under pressure where there are no `soils`.
+/// Relaxes the first particles if the scene asks for it.
 ///
 /// # Errors
 /// If a wall stage fails.
 pub fn relax<const D: usize>(
     scene: &Scene,
-    soils: bool,
     drawn: &Drawn<D>,
     world: &mut World<D>,
     walls: Option<&SharedWall<D>>,
 ) -> Result<Option<Relaxation>, StepError> {
-    let (Some(settings), Some(walls)) = (settings(scene, soils), walls) else {
+    let (Some(settings), Some(walls)) = (scene.numerics.relax, walls) else {
         return Ok(None);
     };
     let support = world.kernel.support_radius();
