@@ -6,6 +6,7 @@ use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, 
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
 use crate::diffusion_limit::DiffusionLimit;
+use crate::linear_exact::linear_exact;
 use crate::phases::PerPhase;
 use crate::{Laws, Limiter, Smoother, SmootherEntry, Stages};
 use sph_neighbours::{Around, Values, walk};
@@ -94,9 +95,6 @@ pub const DENSITY_GRADIENT: Field<Vector> = Field::new(
     "gradient of the density within the phase, exact for linear densities",
 );
 
-/// Least eigenvalue, as a share of 1, of the matrix that a gradient is renormalised with.
-const LEAST: f64 = 0.05;
-
 /// ∇ρ_a = [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b (ρ_b − ρ_a) ∇w_ab; nothing where the neighbours
 /// span no volume.
 struct DensityGradient;
@@ -120,47 +118,14 @@ impl<const D: usize> Stage<World<D>> for DensityGradient {
         let volume = world.free.get(fields::VOLUME)?;
         let phase = world.free.get(fields::PHASE).ok();
         let gradients = walk(world, Values::Gradient, |around: &Around<'_, D>| {
-            let (row, i) = (&around.rows.free, around.rows.particle);
-            // Columns of the matrix, and its right side.
-            let mut matrix = [Vect::<D>::zeros(); D];
-            let mut sum = Vect::<D>::zeros();
-            for (k, &j) in row.index.iter().enumerate() {
-                let j = j as usize;
-                if phase.is_none_or(|p| p[i] == p[j]) {
-                    let slope = row.separation[k] * (volume[j] * row.factor[k]);
-                    sum += slope * (density[j] - density[i]);
-                    for (c, column) in matrix.iter_mut().enumerate() {
-                        *column -= slope * row.separation[k][c];
-                    }
-                }
-            }
-            solve(matrix, sum).unwrap_or_else(Vect::zeros)
+            let i = around.rows.particle;
+            linear_exact(&around.rows.free, volume, |j| {
+                let same = phase.is_none_or(|p| p[i] == p[j]);
+                same.then(|| density[j] - density[i])
+            })
         })?;
         Ok(world.free.put(DENSITY_GRADIENT, gradients)?)
     }
-}
-
-/// The solution of a symmetric positive system by Cholesky's elimination, if every pivot is large enough.
-fn solve<const D: usize>(mut matrix: [Vect<D>; D], mut right: Vect<D>) -> Option<Vect<D>> {
-    for k in 0..D {
-        if matrix[k][k] < LEAST {
-            return None;
-        }
-        for row in k + 1..D {
-            let factor = matrix[k][row] / matrix[k][k];
-            for column in matrix.iter_mut().skip(k) {
-                column[row] -= factor * column[k];
-            }
-            right[row] -= factor * right[k];
-        }
-    }
-    for k in (0..D).rev() {
-        for c in k + 1..D {
-            right[k] -= matrix[c][k] * right[c];
-        }
-        right[k] /= matrix[k][k];
-    }
-    Some(right)
 }
 
 /// The term of [`DeltaSph`].

@@ -36,6 +36,7 @@ mod krimi_viscosity;
 mod lattice;
 mod limits;
 mod linear;
+mod linear_exact;
 mod micro_mixing;
 mod monaghan_gingold;
 mod morris;

@@ -54,7 +54,8 @@ impl Finished {
         );
     }
 
-    /// The error against a reference, which must be at most `bound`.
+    /// The error against a reference, which must be at most `bound`: the error budget of the case, from its spacing and
+    /// order or from its reference's own spread. `measured` is what it was once, for the reader.
     pub fn error(&self, reference: &str, bound: f64, measured: f64) -> f64 {
         let entry = &self.summary.errors[reference];
         let value = entry.value.expect("something was compared");
@@ -82,4 +83,9 @@ impl Finished {
     pub fn series(&self) -> Table {
         read_table(self.folder.path().join("series.csv")).expect("a series")
     }
+}
+
+/// The budget of a second-order scheme with `n` spacings over the length on which the flow changes: n⁻².
+pub fn second_order(n: f64) -> f64 {
+    n.powi(-2)
 }

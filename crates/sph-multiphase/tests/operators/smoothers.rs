@@ -103,6 +103,26 @@ fn renormalised_gradients_leave_a_linear_density_alone_everywhere_in_2d_and_3d()
     check::<3>(9);
 }
 
+/// A linear pressure in a fluid of one density, also where the support is cut.
+#[test]
+fn rhie_chow_leaves_a_linear_pressure_alone_everywhere_in_2d_and_3d() {
+    fn check<const D: usize>(n: usize) {
+        let open = Domain::open(Vect::repeat(-9.0), Vect::repeat(9.0));
+        let mut cloud = world(disorder::<D>(n, 0.2, 3), open, 1.0 / n as f64, 1.5);
+        set_density(&mut cloud, |_| 1000.0);
+        let laws = laws(&[(1000.0, 20.0)]);
+        let smoother = RhieChow::default();
+        set(&mut cloud, fields::PRESSURE, |x| 9810.0 * (1.0 - x[1]));
+        let left = largest(&rate(&mut cloud, &smoother, &laws));
+        set(&mut cloud, fields::PRESSURE, |x| 9810.0 * x[1] * x[1]);
+        let square = largest(&rate(&mut cloud, &smoother, &laws));
+        // Differences of 1e4 at a rounding of 1e-16, against differences of 1e2.
+        assert!(left < 1e-10 * square, "{D}D: {left:e} of {square:e}");
+    }
+    check::<2>(16);
+    check::<3>(9);
+}
+
 /// With the step of their limits, and whatever their strength, less than twice a chequerboard is taken away per step.
 #[test]
 fn the_step_limit_keeps_a_chequerboard_from_growing() {
