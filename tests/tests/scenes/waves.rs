@@ -43,3 +43,17 @@ fn a_solitary_wave_keeps_its_celerity_and_height_over_ten_depths() {
     let missed = (start / 0.03 - 1.0).abs();
     assert!(missed < 0.1, "the wave starts {start} m high: {missed}");
 }
+
+/// The lag over a period of 1.3 s is required to be below 0.05; a sample of the gauge is 0.015 of a period.
+#[test]
+fn a_shaken_tank_sloshes_in_time_with_the_experiment() {
+    let run = finished(
+        "sloshing-tank",
+        &[
+            "numerics.spacing=0.04",
+            "run.end=4",
+            "body.water.box=[[0.0,0.0],[1.73,0.62]]",
+        ],
+    );
+    run.error("phase", 0.05, 0.028);
+}
