@@ -29,7 +29,7 @@ use sph_neighbours::{Around, Values, walk};
 ///
 /// ```toml
 /// [smoother.rhie-chow]
-/// strength = 0.4
+/// strength = 0.1
 /// ```
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -44,7 +44,7 @@ pub struct RhieChow {
 
 impl Default for RhieChow {
     fn default() -> Self {
-        RhieChow { strength: 0.4 }
+        RhieChow { strength: 0.1 }
     }
 }
 

@@ -10,6 +10,7 @@ mod conservation;
 mod lists;
 mod scales;
 mod symmetry;
+mod symmetry_walls;
 mod walls;
 
 /// A shipped scene with overrides.
