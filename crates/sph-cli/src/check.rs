@@ -1,7 +1,7 @@
 //! `sph check`.
 
 use serde_json::{Value as Json, json};
-use sph_solver::{Examination, examine};
+use sph_solver::{Examination, Memory, examine};
 
 use crate::arguments::CheckArguments;
 use crate::layout::{columns, remarks};
@@ -48,6 +48,17 @@ fn too_fast(examined: &Examination) -> Vec<String> {
     machs.map(remark).collect()
 }
 
+/// The memory of a run, and the parts that are a twentieth of it and more.
+pub fn memory(memory: &Memory) -> String {
+    let all = memory.total();
+    let parts = memory.parts().into_iter();
+    let parts: Vec<String> = parts
+        .filter(|(_, bytes)| *bytes > 0.05 * all)
+        .map(|(name, bytes)| format!("{name} {}", number::percent(bytes / all)))
+        .collect();
+    format!("{}: {}", number::bytes(all), parts.join(", "))
+}
+
 fn text(e: &Examination, file: &str, threads: usize) -> String {
     let mut text = format!(
         "{}\n{file} is a good scene in {} dimensions\n",
@@ -61,7 +72,12 @@ fn text(e: &Examination, file: &str, threads: usize) -> String {
         row("neighbours of a particle", format!("{:.1}", e.neighbours)),
         row(
             "bytes per particle",
-            format!("{} in {} columns", e.bytes_per_particle, e.fields.len()),
+            format!(
+                "{:.0}, of these {} in {} columns",
+                e.memory.total() / e.particles.max(1) as f64,
+                e.bytes_per_particle,
+                e.fields.len()
+            ),
         ),
     ];
     let derived = e.derived.iter().map(|(name, value, unit)| {
@@ -84,10 +100,7 @@ fn text(e: &Examination, file: &str, threads: usize) -> String {
             "wall time",
             format!("about {} on {on}", number::duration(3600.0 * cost.hours)),
         ),
-        row(
-            "memory",
-            format!("about {}", number::bytes(cost.memory_bytes)),
-        ),
+        row("memory", format!("about {}", memory(&e.memory))),
         row("disk", format!("about {}", number::bytes(cost.disk_bytes))),
     ];
     let percent = |part: f64| format!("{:.2} %", 100.0 * part);

@@ -4,6 +4,7 @@ use serde_json::Value as Json;
 use sph_solver::{Examination, PluginInForce, StageUse, examine};
 
 use crate::arguments::ExplainArguments;
+use crate::check::memory;
 use crate::console;
 use crate::layout::{columns, paragraph};
 use crate::scene_file::open;
@@ -30,6 +31,7 @@ fn text(e: &Examination) -> String {
         e.fields.len()
     ));
     text.push_str(&columns(2, &fields(e)));
+    text.push_str(&format!("\nmemory: about {}\n", memory(&e.memory)));
     text.push_str("\nstages of an evaluation, in order\n");
     for (k, stage) in e.stages.iter().enumerate() {
         text.push_str(&stage_text(k, stage));

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use sph_solver::{Status, Summary};
 
+use crate::check::memory;
 use crate::layout::{columns, remarks};
 use crate::{number, written};
 
@@ -73,6 +74,7 @@ fn cost(s: &Summary) -> Vec<Vec<String>> {
             format!("{} on {threads}", number::duration(s.wall_seconds)),
         ),
         row("speed", speed),
+        row("memory", memory(&s.memory)),
         row("Δt limited by", limiters.join(", ")),
         row(
             "drift",

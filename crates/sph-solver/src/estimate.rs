@@ -9,10 +9,11 @@ use crate::defaults;
 use crate::drawn::Drawn;
 use crate::error::SolverError;
 
-/// Bytes per particle of columns, lists and buffers together, a generous mean.
-const BYTES_PER_PARTICLE: [f64; 2] = [700.0, 2500.0];
-/// Bytes per neighbour while lists are built, where these outweigh the columns.
-const BYTES_PER_NEIGHBOUR: f64 = 6.0;
+/// Bytes per particle of columns, lists and buffers together, before a scene is assembled: that of water in the usual
+/// support. What an assembled one holds is in [`Memory`](crate::Memory).
+const BYTES_PER_PARTICLE: [f64; 2] = [1000.0, 3500.0];
+/// Bytes per neighbour, where lists outweigh the columns: four with the skin, four without, and a sixteenth to spare.
+const BYTES_PER_NEIGHBOUR: f64 = 8.5;
 /// Nanoseconds of one core per particle and step, from `docs/performance.md`.
 const NANOSECONDS: [f64; 2] = [550.0, 1800.0];
 /// Bytes per particle in one compressed output.
@@ -34,8 +35,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// From the particle count and the first step, s.
-    pub fn new(scene: &Scene, particles: f64, dt: f64, threads: usize) -> Self {
+    /// From the particle count, the first step, s, and what the run holds, bytes.
+    pub fn new(scene: &Scene, particles: f64, dt: f64, threads: usize, memory: f64) -> Self {
         let k = usize::from(scene.dimension == 3);
         let steps = (scene.run.end / dt).ceil();
         let outputs = match (&scene.output.times, scene.output.every) {
@@ -54,7 +55,7 @@ impl Estimate {
             particles,
             steps,
             hours: particles * steps * NANOSECONDS[k] * 1e-9 / (3600.0 * threads.max(1) as f64),
-            memory_bytes: particles * BYTES_PER_PARTICLE[k],
+            memory_bytes: memory,
             disk_bytes: outputs * (vtk + pictures) + 2.0 * checkpoint,
         }
     }
@@ -77,7 +78,7 @@ pub fn tiny_steps<const D: usize>(
         return Ok(None);
     };
     let dt = least.dt * scene.run.safety;
-    let cost = Estimate::new(scene, flow.world.free.len() as f64, dt, threads);
+    let cost = Estimate::new(scene, flow.world.free.len() as f64, dt, threads, 0.0);
     Ok((dt < TINY).then(|| {
         format!(
             "`{}` bounds the first step to {dt:.1e} s: {:.1e} steps and about {:.0} hours to t = {} s; lower the stiffness \

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use sph_core::{Role, StepLimit};
+use sph_core::{Role, StepLimit, System};
 use sph_scene::Scene;
 
 use crate::assemble::assemble;
 use crate::estimate::tiny_steps;
 use crate::summary::PluginInForce;
-use crate::{Estimate, Relaxation, SolverError};
+use crate::{Estimate, Flow, Memory, Relaxation, SolverError};
 
 /// A column with its cost.
 #[derive(Clone, Debug, Serialize)]
@@ -76,6 +76,8 @@ pub struct Examination {
     pub neighbours: f64,
     /// What it will cost.
     pub estimate: Estimate,
+    /// What its memory goes to.
+    pub memory: Memory,
     /// What relaxing the first particles did, if the scene asks for it.
     pub relaxation: Option<Relaxation>,
     /// Remarks.
@@ -99,10 +101,11 @@ fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examinati
     crate::references::readable(scene)?;
     let tiny = tiny_steps(scene, &assembled.flow, threads)?;
     assembled.warnings.extend(tiny);
+    let limits = assembled.flow.step_limits()?;
+    let dt = StepLimit::least(&limits).map_or(scene.run.end, |l| l.dt) * scene.run.safety;
+    let memory = memory(scene, &mut assembled.flow, dt)?;
     let flow = &assembled.flow;
     let world = &flow.world;
-    let limits = flow.step_limits()?;
-    let dt = StepLimit::least(&limits).map_or(scene.run.end, |l| l.dt) * scene.run.safety;
     let names = |f: &[sph_core::AnyField]| f.iter().map(|f| f.name.to_string()).collect::<Vec<_>>();
     let stages: Vec<StageUse> = flow
         .stages
@@ -156,17 +159,33 @@ fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examinati
         wall_points: world.walls.points.position.len(),
         wall_elements: world.walls.elements.centre.len(),
         neighbours: world.mean_neighbours()?,
-        estimate: Estimate::new(scene, particles as f64, dt, threads),
+        estimate: Estimate::new(scene, particles as f64, dt, threads, memory.total()),
+        memory,
         relaxation: assembled.relaxation,
         warnings: assembled.warnings,
         stages,
     })
 }
 
+/// What a run holds: the forces are evaluated once, and the first matrix is put together.
+fn memory<const D: usize>(
+    scene: &Scene,
+    flow: &mut Flow<D>,
+    dt: f64,
+) -> Result<Memory, SolverError> {
+    // Where the state is one that the run will refuse, what can be counted without it counts.
+    let evaluated = flow.evaluate().is_ok();
+    let system = match &flow.implicit {
+        Some(implicit) if evaluated => implicit.bytes(&mut flow.world, dt)?,
+        _ => 0,
+    };
+    Ok(Memory::of(scene, flow, system as f64)?)
+}
+
 /// Smoothing length, speeds and dimensionless numbers.
 fn derived<const D: usize>(
     scene: &Scene,
-    flow: &crate::Flow<D>,
+    flow: &Flow<D>,
     length: f64,
 ) -> Vec<(String, f64, String)> {
     let world = &flow.world;

@@ -23,6 +23,9 @@ const SOFT: f64 = 1e-3;
 /// Residual of a solve within an outer iteration, over the tolerance of the latter.
 const INNER: f64 = 0.1;
 
+/// Vectors of a solve: right-hand side, uⁿ, u*, what they start from, and those of conjugate gradients.
+const VECTORS: usize = 8;
+
 /// What the implicit solves of a run took.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Solves {
@@ -162,6 +165,42 @@ impl<const D: usize> ImplicitViscosity<D> {
         Ok(())
     }
 
+    /// Bytes of a matrix of the present state for a step of dt, s, with the vectors of a solve.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub(crate) fn bytes(&self, world: &mut World<D>, dt: f64) -> Result<usize, StepError> {
+        let plain = match self.stiffens {
+            true => Some(stiffen(world)?),
+            false => None,
+        };
+        let system = self.system_of(world, world.free.get(fields::VELOCITY)?, dt, None);
+        if let Some(plain) = plain {
+            world.free.put(fields::VISCOSITY, plain)?;
+        }
+        let vectors = VECTORS * world.free.len() * size_of::<Vect<D>>();
+        Ok(system?.matrix.bytes() + vectors)
+    }
+
+    /// The system of a step; the memory of `former` entries is used again.
+    fn system_of(
+        &self,
+        world: &World<D>,
+        earlier: &[Vect<D>],
+        dt: f64,
+        former: Option<Entries<D>>,
+    ) -> Result<System<D>, StepError> {
+        let part = [self.scheme.implicit_share(), dt];
+        match (self.coupling.mixes_components(), former) {
+            (false, Some(Entries::Scalar(former))) => {
+                self.scalar_system(world, earlier, part, former)
+            }
+            (false, _) => self.scalar_system(world, earlier, part, Values::default()),
+            (true, Some(Entries::Block(former))) => self.block_system(world, earlier, part, former),
+            (true, _) => self.block_system(world, earlier, part, Values::default()),
+        }
+    }
+
     /// One linear solve from uⁿ and u*; `velocity` is the start and the result.
     ///
     /// The first one of a step starts on the line from uⁿ to u*, one that comes `again` where the last ended.
@@ -174,16 +213,8 @@ impl<const D: usize> ImplicitViscosity<D> {
         dt: f64,
     ) -> Result<(), StepError> {
         let share = self.scheme.implicit_share();
-        let mut system = match (self.coupling.mixes_components(), self.former.take()) {
-            (false, Some(Entries::Scalar(former))) => {
-                self.scalar_system(world, earlier, [share, dt], former)?
-            }
-            (false, _) => self.scalar_system(world, earlier, [share, dt], Values::default())?,
-            (true, Some(Entries::Block(former))) => {
-                self.block_system(world, earlier, [share, dt], former)?
-            }
-            (true, _) => self.block_system(world, earlier, [share, dt], Values::default())?,
-        };
+        let former = self.former.take();
+        let mut system = self.system_of(world, earlier, dt, former)?;
         let rows = system.right.iter_mut().zip(ahead).zip(&system.mass);
         rows.for_each(|((b, u), m)| *b += u * *m);
         if share < 1.0 || !again {

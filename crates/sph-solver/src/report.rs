@@ -6,6 +6,7 @@ use std::path::Path;
 use crate::adviser::{self, Costs};
 use crate::balance::Balance;
 use crate::error::{Failure, SolverError};
+use crate::memory::Memory;
 use crate::references;
 use crate::run::Running;
 use crate::summary::{Drift, SCHEMA_VERSION, Status, Summary};
@@ -109,6 +110,11 @@ impl<const D: usize> Running<'_, D> {
             particle_steps_per_second: over(work, working),
             nanoseconds_per_pair: over(1e9 * working * threads as f64, work * neighbours),
             bytes_per_particle: world.free.bytes_per_particle(),
+            memory: Memory::of(
+                self.scene,
+                flow,
+                solves.map_or(0.0, |s| s.most_bytes as f64),
+            )?,
             list_builds: world.lists.builds,
             dt_limiters,
             dt_limits,

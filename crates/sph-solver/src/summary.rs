@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
-use crate::{Findings, Left, Relaxation, Solves, Trouble};
+use crate::{Findings, Left, Memory, Relaxation, Solves, Trouble};
 
 /// Version of the summary's layout.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -110,6 +110,9 @@ pub struct Summary {
     pub nanoseconds_per_pair: f64,
     /// Bytes of the columns per particle.
     pub bytes_per_particle: usize,
+    /// What the memory went to, bytes.
+    #[serde(default)]
+    pub memory: Memory,
     /// Builds of the neighbour lists.
     pub list_builds: u64,
     /// Share of the steps limited by each plugin's bound.

@@ -7,6 +7,7 @@ mod dam_breaks;
 mod drops;
 mod implicit;
 mod left_out;
+mod readme_table;
 mod rheology;
 mod seepage;
 mod shipped;

@@ -1,6 +1,8 @@
 //! Runs of shipped scenes in temporary folders.
 
+use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use sph_io::{Table, read_table};
 use sph_scene::{Override, load};
@@ -11,6 +13,49 @@ use tempfile::TempDir;
 pub struct Finished {
     pub summary: Summary,
     folder: TempDir,
+}
+
+/// What is left of a run without its folder.
+pub struct Whole {
+    pub summary: Summary,
+    pub series: Table,
+}
+
+/// A scene as it is shipped, run once for all tests that ask for it.
+pub fn whole(name: &'static str) -> Arc<Whole> {
+    static RUNS: Mutex<BTreeMap<&str, Arc<OnceLock<Arc<Whole>>>>> = Mutex::new(BTreeMap::new());
+    let cell = {
+        let mut runs = RUNS.lock().unwrap_or_else(PoisonError::into_inner);
+        runs.entry(name).or_default().clone()
+    };
+    let run = || {
+        let run = finished(name, &[]);
+        let series = run.series();
+        let summary = run.summary;
+        Arc::new(Whole { summary, series })
+    };
+    cell.get_or_init(run).clone()
+}
+
+impl Whole {
+    /// The error against a reference, which must be at most `bound`.
+    pub fn error(&self, reference: &str, bound: f64, measured: f64) -> f64 {
+        error(&self.summary, reference, bound, measured)
+    }
+}
+
+/// The error of a run against a reference, which must be at most `bound`.
+fn error(summary: &Summary, reference: &str, bound: f64, measured: f64) -> f64 {
+    let value = summary.errors[reference].value;
+    let value = value.expect("something was compared");
+    assert!(
+        value <= bound,
+        "{}: {reference} is {value}, at most {bound} is allowed, {measured} was measured",
+        summary.scene
+    );
+    // A reference that is met exactly compares nothing.
+    assert!(value > 0.0, "{reference} compares nothing");
+    value
 }
 
 /// Runs a scene of the `scenes` folder to its end.
@@ -57,16 +102,7 @@ impl Finished {
     /// The error against a reference, which must be at most `bound`: the error budget of the case, from its spacing and
     /// order or from its reference's own spread. `measured` is what it was once, for the reader.
     pub fn error(&self, reference: &str, bound: f64, measured: f64) -> f64 {
-        let entry = &self.summary.errors[reference];
-        let value = entry.value.expect("something was compared");
-        assert!(
-            value <= bound,
-            "{}: {reference} is {value}, at most {bound} is allowed, {measured} was measured",
-            self.summary.scene
-        );
-        // A reference that is met exactly compares nothing.
-        assert!(value > 0.0, "{reference} compares nothing");
-        value
+        error(&self.summary, reference, bound, measured)
     }
 
     /// Where a file of the run is.

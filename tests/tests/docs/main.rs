@@ -1,9 +1,11 @@
 //! What the documents show is what there is: quoted code, scenes, links.
 
+mod dependencies;
+
 use std::path::{Path, PathBuf};
 
-const PLUGINS: &str = include_str!("../../docs/plugins.md");
-const QUOTED: &str = include_str!("outside_plugin.rs");
+const PLUGINS: &str = include_str!("../../../docs/plugins.md");
+const QUOTED: &str = include_str!("../outside_plugin.rs");
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
