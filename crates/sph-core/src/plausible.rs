@@ -147,7 +147,7 @@ pub const QUANTITIES: [Quantity; 20] = [
             (1e3, "liquid rhenium, 2.7 N/m (Keene 1993)"),
         )
     },
-    signed("permeability", "m²", (1.0, "gravel, 1e-7 m² (Bear 1972)")),
+    signed("permeability", "m²", (1e3, "gravel, 1e-7 m² (Bear 1972)")),
     signed(
         "strain rate",
         "1/s",
@@ -252,7 +252,7 @@ impl Quantity {
                 _ => format!("at most {}", with(self.most)),
             };
             return Verdict::Impossible(format!(
-                "no run can be right with a {} of {}: {}; expected {range}",
+                "no run can be right with the {} {}: {}; expected {range}",
                 self.name,
                 with(x),
                 self.refusal
@@ -264,7 +264,7 @@ impl Quantity {
             _ => return Verdict::Plausible,
         };
         Verdict::Odd(format!(
-            "a {} of {} is {beyond} {}: {source}; is it meant?",
+            "the {} of {} is {beyond} {}: {source}; is it meant?",
             self.name,
             with(x),
             with(bound)
@@ -309,14 +309,14 @@ mod tests {
         assert_eq!(
             density.judge(1e6),
             Verdict::Odd(
-                "a density of 1e6 kg/m³ is above 3e4 kg/m³: osmium, 22 590 kg/m³ (CRC Handbook); is it meant?"
+                "the density of 1e6 kg/m³ is above 30000 kg/m³: osmium, 22 590 kg/m³ (CRC Handbook); is it meant?"
                     .into()
             )
         );
         assert_eq!(
             density.judge(1e308),
             Verdict::Impossible(
-                "no run can be right with a density of 1e308 kg/m³: powers and products of it would leave the \
+                "no run can be right with the density 1e308 kg/m³: powers and products of it would leave the \
                  range of numbers; expected 1e-50 to 1e50 kg/m³"
                     .into()
             )

@@ -84,12 +84,14 @@ pub(crate) fn crossing(
     searched(edges, closed).0
 }
 
+/// Two segments, by number, and the place where they meet.
+type Met = (usize, usize, [f64; 2]);
+
 /// The same with the number of pairs that were held against each other.
-#[allow(clippy::type_complexity)]
 fn searched(
     edges: &[([f64; 2], [f64; 2])],
     closed: bool,
-) -> (Option<(usize, usize, [f64; 2])>, usize) {
+) -> (Option<Met>, usize) {
     let n = edges.len();
     let around = |(a, b): &([f64; 2], [f64; 2])| {
         [

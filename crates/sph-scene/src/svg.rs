@@ -243,7 +243,10 @@ impl Lines {
         let at = |p: Point| [p.x, p.y];
         let mut pen = Point::ZERO;
         // One piece after the other, so that there is an end where there are too many corners.
-        for element in path.iter().take_while(|_| *corners <= CORNERS) {
+        for element in path.iter() {
+            if *corners > CORNERS {
+                break;
+            }
             match element {
                 PathEl::MoveTo(p) => {
                     end(&mut line, false);
