@@ -88,10 +88,7 @@ pub(crate) fn crossing(
 type Met = (usize, usize, [f64; 2]);
 
 /// The same with the number of pairs that were held against each other.
-fn searched(
-    edges: &[([f64; 2], [f64; 2])],
-    closed: bool,
-) -> (Option<Met>, usize) {
+fn searched(edges: &[([f64; 2], [f64; 2])], closed: bool) -> (Option<Met>, usize) {
     let n = edges.len();
     let around = |(a, b): &([f64; 2], [f64; 2])| {
         [

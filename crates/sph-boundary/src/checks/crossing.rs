@@ -186,6 +186,9 @@ mod tests {
         // Every box overlaps every other.
         assert_eq!(most(300 * 299 / 2), Ok(300 * 299 / 2));
         let found = most(300 * 299 / 2 - 1);
-        assert!(matches!(found, Err(BoundaryError::Tangled { .. })), "{found:?}");
+        assert!(
+            matches!(found, Err(BoundaryError::Tangled { .. })),
+            "{found:?}"
+        );
     }
 }
