@@ -2,7 +2,11 @@
 
 mod crossing;
 
-pub(crate) use crossing::check_crossings;
+use std::ops::ControlFlow;
+
+use sph_core::BoxTree;
+
+pub(crate) use crossing::{around, check_crossings, widened};
 
 use crate::error::{BoundaryError, WallWarning};
 use crate::grid::distance_squared;
@@ -83,12 +87,20 @@ pub(crate) fn short_edges(line: &Polyline, spacing: f64) -> impl Iterator<Item =
 
 /// An edge whose middle is not on another edge in the opposite direction.
 fn unretraced_edge(line: &Polyline, tolerance: f64) -> Option<usize> {
+    let tree = BoxTree::new(line.edges().map(around).collect());
     line.edges().position(|[a, b]| {
         let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-        !line.edges().any(|[c, d]| {
+        let retraces = |k: usize| {
+            let [c, d] = line.edge(k);
             let opposite = (b[0] - a[0]) * (d[0] - c[0]) + (b[1] - a[1]) * (d[1] - c[1]) < 0.0;
             let seen = [c, d].map(|p| [p[0] - middle[0], p[1] - middle[1]]);
             opposite && distance_squared(seen[0], seen[1]) <= tolerance * tolerance
-        })
+        };
+        let near = widened([middle; 2], tolerance);
+        let found = tree.overlapping(near, &mut |k| match retraces(k) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        });
+        found.is_continue()
     })
 }

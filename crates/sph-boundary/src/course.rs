@@ -1,6 +1,7 @@
 //! Functions of time that prescribed motions follow.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// A displacement (m) or an angle (rad) over time, 0 at time 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +33,8 @@ pub enum Course {
     /// parabolas through three neighbouring values; at rest before the first and after the last.
     Table {
         /// Pairs of time, s, and value, ascending in time.
-        rows: Vec<[f64; 2]>,
+        /// Shared by the pieces that a wall is drawn in.
+        rows: Arc<[[f64; 2]]>,
     },
 }
 
@@ -179,7 +181,7 @@ mod tests {
 
     #[test]
     fn derivatives_are_those_of_the_value() {
-        let rows = vec![[0.0, 0.0], [0.3, 0.1], [0.5, 0.4], [1.2, 0.2], [2.0, 0.9]];
+        let rows = [[0.0, 0.0], [0.3, 0.1], [0.5, 0.4], [1.2, 0.2], [2.0, 0.9]].into();
         let courses = [
             Course::Steady { speed: 0.7 },
             Course::Ramp {
@@ -221,20 +223,20 @@ mod tests {
         };
         assert_eq!(sine.at(0.0).value, 0.0);
         let table = Course::Table {
-            rows: vec![[0.5, 0.0], [1.0, 3.0]],
+            rows: [[0.5, 0.0], [1.0, 3.0]].into(),
         };
         assert_eq!(table.at(0.2), Stage::default());
         assert_eq!(table.at(7.0).value, 3.0);
         assert_eq!(table.at(7.0).rate, 0.0);
         // A cubic is met exactly at its instants, a parabola everywhere between inner rows.
-        let parabola: Vec<[f64; 2]> = (0..6).map(|k| k as f64).map(|t| [t, t * t]).collect();
+        let parabola: Arc<[_]> = (0..6).map(|k| k as f64).map(|t| [t, t * t]).collect();
         let table = Course::Table { rows: parabola };
         assert!((table.at(2.25).value - 2.25 * 2.25).abs() < 1e-14);
     }
 
     #[test]
     fn unsound_courses_are_told() {
-        let table = |rows: Vec<[f64; 2]>| Course::Table { rows };
+        let table = |rows: Vec<[f64; 2]>| Course::Table { rows: rows.into() };
         assert!(!table(vec![[0.0, 0.0]]).is_sound());
         assert!(!table(vec![[0.0, 0.0], [0.0, 1.0]]).is_sound());
         assert!(

@@ -3,6 +3,11 @@
 use crate::mesh::WallEnd;
 use crate::surface::SurfaceError;
 
+/// Most pairs of edges or triangles that are held against each other: a second or two of work.
+pub(crate) const MOST_PAIRS: usize = 200_000_000;
+/// Most periods that walls may reach across.
+pub(crate) const MOST_PERIODS: f64 = 1000.0;
+
 /// A refused wall, motion or kernel. Lengths are in metres, edges and points count from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BoundaryError {
@@ -67,6 +72,26 @@ pub enum BoundaryError {
         x: f64,
         /// Ordinate of the crossing.
         y: f64,
+    },
+    /// Edges that lie across each other's boxes by the million.
+    #[error(
+        "from wall `{wall}` on, more than {MOST_PAIRS} pairs of edges are so near each other that they must be \
+         compared: draw it with fewer long slanted lines side by side"
+    )]
+    Tangled {
+        /// Name of the wall.
+        wall: String,
+    },
+    /// Walls far larger than a period, or far away from the box.
+    #[error(
+        "wall `{wall}` reaches {periods:.1e} periods from the periodic box, more than {MOST_PERIODS}: draw one \
+         period of it"
+    )]
+    ManyPeriods {
+        /// Name of the wall.
+        wall: String,
+        /// Periods that it reaches.
+        periods: f64,
     },
     /// Two ends meet whose directions of travel disagree about where the fluid is.
     #[error(

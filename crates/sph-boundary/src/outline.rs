@@ -4,8 +4,9 @@ use sph_core::Vect;
 use sph_neighbours::{Elements, Frame, WallPoints};
 
 use crate::cover::Cover;
+use crate::error::MOST_PERIODS;
 use crate::wall_mesh::{MeshPoint, WallMesh};
-use crate::{BoundaryError, Movement, PeriodicBox, Pose, WallSetup, WallSpec};
+use crate::{BoundaryError, Drawing, Movement, PeriodicBox, Pose, WallSetup, WallSpec};
 
 /// The walls of a scene as a mesh, with what the scene says of each.
 #[derive(Debug)]
@@ -22,7 +23,11 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
 
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     pub fn new(setup: &WallSetup<'_, D>, support: f64) -> Result<Self, BoundaryError> {
-        for spec in setup.walls {
+        let whole = |k: &usize| !is_piece(setup.walls, *k);
+        for spec in (0..setup.walls.len())
+            .filter(whole)
+            .map(|k| &setup.walls[k])
+        {
             if !spec.motion.is_sound() {
                 let wall = spec.drawing.name().to_string();
                 return Err(BoundaryError::Motion { wall });
@@ -36,6 +41,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         // Twice the support also serves the queries of filling and of a generous skin.
         let reach = 2.0 * support;
         let domain = PeriodicBox::of(setup.domain);
+        check_reach(setup.walls, &domain)?;
         let mesh = M::build(setup.walls, setup.spacing, reach, &domain)?;
         let mut outline = Outline {
             mesh,
@@ -181,10 +187,49 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 }
 
+/// Refuses walls that reach so far out of a periodic box that their images would be without number.
+fn check_reach<const D: usize>(
+    walls: &[WallSpec<D>],
+    domain: &PeriodicBox<D>,
+) -> Result<(), BoundaryError> {
+    domain.check()?;
+    for spec in walls {
+        let periods = match &spec.drawing {
+            Drawing::Line(line) => domain.periods_to(line.points.iter().map(of)),
+            Drawing::Surface(surface) => domain.periods_to(surface.points.iter().map(of)),
+        };
+        if periods > MOST_PERIODS {
+            let wall = spec.drawing.name().to_string();
+            return Err(BoundaryError::ManyPeriods { wall, periods });
+        }
+    }
+    Ok(())
+}
+
+/// A place of as many dimensions as are asked for.
+fn of<const N: usize, const D: usize>(place: &[f64; N]) -> [f64; D] {
+    std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0))
+}
+
 /// For every wall the first one that moves as it does.
 pub(crate) fn groups<const D: usize>(walls: &[WallSpec<D>]) -> Vec<usize> {
-    let together = |w: &WallSpec<D>| walls.iter().position(|o| o.motion == w.motion);
-    walls.iter().filter_map(together).collect()
+    let mut groups: Vec<usize> = Vec::with_capacity(walls.len());
+    for (k, wall) in walls.iter().enumerate() {
+        let first = match is_piece(walls, k) {
+            true => groups[k - 1],
+            false => {
+                let together = walls[..k].iter().position(|o| o.motion == wall.motion);
+                together.unwrap_or(k)
+            }
+        };
+        groups.push(first);
+    }
+    groups
+}
+
+/// Whether a wall is a further piece of the one before it, of which there may be thousands.
+fn is_piece<const D: usize>(walls: &[WallSpec<D>], k: usize) -> bool {
+    k > 0 && walls[k].drawing.name() == walls[k - 1].drawing.name()
 }
 
 /// The methods of [`Wall`](crate::Wall) that ask nothing but the outline of the walls; the

@@ -69,6 +69,28 @@ impl<const D: usize> PeriodicBox<D> {
         })
     }
 
+    /// A place moved into the box along its periodic directions, m.
+    pub(crate) fn wrapped(&self, place: [f64; D]) -> [f64; D] {
+        let periods = self.periods();
+        std::array::from_fn(|k| match self.periodic[k] {
+            true => self.lower[k] + (place[k] - self.lower[k]).rem_euclid(periods[k]),
+            false => place[k],
+        })
+    }
+
+    /// The most periods from the box to any of the places, 0 if all are in it.
+    pub(crate) fn periods_to(&self, places: impl Iterator<Item = [f64; D]>) -> f64 {
+        let periods = self.periods();
+        let beyond = |x: [f64; D]| {
+            let along = |k: usize| match self.periodic[k] {
+                true => (self.lower[k] - x[k]).max(x[k] - self.upper[k]) / periods[k],
+                false => 0.0,
+            };
+            (0..D).map(along).fold(0.0, f64::max)
+        };
+        places.map(beyond).fold(0.0, f64::max)
+    }
+
     /// The displacement of an image, m.
     pub(crate) fn shift(&self, image: [i32; D]) -> [f64; D] {
         let periods = self.periods();

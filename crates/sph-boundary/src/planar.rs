@@ -124,7 +124,7 @@ impl WallMesh<2> for PlanarWalls {
         for line in &lines {
             check_points(line)?;
         }
-        let pieces = without_shared(&lines, &groups(walls), spacing);
+        let pieces = without_shared(&lines, &groups(walls), spacing)?;
         let (wall_of, lines): (Vec<usize>, Vec<Polyline>) = pieces.into_iter().unzip();
         let mesh = SegmentMesh::build(&lines, spacing, domain)?;
         let names = walls.iter().map(|w| w.drawing.name().to_string()).collect();

@@ -25,7 +25,6 @@ mod removal;
 mod rows;
 mod signed;
 mod solid_angle;
-mod tree;
 mod vector;
 
 use std::sync::OnceLock;

@@ -1,6 +1,12 @@
 //! Walls of the plane that stand on each other.
 
-use crate::Polyline;
+use std::ops::ControlFlow;
+
+use sph_core::BoxTree;
+
+use crate::checks::{around, widened};
+use crate::error::MOST_PAIRS;
+use crate::{BoundaryError, Polyline};
 
 /// Two lines nearer than this share of the spacing are one.
 const SAME_LINE: f64 = 1e-6;
@@ -11,34 +17,57 @@ const SAME_LINE: f64 = 1e-6;
 /// what is left is the boundary of the fluid, and the open ends join into one line. Lines are
 /// compared within a group (walls that move together); a line is not compared with itself, as a
 /// plate of no thickness lies on itself on purpose.
+///
+/// # Errors
+/// If too many edges are near each other.
 pub(crate) fn without_shared(
     lines: &[Polyline],
     groups: &[usize],
     spacing: f64,
-) -> Vec<(usize, Polyline)> {
+) -> Result<Vec<(usize, Polyline)>, BoundaryError> {
+    if lines.len() == 1 {
+        return Ok(vec![(0, lines[0].clone())]);
+    }
     let tolerance = SAME_LINE * spacing;
+    let of = |(k, line): (usize, &Polyline)| line.edges().map(|e| (k, e)).collect::<Vec<_>>();
+    let edges: Vec<(usize, [[f64; 2]; 2])> = lines.iter().enumerate().flat_map(of).collect();
+    let tree = BoxTree::new(edges.iter().map(|(_, e)| around(*e)).collect());
+    let mut pairs = 0;
+    let mut near = Vec::new();
+    let mut cuts_of = |k: usize, edge: [[f64; 2]; 2]| {
+        near.clear();
+        let whole = tree.overlapping(widened(around(edge), tolerance), &mut |n| {
+            let other = edges[n].0;
+            pairs += 1;
+            if other != k && groups[other] == groups[k] {
+                near.push(n);
+            }
+            match pairs > MOST_PAIRS {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        });
+        if whole.is_break() {
+            let wall = lines[k].name.clone();
+            return Err(BoundaryError::Tangled { wall });
+        }
+        near.sort_unstable();
+        let faces = near.iter().map(|n| edges[*n].1);
+        let mut cuts: Vec<_> = faces.filter_map(|f| shared(edge, f, tolerance)).collect();
+        cuts.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        Ok(cuts)
+    };
     let mut kept = Vec::new();
     for (k, line) in lines.iter().enumerate() {
-        let others = || {
-            let others = lines.iter().enumerate();
-            others.filter(move |(o, _)| *o != k && groups[*o] == groups[k])
-        };
-        let cuts: Vec<Vec<[f64; 2]>> = line
-            .edges()
-            .map(|edge| {
-                let faces = others().flat_map(|(_, other)| other.edges());
-                let mut cuts: Vec<_> = faces.filter_map(|f| shared(edge, f, tolerance)).collect();
-                cuts.sort_by(|a, b| a[0].total_cmp(&b[0]));
-                cuts
-            })
-            .collect();
+        let cuts = line.edges().map(|edge| cuts_of(k, edge));
+        let cuts: Vec<Vec<[f64; 2]>> = cuts.collect::<Result<_, _>>()?;
         if cuts.iter().all(Vec::is_empty) {
             kept.push((k, line.clone()));
         } else {
             kept.extend(rest(line, &cuts, tolerance).into_iter().map(|l| (k, l)));
         }
     }
-    kept
+    Ok(kept)
 }
 
 /// Abscissae along the first edge between which the second lies on it, facing it.
@@ -121,7 +150,7 @@ mod tests {
 
     #[test]
     fn a_block_on_the_floor_becomes_part_of_it() {
-        let left = without_shared(&[tank(), block(1.0, 0.0)], &[0, 0], 0.1);
+        let left = without_shared(&[tank(), block(1.0, 0.0)], &[0, 0], 0.1).unwrap();
         assert_eq!(left.len(), 2);
         let (tank, block) = (&left[0].1, &left[1].1);
         assert_eq!(
@@ -144,7 +173,7 @@ mod tests {
 
     #[test]
     fn a_block_in_a_corner_loses_two_sides() {
-        let left = without_shared(&[tank(), block(0.0, 0.0)], &[0, 0], 0.1);
+        let left = without_shared(&[tank(), block(0.0, 0.0)], &[0, 0], 0.1).unwrap();
         let points: Vec<_> = left.iter().map(|(_, line)| line.points.clone()).collect();
         assert_eq!(
             points,
@@ -158,8 +187,11 @@ mod tests {
     #[test]
     fn walls_apart_or_moving_apart_stay_whole() {
         let apart = [tank(), block(1.0, 0.5)];
-        assert_eq!(without_shared(&apart, &[0, 0], 0.1)[1].1, apart[1]);
+        assert_eq!(without_shared(&apart, &[0, 0], 0.1).unwrap()[1].1, apart[1]);
         let sliding = [tank(), block(1.0, 0.0)];
-        assert_eq!(without_shared(&sliding, &[0, 1], 0.1)[0].1, sliding[0]);
+        assert_eq!(
+            without_shared(&sliding, &[0, 1], 0.1).unwrap()[0].1,
+            sliding[0]
+        );
     }
 }

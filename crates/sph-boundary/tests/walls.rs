@@ -132,9 +132,10 @@ fn crossings_are_named_and_touching_is_allowed() {
     );
     let pipe = Polyline::open("pipe", vec![[1.0, 1.0], [3.0, 1.0]]);
     let crossing = message(&[tank.clone(), pipe]);
+    // Told of the first in the order given.
     assert_eq!(
         crossing,
-        "edge 0 of wall `pipe` crosses edge 1 of wall `tank` near (2, 1)"
+        "edge 1 of wall `tank` crosses edge 0 of wall `pipe` near (2, 1)"
     );
     let block = Polyline::closed(
         "block",

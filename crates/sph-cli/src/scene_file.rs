@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use sph_core::suggestion;
+use sph_io::Scratch;
 use sph_scene::{Loaded, Override, Source, load_allowing, read, read_text, within};
 use sph_study::SceneText;
-use tempfile::TempDir;
 
 use crate::arguments::SceneArguments;
 use crate::diagnostics;
@@ -19,7 +19,7 @@ pub struct Opened {
     /// Name without folder and extension.
     pub stem: String,
     /// Kept until the scene is done with.
-    _unpacked: Option<TempDir>,
+    _unpacked: Option<Scratch>,
 }
 
 /// The values of `--set`.
@@ -70,7 +70,7 @@ pub fn open(arguments: &SceneArguments) -> Result<Opened, Trouble> {
 pub struct Found {
     /// Name, text and file.
     pub scene: SceneText,
-    _unpacked: Option<TempDir>,
+    _unpacked: Option<Scratch>,
 }
 
 /// Finds the scene that a study in a folder names: by its path from there, within that folder or an
@@ -148,12 +148,12 @@ fn compiled_in(
 }
 
 /// The file name by which a compiled-in scene names its data, put into a folder if it has any.
-fn unpacked(name: &str, text: &str) -> Result<(String, Option<TempDir>), String> {
+fn unpacked(name: &str, text: &str) -> Result<(String, Option<Scratch>), String> {
     if shipped::data_of(text).next().is_none() {
         return Ok((format!("{name}.toml"), None));
     }
     // A name that nobody can guess, made by nobody else, for this user alone.
-    let folder = tempfile::Builder::new().prefix("sph-").tempdir();
+    let folder = Scratch::new(".sph-data-");
     let folder = folder.map_err(|e| format!("cannot put the data of `{name}` anywhere: {e}"))?;
     let file = folder
         .path()

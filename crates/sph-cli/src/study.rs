@@ -47,6 +47,7 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
     };
     let _lock = sph_io::FolderLock::take(&out).map_err(|e| failed(e.into()))?;
     sph_io::writable(&out).map_err(|e| failed(e.into()))?;
+    sph_io::sweep_temporaries(&out).map_err(|e| failed(e.into()))?;
     let outcome = execute(&study, &options, &watcher);
     watcher.finish();
     let results = Results::new(&study, &outcome.records, options.origin);

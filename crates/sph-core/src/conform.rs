@@ -6,23 +6,26 @@
 use serde_json::Value as Json;
 use toml::Value;
 
+use crate::plausible::{Quantity, Verdict};
 use crate::{SceneProblem, parse_quantity, suggestion};
 
 /// Most problems that are told: of a text that is wrong throughout nobody reads more, and each takes room.
 pub const MOST_PROBLEMS: usize = 200;
 
-/// Checks `value` against `schema` and converts quantities to SI in place.
+/// Checks `value` against `schema` and converts quantities to SI in place; returns remarks on numbers outside
+/// what nature has ([`plausible`](crate::plausible)), at most [`MOST_PROBLEMS`].
 ///
 /// # Errors
 /// The problems found, each with its path relative to `value`, at most [`MOST_PROBLEMS`].
-pub fn conform(value: &mut Value, schema: &Json) -> Result<(), Vec<SceneProblem>> {
+pub fn conform(value: &mut Value, schema: &Json) -> Result<Vec<SceneProblem>, Vec<SceneProblem>> {
     let mut walk = Walk {
         root: schema,
         problems: Vec::new(),
+        remarks: Vec::new(),
     };
     walk.value(value, schema, "", None);
     if walk.problems.is_empty() {
-        Ok(())
+        Ok(walk.remarks)
     } else {
         Err(walk.problems)
     }
@@ -41,6 +44,7 @@ pub fn defaults(schema: &Json) -> Vec<(String, Json)> {
 struct Walk<'s> {
     root: &'s Json,
     problems: Vec<SceneProblem>,
+    remarks: Vec<SceneProblem>,
 }
 
 impl<'s> Walk<'s> {
@@ -126,12 +130,14 @@ impl<'s> Walk<'s> {
                 continue;
             }
             let mut attempt = value.clone();
+            let remarked = self.remarks.len();
             self.value(&mut attempt, option, path, unit);
             let found = self.problems.split_off(before);
             if found.is_empty() {
                 *value = attempt;
                 return;
             }
+            self.remarks.truncate(remarked);
             // The option that gets furthest (deepest path) has the most telling message.
             let depth = |p: &Vec<SceneProblem>| p.iter().map(|q| q.path.len()).max();
             if first.as_ref().is_none_or(|f| depth(&found) > depth(f)) {
@@ -190,7 +196,11 @@ impl<'s> Walk<'s> {
             );
         }
         *value = Value::Float(number);
+        let before = self.problems.len();
         self.range(number, schema, path, unit);
+        if self.problems.len() == before {
+            self.plausible(number, schema, path, unit);
+        }
     }
 
     fn integer(&mut self, value: &mut Value, schema: &Json, path: &str) {
@@ -232,8 +242,20 @@ impl<'s> Walk<'s> {
         ];
         for (bound, violated, words) in checks {
             if let (Some(bound), true) = (bound, violated) {
-                self.problem(path, format!("must be {words} {bound}{unit}, found {x}"));
+                return self.problem(path, format!("must be {words} {bound}{unit}, found {x}"));
             }
+        }
+    }
+
+    /// Bounds by quantity, for what is within the range of its key.
+    fn plausible(&mut self, x: f64, schema: &Json, path: &str, unit: Option<&str>) {
+        let name = schema.get("quantity").and_then(Json::as_str);
+        match Quantity::of(name, unit).map(|q| q.judge(x)) {
+            Some(Verdict::Impossible(why)) => self.problem(path, why),
+            Some(Verdict::Odd(why)) if self.remarks.len() < MOST_PROBLEMS => {
+                self.remarks.push(SceneProblem::new(path, why));
+            }
+            _ => {}
         }
     }
 
@@ -348,7 +370,7 @@ mod tests {
     fn problems(text: &str) -> Vec<String> {
         let mut value: Value = Value::Table(toml::from_str(text).unwrap());
         match conform(&mut value, &schema()) {
-            Ok(()) => Vec::new(),
+            Ok(remarks) => remarks.iter().map(ToString::to_string).collect(),
             Err(all) => all.iter().map(ToString::to_string).collect(),
         }
     }
@@ -361,6 +383,13 @@ mod tests {
         conform(&mut value, &schema()).unwrap();
         assert_eq!(value["density"].as_float(), Some(1000.0));
         assert_eq!(value["gravity"][1].as_float(), Some(-9.81));
+    }
+
+    #[test]
+    fn what_nature_does_not_have_is_remarked_upon_and_what_overflows_refused() {
+        assert!(problems("density = 1e5")[0].contains("osmium"));
+        assert!(problems("density = 1e5\ngravity = [0, 1e30]")[1].contains("gravity[1]"));
+        assert!(problems("density = 1e-60")[0].contains("no run can be right"));
     }
 
     #[test]

@@ -19,6 +19,7 @@
 //! assert_eq!(store.get(DENSITY).unwrap(), [1000.0; 3]);
 //! ```
 
+mod boxes;
 mod conform;
 mod error;
 mod evolve;
@@ -28,6 +29,7 @@ mod limit;
 mod names;
 pub mod number;
 mod plan;
+pub mod plausible;
 mod quantity;
 mod registry;
 mod saved;
@@ -36,6 +38,7 @@ mod store;
 mod symmetric;
 mod taken;
 
+pub use boxes::{BoxTree, Corners};
 pub use conform::{MOST_PROBLEMS, conform, defaults};
 pub use error::{FieldError, PlanError, RegistryError, SceneProblem, StepError};
 pub use evolve::{Evolved, Recall, System};

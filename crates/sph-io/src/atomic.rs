@@ -137,7 +137,8 @@ pub fn sweep_temporaries(folder: impl AsRef<Path>) -> Result<usize> {
     let mut removed = 0;
     for entry in fs::read_dir(folder).map_err(|e| IoError::read(folder, e))? {
         let entry = entry.map_err(|e| IoError::read(folder, e))?;
-        if entry.file_name().to_str().is_some_and(is_temporary) {
+        let plain = entry.file_type().is_ok_and(|t| t.is_file());
+        if plain && entry.file_name().to_str().is_some_and(is_temporary) {
             let path = entry.path();
             fs::remove_file(&path).map_err(|e| IoError::write(&path, e))?;
             removed += 1;

@@ -127,6 +127,15 @@ impl Drop for FolderLock {
     }
 }
 
+/// The lock of a folder that a dead process left behind, taken; none if a living one holds it, or if there is none.
+pub(crate) fn left(folder: &Path) -> Option<File> {
+    let path = folder.join(LOCK);
+    let known = fs::symlink_metadata(&path).ok()?;
+    let file = known.is_file().then(|| File::open(&path).ok())??;
+    file.try_lock().ok()?;
+    is_at(&file, &path).then_some(file)
+}
+
 /// The file, made if it is not there; only a plain file is opened, no link and no pipe.
 fn opened(path: &Path) -> io::Result<File> {
     match fs::symlink_metadata(path) {

@@ -72,6 +72,9 @@ pub fn read_columns(path: impl AsRef<Path>, names: &[&str]) -> Result<Table> {
     Source::open(path.as_ref())?.read(Some(names))
 }
 
+/// Most columns of a table.
+const COLUMNS: usize = 10_000;
+
 impl Table {
     /// Reads all columns of a text; `name` is what errors call it.
     ///
@@ -98,7 +101,9 @@ impl Source {
             Err(e) => {
                 let before = &e.as_bytes()[..e.utf8_error().valid_up_to()];
                 let line = 1 + before.iter().filter(|b| **b == b'\n').count();
-                let problem = "this is no UTF-8 text".to_string();
+                let begun = before.rsplit(|b| *b == b'\n').next().unwrap_or_default();
+                let column = 1 + String::from_utf8_lossy(begun).chars().count();
+                let problem = format!("this is no UTF-8 text (column {column})");
                 Err(IoError::Table {
                     path,
                     line,
@@ -118,6 +123,9 @@ impl Source {
         let separator = [',', ';', '\t'].into_iter().find(|&c| first.contains(c));
         let separator = separator.unwrap_or(',');
         let cells = split(first, separator);
+        if cells.len() > COLUMNS {
+            return Err(self.fault(line, format!("more than {COLUMNS} columns")));
+        }
         let bare = cells.iter().all(|c| c.parse::<f64>().is_ok());
         let headings: Vec<TableColumn> = if bare {
             let number = |i| TableColumn::named(&format!("column{i}"));
@@ -131,7 +139,9 @@ impl Source {
             let cells = split(row, separator);
             if cells.len() != headings.len() {
                 let (found, wanted) = (cells.len(), headings.len());
-                let problem = format!("{found} cells for {wanted} columns");
+                let more = if found > COLUMNS { "more than " } else { "" };
+                let found = found.min(COLUMNS);
+                let problem = format!("{more}{found} cells for {wanted} columns");
                 return Err(self.fault(line, problem));
             }
             for (&i, column) in chosen.iter().zip(&mut columns) {
@@ -181,7 +191,8 @@ impl Source {
     }
 }
 
-/// The trimmed cells of `row`; separators between double quotes do not count.
+/// The trimmed cells of `row`, of more than [`COLUMNS`] one more than these; separators between double quotes do
+/// not count.
 fn split(row: &str, separator: char) -> Vec<String> {
     let mut cells = vec![String::new()];
     let mut quoted = false;
@@ -189,6 +200,9 @@ fn split(row: &str, separator: char) -> Vec<String> {
         if c == '"' {
             quoted = !quoted;
         } else if c == separator && !quoted {
+            if cells.len() > COLUMNS {
+                break;
+            }
             cells.push(String::new());
         } else if let Some(cell) = cells.last_mut() {
             cell.push(c);

@@ -32,7 +32,7 @@ pub struct Cantilever {
     #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
     pub thickness: f64,
     /// Young's modulus E.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa"))]
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa", "quantity" = "modulus"))]
     pub young_modulus: f64,
     /// Poisson's ratio ν.
     #[schemars(range(max = 0.5), extend("exclusiveMinimum" = -1.0, "unit" = "1"))]

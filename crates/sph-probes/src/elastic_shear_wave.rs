@@ -24,7 +24,7 @@ pub struct ElasticShearWave {
     #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
     pub wavelength: f64,
     /// Shear modulus 𝒢.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa"))]
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa", "quantity" = "modulus"))]
     pub shear_modulus: f64,
     /// Density ρ.
     #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "kg/m³"))]

@@ -1,5 +1,7 @@
 //! The slope of a phase's surface.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{StepError, fields, register};
@@ -55,27 +57,26 @@ impl Probe<2> for SurfaceSlope {
         let counted = Counted::of(world, self.phase.as_deref(), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
         let [first, last] = self.between;
-        let columns = ((last - first) / world.spacing).round().max(0.0) as usize;
-        let mut highest = vec![None::<[f64; 2]>; columns];
+        let columns = ((last - first) / world.spacing).round().max(0.0);
+        // Only of columns that have a particle: the places may be as far apart as they like.
+        let mut highest: BTreeMap<u64, [f64; 2]> = BTreeMap::new();
         for (_, x) in positions
             .iter()
             .enumerate()
             .filter(|(k, _)| counted.has(*k))
         {
-            let along = (x[0] - first) / (last - first) * columns as f64;
+            let along = (x[0] - first) / (last - first) * columns;
             // A negative or too large place is in no column.
             let column = along.floor();
-            if column < 0.0 || column >= columns as f64 {
-                continue;
-            }
-            let top = &mut highest[column as usize];
-            if top.is_none_or(|[_, y]| x[1] > y) {
-                *top = Some([x[0], x[1]]);
+            if column >= 0.0 && column < columns {
+                let top = highest.entry(column as u64).or_insert([x[0], x[1]]);
+                if x[1] > top[1] {
+                    *top = [x[0], x[1]];
+                }
             }
         }
         let (x, y): (Vec<f64>, Vec<f64>) = highest
-            .iter()
-            .flatten()
+            .values()
             .map(|[x, y]| (*x, y + 0.5 * world.spacing))
             .unzip();
         if x.len() < 3 {

@@ -50,6 +50,7 @@ pub struct DruckerPrager {
     #[schemars(extend(
         "exclusiveMinimum" = 0.0,
         "unit" = "Pa",
+        "quantity" = "modulus",
         "source" = "Ghaïtanellis 2017, Eq. 1.21"
     ))]
     pub young_modulus: f64,

@@ -1,5 +1,7 @@
 //! Bodies against the periodic box, the domain and the spacing.
 
+use sph_core::plausible::Quantity;
+
 use crate::check::Problems;
 use crate::place::{ROUNDING, spans};
 use crate::{Region, Scene, check_wave};
@@ -17,6 +19,14 @@ pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems)
         let key = body.keys().given()[0];
         let path = format!("body.{name}.{key}");
         let (lo, hi) = region.base.bounds();
+        let far = lo
+            .iter()
+            .chain(&hi)
+            .fold(0.0, |far: f64, x| far.max(x.abs()));
+        if let Some(why) = Quantity::refused("distance over the spacing", far / spacing) {
+            found.add(&path, why);
+            continue;
+        }
         let (bottom, top) = (region.bounds().0[D - 1], region.bounds().1[D - 1]);
         for (given, key) in [(&body.above, "above"), (&body.below, "below")] {
             if given.is_some() && bottom >= top {

@@ -8,9 +8,6 @@ use crate::polygon::crossing;
 use crate::vector::{array, point};
 use crate::{Polygon, Scene, Shape, outlet};
 
-/// Chains longer than this are not searched for crossings.
-const SEARCHED: usize = 20_000;
-
 /// Checks everything that has a place in space.
 pub(crate) fn check(scene: &Scene, found: &mut Problems) {
     let before = found.0.len();
@@ -189,9 +186,6 @@ pub(crate) fn crossed(
     path: &str,
     found: &mut Problems,
 ) {
-    if edges.len() > SEARCHED {
-        return;
-    }
     if let Some((first, second, place)) = crossing(edges, closed) {
         let message = format!(
             "the edges from corners {first} and {second}, counted from 0, meet at {}",

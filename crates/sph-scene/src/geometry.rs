@@ -4,7 +4,7 @@ use sph_core::{SceneProblem, parse_unit};
 
 use crate::facets::Facets;
 use crate::limits::{LINES, WALL_CORNERS};
-use crate::outlines::{Line, bounds, oriented, rectangle};
+use crate::outlines::{Line, Unsided, bounds, oriented, rectangle};
 use crate::placing::Placing;
 use crate::vector::array;
 use crate::wall_shapes::{Axis, Face, Wedge};
@@ -47,13 +47,19 @@ impl Wall {
             _ => Side::AsDrawn,
         };
         let turned = open_box && self.side() == Some(Side::Outside);
-        let lines = oriented(drawn, side).map_err(|open| {
-            let message = format!(
-                "line {} of the drawing, counted from 0, is not closed and has no inside: close \
-                 it, or leave out `fluid` and draw it with the fluid on the left of travel",
-                open
-            );
-            SceneProblem::new(format!("{place}.fluid"), message)
+        let lines = oriented(drawn, side).map_err(|why| match why {
+            Unsided::Open(open) => {
+                let message = format!(
+                    "line {open} of the drawing, counted from 0, is not closed and has no inside: close \
+                     it, or leave out `fluid` and draw it with the fluid on the left of travel"
+                );
+                SceneProblem::new(format!("{place}.fluid"), message)
+            }
+            Unsided::Tangled => problem(
+                "its lines have too many edges beside each other to tell which is within which: leave \
+                 out `fluid` and draw them with the fluid on the left of travel"
+                    .to_string(),
+            ),
         })?;
         let placing = Placing::new(self, factor);
         let placed = lines.into_iter().map(|line| {

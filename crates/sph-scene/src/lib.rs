@@ -89,6 +89,7 @@ mod plugins;
 mod polygon;
 mod reference;
 mod region;
+mod remarks;
 mod rows;
 mod scene;
 mod schema;

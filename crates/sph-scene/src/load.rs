@@ -11,7 +11,7 @@ use toml::{Table, Value};
 
 use crate::diagnostic::{Diagnostic, Origin, line_and_column};
 use crate::limits::{self, FILE_BYTES};
-use crate::{Override, Scene, Source, check, columns};
+use crate::{Override, Scene, Source, check, columns, remarks};
 
 /// A valid scene and the text it came from.
 #[derive(Clone, Debug)]
@@ -28,7 +28,7 @@ impl Loaded {
     /// Two scenes with the same table are the same scene, however they are written.
     pub fn resolved(&self) -> Table {
         match resolved(&self.source) {
-            Ok(Value::Table(table)) => table,
+            Ok((Value::Table(table), _)) => table,
             // It has been read from this source before.
             _ => Table::new(),
         }
@@ -155,17 +155,22 @@ pub fn read(source: Source) -> Result<Loaded, Refused> {
 
 fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     let diagnosed = |problems: Vec<SceneProblem>| source.diagnose(&problems);
-    let mut scene: Scene = resolved(source)?
+    let (table, mut remarks) = resolved(source)?;
+    let mut scene: Scene = table
         .try_into()
         .map_err(|e: toml::de::Error| diagnosed(vec![SceneProblem::new("", e.message())]))?;
-    match check::scene(&mut scene, source) {
-        problems if problems.is_empty() => Ok(scene),
-        problems => Err(diagnosed(problems)),
+    let problems = check::scene(&mut scene, source);
+    if !problems.is_empty() {
+        return Err(diagnosed(problems));
     }
+    remarks.extend(remarks::of_plugins(&scene));
+    let remarks = source.diagnose(&remarks);
+    scene.remarks = remarks.iter().map(Diagnostic::to_string).collect();
+    Ok(scene)
 }
 
-/// The table of the scene in the form of its schema.
-fn resolved(source: &Source) -> Result<Value, Vec<Diagnostic>> {
+/// The table of the scene in the form of its schema, and remarks on its numbers.
+fn resolved(source: &Source) -> Result<(Value, Vec<SceneProblem>), Vec<Diagnostic>> {
     let mut table = source.table()?;
     let diagnosed = |problems: Vec<SceneProblem>| source.diagnose(&problems);
     let mut problems = limits::check(&table);
@@ -175,13 +180,12 @@ fn resolved(source: &Source) -> Result<Value, Vec<Diagnostic>> {
     problems.extend(check::tables(&table));
     problems.extend(columns::convert(&mut table));
     let mut value = Value::Table(table);
-    problems.extend(
-        conform(&mut value, &schema_of::<Scene>())
-            .err()
-            .unwrap_or_default(),
-    );
+    let remarks = conform(&mut value, &schema_of::<Scene>()).unwrap_or_else(|found| {
+        problems.extend(found);
+        Vec::new()
+    });
     match problems.is_empty() {
-        true => Ok(value),
+        true => Ok((value, remarks)),
         false => Err(diagnosed(problems)),
     }
 }

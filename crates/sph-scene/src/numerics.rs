@@ -12,7 +12,7 @@ pub struct Run {
     pub end: f64,
     /// Factor on the largest stable time step of the plugins.
     #[serde(default = "one")]
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0, "quantity" = "safety factor"))]
     pub safety: f64,
     /// How often a failing step is retried with half the time step before the run stops.
     #[serde(default = "eight")]
@@ -41,11 +41,11 @@ impl Run {
 #[serde(deny_unknown_fields)]
 pub struct Numerics {
     /// Distance of neighbouring particles at the start, m.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0, "quantity" = "spacing"))]
     pub spacing: f64,
     /// Smoothing length of the kernel over the spacing.
     #[serde(default = "two")]
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 20.0))]
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 20.0, "quantity" = "smoothing ratio"))]
     pub smoothing_ratio: f64,
     /// Gravity, m/s², one entry per dimension; it is in balance with the pressure of walls. None if left out.
     #[schemars(extend("unit" = "m/s²"))]

@@ -1,5 +1,10 @@
 //! Lines of walls in the plane.
 
+use std::ops::ControlFlow;
+
+use sph_core::BoxTree;
+
+use crate::polygon::crosses_ray;
 use crate::wall_shapes::Face;
 use crate::{Polygon, Side};
 
@@ -60,38 +65,66 @@ pub(crate) fn rectangle(lo: [f64; 2], hi: [f64; 2], open: &[Face]) -> Vec<Line> 
     begins.map(line).collect()
 }
 
+/// Why closed lines cannot be turned.
+#[derive(Debug, PartialEq)]
+pub(crate) enum Unsided {
+    /// The line of a number is open.
+    Open(usize),
+    /// Too many edges lie beside too many lines.
+    Tangled,
+}
+
+/// Most edges, of all lines together, that are passed on the way out from a corner of each.
+const PASSED: usize = 200_000_000;
+
 /// Turns closed lines so that the fluid is inside or outside of what they enclose.
 ///
-/// A line within another is the edge of a hole: it goes round the other way. Returns the number
-/// of an open line, if there is one.
-pub(crate) fn oriented(lines: Vec<Line>, side: Side) -> Result<Vec<Line>, usize> {
+/// A line within another is the edge of a hole: it goes round the other way. Whether it lies within an odd
+/// number of others shows in the number of edges that a ray from one of its corners to the right passes.
+pub(crate) fn oriented(lines: Vec<Line>, side: Side) -> Result<Vec<Line>, Unsided> {
     if side == Side::AsDrawn {
         return Ok(lines);
     }
     if let Some(open) = lines.iter().position(|l| !l.closed) {
-        return Err(open);
+        return Err(Unsided::Open(open));
     }
-    let loops: Vec<(Polygon, [[f64; 2]; 2])> = lines
+    let polygons: Vec<Polygon> = lines
         .iter()
-        .map(|l| (Polygon::new(l.points.clone()), bounds(&l.points)))
+        .map(|l| Polygon::new(l.points.clone()))
         .collect();
-    let around = |k: usize| {
-        let x = lines[k].points[0];
-        let holds = |(n, (polygon, [lo, hi])): (usize, &(Polygon, [[f64; 2]; 2]))| {
-            n != k && (0..2).all(|i| lo[i] <= x[i] && x[i] <= hi[i]) && polygon.contains(x)
-        };
-        loops.iter().enumerate().filter(|l| holds(*l)).count()
+    let of = |(k, polygon): (usize, &Polygon)| {
+        let edges = polygon.edges().map(|(a, b)| (k, a, b));
+        edges.collect::<Vec<_>>()
     };
-    let depths: Vec<usize> = (0..lines.len()).map(around).collect();
-    let turned = lines.into_iter().enumerate().map(|(k, line)| {
-        let anticlockwise = loops[k].0.area() > 0.0;
-        let wanted = (side == Side::Inside) == depths[k].is_multiple_of(2);
-        match anticlockwise == wanted {
+    let edges: Vec<_> = polygons.iter().enumerate().flat_map(of).collect();
+    let boxes = edges.iter().map(|(_, a, b)| bounds(&[*a, *b])).collect();
+    let tree = BoxTree::new(boxes);
+    let mut passed = 0;
+    let mut turned = Vec::with_capacity(lines.len());
+    for (k, line) in lines.into_iter().enumerate() {
+        let from = line.points[0];
+        let ray = [from, [f64::INFINITY, from[1]]];
+        let mut within = 0;
+        let whole = tree.overlapping(ray, &mut |n| {
+            let (of, a, b) = edges[n];
+            within += usize::from(of != k && crosses_ray(from, a, b));
+            passed += 1;
+            match passed > PASSED {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        });
+        if whole.is_break() {
+            return Err(Unsided::Tangled);
+        }
+        let anticlockwise = polygons[k].area() > 0.0;
+        let wanted = (side == Side::Inside) == within.is_multiple_of(2);
+        turned.push(match anticlockwise == wanted {
             true => line,
             false => line.reversed(),
-        }
-    });
-    Ok(turned.collect())
+        });
+    }
+    Ok(turned)
 }
 
 /// Lower and upper corner of the box around points.

@@ -20,7 +20,7 @@ pub struct Phase {
     #[schemars(with = "AnyPlugins", extend("minProperties" = 1, "maxProperties" = 1))]
     pub rheology: Plugins,
     /// Numerical speed of sound, m/s; ten times the largest of `velocity_scale` and √(gH) if left out.
-    #[schemars(extend("unit" = "m/s", "exclusiveMinimum" = 0.0))]
+    #[schemars(extend("unit" = "m/s", "exclusiveMinimum" = 0.0, "quantity" = "speed of sound"))]
     pub speed_of_sound: Option<f64>,
     /// Largest speed that is expected, m/s; used to choose the speed of sound.
     #[schemars(extend("unit" = "m/s", "exclusiveMinimum" = 0.0))]

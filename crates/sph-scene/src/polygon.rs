@@ -1,5 +1,9 @@
 //! Simple polygons: containment, distance, area, self-crossing.
 
+use std::ops::ControlFlow;
+
+use sph_core::BoxTree;
+
 /// A closed polygon in the plane of the first two axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
@@ -36,11 +40,7 @@ impl Polygon {
 
     /// Whether a point is inside, by the parity of crossings.
     pub fn contains(&self, x: [f64; 2]) -> bool {
-        let crossed = |(a, b): &([f64; 2], [f64; 2])| {
-            (a[1] > x[1]) != (b[1] > x[1])
-                && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
-        };
-        self.edges().filter(crossed).count() % 2 == 1
+        self.edges().filter(|(a, b)| crosses_ray(x, *a, *b)).count() % 2 == 1
     }
 
     /// Distance of a point from the nearest edge for which `counts` holds, m.
@@ -65,36 +65,66 @@ impl Polygon {
     }
 }
 
+/// Whether the ray from a point to the right passes an edge.
+pub(crate) fn crosses_ray(x: [f64; 2], a: [f64; 2], b: [f64; 2]) -> bool {
+    (a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+}
+
+/// Most pairs of segments that are looked at; whoever meshes a wall refuses one of more.
+const PAIRS: usize = 200_000_000;
+
 /// The first two segments of a chain that cross or touch without being neighbours.
 ///
-/// Segments are swept by their lower end along x, so that a chain of n segments that is not
-/// a tangle costs about n log n.
+/// Only segments whose boxes overlap are held against each other, so that a chain of n segments that is not a
+/// tangle costs about n log n. A tangle of more than [`PAIRS`] is not searched to its end.
 pub(crate) fn crossing(
     edges: &[([f64; 2], [f64; 2])],
     closed: bool,
 ) -> Option<(usize, usize, [f64; 2])> {
+    searched(edges, closed).0
+}
+
+/// Two segments, by number, and the place where they meet.
+type Met = (usize, usize, [f64; 2]);
+
+/// The same with the number of pairs that were held against each other.
+fn searched(edges: &[([f64; 2], [f64; 2])], closed: bool) -> (Option<Met>, usize) {
     let n = edges.len();
-    let reach = |k: usize| {
-        let (a, b) = edges[k];
-        (a[0].min(b[0]), a[0].max(b[0]))
+    let around = |(a, b): &([f64; 2], [f64; 2])| {
+        [
+            [a[0].min(b[0]), a[1].min(b[1])],
+            [a[0].max(b[0]), a[1].max(b[1])],
+        ]
     };
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&i, &j| reach(i).0.total_cmp(&reach(j).0));
-    for (k, &i) in order.iter().enumerate() {
-        let end = reach(i).1;
-        for &j in order[k + 1..].iter().take_while(|&&j| reach(j).0 <= end) {
-            let (first, second) = (i.min(j), i.max(j));
+    let tree = BoxTree::new(edges.iter().map(around).collect());
+    let mut pairs = 0;
+    for first in 0..n {
+        // The lowest of those that it meets.
+        let mut met: Option<(usize, [f64; 2])> = None;
+        let whole = tree.overlapping(tree.of(first), &mut |second| {
+            if second <= first || met.is_some_and(|(k, _)| k < second) {
+                return ControlFlow::Continue(());
+            }
+            pairs += 1;
             let adjacent = second - first == 1 || (closed && first == 0 && second == n - 1);
-            let met = match adjacent {
+            let place = match adjacent {
                 true => folded(edges[first], edges[second], second - first == 1),
                 false => meet(edges[first], edges[second]),
             };
-            if let Some(place) = met {
-                return Some((first, second, place));
+            met = place.map(|place| (second, place)).or(met);
+            match pairs > PAIRS {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
             }
+        });
+        if let Some((second, place)) = met {
+            return (Some((first, second, place)), pairs);
+        }
+        if whole.is_break() {
+            break;
         }
     }
-    None
+    (None, pairs)
 }
 
 fn cross(o: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -172,5 +202,32 @@ mod tests {
         assert!(touch.crossing().is_some());
         let fold = Polygon::new(vec![[0.0, 0.0], [4.0, 0.0], [2.0, 0.0], [2.0, 2.0]]);
         assert!(fold.crossing().is_some());
+    }
+
+    #[test]
+    fn a_segment_is_held_against_those_beside_it_only() {
+        for tall in [1.0, 1000.0] {
+            let n = 20_000;
+            let corner = |k: usize| ((k as f64) * 1.5, (k % 2) as f64 * tall);
+            let up = |k: usize| {
+                (
+                    [corner(k).0, corner(k).1],
+                    [corner(k + 1).0, corner(k + 1).1],
+                )
+            };
+            let across = |k: usize| {
+                (
+                    [corner(k).1, corner(k).0],
+                    [corner(k + 1).1, corner(k + 1).0],
+                )
+            };
+            for edges in [
+                (0..n).map(up).collect(),
+                (0..n).map(across).collect::<Vec<_>>(),
+            ] {
+                // The box of a segment touches that of the next, and of no other.
+                assert_eq!(searched(&edges, false), (None, n - 1));
+            }
+        }
     }
 }

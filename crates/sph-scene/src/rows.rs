@@ -5,9 +5,13 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::Line;
+use crate::diagnostic::line_and_column;
 
 /// Longest text file, bytes.
 const BYTES: u64 = 64 << 20;
+/// Most rows of a file, and most blocks of them: whoever takes them takes fewer.
+const ROWS: usize = 4_000_000;
+const BLOCKS: usize = 200_000;
 
 /// Two numbers and the line they stand in, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,9 +43,11 @@ pub(crate) fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, String> {
 /// The text of a file of UTF-8 that is neither empty nor too long.
 pub(crate) fn text(path: &Path) -> Result<String, String> {
     String::from_utf8(bytes(path, BYTES)?).map_err(|e| {
-        let before = &e.as_bytes()[..e.utf8_error().valid_up_to()];
-        let line = 1 + before.iter().filter(|b| **b == b'\n').count();
-        format!("`{}`, line {line}: this is no UTF-8 text", path.display())
+        let at = e.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(&e.as_bytes()[..at]);
+        let (line, column) = line_and_column(&before, at);
+        let name = path.display();
+        format!("`{name}`, line {line}: this is no UTF-8 text (column {column})")
     })
 }
 
@@ -84,6 +90,7 @@ fn parse(text: &str) -> Result<Vec<Vec<Row>>, String> {
     let mut blocks: Vec<Vec<Row>> = Vec::new();
     let mut begun = false;
     let mut named = false;
+    let mut rows = 0;
     for (k, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         let content = line.split('#').next().unwrap_or("").trim();
         if content.is_empty() {
@@ -91,9 +98,10 @@ fn parse(text: &str) -> Result<Vec<Vec<Row>>, String> {
             continue;
         }
         let separator = |c: char| c == ',' || c == ';' || c.is_whitespace();
-        let fields: Vec<&str> = match content.contains([',', ';']) {
-            true => content.split([',', ';']).map(str::trim).collect(),
-            false => content.split(separator).filter(|f| !f.is_empty()).collect(),
+        // A row of millions of columns is not kept.
+        let (fields, columns) = match content.contains([',', ';']) {
+            true => first_of(content.split([',', ';']).map(str::trim)),
+            false => first_of(content.split(separator).filter(|f| !f.is_empty())),
         };
         let numbers: Vec<Option<f64>> = fields.iter().map(|f| f.parse().ok()).collect();
         if blocks.is_empty() && !named && numbers.iter().all(Option::is_none) {
@@ -102,9 +110,8 @@ fn parse(text: &str) -> Result<Vec<Vec<Row>>, String> {
         }
         let line = k + 1;
         let [first, second] = numbers[..] else {
-            let found = fields.len();
             return Err(format!(
-                "line {line}: expected 2 numbers with a comma between them, found {found} columns"
+                "line {line}: expected 2 numbers with a comma between them, found {columns} columns"
             ));
         };
         let number = |n: Option<f64>, column: usize| match n {
@@ -117,11 +124,24 @@ fn parse(text: &str) -> Result<Vec<Vec<Row>>, String> {
             blocks.push(Vec::new());
             begun = true;
         }
+        rows += 1;
+        if rows > ROWS || blocks.len() > BLOCKS {
+            return Err(format!(
+                "line {line}: more than {ROWS} rows, or more than {BLOCKS} blocks of them"
+            ));
+        }
         if let Some(block) = blocks.last_mut() {
             block.push(Row { line, values });
         }
     }
     Ok(blocks)
+}
+
+/// The first columns of a row, three at most, and how many there are.
+fn first_of<'t>(mut columns: impl Iterator<Item = &'t str>) -> (Vec<&'t str>, usize) {
+    let first: Vec<&str> = columns.by_ref().take(3).collect();
+    let count = first.len() + columns.count();
+    (first, count)
 }
 
 #[cfg(test)]

@@ -111,6 +111,9 @@ pub struct Scene {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Probe>")]
     pub gauge: Plugins,
+    /// Remarks on its numbers, each with its place in the text.
+    #[serde(skip)]
+    pub remarks: Vec<String>,
     /// Paths of the files that probes and gauges name in `file`, by the name of the probe.
     #[serde(skip)]
     pub probe_files: BTreeMap<String, PathBuf>,

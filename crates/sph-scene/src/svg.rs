@@ -230,6 +230,7 @@ impl Lines {
             return Err("its coordinates are out of range for this spacing".to_string());
         }
         let near = 1e-6 * self.tolerance;
+        let tolerance = SHARES[1] * self.tolerance;
         let (found, corners) = (&mut self.found, &mut self.corners);
         let mut line: Vec<[f64; 2]> = Vec::new();
         let mut end = |line: &mut Vec<[f64; 2]>, closed: bool| {
@@ -240,26 +241,27 @@ impl Lines {
             }
         };
         let at = |p: Point| [p.x, p.y];
-        kurbo::flatten(
-            path.iter(),
-            SHARES[1] * self.tolerance,
-            |element| match element {
+        let mut pen = Point::ZERO;
+        // One piece after the other, so that there is an end where there are too many corners.
+        for element in path.iter() {
+            if *corners > CORNERS {
+                break;
+            }
+            match element {
                 PathEl::MoveTo(p) => {
                     end(&mut line, false);
                     line.push(at(p));
                 }
-                PathEl::LineTo(p) => {
-                    if *corners < CORNERS {
+                PathEl::ClosePath => end(&mut line, true),
+                piece => kurbo::flatten([PathEl::MoveTo(pen), piece], tolerance, |flat| {
+                    if let PathEl::LineTo(p) = flat {
                         line.push(at(p));
+                        *corners += 1;
                     }
-                    *corners += 1;
-                }
-                PathEl::ClosePath => {
-                    end(&mut line, true);
-                }
-                PathEl::QuadTo(..) | PathEl::CurveTo(..) => {}
-            },
-        );
+                }),
+            }
+            pen = element.end_point().unwrap_or(pen);
+        }
         end(&mut line, false);
         match self.corners > CORNERS {
             true => Err(format!(

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
+use sph_core::plausible::Quantity;
 use sph_core::{AnyField, Field, Role, Scalar, SceneProblem, Store, fields};
 use sph_integrators::Integrator;
 use sph_multiphase::{BoundState, Compressed, Diffused, Reference};
@@ -81,11 +82,15 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     let spacing = scene.numerics.spacing;
     let h = scene.numerics.smoothing_ratio * spacing;
     let sampler = choices.kernel.sampler(D, h);
+    let support = sampler.support_radius() / spacing;
+    if let Some(why) = Quantity::refused("kernel support over the spacing", support) {
+        return Err(SolverError::at("numerics.smoothing_ratio", why));
+    }
     let skin = scene.numerics.skin.unwrap_or(defaults::SKIN);
     let domain = domain_of(scene, &drawn);
     check_periods(&domain, sampler.support_radius() * (1.0 + skin))?;
 
-    let mut warnings = Vec::new();
+    let mut warnings = scene.remarks.clone();
     let mut wall_set = WallSet::default();
     if let Some(walls) = &mut choices.walls {
         wall_set = build_walls(

@@ -5,6 +5,7 @@ use sph_boundary::{
     Translation, WallSpec, thin_plate,
 };
 use sph_core::Vect;
+use sph_core::plausible::Quantity;
 use sph_neighbours::Coulomb;
 use sph_scene::{Facets, FrictionForm, Line, Region, Scene};
 
@@ -78,6 +79,7 @@ impl<const D: usize> Drawn<D> {
                     };
                     few(pieces, &place)?;
                 }
+                drawn.near(scene.numerics.spacing, &place)?;
                 drawn.walls.push(WallSpec {
                     drawing,
                     condition,
@@ -138,6 +140,19 @@ impl<const D: usize> Drawn<D> {
         lines.into_iter().map(line).collect()
     }
 
+    /// Refuses the wall with which places are so far away that positions there are rounded.
+    fn near(&self, spacing: f64, place: &str) -> Result<(), SolverError> {
+        let corners = self
+            .bounds
+            .iter()
+            .flat_map(|(low, high)| low.iter().chain(high));
+        let far = corners.fold(0.0, |far: f64, x| far.max(x.abs()));
+        match Quantity::refused("distance over the spacing", far / spacing) {
+            Some(why) => Err(SolverError::at(place, why)),
+            None => Ok(()),
+        }
+    }
+
     fn include(&mut self, x: &[f64]) {
         let point: [f64; D] = std::array::from_fn(|k| x[k]);
         let (low, high) = self.bounds.get_or_insert((point, point));
@@ -171,7 +186,7 @@ fn motion_of<const D: usize>(
             phase,
             ramp,
         },
-        sph_scene::Course::Table(rows) => Course::Table { rows },
+        sph_scene::Course::Table(rows) => Course::Table { rows: rows.into() },
     };
     let vector = |v: &[f64]| std::array::from_fn(|k| v.get(k).copied().unwrap_or(0.0));
     let shifts = courses.translations.into_iter();

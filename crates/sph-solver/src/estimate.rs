@@ -67,7 +67,7 @@ const TINY: f64 = 1e-8;
 /// What a run takes whose first step is tiny.
 ///
 /// # Errors
-/// If a limit cannot be computed.
+/// If a limit cannot be computed, or if steps are so short that time would stand still.
 pub fn tiny_steps<const D: usize>(
     scene: &Scene,
     flow: &Flow<D>,
@@ -78,6 +78,16 @@ pub fn tiny_steps<const D: usize>(
         return Ok(None);
     };
     let dt = least.dt * scene.run.safety;
+    if scene.run.end + dt == scene.run.end {
+        return Err(SolverError::at(
+            "run.end",
+            format!(
+                "`{}` bounds the first step to {dt:.1e} s, which is lost in t = {} s to rounding: time would \
+                 stand still; lower the stiffness or the speed behind it, or check `run.safety`",
+                least.name, scene.run.end
+            ),
+        ));
+    }
     let cost = Estimate::new(scene, flow.world.free.len() as f64, dt, threads, 0.0);
     Ok((dt < TINY).then(|| {
         format!(

@@ -50,11 +50,18 @@ impl Axis {
     }
 }
 
+/// Most axes of a study.
+const AXES: usize = 100;
+
 /// All axes of a study file.
 ///
 /// # Errors
 /// Every axis that is not one, with its place in the file.
 pub fn axes(given: &[file::Axis]) -> Result<Vec<Axis>, Vec<SceneProblem>> {
+    if given.len() > AXES {
+        let message = format!("{} axes are more than {AXES}", given.len());
+        return Err(vec![SceneProblem::new("vary", message)]);
+    }
     let mut problems = Vec::new();
     let mut axes: Vec<Axis> = Vec::new();
     for (k, axis) in given.iter().enumerate() {

@@ -175,21 +175,31 @@ pub fn safe(text: &str) -> String {
 }
 
 /// Whether a name fits a pattern with `*` and `?`.
+///
+/// What follows a `*` is tried at its first place; where the rest does not fit, the last `*` alone takes one letter
+/// more. That is enough, and takes no more than the product of both lengths.
 pub fn fits(pattern: &str, name: &str) -> bool {
-    let mut pattern_rest = pattern.chars();
-    match (pattern_rest.next(), name.chars().next()) {
-        (None, None) => true,
-        (Some('*'), _) => {
-            let tails = name.char_indices().map(|(k, _)| k).chain([name.len()]);
-            tails
-                .into_iter()
-                .any(|k| fits(pattern_rest.as_str(), &name[k..]))
+    let (pattern, name): (Vec<char>, Vec<char>) =
+        (pattern.chars().collect(), name.chars().collect());
+    let (mut p, mut n) = (0, 0);
+    let mut star: Option<(usize, usize)> = None;
+    while n < name.len() {
+        match pattern.get(p) {
+            Some('*') => {
+                star = Some((p, n));
+                p += 1;
+            }
+            Some(c) if *c == '?' || *c == name[n] => (p, n) = (p + 1, n + 1),
+            _ => match star {
+                Some((at, taken)) => {
+                    (p, n) = (at + 1, taken + 1);
+                    star = Some((at, taken + 1));
+                }
+                None => return false,
+            },
         }
-        (Some(p), Some(c)) if p == '?' || p == c => {
-            fits(pattern_rest.as_str(), &name[c.len_utf8()..])
-        }
-        _ => false,
     }
+    pattern[p..].iter().all(|c| *c == '*')
 }
 
 #[cfg(test)]
@@ -250,5 +260,11 @@ mod tests {
         let names: Vec<_> = all.iter().map(|c| c.name.as_str()).collect();
         assert_eq!(names, ["a-b", "A-b-2", "scene"]);
         assert!(fits("mor*_?5", "morris_25") && !fits("mor*_?5", "morris_125x"));
+        assert!(fits("*25*", "a_225_x") && fits("", "") && fits("**", "") && !fits("", "a"));
+        // Ways to spread the letters over the stars are without number.
+        assert!(!fits(
+            &"*a".repeat(40).replace("*a*a*a*a", "*a*a*a*b"),
+            &"a".repeat(120)
+        ));
     }
 }

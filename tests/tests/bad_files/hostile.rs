@@ -223,3 +223,60 @@ fn trials_and_unpacked_data_leave_nothing_behind() {
         0
     );
 }
+
+#[test]
+fn what_a_kill_left_in_the_temporary_place_goes_with_the_next_check() {
+    let bench = Bench::new(PROGRAM);
+    std::fs::create_dir_all(bench.path("tmp")).expect("a folder");
+    // Whatever its name, this one belongs to nobody's lock.
+    std::fs::create_dir_all(bench.path("tmp/.sph-data-mine")).expect("a folder");
+    let names = || -> Vec<String> {
+        let entries = std::fs::read_dir(bench.path("tmp")).expect("a folder");
+        let all = entries.filter_map(|e| e.ok()?.file_name().into_string().ok());
+        all.filter(|n| n != ".sph-data-mine").collect()
+    };
+    let check = || {
+        let mut check = bench.command("check dam-break-koshizuka");
+        check.env("TMPDIR", bench.path("tmp"));
+        check
+    };
+    let killed_in_time = (0..100).any(|_| {
+        let mut child = check().spawn().expect("a check");
+        while names().is_empty() && child.try_wait().expect("a child").is_none() {
+            std::thread::sleep(Duration::from_micros(200));
+        }
+        let _ = child.kill();
+        child.wait().expect("an end");
+        !names().is_empty()
+    });
+    assert!(killed_in_time, "no kill came while the data were there");
+    // Not a name that a number of a process tells.
+    let name = names().remove(0);
+    let random = name.strip_prefix(".sph-data-").expect("the prefix");
+    assert!(
+        random.len() >= 6 && random.parse::<u64>().is_err(),
+        "{name}"
+    );
+    assert!(check().output().expect("a check").status.success());
+    assert!(names().is_empty(), "{:?}", names());
+    assert!(bench.path("tmp/.sph-data-mine").exists());
+}
+
+#[test]
+fn the_place_of_bytes_that_are_no_text_is_told_of_data_files_too() {
+    let bench = Bench::new(PROGRAM);
+    let drawn = DAM_BREAK.replace(
+        "polyline = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6]]\nclosed = true\n",
+        "file = \"w.csv\"\n",
+    );
+    assert!(drawn != DAM_BREAK);
+    let compared = format!("{DAM_BREAK}[reference.r]\nprobe = \"front\"\nfile = \"w.csv\"\n");
+    std::fs::write(bench.path("w.csv"), b"0,0\n0,\xc3\xa4\xff\n").expect("a file");
+    for scene in [drawn, compared] {
+        bench.write("scene.toml", &scene);
+        let told = bench.call("check scene.toml").err;
+        for word in ["w.csv", "line 2", "column 4"] {
+            assert!(told.contains(word), "no `{word}` in {told}");
+        }
+    }
+}

@@ -4,7 +4,10 @@
 mod forged;
 #[cfg(target_os = "linux")]
 mod hostile;
+#[cfg(target_os = "linux")]
+mod large;
 mod mutated;
+mod plausible;
 #[cfg(unix)]
 mod reach;
 #[cfg(target_os = "linux")]

@@ -93,3 +93,20 @@ fn links_within_the_workspace_lead_somewhere() {
         }
     }
 }
+
+/// What a scene may name is told once; whoever mentions it leads there.
+#[test]
+fn pages_agree_on_which_folders_a_scene_may_name() {
+    let rule = "validation/stability.md#files-nobody-meant";
+    let mut mentioned = 0;
+    for (path, text) in documents() {
+        if !path.starts_with(root().join("docs")) || path.ends_with("validation/stability.md") {
+            continue;
+        }
+        for line in text.lines().filter(|l| l.contains("--allow-path")) {
+            mentioned += 1;
+            assert!(line.contains(rule), "{}: {line}", path.display());
+        }
+    }
+    assert!(mentioned >= 2, "studies and walls mention it");
+}

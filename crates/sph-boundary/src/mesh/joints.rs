@@ -1,5 +1,9 @@
 //! Which ends of open walls are the same place.
 
+use std::ops::ControlFlow;
+
+use sph_core::BoxTree;
+
 use super::WallEnd;
 use crate::error::BoundaryError;
 use crate::periodic::PeriodicBox;
@@ -52,13 +56,15 @@ pub(super) fn joints(
     let starts_free = polylines.iter().map(|line| !line.closed).collect();
     let mut joints = Joints { after, starts_free };
     let ends = open_ends(polylines);
+    let wrapped = |end: &OpenEnd| domain.wrapped(end.position);
+    let tree = BoxTree::new(ends.iter().map(|e| [wrapped(e); 2]).collect());
     for (i, end) in ends.iter().enumerate() {
         let images = |other: &OpenEnd| same_place(end.position, other.position, tolerance, domain);
-        let met: Vec<(&OpenEnd, [i32; 2])> = ends
+        let mut near = near(&tree, wrapped(end), tolerance, domain);
+        near.retain(|j| *j != i);
+        let met: Vec<(&OpenEnd, [i32; 2])> = near
             .iter()
-            .enumerate()
-            .filter(|(j, _)| *j != i)
-            .filter_map(|(_, other)| Some((other, images(other)?)))
+            .filter_map(|j| Some((&ends[*j], images(&ends[*j])?)))
             .collect();
         let name = |end: &OpenEnd| polylines[end.wall].name.clone();
         let [x, y] = end.position;
@@ -95,6 +101,33 @@ pub(super) fn joints(
         }
     }
     Ok(joints)
+}
+
+/// Ends, moved into the periodic box, that may be at a place in it, ascending.
+fn near(tree: &BoxTree<2>, place: [f64; 2], tolerance: f64, domain: &PeriodicBox) -> Vec<usize> {
+    let periods = domain.periods();
+    // What is just within one side of the box is at the place of what is just within the other.
+    let shifts = |k: usize| match domain.periodic[k] {
+        true => vec![-periods[k], 0.0, periods[k]],
+        false => vec![0.0],
+    };
+    // Twice the tolerance: wrapping rounds.
+    let reach = 2.0 * tolerance;
+    let mut found = Vec::new();
+    for x in shifts(0) {
+        for y in shifts(1) {
+            let at = [place[0] + x, place[1] + y];
+            let around = [at.map(|c| c - reach), at.map(|c| c + reach)];
+            let whole = tree.overlapping(around, &mut |end| {
+                found.push(end);
+                ControlFlow::<()>::Continue(())
+            });
+            debug_assert!(whole.is_continue(), "nothing breaks it off");
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
 }
 
 fn open_ends(polylines: &[Polyline]) -> Vec<OpenEnd> {

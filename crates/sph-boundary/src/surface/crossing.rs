@@ -1,12 +1,16 @@
 //! Triangles that cross or cover each other.
 
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
+use sph_core::BoxTree;
 
 use super::Surface;
 use super::drawn::Drawn;
 use super::error::SurfaceError;
-use super::tree::BoxTree;
 use super::vector::{Point, add, along, bounds, cross, dot, norm, sub, unit};
+use crate::error::MOST_PAIRS;
 use crate::periodic::PeriodicBox;
 
 /// Two triangles of different walls of one group that cover each other face to face: `other`,
@@ -50,6 +54,7 @@ pub(super) fn contacts(
         let first = ((low[k] - own[1][k]) / periods[k]).ceil() as i32;
         first..=((high[k] - own[0][k]) / periods[k]).floor() as i32
     };
+    let pairs = AtomicUsize::new(0);
     // Triangle `t`, moved, against all others; every pair of images comes up once.
     let about = |t: usize| -> Result<Vec<Contact>, SurfaceError> {
         let mut found = Vec::new();
@@ -62,11 +67,19 @@ pub(super) fn contacts(
                     }
                     let shift = domain.shift(image);
                     let query = boxes[t].map(|corner| add(corner, shift));
-                    tree.overlapping(query, &mut |other| {
+                    let whole = tree.overlapping(query, &mut |other| {
                         if image != [0; 3] || other > t {
                             found.push((other, image));
                         }
+                        match pairs.fetch_add(1, Ordering::Relaxed) < MOST_PAIRS {
+                            true => ControlFlow::Continue(()),
+                            false => ControlFlow::Break(()),
+                        }
                     });
+                    if whole.is_break() {
+                        let wall = surfaces[drawn[t].wall].name.clone();
+                        return Err(SurfaceError::Tangled { wall });
+                    }
                 }
             }
         }
@@ -121,11 +134,15 @@ pub(super) fn contacts(
         }
         Ok(contacts)
     };
-    let all: Vec<Result<Vec<Contact>, SurfaceError>> =
-        (0..drawn.len()).into_par_iter().map(about).collect();
-    let mut contacts = Vec::new();
-    for some in all {
-        contacts.extend(some?);
+    // Some at a time, so that a tangle is refused at its first crossing.
+    let (mut contacts, mut done, mut next) = (Vec::new(), 0, 64);
+    while done < drawn.len() {
+        let end = (done + next).min(drawn.len());
+        let all: Vec<_> = (done..end).into_par_iter().map(about).collect();
+        for some in all {
+            contacts.extend(some?);
+        }
+        (done, next) = (end, 2 * next);
     }
     Ok(contacts)
 }

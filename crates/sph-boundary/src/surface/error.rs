@@ -85,6 +85,16 @@ pub enum SurfaceError {
         /// The most.
         limit: u64,
     },
+    /// Triangles that lie across each other's boxes by the million.
+    #[error(
+        "from wall `{wall}` on, more than {} pairs of triangles are so near each other that they must be \
+         compared: draw it with fewer long slanted triangles side by side",
+        crate::error::MOST_PAIRS
+    )]
+    Tangled {
+        /// Name of the wall.
+        wall: String,
+    },
     /// One triangle given twice.
     #[error("wall `{wall}`: triangles {triangle} and {other} at {} have the same corners", place(.at))]
     Repeated {

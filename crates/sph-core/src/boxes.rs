@@ -1,0 +1,155 @@
+//! Boxes that overlap a box.
+
+use std::ops::ControlFlow;
+
+/// Most boxes of a node that is not divided.
+const LEAF: usize = 4;
+
+/// Lower and upper corner of a box along the axes.
+pub type Corners<const D: usize> = [[f64; D]; 2];
+
+/// Binary tree of boxes along the axes, halved along the longest side.
+///
+/// Setting it up costs n log n, a question log n and the number of answers.
+#[derive(Clone, Debug)]
+pub struct BoxTree<const D: usize> {
+    /// Bounds of the nodes; the children of node i are 2i + 1 and 2i + 2.
+    nodes: Vec<Corners<D>>,
+    order: Vec<u32>,
+    boxes: Vec<Corners<D>>,
+}
+
+impl<const D: usize> BoxTree<D> {
+    /// The tree of at most 2³² boxes.
+    pub fn new(boxes: Vec<Corners<D>>) -> Self {
+        let mut tree = Self {
+            nodes: Vec::new(),
+            order: Vec::new(),
+            boxes,
+        };
+        let mut order: Vec<u32> = (0..tree.boxes.len() as u32).collect();
+        tree.split(0, &mut order);
+        tree.order = order;
+        tree
+    }
+
+    fn split(&mut self, node: usize, order: &mut [u32]) {
+        let nothing = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+        let [low, high] = order.iter().fold(nothing, |all, b| {
+            let one = self.boxes[*b as usize];
+            [
+                std::array::from_fn(|k| all[0][k].min(one[0][k])),
+                std::array::from_fn(|k| all[1][k].max(one[1][k])),
+            ]
+        });
+        if self.nodes.len() <= node {
+            self.nodes.resize(node + 1, nothing);
+        }
+        self.nodes[node] = [low, high];
+        if order.len() <= LEAF {
+            return;
+        }
+        let side = |k: usize| high[k] - low[k];
+        let axis = (0..D)
+            .max_by(|a, b| side(*a).total_cmp(&side(*b)))
+            .unwrap_or(0);
+        let boxes = &self.boxes;
+        let middle = |b: u32| boxes[b as usize][0][axis] + boxes[b as usize][1][axis];
+        let half = order.len() / 2;
+        order.select_nth_unstable_by(half, |a, b| {
+            middle(*a).total_cmp(&middle(*b)).then(a.cmp(b))
+        });
+        let (left, right) = order.split_at_mut(half);
+        self.split(2 * node + 1, left);
+        self.split(2 * node + 2, right);
+    }
+
+    /// Calls `found` with the number of every box that overlaps or touches `query`, until it breaks off.
+    pub fn overlapping<B>(
+        &self,
+        query: Corners<D>,
+        found: &mut impl FnMut(usize) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        self.descend(0, &self.order, query, found)
+    }
+
+    fn descend<B>(
+        &self,
+        node: usize,
+        order: &[u32],
+        query: Corners<D>,
+        found: &mut impl FnMut(usize) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        if order.is_empty() || !overlap(self.nodes[node], query) {
+            return ControlFlow::Continue(());
+        }
+        if order.len() <= LEAF {
+            for b in order {
+                if overlap(self.boxes[*b as usize], query) {
+                    found(*b as usize)?;
+                }
+            }
+            return ControlFlow::Continue(());
+        }
+        let (left, right) = order.split_at(order.len() / 2);
+        self.descend(2 * node + 1, left, query, found)?;
+        self.descend(2 * node + 2, right, query, found)
+    }
+
+    /// Bounds of all boxes.
+    pub fn bounds(&self) -> Corners<D> {
+        self.nodes[0]
+    }
+
+    /// The box of a number.
+    pub fn of(&self, number: usize) -> Corners<D> {
+        self.boxes[number]
+    }
+}
+
+fn overlap<const D: usize>(a: Corners<D>, b: Corners<D>) -> bool {
+    (0..D).all(|k| a[0][k] <= b[1][k] && b[0][k] <= a[1][k])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(tree: &BoxTree<2>, query: Corners<2>) -> Vec<usize> {
+        let mut all = Vec::new();
+        let whole = tree.overlapping(query, &mut |k| {
+            all.push(k);
+            ControlFlow::<()>::Continue(())
+        });
+        assert!(whole.is_continue());
+        all.sort_unstable();
+        all
+    }
+
+    #[test]
+    fn those_that_overlap_or_touch_are_found_and_no_other() {
+        let of = |k: usize| {
+            let (x, y) = ((k % 30) as f64, (k / 30) as f64);
+            [[x, y], [x + 0.5, y + 0.5]]
+        };
+        let tree = BoxTree::new((0..900).map(of).collect());
+        assert_eq!(tree.bounds(), [[0.0, 0.0], [29.5, 29.5]]);
+        assert_eq!(
+            numbers(&tree, [[4.5, 7.2], [5.0, 8.0]]),
+            [214, 215, 244, 245]
+        );
+        assert_eq!(numbers(&tree, [[4.6, 7.6], [4.9, 7.9]]), [0; 0]);
+        assert!(numbers(&BoxTree::new(Vec::new()), [[0.0; 2], [1.0; 2]]).is_empty());
+    }
+
+    #[test]
+    fn it_stops_where_it_is_told() {
+        let tree = BoxTree::new(vec![[[0.0; 2], [1.0; 2]]; 1000]);
+        let mut asked = 0;
+        let end = tree.overlapping([[0.0; 2]; 2], &mut |k| {
+            asked += 1;
+            ControlFlow::Break(k)
+        });
+        assert!(end.is_break() && asked == 1);
+    }
+}
