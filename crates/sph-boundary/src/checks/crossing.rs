@@ -151,7 +151,7 @@ mod tests {
     fn comb(n: usize, along: usize, tooth: f64) -> Polyline {
         let corner = |k: usize| {
             let mut at = [(k / 2) as f64; 2];
-            at[1 - along] = tooth * ((k + 1) / 2 % 2) as f64;
+            at[1 - along] = tooth * (k.div_ceil(2) % 2) as f64;
             at
         };
         Polyline::open("comb", (0..n).map(corner).collect())
