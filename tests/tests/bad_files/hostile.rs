@@ -190,6 +190,10 @@ fn places_are_told_of_deep_nesting_and_of_bytes_that_are_no_text() {
     bench.write("scene.toml", &deep);
     let told = bench.call("check scene.toml").err;
     assert!(told.contains("scene.toml:2:"), "{told}");
+    let dotted = format!("title = \"t\"\n\n{} = 1\n", vec!["a"; 2000].join("."));
+    bench.write("scene.toml", &dotted);
+    let told = bench.call("check scene.toml").err;
+    assert!(told.contains("scene.toml:3:"), "{told}");
     let mut bytes = b"title = \"t\"\n# \xc3\xa4\xc3\xb6".to_vec();
     bytes.extend([0xff, 0xfe]);
     std::fs::write(bench.path("scene.toml"), bytes).expect("a file");
