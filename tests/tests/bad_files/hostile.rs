@@ -284,3 +284,21 @@ fn the_place_of_bytes_that_are_no_text_is_told_of_data_files_too() {
         }
     }
 }
+
+#[test]
+fn a_line_of_millions_of_letters_is_not_shown() {
+    let bench = Bench::new(PROGRAM);
+    let long = "k".repeat(3_000_000);
+    for text in [
+        format!("{DAM_BREAK}\n{long} = 1\n"),
+        DAM_BREAK.replace("1000.0", &format!("\"1 {long}\"")),
+        format!("{DAM_BREAK}\nx = {}\n", "9".repeat(3_000_000)),
+    ] {
+        bench.write("scene.toml", &text);
+        let outcome = bench.call("check scene.toml");
+        assert_eq!(outcome.code, Some(2));
+        assert!(outcome.err.contains("scene.toml:"));
+        // A few messages of two thousand letters at most, with their paths.
+        assert!(outcome.err.len() < 20_000, "{} bytes", outcome.err.len());
+    }
+}
