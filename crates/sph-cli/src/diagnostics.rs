@@ -73,6 +73,10 @@ fn one(located: &Located, colour: bool) -> String {
     let Some(place) = visible(&text, &d.span) else {
         return plain();
     };
+    // Nor is a line shown that fills the screen.
+    if line_around(&text, &place) > LONGEST {
+        return plain();
+    }
     let span = |range: Range<usize>| (d.file.clone(), range);
     let config = Config::new()
         .with_color(colour)
@@ -105,12 +109,29 @@ fn one(located: &Located, colour: bool) -> String {
     }
 }
 
-/// A diagnostic without characters that a terminal obeys; spans stay where they are.
+/// Longest line of a scene that is shown, and longest message, bytes.
+const LONGEST: usize = 2_000;
+
+/// Length of the line in which a span begins, bytes.
+fn line_around(text: &str, span: &Range<usize>) -> usize {
+    let (before, after) = text.split_at_checked(span.start).unwrap_or((text, ""));
+    let start = before.rfind('\n').map_or(0, |n| n + 1);
+    before.len() - start + after.find('\n').unwrap_or(after.len())
+}
+
+/// A diagnostic without characters that a terminal obeys, and cut where it is too long; spans stay where they are.
 fn cleaned(d: &Diagnostic) -> Diagnostic {
+    let told = |text: &str| {
+        let end = text.char_indices().map(|(k, _)| k).find(|k| *k > LONGEST);
+        match end {
+            Some(end) => format!("{} … (cut)", clean(&text[..end]).replace('\n', " ")),
+            None => clean(text).replace('\n', " "),
+        }
+    };
     Diagnostic {
-        message: clean(&d.message).replace('\n', " "),
-        path: clean(&d.path).replace('\n', " "),
-        file: clean(&d.file).replace('\n', " "),
+        message: told(&d.message),
+        path: told(&d.path),
+        file: told(&d.file),
         ..d.clone()
     }
 }

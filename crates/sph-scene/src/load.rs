@@ -234,13 +234,18 @@ fn too_deep(text: &str, message: &str) -> std::ops::Range<usize> {
         return 0..0;
     }
     let mut depth = 0_usize;
+    // Of a key in this place: `a.b.c` is nested as well.
+    let mut dots = 0_usize;
     for (k, byte) in text.bytes().enumerate() {
         match byte {
             b'[' | b'{' => depth += 1,
             b']' | b'}' => depth = depth.saturating_sub(1),
-            _ => {}
+            b'.' => dots += 1,
+            b'-' | b'_' | b'"' | b'\'' => {}
+            b if b.is_ascii_alphanumeric() => {}
+            _ => dots = 0,
         }
-        if depth > DEEPEST {
+        if depth + dots > DEEPEST {
             return k..k + 1;
         }
     }

@@ -190,6 +190,10 @@ fn places_are_told_of_deep_nesting_and_of_bytes_that_are_no_text() {
     bench.write("scene.toml", &deep);
     let told = bench.call("check scene.toml").err;
     assert!(told.contains("scene.toml:2:"), "{told}");
+    let dotted = format!("title = \"t\"\n\n{} = 1\n", vec!["a"; 2000].join("."));
+    bench.write("scene.toml", &dotted);
+    let told = bench.call("check scene.toml").err;
+    assert!(told.contains("scene.toml:3:"), "{told}");
     let mut bytes = b"title = \"t\"\n# \xc3\xa4\xc3\xb6".to_vec();
     bytes.extend([0xff, 0xfe]);
     std::fs::write(bench.path("scene.toml"), bytes).expect("a file");
@@ -278,5 +282,23 @@ fn the_place_of_bytes_that_are_no_text_is_told_of_data_files_too() {
         for word in ["w.csv", "line 2", "column 4"] {
             assert!(told.contains(word), "no `{word}` in {told}");
         }
+    }
+}
+
+#[test]
+fn a_line_of_millions_of_letters_is_not_shown() {
+    let bench = Bench::new(PROGRAM);
+    let long = "k".repeat(3_000_000);
+    for text in [
+        format!("{DAM_BREAK}\n{long} = 1\n"),
+        DAM_BREAK.replace("1000.0", &format!("\"1 {long}\"")),
+        format!("{DAM_BREAK}\nx = {}\n", "9".repeat(3_000_000)),
+    ] {
+        bench.write("scene.toml", &text);
+        let outcome = bench.call("check scene.toml");
+        assert_eq!(outcome.code, Some(2));
+        assert!(outcome.err.contains("scene.toml:"));
+        // A few messages of two thousand letters at most, with their paths.
+        assert!(outcome.err.len() < 20_000, "{} bytes", outcome.err.len());
     }
 }
