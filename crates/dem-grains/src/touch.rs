@@ -164,9 +164,10 @@ impl View<'_> {
         let same = 1e-7 * radius;
         let counts = |&(k, point, distance): &(usize, Vector, f64)| {
             !near.iter().any(|&(other, _, nearer)| {
-                let before = nearer < distance - same || (nearer < distance + same && other < k);
+                // Their order is total, so that the first of a chain always stays.
+                let before = nearer < distance || (nearer == distance && other < k);
                 let corners = mesh.corners(group[other].second as usize);
-                before && other != k && (nearest(&point, corners) - point).norm() <= same
+                before && (nearest(&point, corners) - point).norm() <= same
             })
         };
         let kept: Vec<_> = near.iter().copied().filter(counts).collect();

@@ -84,7 +84,7 @@ fn bits(system: &GrainSystem) -> Vec<u64> {
         .collect()
 }
 
-const STEP: f64 = 1e-3;
+const STEP: f64 = 5e-4;
 
 #[test]
 fn one_two_and_four_threads_give_the_same_bits() {

@@ -93,7 +93,12 @@ fn a_free_cloud_keeps_its_momentum_and_angular_momentum() {
     for i in 0..64 {
         let at = |k: i32| f64::from(i / k % 4) * 2.05 * RADIUS;
         let place = [at(1), at(4), at(16)];
-        let swirl = [0.3 - place[1], place[0] - 0.3, 0.3 - place[2]].map(|v| 2.0 * v);
+        // It falls together and turns.
+        let swirl = [
+            0.6 - place[1] - place[0],
+            -place[1] + place[0],
+            0.3 - place[2],
+        ];
         let ball = grain(place[0], place[1], place[2]);
         grains.push(ball.moving(swirl).spinning([1.0, f64::from(i % 3), -1.0]));
     }

@@ -4,7 +4,7 @@ use dem_grains::{
     Control, Grain, GrainSystem, Growth, LinearElastic, Setup, Target, Vector, Wall, settle,
 };
 
-use crate::{GRAVITY, MODULUS, RADIUS, STIFFNESS, close, grain, law, position, run};
+use crate::{GRAVITY, RADIUS, STIFFNESS, close, grain, law, position, run};
 
 /// Ball n from the top carries n m g, so that its overlap below is n m g / k; damping moves none of it.
 #[test]
@@ -170,5 +170,4 @@ fn external_forces_lift() {
         0.6 * GRAVITY / STIFFNESS,
         1e-12,
     );
-    assert!(MODULUS > 0.0);
 }
