@@ -13,7 +13,7 @@ const MODULUS: f64 = 15e6;
 
 /// Dense at a porosity of 0.40 in a unit box, about five contacts per grain.
 fn packing(grains: usize, law: impl ContactLaw + 'static) -> GrainSystem {
-    let radius = 0.6 / (grains as f64).cbrt() * 0.75;
+    let radius = 0.38 / (grains as f64).cbrt();
     let radii = dem_grains::uniform_radii(grains, 0.9 * radius, 1.1 * radius, 1);
     let places = Cloud::new([0.0; 3], [1.0; 3])
         .place(&radii, 1)

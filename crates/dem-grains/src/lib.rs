@@ -82,3 +82,7 @@ pub mod reexport {
     pub use schemars;
     pub use serde;
 }
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -188,7 +188,7 @@ impl Wall {
                 let wanted = if self.stiffness > 0.0 {
                     (lack / self.stiffness).clamp(-most, most)
                 } else {
-                    most * lack.signum() * f64::from(u8::from(lack != 0.0))
+                    most * sign(lack)
                 };
                 let filtered = (1.0 - FILTER[0]) * wanted + FILTER[1] * self.filtered;
                 self.filtered = filtered.clamp(-most, most);

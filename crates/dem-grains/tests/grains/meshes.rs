@@ -39,7 +39,7 @@ fn ball_on(mesh: Option<Mesh>) -> GrainSystem {
 fn a_plate_of_triangles_is_a_wall() {
     let (mut on_wall, mut on_mesh) = (ball_on(None), ball_on(Some(plate(8))));
     let step = 0.2 * on_wall.critical_step();
-    for _ in 0..6000 {
+    for _ in 0..4000 {
         on_wall.step(step).expect("a step");
         on_mesh.step(step).expect("a step");
         assert_eq!(on_mesh.contacts().count(), 1);
