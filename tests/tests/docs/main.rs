@@ -49,8 +49,8 @@ fn the_code_of_the_plugin_page_is_that_of_a_test() {
 }
 
 #[test]
-fn every_scene_is_in_the_readme_and_every_study_in_its_page() {
-    for (folder, page) in [("scenes", "README.md"), ("studies", "docs/studies.md")] {
+fn every_scene_and_every_study_is_in_its_page() {
+    for (folder, page) in [("scenes", "docs/scenes.md"), ("studies", "docs/studies.md")] {
         let page = std::fs::read_to_string(root().join(page)).expect("a page");
         let files = std::fs::read_dir(root().join(folder)).expect("a folder");
         let files = files.map(|f| f.expect("an entry").path());
