@@ -11,6 +11,7 @@ pub use signed::SeenSegment;
 
 use crate::error::{BoundaryError, WallWarning};
 use crate::grid::NearSegment;
+use crate::inside::Sides;
 use crate::periodic::PeriodicBox;
 use crate::polyline::Polyline;
 use crate::pose::Pose;
@@ -80,6 +81,7 @@ pub struct SegmentMesh {
     /// Positions of the vertices before any motion, m.
     reference: Vec<[f64; 2]>,
     poses: Vec<Pose>,
+    pub(crate) sides: Sides,
 }
 
 impl SegmentMesh {

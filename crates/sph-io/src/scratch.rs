@@ -32,8 +32,13 @@ impl Scratch {
             source,
         };
         // Never one that exists: the library tries other names then.
-        let folder = tempfile::Builder::new().prefix(prefix).tempdir_in(place);
-        let folder = folder.map_err(failed)?;
+        let mut builder = tempfile::Builder::new();
+        #[cfg(unix)]
+        let builder = {
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(fs::Permissions::from_mode(0o700))
+        };
+        let folder = builder.prefix(prefix).tempdir_in(place).map_err(failed)?;
         let lock = FolderLock::take(folder.path())?;
         sweep(place, prefix, folder.path());
         Ok(Scratch {

@@ -6,6 +6,7 @@ use super::joints::{Continuation, Joints, SAME_PLACE, joints};
 use super::{FreeEnd, Segment, SegmentMesh, Vertex, WallEnd};
 use crate::checks::{check_area, check_crossings, check_points, short_edges};
 use crate::error::BoundaryError;
+use crate::inside::Sides;
 use crate::periodic::PeriodicBox;
 use crate::polyline::Polyline;
 use crate::pose::Pose;
@@ -46,6 +47,7 @@ pub(super) fn build(
         domain: *domain,
         reference: Vec::new(),
         poses: vec![Pose::default(); polylines.len()],
+        sides: Sides::default(),
     };
     let first_vertices = first_vertices(polylines, &joints, spacing);
     for (wall, line) in polylines.iter().enumerate() {

@@ -2,6 +2,7 @@
 
 use super::SegmentMesh;
 use crate::error::BoundaryError;
+use crate::inside::Sides;
 use crate::pose::Pose;
 
 impl SegmentMesh {
@@ -27,6 +28,7 @@ impl SegmentMesh {
         if !moved.contains(&true) {
             return Ok(());
         }
+        self.sides = Sides::default();
         let maps: Vec<_> = poses.iter().map(Pose::map).collect();
         for (vertex, reference) in self.vertices.iter_mut().zip(&self.reference) {
             if moved[vertex.wall] {
