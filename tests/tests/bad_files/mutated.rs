@@ -326,7 +326,7 @@ fn files_that_are_no_text_name_the_line() {
     std::fs::write(&path, b"t,x\n0,1\n1,2 # gr\xfc\xdfe\n").expect("a file");
     let told = read_table(&path).expect_err("no text").to_string();
     assert!(
-        told.ends_with("latin.csv, line 3: this is no UTF-8 text"),
+        told.ends_with("latin.csv, line 3: this is no UTF-8 text (column 9)"),
         "{told}"
     );
     std::fs::write(folder.path().join("scene.toml"), &scenes()[4]).expect("a file");
