@@ -63,7 +63,10 @@ pub const QUANTITIES: [Quantity; 20] = [
             1e-4,
             "air 65 km up, 1.6e-4 kg/m³ (US Standard Atmosphere 1976)",
         ),
-        (3e4, "osmium, 22 590 kg/m³ (CRC Handbook)"),
+        (
+            1e10,
+            "white dwarfs, 2e9 kg/m³ (Holberg et al. 1998); a clamp may be as heavy",
+        ),
     ),
     signed(
         "speed",
@@ -307,9 +310,9 @@ mod tests {
     fn verdicts_tell_the_bound_with_its_source() {
         let density = Quantity::of(None, Some("kg/m³")).unwrap();
         assert_eq!(
-            density.judge(1e6),
+            density.judge(1e12),
             Verdict::Odd(
-                "the density of 1e6 kg/m³ is above 30000 kg/m³: osmium, 22 590 kg/m³ (CRC Handbook); is it meant?"
+                "the density of 1e12 kg/m³ is above 1e10 kg/m³: white dwarfs, 2e9 kg/m³ (Holberg et al. 1998); a clamp may be as heavy; is it meant?"
                     .into()
             )
         );

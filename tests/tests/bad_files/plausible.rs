@@ -84,7 +84,13 @@ fn what_nature_does_not_have_is_remarked_upon_at_its_line() {
     let bench = Bench::new(PROGRAM);
     let gauge = "[gauge.g]\nkind = \"level\"\nat = [1e30]\n[output]";
     let cases = [
-        (DAM_BREAK, "density = 1000.0", "density = 1e6", 1, "osmium"),
+        (
+            DAM_BREAK,
+            "density = 1000.0",
+            "density = 1e12",
+            1,
+            "white dwarfs",
+        ),
         (
             DAM_BREAK,
             "gravity = [0.0, -9.81]",
@@ -117,11 +123,11 @@ fn what_nature_does_not_have_is_remarked_upon_at_its_line() {
     bench.write("scene.toml", DAM_BREAK);
     let plain = bench.call("check scene.toml");
     assert!(!plain.out.contains("is it meant?"), "{}", plain.out);
-    let set = "run scene.toml --out r --set phase.water.density=1e6 --set run.end=0.01";
+    let set = "run scene.toml --out r --set phase.water.density=1e12 --set run.end=0.01";
     let outcome = bench.call(set);
     assert_eq!(outcome.code, Some(0), "{}", outcome.err);
     assert!(outcome.err.contains("note: --set:1:"), "{}", outcome.err);
-    assert!(bench.read("r/summary.json").contains("osmium"));
+    assert!(bench.read("r/summary.json").contains("white dwarfs"));
 }
 
 #[test]
