@@ -11,7 +11,8 @@ use crate::Flow;
 const SPARE: f64 = 17.0 / 16.0;
 /// What vectors that grow by doubling hold over what they need, in the mean.
 const GROWN: f64 = 1.5;
-/// Bytes of an element's corners, planes and edges, and of the grids in which elements are looked for.
+/// Bytes of an element's corners, planes and edges, and of the grids in which elements are looked for: calibrated with what
+/// an allocator counted in two and three dimensions.
 const TABLES_PER_ELEMENT: f64 = 550.0;
 /// Pixels of a picture, a little more than those of a plot, 1200 · 800.
 const PIXELS: f64 = 1200.0 * 850.0;

@@ -13,5 +13,6 @@ mod seepage;
 mod shipped;
 mod soil_water;
 mod tanks;
+mod towed;
 mod vortices;
 mod waves;

@@ -62,7 +62,7 @@ fn rings_out(integrator: &str) {
     let dt = limits.iter().map(|l| l.dt).fold(f64::INFINITY, f64::min);
     let first = kinetic_energy(&parts);
     let mut most = 0.0_f64;
-    for _ in 0..150 {
+    for _ in 0..300 {
         step(&mut parts, dt);
         most = most.max(kinetic_energy(&parts));
     }
