@@ -72,6 +72,14 @@ impl FolderLock {
             path: folder.to_path_buf(),
             source,
         })?;
+        Self::take_existing(folder)
+    }
+
+    /// As [`take`](Self::take), of a folder that somebody else may remove: it is not made again.
+    ///
+    /// # Errors
+    /// [`IoError::InUse`] if another run holds it; if the file in it cannot be made.
+    pub(crate) fn take_existing(folder: &Path) -> Result<Self> {
         let path = folder.join(LOCK);
         let failed = |source| IoError::NotWritable {
             path: folder.to_path_buf(),

@@ -38,8 +38,16 @@ impl Scratch {
             use std::os::unix::fs::PermissionsExt;
             builder.permissions(fs::Permissions::from_mode(0o700))
         };
-        let folder = builder.prefix(prefix).tempdir_in(place).map_err(failed)?;
-        let lock = FolderLock::take(folder.path())?;
+        let mut tries = 0;
+        let (lock, folder) = loop {
+            let folder = builder.prefix(prefix).tempdir_in(place).map_err(failed)?;
+            match FolderLock::take_existing(folder.path()) {
+                Ok(lock) => break (lock, folder),
+                // Somebody swept it before it was held, or holds it to sweep it.
+                Err(e) if tries < TRIES && is_swept(&e, folder.path()) => tries += 1,
+                Err(e) => return Err(e),
+            }
+        };
         sweep(place, prefix, folder.path());
         Ok(Scratch {
             _lock: lock,
@@ -53,7 +61,17 @@ impl Scratch {
     }
 }
 
+/// Folders that are made anew when others sweep them away before they are held.
+const TRIES: usize = 100;
+
+fn is_swept(error: &IoError, folder: &Path) -> bool {
+    matches!(error, IoError::InUse { .. }) || !folder.exists()
+}
+
 /// Removes folders of the prefix whose process is dead; whatever cannot be removed stays.
+///
+/// A process may die between the making of its folder and that of the lock in it: an empty folder goes too. Its
+/// owner may live and be about to hold it; then it makes another.
 fn sweep(place: &Path, prefix: &str, own: &Path) {
     let entries = fs::read_dir(place).into_iter().flatten().flatten();
     let named = entries.filter(|e| e.file_name().to_string_lossy().starts_with(prefix));
@@ -62,9 +80,16 @@ fn sweep(place: &Path, prefix: &str, own: &Path) {
     let others = folders.map(|e| e.path()).filter(|path| path != own);
     let dead: Vec<PathBuf> = others.filter(|path| is_ours(path, own)).collect();
     for path in dead {
-        // It is held while it goes, so that no two remove it.
+        // It is held while it goes, so that no two remove it, and under another name, so that nobody who is about
+        // to hold it puts a new lock into it.
         if let Some(_lock) = left(&path) {
-            let _ = fs::remove_dir_all(&path);
+            let dead = path.with_extension("dead");
+            if fs::rename(&path, &dead).is_ok() {
+                let _ = fs::remove_dir_all(&dead);
+            }
+        } else {
+            // Nothing happens unless it is empty.
+            let _ = fs::remove_dir(&path);
         }
     }
 }
@@ -93,16 +118,19 @@ mod tests {
         let dead = at(".sph-data-dead");
         fs::create_dir_all(dead.join("below")).unwrap();
         fs::write(dead.join(".lock"), "{}").unwrap();
-        // Without a lock it is somebody else's; so is what has another name.
+        let died_at_once = at(".sph-data-empty");
+        fs::create_dir(&died_at_once).unwrap();
+        // What has files and no lock is somebody else's; so is what has another name.
         for other in [".sph-data-other", "results"] {
             fs::create_dir(at(other)).unwrap();
         }
+        fs::write(at(".sph-data-other").join("mine"), "kept").unwrap();
         fs::write(at("results").join(".lock"), "{}").unwrap();
         let held = Scratch::within(place.path(), ".sph-data-").unwrap();
-        assert!(!dead.exists());
+        assert!(!dead.exists() && !died_at_once.exists());
         let second = Scratch::within(place.path(), ".sph-data-").unwrap();
         assert!(held.path() != second.path() && held.path().exists());
-        assert!(at(".sph-data-other").exists() && at("results/.lock").exists());
+        assert!(at(".sph-data-other/mine").exists() && at("results/.lock").exists());
         let (first, second) = (held.path().to_path_buf(), {
             let path = second.path().to_path_buf();
             drop(second);
@@ -110,6 +138,24 @@ mod tests {
         });
         drop(held);
         assert!(!first.exists() && !second.exists());
+    }
+
+    #[test]
+    fn many_at_once_sweep_and_each_has_its_own() {
+        let place = tempfile::tempdir().unwrap();
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| {
+                    for _ in 0..200 {
+                        let made = Scratch::within(place.path(), ".sph-data-").unwrap();
+                        fs::write(made.path().join("data"), "kept").unwrap();
+                        std::thread::yield_now();
+                        assert!(made.path().join("data").exists());
+                    }
+                });
+            }
+        });
+        assert_eq!(fs::read_dir(place.path()).unwrap().count(), 0);
     }
 
     #[cfg(unix)]

@@ -232,8 +232,8 @@ fn trials_and_unpacked_data_leave_nothing_behind() {
 fn what_a_kill_left_in_the_temporary_place_goes_with_the_next_check() {
     let bench = Bench::new(PROGRAM);
     std::fs::create_dir_all(bench.path("tmp")).expect("a folder");
-    // Whatever its name, this one belongs to nobody's lock.
-    std::fs::create_dir_all(bench.path("tmp/.sph-data-mine")).expect("a folder");
+    // Whatever its name, this one has something in it and no lock: it is nobody's litter.
+    std::fs::create_dir_all(bench.path("tmp/.sph-data-mine/mine")).expect("a folder");
     let names = || -> Vec<String> {
         let entries = std::fs::read_dir(bench.path("tmp")).expect("a folder");
         let all = entries.filter_map(|e| e.ok()?.file_name().into_string().ok());
@@ -263,7 +263,7 @@ fn what_a_kill_left_in_the_temporary_place_goes_with_the_next_check() {
     );
     assert!(check().output().expect("a check").status.success());
     assert!(names().is_empty(), "{:?}", names());
-    assert!(bench.path("tmp/.sph-data-mine").exists());
+    assert!(bench.path("tmp/.sph-data-mine/mine").exists());
 }
 
 #[test]
