@@ -29,8 +29,8 @@ use crate::{Laws, ShiftedFlow, Shifting, ShiftingEntry, Stages};
 ///
 /// Limits: where a support is less full than `surface`, and within a support of there, the
 /// component along the normal is left out, and all of it where there is no single normal (thin
-/// jets, corners); so is the component across an interface between phases, and that into a wall
-/// nearer than δr/2. (s·∇)u does not conserve momentum to rounding (1e-4 of Σm|u| in the vortices, 1.2e-3 in 1000 steps of a noisy box; `density` does).
+/// jets, corners); so is the component across an interface between phases, that into a wall
+/// nearer than δr/2, and all of it within reach of wall points (`vertices` of semi-analytical walls, dummy particles). (s·∇)u does not conserve momentum to rounding (1e-4 of Σm|u| in the vortices, 1.2e-3 in 1000 steps of a noisy box; `density` does).
 ///
 /// Source: Lind et al. 2012 (form, R, n); Sun et al. 2017 (limit,
 /// surfaces); Adami et al. 2013 (the scale: their background pressure ρc² shifts with B = 2cΔt/h); Sun et al. 2019 (transport). The walls'
@@ -175,13 +175,17 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity {
             let h = world.kernel.smoothing_length();
             let all = evenness(world, tensile, exponent)?;
             let normals = held_normals(world, &all, surface)?;
-            // Rows that pass points that stand are rearranged all the time.
+            // Rows that pass points that stand are rearranged all the time, so that no density is taken up beside them: a shift
+            // would change the pressure by ρc², and a tank at rest would sing.
             let rough = world.walls.points.in_sums();
             let results = shift.par_iter_mut().zip(&mut emptiness).zip(&all);
             let results = results.enumerate().with_min_len(1024);
             results.for_each(|(i, ((s, empty), even))| {
-                let beside = rough && !world.lists.wall.row(i).is_empty();
-                *empty = if beside { 0.0 } else { 1.0 - even.filling };
+                if rough && !world.lists.wall.row(i).is_empty() {
+                    (*s, *empty) = (Vect::zeros(), 0.0);
+                    return;
+                }
+                *empty = 1.0 - even.filling;
                 let phase = phase.map_or(0, |p| p[i] as usize);
                 let fastest = fastest[phase];
                 let diffusivity = (strength * h * sound[phase]).min(STABLE * h * h / world.dt);

@@ -71,6 +71,9 @@ pub struct Numerics {
     /// Whether more than a tenth of the mass may be faster than its sound; the run ends if not.
     #[serde(default)]
     pub supersonic: bool,
+    /// Whether a solve for stresses of the end of the step may bear more than a twentieth of a soil's weight beyond its strength; the run fails at its end if not.
+    #[serde(default)]
+    pub delayed_yield: bool,
     /// Largest random displacement of a particle at the start along each axis, as a fraction of the spacing.
     #[serde(default)]
     #[schemars(extend("unit" = "1", "minimum" = 0.0, "exclusiveMaximum" = 0.5))]

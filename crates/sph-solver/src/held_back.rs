@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::World;
+use sph_scene::Scene;
 
-/// Mean share of the weight above which a run is told of it.
+/// Mean share of the weight above which a result is not right: what falls with 0.95 g has a tenth less kinetic energy.
 const MUCH: f64 = 0.05;
 
 /// Mean share of the weight of a soil that the solve bears beyond what the law says.
@@ -72,6 +73,15 @@ impl HeldBack {
                  `elastic-force.divergence.sub_steps = true` instead, with [integrator.symplectic-euler]",
                 100.0 * self.mean
             )
+        })
+    }
+
+    /// Why a run that has come to its end has no result, if too much was held and the scene does not allow that.
+    pub(crate) fn verdict(&self, scene: &Scene) -> Option<StepError> {
+        let told = self.warning().filter(|_| !scene.numerics.delayed_yield)?;
+        Some(StepError::Stage {
+            stage: "elasticity at the end of the step".into(),
+            reason: format!("{told}; or allow it with `numerics.delayed_yield = true`"),
         })
     }
 }

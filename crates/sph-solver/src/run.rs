@@ -177,6 +177,12 @@ impl<const D: usize> Running<'_, D> {
                 return Err(self.fail(cause, kept, observer));
             }
             if time >= end {
+                let solves = self.parts.flow.implicit.as_ref().map(|i| &i.solves);
+                let held = solves.and_then(|s| s.held_back);
+                if let Some(cause) = held.and_then(|h| h.verdict(self.scene)) {
+                    let kept = have_snapshot.then_some(&snapshot);
+                    return Err(self.fail(cause, kept, observer));
+                }
                 return Ok(Status::Done);
             }
             if self

@@ -27,7 +27,7 @@ pub struct Divergence {
     #[schemars(extend("source" = "Ghaïtanellis 2017, Eq. 4.104 (forces), 4.84 and 4.105 (stresses)"))]
     pub blend: Blend,
     /// Take the stress of the end of the step, so that elastic waves do not bound it: those that are faster than the step
-    /// are damped. Needs an implicit viscosity with which it is solved for. A stiff soil that should fall may stand: for such take `sub_steps`.
+    /// are damped. Needs an implicit viscosity with which it is solved for. A stiff soil that should fall may stand, and the run then fails at its end: take `sub_steps` for such.
     #[schemars(extend("source" = "ours"))]
     pub implicit: bool,
     /// Take steps of its own within that of the flow, as long as elastic waves allow, while places, pressures and
