@@ -65,6 +65,7 @@ pub fn world(side: usize) -> World<2> {
         driving: Vect::zeros(),
         time: 0.0,
         dt: 1e-4,
+        transported: Vec::new(),
     };
     world.free.add(fields::POSITION, Role::State);
     world.free.add(fields::VELOCITY, Role::State);
@@ -174,18 +175,16 @@ impl Sums {
             ViscousTerm(FirstDifferences, Uniform(VISCOSITY), Choice::default()),
             smoother,
         );
-        let bound = Fused(column(PairTerm::<2>::bind(&terms, world)));
-        pack(world, &mut self.states);
-        let (acceleration, scalar) = (&mut self.acceleration, &mut self.scalar);
-        interactions_with(
-            world,
-            &self.states,
-            kernel,
-            &bound,
-            acceleration,
-            Some(scalar),
-        )
-        .expect("there are positions");
+        let term = sph_neighbours::Term(terms);
+        let bound = Fused(column(PairTerm::<2>::bind(&term.0, world)));
+        let packed = sph_neighbours::Packed::of([&term as &dyn sph_neighbours::Interaction<2>]);
+        pack(world, &mut self.states, packed).expect("all columns are there");
+        let sums = sph_neighbours::Sums {
+            acceleration: &mut self.acceleration,
+            scalar: Some(&mut self.scalar),
+            more: &mut [],
+        };
+        interactions_with(world, &self.states, kernel, &bound, sums).expect("there are positions");
     }
 }
 

@@ -171,6 +171,7 @@ impl<const D: usize> Flow<D> {
             driving: Vect::zeros(),
             time: 0.0,
             dt: 0.0,
+            transported: Vec::new(),
         };
         world.refresh_lists().expect("positions");
         wall.geometry(&mut world).expect("geometry");

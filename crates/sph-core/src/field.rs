@@ -209,6 +209,18 @@ pub struct AnyField {
     pub shape: Shape,
 }
 
+impl AnyField {
+    /// As a scalar field; a store refuses it if its column is none.
+    pub fn scalar(self) -> Field<Scalar> {
+        Field::new(self.name, self.unit, self.meaning)
+    }
+
+    /// As a vector field; a store refuses it if its column is none.
+    pub fn vector(self) -> Field<Vector> {
+        Field::new(self.name, self.unit, self.meaning)
+    }
+}
+
 impl PartialEq for AnyField {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name

@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 use crate::field::{AnyField, Column};
-use crate::{Field, FieldError, Kind, Taken, Vect};
+use crate::watch::Watch;
+use crate::{Access, Field, FieldError, Kind, StepError, Taken, Vect};
 
 /// What happens to a column over a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +28,7 @@ pub struct Store<const D: usize> {
     pub(crate) entries: Vec<Entry<D>>,
     /// What has been taken out.
     pub(crate) taken: Vec<Taken>,
+    pub(crate) watch: Watch,
 }
 
 /// A column as plain numbers, for files.
@@ -45,6 +47,45 @@ impl<const D: usize> Store<D> {
             len,
             entries: Vec::new(),
             taken: Vec::new(),
+            watch: Watch::default(),
+        }
+    }
+
+    /// Holds what follows to the columns of `access`, in builds with debug assertions; several may be at work within
+    /// each other.
+    pub fn watch(&self, access: &Access) {
+        if cfg!(debug_assertions) {
+            self.watch.begin(access);
+        }
+    }
+
+    /// Ends the last [`watch`](Self::watch) of the work called `name`.
+    ///
+    /// # Errors
+    /// If it touched a column that it had not declared.
+    pub fn unwatch(&self, name: &str) -> Result<(), StepError> {
+        let undeclared = match cfg!(debug_assertions) {
+            true => self.watch.end(),
+            false => Vec::new(),
+        };
+        match undeclared.is_empty() {
+            true => Ok(()),
+            false => Err(StepError::Stage {
+                stage: name.to_string(),
+                reason: format!("it {} without declaring it", undeclared.join(" and ")),
+            }),
+        }
+    }
+
+    fn note_read(&self, name: &'static str) {
+        if cfg!(debug_assertions) {
+            self.watch.read(name);
+        }
+    }
+
+    fn note_write(&self, name: &'static str) {
+        if cfg!(debug_assertions) {
+            self.watch.write(name);
         }
     }
 
@@ -89,6 +130,7 @@ impl<const D: usize> Store<D> {
     pub fn get<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
         let entry = self.entries.iter().find(|e| e.name == field.name);
         let entry = entry.ok_or(FieldError::Missing(field.name))?;
+        self.note_read(field.name);
         K::items(&entry.column)
             .map(Vec::as_slice)
             .ok_or(FieldError::Type(field.name))
@@ -102,6 +144,9 @@ impl<const D: usize> Store<D> {
         &mut self,
         field: Field<K>,
     ) -> Result<&mut Vec<K::Item<D>>, FieldError> {
+        if self.has(field.name) {
+            self.note_write(field.name);
+        }
         let entry = self.entries.iter_mut().find(|e| e.name == field.name);
         let entry = entry.ok_or(FieldError::Missing(field.name))?;
         K::items_mut(&mut entry.column).ok_or(FieldError::Type(field.name))

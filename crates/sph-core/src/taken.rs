@@ -55,6 +55,7 @@ impl<const D: usize> Store<D> {
         self.len -= count;
         Store {
             len: count,
+            watch: Default::default(),
             entries: out,
             taken: Vec::new(),
         }

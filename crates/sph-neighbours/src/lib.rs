@@ -38,10 +38,12 @@ pub use reaction::{WallForce, cross, wall_forces, wall_parts};
 pub use row::{Neighbourhood, Row, Scratch};
 pub use shares::{TermShare, shares_at};
 pub use sweep::{
-    accelerations_of, interactions, interactions_with, kernel_sums, pack, shepard, shepard_some,
+    Packed, Sums, accelerations_of, all_sums, interactions, interactions_with, kernel_sums, pack,
+    shepard, shepard_some,
 };
 pub use term::{
-    BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, Term, TermEntry, There,
+    BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,
+    TermEntry, There,
 };
 pub use walk::{Around, Rows, Surroundings, Values, walk, walk_some};
 pub use walls::{Coulomb, Elements, Frame, WallPoints, WallSet};

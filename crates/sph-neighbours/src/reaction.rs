@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
 use crate::row::Row;
-use crate::sweep::pack;
+use crate::sweep::{Packed, pack};
 use crate::term::Rates;
 use crate::{Contact, Interaction, Neighbourhood, Scratch, World};
 
@@ -131,7 +131,7 @@ pub fn wall_parts<const D: usize>(
         .map(|t| t.bind(world))
         .collect::<Result<Vec<_>, _>>()?;
     let mut states = Vec::new();
-    pack(world, &mut states);
+    pack(world, &mut states, Packed::of(terms.iter().copied()))?;
     let positions = world.free.get(fields::POSITION)?;
     let mass = world.free.get(fields::MASS)?;
     let gamma = world.free.get(fields::RENORMALISATION).ok();
@@ -158,10 +158,7 @@ pub fn wall_parts<const D: usize>(
                     contacts,
                     inverse_renormalisation: inverse,
                 };
-                let mut rates = Rates {
-                    acceleration: Vect::zeros(),
-                    scalar: 0.0,
-                };
+                let mut rates = Rates::of(Vect::zeros());
                 bound.iter().for_each(|t| t.row(&neighbourhood, &mut rates));
                 rates.acceleration
             };

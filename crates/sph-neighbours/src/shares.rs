@@ -2,7 +2,7 @@
 
 use sph_core::{StepError, Vect};
 
-use crate::sweep::pack;
+use crate::sweep::{Packed, pack};
 use crate::{Interaction, Neighbourhood, Part, Rates, Rows, Scratch, Surroundings, World};
 
 /// What one term does to a particle.
@@ -30,7 +30,7 @@ pub fn shares_at<const D: usize>(
         parts.extend(term.parts(world)?);
     }
     let mut states = Vec::new();
-    pack(world, &mut states);
+    pack(world, &mut states, Packed::of(terms.iter().copied()))?;
     let surroundings = Surroundings::new(world)?;
     let mut rows = Rows::default();
     let whole = Neighbourhood {
@@ -46,10 +46,7 @@ pub fn shares_at<const D: usize>(
     };
     let shares = parts.iter().map(|(name, term)| {
         let of = |neighbourhood: &Neighbourhood<'_, D>| {
-            let mut rates = Rates {
-                acceleration: Vect::zeros(),
-                scalar: 0.0,
-            };
+            let mut rates = Rates::of(Vect::zeros());
             term.row(neighbourhood, &mut rates);
             rates
         };
@@ -60,6 +57,7 @@ pub fn shares_at<const D: usize>(
             of_walls: Rates {
                 acceleration: rates.acceleration - fluid.acceleration,
                 scalar: rates.scalar - fluid.scalar,
+                more: std::array::from_fn(|k| rates.more[k] - fluid.more[k]),
             },
         }
     });

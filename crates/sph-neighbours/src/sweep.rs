@@ -5,7 +5,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
 
 use crate::list::CHUNK;
-use crate::term::{Interaction, Rates, RowTerm, There};
+use crate::term::{Interaction, Rates, RowTerm, TRANSPORTED, There};
 use crate::{Domain, NeighbourList, Neighbourhood, Scratch, World};
 
 /// Sums all terms of all particles.
@@ -24,41 +24,116 @@ pub fn interactions<const D: usize>(
     acceleration: &mut [Vect<D>],
     scalar: Option<&mut [f64]>,
 ) -> Result<(), StepError> {
-    let bound = terms
-        .iter()
-        .map(|t| t.bind(world))
-        .collect::<Result<Vec<_>, _>>()?;
-    pack(world, states);
+    let sums = Sums {
+        acceleration,
+        scalar,
+        more: &mut [],
+    };
+    all_sums(world, states, terms, sums)
+}
+
+/// Where a sweep leaves what it sums, one entry per particle.
+pub struct Sums<'a, const D: usize> {
+    /// Accelerations, m/s².
+    pub acceleration: &'a mut [Vect<D>],
+    /// Rates of the formulation's scalar, where it evolves one.
+    pub scalar: Option<&'a mut [f64]>,
+    /// Rates of the scalars of [`World::transported`]; empty if there is none.
+    pub more: &'a mut [[f64; TRANSPORTED]],
+}
+
+/// As [`interactions`], with further scalars.
+///
+/// # Errors
+/// If a term misses a column.
+pub fn all_sums<const D: usize>(
+    world: &World<D>,
+    states: &mut Vec<There<D>>,
+    terms: &[Box<dyn Interaction<D>>],
+    sums: Sums<'_, D>,
+) -> Result<(), StepError> {
+    let bound = terms.iter().map(|t| declared(world, &**t));
+    let bound = bound.collect::<Result<Vec<_>, _>>()?;
+    pack(world, states, Packed::of(terms.iter().map(|t| &**t)))?;
     let kernel = &*world.kernel;
     match &bound[..] {
-        [one] => interactions_with(world, states, kernel, &**one, acceleration, scalar),
-        _ => interactions_with(
-            world,
-            states,
-            kernel,
-            &Several(&bound),
-            acceleration,
-            scalar,
-        ),
+        [one] => interactions_with(world, states, kernel, &**one, sums),
+        _ => interactions_with(world, states, kernel, &Several(&bound), sums),
     }
 }
 
-/// Packs what most terms read of a neighbour.
-pub fn pack<const D: usize>(world: &World<D>, states: &mut Vec<There<D>>) {
+/// A term with its columns, held to those that it declares.
+fn declared<'a, const D: usize>(
+    world: &'a World<D>,
+    term: &'a dyn Interaction<D>,
+) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
+    if !cfg!(debug_assertions) {
+        return term.bind(world);
+    }
+    world.free.watch(&term.access());
+    let bound = term.bind(world);
+    world.free.unwatch(&term.name()).and(bound)
+}
+
+/// Which columns of neighbours are packed: those that some term declares.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Packed {
+    velocity: bool,
+    volume: bool,
+    pressure: bool,
+    density: bool,
+}
+
+impl Packed {
+    /// What these terms read of neighbours.
+    pub fn of<'t, const D: usize>(terms: impl IntoIterator<Item = &'t dyn Interaction<D>>) -> Self {
+        terms.into_iter().fold(Packed::default(), Packed::and)
+    }
+
+    fn and<const D: usize>(self, term: &dyn Interaction<D>) -> Self {
+        let access = term.access();
+        let reads = |name: &str| access.neighbours.iter().any(|f| f.name == name);
+        Packed {
+            velocity: self.velocity || reads(fields::VELOCITY.name),
+            volume: self.volume || reads(fields::VOLUME.name),
+            pressure: self.pressure || reads(fields::PRESSURE.name),
+            density: self.density || reads(fields::DENSITY.name),
+        }
+    }
+}
+
+/// Packs what most terms read of a neighbour. What no term declares is not a number.
+///
+/// # Errors
+/// If a declared column is missing.
+pub fn pack<const D: usize>(
+    world: &World<D>,
+    states: &mut Vec<There<D>>,
+    packed: Packed,
+) -> Result<(), StepError> {
     let free = &world.free;
-    let velocity = free.get(fields::VELOCITY).unwrap_or(&[]);
-    let volume = free.get(fields::VOLUME).unwrap_or(&[]);
-    let pressure = free.get(fields::PRESSURE).unwrap_or(&[]);
-    let density = free.get(fields::DENSITY).unwrap_or(&[]);
-    let scalar = |column: &[f64], i: usize| column.get(i).copied().unwrap_or(0.0);
+    let column = |field, wanted: bool| match wanted {
+        true => free.get(field),
+        false => Ok(&[][..]),
+    };
+    let velocity = match packed.velocity {
+        true => free.get(fields::VELOCITY)?,
+        false => &[],
+    };
+    let volume = column(fields::VOLUME, packed.volume)?;
+    let pressure = column(fields::PRESSURE, packed.pressure)?;
+    let density = column(fields::DENSITY, packed.density)?;
+    let scalar = |column: &[f64], i: usize| column.get(i).copied().unwrap_or(f64::NAN);
+    let nowhere = || Vect::from_element(f64::NAN);
     let one = |i: usize| There {
-        velocity: velocity.get(i).copied().unwrap_or_else(Vect::zeros),
+        velocity: velocity.get(i).copied().unwrap_or_else(nowhere),
         volume: scalar(volume, i),
         pressure: scalar(pressure, i),
         density: scalar(density, i),
     };
     let all = (0..free.len()).into_par_iter().with_min_len(2048);
     all.map(one).collect_into_vec(states);
+    Ok(())
 }
 
 struct Several<'a, 'b, const D: usize>(&'a [Box<dyn RowTerm<D> + 'b>]);
@@ -80,22 +155,45 @@ pub fn interactions_with<const D: usize, K, T>(
     states: &[There<D>],
     kernel: &K,
     term: &T,
-    acceleration: &mut [Vect<D>],
-    scalar: Option<&mut [f64]>,
+    sums: Sums<'_, D>,
 ) -> Result<(), StepError>
 where
     K: Sampler + ?Sized,
     T: RowTerm<D> + ?Sized,
 {
     let sweep = Sweep::new(world, states, kernel)?;
-    let start = Rates {
-        acceleration: world.gravity + world.driving,
-        scalar: 0.0,
-    };
+    let start = Rates::of(world.gravity + world.driving);
     let work = |from: usize, scratch: &mut [Scratch<D>; 2], i: usize| {
         sweep.rates(term, start, scratch, from + i)
     };
     let new_scratch = || [Scratch::new(), Scratch::new()];
+    let Sums {
+        acceleration,
+        scalar,
+        more,
+    } = sums;
+    if !more.is_empty() {
+        let mut unused = Vec::new();
+        let scalar = match scalar {
+            Some(scalar) => scalar,
+            None => {
+                unused.resize(acceleration.len(), 0.0);
+                &mut unused[..]
+            }
+        };
+        let all = acceleration
+            .par_chunks_mut(CHUNK)
+            .zip(scalar.par_chunks_mut(CHUNK));
+        all.zip(more.par_chunks_mut(CHUNK))
+            .enumerate()
+            .for_each_init(new_scratch, |scratch, (c, ((a, s), m))| {
+                for i in 0..a.len() {
+                    let rates = work(c * CHUNK, scratch, i);
+                    (a[i], s[i], m[i]) = (rates.acceleration, rates.scalar, rates.more);
+                }
+            });
+        return Ok(());
+    }
     match scalar {
         Some(scalar) => acceleration
             .par_chunks_mut(CHUNK)
@@ -133,10 +231,7 @@ pub fn accelerations_of<const D: usize>(
 ) -> Result<(), StepError> {
     let bound = term.bind(world)?;
     let sweep = Sweep::new(world, states, &*world.kernel)?;
-    let start = Rates {
-        acceleration: Vect::zeros(),
-        scalar: 0.0,
-    };
+    let start = Rates::of(Vect::zeros());
     let all = acceleration.par_iter_mut().enumerate().with_min_len(CHUNK);
     let new_scratch = || [Scratch::new(), Scratch::new()];
     all.for_each_init(new_scratch, |scratch, (i, a)| {

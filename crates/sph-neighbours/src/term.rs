@@ -13,6 +13,23 @@ pub struct Rates<const D: usize> {
     pub acceleration: Vect<D>,
     /// Rate of the scalar that the formulation evolves (density diffusion), its unit per s.
     pub scalar: f64,
+    /// Rates of further scalars, each where [`World::slot`] says, their units per s.
+    pub more: [f64; TRANSPORTED],
+}
+
+/// Most scalars whose rates one sweep sums besides the formulation's own.
+pub const TRANSPORTED: usize = 7;
+
+impl<const D: usize> Rates<D> {
+    /// An acceleration, and scalars at rest.
+    #[inline(always)]
+    pub fn of(acceleration: Vect<D>) -> Self {
+        Rates {
+            acceleration,
+            scalar: 0.0,
+            more: [0.0; TRANSPORTED],
+        }
+    }
 }
 
 /// One pair as a term sees it.
@@ -28,7 +45,7 @@ pub struct Pair<const D: usize> {
 
 /// What most terms read of a neighbour, packed so that one load serves all of them.
 ///
-/// Columns that a scene does not have are zero here.
+/// What no term of the sweep declares to read at neighbours is not a number here.
 #[derive(Clone, Copy, Debug)]
 pub struct There<const D: usize> {
     /// Velocity, m/s.
@@ -80,7 +97,7 @@ pub trait PairTerm<const D: usize>: Send + Sync + 'static {
     type Bound<'a>: BoundTerm<D> + 'a;
     /// Name in plans.
     fn name(&self) -> String;
-    /// Columns read; what is written is the sweep's.
+    /// Columns read, and written rates of scalars of its own ([`Rates::more`]); accelerations are the sweep's.
     fn access(&self) -> Access;
     /// Looks the columns up, once per sweep.
     ///
@@ -111,7 +128,7 @@ pub type Part<'a, const D: usize> = (String, Box<dyn RowTerm<D> + 'a>);
 pub trait Interaction<const D: usize>: Send + Sync {
     /// Name in plans.
     fn name(&self) -> String;
-    /// Columns read.
+    /// Columns read, and written rates of scalars of its own ([`Rates::more`]); accelerations are the sweep's.
     fn access(&self) -> Access;
     /// Looks the columns up, once per sweep.
     ///

@@ -1,7 +1,7 @@
 //! What stages and terms see of a running scene.
 
 use rayon::prelude::*;
-use sph_core::{FieldError, Store, Vect, fields};
+use sph_core::{AnyField, Field, FieldError, Scalar, Store, Vect, fields};
 use sph_kernels::Sampler;
 
 use crate::{CellGrid, Domain, NeighbourList, WallSet};
@@ -61,9 +61,20 @@ pub struct World<const D: usize> {
     pub time: f64,
     /// The step in force, s: the last one taken, or the first estimate.
     pub dt: f64,
+    /// Rates that the sweep sums in [`Rates::more`](crate::Rates), in the order of the slots.
+    pub transported: Vec<AnyField>,
 }
 
 impl<const D: usize> World<D> {
+    /// Where in [`Rates::more`](crate::Rates) a term adds to the rate of a scalar of its own.
+    ///
+    /// # Errors
+    /// If no term of the sweep declares to write it.
+    pub fn slot(&self, rate: Field<Scalar>) -> Result<usize, FieldError> {
+        let found = self.transported.iter().position(|f| f.name == rate.name);
+        found.ok_or(FieldError::Missing(rate.name))
+    }
+
     /// Support radius plus skin, m.
     pub fn reach(&self) -> f64 {
         self.kernel.support_radius() * (1.0 + self.skin)

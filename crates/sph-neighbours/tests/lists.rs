@@ -84,6 +84,7 @@ fn world(n: usize, seed: u64, order: impl Fn(usize) -> usize) -> World<2> {
         driving: Vect::zeros(),
         time: 0.0,
         dt: 0.0,
+        transported: Vec::new(),
     }
 }
 

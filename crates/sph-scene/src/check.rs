@@ -1,27 +1,9 @@
 //! What a schema cannot say: the checks of a scene, collected.
 
-use sph_core::SceneProblem;
+use sph_core::{Place, SceneProblem, kinds};
 use toml::{Table, Value};
 
 use crate::{Scene, Source, check_geometry, check_names, check_time, overlap};
-
-/// Kinds of which a scene has one plugin at most.
-pub(crate) const SINGLE_KINDS: [&str; 14] = [
-    "kernel",
-    "formulation",
-    "integrator",
-    "walls",
-    "viscous-operator",
-    "implicit-viscosity",
-    "linear-solver",
-    "velocity-gradient",
-    "elastic-force",
-    "effective-pressure",
-    "seepage",
-    "eddy-viscosity",
-    "smoother",
-    "shifting",
-];
 
 /// Collects problems with their paths.
 pub(crate) struct Problems(pub Vec<SceneProblem>);
@@ -35,14 +17,14 @@ impl Problems {
 /// Checks that need no types: names, and one plugin where there is to be one.
 pub(crate) fn tables(scene: &Table) -> Vec<SceneProblem> {
     let mut found = Problems(Vec::new());
-    for kind in SINGLE_KINDS {
-        single(scene.get(kind), kind, &mut found);
+    let mut nested = vec![("body", "initial")];
+    for kind in kinds() {
+        match kind.place {
+            Place::One => single(scene.get(kind.name), kind.name, &mut found),
+            Place::InPhase => nested.push(("phase", kind.name)),
+            Place::Any | Place::Probe | Place::Solution => {}
+        }
     }
-    let nested = [
-        ("phase", "equation-of-state"),
-        ("phase", "rheology"),
-        ("body", "initial"),
-    ];
     for (parent, kind) in nested {
         for (name, keys) in inside(scene.get(parent)) {
             single(

@@ -1,17 +1,19 @@
 //! From a file to a validated scene, or to all its mistakes.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use sph_core::{MOST_PROBLEMS, SceneProblem, conform, schema_of};
+use sph_core::{MOST_PROBLEMS, SceneProblem, conform, kinds};
 use thiserror::Error;
 use toml::de::DeTable;
 use toml::{Table, Value};
 
 use crate::diagnostic::{Diagnostic, Origin, line_and_column};
 use crate::limits::{self, FILE_BYTES};
-use crate::{Override, Scene, Source, check, columns, remarks};
+use crate::plugins::Plugins;
+use crate::{Override, Scene, Source, check, columns, remarks, schema};
 
 /// A valid scene and the text it came from.
 #[derive(Clone, Debug)]
@@ -155,10 +157,11 @@ pub fn read(source: Source) -> Result<Loaded, Refused> {
 
 fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     let diagnosed = |problems: Vec<SceneProblem>| source.diagnose(&problems);
-    let (table, mut remarks) = resolved(source)?;
-    let mut scene: Scene = table
-        .try_into()
-        .map_err(|e: toml::de::Error| diagnosed(vec![SceneProblem::new("", e.message())]))?;
+    let unread = |e: toml::de::Error| diagnosed(vec![SceneProblem::new("", e.message())]);
+    let (mut table, mut remarks) = resolved(source)?;
+    let plugins = take_plugins(&mut table).map_err(unread)?;
+    let mut scene: Scene = table.try_into().map_err(unread)?;
+    scene.plugins = plugins;
     let problems = check::scene(&mut scene, source);
     if !problems.is_empty() {
         return Err(diagnosed(problems));
@@ -167,6 +170,20 @@ fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     let remarks = source.diagnose(&remarks);
     scene.remarks = remarks.iter().map(Diagnostic::to_string).collect();
     Ok(scene)
+}
+
+/// Takes the tables out that name plugins: kinds are open, so that no type has them as fields.
+fn take_plugins(scene: &mut Value) -> Result<BTreeMap<&'static str, Plugins>, toml::de::Error> {
+    let mut all = BTreeMap::new();
+    let Some(scene) = scene.as_table_mut() else {
+        return Ok(all);
+    };
+    for kind in kinds().iter().filter(|k| k.is_open()) {
+        if let Some(plugins) = scene.remove(kind.name) {
+            all.insert(kind.name, plugins.try_into()?);
+        }
+    }
+    Ok(all)
 }
 
 /// The table of the scene in the form of its schema, and remarks on its numbers.
@@ -180,7 +197,7 @@ fn resolved(source: &Source) -> Result<(Value, Vec<SceneProblem>), Vec<Diagnosti
     problems.extend(check::tables(&table));
     problems.extend(columns::convert(&mut table));
     let mut value = Value::Table(table);
-    let remarks = conform(&mut value, &schema_of::<Scene>()).unwrap_or_else(|found| {
+    let remarks = conform(&mut value, &schema::of_scene()).unwrap_or_else(|found| {
         problems.extend(found);
         Vec::new()
     });

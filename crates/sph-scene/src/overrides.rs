@@ -1,31 +1,21 @@
 //! Values put on top of a scene: `--set numerics.spacing=0.01`.
 
-use sph_core::SceneProblem;
+use sph_core::{KindInfo, Place, SceneProblem, kinds};
 use toml::{Table, Value};
 
 /// Deepest path of an override.
 const DEEPEST: usize = 32;
 
 /// Tables that hold exactly one plugin, as the segments that lead to them.
-const SINGLE: [&[&str]; 17] = [
-    &["kernel"],
-    &["formulation"],
-    &["integrator"],
-    &["walls"],
-    &["viscous-operator"],
-    &["implicit-viscosity"],
-    &["linear-solver"],
-    &["velocity-gradient"],
-    &["elastic-force"],
-    &["effective-pressure"],
-    &["seepage"],
-    &["eddy-viscosity"],
-    &["smoother"],
-    &["shifting"],
-    &["phase", "*", "equation-of-state"],
-    &["phase", "*", "rheology"],
-    &["body", "*", "initial"],
-];
+fn single() -> Vec<Vec<&'static str>> {
+    let path = |kind: &'static KindInfo| match kind.place {
+        Place::One => Some(vec![kind.name]),
+        Place::InPhase => Some(vec!["phase", "*", kind.name]),
+        Place::Solution => Some(vec!["body", "*", "initial"]),
+        Place::Any | Place::Probe => None,
+    };
+    kinds().into_iter().filter_map(path).collect()
+}
 
 /// A value for a key of the scene, whatever the file says.
 ///
@@ -173,7 +163,7 @@ impl Override {
 
     /// Whether the key at that depth names a plugin where there is exactly one.
     fn replaces(&self, depth: usize) -> bool {
-        let fits = |pattern: &&[&str]| {
+        let fits = |pattern: &Vec<&str>| {
             pattern.len() == depth
                 && pattern
                     .iter()
@@ -183,7 +173,7 @@ impl Override {
                         Segment::Index(_) => false,
                     })
         };
-        SINGLE.iter().any(fits)
+        single().iter().any(fits)
     }
 }
 

@@ -1,10 +1,9 @@
 //! Remarks on the parameters of plugins: numbers that nature does not have.
 
-use sph_core::{SceneProblem, conform, contracts};
+use sph_core::{SceneProblem, conform, contracts, kinds};
 use toml::Value;
 
 use crate::Scene;
-use crate::check::SINGLE_KINDS;
 use crate::plugins::PluginChoice;
 
 /// What is to be said of the parameters of every plugin that is known by its name; those that are wrong are left
@@ -27,12 +26,8 @@ fn of(choice: &PluginChoice) -> Vec<SceneProblem> {
 
 /// Every plugin that the scene names.
 fn choices(scene: &Scene) -> Vec<PluginChoice> {
-    let mut all: Vec<_> = SINGLE_KINDS
-        .iter()
-        .filter_map(|k| scene.choice(k))
-        .collect();
-    all.extend(scene.terms());
-    all.extend(scene.interfaces());
+    let named = kinds().into_iter().flat_map(|k| scene.choices(k.name));
+    let mut all: Vec<_> = named.collect();
     for phase in scene.phase.keys() {
         all.extend(scene.equation_of_state(phase));
         all.extend(scene.rheology(phase));

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{SceneProblem, Vect};
+use sph_core::{Place, SceneProblem, Vect, kind_of};
 use toml::Value;
 
-use crate::plugins::{AnyPlugins, PluginChoice, Plugins, Probe, several, single};
+use crate::plugins::{PluginChoice, Plugins, Probe, several, single};
 use crate::vector::array;
 use crate::{Body, Numerics, Outlet, Output, Phase, Reference, Region, Run, Wall};
 
@@ -27,70 +27,9 @@ pub struct Scene {
     pub run: Run,
     /// Resolution, forces, periodic directions and bounds.
     pub numerics: Numerics,
-    /// Smoothing kernel, `[kernel.PLUGIN]`; chosen by the solver if left out.
-    #[serde(default)]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub kernel: Plugins,
-    /// Density and pressure gradient, `[formulation.PLUGIN]`; chosen by the solver if left out.
-    #[serde(default)]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub formulation: Plugins,
-    /// Time stepping, `[integrator.PLUGIN]`; chosen by the solver if left out.
-    #[serde(default)]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub integrator: Plugins,
-    /// Treatment of all walls, `[walls.PLUGIN]`; chosen by the solver if left out.
-    #[serde(default)]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub walls: Plugins,
-    /// Discrete viscous force, `[viscous-operator.PLUGIN]`; chosen by the solver if left out.
-    #[serde(default, rename = "viscous-operator")]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub viscous_operator: Plugins,
-    /// Viscosity taken from the end of the step, `[implicit-viscosity.PLUGIN]`; explicit if left out.
-    #[serde(default, rename = "implicit-viscosity")]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub implicit_viscosity: Plugins,
-    /// What solves sparse systems, `[linear-solver.PLUGIN]`; chosen by the solver if left out.
-    #[serde(default, rename = "linear-solver")]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub linear_solver: Plugins,
-    /// Strain rate that laws feel, `[velocity-gradient.PLUGIN]`; chosen by the solver if left out.
-    #[serde(default, rename = "velocity-gradient")]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub velocity_gradient: Plugins,
-    /// Force of elastic materials, `[elastic-force.PLUGIN]`; chosen by the solver if left out.
-    #[serde(default, rename = "elastic-force")]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub elastic_force: Plugins,
-    /// Pressure between the grains of soils, `[effective-pressure.PLUGIN]`; that of the equation of state if left out.
-    #[serde(default, rename = "effective-pressure")]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub effective_pressure: Plugins,
-    /// Flow of water through the pores of a soil, `[seepage.PLUGIN]`; none if left out.
-    #[serde(default)]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub seepage: Plugins,
-    /// Viscosity of eddies that particles do not resolve, `[eddy-viscosity.PLUGIN]`; none if left out.
-    #[serde(default, rename = "eddy-viscosity")]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub eddy_viscosity: Plugins,
-    /// Smoothing of the density, `[smoother.PLUGIN]`; none if left out.
-    #[serde(default)]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub smoother: Plugins,
-    /// What keeps the particles evenly spread, `[shifting.PLUGIN]`; none if left out.
-    #[serde(default)]
-    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
-    pub shifting: Plugins,
-    /// What acts where phases meet, `[interface.PLUGIN]`, any number.
-    #[serde(default)]
-    #[schemars(with = "AnyPlugins")]
-    pub interface: Plugins,
-    /// Further forces between particles, `[term.PLUGIN]`, any number.
-    #[serde(default)]
-    #[schemars(with = "AnyPlugins")]
-    pub term: Plugins,
+    /// Plugins of every kind of which a scene has one or any number ([`sph_core::kinds`]): `[KIND.PLUGIN]`.
+    #[serde(skip)]
+    pub(crate) plugins: BTreeMap<&'static str, Plugins>,
     /// Walls by name, `[wall.NAME]`.
     #[serde(default)]
     pub wall: BTreeMap<String, Wall>,
@@ -171,38 +110,28 @@ impl Scene {
         self.body.iter().map(region).collect()
     }
 
-    /// The plugin that the scene chooses for a kind of which it has one at most: `kernel`,
-    /// `formulation`, `integrator`, `walls`, `viscous-operator`, `implicit-viscosity`, `linear-solver`,
-    /// `velocity-gradient`, `elastic-force`, `effective-pressure`, `seepage`, `eddy-viscosity`, `smoother` or `shifting`.
-    pub fn choice(&self, kind: &'static str) -> Option<PluginChoice> {
-        let plugins = match kind {
-            "kernel" => &self.kernel,
-            "formulation" => &self.formulation,
-            "integrator" => &self.integrator,
-            "walls" => &self.walls,
-            "viscous-operator" => &self.viscous_operator,
-            "implicit-viscosity" => &self.implicit_viscosity,
-            "linear-solver" => &self.linear_solver,
-            "velocity-gradient" => &self.velocity_gradient,
-            "elastic-force" => &self.elastic_force,
-            "effective-pressure" => &self.effective_pressure,
-            "seepage" => &self.seepage,
-            "eddy-viscosity" => &self.eddy_viscosity,
-            "smoother" => &self.smoother,
-            "shifting" => &self.shifting,
-            _ => return None,
-        };
-        single(kind, plugins, kind)
+    /// The plugin that the scene chooses for a kind of which it has one at most.
+    pub fn choice(&self, kind: &str) -> Option<PluginChoice> {
+        let kind = kind_of(kind).filter(|k| k.place == Place::One)?.name;
+        single(kind, self.plugins.get(kind)?, kind)
+    }
+
+    /// The plugins that the scene names of a kind of which it has one or any number.
+    pub fn choices(&self, kind: &str) -> Vec<PluginChoice> {
+        match self.plugins.get_key_value(kind) {
+            Some((kind, plugins)) => several(kind, plugins),
+            None => Vec::new(),
+        }
     }
 
     /// The additional pair terms.
     pub fn terms(&self) -> Vec<PluginChoice> {
-        several("term", &self.term)
+        self.choices("term")
     }
 
     /// What acts where phases meet.
     pub fn interfaces(&self) -> Vec<PluginChoice> {
-        several("interface", &self.interface)
+        self.choices("interface")
     }
 
     /// The equation of state of a phase, if the scene chooses one.

@@ -1,17 +1,17 @@
 //! The JSON schema of a whole scene, with every plugin of the binary, for editors.
 
 use serde_json::{Map, Value as Json, json};
-use sph_core::{ContractInfo, contracts, schema_of};
+use sph_core::{ContractInfo, Place, contracts, kind_of, kinds, schema_of};
 
 use crate::Scene;
-use crate::check::SINGLE_KINDS;
+use crate::plugins::AnyPlugins;
 
 /// The schema of scenes.
 ///
 /// Where a scene names a plugin, the plugins registered in this binary stand with their
 /// parameters. Numbers may also be strings with a unit.
 pub fn schema() -> Json {
-    let mut root = schema_of::<Scene>();
+    let mut root = of_scene();
     let mut shared = Map::new();
     for contract in contracts() {
         insert(&mut root, contract, &mut shared);
@@ -22,6 +22,31 @@ pub fn schema() -> Json {
     root["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
     root["title"] = json!("SPH scene");
     for_editors(&mut root);
+    root
+}
+
+/// The schema of what is the scene's own, and of the tables that name plugins, whose keys it does not know.
+pub(crate) fn of_scene() -> Json {
+    let mut root = schema_of::<Scene>();
+    let purposes = contracts();
+    let Some(properties) = root.get_mut("properties").and_then(Json::as_object_mut) else {
+        return root;
+    };
+    for kind in kinds().into_iter().filter(|k| k.is_open()) {
+        let mut place = schema_of::<AnyPlugins>();
+        let purpose = purposes.iter().find(|c| c.kind == kind.name);
+        let purpose = purpose.map_or(kind.name, |c| c.purpose);
+        let name = kind.name;
+        place["description"] = json!(format!("{purpose}, `[{name}.PLUGIN]`; {}", kind.absent));
+        if kind.place == Place::One {
+            place["maxProperties"] = json!(1);
+        }
+        if let Some(place) = place.as_object_mut() {
+            place.remove("$schema");
+            place.remove("title");
+        }
+        properties.insert(name.to_string(), place);
+    }
     root
 }
 
@@ -41,15 +66,15 @@ pub fn unit(key: &str) -> Option<String> {
 
 fn insert(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, Json>) {
     let kind = contract.kind;
-    match kind {
-        "equation-of-state" | "rheology" => {
+    match kind_of(kind).map(|k| k.place) {
+        Some(Place::InPhase) => {
             named(
                 root.pointer_mut(&format!("/$defs/Phase/properties/{kind}")),
                 contract,
                 shared,
             );
         }
-        "probe" => {
+        Some(Place::Probe) => {
             let all = json!({ "oneOf": tagged(contract, shared) });
             for table in ["probe", "gauge"] {
                 if let Some(place) = root.pointer_mut(&format!("/properties/{table}")) {
@@ -57,7 +82,7 @@ fn insert(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, Jso
                 }
             }
         }
-        "solution" => {
+        Some(Place::Solution) => {
             // A solution is also an initial state.
             named(
                 root.pointer_mut("/$defs/Body/properties/initial"),
@@ -66,14 +91,14 @@ fn insert(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, Jso
             );
             solutions(root, contract, shared);
         }
-        kind if ["term", "interface"].contains(&kind) || SINGLE_KINDS.contains(&kind) => {
+        Some(Place::One | Place::Any) => {
             named(
                 root.pointer_mut(&format!("/properties/{kind}")),
                 contract,
                 shared,
             );
         }
-        _ => {}
+        None => {}
     }
 }
 

@@ -2,8 +2,9 @@
 
 use std::sync::{Arc, Mutex};
 
+use sph_contribution::{Birth, Initial, OwnColumn};
 use sph_core::plausible::Quantity;
-use sph_core::{AnyField, Field, Role, Scalar, SceneProblem, Store, fields};
+use sph_core::{AnyField, Evolved, Field, Role, Scalar, SceneProblem, Store, fields};
 use sph_integrators::Integrator;
 use sph_multiphase::{BoundState, Compressed, Diffused, Reference};
 use sph_neighbours::{WallSet, World};
@@ -126,6 +127,14 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     if let Some(compressed) = &compressed {
         free.add(compressed.value, Role::State);
     }
+    for column in own_columns(&choices) {
+        if free.has(column.field.name) {
+            let name = column.field.name;
+            let why = format!("two plugins of this scene have a column `{name}`");
+            return Err(SolverError::at("", why));
+        }
+        free.add_any(column.field, Role::State);
+    }
     let outlets = Outlets::of(scene, &placed, &mut free).map_err(SolverError::Scene)?;
     *free.get_mut(fields::POSITION)? = placed.positions;
     let count = free.len() as u32;
@@ -142,11 +151,13 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         driving: scene.driving::<D>(),
         time: 0.0,
         dt: 0.0,
+        transported: Vec::new(),
     };
 
     let ground = Ground::of(&choices);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
-    let limiters = limiters_of(&choices, &laws, &kinematic_viscosities);
+    let phases: Vec<String> = scene.phase.keys().cloned().collect();
+    let limiters = limiters_of(&choices, &laws, &kinematic_viscosities, &phases);
     let elastic_wave = elastic_wave(&choices, &laws);
     let planned = plan_stages(scene, &mut choices, &laws, walls.as_ref(), &world)?;
     let scheme = choices.implicit_viscosity.take();
@@ -181,8 +192,8 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         implicit,
         limiters,
         walls,
-        evolved: vec![diffused.evolved],
-        integrated: integrated(&diffused, compressed.as_ref()),
+        evolved: evolved(&diffused, &choices),
+        integrated: integrated(&diffused, compressed.as_ref(), &choices),
         elastic: planned.elastic,
         sub_steps,
         coulomb: planned.coulomb,
@@ -191,12 +202,14 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         restored: false,
         dilatation: compressed.map(|c| Dilatation::new(c, choices.formulation.divergence())),
         kept: Snapshot::default(),
-        kept_rates: Vec::new(),
+        kept_rates: Default::default(),
         laws,
         kinematic_viscosities,
         timings: Vec::new(),
         outlets,
+        contributions: Vec::new(),
     };
+    flow.world.transported = planned.transported;
     flow.reset_timings();
     allocate(&mut flow);
     let asked = scene.output.fields.iter().chain(&scene.output.picture);
@@ -206,6 +219,8 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     }
     check_output_fields(scene, &flow)?;
     let relaxation = start(scene, &drawn, &choices, &mut flow, &placed.body)?;
+    let contributions = choices.contributions.into_iter();
+    flow.contributions = contributions.map(|(_, c)| c).collect();
     warnings.extend(ground.remarks(scene, &flow)?);
     warnings.extend(lattices::remarks(scene, &flow, &placed.body)?);
     Ok(Assembled {
@@ -246,9 +261,27 @@ fn kinematic_viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Vec<f64> 
         .collect()
 }
 
+/// Columns of contributions.
+fn own_columns<const D: usize>(choices: &Choices<D>) -> Vec<OwnColumn<D>> {
+    let all = choices.contributions.iter();
+    all.flat_map(|(_, c)| c.columns()).collect()
+}
+
+/// Scalars with rates: the formulation's, then those of contributions.
+fn evolved<const D: usize>(diffused: &Diffused, choices: &Choices<D>) -> Vec<Evolved> {
+    let others = choices.contributions.iter();
+    let others = others.flat_map(|(_, c)| c.transported());
+    std::iter::once(diffused.evolved).chain(others).collect()
+}
+
 /// What the integrator changes besides positions and velocities.
-fn integrated(diffused: &Diffused, compressed: Option<&Compressed>) -> Vec<Field<Scalar>> {
-    let mut all = vec![diffused.evolved.value];
+fn integrated<const D: usize>(
+    diffused: &Diffused,
+    compressed: Option<&Compressed>,
+    choices: &Choices<D>,
+) -> Vec<Field<Scalar>> {
+    let evolved = evolved(diffused, choices);
+    let mut all: Vec<Field<Scalar>> = evolved.iter().map(|e| e.value).collect();
     if let Some(c) = compressed.filter(|c| c.value != diffused.evolved.value) {
         all.push(c.value);
     }
@@ -362,6 +395,14 @@ fn start<const D: usize>(
             world.free.get_mut(fields::PHASE)?[k] = phase_of[body(k)];
         }
     }
+    let bodies: Vec<&str> = scene.body.keys().map(String::as_str).collect();
+    for column in own_columns(choices) {
+        let name = |k: usize| {
+            let body = body(k);
+            (phases[phase_of[body] as usize].as_str(), bodies[body])
+        };
+        fill(world, &column, name)?;
+    }
     if let Some(walls) = &flow.walls {
         crate::stages::lock(walls).geometry(world)?;
     }
@@ -370,4 +411,39 @@ fn start<const D: usize>(
     let least = sph_core::StepLimit::least(&limits).map_or(0.0, |l| l.dt);
     flow.world.dt = scene.run.safety * least;
     Ok(relaxation)
+}
+
+/// Gives a column of a contribution its values at the start; `names` has the phase and the body of a particle.
+fn fill<'n, const D: usize>(
+    world: &mut World<D>,
+    column: &OwnColumn<D>,
+    names: impl Fn(usize) -> (&'n str, &'n str),
+) -> Result<(), SolverError> {
+    let free = &world.free;
+    let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
+    let (density, mass) = (free.get(fields::DENSITY)?, free.get(fields::MASS)?);
+    let birth = |k: usize| {
+        let (phase, body) = names(k);
+        Birth {
+            position: position[k],
+            velocity: velocity[k],
+            density: density[k],
+            mass: mass[k],
+            phase,
+            body,
+        }
+    };
+    let all = 0..position.len();
+    match &column.initial {
+        Initial::Zero => {}
+        Initial::Scalar(formula) => {
+            let values = all.map(|k| formula(&birth(k))).collect();
+            world.free.put(column.field.scalar(), values)?;
+        }
+        Initial::Vector(formula) => {
+            let values = all.map(|k| formula(&birth(k))).collect();
+            world.free.put(column.field.vector(), values)?;
+        }
+    }
+    Ok(())
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde_json::{Value as Json, json};
 use sph_boundary::{Wall, WallEntry};
+use sph_contribution::{Contribution, open_kinds};
 use sph_core::{Contract, PluginInfo, Registry, RegistryError, SceneProblem};
 use sph_implicit::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
 use sph_integrators::{Integrator, IntegratorEntry};
@@ -45,6 +46,8 @@ pub struct Choices<const D: usize> {
     pub shifting: Option<Box<dyn Shifting<D>>>,
     pub interfaces: Vec<Box<dyn InterfaceModel<D>>>,
     pub terms: Vec<Box<dyn Interaction<D>>>,
+    /// What plugins of kinds offer that the solver does not know, each with its kind.
+    pub contributions: Vec<(&'static str, Box<dyn Contribution<D>>)>,
     /// In the order of the phase numbers.
     pub equations_of_state: Vec<Box<dyn EquationOfState>>,
     /// In the order of the phase numbers.
@@ -65,6 +68,26 @@ struct Builder {
 }
 
 impl Builder {
+    /// All plugins of open kinds.
+    fn contributions<const D: usize>(
+        &mut self,
+        scene: &Scene,
+    ) -> Vec<(&'static str, Box<dyn Contribution<D>>)> {
+        let mut all = Vec::new();
+        for kind in open_kinds() {
+            for choice in scene.choices(kind.kind) {
+                match kind.build::<D>(&choice.name, &choice.table) {
+                    Ok((built, info)) => {
+                        self.in_force.push(in_force(&choice, &info));
+                        all.push((kind.kind, built));
+                    }
+                    Err(error) => self.problems.extend(choice.blame(&error)),
+                }
+            }
+        }
+        all
+    }
+
     fn build<E: Contract, T>(
         &mut self,
         choice: &PluginChoice,
@@ -75,7 +98,7 @@ impl Builder {
             .and_then(|entry| make(entry).map(|built| (built, *entry.info())));
         match built {
             Ok((built, info)) => {
-                self.in_force.push(in_force::<E>(choice, &info));
+                self.in_force.push(in_force(choice, &info));
                 Some(built)
             }
             Err(error) => {
@@ -86,7 +109,7 @@ impl Builder {
     }
 }
 
-fn in_force<E: Contract>(choice: &PluginChoice, info: &PluginInfo) -> PluginInForce {
+fn in_force(choice: &PluginChoice, info: &PluginInfo) -> PluginInForce {
     let mut parameters = serde_json::Map::new();
     for (name, value) in sph_core::defaults(&(info.schema)()) {
         parameters.insert(name, value);
@@ -96,7 +119,7 @@ fn in_force<E: Contract>(choice: &PluginChoice, info: &PluginInfo) -> PluginInFo
         parameters.extend(given);
     }
     PluginInForce {
-        kind: E::KIND.to_string(),
+        kind: choice.kind.to_string(),
         name: choice.name.clone(),
         path: choice.path.clone(),
         provider: info.provider.to_string(),
@@ -181,6 +204,7 @@ impl<const D: usize> Choices<D> {
             .iter()
             .filter_map(|c| b.build::<TermEntry, _>(c, |e| e.build::<D>(&c.table)));
         let terms = terms.collect();
+        let contributions = b.contributions::<D>(scene);
         let (mut equations_of_state, mut rheologies) = (Vec::new(), Vec::new());
         for phase in scene.phase.keys() {
             let eos = scene.equation_of_state(phase).or_else(|| {
@@ -286,6 +310,7 @@ impl<const D: usize> Choices<D> {
                     shifting,
                     interfaces,
                     terms,
+                    contributions,
                     equations_of_state,
                     rheologies,
                     probes,

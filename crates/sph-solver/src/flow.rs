@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use rayon::prelude::*;
+use sph_contribution::Contribution;
 use sph_core::{
     Access, Evolved, Field, Recall, Role, Scalar, Stage, StepError, StepLimit, System, Vect, fields,
 };
@@ -49,7 +50,7 @@ pub struct Flow<const D: usize> {
     /// The state that an integrator keeps within a step.
     pub(crate) kept: Snapshot<D>,
     /// Accelerations and scalar rates of the kept state.
-    pub(crate) kept_rates: Vec<Kept<D>>,
+    pub(crate) kept_rates: Kept<D>,
     pub(crate) laws: std::sync::Arc<[Box<dyn BoundState>]>,
     /// η/ρ₀ of every phase, m²/s.
     pub(crate) kinematic_viscosities: Vec<f64>,
@@ -63,6 +64,8 @@ pub struct Flow<const D: usize> {
     pub(crate) timings: Vec<Timing>,
     /// Where particles leave.
     pub(crate) outlets: Outlets<D>,
+    /// What plugins bring along whose kinds the solver does not know.
+    pub(crate) contributions: Vec<Box<dyn Contribution<D>>>,
 }
 
 impl<const D: usize> Flow<D> {
@@ -136,7 +139,13 @@ impl<const D: usize> System for Flow<D> {
         if let Some((coulomb, pressed)) = self.coulomb.as_mut().zip(pressed) {
             coulomb.apply(&mut self.world, &pressed, dt)?;
         }
-        self.seep(&earlier, dt)
+        self.seep(&earlier, dt)?;
+        for contribution in &mut self.contributions {
+            self.world.free.watch(&contribution.work());
+            let ran = contribution.after_kick(&mut self.world, dt);
+            self.world.free.unwatch("after a kick").and(ran)?;
+        }
+        Ok(())
     }
 
     fn drift(&mut self, dt: f64) -> Result<(), StepError> {
@@ -161,6 +170,11 @@ impl<const D: usize> System for Flow<D> {
             }
         }
         self.shift_to_mean(-1.0)?;
+        for contribution in &mut self.contributions {
+            self.world.free.watch(&contribution.work());
+            let ran = contribution.after_drift(&mut self.world, dt);
+            self.world.free.unwatch("after a drift").and(ran)?;
+        }
         self.timings[MOTION].spent += start.elapsed();
         Ok(())
     }
@@ -227,7 +241,11 @@ impl<const D: usize> Flow<D> {
                 continue;
             }
             let start = Instant::now();
-            stage.run(&mut self.world)?;
+            if cfg!(debug_assertions) {
+                self.world.free.watch(&stage.access());
+            }
+            let ran = stage.run(&mut self.world);
+            self.world.free.unwatch(&stage.name()).and(ran)?;
             self.timings[MOTION + 1 + k].spent += start.elapsed();
         }
         Ok(())

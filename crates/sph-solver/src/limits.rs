@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use sph_contribution::Setting;
 use sph_multiphase::{BoundState, ForceLimit, InterfaceLimit, Limiter, SoundLimit, ViscousLimit};
 use sph_stress::ElasticWaveLimit;
 
@@ -12,6 +13,7 @@ pub(crate) fn limiters_of<const D: usize>(
     choices: &Choices<D>,
     laws: &Arc<[Box<dyn BoundState>]>,
     kinematic_viscosities: &[f64],
+    phases: &[String],
 ) -> Vec<Box<dyn Limiter<D>>> {
     let c = choices.integrator.coefficients();
     let mut limiters: Vec<Box<dyn Limiter<D>>> = vec![
@@ -49,6 +51,9 @@ pub(crate) fn limiters_of<const D: usize>(
     }
     limiters.extend(choices.smoother.iter().filter_map(|s| s.limiter(laws)));
     limiters.extend(choices.interfaces.iter().filter_map(|i| i.limiter(laws)));
+    let setting = Setting { laws, phases };
+    let contributions = choices.contributions.iter();
+    limiters.extend(contributions.flat_map(|(_, c)| c.limiters(&setting)));
     limiters
 }
 

@@ -3,9 +3,10 @@
 use std::ops::Not;
 use std::sync::Arc;
 
-use sph_core::{Access, AnyField, Declares, Stage, fields, plan};
+use sph_contribution::Setting;
+use sph_core::{Access, AnyField, Declares, Shape, Stage, fields, plan};
 use sph_multiphase::{BoundState, Coupling, PressureStage, ShiftedFlow, Viscosity};
-use sph_neighbours::{Interaction, World, fuse_all};
+use sph_neighbours::{Interaction, TRANSPORTED, World, fuse_all};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_stress::{
@@ -49,6 +50,8 @@ pub struct Planned<const D: usize> {
     pub coulomb: Option<CoulombFriction<D>>,
     /// Water that moves through pores.
     pub seepage: Option<Box<dyn PoreFlow<D>>>,
+    /// Rates that the sweep sums besides those of the formulation, in the order of their slots.
+    pub transported: Vec<AnyField>,
 }
 
 /// Friction as a matrix, and as a term for those who measure forces.
@@ -162,6 +165,17 @@ pub fn plan_stages<const D: usize>(
     kinds.extend(choices.terms.iter().map(|t| (t.name(), "term")));
     terms.extend(transport);
     terms.append(&mut choices.terms);
+    let phases: Vec<String> = scene.phase.keys().cloned().collect();
+    let setting = Setting {
+        laws,
+        phases: &phases,
+    };
+    for (kind, contribution) in &choices.contributions {
+        let offered = contribution.terms(&setting);
+        kinds.extend(offered.iter().map(|t| (t.name(), *kind)));
+        terms.extend(offered);
+    }
+    let transported = transported_by(&terms)?;
     let diffused = choices.formulation.diffused();
     let terms: SharedTerms<D> = fuse_all(terms).into();
     let sweep = InteractionSweep {
@@ -169,6 +183,8 @@ pub fn plan_stages<const D: usize>(
         diffused: density_changes.then_some(diffused),
         walls: walls.is_some(),
         states: Vec::new(),
+        transported: transported.clone(),
+        more: Vec::new(),
     };
 
     let mut offered: Stages<D> = Vec::new();
@@ -263,6 +279,10 @@ pub fn plan_stages<const D: usize>(
         displaced: force.displaced(),
     });
     offered.extend(extra.into_iter().map(with_gamma));
+    for (_, contribution) in &choices.contributions {
+        let stages = contribution.stages(&setting).into_iter();
+        offered.extend(stages.map(with_gamma));
+    }
     offered.push(with_gamma(Box::new(sweep)));
 
     let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
@@ -285,6 +305,10 @@ pub fn plan_stages<const D: usize>(
     if choices.shifting.is_some() {
         goals.push(fields::SHIFT_VELOCITY.any());
     }
+    for (_, contribution) in &choices.contributions {
+        goals.extend(contribution.transported().iter().map(|e| e.rate.any()));
+        goals.extend(contribution.work().reads());
+    }
     for stage in &offered {
         let shown = scene.output.fields.iter().chain(&scene.output.picture);
         let measured = choices.probes.iter().flat_map(|(_, p)| p.fields());
@@ -305,6 +329,7 @@ pub fn plan_stages<const D: usize>(
     .filter(|f| world.free.has(f.name))
     .chain(elastic.iter().flat_map(ElasticMotion::remembered))
     .chain(seepage.iter().flat_map(|_| crate::seepage::remembered()))
+    .chain(own_columns(choices))
     .collect();
     let declared: Vec<&dyn Declares> = offered
         .iter()
@@ -335,7 +360,41 @@ pub fn plan_stages<const D: usize>(
         sub_stepped,
         coulomb,
         seepage,
+        transported,
     })
+}
+
+/// State that contributions bring along.
+fn own_columns<const D: usize>(choices: &Choices<D>) -> Vec<AnyField> {
+    let all = choices.contributions.iter().flat_map(|(_, c)| c.columns());
+    all.map(|column| column.field).collect()
+}
+
+/// The rates that terms write, each once.
+fn transported_by<const D: usize>(
+    terms: &[Box<dyn Interaction<D>>],
+) -> Result<Vec<AnyField>, SolverError> {
+    let mut all: Vec<AnyField> = Vec::new();
+    for field in terms.iter().flat_map(|t| t.access().writes) {
+        if field.shape != Shape::Scalar {
+            let name = field.name;
+            let why = format!("a pair term writes `{name}`, which is no scalar");
+            return Err(SolverError::at("", why));
+        }
+        if !all.contains(&field) {
+            all.push(field);
+        }
+    }
+    match all.len() > TRANSPORTED {
+        false => Ok(all),
+        true => Err(SolverError::at(
+            "",
+            format!(
+                "the pair terms of this scene transport {} scalars; a sweep sums {TRANSPORTED} at most",
+                all.len()
+            ),
+        )),
+    }
 }
 
 /// Whether somebody besides the laws reads velocity gradients or strain rates: stages or terms with the access of `others`, probes, outputs.

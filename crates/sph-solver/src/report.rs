@@ -76,6 +76,7 @@ impl<const D: usize> Running<'_, D> {
             stages: &stage_seconds,
         };
         let mut advice = adviser::advice(&costs);
+        advice.extend(flow.contributions.iter().flat_map(|c| c.advice(world)));
         let escaped = flow.escaped()?;
         if escaped > 0 {
             warnings.push(format!("{escaped} particles are behind a wall at the end"));

@@ -4,9 +4,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 use sph_boundary::Wall;
-use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields};
+use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, StepError, Vect, fields};
 use sph_multiphase::Diffused;
-use sph_neighbours::{Interaction, There, World, interactions};
+use sph_neighbours::{Interaction, Sums, TRANSPORTED, There, World, all_sums};
 
 /// Stands for all that walls carry; not a column of the free particles.
 pub const WALL_STATE: Field<Scalar> = Field::new(
@@ -77,6 +77,42 @@ pub struct InteractionSweep<const D: usize> {
     pub walls: bool,
     /// Buffer of the packed states.
     pub states: Vec<There<D>>,
+    /// Rates that terms sum besides, in the order of their slots.
+    pub transported: Vec<AnyField>,
+    /// Buffer of these rates.
+    pub more: Vec<[f64; TRANSPORTED]>,
+}
+
+impl<const D: usize> InteractionSweep<D> {
+    fn sweep(
+        &mut self,
+        world: &World<D>,
+        acceleration: &mut [Vect<D>],
+        scalar: Option<&mut [f64]>,
+    ) -> Result<(), StepError> {
+        let wanted = if self.transported.is_empty() {
+            0
+        } else {
+            acceleration.len()
+        };
+        self.more.resize(wanted, [0.0; TRANSPORTED]);
+        let sums = Sums {
+            acceleration,
+            scalar,
+            more: &mut self.more,
+        };
+        all_sums(world, &mut self.states, &self.terms, sums)
+    }
+
+    /// Rates into their columns.
+    fn spread(&self, world: &mut World<D>) -> Result<(), StepError> {
+        for (slot, field) in self.transported.iter().enumerate() {
+            let rates = world.free.get_mut(field.scalar())?.par_iter_mut();
+            let all = rates.zip(&self.more).with_min_len(2048);
+            all.for_each(|(rate, more)| *rate = more[slot]);
+        }
+        Ok(())
+    }
 }
 
 impl<const D: usize> Declares for InteractionSweep<D> {
@@ -110,13 +146,7 @@ impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
             Some(diffused) => {
                 let field = diffused.evolved.rate;
                 let mut scalar = world.free.take(field)?;
-                interactions(
-                    world,
-                    &mut self.states,
-                    &self.terms,
-                    &mut acceleration,
-                    Some(&mut scalar),
-                )?;
+                self.sweep(world, &mut acceleration, Some(&mut scalar))?;
                 let free = &world.free;
                 let density = free.get(fields::DENSITY)?;
                 let volume = free.get(fields::VOLUME)?;
@@ -127,14 +157,9 @@ impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
                 });
                 world.free.put(field, scalar)?;
             }
-            None => interactions(
-                world,
-                &mut self.states,
-                &self.terms,
-                &mut acceleration,
-                None,
-            )?,
+            None => self.sweep(world, &mut acceleration, None)?,
         }
+        self.spread(world)?;
         Ok(world.free.put(fields::ACCELERATION, acceleration)?)
     }
 }

@@ -99,14 +99,14 @@ impl<const D: usize> RowTerm<D> for Bound<'_, D> {
         rates.acceleration +=
             apart.acceleration + (whole.acceleration - apart.acceleration) * share;
         rates.scalar += apart.scalar + (whole.scalar - apart.scalar) * share;
+        for (k, rate) in rates.more.iter_mut().enumerate() {
+            *rate += apart.more[k] + (whole.more[k] - apart.more[k]) * share;
+        }
     }
 }
 
 fn nothing<const D: usize>() -> Rates<D> {
-    Rates {
-        acceleration: Vect::zeros(),
-        scalar: 0.0,
-    }
+    Rates::of(Vect::zeros())
 }
 
 impl<const D: usize> Bound<'_, D> {

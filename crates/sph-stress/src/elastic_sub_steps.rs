@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sph_core::{Stage, StepError, Vect, fields};
-use sph_neighbours::{Interaction, There, World, accelerations_of, pack};
+use sph_neighbours::{Interaction, Packed, There, World, accelerations_of, pack};
 
 use crate::{CarriedStress, ElasticMotion, Felt};
 
@@ -72,7 +72,7 @@ impl<const D: usize> ElasticSubSteps<D> {
         let count = self.count(dt);
         let part = dt / count as f64;
         self.find_touched(world)?;
-        pack(world, &mut self.states);
+        pack(world, &mut self.states, Packed::of([&*self.term]))?;
         let particles = world.free.len();
         self.acceleration.resize(particles, Vect::zeros());
         let more = 0.5 * (1.0 - 1.0 / count as f64);

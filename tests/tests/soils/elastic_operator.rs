@@ -59,6 +59,7 @@ fn vortices(ratio: f64) -> World<2> {
         driving: Vect::zeros(),
         time: 0.0,
         dt: 1.0,
+        transported: Vec::new(),
     };
     world.rebuild_lists().unwrap();
     let positions = world.free.get(fields::POSITION).unwrap();

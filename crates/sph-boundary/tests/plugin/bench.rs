@@ -110,6 +110,7 @@ impl Bench {
                 driving: Vect::zeros(),
                 time: 0.0,
                 dt: 0.0,
+                transported: Vec::new(),
             },
         };
         bench.refresh();

@@ -82,6 +82,7 @@ impl<const D: usize> Bench<D> {
                 driving: Vect::zeros(),
                 time: 0.0,
                 dt: 0.0,
+                transported: Vec::new(),
             },
         };
         bench.refresh();

@@ -41,6 +41,7 @@ pub fn world<const D: usize>(
         driving: Vect::zeros(),
         time: 0.0,
         dt: 1.0,
+        transported: Vec::new(),
     };
     world.rebuild_lists().unwrap();
     world

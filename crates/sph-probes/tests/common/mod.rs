@@ -18,5 +18,6 @@ pub fn world<const D: usize>(free: Store<D>, spacing: f64) -> World<D> {
         driving: Vect::zeros(),
         time: 0.0,
         dt: 1.0,
+        transported: Vec::new(),
     }
 }
