@@ -307,6 +307,28 @@ fn what_a_particle_carries_follows_the_fluid() {
     assert!(!asked(Transport::Nothing) && asked(Transport::All));
 }
 
+/// No density is taken up within reach of points that stand, and ρc² would make a pressure of every shift there.
+#[test]
+fn within_reach_of_wall_points_nothing_is_shifted() {
+    let mut channel = Channel::closed(16);
+    set(&mut channel.world, fields::VOLUME, |x| {
+        SPACING * SPACING * (1.0 + 0.1 * x[1].sin())
+    });
+    set_velocity(&mut channel.world, |x| Vect::<2>::new(x[1], 0.0));
+    let shifts = shift(&mut channel.world, Fickian::default());
+    let (mut beside, mut inside) = (0, 0);
+    for (i, shift) in shifts.iter().enumerate() {
+        match channel.world.lists.wall.row(i).is_empty() {
+            true => inside += usize::from(shift.norm() > 0.0),
+            false => {
+                beside += 1;
+                assert_eq!(*shift, Vect::<2>::zeros());
+            }
+        }
+    }
+    assert!(beside > 0 && inside > 0, "{beside} and {inside}");
+}
+
 /// Beside a wall, too, a concentration that is c times as high has a gradient c times as large: an even arrangement of
 /// any concentration is left alone. (With 1 for C at the wall, what is thin is pulled away from it.)
 #[test]
@@ -322,6 +344,7 @@ fn beside_walls_the_shift_is_linear_in_the_concentration() {
         let cell = SPACING * SPACING;
         set(&mut channel.world, fields::VOLUME, |_| share * cell);
         channel.world.walls.points.volume.fill(share * cell);
+        channel.world.walls.points.corners_only = true;
         set_velocity(&mut channel.world, |x| Vect::<2>::new(x[1], 0.0));
         shift(&mut channel.world, shifting)
     };

@@ -1,0 +1,12 @@
+//! What a schema cannot say.
+
+pub(crate) mod bounds;
+pub(crate) mod geometry;
+pub(crate) mod motion;
+pub(crate) mod names;
+pub(crate) mod overlap;
+pub(crate) mod shapes;
+pub(crate) mod time;
+pub(crate) mod walls;
+pub(crate) mod wave;
+pub(crate) mod whole;

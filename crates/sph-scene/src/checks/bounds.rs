@@ -1,0 +1,94 @@
+//! Bodies against the periodic box, the domain and the spacing.
+
+use sph_core::plausible::Quantity;
+
+use crate::checks::wave;
+use crate::checks::whole::Problems;
+use crate::geometry::periodic_place::{ROUNDING, spans};
+use crate::{Region, Scene};
+
+/// Bodies lie in the periodic box and the domain, and are no thinner than a particle.
+pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems) {
+    let spacing = scene.numerics.spacing;
+    let periods = scene.numerics.periodic.bounds::<D>();
+    let near = ROUNDING * spacing;
+    let mut filled = [false; D];
+    for (name, body) in &scene.body {
+        let Some(region) = Region::<D>::of(body) else {
+            continue;
+        };
+        let key = body.keys().given()[0];
+        let path = format!("body.{name}.{key}");
+        let (lo, hi) = region.base.bounds();
+        let far = lo
+            .iter()
+            .chain(&hi)
+            .fold(0.0, |far: f64, x| far.max(x.abs()));
+        if let Some(why) = Quantity::refused("distance over the spacing", far / spacing) {
+            found.add(&path, why);
+            continue;
+        }
+        let (bottom, top) = (region.bounds().0[D - 1], region.bounds().1[D - 1]);
+        for (given, key) in [(&body.above, "above"), (&body.below, "below")] {
+            if given.is_some() && bottom >= top {
+                let message = format!(
+                    "nothing of the body, which reaches from {} m to {} m, is {key} it",
+                    lo[D - 1],
+                    hi[D - 1]
+                );
+                found.add(format!("body.{name}.{key}"), message);
+            }
+        }
+        if let Some(wave) = &body.wave {
+            wave::place(wave, &region, spacing, &format!("body.{name}"), found);
+        }
+        let spanned = spans(&region.base, spacing, &periods);
+        for (k, axis) in ["x", "y", "z"].iter().enumerate().take(D) {
+            filled[k] |= spanned[k];
+            if hi[k] - lo[k] < spacing * (1.0 - ROUNDING) {
+                let message = format!(
+                    "the body is {} m wide along {axis}, less than the spacing of {spacing} m",
+                    hi[k] - lo[k]
+                );
+                found.add(&path, message);
+            }
+            // What fills the walls ends at them.
+            if body.fill.is_some() {
+                continue;
+            }
+            let domain = scene.numerics.domain.as_ref().map(|d| [d[0][k], d[1][k]]);
+            for (what, bounds) in [("periodic box", periods[k]), ("domain", domain)] {
+                let outside = |b: &[f64; 2]| lo[k] < b[0] - near || hi[k] > b[1] + near;
+                if let Some([least, most]) = bounds.filter(outside) {
+                    let message = format!(
+                        "the body reaches from {} to {} along {axis}, out of the {what} from {least} to {most}",
+                        lo[k], hi[k]
+                    );
+                    found.add(&path, message);
+                }
+            }
+        }
+    }
+    for (k, (axis, bounds)) in scene
+        .numerics
+        .periodic
+        .axes()
+        .into_iter()
+        .enumerate()
+        .take(D)
+    {
+        let Some([lo, hi]) = bounds.filter(|_| filled[k]) else {
+            continue;
+        };
+        let rows = (hi - lo) / spacing;
+        let whole = rows.round().max(1.0);
+        if (rows - whole).abs() > ROUNDING * whole.max(1.0) {
+            let message = format!(
+                "the period of {} m along {axis} is no multiple of the spacing; the nearest spacing is {}",
+                hi - lo,
+                (hi - lo) / whole
+            );
+            found.add("numerics.spacing", message);
+        }
+    }
+}

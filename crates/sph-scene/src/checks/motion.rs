@@ -1,0 +1,74 @@
+//! The motion of walls.
+
+use crate::Motion;
+use crate::checks::geometry::Dimension;
+use crate::checks::whole::Problems;
+
+/// Checks the vectors, the times and the courses of a motion.
+pub(crate) fn check(motion: &Motion, of: Dimension, path: &str, found: &mut Problems) {
+    of.optional(&motion.velocity, &format!("{path}.velocity"), found);
+    of.optional(&motion.centre, &format!("{path}.centre"), found);
+    let turns = motion.angular_velocity != 0.0;
+    of.axis(&motion.axis, turns, path, found);
+    if turns && motion.centre.is_none() {
+        found.add(
+            path,
+            "the key `centre` is missing: centre of the rotation at the start",
+        );
+    }
+    if motion.stop.is_some_and(|stop| stop <= motion.start) {
+        let message = format!("it must be later than the start at {} s", motion.start);
+        found.add(format!("{path}.stop"), message);
+    }
+    for (k, translate) in motion.translate.iter().enumerate() {
+        let path = motion.translate_path(path, k);
+        of.direction(&translate.along, &format!("{path}.along"), found);
+        course(&translate.given(), &translate.table, &path, found);
+        csv(&translate.file, &path, found);
+    }
+    if let Some(rotate) = &motion.rotate {
+        let path = format!("{path}.rotate");
+        of.vector(&rotate.centre, &format!("{path}.centre"), found);
+        of.axis(&rotate.axis, true, &path, found);
+        course(&rotate.given(), &rotate.table, &path, found);
+        csv(&rotate.file, &path, found);
+        if turns {
+            let message = "the rotation is given here and by `angular_velocity`: choose one";
+            found.add(path, message);
+        }
+    }
+}
+
+/// There is exactly one course, and the times of a table rise.
+fn course(given: &[&str], table: &Option<Vec<[f64; 2]>>, path: &str, found: &mut Problems) {
+    match given {
+        [] => found.add(
+            path,
+            "a course is missing: `speed`, `ramp`, `sine`, `table` or `file`",
+        ),
+        [_] => {}
+        [_, .., last] => {
+            let message = format!("only one course can stand here, found {}", given.join(", "));
+            found.add(format!("{path}.{last}"), message);
+        }
+    }
+    let Some(rows) = table else { return };
+    let place = format!("{path}.table");
+    if rows.len() < 2 {
+        let message = format!("a course needs at least 2 rows, found {}", rows.len());
+        return found.add(place, message);
+    }
+    if let Some(k) = rows.windows(2).position(|p| p[0][0] >= p[1][0]) {
+        let (before, after) = (rows[k][0], rows[k + 1][0]);
+        let message = format!("times must rise, {after} s follows {before} s");
+        found.add(format!("{place}[{}]", k + 1), message);
+    }
+}
+
+fn csv(file: &Option<String>, path: &str, found: &mut Problems) {
+    let Some(file) = file else { return };
+    if !crate::geometry::wall_geometry::has_ending(file, "csv") {
+        let message = format!("expected a file that ends in .csv, found `{file}`");
+        found.add(format!("{path}.file"), message);
+    }
+}

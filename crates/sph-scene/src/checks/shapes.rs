@@ -1,0 +1,164 @@
+//! Bodies: their shapes, and how they are filled.
+
+use crate::checks::geometry::{Dimension, polygon};
+use crate::checks::wave;
+use crate::checks::whole::Problems;
+use crate::tables::body::ShapeKeys;
+use crate::{Body, LevelSurface, Pressure, Scene};
+
+/// Checks what a body gives in space.
+pub(crate) fn body_geometry(
+    scene: &Scene,
+    body: &Body,
+    of: Dimension,
+    path: &str,
+    found: &mut Problems,
+) {
+    match body.fill {
+        Some(_) => filling(body, of, path, found),
+        None => {
+            shape(body.keys(), of, path, found);
+            if body.seed.is_some() {
+                let message = "a seed belongs to `fill = \"walls\"`";
+                found.add(format!("{path}.seed"), message);
+            }
+        }
+    }
+    let key = if body.fill.is_some() { "fill" } else { "clip" };
+    if body.needs_walls() && scene.wall.is_empty() {
+        let message = "the scene has no walls: a wall is a table [wall.NAME]";
+        found.add(format!("{path}.{key}"), message);
+    }
+    for (key, surface) in [("above", &body.above), ("below", &body.below)] {
+        if let Some(LevelSurface {
+            amplitude,
+            wavelength: None,
+            ..
+        }) = surface
+            && *amplitude != 0.0
+        {
+            let message = "the key `wavelength` is missing: a wave has a length";
+            found.add(format!("{path}.{key}"), message);
+        }
+    }
+    for (k, cut) in body.subtract.iter().enumerate() {
+        shape(cut.keys(), of, &format!("{path}.subtract[{k}]"), found);
+    }
+    of.optional(&body.velocity, &format!("{path}.velocity"), found);
+    if body.velocity.is_some() && !body.initial.is_empty() {
+        found.add(
+            format!("{path}.velocity"),
+            "the velocity at the start is given here and by an `initial` plugin: choose one",
+        );
+    }
+    wave::keys(scene, body, path, found);
+    let weightless = scene.numerics.gravity.iter().flatten().all(|g| *g == 0.0);
+    match body.pressure {
+        Pressure::Hydrostatic if weightless => {
+            found.add(
+                format!("{path}.pressure"),
+                "a hydrostatic pressure needs `numerics.gravity`",
+            );
+        }
+        Pressure::Zero if body.surface.is_some() => found.add(
+            format!("{path}.surface"),
+            "the level of the surface is used for `pressure = \"hydrostatic\"` only",
+        ),
+        _ => {}
+    }
+}
+
+/// A body that fills the walls has no shape but a box that bounds it.
+fn filling(body: &Body, of: Dimension, path: &str, found: &mut Problems) {
+    for key in body.keys().given().into_iter().filter(|key| *key != "box") {
+        found.add(
+            format!("{path}.{key}"),
+            "what `fill = \"walls\"` fills can be bounded by a `box` only",
+        );
+    }
+    if let Some(corners) = &body.bounds {
+        of.corners(corners, &format!("{path}.box"), found);
+    }
+    let Some(seed) = &body.seed else { return };
+    let place = format!("{path}.seed");
+    if of.vector(seed, &place, found)
+        && let Some([lo, hi]) = &body.bounds
+        && (0..of.0).any(|k| {
+            !lo.get(k)
+                .zip(hi.get(k))
+                .is_some_and(|(l, h)| (l..=h).contains(&&seed[k]))
+        })
+    {
+        found.add(place, "the seed lies outside the `box`");
+    }
+}
+
+fn shape(keys: ShapeKeys<'_>, of: Dimension, path: &str, found: &mut Problems) {
+    let given = keys.given();
+    match given.as_slice() {
+        [] => {
+            let all = if of.0 == 2 {
+                "`box`, `polygon`, `disc` or `ellipse`"
+            } else {
+                "`box`, `sphere`, `cylinder`, `cone` or `extrusion`"
+            };
+            return found.add(path, format!("a shape is missing: {all}"));
+        }
+        [_] => {}
+        [_, .., last] => {
+            let message = format!("only one shape can stand here, found {}", given.join(", "));
+            return found.add(format!("{path}.{last}"), message);
+        }
+    }
+    let at = |key: &str| format!("{path}.{key}");
+    if let Some(corners) = keys.bounds {
+        of.corners(corners, &at("box"), found);
+    }
+    for (round, key, what, dimension) in [
+        (keys.disc, "disc", "a disc", 2),
+        (keys.sphere, "sphere", "a sphere", 3),
+    ] {
+        let Some(round) = round else { continue };
+        if of.is(dimension, what, &at(key), found) {
+            of.vector(&round.centre, &at(&format!("{key}.centre")), found);
+        }
+    }
+    if let Some(ellipse) = keys.ellipse
+        && of.is(2, "an ellipse", &at("ellipse"), found)
+    {
+        of.vector(&ellipse.centre, &at("ellipse.centre"), found);
+        if ellipse.semi_axes.contains(&0.0) {
+            let message = "the semi-axes must be more than 0 m";
+            found.add(at("ellipse.semi_axes"), message);
+        }
+    }
+    if let Some(points) = keys.polygon
+        && of.is(2, "a polygon", &at("polygon"), found)
+    {
+        polygon(points, &at("polygon"), found);
+    }
+    if let Some(c) = keys.cylinder
+        && of.is(3, "a cylinder", &at("cylinder"), found)
+    {
+        of.apart(("from", &c.from), ("to", &c.to), &at("cylinder"), found);
+    }
+    if let Some(c) = keys.cone
+        && of.is(3, "a cone", &at("cone"), found)
+    {
+        of.apart(("base", &c.base), ("apex", &c.apex), &at("cone"), found);
+    }
+    if let Some(e) = keys.extrusion
+        && of.is(3, "an extrusion", &at("extrusion"), found)
+    {
+        extrusion(&e.polygon, [e.from, e.to], &at("extrusion"), found);
+    }
+}
+
+/// A polygon that is drawn out has an area and a length.
+pub(crate) fn extrusion(points: &[Vec<f64>], ends: [f64; 2], path: &str, found: &mut Problems) {
+    polygon(points, &format!("{path}.polygon"), found);
+    if ends[0] == ends[1] {
+        let message = format!("`from` and `to` must differ, found {} twice", ends[0]);
+        found.add(format!("{path}.to"), message);
+    }
+}

@@ -1,0 +1,272 @@
+//! Walls: one geometry each, of the scene's dimension, and keys that go with it.
+
+use sph_core::parse_unit;
+
+use crate::checks::geometry::{Dimension, chain, crossed, polygon};
+use crate::checks::motion;
+use crate::checks::shapes::extrusion;
+use crate::checks::whole::Problems;
+use crate::geometry::wall_geometry::has_ending;
+use crate::tables::wall_shapes::{Face, Wedge};
+use crate::{Condition, Side, Wall};
+
+/// Checks everything of a wall that has a place in space.
+pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {
+    match wall.geometries().as_slice() {
+        [] => {
+            let all = match of.0 {
+                2 => "`polyline`, `polygon`, `disc`, `box`, `wedge` or `file`",
+                _ => "`box`, `sphere`, `cylinder`, `cone`, `wedge`, `extrusion` or `file`",
+            };
+            found.add(path, format!("a geometry is missing: {all}"));
+        }
+        [_] => {
+            plane(wall, of, path, found);
+            space(wall, of, path, found);
+            companions(wall, path, found);
+        }
+        given @ [_, .., last] => {
+            let message = format!(
+                "only one geometry can stand here, found {}; a wall of several parts is several walls",
+                given.join(", ")
+            );
+            found.add(format!("{path}.{last}"), message);
+        }
+    }
+    of.optional(&wall.translate, &format!("{path}.translate"), found);
+    if let Some(rotate) = &wall.rotate {
+        let path = format!("{path}.rotate");
+        of.axis(&rotate.axis, true, &path, found);
+        of.optional(&rotate.centre, &format!("{path}.centre"), found);
+    }
+    of.optional(&wall.velocity, &format!("{path}.velocity"), found);
+    if let Some(motion) = &wall.motion {
+        motion::check(motion, of, &format!("{path}.motion"), found);
+    }
+    match (wall.condition, wall.slip_length) {
+        (Condition::PartialSlip, None) => found.add(
+            format!("{path}.condition"),
+            "`partial-slip` needs the key `slip_length`",
+        ),
+        (Condition::NoSlip | Condition::FreeSlip | Condition::Coulomb, Some(_)) => found.add(
+            format!("{path}.slip_length"),
+            "a slip length belongs to `condition = \"partial-slip\"`",
+        ),
+        _ => {}
+    }
+    let of_friction = [
+        ("friction_coefficient", wall.friction_coefficient.is_some()),
+        ("friction_form", wall.friction_form.is_some()),
+    ];
+    match wall.condition {
+        Condition::Coulomb if wall.friction_coefficient.is_none() => found.add(
+            format!("{path}.condition"),
+            "`coulomb` needs the key `friction_coefficient`",
+        ),
+        Condition::Coulomb => {}
+        _ => {
+            for (key, _) in of_friction.iter().filter(|k| k.1) {
+                let message = format!("`{key}` belongs to `condition = \"coulomb\"`");
+                found.add(format!("{path}.{key}"), message);
+            }
+        }
+    }
+}
+
+/// Geometries of the plane, and those of both.
+fn plane(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {
+    let at = |key: &str| format!("{path}.{key}");
+    if let Some(points) = &wall.polyline {
+        match of.0 {
+            2 => polyline(wall, points, path, found),
+            _ => found.add(
+                at("polyline"),
+                "a polyline is a wall of two dimensions, and this scene has three",
+            ),
+        }
+    }
+    if let Some(points) = &wall.polygon
+        && of.is(2, "a polygon", &at("polygon"), found)
+    {
+        polygon(points, &at("polygon"), found);
+    }
+    if let Some(disc) = &wall.disc
+        && of.is(2, "a disc", &at("disc"), found)
+    {
+        of.vector(&disc.centre, &at("disc.centre"), found);
+    }
+    if let Some(corners) = &wall.bounds {
+        of.corners(corners, &at("box"), found);
+        open_faces(&wall.open, of, &at("open"), found);
+    }
+    if let Some(wedge) = &wall.wedge {
+        ramp(wedge, of, &at("wedge"), found);
+    }
+    if let Some(file) = &wall.file {
+        geometry_file(file, of, &at("file"), found);
+    }
+}
+
+/// Geometries of space.
+fn space(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {
+    let at = |key: &str| format!("{path}.{key}");
+    if let Some(sphere) = &wall.sphere
+        && of.is(3, "a sphere", &at("sphere"), found)
+    {
+        of.vector(&sphere.centre, &at("sphere.centre"), found);
+    }
+    if let Some(c) = &wall.cylinder
+        && of.is(3, "a cylinder", &at("cylinder"), found)
+    {
+        of.apart(("from", &c.from), ("to", &c.to), &at("cylinder"), found);
+    }
+    if let Some(c) = &wall.cone
+        && of.is(3, "a cone", &at("cone"), found)
+    {
+        of.apart(("base", &c.base), ("apex", &c.apex), &at("cone"), found);
+    }
+    if let Some(e) = &wall.extrusion
+        && of.is(3, "an extrusion", &at("extrusion"), found)
+    {
+        extrusion(&e.polygon, [e.from, e.to], &at("extrusion"), found);
+    }
+}
+
+/// Keys that go with some geometries only.
+fn companions(wall: &Wall, path: &str, found: &mut Problems) {
+    let mut misplaced = |key: &str, message: &str| found.add(format!("{path}.{key}"), message);
+    if wall.polyline.is_none() {
+        if wall.closed {
+            misplaced("closed", "only a `polyline` is closed by this key");
+        }
+        if wall.thickness.is_some() {
+            misplaced("thickness", "only a `polyline` has a thickness");
+        }
+    }
+    if wall.bounds.is_none() && !wall.open.is_empty() {
+        misplaced("open", "only a `box` has faces to leave out");
+    }
+    if wall.file.is_none() && wall.unit.is_some() {
+        misplaced(
+            "unit",
+            "the unit of coordinates belongs to a `file`; numbers of a scene carry their own: \"5 mm\"",
+        );
+    }
+    match (wall.fluid, &wall.polyline, &wall.file) {
+        (Some(_), Some(_), _) => misplaced(
+            "fluid",
+            "the fluid is on the left of travel along a `polyline`; turn the corners round, or give a `polygon`",
+        ),
+        (Some(Side::AsDrawn), None, None) => misplaced(
+            "fluid",
+            "only a `file` is drawn one way: choose `inside` or `outside`",
+        ),
+        _ => {}
+    }
+    if let Some(unit) = &wall.unit {
+        if wall.scale.is_some() {
+            misplaced(
+                "unit",
+                "the coordinates have a `unit` or a `scale`, not both",
+            );
+        }
+        match parse_unit(unit) {
+            Err(why) => misplaced("unit", &why),
+            Ok((_, d)) if (d.metre, d.kilogram, d.second) != (1, 0, 0) => {
+                misplaced("unit", &format!("`{unit}` is no unit of length"));
+            }
+            Ok(_) => {}
+        }
+    }
+}
+
+fn polyline(wall: &Wall, points: &[Vec<f64>], path: &str, found: &mut Problems) {
+    if wall.closed && wall.thickness.is_some() {
+        found.add(
+            format!("{path}.thickness"),
+            "a closed wall has one face and no thickness",
+        );
+    }
+    let line = format!("{path}.polyline");
+    if wall.closed && points.len() < 3 {
+        found.add(&line, "a closed wall needs at least 3 corners");
+        return;
+    }
+    if let Some(points) = chain(points, wall.closed, &line, found) {
+        let count = if wall.closed {
+            points.len()
+        } else {
+            points.len() - 1
+        };
+        let edges: Vec<_> = (0..count)
+            .map(|k| (points[k], points[(k + 1) % points.len()]))
+            .collect();
+        crossed(&edges, wall.closed, &line, found);
+    }
+}
+
+fn open_faces(open: &[Face], of: Dimension, path: &str, found: &mut Problems) {
+    for (k, face) in open.iter().enumerate() {
+        let place = format!("{path}[{k}]");
+        if face.axis() >= of.0 {
+            let message = format!("there is no face `{}` in {}D", face.name(), of.0);
+            found.add(place, message);
+        } else if open[..k].contains(face) {
+            found.add(
+                place,
+                format!("the face `{}` stands there twice", face.name()),
+            );
+        }
+    }
+    let left = (0..of.0).flat_map(|axis| [false, true].map(|upper| (axis, upper)));
+    let kept =
+        |(axis, upper): (usize, bool)| !open.iter().any(|f| (f.axis(), f.upper()) == (axis, upper));
+    if !left.into_iter().any(kept) {
+        found.add(path, "all faces of the box are left out: there is no wall");
+    }
+}
+
+fn ramp(wedge: &Wedge, of: Dimension, path: &str, found: &mut Problems) {
+    let corners = [wedge.lo.clone(), wedge.hi.clone()];
+    let right = [("lo", &wedge.lo), ("hi", &wedge.hi)]
+        .map(|(key, corner)| of.vector(corner, &format!("{path}.{key}"), found));
+    if right == [true; 2] {
+        of.corners(&corners, path, found);
+    }
+    let upright = if of.0 == 2 { Face::YPlus } else { Face::ZPlus };
+    let up = wedge.up.unwrap_or(upright);
+    for (key, face) in [("rise", wedge.rise), ("up", up)] {
+        if face.axis() >= of.0 {
+            let message = format!("there is no direction `{}` in {}D", face.name(), of.0);
+            found.add(format!("{path}.{key}"), message);
+        }
+    }
+    if wedge.rise.axis() == up.axis() {
+        let message = format!(
+            "the ramp rises towards `{}`, which is along `up`, `{}`: choose a direction across it",
+            wedge.rise.name(),
+            up.name()
+        );
+        found.add(format!("{path}.rise"), message);
+    }
+}
+
+/// The name of a file says what it holds.
+fn geometry_file(file: &str, of: Dimension, path: &str, found: &mut Problems) {
+    let is = |endings: &[&str]| endings.iter().any(|e| has_ending(file, e));
+    let wanted: &[&str] = if of.0 == 2 { &["svg", "csv"] } else { &["stl"] };
+    if is(wanted) {
+        return;
+    }
+    let message = match of.0 {
+        2 if is(&["stl"]) => {
+            "an STL file is a wall of three dimensions, and this scene has two: give a .svg or .csv file".to_string()
+        }
+        3 if is(&["svg", "csv"]) => {
+            "a drawing is a wall of two dimensions, and this scene has three: give a .stl file".to_string()
+        }
+        2 => format!("expected a file that ends in .svg or .csv, found `{file}`"),
+        _ => format!("expected a file that ends in .stl, found `{file}`"),
+    };
+    found.add(path, message);
+}

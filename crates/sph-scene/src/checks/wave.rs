@@ -1,0 +1,91 @@
+//! Waves that bodies carry at the start.
+
+use crate::checks::whole::Problems;
+use crate::geometry::periodic_place::ROUNDING;
+use crate::{Body, Pressure, Region, Scene, Wave};
+
+/// Highest solitary wave there is, over the depth (Longuet-Higgins & Fenton 1974).
+const HIGHEST: f64 = 0.83;
+
+/// The other keys of the body fit its wave.
+pub(crate) fn keys(scene: &Scene, body: &Body, path: &str, found: &mut Problems) {
+    let Some(wave) = &body.wave else { return };
+    let path = format!("{path}.wave");
+    let gravity = scene.numerics.gravity.as_deref().unwrap_or(&[]);
+    let down = gravity
+        .split_last()
+        .is_some_and(|(down, level)| *down < 0.0 && level.iter().all(|g| *g == 0.0));
+    if !down {
+        found.add(
+            &path,
+            "a wave needs a `numerics.gravity` down along the last axis",
+        );
+    }
+    if wave.height > HIGHEST * wave.depth {
+        let message = format!(
+            "a solitary wave on water {} m deep is at most {} m high, found {} m",
+            wave.depth,
+            HIGHEST * wave.depth,
+            wave.height
+        );
+        found.add(format!("{path}.height"), message);
+    }
+    if body.pressure == Pressure::Zero && down {
+        found.add(&path, "a wave needs `pressure = \"hydrostatic\"`");
+    }
+    let others = [
+        ("velocity", body.velocity.is_some(), "velocity"),
+        ("initial", !body.initial.is_empty(), "velocity"),
+        ("below", body.below.is_some(), "surface"),
+        ("surface", body.surface.is_some(), "surface"),
+    ];
+    for (key, _, what) in others.iter().filter(|(_, given, _)| *given) {
+        let message =
+            format!("the {what} at the start is given by `{key}` and by a wave: choose one");
+        found.add(&path, message);
+    }
+}
+
+/// The wave is within the shape of its body.
+pub(crate) fn place<const D: usize>(
+    wave: &Wave,
+    region: &Region<D>,
+    spacing: f64,
+    path: &str,
+    found: &mut Problems,
+) {
+    let near = ROUNDING * spacing;
+    let (lo, hi) = region.base.bounds();
+    if wave.crest < lo[0] || wave.crest > hi[0] {
+        let message = format!(
+            "the crest is at {} m, out of the body from {} m to {} m",
+            wave.crest, lo[0], hi[0]
+        );
+        found.add(format!("{path}.wave.crest"), message);
+    }
+    let top = wave.still() + wave.height;
+    if top > hi[D - 1] + near {
+        let message = format!(
+            "the crest is {top} m high, and the body ends at {} m: it would be cut off",
+            hi[D - 1]
+        );
+        found.add(format!("{path}.wave"), message);
+    }
+    // Waves are drawn half a spacing up where rows stand at whole spacings.
+    if lo[D - 1] < wave.bottom - spacing {
+        let message = format!(
+            "the body reaches down to {} m, below the bed of the wave at {} m",
+            lo[D - 1],
+            wave.bottom
+        );
+        found.add(format!("{path}.wave"), message);
+    }
+    if lo[D - 1] >= wave.still() {
+        let message = format!(
+            "the body starts at {} m, above the still water at {} m",
+            lo[D - 1],
+            wave.still()
+        );
+        found.add(format!("{path}.wave"), message);
+    }
+}

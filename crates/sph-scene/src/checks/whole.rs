@@ -1,0 +1,82 @@
+//! What a schema cannot say: the checks of a scene, collected.
+
+use sph_core::{Place, SceneProblem, kinds};
+use toml::{Table, Value};
+
+use crate::checks::geometry;
+use crate::checks::names;
+use crate::checks::overlap;
+use crate::checks::time;
+use crate::{Scene, Source};
+
+/// Collects problems with their paths.
+pub(crate) struct Problems(pub Vec<SceneProblem>);
+
+impl Problems {
+    pub fn add(&mut self, path: impl Into<String>, message: impl Into<String>) {
+        self.0.push(SceneProblem::new(path, message));
+    }
+}
+
+/// Checks that need no types: names, and one plugin where there is to be one.
+pub(crate) fn tables(scene: &Table) -> Vec<SceneProblem> {
+    let mut found = Problems(Vec::new());
+    let mut nested = vec![("body", "initial")];
+    for kind in kinds() {
+        match kind.place {
+            Place::One => single(scene.get(kind.name), kind.name, &mut found),
+            Place::InPhase => nested.push(("phase", kind.name)),
+            Place::Any | Place::Probe | Place::Solution => {}
+        }
+    }
+    for (parent, kind) in nested {
+        for (name, keys) in inside(scene.get(parent)) {
+            single(
+                keys.get(kind),
+                &format!("{parent}.{name}.{kind}"),
+                &mut found,
+            );
+        }
+    }
+    for (name, keys) in inside(scene.get("phase")) {
+        if keys
+            .get("rheology")
+            .and_then(Value::as_table)
+            .is_some_and(Table::is_empty)
+        {
+            let path = format!("phase.{name}.rheology");
+            found.add(&path, format!("a phase needs a rheology: [{path}.PLUGIN]"));
+        }
+    }
+    names::spelling(scene, &mut found);
+    found.0
+}
+
+/// The named tables of a table.
+pub(crate) fn inside(value: Option<&Value>) -> impl Iterator<Item = (&String, &Value)> {
+    value.and_then(Value::as_table).into_iter().flatten()
+}
+
+fn single(plugins: Option<&Value>, path: &str, found: &mut Problems) {
+    let names: Vec<&str> = inside(plugins).map(|(name, _)| name.as_str()).collect();
+    if let [_, .., last] = names.as_slice() {
+        let list: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
+        let message = format!("only one plugin can stand here, found {}", list.join(", "));
+        found.add(format!("{path}.{last}"), message);
+    }
+}
+
+/// Checks of a scene whose form is right; also fills in the paths of its files.
+pub(crate) fn scene(scene: &mut Scene, source: &Source) -> Vec<SceneProblem> {
+    let mut found = Problems(Vec::new());
+    names::references(scene, source, &mut found);
+    time::check(scene, &mut found);
+    geometry::check(scene, &mut found);
+    if found.0.is_empty() {
+        match scene.dimension {
+            2 => overlap::check::<2>(scene, &mut found),
+            _ => overlap::check::<3>(scene, &mut found),
+        }
+    }
+    found.0
+}

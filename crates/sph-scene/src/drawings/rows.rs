@@ -1,0 +1,179 @@
+//! Text files of two columns of numbers.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use crate::Line;
+use crate::reading::diagnostic::line_and_column;
+
+/// Longest text file, bytes.
+const BYTES: u64 = 64 << 20;
+/// Most rows of a file, and most blocks of them: whoever takes them takes fewer.
+const ROWS: usize = 4_000_000;
+const BLOCKS: usize = 200_000;
+
+/// Two numbers and the line they stand in, counted from 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Row {
+    pub line: usize,
+    pub values: [f64; 2],
+}
+
+/// The bytes of a plain file that is neither empty nor longer than `most` bytes.
+pub(crate) fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, String> {
+    let name = path.display();
+    let refused = |e: std::io::Error| format!("cannot read `{name}`: {e}");
+    // Asked before it is opened: opening a pipe would wait for its writer.
+    let known = std::fs::metadata(path).map_err(refused)?;
+    if !known.is_file() {
+        return Err(format!("`{name}` is not a file"));
+    }
+    let length = match known.len() {
+        0 => return Err(format!("`{name}` is empty")),
+        n if n > most => return Err(format!("`{name}` is longer than {} MiB", most >> 20)),
+        n => n,
+    };
+    let mut bytes = Vec::with_capacity(length as usize);
+    let file = File::open(path).map_err(refused)?;
+    file.take(most).read_to_end(&mut bytes).map_err(refused)?;
+    Ok(bytes)
+}
+
+/// The text of a file of UTF-8 that is neither empty nor too long.
+pub(crate) fn text(path: &Path) -> Result<String, String> {
+    String::from_utf8(bytes(path, BYTES)?).map_err(|e| {
+        let at = e.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(&e.as_bytes()[..at]);
+        let (line, column) = line_and_column(&before, at);
+        let name = path.display();
+        format!("`{name}`, line {line}: this is no UTF-8 text (column {column})")
+    })
+}
+
+/// The rows of a file, in blocks separated by blank lines and comments; never none.
+pub(crate) fn read(path: &Path) -> Result<Vec<Vec<Row>>, String> {
+    named(&text(path)?, &path.display().to_string())
+}
+
+/// The same from the text of a file called `name`.
+pub(crate) fn named(text: &str, name: &str) -> Result<Vec<Vec<Row>>, String> {
+    let blocks = parse(text).map_err(|why| format!("`{name}`, {why}"))?;
+    match blocks.is_empty() {
+        true => Err(format!("`{name}` holds no numbers")),
+        false => Ok(blocks),
+    }
+}
+
+/// The lines of the text of a file called `name`: a block of rows is one.
+pub(crate) fn lines(text: &str, name: &str) -> Result<Vec<Line>, String> {
+    let line = |block: Vec<Row>| {
+        let begins = block.first().map_or(0, |row| row.line);
+        let points = block.iter().map(|row| row.values).collect();
+        let line = Line {
+            points,
+            closed: false,
+        };
+        let tidy = line.tidied(0.0);
+        match tidy.points.len() {
+            0 | 1 => Err(format!(
+                "`{name}`: the line that begins in line {begins} has one corner only"
+            )),
+            _ => Ok(tidy),
+        }
+    };
+    named(text, name)?.into_iter().map(line).collect()
+}
+
+/// Columns are separated by commas, semicolons or blanks; the first line may name them.
+fn parse(text: &str) -> Result<Vec<Vec<Row>>, String> {
+    let mut blocks: Vec<Vec<Row>> = Vec::new();
+    let mut begun = false;
+    let mut named = false;
+    let mut rows = 0;
+    for (k, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+        let content = line.split('#').next().unwrap_or("").trim();
+        if content.is_empty() {
+            begun = false;
+            continue;
+        }
+        let separator = |c: char| c == ',' || c == ';' || c.is_whitespace();
+        // A row of millions of columns is not kept.
+        let (fields, columns) = match content.contains([',', ';']) {
+            true => first_of(content.split([',', ';']).map(str::trim)),
+            false => first_of(content.split(separator).filter(|f| !f.is_empty())),
+        };
+        let numbers: Vec<Option<f64>> = fields.iter().map(|f| f.parse().ok()).collect();
+        if blocks.is_empty() && !named && numbers.iter().all(Option::is_none) {
+            named = true;
+            continue;
+        }
+        let line = k + 1;
+        let [first, second] = numbers[..] else {
+            return Err(format!(
+                "line {line}: expected 2 numbers with a comma between them, found {columns} columns"
+            ));
+        };
+        let number = |n: Option<f64>, column: usize| match n {
+            Some(x) if x.is_finite() => Ok(x),
+            Some(x) => Err(format!("line {line}: expected a finite number, found {x}")),
+            None => Err(format!("line {line}: `{}` is not a number", fields[column])),
+        };
+        let values = [number(first, 0)?, number(second, 1)?];
+        if !begun {
+            blocks.push(Vec::new());
+            begun = true;
+        }
+        rows += 1;
+        if rows > ROWS || blocks.len() > BLOCKS {
+            return Err(format!(
+                "line {line}: more than {ROWS} rows, or more than {BLOCKS} blocks of them"
+            ));
+        }
+        if let Some(block) = blocks.last_mut() {
+            block.push(Row { line, values });
+        }
+    }
+    Ok(blocks)
+}
+
+/// The first columns of a row, three at most, and how many there are.
+fn first_of<'t>(mut columns: impl Iterator<Item = &'t str>) -> (Vec<&'t str>, usize) {
+    let first: Vec<&str> = columns.by_ref().take(3).collect();
+    let count = first.len() + columns.count();
+    (first, count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_are_separated_by_blank_lines_and_comments() {
+        let text = "x, y\n0,0\n1 , 2e-1 # corner\n\n3;4\n# next\n5 6\n";
+        let blocks = parse(text).unwrap();
+        let values: Vec<Vec<_>> = blocks
+            .iter()
+            .map(|b| b.iter().map(|r| r.values).collect())
+            .collect();
+        assert_eq!(
+            values,
+            [
+                vec![[0.0, 0.0], [1.0, 0.2]],
+                vec![[3.0, 4.0]],
+                vec![[5.0, 6.0]]
+            ]
+        );
+        assert_eq!(blocks[1][0].line, 5);
+    }
+
+    #[test]
+    fn mistakes_name_their_line() {
+        let refused = |text: &str| parse(text).unwrap_err();
+        assert!(refused("0,0\n1,2,3").starts_with("line 2: expected 2 numbers"));
+        assert!(refused("0,0\n1,b").contains("line 2: `b` is not a number"));
+        assert!(refused("0,inf").contains("finite"));
+        assert!(refused("x,y\nu,v").contains("`u` is not a number"));
+        assert_eq!(parse("x,y\n").unwrap(), Vec::<Vec<Row>>::new());
+    }
+}

@@ -1,0 +1,151 @@
+//! Filling bodies with particles on a square lattice.
+
+use std::collections::HashMap;
+
+use crate::Region;
+use crate::filling::nodes::Nodes;
+use crate::geometry::periodic_place::{Placed, ROUNDING, wrapped};
+use crate::geometry::vector::distance;
+
+/// Where the lattice of a body starts, counted from the lower corner of the box around it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Offset {
+    /// Nodes at whole spacings: a row stands one spacing off the body's side. A node is kept if
+    /// it is at least half a spacing inside.
+    None,
+    /// Nodes at half spacings: a row stands half a spacing off the body's side. A node is kept
+    /// if it is inside.
+    Half,
+}
+
+impl Offset {
+    /// The offset as a fraction of the spacing.
+    pub fn shift(self) -> f64 {
+        match self {
+            Offset::None => 0.0,
+            Offset::Half => 0.5,
+        }
+    }
+}
+
+/// The particles of one body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Filled<const D: usize> {
+    /// Number of the body in the list that was filled.
+    pub body: usize,
+    /// Positions, m.
+    pub positions: Vec<[f64; D]>,
+}
+
+/// Positions of particles for bodies on square lattices of one spacing, m.
+///
+/// Every body has its own lattice, see [`Offset`]. Along a periodic axis (lower and upper bound,
+/// m) that a body fills entirely, the lattice is the period divided evenly, and the two ends
+/// are no surfaces. Where two bodies touch, the surface that they share is no surface either:
+/// a node near it is kept unless another particle is nearer than three quarters of a spacing, so
+/// that a row neither is missing from an interface nor stands there twice.
+///
+/// The bodies must not overlap, and the caller has asked [`estimate`](crate::estimate) whether
+/// there is room.
+pub fn fill<const D: usize>(
+    bodies: &[Region<D>],
+    spacing: f64,
+    offset: Offset,
+    periodic: &[Option<[f64; 2]>; D],
+) -> Vec<Filled<D>> {
+    let placed: Vec<_> = bodies
+        .iter()
+        .map(|b| Placed::new(b, spacing, periodic))
+        .collect();
+    let (firm, reach) = match offset {
+        Offset::None => (
+            0.5 * spacing * (1.0 - ROUNDING),
+            0.5 * spacing * (1.0 - ROUNDING),
+        ),
+        Offset::Half => (ROUNDING * spacing, 1e-3 * spacing),
+    };
+    let mut taken = Taken::new(spacing);
+    let mut doubtful = Vec::new();
+    let mut filled = Vec::with_capacity(bodies.len());
+    for (body, region) in placed.iter().enumerate() {
+        let mut positions = Vec::new();
+        for node in Nodes::new(region, spacing, offset).iter() {
+            let depth = region.depth(&node);
+            if depth >= firm {
+                positions.push(wrapped(&node, periodic));
+                if bodies.len() > 1 && depth < 2.0 * spacing {
+                    taken.insert(node);
+                }
+            } else if bodies.len() > 1 && depth >= -ROUNDING * spacing {
+                doubtful.push((body, node));
+            }
+        }
+        filled.push(Filled { body, positions });
+    }
+    let around = directions::<D>();
+    for (body, node) in doubtful {
+        let within = |x: [f64; D]| placed.iter().any(|p| p.depth(&x) >= -ROUNDING * spacing);
+        let beside = |d: &[f64; D]| std::array::from_fn(|k| node[k] + reach * d[k]);
+        let free = || !placed[body].shifts().iter().any(|s| taken.near(&node, s));
+        if free() && around.iter().all(|d| within(beside(d))) {
+            taken.insert(node);
+            filled[body].positions.push(wrapped(&node, periodic));
+        }
+    }
+    filled
+}
+
+/// Unit vectors to all neighbours of a cell.
+fn directions<const D: usize>() -> Vec<[f64; D]> {
+    let all = offsets::<D>()
+        .into_iter()
+        .filter(|o| o.iter().any(|c| *c != 0));
+    all.map(|o| {
+        let length = o.iter().map(|c| (c * c) as f64).sum::<f64>().sqrt();
+        o.map(|c| c as f64 / length)
+    })
+    .collect()
+}
+
+/// All vectors with entries −1, 0 and 1.
+fn offsets<const D: usize>() -> Vec<[i64; D]> {
+    let digit = |n: usize, k: usize| (n / 3usize.pow(k as u32) % 3) as i64 - 1;
+    (0..3usize.pow(D as u32))
+        .map(|n| std::array::from_fn(|k| digit(n, k)))
+        .collect()
+}
+
+/// Particles near surfaces, in cells as wide as the least distance.
+struct Taken<const D: usize> {
+    least: f64,
+    cells: HashMap<[i64; D], Vec<[f64; D]>>,
+    around: Vec<[i64; D]>,
+}
+
+impl<const D: usize> Taken<D> {
+    fn new(spacing: f64) -> Self {
+        Taken {
+            least: 0.75 * spacing,
+            cells: HashMap::new(),
+            around: offsets(),
+        }
+    }
+
+    fn cell(&self, x: &[f64; D]) -> [i64; D] {
+        x.map(|c| (c / self.least).floor() as i64)
+    }
+
+    fn insert(&mut self, x: [f64; D]) {
+        self.cells.entry(self.cell(&x)).or_default().push(x);
+    }
+
+    fn near(&self, x: &[f64; D], shift: &[f64; D]) -> bool {
+        let x: [f64; D] = std::array::from_fn(|k| x[k] + shift[k]);
+        let home = self.cell(&x);
+        self.around.iter().any(|o| {
+            let cell: [i64; D] = std::array::from_fn(|k| home[k].saturating_add(o[k]));
+            let there = self.cells.get(&cell).into_iter().flatten();
+            there.into_iter().any(|y| distance(&x, y) < self.least)
+        })
+    }
+}

@@ -1,0 +1,194 @@
+//! What the motion of a wall comes down to: courses over time.
+
+use std::path::Path;
+
+use sph_core::SceneProblem;
+
+use crate::drawings::rows;
+use crate::geometry::vector::unit;
+use crate::reading::limits::TIMES;
+use crate::tables::motion::{Motion, Rotation, Translate};
+
+/// A displacement, m, or an angle, rad, over time from the start of the motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Course {
+    /// Constant speed, m/s or rad/s.
+    Speed(f64),
+    /// From rest to a speed with constant acceleration.
+    Ramp {
+        /// Speed that is reached, m/s or rad/s.
+        speed: f64,
+        /// Time in which it is reached, s.
+        over: f64,
+    },
+    /// a·r(t)·sin(2πt/T + φ) less its value at t = 0, with r rising smoothly from 0 to 1.
+    Sine {
+        /// Amplitude a, m or rad.
+        amplitude: f64,
+        /// Period T, s.
+        period: f64,
+        /// Phase φ, rad.
+        phase: f64,
+        /// Time over which r rises, s; 0 for r = 1.
+        ramp: f64,
+    },
+    /// Time, s, and displacement, m, or angle, rad; at least two rows, times rise.
+    Table(Vec<[f64; 2]>),
+}
+
+/// All courses of a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Courses {
+    /// Unit vectors of directions with the displacements along them, which add up.
+    pub translations: Vec<(Vec<f64>, Course)>,
+    /// The rotation.
+    pub rotation: Option<Turning>,
+    /// Time from which the courses count, s.
+    pub start: f64,
+    /// Time from which the wall stays where it is, s.
+    pub stop: f64,
+}
+
+/// A rotation about a centre that the translations carry.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Turning {
+    /// Centre at the start, m.
+    pub centre: Vec<f64>,
+    /// Unit vector of the axis, right-handed; (0, 0, 1) in 2D.
+    pub axis: [f64; 3],
+    /// The angle.
+    pub course: Course,
+}
+
+impl Motion {
+    /// The courses, with `velocity` and `angular_velocity` among them and files read.
+    ///
+    /// `place` is the path of the motion in the scene: `wall.gate.motion`.
+    ///
+    /// # Errors
+    /// If a file cannot be read or is no course.
+    pub fn courses(&self, place: &str) -> Result<Courses, SceneProblem> {
+        let mut translations = Vec::new();
+        if let Some(velocity) = &self.velocity {
+            let speed = velocity.iter().map(|c| c * c).sum::<f64>().sqrt();
+            if let Some(along) = unit(velocity) {
+                translations.push((along, Course::Speed(speed)));
+            }
+        }
+        for (k, translate) in self.translate.iter().enumerate() {
+            let along = unit(&translate.along).unwrap_or_default();
+            let course = translate.course(&self.translate_path(place, k))?;
+            translations.push((along, course));
+        }
+        let turning = |centre: &Option<Vec<f64>>, axis: &Option<Vec<f64>>, course| Turning {
+            centre: centre.clone().unwrap_or_default(),
+            axis: axis
+                .as_deref()
+                .and_then(unit)
+                .map_or([0.0, 0.0, 1.0], |a| crate::geometry::vector::array(&a)),
+            course,
+        };
+        let rotation = match &self.rotate {
+            Some(given) => {
+                let course = given.course(&format!("{place}.rotate"))?;
+                Some(turning(&Some(given.centre.clone()), &given.axis, course))
+            }
+            None if self.angular_velocity != 0.0 => {
+                let course = Course::Speed(self.angular_velocity);
+                Some(turning(&self.centre, &self.axis, course))
+            }
+            None => None,
+        };
+        Ok(Courses {
+            translations,
+            rotation,
+            start: self.start,
+            stop: self.stop.unwrap_or(f64::INFINITY),
+        })
+    }
+}
+
+/// What a translation and a rotation have in common, with other units.
+macro_rules! with_course {
+    ($table:ident) => {
+        impl $table {
+            /// The keys of courses that are given.
+            pub(crate) fn given(&self) -> Vec<&'static str> {
+                given([
+                    self.speed.is_some(),
+                    self.ramp.is_some(),
+                    self.sine.is_some(),
+                    self.table.is_some(),
+                    self.file.is_some(),
+                ])
+            }
+
+            fn course(&self, place: &str) -> Result<Course, SceneProblem> {
+                let ramp = self.ramp.map(|r| Course::Ramp {
+                    speed: r.speed,
+                    over: r.over,
+                });
+                let sine = self.sine.map(|s| Course::Sine {
+                    amplitude: s.amplitude,
+                    period: s.period,
+                    phase: s.phase,
+                    ramp: s.ramp,
+                });
+                let plain = self.speed.map(Course::Speed).or(ramp).or(sine);
+                chosen(plain, &self.table, self.path.as_deref(), place)
+            }
+        }
+    };
+}
+with_course!(Translate);
+with_course!(Rotation);
+
+fn given(keys: [bool; 5]) -> Vec<&'static str> {
+    let names = ["speed", "ramp", "sine", "table", "file"];
+    let all = names.into_iter().zip(keys);
+    all.filter(|(_, given)| *given)
+        .map(|(name, _)| name)
+        .collect()
+}
+
+fn chosen(
+    plain: Option<Course>,
+    table: &Option<Vec<[f64; 2]>>,
+    path: Option<&Path>,
+    place: &str,
+) -> Result<Course, SceneProblem> {
+    if let Some(course) = plain {
+        return Ok(course);
+    }
+    if let Some(table) = table {
+        return Ok(Course::Table(table.clone()));
+    }
+    let problem = |why: String| SceneProblem::new(format!("{place}.file"), why);
+    let path = path.ok_or_else(|| problem("the course is missing".to_string()))?;
+    let blocks = rows::read(path).map_err(problem)?;
+    let rows: Vec<rows::Row> = blocks.into_iter().flatten().collect();
+    if rows.len() > TIMES {
+        return Err(problem(format!(
+            "`{}` holds {} rows, more than {TIMES}",
+            path.display(),
+            rows.len()
+        )));
+    }
+    if rows.len() < 2 {
+        return Err(problem(format!(
+            "`{}` holds {} rows, and a course needs at least 2",
+            path.display(),
+            rows.len()
+        )));
+    }
+    if let Some(pair) = rows.windows(2).find(|p| p[0].values[0] >= p[1].values[0]) {
+        return Err(problem(format!(
+            "`{}`, line {}: times must rise, {} s follows {} s",
+            path.display(),
+            pair[1].line,
+            pair[1].values[0],
+            pair[0].values[0]
+        )));
+    }
+    Ok(Course::Table(rows.iter().map(|r| r.values).collect()))
+}

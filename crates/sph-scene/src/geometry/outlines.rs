@@ -1,0 +1,189 @@
+//! Lines of walls in the plane.
+
+use std::ops::ControlFlow;
+
+use sph_core::BoxTree;
+
+use crate::geometry::polygon::crosses_ray;
+use crate::tables::wall_shapes::Face;
+use crate::{Polygon, Side};
+
+/// A line of straight edges with the fluid on the left of travel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Corners in the order of travel, m.
+    pub points: Vec<[f64; 2]>,
+    /// Whether an edge leads from the last corner back to the first.
+    pub closed: bool,
+}
+
+impl Line {
+    pub(crate) fn closed(points: Vec<[f64; 2]>) -> Self {
+        Line {
+            points,
+            closed: true,
+        }
+    }
+
+    /// The same line with the fluid on the other side.
+    pub fn reversed(mut self) -> Self {
+        self.points.reverse();
+        self
+    }
+
+    /// A line whose end is its beginning becomes closed; doubled corners are dropped.
+    pub(crate) fn tidied(mut self, near: f64) -> Self {
+        let same = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) <= near;
+        self.points.dedup_by(|a, b| same(a, b));
+        while let [first, .., last] = &self.points[..]
+            && same(first, last)
+        {
+            self.closed = true;
+            self.points.pop();
+        }
+        self
+    }
+}
+
+/// Sides of a box without those in `open`, anticlockwise.
+pub(crate) fn rectangle(lo: [f64; 2], hi: [f64; 2], open: &[Face]) -> Vec<Line> {
+    let corners = [lo, [hi[0], lo[1]], hi, [lo[0], hi[1]]];
+    let sides = [Face::YMinus, Face::XPlus, Face::YPlus, Face::XMinus];
+    let kept = |k: usize| !open.contains(&sides[k % 4]);
+    if (0..4).all(kept) {
+        return vec![Line::closed(corners.to_vec())];
+    }
+    let begins = (0..4).filter(|&k| kept(k) && !kept(k + 3));
+    let line = |begin: usize| {
+        let count = (begin..begin + 4).take_while(|&k| kept(k)).count();
+        let corner = |k: usize| corners[k % 4];
+        Line {
+            points: (begin..=begin + count).map(corner).collect(),
+            closed: false,
+        }
+    };
+    begins.map(line).collect()
+}
+
+/// Why closed lines cannot be turned.
+#[derive(Debug, PartialEq)]
+pub(crate) enum Unsided {
+    /// The line of a number is open.
+    Open(usize),
+    /// Too many edges lie beside too many lines.
+    Tangled,
+}
+
+/// Most edges, of all lines together, that are passed on the way out from a corner of each.
+const PASSED: usize = 200_000_000;
+
+/// Turns closed lines so that the fluid is inside or outside of what they enclose.
+///
+/// A line within another is the edge of a hole: it goes round the other way. Whether it lies within an odd
+/// number of others shows in the number of edges that a ray from one of its corners to the right passes.
+pub(crate) fn oriented(lines: Vec<Line>, side: Side) -> Result<Vec<Line>, Unsided> {
+    if side == Side::AsDrawn {
+        return Ok(lines);
+    }
+    if let Some(open) = lines.iter().position(|l| !l.closed) {
+        return Err(Unsided::Open(open));
+    }
+    let polygons: Vec<Polygon> = lines
+        .iter()
+        .map(|l| Polygon::new(l.points.clone()))
+        .collect();
+    let of = |(k, polygon): (usize, &Polygon)| {
+        let edges = polygon.edges().map(|(a, b)| (k, a, b));
+        edges.collect::<Vec<_>>()
+    };
+    let edges: Vec<_> = polygons.iter().enumerate().flat_map(of).collect();
+    let boxes = edges.iter().map(|(_, a, b)| bounds(&[*a, *b])).collect();
+    let tree = BoxTree::new(boxes);
+    let mut passed = 0;
+    let mut turned = Vec::with_capacity(lines.len());
+    for (k, line) in lines.into_iter().enumerate() {
+        let from = line.points[0];
+        let ray = [from, [f64::INFINITY, from[1]]];
+        let mut within = 0;
+        let whole = tree.overlapping(ray, &mut |n| {
+            let (of, a, b) = edges[n];
+            within += usize::from(of != k && crosses_ray(from, a, b));
+            passed += 1;
+            match passed > PASSED {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        });
+        if whole.is_break() {
+            return Err(Unsided::Tangled);
+        }
+        let anticlockwise = polygons[k].area() > 0.0;
+        let wanted = (side == Side::Inside) == within.is_multiple_of(2);
+        turned.push(match anticlockwise == wanted {
+            true => line,
+            false => line.reversed(),
+        });
+    }
+    Ok(turned)
+}
+
+/// Lower and upper corner of the box around points.
+pub(crate) fn bounds<const D: usize>(points: &[[f64; D]]) -> [[f64; D]; 2] {
+    let mut found = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+    for x in points {
+        for k in 0..D {
+            found[0][k] = found[0][k].min(x[k]);
+            found[1][k] = found[1][k].max(x[k]);
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn open_sides_leave_lines_with_the_inside_on_the_left() {
+        let tank = rectangle([0.0; 2], [2.0, 1.0], &[Face::YPlus]);
+        let points = vec![[0.0, 1.0], [0.0, 0.0], [2.0, 0.0], [2.0, 1.0]];
+        assert_eq!(
+            tank,
+            [Line {
+                points,
+                closed: false
+            }]
+        );
+        let channel = rectangle([0.0; 2], [2.0, 1.0], &[Face::XPlus, Face::XMinus]);
+        assert_eq!(channel.len(), 2);
+        assert_eq!(channel[1].points, [[2.0, 1.0], [0.0, 1.0]]);
+        assert!(rectangle([0.0; 2], [1.0; 2], &[])[0].closed);
+    }
+
+    #[test]
+    fn a_hole_goes_round_the_other_way() {
+        let square = |r: f64| Line::closed(vec![[-r, -r], [r, -r], [r, r], [-r, r]]);
+        let lines = vec![square(1.0), square(3.0), square(2.0).reversed()];
+        let area = |l: &Line| Polygon::new(l.points.clone()).area();
+        let inside = oriented(lines.clone(), Side::Inside).unwrap();
+        assert_eq!(
+            inside.iter().map(area).collect::<Vec<_>>(),
+            [4.0, 36.0, -16.0]
+        );
+        let outside = oriented(lines, Side::Outside).unwrap();
+        assert_eq!(
+            outside.iter().map(area).collect::<Vec<_>>(),
+            [-4.0, -36.0, 16.0]
+        );
+    }
+
+    #[test]
+    fn doubled_corners_go_and_a_line_that_returns_is_closed() {
+        let line = Line {
+            points: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]],
+            closed: false,
+        };
+        let tidy = line.tidied(1e-12);
+        assert!(tidy.closed && tidy.points.len() == 3);
+    }
+}

@@ -1,0 +1,259 @@
+//! Shapes: boxes, balls, polygons, cylinders and so on.
+
+use crate::geometry::ellipse;
+use crate::geometry::polygon::Polygon;
+use crate::geometry::vector::distance;
+use crate::{LevelSurface, Wave};
+
+/// A closed piece of space.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape<const D: usize> {
+    /// A box with faces along the axes.
+    Cuboid {
+        /// Lower corner, m.
+        lo: [f64; D],
+        /// Upper corner, m.
+        hi: [f64; D],
+    },
+    /// A disc in two dimensions, a sphere in three.
+    Ball {
+        /// Centre, m.
+        centre: [f64; D],
+        /// Radius, m.
+        radius: f64,
+    },
+    /// An ellipse, in two dimensions.
+    Ellipse {
+        /// Centre, m.
+        centre: [f64; D],
+        /// Semi-axes along x and y, m.
+        semi_axes: [f64; 2],
+    },
+    /// All that is on one side of a level surface.
+    Side {
+        /// The surface.
+        surface: LevelSurface,
+        /// Whether it is what is above it.
+        above: bool,
+    },
+    /// All that is above a wave.
+    OverWave(Wave),
+    /// A polygon, in two dimensions.
+    Polygon(Polygon),
+    /// A cylinder, in three dimensions.
+    Cylinder {
+        /// Centre of one end, m.
+        from: [f64; D],
+        /// Centre of the other end, m.
+        to: [f64; D],
+        /// Radius, m.
+        radius: f64,
+    },
+    /// A cone, in three dimensions.
+    Cone {
+        /// Centre of the base, m.
+        base: [f64; D],
+        /// Tip, m.
+        apex: [f64; D],
+        /// Radius of the base, m.
+        radius: f64,
+    },
+    /// A polygon drawn out along an axis, in three dimensions.
+    Extrusion {
+        /// The polygon, by the two coordinates across the axis in their order.
+        polygon: Polygon,
+        /// Number of the axis.
+        axis: usize,
+        /// Lower and upper end along the axis, m.
+        ends: [f64; 2],
+    },
+}
+
+impl<const D: usize> Shape<D> {
+    /// Distance of a point from the surface, m, positive inside and negative outside.
+    ///
+    /// Exact inside; outside a cone or an extrusion it may be less than the true distance in
+    /// size, never in sign.
+    pub fn depth(&self, x: &[f64; D]) -> f64 {
+        match self {
+            Shape::Cuboid { lo, hi } => {
+                let side = |k: usize| (x[k] - lo[k]).min(hi[k] - x[k]);
+                let inside = (0..D).map(side).fold(f64::INFINITY, f64::min);
+                if inside >= 0.0 {
+                    return inside;
+                }
+                let outside: f64 = (0..D).map(|k| side(k).min(0.0).powi(2)).sum();
+                -outside.sqrt()
+            }
+            Shape::Ball { centre, radius } => radius - distance(x, centre),
+            Shape::Ellipse { centre, semi_axes } => {
+                ellipse::depth(*semi_axes, [x[0] - centre[0], x[1] - centre[1]])
+            }
+            Shape::Side { surface, above } => match above {
+                true => surface.above(x),
+                false => -surface.above(x),
+            },
+            Shape::OverWave(wave) => wave.above(x),
+            Shape::Polygon(polygon) => {
+                let flat = [x[0], x[1]];
+                let away = polygon.distance(flat, |_, _| true);
+                if polygon.contains(flat) { away } else { -away }
+            }
+            Shape::Cylinder { from, to, radius } => {
+                let (along, off, length) = about(from, to, x);
+                let (side, end) = (radius - off, along.min(length - along));
+                match side.min(end) {
+                    inside if inside >= 0.0 => inside,
+                    _ => -side.min(0.0).hypot(end.min(0.0)),
+                }
+            }
+            Shape::Cone { base, apex, radius } => {
+                let (along, off, height) = about(base, apex, x);
+                let slant = (radius * (height - along) - height * off) / radius.hypot(height);
+                slant.min(along)
+            }
+            Shape::Extrusion {
+                polygon,
+                axis,
+                ends,
+            } => {
+                let flat = across(x, *axis);
+                let away = polygon.distance(flat, |_, _| true);
+                let side = if polygon.contains(flat) { away } else { -away };
+                side.min(x[*axis] - ends[0]).min(ends[1] - x[*axis])
+            }
+        }
+    }
+
+    /// Lower and upper corner of the smallest box around it, m; infinite where it has no end.
+    pub fn bounds(&self) -> ([f64; D], [f64; D]) {
+        match self {
+            Shape::Cuboid { lo, hi } => (*lo, *hi),
+            Shape::Ball { centre, radius } => {
+                (centre.map(|c| c - radius), centre.map(|c| c + radius))
+            }
+            Shape::Ellipse { centre, semi_axes } => {
+                let reach = |k: usize| semi_axes.get(k).copied().unwrap_or(0.0);
+                (
+                    std::array::from_fn(|k| centre[k] - reach(k)),
+                    std::array::from_fn(|k| centre[k] + reach(k)),
+                )
+            }
+            Shape::Side { surface, above } => {
+                let (mut lo, mut hi) = ([f64::NEG_INFINITY; D], [f64::INFINITY; D]);
+                match above {
+                    true => lo[D - 1] = surface.level - surface.amplitude.abs(),
+                    false => hi[D - 1] = surface.level + surface.amplitude.abs(),
+                }
+                (lo, hi)
+            }
+            Shape::OverWave(wave) => {
+                let mut lo = [f64::NEG_INFINITY; D];
+                lo[D - 1] = wave.still();
+                (lo, [f64::INFINITY; D])
+            }
+            Shape::Polygon(polygon) => {
+                let axis = |k: usize| polygon.points().iter().map(move |p| p[k.min(1)]);
+                let lo = |k: usize| axis(k).fold(f64::INFINITY, f64::min);
+                let hi = |k: usize| axis(k).fold(f64::NEG_INFINITY, f64::max);
+                (std::array::from_fn(lo), std::array::from_fn(hi))
+            }
+            Shape::Cylinder { from, to, radius } => {
+                let reach = rim(from, to, *radius);
+                let lo = |k: usize| from[k].min(to[k]) - reach[k];
+                let hi = |k: usize| from[k].max(to[k]) + reach[k];
+                (std::array::from_fn(lo), std::array::from_fn(hi))
+            }
+            Shape::Cone { base, apex, radius } => {
+                let reach = rim(base, apex, *radius);
+                let lo = |k: usize| apex[k].min(base[k] - reach[k]);
+                let hi = |k: usize| apex[k].max(base[k] + reach[k]);
+                (std::array::from_fn(lo), std::array::from_fn(hi))
+            }
+            Shape::Extrusion {
+                polygon,
+                axis,
+                ends,
+            } => {
+                let [low, high] = crate::geometry::outlines::bounds(polygon.points());
+                let of = |flat: [f64; 2], end: f64| {
+                    let side = |k: usize| flat[k - usize::from(k > *axis)];
+                    std::array::from_fn(|k| if k == *axis { end } else { side(k) })
+                };
+                (of(low, ends[0]), of(high, ends[1]))
+            }
+        }
+    }
+}
+
+/// Distance of a point along an axis and off it, and the length of the axis.
+fn about<const D: usize>(from: &[f64; D], to: &[f64; D], x: &[f64; D]) -> (f64, f64, f64) {
+    let length = distance(from, to);
+    let along = (0..D)
+        .map(|k| (x[k] - from[k]) * (to[k] - from[k]) / length)
+        .sum();
+    let foot = std::array::from_fn(|k| from[k] + along * (to[k] - from[k]) / length);
+    (along, distance(x, &foot), length)
+}
+
+/// How far a circle about an axis reaches along every coordinate.
+fn rim<const D: usize>(from: &[f64; D], to: &[f64; D], radius: f64) -> [f64; D] {
+    let length = distance(from, to);
+    std::array::from_fn(|k| radius * (1.0 - ((to[k] - from[k]) / length).powi(2)).max(0.0).sqrt())
+}
+
+/// The coordinates of a point across an axis, in their order.
+pub(crate) fn across<const D: usize>(x: &[f64; D], axis: usize) -> [f64; 2] {
+    let mut rest = (0..D).filter(|k| *k != axis).map(|k| x[k]);
+    std::array::from_fn(|_| rest.next().unwrap_or(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn depths_are_distances_with_a_sign() {
+        let cuboid = Shape::Cuboid {
+            lo: [0.0; 3],
+            hi: [2.0, 4.0, 6.0],
+        };
+        assert_eq!(cuboid.depth(&[0.5, 2.0, 3.0]), 0.5);
+        assert_eq!(cuboid.depth(&[5.0, 8.0, 3.0]), -5.0);
+        let ball = Shape::Ball {
+            centre: [1.0, 1.0],
+            radius: 2.0,
+        };
+        assert_eq!(ball.depth(&[1.0, 2.0]), 1.0);
+        assert_eq!(ball.bounds(), ([-1.0; 2], [3.0; 2]));
+    }
+
+    #[test]
+    fn solids_have_exact_depths_inside_and_bounds() {
+        let rod = Shape::Cylinder {
+            from: [0.0; 3],
+            to: [0.0, 4.0, 0.0],
+            radius: 1.0,
+        };
+        assert_eq!(rod.depth(&[0.5, 2.0, 0.0]), 0.5);
+        assert_eq!(rod.depth(&[4.0, 8.0, 0.0]), -5.0);
+        assert_eq!(rod.bounds(), ([-1.0, 0.0, -1.0], [1.0, 4.0, 1.0]));
+        let tip = Shape::Cone {
+            base: [0.0; 3],
+            apex: [0.0, 0.0, 4.0],
+            radius: 3.0,
+        };
+        assert!((tip.depth(&[0.0, 0.0, 1.5]) - 1.5).abs() < 1e-12);
+        assert!((tip.depth(&[3.0, 0.0, 4.0]) + 2.4).abs() < 1e-12);
+        assert_eq!(tip.bounds(), ([-3.0, -3.0, 0.0], [3.0, 3.0, 4.0]));
+        let prism = Shape::Extrusion {
+            polygon: Polygon::new(vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]),
+            axis: 1,
+            ends: [5.0, 9.0],
+        };
+        assert_eq!(prism.depth(&[1.0, 7.0, 0.25]), 0.25);
+        assert_eq!(prism.depth(&[1.0, 5.125, 0.5]), 0.125);
+        assert!(prism.depth(&[0.5, 7.0, 1.5]) < 0.0);
+        assert_eq!(prism.bounds(), ([0.0, 5.0, 0.0], [2.0, 9.0, 1.0]));
+    }
+}

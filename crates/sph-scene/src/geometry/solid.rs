@@ -1,0 +1,312 @@
+//! Surfaces of shapes in space, their normals pointing outwards.
+
+use std::collections::HashMap;
+
+use crate::Polygon;
+use crate::geometry::facets::{Facets, Welder, cross, dot, minus};
+use crate::geometry::triangulate::triangulate;
+use crate::geometry::vector::unit;
+use crate::tables::wall_shapes::{Axis, Face};
+
+/// A box without the faces in `open`.
+pub(crate) fn cuboid(lo: [f64; 3], hi: [f64; 3], open: &[Face]) -> Facets {
+    let mut surface = Welder::default();
+    let all = [
+        Face::XMinus,
+        Face::XPlus,
+        Face::YMinus,
+        Face::YPlus,
+        Face::ZMinus,
+        Face::ZPlus,
+    ];
+    for face in all.into_iter().filter(|f| !open.contains(f)) {
+        let k = face.axis();
+        let (u, v) = ((k + 1) % 3, (k + 2) % 3);
+        let corner = |right: bool, top: bool| {
+            let mut x = if face.upper() { hi } else { lo };
+            x[u] = if right { hi[u] } else { lo[u] };
+            x[v] = if top { hi[v] } else { lo[v] };
+            x
+        };
+        let mut corners = [
+            corner(false, false),
+            corner(true, false),
+            corner(true, true),
+            corner(false, true),
+        ];
+        if !face.upper() {
+            corners.reverse();
+        }
+        surface.fan(&corners);
+    }
+    surface.finish()
+}
+
+/// Corners of a regular polygon about the origin, the first at an angle of `turn`.
+pub(crate) fn ring(radius: f64, sides: usize, turn: f64) -> Vec<[f64; 2]> {
+    // Rounding must not tilt a face that stands along an axis.
+    let clean = |c: f64| if c.abs() < 1e-15 { 0.0 } else { c };
+    let corner = |k: usize| {
+        let angle = turn + std::f64::consts::TAU * k as f64 / sides as f64;
+        [radius * clean(angle.cos()), radius * clean(angle.sin())]
+    };
+    (0..sides).map(corner).collect()
+}
+
+/// A ring in space, right-handed about `axis`: as shifts from its centre.
+fn ring_about(axis: &[f64; 3], flat: &[[f64; 2]]) -> Vec<[f64; 3]> {
+    let d: [f64; 3] = crate::geometry::vector::array(&unit(axis).unwrap_or_default());
+    let main = (0..3)
+        .rev()
+        .max_by(|&i, &j| d[i].abs().total_cmp(&d[j].abs()));
+    let mut first = [0.0; 3];
+    first[(main.unwrap_or(2) + 1) % 3] = 1.0;
+    let along = dot(&first, &d);
+    let across: [f64; 3] = std::array::from_fn(|k| first[k] - along * d[k]);
+    let first: [f64; 3] = crate::geometry::vector::array(&unit(&across).unwrap_or_default());
+    let second = cross(&d, &first);
+    let shift = |p: &[f64; 2]| std::array::from_fn(|k| p[0] * first[k] + p[1] * second[k]);
+    flat.iter().map(shift).collect()
+}
+
+fn plus(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] + b[k])
+}
+
+/// A prism over a ring between two points.
+pub(crate) fn cylinder(from: [f64; 3], to: [f64; 3], flat: &[[f64; 2]], open_ends: bool) -> Facets {
+    let shifts = ring_about(&minus(&to, &from), flat);
+    let bottom: Vec<_> = shifts.iter().map(|s| plus(&from, s)).collect();
+    let top: Vec<_> = shifts.iter().map(|s| plus(&to, s)).collect();
+    let mut surface = Welder::default();
+    for (k, next) in (1..=flat.len()).map(|k| k % flat.len()).enumerate() {
+        surface.fan(&[bottom[k], bottom[next], top[next], top[k]]);
+    }
+    if !open_ends {
+        surface.fan(&top);
+        surface.fan(&bottom.into_iter().rev().collect::<Vec<_>>());
+    }
+    surface.finish()
+}
+
+/// A cone over a ring.
+pub(crate) fn cone(base: [f64; 3], apex: [f64; 3], flat: &[[f64; 2]]) -> Facets {
+    let shifts = ring_about(&minus(&apex, &base), flat);
+    let bottom: Vec<_> = shifts.iter().map(|s| plus(&base, s)).collect();
+    let mut surface = Welder::default();
+    for (k, next) in (1..=flat.len()).map(|k| k % flat.len()).enumerate() {
+        surface.triangle([bottom[k], bottom[next], apex]);
+    }
+    surface.fan(&bottom.into_iter().rev().collect::<Vec<_>>());
+    surface.finish()
+}
+
+/// A polygon of the two coordinates across `axis`, drawn out between two planes.
+pub(crate) fn extrusion(
+    polygon: &[[f64; 2]],
+    axis: Axis,
+    ends: [f64; 2],
+    open_ends: bool,
+) -> Facets {
+    // The plane (x, z) is left-handed about y: it is taken as (z, x).
+    let mirrored = axis == Axis::Y;
+    let mut flat: Vec<[f64; 2]> = match mirrored {
+        true => polygon.iter().map(|p| [p[1], p[0]]).collect(),
+        false => polygon.to_vec(),
+    };
+    if Polygon::new(flat.clone()).area() < 0.0 {
+        flat.reverse();
+    }
+    let place = |p: &[f64; 2], at: f64| match axis {
+        Axis::X => [at, p[0], p[1]],
+        Axis::Y => [p[1], at, p[0]],
+        Axis::Z => [p[0], p[1], at],
+    };
+    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+    let mut surface = Welder::default();
+    for (k, next) in (1..=flat.len()).map(|k| k % flat.len()).enumerate() {
+        let (a, b) = (&flat[k], &flat[next]);
+        surface.fan(&[place(a, low), place(b, low), place(b, high), place(a, high)]);
+    }
+    if !open_ends {
+        for [a, b, c] in triangulate(&flat) {
+            surface.triangle([a, b, c].map(|k| place(&flat[k], high)));
+            surface.triangle([c, b, a].map(|k| place(&flat[k], low)));
+        }
+    }
+    surface.finish()
+}
+
+/// Corners of a right triangle in the plane of two axes, its right angle at the high end.
+///
+/// `lo` and `hi` bound it; the first coordinate is along the axis of `rise` if `rise_first`.
+pub(crate) fn ramp(
+    lo: [f64; 2],
+    hi: [f64; 2],
+    rise_first: bool,
+    rise: Face,
+    up: Face,
+) -> Vec<[f64; 2]> {
+    let (r, u) = if rise_first { (0, 1) } else { (1, 0) };
+    let (near, far) = if rise.upper() {
+        (lo[r], hi[r])
+    } else {
+        (hi[r], lo[r])
+    };
+    let (low, high) = if up.upper() {
+        (lo[u], hi[u])
+    } else {
+        (hi[u], lo[u])
+    };
+    let place = |along: f64, height: f64| {
+        if rise_first {
+            [along, height]
+        } else {
+            [height, along]
+        }
+    };
+    vec![place(near, low), place(far, low), place(far, high)]
+}
+
+/// An icosahedron of which every edge has `parts` parts, drawn onto a sphere.
+pub(crate) fn sphere(centre: [f64; 3], radius: f64, parts: usize) -> Facets {
+    let golden = 0.5 * (1.0 + 5f64.sqrt());
+    let mut corners = Vec::with_capacity(12);
+    for (a, b) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+        for k in 0..3 {
+            let mut x = [0.0; 3];
+            x[(k + 1) % 3] = a;
+            x[(k + 2) % 3] = b * golden;
+            corners.push(x);
+        }
+    }
+    let mut facets = Facets::default();
+    let mut known: HashMap<Vec<(usize, usize)>, u32> = HashMap::new();
+    for face in icosahedron(&corners) {
+        let mut point = |i: usize, j: usize| {
+            let mut weights: Vec<_> = face.into_iter().zip([parts - i - j, i, j]).collect();
+            weights.retain(|(_, w)| *w > 0);
+            weights.sort_unstable();
+            let flat: [f64; 3] = std::array::from_fn(|k| {
+                weights
+                    .iter()
+                    .map(|(n, w)| *w as f64 * corners[*n][k])
+                    .sum()
+            });
+            *known.entry(weights).or_insert_with(|| {
+                let away = dot(&flat, &flat).sqrt();
+                let x = std::array::from_fn(|k| centre[k] + radius * flat[k] / away);
+                facets.points.push(x);
+                facets.points.len() as u32 - 1
+            })
+        };
+        for i in 0..parts {
+            for j in 0..parts - i {
+                let (a, b, c) = (point(i, j), point(i + 1, j), point(i, j + 1));
+                facets.triangles.push([a, b, c]);
+                if i + j + 2 <= parts {
+                    facets.triangles.push([b, point(i + 1, j + 1), c]);
+                }
+            }
+        }
+    }
+    facets
+}
+
+/// The twenty faces: triples of corners at the distance 2 of neighbours.
+fn icosahedron(corners: &[[f64; 3]]) -> Vec<[usize; 3]> {
+    let near = |i: usize, j: usize| {
+        let edge = minus(&corners[i], &corners[j]);
+        (dot(&edge, &edge) - 4.0).abs() < 1e-9
+    };
+    let mut faces = Vec::with_capacity(20);
+    for i in 0..12 {
+        for j in i + 1..12 {
+            for k in (j + 1..12).filter(|&k| near(i, j) && near(j, k) && near(i, k)) {
+                let [a, b, c] = [corners[i], corners[j], corners[k]];
+                let outward = dot(&a, &cross(&b, &c)) > 0.0;
+                faces.push(if outward { [i, j, k] } else { [i, k, j] });
+            }
+        }
+    }
+    faces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    fn closed(surface: &Facets, volume: f64, within: f64) {
+        assert_eq!(surface.loose_edges(), 0);
+        let found = surface.volume();
+        assert!(
+            (found - volume).abs() <= within * volume,
+            "{found} {volume}"
+        );
+    }
+
+    #[test]
+    fn shapes_are_closed_and_face_outwards() {
+        closed(&cuboid([1.0; 3], [2.0, 3.0, 4.0], &[]), 6.0, 1e-14);
+        assert_eq!(cuboid([0.0; 3], [1.0; 3], &[]).triangles.len(), 12);
+        let flat = ring(0.5, 400, 0.1);
+        for to in [
+            [0.0, 0.0, 3.0],
+            [-3.0, 0.0, 0.0],
+            [0.0, 3.0, 0.0],
+            [1.0, 2.0, -2.0],
+        ] {
+            closed(&cylinder([0.0; 3], to, &flat, false), 0.75 * PI, 1e-3);
+            closed(&cone([0.0; 3], to, &flat), 0.25 * PI, 1e-3);
+        }
+        let ball = sphere([5.0, 1.0, -2.0], 2.0, 12);
+        closed(&ball, 4.0 / 3.0 * PI * 8.0, 0.02);
+        assert_eq!(ball.triangles.len(), 20 * 144);
+        assert_eq!(ball.points.len(), 10 * 144 + 2);
+        let corners = [
+            [0.0, 0.0],
+            [2.0, 0.0],
+            [2.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 2.0],
+            [0.0, 2.0],
+        ];
+        let back: Vec<_> = corners.iter().rev().copied().collect();
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            for ends in [[0.5, 2.5], [2.5, 0.5]] {
+                closed(&extrusion(&corners, axis, ends, false), 6.0, 1e-14);
+                closed(&extrusion(&back, axis, ends, false), 6.0, 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn a_square_cylinder_has_its_first_corner_where_the_turn_says() {
+        let prism = cylinder([0.0; 3], [0.0, 0.0, 1.0], &ring(1.0, 4, 0.0), false);
+        assert_eq!(prism.points[0], [1.0, 0.0, 0.0]);
+        let prism = cylinder([0.0; 3], [0.0, 1.0, 0.0], &ring(1.0, 4, 0.0), false);
+        assert_eq!(prism.points[0], [0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn edges_of_a_sphere_are_as_long_as_the_rule_for_its_parts_says() {
+        let parts = 40;
+        let ball = sphere([0.0; 3], 1.0, parts);
+        let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+        for t in &ball.triangles {
+            for k in 0..3 {
+                let edge = minus(
+                    &ball.points[t[k] as usize],
+                    &ball.points[t[(k + 1) % 3] as usize],
+                );
+                let length = dot(&edge, &edge).sqrt() * parts as f64;
+                (least, most) = (least.min(length), most.max(length));
+            }
+        }
+        assert!(
+            (0.88..0.92).contains(&least) && (1.29..1.33).contains(&most),
+            "{least} {most}"
+        );
+    }
+}

@@ -1,0 +1,330 @@
+//! The geometry of a wall as lines or facets.
+
+use sph_core::{SceneProblem, parse_unit};
+
+use crate::drawings::rows;
+use crate::drawings::stl;
+use crate::drawings::svg;
+use crate::geometry::divide;
+use crate::geometry::facets::Facets;
+use crate::geometry::outlines::{Line, Unsided, bounds, oriented, rectangle};
+use crate::geometry::solid;
+use crate::geometry::transform::Placing;
+use crate::geometry::vector::array;
+use crate::reading::limits::{LINES, WALL_CORNERS};
+use crate::tables::wall_shapes::{Axis, Face, Wedge};
+use crate::{Side, Wall};
+
+/// Curves of drawings become lines within this many spacings.
+const TOLERANCE: f64 = 0.05;
+/// A geometry that is farther across than this many spacings is suspected of a wrong unit …
+const ACROSS: f64 = 1e4;
+/// … if it also needs more wall elements than this.
+const ELEMENTS: f64 = 2e7;
+/// Least extent of a geometry, in spacings.
+const LEAST: f64 = 2.0;
+
+impl Wall {
+    /// The lines of a wall in the plane, with the fluid on the left of travel; files are read.
+    ///
+    /// A `polyline` is given as it stands: whoever calls makes a plate of one that has a
+    /// `thickness`. `place` is the path of the wall in the scene: `wall.tank`.
+    ///
+    /// # Errors
+    /// If a file cannot be read or holds no such geometry, or the size does not fit the spacing.
+    pub fn lines(&self, place: &str, spacing: f64) -> Result<Vec<Line>, SceneProblem> {
+        let key = self.geometries().first().copied().unwrap_or("polyline");
+        let problem = |why: String| SceneProblem::new(format!("{place}.{key}"), why);
+        let factor = self.factor();
+        let drawn = self.drawn(spacing / factor).map_err(problem)?;
+        let corners: usize = drawn.iter().map(|line| line.points.len()).sum();
+        if drawn.len() > LINES || corners > WALL_CORNERS {
+            return Err(problem(format!(
+                "the drawing has {} lines with {corners} corners; at most {LINES} lines with {WALL_CORNERS} \
+                 corners are read",
+                drawn.len()
+            )));
+        }
+        // The sides of an open box run anticlockwise; there is no asking what they enclose.
+        let open_box = self.bounds.is_some() && !self.open.is_empty();
+        let side = match self.side() {
+            Some(side) if !open_box => side,
+            _ => Side::AsDrawn,
+        };
+        let turned = open_box && self.side() == Some(Side::Outside);
+        let lines = oriented(drawn, side).map_err(|why| match why {
+            Unsided::Open(open) => {
+                let message = format!(
+                    "line {open} of the drawing, counted from 0, is not closed and has no inside: close \
+                     it, or leave out `fluid` and draw it with the fluid on the left of travel"
+                );
+                SceneProblem::new(format!("{place}.fluid"), message)
+            }
+            Unsided::Tangled => problem(
+                "its lines have too many edges beside each other to tell which is within which: leave \
+                 out `fluid` and draw them with the fluid on the left of travel"
+                    .to_string(),
+            ),
+        })?;
+        let placing = Placing::new(self, factor);
+        let placed = lines.into_iter().map(|line| {
+            let line = if turned { line.reversed() } else { line };
+            Line {
+                points: line.points.iter().map(|x| placing.flat(x)).collect(),
+                closed: line.closed,
+            }
+        });
+        let lines: Vec<Line> = placed.collect();
+        if self.polyline.is_none() {
+            let length = lines.iter().map(length).sum::<f64>();
+            let corners: Vec<_> = lines.iter().flat_map(|l| l.points.clone()).collect();
+            self.fits(&bounds(&corners), length / spacing, spacing)
+                .map_err(problem)?;
+        }
+        Ok(lines)
+    }
+
+    /// The triangles of a wall in space, right-hand normals into the fluid; files are read.
+    ///
+    /// Plane faces have as few triangles as possible. `place` is the path of the wall in the
+    /// scene: `wall.tank`.
+    ///
+    /// # Errors
+    /// If a file cannot be read or holds no such geometry, or the size does not fit the spacing.
+    pub fn facets(&self, place: &str, spacing: f64) -> Result<Facets, SceneProblem> {
+        let key = self.geometries().first().copied().unwrap_or("file");
+        let problem = |why: String| SceneProblem::new(format!("{place}.{key}"), why);
+        let factor = self.factor();
+        let mut facets = match &self.path {
+            Some(path) => {
+                let (facets, odd) = stl::read(path).map_err(problem)?;
+                let side = |why| SceneProblem::new(format!("{place}.fluid"), why);
+                self.sided(facets, odd).map_err(side)?
+            }
+            None => {
+                if let Some(ball) = &self.sphere {
+                    // Known before any triangle is made.
+                    let radius = factor * ball.radius;
+                    let area = 4.0 * std::f64::consts::PI * radius * radius;
+                    let corners = [[-radius; 3], [radius; 3]];
+                    self.fits(&corners, area / (spacing * spacing), spacing)
+                        .map_err(problem)?;
+                }
+                let outward = self
+                    .solid(spacing / factor)
+                    .ok_or_else(|| problem("a geometry in space is missing".to_string()))?;
+                match self.side() {
+                    Some(Side::Inside) => outward.flipped(),
+                    _ => outward,
+                }
+            }
+        };
+        let placing = Placing::new(self, factor);
+        facets.points.iter_mut().for_each(|x| *x = placing.apply(x));
+        let elements = facets.area() / (spacing * spacing);
+        self.fits(&bounds(&facets.points), elements, spacing)
+            .map_err(problem)?;
+        Ok(facets)
+    }
+
+    /// How many corners or facets the shape of the wall will have, where that is not in the length of the
+    /// scene itself; none of a file, which says so when it is read.
+    pub fn declared(&self, spacing: f64) -> usize {
+        let spacing = spacing / self.factor();
+        let sides = |given: Option<usize>, radius: f64| {
+            given.unwrap_or_else(|| divide::sides(radius / spacing))
+        };
+        let disc = self.disc.iter().map(|d| sides(d.sides, d.radius));
+        let ball = self.sphere.iter().map(|b| {
+            let parts = b.subdivisions;
+            let parts = parts.unwrap_or_else(|| divide::subdivisions(b.radius / spacing));
+            20 * parts * parts
+        });
+        let cylinder = self.cylinder.iter().map(|c| 4 * sides(c.sides, c.radius));
+        let cone = self.cone.iter().map(|c| 2 * sides(c.sides, c.radius));
+        disc.chain(ball).chain(cylinder).chain(cone).sum()
+    }
+
+    /// Factor from the numbers of the geometry to metres.
+    pub(crate) fn factor(&self) -> f64 {
+        let unit = self.unit.as_deref().and_then(|u| parse_unit(u).ok());
+        self.scale.or(unit.map(|u| u.0)).unwrap_or(1.0)
+    }
+
+    /// Lines as they are given; shapes go round anticlockwise or are turned later.
+    fn drawn(&self, spacing: f64) -> Result<Vec<Line>, String> {
+        let corners = |list: &[Vec<f64>]| list.iter().map(|p| array(p)).collect::<Vec<[f64; 2]>>();
+        if let Some(points) = &self.polyline {
+            return Ok(vec![Line {
+                points: corners(points),
+                closed: self.closed,
+            }]);
+        }
+        if let Some(points) = &self.polygon {
+            return Ok(vec![Line::closed(corners(points))]);
+        }
+        if let Some(disc) = &self.disc {
+            let sides = disc
+                .sides
+                .unwrap_or_else(|| divide::sides(disc.radius / spacing));
+            let centre: [f64; 2] = array(&disc.centre);
+            let ring = solid::ring(disc.radius, sides, disc.turn);
+            let points = ring.iter().map(|p| [centre[0] + p[0], centre[1] + p[1]]);
+            return Ok(vec![Line::closed(points.collect())]);
+        }
+        if let Some([lo, hi]) = &self.bounds {
+            return Ok(rectangle(array(lo), array(hi), &self.open));
+        }
+        if let Some(wedge) = &self.wedge {
+            return Ok(vec![Line::closed(wedge.plane(Face::YPlus))]);
+        }
+        let path = self
+            .path
+            .as_ref()
+            .ok_or("a geometry in the plane is missing")?;
+        if has_ending(&path.to_string_lossy(), "svg") {
+            return svg::read(path, TOLERANCE * spacing);
+        }
+        rows::lines(&rows::text(path)?, &path.display().to_string())
+    }
+
+    /// The surface of a shape, facing outwards.
+    fn solid(&self, spacing: f64) -> Option<Facets> {
+        let sides = |given: Option<usize>, radius: f64| {
+            given.unwrap_or_else(|| divide::sides(radius / spacing))
+        };
+        if let Some([lo, hi]) = &self.bounds {
+            return Some(solid::cuboid(array(lo), array(hi), &self.open));
+        }
+        if let Some(ball) = &self.sphere {
+            let parts = ball
+                .subdivisions
+                .unwrap_or_else(|| divide::subdivisions(ball.radius / spacing));
+            return Some(solid::sphere(array(&ball.centre), ball.radius, parts));
+        }
+        if let Some(c) = &self.cylinder {
+            let ring = solid::ring(c.radius, sides(c.sides, c.radius), c.turn);
+            return Some(solid::cylinder(
+                array(&c.from),
+                array(&c.to),
+                &ring,
+                c.open_ends,
+            ));
+        }
+        if let Some(c) = &self.cone {
+            let ring = solid::ring(c.radius, sides(c.sides, c.radius), c.turn);
+            return Some(solid::cone(array(&c.base), array(&c.apex), &ring));
+        }
+        if let Some(wedge) = &self.wedge {
+            let up = wedge.up.unwrap_or(Face::ZPlus);
+            let across = 3 - wedge.rise.axis() - up.axis();
+            let axis = [Axis::X, Axis::Y, Axis::Z][across];
+            let ends = [wedge.lo[across], wedge.hi[across]];
+            return Some(solid::extrusion(
+                &wedge.plane(Face::ZPlus),
+                axis,
+                ends,
+                false,
+            ));
+        }
+        let e = self.extrusion.as_ref()?;
+        let polygon: Vec<[f64; 2]> = e.polygon.iter().map(|p| array(p)).collect();
+        Some(solid::extrusion(
+            &polygon,
+            e.axis,
+            [e.from, e.to],
+            e.open_ends,
+        ))
+    }
+
+    /// The facets of a file with the fluid on the side that the wall asks for.
+    fn sided(&self, facets: Facets, odd: Option<usize>) -> Result<Facets, String> {
+        let side = self.side().unwrap_or(Side::AsDrawn);
+        if side == Side::AsDrawn {
+            return match odd {
+                None => Ok(facets),
+                Some(k) => Err(format!(
+                    "the normal of facet {k} contradicts the order of its corners: give `fluid = \
+                     \"inside\"` or \"outside\", which go by the corners, or write the file anew"
+                )),
+            };
+        }
+        let loose = facets.loose_edges();
+        if loose > 0 {
+            return Err(format!(
+                "the surface is not closed or its facets face different ways at {loose} edges, so \
+                 it has no inside: mend it, or leave out `fluid` where the normals point into the \
+                 fluid"
+            ));
+        }
+        let outward = facets.volume() > 0.0;
+        Ok(match outward == (side == Side::Outside) {
+            true => facets,
+            false => facets.flipped(),
+        })
+    }
+
+    /// Refuses what is absurdly large or small against the spacing.
+    fn fits<const D: usize>(
+        &self,
+        [lo, hi]: &[[f64; D]; 2],
+        elements: f64,
+        spacing: f64,
+    ) -> Result<(), String> {
+        let across = (0..D).map(|k| hi[k] - lo[k]).fold(0.0, f64::max);
+        let told = self.unit.is_some() || self.scale.is_some();
+        let advice = |plain: &'static str, file: &'static str| match (&self.file, told) {
+            (Some(_), false) => file,
+            (Some(_), true) => "is the factor from `unit` or `scale` right?",
+            (None, _) => plain,
+        };
+        if across < LEAST * spacing {
+            return Err(format!(
+                "it is {across:.3e} m across, less than {LEAST} spacings of {spacing} m: {}",
+                advice(
+                    "take a smaller spacing",
+                    "are the coordinates in another unit? give for instance `unit = \"km\"`"
+                )
+            ));
+        }
+        if across > ACROSS * spacing && elements > ELEMENTS || !elements.is_finite() {
+            return Err(format!(
+                "it is {across:.3e} m across and would need {elements:.1e} wall elements at a \
+                 spacing of {spacing} m: {}",
+                advice(
+                    "take a larger spacing",
+                    "are the coordinates in millimetres? give `unit = \"mm\"`"
+                )
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl Wedge {
+    /// The triangle in the plane of `rise` and `up`, as coordinates in the order of the axes.
+    fn plane(&self, up: Face) -> Vec<[f64; 2]> {
+        let up = self.up.unwrap_or(up);
+        let rise_first = self.rise.axis() < up.axis();
+        let mut axes = [self.rise.axis(), up.axis()];
+        axes.sort_unstable();
+        let of = |corner: &[f64]| axes.map(|k| corner.get(k).copied().unwrap_or(0.0));
+        solid::ramp(of(&self.lo), of(&self.hi), rise_first, self.rise, up)
+    }
+}
+
+/// Whether the name of a file ends in `.ending`, in letters of any size.
+pub(crate) fn has_ending(file: &str, ending: &str) -> bool {
+    let found = file.rsplit_once('.').map(|(_, found)| found);
+    found.is_some_and(|found| found.eq_ignore_ascii_case(ending))
+}
+
+fn length(line: &Line) -> f64 {
+    let closing = if line.closed { line.points.len() } else { 0 };
+    let pairs = line.points.windows(2).map(|p| (p[0], p[1]));
+    let ends = (closing > 1).then(|| (line.points[closing - 1], line.points[0]));
+    pairs
+        .chain(ends)
+        .map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1]))
+        .sum()
+}

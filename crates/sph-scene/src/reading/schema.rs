@@ -1,0 +1,218 @@
+//! The JSON schema of a whole scene, with every plugin of the binary, for editors.
+
+use serde_json::{Map, Value as Json, json};
+use sph_core::{ContractInfo, Place, contracts, kind_of, kinds, schema_of};
+
+use crate::Scene;
+use crate::reading::plugins::AnyPlugins;
+
+/// The schema of scenes.
+///
+/// Where a scene names a plugin, the plugins registered in this binary stand with their
+/// parameters. Numbers may also be strings with a unit.
+pub fn schema() -> Json {
+    let mut root = of_scene();
+    let mut shared = Map::new();
+    for contract in contracts() {
+        insert(&mut root, contract, &mut shared);
+    }
+    if let Some(defs) = root.get_mut("$defs").and_then(Json::as_object_mut) {
+        defs.extend(shared);
+    }
+    root["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
+    root["title"] = json!("SPH scene");
+    for_editors(&mut root);
+    root
+}
+
+/// The schema of what is the scene's own, and of the tables that name plugins, whose keys it does not know.
+pub(crate) fn of_scene() -> Json {
+    let mut root = schema_of::<Scene>();
+    let purposes = contracts();
+    let Some(properties) = root.get_mut("properties").and_then(Json::as_object_mut) else {
+        return root;
+    };
+    for kind in kinds().into_iter().filter(|k| k.is_open()) {
+        let mut place = schema_of::<AnyPlugins>();
+        let purpose = purposes.iter().find(|c| c.kind == kind.name);
+        let purpose = purpose.map_or(kind.name, |c| c.purpose);
+        let name = kind.name;
+        place["description"] = json!(format!("{purpose}, `[{name}.PLUGIN]`; {}", kind.absent));
+        if kind.place == Place::One {
+            place["maxProperties"] = json!(1);
+        }
+        if let Some(place) = place.as_object_mut() {
+            place.remove("$schema");
+            place.remove("title");
+        }
+        properties.insert(name.to_string(), place);
+    }
+    root
+}
+
+/// SI unit of a scene's own key, `numerics.spacing`; none for parameters of plugins.
+pub fn unit(key: &str) -> Option<String> {
+    let root = schema_of::<Scene>();
+    let mut here = &root;
+    for part in key.split('.') {
+        let target = here.get("$ref").and_then(Json::as_str);
+        let target = target.and_then(|r| root.pointer(r.strip_prefix('#')?));
+        let table = target.unwrap_or(here);
+        let named = table.get("properties").and_then(|p| p.get(part));
+        here = named.or_else(|| table.get("additionalProperties"))?;
+    }
+    here.get("unit").and_then(Json::as_str).map(String::from)
+}
+
+fn insert(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, Json>) {
+    let kind = contract.kind;
+    match kind_of(kind).map(|k| k.place) {
+        Some(Place::InPhase) => {
+            named(
+                root.pointer_mut(&format!("/$defs/Phase/properties/{kind}")),
+                contract,
+                shared,
+            );
+        }
+        Some(Place::Probe) => {
+            let all = json!({ "oneOf": tagged(contract, shared) });
+            for table in ["probe", "gauge"] {
+                if let Some(place) = root.pointer_mut(&format!("/properties/{table}")) {
+                    place["additionalProperties"] = all.clone();
+                }
+            }
+        }
+        Some(Place::Solution) => {
+            // A solution is also an initial state.
+            named(
+                root.pointer_mut("/$defs/Body/properties/initial"),
+                contract,
+                shared,
+            );
+            solutions(root, contract, shared);
+        }
+        Some(Place::One | Place::Any) => {
+            named(
+                root.pointer_mut(&format!("/properties/{kind}")),
+                contract,
+                shared,
+            );
+        }
+        None => {}
+    }
+}
+
+/// Plugins as the keys of a table.
+fn named(place: Option<&mut Json>, contract: &ContractInfo, shared: &mut Map<String, Json>) {
+    let Some(place) = place else { return };
+    let plugins = (contract.plugins)().into_iter();
+    let properties: Map<String, Json> = plugins
+        .map(|p| (p.name.to_string(), plugin(contract.kind, &p, shared)))
+        .collect();
+    place["properties"] = Json::Object(properties);
+    place["additionalProperties"] = json!(false);
+}
+
+/// Plugins as alternatives that the key `kind` tells apart.
+fn tagged(contract: &ContractInfo, shared: &mut Map<String, Json>) -> Vec<Json> {
+    let alternative = |p: sph_core::PluginInfo| {
+        let mut schema = plugin(contract.kind, &p, shared);
+        schema["properties"]["kind"] = json!({ "const": p.name, "description": p.summary });
+        let mut required = schema["required"].as_array().cloned().unwrap_or_default();
+        required.push(json!("kind"));
+        schema["required"] = Json::Array(required);
+        schema
+    };
+    (contract.plugins)().into_iter().map(alternative).collect()
+}
+
+/// Names of reference solutions, and the parameters that go with each name.
+fn solutions(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, Json>) {
+    let plugins = (contract.plugins)();
+    let Some(place) = root.pointer_mut("/$defs/Reference") else {
+        return;
+    };
+    let names: Vec<&str> = plugins.iter().map(|p| p.name).collect();
+    place["properties"]["solution"]["enum"] = json!(names);
+    let rules: Vec<Json> = plugins
+        .iter()
+        .map(|p| {
+            json!({
+                "if": { "required": ["solution"], "properties": { "solution": { "const": p.name } } },
+                "then": { "properties": { "parameters": plugin(contract.kind, p, shared) } },
+            })
+        })
+        .collect();
+    place["allOf"] = Json::Array(rules);
+}
+
+/// The schema of a plugin's parameters, its shared definitions moved to the scene's.
+fn plugin(kind: &str, info: &sph_core::PluginInfo, shared: &mut Map<String, Json>) -> Json {
+    let mut schema = (info.schema)();
+    if !schema.is_object() {
+        schema = json!({ "type": "object" });
+    }
+    let prefix = format!("{kind}.{}.", info.name);
+    renamed(&mut schema, &prefix);
+    if let Some(Json::Object(own)) = schema.as_object_mut().and_then(|s| s.remove("$defs")) {
+        shared.extend(
+            own.into_iter()
+                .map(|(name, def)| (format!("{prefix}{name}"), def)),
+        );
+    }
+    if let Some(object) = schema.as_object_mut() {
+        object.remove("$schema");
+        object.insert("title".into(), json!(info.name));
+        object.insert(
+            "description".into(),
+            json!(format!("{}. {}", info.summary, info.source)),
+        );
+    }
+    schema
+}
+
+fn renamed(schema: &mut Json, prefix: &str) {
+    match schema {
+        Json::Object(object) => {
+            for (key, value) in object.iter_mut() {
+                match value {
+                    Json::String(target) if key == "$ref" => {
+                        if let Some(name) = target.strip_prefix("#/$defs/") {
+                            *target = format!("#/$defs/{prefix}{name}");
+                        }
+                    }
+                    other => renamed(other, prefix),
+                }
+            }
+        }
+        Json::Array(items) => items.iter_mut().for_each(|item| renamed(item, prefix)),
+        _ => {}
+    }
+}
+
+/// Numbers may be strings with a unit, and TOML has no null.
+fn for_editors(schema: &mut Json) {
+    match schema {
+        Json::Object(object) => {
+            for key in ["anyOf", "oneOf"] {
+                if let Some(Json::Array(options)) = object.get_mut(key) {
+                    options.retain(|o| o.get("type") != Some(&json!("null")));
+                }
+            }
+            if let Some(kind) = object.get_mut("type") {
+                let kinds: Vec<Json> = match &*kind {
+                    Json::Array(kinds) => kinds.iter().filter(|k| **k != "null").cloned().collect(),
+                    one => vec![one.clone()],
+                };
+                *kind = match kinds.as_slice() {
+                    [one] if one == "number" => json!(["number", "string"]),
+                    [one] => one.clone(),
+                    several => json!(several),
+                };
+            }
+            object.values_mut().for_each(for_editors);
+        }
+        Json::Array(items) => items.iter_mut().for_each(for_editors),
+        _ => {}
+    }
+}

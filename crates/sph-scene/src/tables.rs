@@ -1,0 +1,14 @@
+//! What the tables of a scene say, as plain data.
+
+pub(crate) mod body;
+pub(crate) mod body_shapes;
+pub(crate) mod motion;
+pub(crate) mod numerics;
+pub(crate) mod outlet;
+pub(crate) mod output;
+pub(crate) mod phase;
+pub(crate) mod reference;
+pub(crate) mod scene;
+pub(crate) mod wall;
+pub(crate) mod wall_shapes;
+pub(crate) mod wave;

@@ -1,0 +1,218 @@
+//! The table `[body.NAME]`: where a phase is at the start.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::geometry::polygon::Polygon;
+use crate::geometry::vector::array;
+use crate::reading::plugins::{AnyPlugins, Plugins};
+use crate::tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
+use crate::{LevelSurface, Shape, Wave};
+
+/// A piece of a phase at the start: one shape, or what the walls enclose, less what is subtracted.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Name of the phase it is made of.
+    pub phase: String,
+    /// Lower and upper corner of a box, m.
+    #[serde(rename = "box")]
+    #[schemars(extend("unit" = "m"))]
+    pub bounds: Option<[Vec<f64>; 2]>,
+    /// Corners of a polygon in order, m; it closes itself. Two dimensions only.
+    #[schemars(length(min = 3), extend("unit" = "m"))]
+    pub polygon: Option<Vec<Vec<f64>>>,
+    /// Disc by centre and radius. Two dimensions only.
+    pub disc: Option<Round>,
+    /// Ellipse by centre and semi-axes along x and y. Two dimensions only.
+    pub ellipse: Option<Ellipse>,
+    /// Sphere by centre and radius. Three dimensions only.
+    pub sphere: Option<Round>,
+    /// Cylinder between two points. Three dimensions only.
+    pub cylinder: Option<Cylinder>,
+    /// Cone by base and apex. Three dimensions only.
+    pub cone: Option<Cone>,
+    /// Polygon drawn out along an axis. Three dimensions only.
+    pub extrusion: Option<Extrusion>,
+    /// Fills what the walls enclose, instead of a shape; a `box` bounds it.
+    pub fill: Option<Filling>,
+    /// Point, m, in that one of several regions between the walls which `fill` fills; all of them if left out.
+    #[schemars(extend("unit" = "m"))]
+    pub seed: Option<Vec<f64>>,
+    /// Whether only what is on the fluid's side of all walls is filled.
+    #[serde(default)]
+    pub clip: bool,
+    /// Shapes that are cut out.
+    #[serde(default)]
+    pub subtract: Vec<Cutout>,
+    /// Only what is above this surface is filled: bodies of one `box` with the same surface in `below` and `above` share a lattice.
+    pub above: Option<LevelSurface>,
+    /// Only what is below this surface is filled.
+    pub below: Option<LevelSurface>,
+    /// Wave that is on it at the start: what is above its surface is not filled.
+    pub wave: Option<Wave>,
+    /// Velocity at the start, m/s; at rest if left out.
+    #[schemars(extend("unit" = "m/s"))]
+    pub velocity: Option<Vec<f64>>,
+    /// Field that gives the velocity at the start, `[body.NAME.initial.PLUGIN]`.
+    #[serde(default)]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub initial: Plugins,
+    /// Pressure at the start.
+    #[serde(default)]
+    pub pressure: Pressure,
+    /// Level of the free surface against gravity, m, for a hydrostatic pressure. If left out, the top of the only body, or the weight of what stands over a place in all bodies.
+    #[schemars(extend("unit" = "m"))]
+    pub surface: Option<f64>,
+}
+
+/// A shape that is cut out of a body.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cutout {
+    /// Lower and upper corner of a box, m.
+    #[serde(rename = "box")]
+    #[schemars(extend("unit" = "m"))]
+    pub bounds: Option<[Vec<f64>; 2]>,
+    /// Corners of a polygon in order, m; it closes itself. Two dimensions only.
+    #[schemars(length(min = 3), extend("unit" = "m"))]
+    pub polygon: Option<Vec<Vec<f64>>>,
+    /// Disc by centre and radius. Two dimensions only.
+    pub disc: Option<Round>,
+    /// Ellipse by centre and semi-axes along x and y. Two dimensions only.
+    pub ellipse: Option<Ellipse>,
+    /// Sphere by centre and radius. Three dimensions only.
+    pub sphere: Option<Round>,
+    /// Cylinder between two points. Three dimensions only.
+    pub cylinder: Option<Cylinder>,
+    /// Cone by base and apex. Three dimensions only.
+    pub cone: Option<Cone>,
+    /// Polygon drawn out along an axis. Three dimensions only.
+    pub extrusion: Option<Extrusion>,
+}
+
+/// What a body without a shape fills.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Filling {
+    /// Every place that the walls enclose.
+    Walls,
+}
+
+/// Pressure of a body at the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Pressure {
+    /// No pressure: the particles start at the reference density.
+    #[default]
+    Zero,
+    /// Weight of the fluid between the particle and the free surface; of several bodies, of all that is over it.
+    Hydrostatic,
+}
+
+/// The keys that may give a shape, wherever they stand.
+#[derive(Clone, Copy)]
+pub(crate) struct ShapeKeys<'a> {
+    pub bounds: Option<&'a [Vec<f64>; 2]>,
+    pub polygon: Option<&'a [Vec<f64>]>,
+    pub disc: Option<&'a Round>,
+    pub ellipse: Option<&'a Ellipse>,
+    pub sphere: Option<&'a Round>,
+    pub cylinder: Option<&'a Cylinder>,
+    pub cone: Option<&'a Cone>,
+    pub extrusion: Option<&'a Extrusion>,
+}
+
+impl ShapeKeys<'_> {
+    /// The keys that are given.
+    pub fn given(&self) -> Vec<&'static str> {
+        let all = [
+            ("box", self.bounds.is_some()),
+            ("polygon", self.polygon.is_some()),
+            ("disc", self.disc.is_some()),
+            ("ellipse", self.ellipse.is_some()),
+            ("sphere", self.sphere.is_some()),
+            ("cylinder", self.cylinder.is_some()),
+            ("cone", self.cone.is_some()),
+            ("extrusion", self.extrusion.is_some()),
+        ];
+        all.iter()
+            .filter(|(_, given)| *given)
+            .map(|(name, _)| *name)
+            .collect()
+    }
+
+    /// The shape in D dimensions, if one is given.
+    pub fn shape<const D: usize>(&self) -> Option<Shape<D>> {
+        let polygon = |points: &[Vec<f64>]| Polygon::new(points.iter().map(|p| array(p)).collect());
+        if let Some([lo, hi]) = self.bounds {
+            return Some(Shape::Cuboid {
+                lo: array(lo),
+                hi: array(hi),
+            });
+        }
+        if let Some(points) = self.polygon {
+            return Some(Shape::Polygon(polygon(points)));
+        }
+        if let Some(e) = self.ellipse {
+            return Some(Shape::Ellipse {
+                centre: array(&e.centre),
+                semi_axes: e.semi_axes,
+            });
+        }
+        if let Some(c) = self.cylinder {
+            return Some(Shape::Cylinder {
+                from: array(&c.from),
+                to: array(&c.to),
+                radius: c.radius,
+            });
+        }
+        if let Some(c) = self.cone {
+            return Some(Shape::Cone {
+                base: array(&c.base),
+                apex: array(&c.apex),
+                radius: c.radius,
+            });
+        }
+        if let Some(e) = self.extrusion {
+            return Some(Shape::Extrusion {
+                polygon: polygon(&e.polygon),
+                axis: e.axis as usize,
+                ends: [e.from.min(e.to), e.from.max(e.to)],
+            });
+        }
+        self.disc.or(self.sphere).map(|r| Shape::Ball {
+            centre: array(&r.centre),
+            radius: r.radius,
+        })
+    }
+}
+
+/// Tables that give a shape by the same keys.
+macro_rules! with_shape {
+    ($table:ident) => {
+        impl $table {
+            pub(crate) fn keys(&self) -> ShapeKeys<'_> {
+                ShapeKeys {
+                    bounds: self.bounds.as_ref(),
+                    polygon: self.polygon.as_deref(),
+                    disc: self.disc.as_ref(),
+                    ellipse: self.ellipse.as_ref(),
+                    sphere: self.sphere.as_ref(),
+                    cylinder: self.cylinder.as_ref(),
+                    cone: self.cone.as_ref(),
+                    extrusion: self.extrusion.as_ref(),
+                }
+            }
+        }
+    };
+}
+with_shape!(Body);
+with_shape!(Cutout);
+
+impl Body {
+    /// Whether walls decide what is filled: `clip` or `fill`.
+    pub fn needs_walls(&self) -> bool {
+        self.clip || self.fill.is_some()
+    }
+}

@@ -1,0 +1,79 @@
+//! The table `[outlet.NAME]`: where particles leave the flow.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::checks::geometry::Dimension;
+use crate::checks::whole::Problems;
+use crate::{Axis, Heading, Scene};
+
+/// A place where particles leave the flow: a box, or all that is beyond a plane across an axis.
+///
+/// A particle that is there at the end of a step is taken out, and its mass counted. Nothing is
+/// there at the start. Neither the outlet nor what has left through it holds the flow back: what is upstream
+/// feels the empty place as a free surface, which suits falls and flows faster than their waves.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Outlet {
+    /// Lower and upper corner of a box, m.
+    #[serde(rename = "box")]
+    #[schemars(extend("unit" = "m"))]
+    pub bounds: Option<[Vec<f64>; 2]>,
+    /// Place of a plane along `axis`, m: what is beyond it leaves.
+    #[schemars(extend("unit" = "m"))]
+    pub beyond: Option<f64>,
+    /// Axis across which the plane stands; x if left out.
+    pub axis: Option<Axis>,
+    /// Which side of the plane is beyond it, `forward` or `backward`; larger coordinates if left out.
+    pub direction: Option<Heading>,
+}
+
+impl Outlet {
+    /// Whether a place is in the outlet.
+    pub fn contains<const D: usize>(&self, x: &[f64; D]) -> bool {
+        if let Some([lo, hi]) = &self.bounds {
+            let within = |k: usize| lo.get(k) <= Some(&x[k]) && Some(&x[k]) <= hi.get(k);
+            return (0..D).all(within);
+        }
+        let axis = self.axis.map_or(0, |axis| axis as usize).min(D - 1);
+        self.beyond
+            .is_some_and(|plane| match self.direction.unwrap_or_default() {
+                Heading::Forward => x[axis] > plane,
+                Heading::Backward => x[axis] < plane,
+            })
+    }
+}
+
+/// Checks the geometry of all outlets.
+pub(crate) fn check(scene: &Scene, of: Dimension, found: &mut Problems) {
+    for (name, outlet) in &scene.outlet {
+        let path = format!("outlet.{name}");
+        match (&outlet.bounds, outlet.beyond) {
+            (None, None) => found.add(
+                &path,
+                "the key `box` or `beyond` is missing: where particles leave",
+            ),
+            (Some(_), Some(_)) => found.add(
+                format!("{path}.beyond"),
+                "an outlet is a box or what is beyond a plane, not both",
+            ),
+            (Some(corners), None) => of.corners(corners, &format!("{path}.box"), found),
+            (None, Some(_)) => {}
+        }
+        if outlet.bounds.is_some() {
+            let keys = [
+                ("axis", outlet.axis.is_some()),
+                ("direction", outlet.direction.is_some()),
+            ];
+            for (key, _) in keys.iter().filter(|(_, given)| *given) {
+                found.add(format!("{path}.{key}"), "it belongs to `beyond`");
+            }
+        }
+        if outlet.axis.is_some_and(|axis| axis as usize >= of.0) {
+            found.add(
+                format!("{path}.axis"),
+                format!("there is no such axis in {}D", of.0),
+            );
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! The table `[reference.NAME]`: what a result is compared with, and by which norm.
+
+use std::path::PathBuf;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use toml::Table;
+
+use crate::reading::plugins::AnyTable;
+
+/// A comparison of a probe or a field with data or with a closed form.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Reference {
+    /// Name of the probe or gauge that is compared; with the suffix of the column where it has several, `drop.highest`.
+    pub probe: Option<String>,
+    /// Name of the field that is compared at the particles.
+    pub field: Option<String>,
+    /// CSV file of the reference, relative to the scene's folder.
+    pub file: Option<String>,
+    /// Name of a reference solution in closed form.
+    pub solution: Option<String>,
+    /// Parameters of the reference solution.
+    #[serde(default)]
+    #[schemars(with = "AnyTable")]
+    pub parameters: Table,
+    /// Names of the file's columns of time (or place) and value; the first two columns if left out.
+    #[schemars(length(min = 2, max = 2))]
+    pub columns: Option<Vec<String>>,
+    /// Column of the lower limit, for the norm `band`.
+    pub lower: Option<String>,
+    /// Column of the upper limit, for the norm `band`.
+    pub upper: Option<String>,
+    /// Factor that turns the file's first column into SI.
+    #[serde(default = "one")]
+    #[schemars(extend("unit" = "1"))]
+    pub scale_time: f64,
+    /// Factor that turns the file's values into SI.
+    #[serde(default = "one")]
+    #[schemars(extend("unit" = "1"))]
+    pub scale_value: f64,
+    /// Added to the first column after scaling.
+    #[serde(default)]
+    #[schemars(extend("unit" = "1"))]
+    pub offset_time: f64,
+    /// Added to the values after scaling.
+    #[serde(default)]
+    #[schemars(extend("unit" = "1"))]
+    pub offset_value: f64,
+    /// Width of the centred moving mean taken of the probe before it is compared, s: it removes the sound that a weakly compressible fluid adds. None if left out.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub average: Option<f64>,
+    /// First and last time that counts, s; all times if left out.
+    #[schemars(extend("unit" = "s"))]
+    pub window: Option<[f64; 2]>,
+    /// First and last time that does not count, s.
+    #[schemars(extend("unit" = "s"))]
+    pub exclude: Option<[f64; 2]>,
+    /// Value of the reference in SI, for the norm `mean`.
+    pub value: Option<f64>,
+    /// Period of the reference, s, for the norms `lag` and `period`.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub period: Option<f64>,
+    /// How the difference becomes one number; `rms-over-range` for probes and `l2` for fields if left out.
+    pub norm: Option<Norm>,
+    /// The file with its folder, set when the scene is read.
+    #[serde(skip)]
+    pub path: Option<PathBuf>,
+}
+
+/// How a difference becomes one number.
+///
+/// `u` is the result and `e` the reference; over particles the sums weigh with the volume V.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Norm {
+    /// Root-mean-square of u − e at the reference's times over the range of e.
+    RmsOverRange,
+    /// √(Σ V|u − e|² / Σ V|e|²).
+    L2,
+    /// Mean of `l2` over the rows of the series in `window`; the series has it as `error.NAME`.
+    L2Mean,
+    /// Σ |‖u‖ − ‖e‖| / Σ ‖e‖.
+    L1,
+    /// max |u − e| / max |e|.
+    Linf,
+    /// √(Σ V|u − e|² / Σ V) over `scale_value`: for fields at rest.
+    Rms,
+    /// |u − e| / |e| at the last time.
+    Final,
+    /// Largest |u − e|, in the unit of the result.
+    Absolute,
+    /// Relative difference of the slopes of ln u and ln e over time: rates of decay.
+    DecayRate,
+    /// Relative difference of the ranges of u and e: wave heights.
+    Range,
+    /// Size of the delay at which u correlates best with e, over `period`: phases.
+    Lag,
+    /// |mean of u over `window` − `value`| / |`value`|.
+    Mean,
+    /// Mean of u over `window`, in its unit: for a probe that is an error itself.
+    ErrorMean,
+    /// Relative difference of the period of u, from where it crosses its mean, and `period`.
+    Period,
+    /// Relative difference of the times at which u and e are largest.
+    PeakTime,
+    /// Share of the time, as the reference samples it, that u lies outside the columns `lower` and `upper`.
+    Band,
+}
+
+impl Norm {
+    /// Every norm.
+    pub const ALL: [Norm; 16] = [
+        Norm::RmsOverRange,
+        Norm::L2,
+        Norm::L2Mean,
+        Norm::L1,
+        Norm::Linf,
+        Norm::Rms,
+        Norm::Final,
+        Norm::Absolute,
+        Norm::DecayRate,
+        Norm::Range,
+        Norm::Lag,
+        Norm::Mean,
+        Norm::ErrorMean,
+        Norm::Period,
+        Norm::PeakTime,
+        Norm::Band,
+    ];
+
+    /// Name in scenes and summaries.
+    pub fn name(self) -> &'static str {
+        match self {
+            Norm::RmsOverRange => "rms-over-range",
+            Norm::L2 => "l2",
+            Norm::L2Mean => "l2-mean",
+            Norm::L1 => "l1",
+            Norm::Linf => "linf",
+            Norm::Rms => "rms",
+            Norm::Final => "final",
+            Norm::Absolute => "absolute",
+            Norm::DecayRate => "decay-rate",
+            Norm::Range => "range",
+            Norm::Lag => "lag",
+            Norm::Mean => "mean",
+            Norm::ErrorMean => "error-mean",
+            Norm::Period => "period",
+            Norm::PeakTime => "peak-time",
+            Norm::Band => "band",
+        }
+    }
+}
+
+impl Reference {
+    /// Whether the norm compares with nothing but a number of the reference, or with nothing at all.
+    pub fn stands_alone(&self) -> bool {
+        matches!(self.norm(), Norm::Mean | Norm::ErrorMean | Norm::Period)
+    }
+
+    /// The norm in force.
+    pub fn norm(&self) -> Norm {
+        let default = match self.field {
+            Some(_) => Norm::L2,
+            None => Norm::RmsOverRange,
+        };
+        self.norm.unwrap_or(default)
+    }
+}
+
+fn one() -> f64 {
+    1.0
+}

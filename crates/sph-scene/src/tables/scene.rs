@@ -1,0 +1,197 @@
+//! A whole scene as plain data.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Place, SceneProblem, Vect, kind_of};
+use toml::Value;
+
+use crate::geometry::vector::array;
+use crate::reading::plugins::{PluginChoice, Plugins, Probe, several, single};
+use crate::{Body, Numerics, Outlet, Output, Phase, Reference, Region, Run, Wall};
+
+/// A scene: what flows where, under which laws, for how long, and what is written.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// One line that says what the scene is, with its publication.
+    pub title: String,
+    /// What the scene shows and what to look at.
+    pub description: Option<String>,
+    /// Number of space dimensions.
+    #[schemars(range(min = 2, max = 3))]
+    pub dimension: usize,
+    /// How long the scene runs and how carefully.
+    pub run: Run,
+    /// Resolution, forces, periodic directions and bounds.
+    pub numerics: Numerics,
+    /// Plugins of every kind of which a scene has one or any number ([`sph_core::kinds`]): `[KIND.PLUGIN]`.
+    #[serde(skip)]
+    pub(crate) plugins: BTreeMap<&'static str, Plugins>,
+    /// Walls by name, `[wall.NAME]`.
+    #[serde(default)]
+    pub wall: BTreeMap<String, Wall>,
+    /// Materials by name, `[phase.NAME]`, at least one.
+    #[serde(default)]
+    pub phase: BTreeMap<String, Phase>,
+    /// Bodies by name, `[body.NAME]`, at least one.
+    #[serde(default)]
+    pub body: BTreeMap<String, Body>,
+    /// Places where particles leave, by name, `[outlet.NAME]`.
+    #[serde(default)]
+    pub outlet: BTreeMap<String, Outlet>,
+    /// Measurements by name, `[probe.NAME]`; `kind` is the plugin, the other keys its parameters.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Probe>")]
+    pub probe: Plugins,
+    /// Measurements at fixed places, `[gauge.NAME]`; the same as probes.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Probe>")]
+    pub gauge: Plugins,
+    /// Remarks on its numbers, each with its place in the text.
+    #[serde(skip)]
+    pub remarks: Vec<String>,
+    /// Paths of the files that probes and gauges name in `file`, by the name of the probe.
+    #[serde(skip)]
+    pub probe_files: BTreeMap<String, PathBuf>,
+    /// Comparisons by name, `[reference.NAME]`; their errors are in the summary.
+    #[serde(default)]
+    pub reference: BTreeMap<String, Reference>,
+    /// What is written and when.
+    #[serde(default)]
+    pub output: Output,
+}
+
+impl Scene {
+    /// Gravity, m/s²; zero if the scene gives none.
+    pub fn gravity<const D: usize>(&self) -> Vect<D> {
+        array::<D>(self.numerics.gravity.as_deref().unwrap_or(&[])).into()
+    }
+
+    /// Driving force per mass, m/s²; zero if the scene gives none.
+    pub fn driving<const D: usize>(&self) -> Vect<D> {
+        array::<D>(self.numerics.driving.as_deref().unwrap_or(&[])).into()
+    }
+
+    /// The bodies' shapes, in the order of `body`.
+    ///
+    /// A body that fills the walls has none unless a `box` bounds it and is left out: where
+    /// there is one ([`Scene::fills_walls`]), ask [`Scene::regions_within`].
+    pub fn regions<const D: usize>(&self) -> Vec<Region<D>> {
+        self.body.values().filter_map(Region::of).collect()
+    }
+
+    /// Whether a body fills what the walls enclose.
+    pub fn fills_walls(&self) -> bool {
+        self.body.values().any(|b| b.fill.is_some())
+    }
+
+    /// One region for every body, in the order of `body`; `bounds` is the box around all walls, m.
+    ///
+    /// The region of a body that fills the walls is that box, or the part of it in the body's
+    /// own `box`; its lattice counts from the lower corner. What is behind walls is to be taken
+    /// away by the caller, as it is of a body with `clip`.
+    ///
+    /// # Errors
+    /// If a body fills the walls and there are no bounds, or its box has nothing in common with
+    /// them.
+    pub fn regions_within<const D: usize>(
+        &self,
+        bounds: Option<([f64; D], [f64; D])>,
+    ) -> Result<Vec<Region<D>>, SceneProblem> {
+        let region = |(name, body): (&String, &Body)| match body.fill {
+            None => Region::of(body)
+                .ok_or_else(|| SceneProblem::new(format!("body.{name}"), "a shape is missing")),
+            Some(_) => Region::enclosed(body, bounds)
+                .map_err(|(key, why)| SceneProblem::new(format!("body.{name}.{key}"), why)),
+        };
+        self.body.iter().map(region).collect()
+    }
+
+    /// The plugin that the scene chooses for a kind of which it has one at most.
+    pub fn choice(&self, kind: &str) -> Option<PluginChoice> {
+        let kind = kind_of(kind).filter(|k| k.place == Place::One)?.name;
+        single(kind, self.plugins.get(kind)?, kind)
+    }
+
+    /// The plugins that the scene names of a kind of which it has one or any number.
+    pub fn choices(&self, kind: &str) -> Vec<PluginChoice> {
+        match self.plugins.get_key_value(kind) {
+            Some((kind, plugins)) => several(kind, plugins),
+            None => Vec::new(),
+        }
+    }
+
+    /// The additional pair terms.
+    pub fn terms(&self) -> Vec<PluginChoice> {
+        self.choices("term")
+    }
+
+    /// What acts where phases meet.
+    pub fn interfaces(&self) -> Vec<PluginChoice> {
+        self.choices("interface")
+    }
+
+    /// The equation of state of a phase, if the scene chooses one.
+    pub fn equation_of_state(&self, phase: &str) -> Option<PluginChoice> {
+        let path = format!("phase.{phase}.equation-of-state");
+        single(
+            "equation-of-state",
+            &self.phase.get(phase)?.equation_of_state,
+            &path,
+        )
+    }
+
+    /// The rheology of a phase.
+    pub fn rheology(&self, phase: &str) -> Option<PluginChoice> {
+        let path = format!("phase.{phase}.rheology");
+        single("rheology", &self.phase.get(phase)?.rheology, &path)
+    }
+
+    /// The plugin that gives a body its velocity at the start, if the scene chooses one.
+    pub fn initial(&self, body: &str) -> Option<PluginChoice> {
+        let path = format!("body.{body}.initial");
+        single("initial", &self.body.get(body)?.initial, &path)
+    }
+
+    /// The reference solution of a comparison, if it has one.
+    pub fn solution(&self, reference: &str) -> Option<PluginChoice> {
+        let given = self.reference.get(reference)?;
+        Some(PluginChoice {
+            kind: "solution",
+            name: given.solution.clone()?,
+            table: given.parameters.clone(),
+            path: format!("reference.{reference}.parameters"),
+            name_path: format!("reference.{reference}.solution"),
+        })
+    }
+
+    /// Probes and gauges: the name of each and its plugin.
+    pub fn probes(&self) -> Vec<(String, PluginChoice)> {
+        let of = |parent: &'static str, tables: &Plugins| {
+            let choice = |(name, table): (&String, &toml::Table)| {
+                let mut table = table.clone();
+                let kind = table.remove("kind").and_then(|k| match k {
+                    Value::String(kind) => Some(kind),
+                    _ => None,
+                })?;
+                let path = format!("{parent}.{name}");
+                let choice = PluginChoice {
+                    kind: "probe",
+                    name: kind,
+                    table,
+                    name_path: format!("{path}.kind"),
+                    path,
+                };
+                Some((name.clone(), choice))
+            };
+            tables.iter().filter_map(choice).collect::<Vec<_>>()
+        };
+        let mut all = of("probe", &self.probe);
+        all.extend(of("gauge", &self.gauge));
+        all.sort_by(|a, b| a.0.cmp(&b.0));
+        all
+    }
+}

@@ -1,0 +1,153 @@
+//! The table `[wall.NAME]`: geometry, condition and motion of a wall.
+
+use std::path::PathBuf;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::Motion;
+use crate::tables::wall_shapes::{
+    ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
+};
+
+/// A solid wall with a name: exactly one geometry, how the fluid meets it and how it moves.
+///
+/// The geometry is scaled, then turned by `rotate`, then shifted by `translate`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wall {
+    /// Corners of the wall in order, m; the fluid is on the left of travel. Two dimensions only.
+    #[schemars(length(min = 2), extend("unit" = "m"))]
+    pub polyline: Option<Vec<Vec<f64>>>,
+    /// Whether the last corner of the `polyline` is joined to the first.
+    #[serde(default)]
+    pub closed: bool,
+    /// Thickness of a plate, m, half of it on either side of the `polyline`; a plate has two faces and wets on both.
+    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub thickness: Option<f64>,
+    /// Corners of a polygon in order, m, either way round; it closes itself. Two dimensions only.
+    #[schemars(length(min = 3), extend("unit" = "m"))]
+    pub polygon: Option<Vec<Vec<f64>>>,
+    /// Disc by centre and radius. Two dimensions only.
+    pub disc: Option<DiscWall>,
+    /// Lower and upper corner of a box, m.
+    #[serde(rename = "box")]
+    #[schemars(extend("unit" = "m"))]
+    pub bounds: Option<[Vec<f64>; 2]>,
+    /// Faces of the `box` that are left out.
+    #[serde(default)]
+    pub open: Vec<Face>,
+    /// Sphere by centre and radius. Three dimensions only.
+    pub sphere: Option<SphereWall>,
+    /// Cylinder between two points. Three dimensions only.
+    pub cylinder: Option<CylinderWall>,
+    /// Cone by base and apex; with `sides = 4` a pyramid. Three dimensions only.
+    pub cone: Option<ConeWall>,
+    /// A ramp: half of a box, cut along a diagonal.
+    pub wedge: Option<Wedge>,
+    /// Polygon drawn out along an axis. Three dimensions only.
+    pub extrusion: Option<ExtrusionWall>,
+    /// File of the geometry, relative to the scene's folder: `.stl` in 3D; `.svg` or `.csv` in 2D.
+    /// An SVG drawing stands upright: y points up and the origin is the lower left corner of its `viewBox` (else of its width and height, else the upper left corner); its numbers are user units.
+    /// A CSV file has the columns x and y; a blank line or a line with `#` begins another line, and a line that ends where it began is closed.
+    pub file: Option<String>,
+    /// Factor on all coordinates, about the origin; 1 if left out.
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub scale: Option<f64>,
+    /// Unit of the coordinates of the `file`, such as "mm"; metres if left out.
+    pub unit: Option<String>,
+    /// Shift of the geometry, m.
+    #[schemars(extend("unit" = "m"))]
+    pub translate: Option<Vec<f64>>,
+    /// Turn of the geometry, before it is shifted.
+    pub rotate: Option<Rotate>,
+    /// Side of a closed geometry on which the fluid is: `inside` if left out, `as-drawn` for a file. A `polyline` has the fluid on the left of travel.
+    pub fluid: Option<Side>,
+    /// Whether the fluid sticks to the wall.
+    #[serde(default)]
+    pub condition: Condition,
+    /// Slip length, m, for `condition = "partial-slip"`: how deep in the wall the fluid's velocity, continued straight, is the wall's.
+    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub slip_length: Option<f64>,
+    /// Coefficient of friction μ, for `condition = "coulomb"`: soils that slide are pulled with μ times what they press on the wall.
+    #[schemars(extend("unit" = "1", "minimum" = 0.0))]
+    pub friction_coefficient: Option<f64>,
+    /// How that friction is shared out, for `condition = "coulomb"`.
+    pub friction_form: Option<FrictionForm>,
+    /// Velocity of the wall's surface, m/s, while its geometry stays: a belt.
+    #[schemars(extend("unit" = "m/s"))]
+    pub velocity: Option<Vec<f64>>,
+    /// Rigid motion of the geometry.
+    pub motion: Option<Motion>,
+    /// The file with its folder, set when the scene is read.
+    #[serde(skip)]
+    pub path: Option<PathBuf>,
+}
+
+/// What a wall does to the velocity along it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Condition {
+    /// The fluid moves with the wall.
+    #[default]
+    NoSlip,
+    /// The fluid slides along the wall without friction.
+    FreeSlip,
+    /// The fluid slides with friction: its velocity relative to the wall is the slip length times its gradient.
+    PartialSlip,
+    /// Soils slide with Coulomb's friction, other fluids without any.
+    Coulomb,
+}
+
+/// How Coulomb's friction at a wall is shared out among the particles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FrictionForm {
+    /// All of it: the coefficient times the force on the wall.
+    #[default]
+    Normalised,
+    /// As printed (Ghaïtanellis 2017, Eq. 4.118): a quarter to a third of it arrives.
+    Literal,
+}
+
+/// On which side of a closed geometry the fluid is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Side {
+    /// Inside: a tank, a pipe.
+    Inside,
+    /// Outside: an obstacle.
+    Outside,
+    /// Where the facets of a file face, or on the left of its lines in the upright drawing.
+    AsDrawn,
+}
+
+impl Wall {
+    /// The keys of geometries that are given.
+    pub fn geometries(&self) -> Vec<&'static str> {
+        let all = [
+            ("polyline", self.polyline.is_some()),
+            ("polygon", self.polygon.is_some()),
+            ("disc", self.disc.is_some()),
+            ("box", self.bounds.is_some()),
+            ("sphere", self.sphere.is_some()),
+            ("cylinder", self.cylinder.is_some()),
+            ("cone", self.cone.is_some()),
+            ("wedge", self.wedge.is_some()),
+            ("extrusion", self.extrusion.is_some()),
+            ("file", self.file.is_some()),
+        ];
+        let given = all.iter().filter(|(_, given)| *given);
+        given.map(|(name, _)| *name).collect()
+    }
+
+    /// The side of the fluid in force; none for a polyline.
+    pub fn side(&self) -> Option<Side> {
+        let default = match (&self.polyline, &self.file) {
+            (Some(_), _) => return None,
+            (_, Some(_)) => Side::AsDrawn,
+            _ => Side::Inside,
+        };
+        Some(self.fluid.unwrap_or(default))
+    }
+}

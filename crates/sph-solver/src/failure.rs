@@ -1,0 +1,8 @@
+//! What failed, why, and what to do.
+
+pub(crate) mod bad_pictures;
+pub(crate) mod error;
+pub(crate) mod findings;
+pub(crate) mod remedies;
+pub(crate) mod roll_back;
+pub(crate) mod trouble;

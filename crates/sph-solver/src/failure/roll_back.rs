@@ -1,0 +1,187 @@
+//! What happens after a step that failed.
+
+use std::path::PathBuf;
+
+use sph_core::{StepError, Vect, fields};
+
+use crate::failure::bad_pictures;
+use crate::failure::error::{Failure, SolverError};
+use crate::failure::findings::{Findings, Suspect};
+use crate::failure::remedies::remedies;
+use crate::failure::trouble::Trouble;
+use crate::results::summary::Status;
+use crate::running::checkpoint;
+use crate::running::driver::Observer;
+use crate::running::output::{BAD_STATE, write_everything};
+use crate::running::run::Running;
+use crate::step::snapshot::Snapshot;
+
+/// Ways within a step, in spacings, beyond which the particle is shown where it was.
+const FAR: f64 = 10.0;
+
+impl<const D: usize> Running<'_, D> {
+    /// After a step that failed: back to the state before it, with half of the step.
+    ///
+    /// # Errors
+    /// If there is no such state, or there were too many tries.
+    pub(crate) fn go_back(
+        &mut self,
+        cause: StepError,
+        snapshot: Option<&Snapshot<D>>,
+        observer: &mut (dyn Observer + Send),
+    ) -> Result<(), SolverError> {
+        self.note_trouble(&cause);
+        let Some(kept) = snapshot.filter(|_| self.counters.retries < self.scene.run.retries) else {
+            return Err(self.fail(cause, snapshot, observer));
+        };
+        self.counters.retries += 1;
+        self.counters.rolled_back += 1;
+        kept.restore(&mut self.parts.flow)?;
+        let scale = 0.5 * f64::from_bits(self.counters.step_scale);
+        self.counters.step_scale = scale.to_bits();
+        observer.message(&format!(
+            "step {} failed ({cause}); going back to t = {:.6} s with {scale:.4} of the step",
+            self.counters.steps, self.parts.flow.world.time
+        ));
+        Ok(())
+    }
+
+    /// Keeps the first sign of trouble.
+    fn note_trouble(&mut self, cause: &StepError) {
+        let (time, step) = (self.parts.flow.world.time, self.counters.steps);
+        let first = &mut self.counters.first_trouble;
+        first.get_or_insert_with(|| Trouble::of(cause, time, step));
+    }
+
+    /// Writes what a person needs to see why the run failed.
+    pub(crate) fn fail(
+        &mut self,
+        cause: StepError,
+        snapshot: Option<&Snapshot<D>>,
+        observer: &mut (dyn Observer + Send),
+    ) -> SolverError {
+        self.note_trouble(&cause);
+        let (time, step) = (self.parts.flow.world.time, self.counters.steps);
+        let mut failure = Failure {
+            first: self.counters.first_trouble.clone().unwrap_or_default(),
+            summary: None,
+            time,
+            step,
+            findings: Findings {
+                cause: Trouble::of(&cause, time, step),
+                retries: self.counters.retries,
+                dt: self.tried.0,
+                limiter: self.tried.1.to_string(),
+                ..Findings::default()
+            },
+            cause,
+            checkpoint: None,
+            bad_state: None,
+            pictures: Vec::new(),
+        };
+        self.look_at_the_bad_state(&mut failure);
+        let out = &self.options.out;
+        let bad = out.join(BAD_STATE);
+        let written = write_everything(&self.parts.flow, &bad).is_ok();
+        failure.bad_state = written.then_some(bad);
+        let number = failure.findings.particle.as_ref().map(|p| p.number);
+        let place = number.and_then(|n| self.place(n, snapshot));
+        let title = format!("{}: failed", self.scene.title);
+        let flow = &self.parts.flow;
+        failure.pictures = bad_pictures::draw(flow, &failure.cause, place, &title, out);
+        self.go_to_the_last_good_state(&mut failure, snapshot);
+        self.sum_up(&mut failure);
+        match self.write_summary(Status::Failed, Some(&failure)) {
+            Ok(summary) => failure.summary = Some(Box::new(summary)),
+            Err(error) => {
+                observer.message(&format!("the summary could not be written: {error}"));
+            }
+        }
+        SolverError::Failed(Box::new(failure))
+    }
+
+    /// Who it was, where, and what acted on it if the bad state was evaluated.
+    fn look_at_the_bad_state(&mut self, failure: &mut Failure) {
+        let flow = &self.parts.flow;
+        let Some((k, named)) = flow.suspect(&failure.cause) else {
+            return;
+        };
+        let free = &flow.world.free;
+        let Some(number) = free.get(fields::IDENTITY).ok().map(|i| i[k]) else {
+            return;
+        };
+        let phase = free.get(fields::PHASE).map_or(0, |p| p[k] as usize);
+        let body = self.parts.body_of.get(number as usize).copied();
+        let body = body.and_then(|b| self.scene.body.keys().nth(b as usize));
+        let name = |n: Option<&String>| n.cloned().unwrap_or_default();
+        failure.findings.particle = Some(Suspect {
+            number,
+            named,
+            phase: name(self.scene.phase.keys().nth(phase)),
+            body: name(body),
+            before: None,
+            after: flow.sighting(k),
+        });
+        // Densities and accelerations are judged after the sweep; what fails earlier has none of this state.
+        let judged = ["density", "acceleration"];
+        if judged.contains(&failure.findings.cause.quantity.as_str()) {
+            failure.findings.after = flow.shares_on(k);
+        }
+    }
+
+    /// Where a particle is, or was before it went where no picture goes.
+    fn place(&self, number: u32, snapshot: Option<&Snapshot<D>>) -> Option<Vect<D>> {
+        let flow = &self.parts.flow;
+        let now = flow.world.free.get(fields::POSITION).ok()?[flow.place_of(number)?];
+        let before = snapshot.and_then(|s| s.position_of(number));
+        let far = FAR * flow.world.spacing;
+        let shown = match before {
+            // What is not a number is nowhere.
+            Some(before) => match (now - before).norm() <= far {
+                true => now,
+                false => before,
+            },
+            None => now,
+        };
+        shown.iter().all(|x| x.is_finite()).then_some(shown)
+    }
+
+    /// Back to the last good state, which becomes the checkpoint; what acted on the particle there.
+    fn go_to_the_last_good_state(&mut self, failure: &mut Failure, snapshot: Option<&Snapshot<D>>) {
+        let Some(snapshot) = snapshot else {
+            return self.offer_an_earlier_checkpoint(failure);
+        };
+        let back = snapshot.restore(&mut self.parts.flow);
+        let good = back.map_err(StepError::from).and_then(|()| self.evaluate());
+        if good.is_err() {
+            return self.offer_an_earlier_checkpoint(failure);
+        }
+        // Whoever goes on from here has all retries again.
+        self.counters.retries = 0;
+        if self.save().is_ok() {
+            failure.checkpoint = Some(self.options.out.join(checkpoint::FILE));
+        }
+        let flow = &self.parts.flow;
+        let particle = &mut failure.findings.particle;
+        let place = particle.as_ref().and_then(|p| flow.place_of(p.number));
+        if let Some((particle, k)) = particle.as_mut().zip(place) {
+            particle.before = flow.sighting(k);
+            failure.findings.before = flow.shares_on(k);
+        }
+    }
+
+    /// Without a state to go back to, what was saved in its time.
+    fn offer_an_earlier_checkpoint(&self, failure: &mut Failure) {
+        let saved = self.options.out.join(checkpoint::FILE);
+        failure.checkpoint = saved.exists().then_some(saved);
+    }
+
+    fn sum_up(&self, failure: &mut Failure) {
+        let name = |p: &PathBuf| Some(p.file_name()?.to_str()?.to_string());
+        let files = failure.pictures.iter().chain(&failure.bad_state);
+        let files = files.chain(&failure.checkpoint);
+        failure.findings.files = files.filter_map(name).collect();
+        let all = remedies(self.scene, &failure.cause, &failure.findings);
+        failure.findings.advice = all;
+    }
+}

@@ -1,0 +1,7 @@
+//! What a run has to say at its end.
+
+pub(crate) mod advice;
+pub(crate) mod balance;
+pub(crate) mod references;
+pub(crate) mod report;
+pub(crate) mod summary;

@@ -1,0 +1,184 @@
+//! What to try when one bound or one stage costs most of a run.
+
+use std::collections::BTreeMap;
+
+use crate::step::clocks::LISTS_NAME;
+
+/// Share of the steps, or of the time, above which something is worth a word.
+const MOST: f64 = 0.5;
+/// Steps below which shares say nothing.
+const FEW_STEPS: u64 = 20;
+/// Wall seconds below which stages say nothing.
+const SHORT: f64 = 1.0;
+/// Least factor that is worth a change.
+const WORTH: f64 = 1.2;
+
+/// What a run cost, and why.
+pub struct Costs<'a> {
+    /// Steps taken.
+    pub steps: u64,
+    /// Wall-clock time, s.
+    pub wall_seconds: f64,
+    /// Share of the steps limited by each bound.
+    pub dt_limiters: &'a BTreeMap<String, f64>,
+    /// Mean of every bound, s.
+    pub dt_limits: &'a BTreeMap<String, f64>,
+    /// Wall-clock time per stage, s.
+    pub stages: &'a BTreeMap<String, f64>,
+}
+
+/// Settings to try, with what they may bring.
+pub fn advice(costs: &Costs) -> Vec<String> {
+    limiter(costs).into_iter().chain(stage(costs)).collect()
+}
+
+/// Mean of every bound, s: steps over the sum of 1/Δt, so that bounds that hold seldom count little.
+pub fn mean_limits(inverse_sums: &BTreeMap<String, f64>, steps: u64) -> BTreeMap<String, f64> {
+    let mean = |sum: &f64| steps as f64 / sum;
+    let all = inverse_sums
+        .iter()
+        .map(|(name, sum)| (name.clone(), mean(sum)));
+    all.filter(|(_, dt)| dt.is_finite()).collect()
+}
+
+/// The bound that takes most steps, and the one that would be next.
+fn limiter(s: &Costs) -> Option<String> {
+    let (name, share) = s.dt_limiters.iter().find(|(_, share)| **share > MOST)?;
+    let own = *s.dt_limits.get(name)?;
+    let others = s.dt_limits.iter().filter(|(n, _)| *n != name);
+    let next = others.min_by(|a, b| a.1.total_cmp(b.1));
+    let factor = next.map(|(_, dt)| dt / own);
+    if s.steps < FEW_STEPS || factor.is_some_and(|f| f < WORTH) {
+        return None;
+    }
+    let then = match (next, factor) {
+        (Some((next, _)), Some(factor)) => format!(
+            "the next bound, `{next}`, is {} times as long",
+            significant(factor)
+        ),
+        _ => "no other bound is in force".to_string(),
+    };
+    let what = match name.as_str() {
+        "viscosity" => format!(
+            "treating the viscosity implicitly (`[implicit-viscosity.backward-euler]`) takes this \
+             bound away; {then}, so at best that \
+             many times fewer steps"
+        ),
+        "sound" => format!(
+            "a lower `speed_of_sound` lengthens the step in proportion, as long as it stays ten \
+             times the largest speed; {then}"
+        ),
+        "elastic wave" => format!(
+            "`elastic-force.divergence.sub_steps = true` with [integrator.symplectic-euler] takes this bound away: the \
+             elastic force then has steps of its own within that of the flow; {then}"
+        ),
+        "interface" => format!(
+            "`numerics.reference_pressure = \"equal\"` makes all phases equally compressible and \
+             takes this bound away; {then}"
+        ),
+        "smoother" => {
+            format!("a smaller `strength` of the smoother lengthens the step; {then}")
+        }
+        _ => format!("{then}; a coarser `numerics.spacing` lengthens it"),
+    };
+    let share = (100.0 * share).round();
+    Some(format!("`{name}` limits {share} % of the steps: {what}"))
+}
+
+/// A stage beside the sweeps, which are the work itself, that takes most of the time.
+fn stage(s: &Costs) -> Option<String> {
+    let all: f64 = s.stages.values().sum();
+    let (name, seconds) = s.stages.iter().find(|(_, t)| **t > MOST * all)?;
+    if s.wall_seconds < SHORT {
+        return None;
+    }
+    let share = seconds / all;
+    let what = match name.as_str() {
+        "output" => "a longer `output.every` and `output.series_every`, or `output.vtk = false`",
+        LISTS_NAME => "a larger `numerics.skin`, so that lists last longer",
+        name if name.contains("implicit") || name.contains("solve") => {
+            "a looser tolerance of its solver, or another solver"
+        }
+        _ => return None,
+    };
+    Some(format!(
+        "`{name}` takes {:.0} % of the time: try {what}; without it the run would be {} times \
+         as fast",
+        100.0 * share,
+        significant(1.0 / (1.0 - share).max(1e-3))
+    ))
+}
+
+/// Two significant digits: an estimate has no more.
+fn significant(x: f64) -> String {
+    match x {
+        x if x < 10.0 => format!("{x:.1}"),
+        x => {
+            let unit = 10f64.powf(x.log10().floor() - 1.0);
+            format!("{:.0}", (x / unit).round() * unit)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(pairs: &[(&str, f64)]) -> BTreeMap<String, f64> {
+        pairs.iter().map(|(n, x)| (n.to_string(), *x)).collect()
+    }
+
+    type Pairs = [(&'static str, f64)];
+
+    fn told(shares: &Pairs, limits: &Pairs, stages: &Pairs) -> Vec<String> {
+        advice(&Costs {
+            steps: 1000,
+            wall_seconds: 100.0,
+            dt_limiters: &table(shares),
+            dt_limits: &table(limits),
+            stages: &table(stages),
+        })
+    }
+
+    #[test]
+    fn a_viscous_run_is_told_what_an_implicit_viscosity_may_bring() {
+        let limits = [("viscosity", 1e-5), ("sound", 2.34e-4), ("force", 1.0)];
+        let told = told(&[("viscosity", 0.9), ("sound", 0.1)], &limits, &[]);
+        assert_eq!(told.len(), 1);
+        assert!(told[0].contains("implicitly") && told[0].contains("`sound`, is 23 times"));
+    }
+
+    #[test]
+    fn a_stiff_run_is_told_of_sub_steps_and_a_solver_of_its_tolerance() {
+        let limits = [("elastic wave", 1e-5), ("sound", 1e-4)];
+        let told_of = told(&[("elastic wave", 1.0)], &limits, &[]);
+        assert!(told_of[0].contains("sub_steps = true") && told_of[0].contains("10 times"));
+        assert!(
+            !told_of[0].contains("implicit"),
+            "which may hold it: {told_of:?}"
+        );
+        let solves = [("implicit viscosity", 9.0), ("interactions (a)", 1.0)];
+        let told_of = told(&[], &[], &solves);
+        assert!(told_of[0].contains("tolerance"), "{told_of:?}");
+    }
+
+    #[test]
+    fn nothing_is_said_where_nothing_is_to_be_gained() {
+        let limits = [("viscosity", 1e-5), ("sound", 1.1e-5)];
+        assert!(told(&[("viscosity", 0.9)], &limits, &[]).is_empty());
+        assert!(told(&[("sound", 0.5)], &[("sound", 1.0)], &[]).is_empty());
+        let sweep = [("interactions (a)", 9.0), ("output", 1.0)];
+        assert!(told(&[], &[], &sweep).is_empty());
+        let told = told(&[], &[], &[("interactions (a)", 1.0), ("output", 3.0)]);
+        assert!(
+            told[0].contains("75 %") && told[0].contains("4.0 times"),
+            "{told:?}"
+        );
+    }
+
+    #[test]
+    fn a_bound_that_does_not_hold_has_no_mean() {
+        let means = mean_limits(&table(&[("sound", 200.0), ("force", 0.0)]), 100);
+        assert_eq!(means, table(&[("sound", 0.5)]));
+    }
+}

@@ -1,0 +1,163 @@
+//! The summary at the end of a run, and what a failed one leaves to its reader.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use crate::failure::error::{Failure, SolverError};
+use crate::results::advice::{self, Costs};
+use crate::results::balance::Balance;
+use crate::results::references;
+use crate::results::summary::{Drift, SCHEMA_VERSION, Status, Summary};
+use crate::running::run::Running;
+use crate::setup::memory::Memory;
+
+/// Mach number up to which densities stay within Ma² = 1 % of the reference (Monaghan 1994).
+const INCOMPRESSIBLE: f64 = 0.1;
+
+impl<const D: usize> Running<'_, D> {
+    /// Writes `summary.json`.
+    pub(crate) fn write_summary(
+        &mut self,
+        status: Status,
+        failure: Option<&Failure>,
+    ) -> Result<Summary, SolverError> {
+        let flow = &self.parts.flow;
+        let world = &flow.world;
+        let mut warnings = self.parts.warnings.clone();
+        if let Some(failure) = failure {
+            warnings.push(failure.to_string());
+            warnings.extend(failure.findings.advice.iter().cloned());
+        }
+        let series = self.options.out.join("series.csv");
+        let errors = match status {
+            Status::Failed => BTreeMap::new(),
+            _ => references::errors(
+                self.scene,
+                flow,
+                &self.parts.solutions,
+                &series,
+                &mut warnings,
+            )?,
+        };
+        if status != Status::Failed
+            && let Err(error) = references::plots(self.scene, &self.options.out)
+        {
+            // A plot is a convenience: its failure must not cost the result.
+            warnings.push(format!("the plots were not written: {error}"));
+        }
+        let balance = Balance::of(flow)?;
+        let [mass, energy] = self.counters.initial.map(f64::from_bits);
+        let momentum: f64 = balance
+            .momentum
+            .iter()
+            .zip(&self.counters.initial_momentum)
+            .map(|(now, then)| (now - f64::from_bits(*then)).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        let over = |x: f64, scale: f64| if scale > 0.0 { x / scale } else { 0.0 };
+        let steps = self.counters.steps;
+        let particles = world.free.len();
+        let stage_seconds = self.stage_seconds();
+        let wall_seconds = self.wall_seconds();
+        let working = wall_seconds - stage_seconds.get("output").copied().unwrap_or(0.0);
+        let neighbours = world.mean_neighbours()?;
+        let work = particles as f64 * steps as f64;
+        let threads = rayon::current_num_threads();
+        let dt_limiters = self.counters.limited.iter();
+        let dt_limiters: BTreeMap<String, f64> = dt_limiters
+            .map(|(name, n)| (name.clone(), *n as f64 / steps.max(1) as f64))
+            .collect();
+        let dt_limits = advice::mean_limits(&self.counters.bounds, steps);
+        let costs = Costs {
+            steps,
+            wall_seconds,
+            dt_limiters: &dt_limiters,
+            dt_limits: &dt_limits,
+            stages: &stage_seconds,
+        };
+        let mut advice = advice::advice(&costs);
+        advice.extend(flow.contributions.iter().flat_map(|c| c.advice(world)));
+        let escaped = flow.escaped()?;
+        if escaped > 0 {
+            warnings.push(format!("{escaped} particles are behind a wall at the end"));
+        }
+        let solves = flow.implicit.as_ref().map(|i| &i.solves);
+        let held = solves.and_then(|s| s.held_back);
+        warnings.extend(held.and_then(|held| held.warning()));
+        let [highest, mach] = self.series.peaks;
+        if mach > INCOMPRESSIBLE {
+            advice.push(format!(
+                "the largest speed was {mach:.2} of the speed of sound: above {INCOMPRESSIBLE} the density \
+                 of a liquid moves by more than 1 %; raise `speed_of_sound` or `velocity_scale` of the phase"
+            ));
+        }
+        let summary = Summary {
+            schema_version: SCHEMA_VERSION,
+            scene: self.scene.title.clone(),
+            status,
+            version: env!("CARGO_PKG_VERSION").into(),
+            plugins: self.parts.plugins.clone(),
+            dimension: D,
+            particles,
+            wall_points: world.walls.points.position.len(),
+            neighbours,
+            steps,
+            steps_rolled_back: self.counters.rolled_back,
+            simulated_seconds: world.time,
+            started_at: self.counters.started_at.map(f64::from_bits),
+            wall_seconds,
+            wall_seconds_by_stage: stage_seconds,
+            threads,
+            particle_steps_per_second: over(work, working),
+            nanoseconds_per_pair: over(1e9 * working * threads as f64, work * neighbours),
+            bytes_per_particle: world.free.bytes_per_particle(),
+            memory: Memory::of(
+                self.scene,
+                flow,
+                solves.map_or(0.0, |s| s.most_bytes as f64),
+            )?,
+            list_builds: world.lists.builds,
+            dt_limiters,
+            dt_limits,
+            advice,
+            drift: Drift {
+                mass: over(balance.mass + flow.mass_left() - mass, mass),
+                momentum: over(momentum, self.series.momentum_scale),
+                energy: over(balance.energy() - energy, self.series.energy_scale),
+                energy_rise: over((highest - energy).max(0.0), self.series.energy_scale),
+            },
+            kinetic_energy: balance.kinetic,
+            density_range: self.series.density_range,
+            mach,
+            nearest: world.nearest()?.map(|d| d / world.spacing),
+            first_trouble: self.counters.first_trouble.clone(),
+            failure: failure.map(|f| f.findings.clone()),
+            density_constant_range: flow.density_constant_range(),
+            escaped,
+            left: flow
+                .left()
+                .map(|(label, left)| (label.clone(), left))
+                .collect(),
+            relaxation: self.parts.relaxation,
+            implicit_viscosity: self.parts.flow.implicit.as_ref().map(|i| i.solves.clone()),
+            errors,
+            warnings,
+            files: listing(&self.options.out),
+        };
+        sph_io::write_json(self.options.out.join("summary.json"), &summary)?;
+        Ok(summary)
+    }
+}
+
+fn listing(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> = entries
+        .filter_map(|e| e.file_name().into_string().ok())
+        .filter(|n| !n.starts_with('.'))
+        // Which is about to be written.
+        .chain(["summary.json".to_string()])
+        .collect();
+    names.sort();
+    names.dedup();
+    names
+}

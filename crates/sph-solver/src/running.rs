@@ -1,0 +1,13 @@
+//! A run from start to end: clock, files, checkpoints.
+
+pub(crate) mod checkpoint;
+pub(crate) mod counters;
+pub(crate) mod driver;
+pub(crate) mod edges;
+pub(crate) mod identity;
+pub(crate) mod lock;
+pub(crate) mod mach;
+pub(crate) mod options;
+pub(crate) mod output;
+pub(crate) mod run;
+pub(crate) mod series;

@@ -1,0 +1,300 @@
+//! Checkpoints: all state columns, the lists' reference positions, the clocks and counters.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use sph_core::{Plain, Role, Vect, fields};
+use sph_io::{Checkpoint, Column, ColumnData};
+use sph_scene::Scene;
+
+use crate::running::counters::{Counters, MOST};
+use crate::{Flow, Identity, SolverError};
+
+/// Name of the checkpoint in a run's folder.
+pub const FILE: &str = "checkpoint.sph";
+const REFERENCE: &str = "list_reference";
+const WALL_REFERENCE: &str = "wall_list_reference";
+
+/// The clock, as bits, so that nothing is lost on the way through JSON.
+#[derive(Serialize, Deserialize)]
+struct Clock {
+    time: u64,
+    dt: u64,
+    list_builds: u64,
+    /// Of the last build of the lists. Runs of before it was kept go on with walls where they were saved.
+    list_time: Option<u64>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Meta<T> {
+    #[serde(flatten)]
+    identity: Identity,
+    dimension: usize,
+    clock: Clock,
+    run: T,
+}
+
+/// Writes the state; `run` is whatever the driver wants back.
+pub fn save<const D: usize, T: Serialize>(
+    flow: &Flow<D>,
+    path: &Path,
+    identity: &Identity,
+    run: &T,
+) -> Result<(), SolverError> {
+    let world = &flow.world;
+    let mut columns = Vec::new();
+    for (name, _, role, components, values) in world.free.columns() {
+        if role == Role::State {
+            columns.push(Column {
+                name: name.to_string(),
+                components,
+                data: match values {
+                    Plain::Real(v) => ColumnData::F64(v.into_owned()),
+                    Plain::Index(v) => ColumnData::U32(v.to_vec()),
+                },
+            });
+        }
+    }
+    for (name, positions) in [
+        (REFERENCE, &world.lists.reference),
+        (WALL_REFERENCE, world.lists.reference_points()),
+    ] {
+        columns.push(Column {
+            name: name.into(),
+            components: D,
+            data: ColumnData::F64(positions.iter().flatten().copied().collect()),
+        });
+    }
+    let meta = Meta {
+        identity: identity.clone(),
+        dimension: D,
+        clock: Clock {
+            time: world.time.to_bits(),
+            dt: world.dt.to_bits(),
+            list_builds: world.lists.builds,
+            list_time: Some(world.lists.time.to_bits()),
+        },
+        run,
+    };
+    let meta = serde_json::to_value(&meta).map_err(|e| refused(path, e.to_string()))?;
+    Ok(Checkpoint { meta, columns }.save(path)?)
+}
+
+fn refused(path: &Path, reason: impl Into<String>) -> SolverError {
+    SolverError::Resume {
+        path: PathBuf::from(path),
+        reason: reason.into(),
+    }
+}
+
+/// Puts a saved state into the assembled flow of a scene, which must be the same as before if an identity is
+/// given; returns what the driver saved.
+pub fn load<const D: usize>(
+    flow: &mut Flow<D>,
+    scene: &Scene,
+    path: &Path,
+    identity: Option<&Identity>,
+) -> Result<Counters, SolverError> {
+    let (checkpoint, meta) = read::<D, Counters>(path)?;
+    let mut counters = meta.run;
+    if let Some(why) = identity.and_then(|now| now.differs_from(&meta.identity)) {
+        let why = format!(
+            "{why}; restore what it was, go on from it all the same with --changed, or take its state alone \
+             into another folder with --from"
+        );
+        return Err(refused(path, why));
+    }
+    believable(&meta.clock, scene, path)?;
+    let time = f64::from_bits(meta.clock.time);
+    if identity.is_none() {
+        counters.recount(scene, time);
+    }
+    if let Some(why) = counters.nonsense(scene, time) {
+        return Err(refused(path, why));
+    }
+    fill(flow, &checkpoint, path)?;
+    let reference: Vec<Vect<D>> = positions(&checkpoint, path, REFERENCE)?;
+    let wall_reference: Vec<Vect<D>> = positions(&checkpoint, path, WALL_REFERENCE)?;
+    if reference.len() != flow.world.free.len()
+        || wall_reference.len() != flow.world.walls.points.position.len()
+    {
+        return Err(refused(path, "its number of particles is not the scene's"));
+    }
+    set_clock(flow, &meta.clock, path)?;
+    let list_time = meta.clock.list_time.map_or(flow.world.time, f64::from_bits);
+    flow.world
+        .build_lists_from(reference, wall_reference, list_time);
+    flow.world.lists.builds = meta.clock.list_builds;
+    flow.restored = true;
+    Ok(counters)
+}
+
+/// Puts the particles of another run of the same bodies, with its time, into an assembled flow of other settings.
+///
+/// All that the flow remembers must be in the checkpoint; more is left aside.
+pub fn start_from<const D: usize>(
+    flow: &mut Flow<D>,
+    scene: &Scene,
+    path: &Path,
+) -> Result<(), SolverError> {
+    let (checkpoint, meta) = read::<D, serde::de::IgnoredAny>(path)?;
+    believable(&meta.clock, scene, path)?;
+    let identity = checkpoint.column(fields::IDENTITY.name).map(|c| &c.data);
+    let there = match identity {
+        Some(ColumnData::U32(v)) => v.len(),
+        _ => 0,
+    };
+    let here = flow.world.free.len();
+    if there > here || (there < here && flow.outlets.is_empty()) {
+        let why = format!("it has {there} particles, the scene {here}");
+        return Err(refused(path, why));
+    }
+    fill(flow, &checkpoint, path)?;
+    set_clock(flow, &meta.clock, path)?;
+    flow.world.rebuild_lists()?;
+    Ok(())
+}
+
+fn read<const D: usize, T: DeserializeOwned>(
+    path: &Path,
+) -> Result<(Checkpoint, Meta<T>), SolverError> {
+    let checkpoint = Checkpoint::load(path)?;
+    let meta: Meta<T> = serde_json::from_value(checkpoint.meta.clone())
+        .map_err(|e| refused(path, format!("its header is not one of this version ({e})")))?;
+    if meta.dimension != D {
+        let why = format!("it has {} dimensions, the scene {D}", meta.dimension);
+        return Err(refused(path, why));
+    }
+    Ok((checkpoint, meta))
+}
+
+/// Sets all columns that carry the state; takes out who has left by an outlet.
+fn fill<const D: usize>(
+    flow: &mut Flow<D>,
+    checkpoint: &Checkpoint,
+    path: &Path,
+) -> Result<(), SolverError> {
+    let born = flow.world.free.len();
+    if let Some(ColumnData::U32(v)) = checkpoint
+        .column(fields::IDENTITY.name)
+        .map(|c| &c.data)
+        .filter(|_| !flow.outlets.is_empty())
+    {
+        let leaves: Vec<bool> = (0..flow.world.free.len()).map(|k| k >= v.len()).collect();
+        flow.world.free.take_out(&leaves);
+    }
+    for name in flow.state_columns() {
+        let column = checkpoint.column(name);
+        let column =
+            column.ok_or_else(|| refused(path, format!("it lacks the column `{name}`")))?;
+        match &column.data {
+            ColumnData::F64(v) => flow.world.free.set_real(name, v)?,
+            ColumnData::U32(v) => flow.world.free.set_index(name, v)?,
+            ColumnData::U64(_) => {
+                return Err(refused(path, format!("`{name}` has a foreign type")));
+            }
+        }
+    }
+    match nonsense(flow, born)? {
+        Some(why) => Err(refused(path, why)),
+        None => Ok(()),
+    }
+}
+
+fn positions<const D: usize>(
+    checkpoint: &Checkpoint,
+    path: &Path,
+    name: &str,
+) -> Result<Vec<Vect<D>>, SolverError> {
+    match checkpoint.column(name).map(|c| &c.data) {
+        Some(ColumnData::F64(v)) if !v.iter().all(|x| x.is_finite()) => {
+            Err(refused(path, "it has particles that are nowhere"))
+        }
+        Some(ColumnData::F64(v)) => Ok(v.chunks_exact(D).map(Vect::from_column_slice).collect()),
+        _ => Err(refused(path, format!("it lacks the column `{name}`"))),
+    }
+}
+
+/// Refuses a clock that no run of the scene can have had.
+fn believable(clock: &Clock, scene: &Scene, path: &Path) -> Result<(), SolverError> {
+    let [time, dt] = [clock.time, clock.dt].map(f64::from_bits);
+    let end = scene.run.end;
+    let builds = clock.list_time.map_or(time, f64::from_bits);
+    let why = if !time.is_finite() {
+        "its time is not finite".to_string()
+    } else if time < 0.0 {
+        format!("its time, {time} s, is before the start")
+    } else if time > end {
+        format!("its time, {time} s, is past the end of the scene, {end} s")
+    } else if !(dt >= 0.0 && dt <= end) {
+        format!("its step, {dt} s, is none of a run of {end} s")
+    } else if !(0.0..=time).contains(&builds) {
+        format!("its lists are of t = {builds} s, which is no time of before")
+    } else if clock.list_builds > MOST {
+        format!(
+            "its lists were built {} times, which no run reaches",
+            clock.list_builds
+        )
+    } else {
+        return Ok(());
+    };
+    Err(refused(path, why))
+}
+
+/// Time and step; walls go where they are at that time.
+fn set_clock<const D: usize>(
+    flow: &mut Flow<D>,
+    clock: &Clock,
+    path: &Path,
+) -> Result<(), SolverError> {
+    flow.world.time = f64::from_bits(clock.time);
+    flow.world.dt = f64::from_bits(clock.dt);
+    if let Some(walls) = &flow.walls {
+        let now = flow.world.time;
+        let moved = crate::step::stages::lock(walls).move_to(&mut flow.world.walls, now);
+        moved.map_err(|e| refused(path, e.to_string()))?;
+    }
+    Ok(())
+}
+
+/// What cannot be in a state of this scene, though the file is whole: numbers of particles and phases
+/// that there are none of, places that are none.
+fn nonsense<const D: usize>(
+    flow: &Flow<D>,
+    born: usize,
+) -> Result<Option<&'static str>, SolverError> {
+    let free = &flow.world.free;
+    let mut seen = vec![false; born];
+    let mut new = |id: u32| {
+        let place = seen.get_mut(id as usize);
+        place.is_some_and(|seen| !std::mem::replace(seen, true))
+    };
+    let positions = free.get(fields::POSITION)?;
+    Ok(if !free.get(fields::IDENTITY)?.iter().all(|id| new(*id)) {
+        Some("its particles are not the scene's")
+    } else if free.has(fields::PHASE.name)
+        && free
+            .get(fields::PHASE)?
+            .iter()
+            .any(|p| *p as usize >= flow.laws.len())
+    {
+        Some("its phases are not the scene's")
+    } else if positions.iter().flatten().any(|x| !x.is_finite()) {
+        Some("it has particles that are nowhere")
+    } else if free
+        .get(fields::MASS)?
+        .iter()
+        .any(|m| !(*m > 0.0 && m.is_finite()))
+    {
+        Some("it has particles without mass")
+    } else if free
+        .get(fields::VELOCITY)?
+        .iter()
+        .flatten()
+        .any(|u| !u.is_finite())
+    {
+        Some("it has velocities that are not finite")
+    } else {
+        None
+    })
+}

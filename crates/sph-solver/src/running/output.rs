@@ -1,0 +1,351 @@
+//! Fields for ParaView, pictures and the curves of probes.
+
+use std::path::{Path, PathBuf};
+
+use sph_core::{Plain, fields};
+use sph_io::{
+    Cells, ColourMap, FieldData, FieldValues, Frame, IoError, Location, Picture, Piece, PvdSeries,
+    View,
+};
+use sph_neighbours::World;
+use sph_scene::Scene;
+
+use crate::failure::bad_pictures;
+use crate::running::edges::wall_lines;
+use crate::running::series::Probes;
+use crate::{Flow, SolverError};
+
+/// All columns of the state in which a run failed.
+pub const BAD_STATE: &str = "bad_state.vtu";
+
+/// Folders of numbered files.
+const FOLDERS: [&str; 3] = ["pictures", "fields", "curves"];
+
+/// Writes frames, pictures and curves into a run's folder.
+pub struct Outputs {
+    folder: PathBuf,
+    series: Option<PvdSeries>,
+    fields: Vec<String>,
+    pictures: Vec<String>,
+    range: Option<[f64; 2]>,
+    title: String,
+    /// Outputs written so far, for the names of pictures.
+    pub written: usize,
+}
+
+impl Outputs {
+    /// Starts anew, or goes on after `written` outputs. With `changed_at` the scene's outputs may be others than before:
+    /// the list of fields goes on with what there is of it until that time, s, or begins there.
+    pub fn open<const D: usize>(
+        scene: &Scene,
+        probes: &Probes<D>,
+        folder: &Path,
+        written: Option<usize>,
+        changed_at: Option<f64>,
+    ) -> Result<Self, IoError> {
+        if written.is_none() {
+            forget_earlier_run(folder);
+        }
+        // A failure that was is not one that is.
+        for name in [BAD_STATE, bad_pictures::WHOLE, bad_pictures::NEAR] {
+            let _ = std::fs::remove_file(folder.join(name));
+        }
+        // What a killed run was about to write.
+        for below in FOLDERS.map(|name| folder.join(name)) {
+            if below.is_dir() {
+                sph_io::sweep_temporaries(below)?;
+            }
+        }
+        let path = folder.join("fields.pvd");
+        let series = match (scene.output.vtk, written, changed_at) {
+            (false, ..) => None,
+            (true, None, _) => Some(PvdSeries::create(path)?),
+            (true, _, Some(time)) => Some(PvdSeries::open_until(path, time)?),
+            (true, Some(frames), None) => Some(PvdSeries::open_at(path, frames)?),
+        };
+        let drawn = probes.iter().any(|(_, p)| p.drawn_column().is_some());
+        if drawn || !scene.output.picture.is_empty() {
+            sph_io::writable(folder.join("pictures"))?;
+        }
+        if probes.iter().any(|(_, p)| !p.curve_columns().is_empty()) {
+            sph_io::writable(folder.join("curves"))?;
+        }
+        Ok(Outputs {
+            folder: folder.to_path_buf(),
+            series,
+            fields: scene.output.fields.clone(),
+            pictures: scene.output.picture.clone(),
+            range: scene.output.picture_range,
+            title: scene.title.clone(),
+            written: written.unwrap_or(0),
+        })
+    }
+
+    /// Writes everything the scene asks for at the flow's present time.
+    pub fn write<const D: usize>(
+        &mut self,
+        flow: &Flow<D>,
+        probes: &Probes<D>,
+    ) -> Result<(), SolverError> {
+        let time = flow.world.time;
+        let points = points(flow)?;
+        if let Some(series) = &mut self.series {
+            let frame = Frame {
+                time,
+                index: self.written,
+                pieces: pieces(flow, &points, |name| self.fields.iter().any(|f| f == name)),
+            };
+            series.write(&frame)?;
+        }
+        for name in &self.pictures {
+            let file = format!("pictures/{name}_{:04}.png", self.written);
+            picture(
+                flow,
+                &points,
+                name,
+                self.range,
+                &self.title,
+                &self.folder.join(file),
+            )?;
+        }
+        for (name, probe) in probes {
+            let columns = probe.curve_columns();
+            if columns.is_empty() {
+                continue;
+            }
+            let rows = probe.curves(&flow.world)?;
+            let table = columns.iter().map(|c| (&c.suffix, c.unit));
+            let file = format!("curves/{name}_{:04}.csv", self.written);
+            sph_io::write_table(self.folder.join(file), table, &rows)?;
+            if let Some(drawn) = probe.drawn_column() {
+                let label = format!("{} [{}]", columns[drawn].suffix, columns[drawn].unit);
+                let file = format!("pictures/{name}_{:04}.png", self.written);
+                map(
+                    flow,
+                    &rows,
+                    drawn,
+                    &label,
+                    &self.title,
+                    &self.folder.join(file),
+                )?;
+            }
+        }
+        self.written += 1;
+        Ok(())
+    }
+}
+
+/// Removes the numbered files of an earlier run, which would pass for this one's.
+fn forget_earlier_run(folder: &Path) {
+    let numbered = |path: &Path| {
+        let stem = path
+            .file_stem()
+            .and_then(|s| s.to_str())
+            .unwrap_or_default();
+        let kind = path
+            .extension()
+            .and_then(|e| e.to_str())
+            .unwrap_or_default();
+        let number = stem.rsplit_once('_').map_or("", |(_, n)| n);
+        matches!(kind, "png" | "vtu" | "csv")
+            && number.len() >= 4
+            && number.bytes().all(|b| b.is_ascii_digit())
+    };
+    for sub in FOLDERS {
+        let entries = std::fs::read_dir(folder.join(sub))
+            .into_iter()
+            .flatten()
+            .flatten();
+        for path in entries.map(|e| e.path()).filter(|p| numbered(p)) {
+            // A file that cannot go is overwritten or stays; the run does not depend on it.
+            let _ = std::fs::remove_file(path);
+        }
+    }
+}
+
+/// A frame of all columns, for the state in which a run failed.
+pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<(), SolverError> {
+    let points = points(flow)?;
+    let mut pieces = pieces(flow, &points, |_| true);
+    sph_io::write_vtu(path, &pieces.swap_remove(0), flow.world.time)?;
+    Ok(())
+}
+
+pub fn padded<const D: usize>(x: &sph_core::Vect<D>) -> [f64; 3] {
+    std::array::from_fn(|k| if k < D { x[k] } else { 0.0 })
+}
+
+fn points<const D: usize>(flow: &Flow<D>) -> Result<Vec<[f64; 3]>, SolverError> {
+    let position = flow.world.free.get(fields::POSITION)?;
+    Ok(position.iter().map(padded).collect())
+}
+
+/// A vector field padded to three components.
+fn vectors<const D: usize>(
+    name: &'static str,
+    unit: &'static str,
+    values: &[sph_core::Vect<D>],
+) -> FieldData<'static> {
+    FieldData {
+        name: name.into(),
+        unit: unit.into(),
+        location: Location::Point,
+        components: 3,
+        data: FieldValues::F64(values.iter().flat_map(padded).collect()),
+    }
+}
+
+fn pieces<'a, const D: usize>(
+    flow: &'a Flow<D>,
+    points: &'a [[f64; 3]],
+    wanted: impl Fn(&str) -> bool,
+) -> Vec<Piece<'a>> {
+    let world = &flow.world;
+    let mut data = Vec::new();
+    for (name, unit, _, components, values) in world.free.columns() {
+        let always = name == fields::IDENTITY.name || name == fields::PHASE.name;
+        if name == fields::POSITION.name || !(always || wanted(name)) {
+            continue;
+        }
+        data.push(match values {
+            Plain::Index(v) => FieldData::integer(name, v.to_vec()),
+            Plain::Real(v) if components == 1 => FieldData::scalar(name, unit, v.into_owned()),
+            Plain::Real(v) if components != D => {
+                FieldData::tensor(name, unit, components, v.into_owned())
+            }
+            Plain::Real(v) => {
+                let vector = |c: &[f64]| sph_core::Vect::<D>::from_column_slice(c);
+                vectors(
+                    name,
+                    unit,
+                    &v.chunks_exact(D).map(vector).collect::<Vec<_>>(),
+                )
+            }
+        });
+    }
+    let mut pieces = vec![Piece {
+        name: "fluid".into(),
+        points: points.into(),
+        cells: Cells::Vertices,
+        fields: data,
+    }];
+    let walls = &world.walls;
+    if !walls.is_empty() {
+        let p = &walls.points;
+        let mut data = vec![
+            FieldData::scalar("pressure", "Pa", &p.pressure[..]),
+            FieldData::scalar("share", "1", &p.share[..]),
+            vectors("velocity", "m/s", &p.velocity),
+            FieldData::integer("wall", &p.wall[..]),
+        ];
+        let elements = &walls.elements;
+        let cells = match D {
+            2 if !elements.corners.is_empty() => {
+                data.push(vectors("normal", "1", &elements.normal).at_cells());
+                let pressure = FieldData::scalar("element_pressure", "Pa", &elements.pressure[..]);
+                data.push(pressure.at_cells());
+                let segments = elements.corners.iter().map(|c| [c[0], c[1]]);
+                Cells::Segments(segments.collect())
+            }
+            _ => Cells::Vertices,
+        };
+        let points: Vec<[f64; 3]> = p.position.iter().map(padded).collect();
+        pieces.push(Piece {
+            name: "walls".into(),
+            points: points.into(),
+            cells,
+            fields: data,
+        });
+    }
+    pieces
+}
+
+/// A column of a probe's table as a map over the first two.
+fn map<const D: usize>(
+    flow: &Flow<D>,
+    rows: &[Vec<f64>],
+    column: usize,
+    label: &str,
+    title: &str,
+    path: &Path,
+) -> Result<(), SolverError> {
+    let world = &flow.world;
+    let points: Vec<[f64; 3]> = rows.iter().map(|row| [row[0], row[1], 0.0]).collect();
+    let values: Vec<f64> = rows.iter().map(|row| row[column]).collect();
+    // Cells are as wide as the nearest ones are apart.
+    let apart = |[a, b]: [&[f64; 3]; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs();
+    let pairs = points.windows(2).map(|pair| apart([&pair[0], &pair[1]]));
+    let diameter = pairs.fold(f64::INFINITY, f64::min);
+    let picture = Picture {
+        title,
+        time: Some(world.time),
+        label,
+        diameter: if diameter.is_finite() {
+            diameter
+        } else {
+            world.spacing
+        },
+        view: View::Plane,
+        colours: ColourMap::Viridis,
+        ..Picture::of(&points, &values)
+    };
+    Ok(picture.save(path)?)
+}
+
+/// A column with its label, vectors by their lengths; `None` if the scene does not have it.
+pub fn column_of<const D: usize>(flow: &Flow<D>, name: &str) -> Option<(String, Vec<f64>)> {
+    let found = flow.world.free.columns().find(|(n, ..)| *n == name);
+    let (_, unit, _, components, values) = found?;
+    let values: Vec<f64> = match values {
+        Plain::Index(v) => v.iter().map(|x| f64::from(*x)).collect(),
+        Plain::Real(v) if components == 1 => v.into_owned(),
+        Plain::Real(v) => v
+            .chunks(components)
+            .map(|c| c.iter().map(|x| x * x).sum::<f64>().sqrt())
+            .collect(),
+    };
+    let label = match unit {
+        "1" => name.replace('_', " "),
+        unit => format!("{} [{unit}]", name.replace('_', " ")),
+    };
+    Some((label, values))
+}
+
+/// The walls as lines.
+pub fn drawn_walls<const D: usize>(world: &World<D>) -> Vec<[[f64; 3]; 2]> {
+    // A line whose ends are a period apart is drawn at neither side.
+    let longest = 3.0 * world.spacing;
+    let points = &world.walls.points.position;
+    wall_lines(world)
+        .into_iter()
+        .map(|ends| ends.map(|c| padded(&points[c as usize])))
+        .filter(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1]) < longest)
+        .collect()
+}
+
+fn picture<const D: usize>(
+    flow: &Flow<D>,
+    points: &[[f64; 3]],
+    name: &str,
+    range: Option<[f64; 2]>,
+    title: &str,
+    path: &Path,
+) -> Result<(), SolverError> {
+    let world = &flow.world;
+    let Some((label, values)) = column_of(flow, name) else {
+        return Ok(());
+    };
+    let walls = drawn_walls(world);
+    let picture = Picture {
+        title,
+        time: Some(world.time),
+        label: &label,
+        diameter: world.spacing,
+        walls: &walls,
+        view: if D == 2 { View::Plane } else { View::Front },
+        range,
+        colours: ColourMap::Viridis,
+        ..Picture::of(points, &values)
+    };
+    Ok(picture.save(path)?)
+}

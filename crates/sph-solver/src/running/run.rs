@@ -1,0 +1,379 @@
+//! The run: evaluate, write what is due, step; roll back what fails.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use sph_core::{StepError, StepLimit, System};
+use sph_io::IoError;
+use sph_scene::Scene;
+
+use crate::Flow;
+use crate::failure::error::SolverError;
+use crate::results::balance::Balance;
+use crate::results::references;
+use crate::results::summary::{Status, Summary};
+use crate::running::checkpoint;
+use crate::running::counters::Counters;
+use crate::running::driver::{Command, Observer, Progress};
+use crate::running::mach::MachWatch;
+use crate::running::options::{RunOptions, Start};
+use crate::running::output::Outputs;
+use crate::running::series::Series;
+use crate::setup::assemble::{Assembled, assemble};
+use crate::setup::estimate::tiny_steps;
+use crate::step::guard;
+use crate::step::snapshot::Snapshot;
+
+/// Runs a scene.
+///
+/// # Errors
+/// A bad scene before anything is written; afterwards a failed step (with checkpoint and
+/// picture of the bad state), or a file that cannot be written.
+pub fn run(
+    scene: &Scene,
+    options: &RunOptions,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Summary, SolverError> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads.unwrap_or(0))
+        .build()
+        .map_err(|e| SolverError::at("--threads", e.to_string()))?;
+    pool.install(|| match scene.dimension {
+        3 => run_in::<3>(scene, options, observer),
+        _ => run_in::<2>(scene, options, observer),
+    })
+}
+
+pub(crate) struct Running<'a, const D: usize> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) options: &'a RunOptions,
+    pub(crate) parts: Assembled<D>,
+    pub(crate) counters: Counters,
+    pub(crate) outputs: Outputs,
+    pub(crate) series: Series,
+    pub(crate) started: Instant,
+    pub(crate) output_seconds: f64,
+    /// The last step that was tried, s, and what limited it.
+    pub(crate) tried: (f64, &'static str),
+    pub(crate) mach: MachWatch,
+}
+
+fn run_in<const D: usize>(
+    scene: &Scene,
+    options: &RunOptions,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Summary, SolverError> {
+    let mut parts = assemble::<D>(scene)?;
+    crate::running::series::rehearse(scene, &mut parts.flow, &parts.probes)?;
+    references::readable(scene)?;
+    let tiny = tiny_steps(scene, &parts.flow, rayon::current_num_threads())?;
+    parts.warnings.extend(tiny);
+    let _lock = crate::running::lock::take(&options.out, observer)?;
+    sph_io::writable(&options.out)?;
+    sph_io::sweep_temporaries(&options.out)?;
+    let counters = begin(scene, options, &mut parts.flow, observer)?;
+    let resumed = options.start.goes_on().then_some(&counters);
+    let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
+    // First what may be refused: a changed scene may measure other columns.
+    let mut series = Series::open(&options.out, parts.flow.outlets.labels(), &parts.probes, at)?;
+    let changed = options.start == Start::Changed;
+    let outputs = Outputs::open(
+        scene,
+        &parts.probes,
+        &options.out,
+        resumed.map(|c| c.outputs),
+        changed.then_some(parts.flow.world.time),
+    )?;
+    if let Some(peaks) = counters.series_peaks {
+        series.peaks = peaks.map(f64::from_bits);
+    }
+    for warning in &parts.warnings {
+        observer.message(&format!("note: {warning}"));
+    }
+    let mut running = Running {
+        scene,
+        options,
+        parts,
+        counters,
+        outputs,
+        series,
+        started: Instant::now(),
+        output_seconds: 0.0,
+        tried: (0.0, "none"),
+        mach: MachWatch::default(),
+    };
+    let status = running.go(observer)?;
+    running.finish(status)
+}
+
+/// Puts the flow where the run begins, and gives what has been counted until there.
+fn begin<const D: usize>(
+    scene: &Scene,
+    options: &RunOptions,
+    flow: &mut Flow<D>,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Counters, SolverError> {
+    let file = options.out.join(checkpoint::FILE);
+    let mut counters = Counters::begin();
+    if options.start.goes_on() {
+        let same = options.start == Start::Resumed;
+        let identity = same.then_some(&options.identity);
+        counters = checkpoint::load(flow, scene, &file, identity)?;
+        flow.recount(&counters.left);
+        if let Some((implicit, solves)) = flow.implicit.as_mut().zip(counters.solves.take()) {
+            implicit.solves = solves;
+        }
+        let time = flow.world.time;
+        observer.message(&format!(
+            "resuming at t = {time:.6} s, step {}",
+            counters.steps
+        ));
+        return Ok(counters);
+    }
+    if let Start::From(other) = &options.start {
+        checkpoint::start_from(flow, scene, other)?;
+        let time = flow.world.time;
+        let from = other.display();
+        observer.message(&format!("starting at t = {time:.6} s from {from}"));
+        counters.started_at = Some(time.to_bits());
+    }
+    // An old checkpoint must not be resumed into the files of this run.
+    if file.exists() {
+        observer.message(&format!(
+            "note: the earlier run in {} is overwritten (--resume would have gone on with it)",
+            options.out.display()
+        ));
+        let path = file.clone();
+        std::fs::remove_file(&file).map_err(|source| IoError::Write { path, source })?;
+    }
+    Ok(counters)
+}
+
+/// Factor by which a rolled-back step recovers per good step.
+const RECOVERY: f64 = 1.05;
+
+impl<const D: usize> Running<'_, D> {
+    fn go(&mut self, observer: &mut (dyn Observer + Send)) -> Result<Status, SolverError> {
+        let end = self.scene.run.end;
+        let mut snapshot = Snapshot::default();
+        let mut have_snapshot = false;
+        match (&self.options.start, self.parts.flow.world.time) {
+            (Start::Afresh, _) => self.counters.next_output = self.next_output(-1.0),
+            (Start::From(_) | Start::Changed, time) => {
+                self.counters.next_output = self.next_output(time);
+            }
+            (Start::Resumed, _) => {}
+        }
+        loop {
+            if let Err(cause) = self.evaluate() {
+                let kept = have_snapshot.then_some(&snapshot);
+                self.go_back(cause, kept, observer)?;
+                continue;
+            }
+            if have_snapshot && f64::from_bits(self.counters.step_scale) >= 1.0 {
+                self.counters.retries = 0;
+            }
+            let time = self.parts.flow.world.time;
+            self.write_what_is_due(time, observer)?;
+            if let Some(cause) = self.mach.verdict(self.scene) {
+                let kept = have_snapshot.then_some(&snapshot);
+                return Err(self.fail(cause, kept, observer));
+            }
+            if time >= end {
+                let solves = self.parts.flow.implicit.as_ref().map(|i| &i.solves);
+                let held = solves.and_then(|s| s.held_back);
+                if let Some(cause) = held.and_then(|h| h.verdict(self.scene)) {
+                    let kept = have_snapshot.then_some(&snapshot);
+                    return Err(self.fail(cause, kept, observer));
+                }
+                return Ok(Status::Done);
+            }
+            if self
+                .scene
+                .run
+                .max_steps
+                .is_some_and(|m| self.counters.steps >= m)
+            {
+                observer.message("the largest number of steps is reached");
+                self.save()?;
+                return Ok(Status::Interrupted);
+            }
+            let limits = self.parts.flow.step_limits()?;
+            self.note_bounds(&limits);
+            let (dt, limiter) = self.choose_step(&limits, time, end);
+            if self.scene.run.retries > 0 {
+                snapshot.take(&self.parts.flow)?;
+                have_snapshot = true;
+            }
+            self.tried = (dt, limiter);
+            self.parts.flow.world.dt = dt;
+            self.parts.flow.outlets.forget();
+            let flow = &mut self.parts.flow;
+            let stepped = self.parts.integrator.step(flow, dt);
+            let stepped = stepped.and_then(|()| flow.let_out());
+            if let Err(cause) = stepped {
+                let kept = have_snapshot.then_some(&snapshot);
+                self.go_back(cause, kept, observer)?;
+                continue;
+            }
+            // A drift in parts may end one rounding short of its aim, and the sliver that is left
+            // be too short for its parts to move the clock: for ever.
+            let target = self.target(end);
+            if time + dt >= target * (1.0 - 1e-12) {
+                self.parts.flow.world.time = target;
+            }
+            self.counters.steps += 1;
+            *self
+                .counters
+                .limited
+                .entry(limiter.to_string())
+                .or_default() += 1;
+            let scale = f64::from_bits(self.counters.step_scale);
+            self.counters.step_scale = (scale * RECOVERY).min(1.0).to_bits();
+            let command = observer.step(&Progress {
+                time: self.parts.flow.world.time,
+                end,
+                step: self.counters.steps,
+                dt,
+                limiter,
+                particles: self.parts.flow.world.free.len(),
+            });
+            let late = self
+                .scene
+                .run
+                .max_wall
+                .is_some_and(|m| self.wall_seconds() > m);
+            if command == Command::Stop || late {
+                // The rates belong to a state; a checkpoint is taken where they are fresh.
+                if let Err(cause) = self.evaluate() {
+                    let kept = have_snapshot.then_some(&snapshot);
+                    return Err(self.fail(cause, kept, observer));
+                }
+                self.save()?;
+                return Ok(Status::Interrupted);
+            }
+        }
+    }
+
+    pub(crate) fn evaluate(&mut self) -> Result<(), StepError> {
+        let flow = &mut self.parts.flow;
+        flow.evaluate()?;
+        guard::rates(&flow.world, &flow.laws, self.scene.numerics.density_bounds)
+    }
+
+    pub(crate) fn wall_seconds(&self) -> f64 {
+        self.counters.wall_seconds + self.started.elapsed().as_secs_f64()
+    }
+
+    fn next_output(&self, time: f64) -> Option<u64> {
+        self.scene
+            .output
+            .next_after(time, self.scene.run.end)
+            .map(f64::to_bits)
+    }
+
+    fn note_bounds(&mut self, limits: &[StepLimit]) {
+        for limit in limits.iter().filter(|l| l.dt > 0.0) {
+            let sum = self.counters.bounds.entry(limit.name.to_string());
+            *sum.or_default() += 1.0 / limit.dt;
+        }
+    }
+
+    /// The next time that is hit exactly.
+    fn target(&self, end: f64) -> f64 {
+        let output = self.counters.next_output.map_or(end, f64::from_bits);
+        output.min(end)
+    }
+
+    /// The least limit, cut so that output times and the end are hit exactly.
+    fn choose_step(&self, limits: &[StepLimit], time: f64, end: f64) -> (f64, &'static str) {
+        let least = StepLimit::least(limits);
+        let scale = self.scene.run.safety * f64::from_bits(self.counters.step_scale);
+        let (dt, name) = least.map_or((end, "none"), |l| (l.dt * scale, l.name));
+        let left = self.target(end) - time;
+        match left {
+            left if left <= dt => (left, name),
+            // Two even steps instead of a full one and a sliver.
+            left if left < 2.0 * dt => (0.5 * left, name),
+            _ => (dt, name),
+        }
+    }
+
+    fn write_what_is_due(
+        &mut self,
+        time: f64,
+        observer: &mut (dyn Observer + Send),
+    ) -> Result<(), SolverError> {
+        let start = Instant::now();
+        let every = self.scene.output.series_interval(self.scene.run.end);
+        let end = self.scene.run.end;
+        let due = |rows: u64| rows as f64 * every;
+        let written = self.counters.last_row == Some(time.to_bits());
+        if !written && (time >= due(self.counters.rows) || time >= end) {
+            let dt = self.parts.flow.world.dt;
+            let balance = self
+                .series
+                .row(&mut self.parts.flow, &self.parts.probes, dt)?;
+            if let Some(told) = self.mach.look(&balance) {
+                observer.message(&told);
+            }
+            if self.counters.rows == 0 {
+                self.remember_start(&balance);
+            }
+            self.counters.rows = (time / every).floor() as u64 + 1;
+            self.counters.last_row = Some(time.to_bits());
+        }
+        if self
+            .counters
+            .next_output
+            .is_some_and(|t| time >= f64::from_bits(t))
+        {
+            self.outputs.write(&self.parts.flow, &self.parts.probes)?;
+            self.counters.next_output = self.next_output(time);
+        }
+        let interval = self.scene.run.checkpoint_interval();
+        let number = (time / interval).floor() as u64;
+        if number > self.counters.checkpoints || time >= end {
+            self.counters.checkpoints = number;
+            self.save()?;
+        }
+        self.output_seconds += start.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    fn remember_start(&mut self, balance: &Balance<D>) {
+        self.counters.initial = [balance.mass.to_bits(), balance.energy().to_bits()];
+        self.counters.initial_momentum = balance.momentum.iter().map(|m| m.to_bits()).collect();
+    }
+
+    pub(crate) fn save(&mut self) -> Result<(), SolverError> {
+        let (position, extrema) = self.series.resume_point();
+        self.counters.series_position = position;
+        self.counters.series_extrema = extrema.map(f64::to_bits);
+        self.counters.series_peaks = Some(self.series.peaks.map(f64::to_bits));
+        self.counters.outputs = self.outputs.written;
+        let left = self.parts.flow.left();
+        self.counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
+        let counters = Counters {
+            wall_seconds: self.wall_seconds(),
+            stage_seconds: self.stage_seconds(),
+            solves: self.parts.flow.implicit.as_ref().map(|i| i.solves.clone()),
+            ..self.counters.clone()
+        };
+        let path = self.options.out.join(checkpoint::FILE);
+        checkpoint::save(&self.parts.flow, &path, &self.options.identity, &counters)
+    }
+
+    pub(crate) fn stage_seconds(&self) -> BTreeMap<String, f64> {
+        let mut all = self.counters.stage_seconds.clone();
+        for timing in self.parts.flow.timings() {
+            *all.entry(timing.name.clone()).or_default() += timing.spent.as_secs_f64();
+        }
+        *all.entry("output".into()).or_default() += self.output_seconds;
+        all
+    }
+
+    fn finish(&mut self, status: Status) -> Result<Summary, SolverError> {
+        self.write_summary(status, None)
+    }
+}

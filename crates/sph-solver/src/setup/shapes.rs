@@ -1,0 +1,208 @@
+//! The scene's walls and bodies as geometry: files read, shapes drawn.
+
+use sph_boundary::{
+    BoundaryError, Condition, Course, Drawing, Polyline, RigidMotion, Rotation, Surface,
+    Translation, WallSpec, thin_plate,
+};
+use sph_core::Vect;
+use sph_core::plausible::Quantity;
+use sph_neighbours::Coulomb;
+use sph_scene::{Facets, FrictionForm, Line, Region, Scene};
+
+use crate::failure::error::SolverError;
+
+/// Most corners of lines, or facets of surfaces, of all walls.
+const PIECES: usize = 10_000_000;
+
+/// Refuses the wall with which there are too many corners or facets.
+fn few(pieces: usize, place: &str) -> Result<(), SolverError> {
+    match pieces > PIECES {
+        false => Ok(()),
+        true => Err(SolverError::at(
+            place,
+            format!("with this wall there are {pieces} corners or facets, more than {PIECES}"),
+        )),
+    }
+}
+
+/// Walls and bodies.
+pub struct Drawn<const D: usize> {
+    /// The walls; one that is drawn in several pieces is there once per piece.
+    pub walls: Vec<WallSpec<D>>,
+    /// Box around all walls, m.
+    pub bounds: Option<([f64; D], [f64; D])>,
+    /// Length or area of all walls, m^(D−1).
+    pub measure: f64,
+    /// The regions of the bodies, in the order of their names.
+    pub regions: Vec<Region<D>>,
+}
+
+impl<const D: usize> Drawn<D> {
+    /// Reads files and draws shapes.
+    ///
+    /// # Errors
+    /// If a file cannot be read or a shape is refused; the message points at the key.
+    pub fn of(scene: &Scene) -> Result<Self, SolverError> {
+        let mut drawn = Drawn {
+            walls: Vec::new(),
+            bounds: None,
+            measure: 0.0,
+            regions: Vec::new(),
+        };
+        let mut pieces = 0;
+        // Those of shapes are known before any is drawn.
+        for (name, wall) in &scene.wall {
+            pieces += wall.declared(scene.numerics.spacing);
+            few(pieces, &format!("wall.{name}"))?;
+        }
+        for (name, wall) in &scene.wall {
+            let place = format!("wall.{name}");
+            let motion = motion_of::<D>(wall, &place)?;
+            let condition = match wall.condition {
+                sph_scene::Condition::NoSlip => Condition::NoSlip,
+                sph_scene::Condition::FreeSlip => Condition::FreeSlip,
+                sph_scene::Condition::PartialSlip => Condition::PartialSlip {
+                    length: wall.slip_length.unwrap_or(0.0),
+                },
+                sph_scene::Condition::Coulomb => Condition::Coulomb(Coulomb {
+                    coefficient: wall.friction_coefficient.unwrap_or(0.0),
+                    literal: wall.friction_form == Some(FrictionForm::Literal),
+                }),
+            };
+            let surface = wall.velocity.as_deref();
+            let surface_velocity = surface.map_or_else(Vect::zeros, Vect::from_column_slice);
+            for drawing in drawn.drawings(scene, name, wall, &place)? {
+                if wall.path.is_some() {
+                    pieces += match &drawing {
+                        Drawing::Line(line) => line.points.len(),
+                        Drawing::Surface(surface) => surface.triangles.len(),
+                    };
+                    few(pieces, &place)?;
+                }
+                drawn.near(scene.numerics.spacing, &place)?;
+                drawn.walls.push(WallSpec {
+                    drawing,
+                    condition,
+                    surface_velocity,
+                    motion: motion.clone(),
+                });
+            }
+        }
+        let regions = scene.regions_within(drawn.bounds);
+        drawn.regions = regions.map_err(|problem| SolverError::Scene(vec![problem]))?;
+        Ok(drawn)
+    }
+
+    fn drawings(
+        &mut self,
+        scene: &Scene,
+        name: &str,
+        wall: &sph_scene::Wall,
+        place: &str,
+    ) -> Result<Vec<Drawing>, SolverError> {
+        let spacing = scene.numerics.spacing;
+        let scene_problem = |problem| SolverError::Scene(vec![problem]);
+        if D == 3 {
+            let Facets { points, triangles } =
+                wall.facets(place, spacing).map_err(scene_problem)?;
+            points.iter().for_each(|p| self.include(p));
+            let corners = triangles.iter();
+            let corners = corners.map(|t| t.map(|c| Vect::from(points[c as usize])));
+            self.measure += corners
+                .map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm())
+                .sum::<f64>();
+            let name = name.to_string();
+            return Ok(vec![Drawing::Surface(Surface {
+                name,
+                points,
+                triangles,
+            })]);
+        }
+        let lines = wall.lines(place, spacing).map_err(scene_problem)?;
+        let line = |Line { points, closed }: Line| -> Result<Drawing, SolverError> {
+            points.iter().for_each(|p| self.include(p));
+            let line = match wall.thickness {
+                Some(thickness) => {
+                    let refused = |e: BoundaryError| SolverError::at(place, e.to_string());
+                    thin_plate(name, &points, thickness).map_err(refused)?
+                }
+                None => Polyline {
+                    name: name.to_string(),
+                    points,
+                    closed,
+                },
+            };
+            let edges = line.edges();
+            let lengths = edges.map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]));
+            self.measure += lengths.sum::<f64>();
+            Ok(Drawing::Line(line))
+        };
+        lines.into_iter().map(line).collect()
+    }
+
+    /// Refuses the wall with which places are so far away that positions there are rounded.
+    fn near(&self, spacing: f64, place: &str) -> Result<(), SolverError> {
+        let corners = self
+            .bounds
+            .iter()
+            .flat_map(|(low, high)| low.iter().chain(high));
+        let far = corners.fold(0.0, |far: f64, x| far.max(x.abs()));
+        match Quantity::refused("distance over the spacing", far / spacing) {
+            Some(why) => Err(SolverError::at(place, why)),
+            None => Ok(()),
+        }
+    }
+
+    fn include(&mut self, x: &[f64]) {
+        let point: [f64; D] = std::array::from_fn(|k| x[k]);
+        let (low, high) = self.bounds.get_or_insert((point, point));
+        for k in 0..D {
+            low[k] = low[k].min(point[k]);
+            high[k] = high[k].max(point[k]);
+        }
+    }
+}
+
+fn motion_of<const D: usize>(
+    wall: &sph_scene::Wall,
+    place: &str,
+) -> Result<RigidMotion<D>, SolverError> {
+    let Some(motion) = &wall.motion else {
+        return Ok(RigidMotion::default());
+    };
+    let courses = motion.courses(&format!("{place}.motion"));
+    let courses = courses.map_err(|problem| SolverError::Scene(vec![problem]))?;
+    let course = |course: sph_scene::Course| match course {
+        sph_scene::Course::Speed(speed) => Course::Steady { speed },
+        sph_scene::Course::Ramp { speed, over } => Course::Ramp { speed, over },
+        sph_scene::Course::Sine {
+            amplitude,
+            period,
+            phase,
+            ramp,
+        } => Course::Sine {
+            amplitude,
+            period,
+            phase,
+            ramp,
+        },
+        sph_scene::Course::Table(rows) => Course::Table { rows: rows.into() },
+    };
+    let vector = |v: &[f64]| std::array::from_fn(|k| v.get(k).copied().unwrap_or(0.0));
+    let shifts = courses.translations.into_iter();
+    Ok(RigidMotion {
+        translations: shifts
+            .map(|(along, c)| Translation {
+                along: vector(&along),
+                course: course(c),
+            })
+            .collect(),
+        rotation: courses.rotation.map(|turning| Rotation {
+            centre: vector(&turning.centre),
+            axis: turning.axis,
+            course: course(turning.course),
+        }),
+        start: courses.start,
+        stop: courses.stop,
+    })
+}

@@ -1,0 +1,31 @@
+//! Particles are sorted when lists expire: who goes on with what was derived before takes it along.
+
+use sph_core::{StepError, fields};
+
+use crate::step::flow::Flow;
+
+impl<const D: usize> Flow<D> {
+    /// Refreshes the lists. Where that sorts the particles, their derived columns are sorted, too: pressures and volumes of
+    /// the last evaluation remain those of the same particles.
+    pub(crate) fn refresh_lists_and_derived(&mut self) -> Result<(), StepError> {
+        crate::step::guard::positions(&self.world)?;
+        if !self.world.lists_expired()? {
+            self.world.refresh_lists()?;
+            return Ok(());
+        }
+        let earlier = self.world.free.get(fields::IDENTITY)?.to_vec();
+        self.world.refresh_lists()?;
+        let now = self.world.free.get(fields::IDENTITY)?;
+        if *now == earlier {
+            return Ok(());
+        }
+        let most = earlier.iter().max().map_or(0, |id| *id as usize + 1);
+        let mut place = vec![0; most];
+        for (k, &id) in earlier.iter().enumerate() {
+            place[id as usize] = k as u32;
+        }
+        let order: Vec<u32> = now.iter().map(|&id| place[id as usize]).collect();
+        self.world.free.permute_derived(&order);
+        Ok(())
+    }
+}
