@@ -1,0 +1,117 @@
+//! Whether two binaries compute the same bits: the first steps of every shipped scene, on one and on two threads.
+//!
+//! ```sh
+//! cargo run -p sph-tests --example same_bits -- OLD/sph NEW/sph [--steps 3] [scenes/NAME.toml …]
+//! ```
+//!
+//! Compares all columns of the checkpoints, in which every column of state is; prints a checksum per scene and the
+//! columns that differ, and ends with 1 if any does.
+
+use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+use sph_io::{Checkpoint, ColumnData};
+
+/// Checksums of columns by name.
+type Sums = BTreeMap<String, u64>;
+
+fn main() -> ExitCode {
+    let mut given = std::env::args().skip(1);
+    let (Some(old), Some(new)) = (given.next(), given.next()) else {
+        eprintln!("two binaries, please: same_bits OLD NEW [--steps N] [SCENE …]");
+        return ExitCode::from(2);
+    };
+    let mut steps = "3".to_string();
+    let mut scenes = Vec::new();
+    while let Some(argument) = given.next() {
+        match argument.as_str() {
+            "--steps" => steps = given.next().unwrap_or(steps),
+            scene => scenes.push(PathBuf::from(scene)),
+        }
+    }
+    if scenes.is_empty() {
+        scenes = shipped();
+    }
+    let (mut same, mut other) = (0, 0);
+    for scene in &scenes {
+        let name = scene.file_stem().unwrap_or_default().to_string_lossy();
+        let all = [(&old, 1), (&new, 1), (&new, 2)];
+        let all = all.map(|(binary, threads)| sums(binary, scene, threads, &steps));
+        match all {
+            [Ok(before), Ok(one), Ok(two)] => {
+                let differ = [differing(&before, &one), differing(&before, &two)];
+                if differ.iter().all(Vec::is_empty) {
+                    same += 1;
+                    println!(
+                        "{name}: same, {} columns, {:016x}",
+                        before.len(),
+                        hash(&before)
+                    );
+                } else {
+                    other += 1;
+                    let [one, two] = differ.map(|d| d.join(", "));
+                    println!("{name}: DIFFERS on one thread: {one}; on two: {two}");
+                }
+            }
+            [before, one, two] => {
+                other += 1;
+                let why = before.err().or(one.err()).or(two.err()).unwrap_or_default();
+                println!("{name}: NOT RUN: {why}");
+            }
+        }
+    }
+    println!("{same} scenes the same, {other} not");
+    ExitCode::from(u8::from(other > 0))
+}
+
+/// The scenes of this workspace.
+fn shipped() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let entries = std::fs::read_dir(folder).expect("the folder of scenes");
+    let files = entries.map(|e| e.expect("an entry").path());
+    let mut scenes: Vec<_> = files
+        .filter(|p| p.extension().is_some_and(|e| e == "toml"))
+        .collect();
+    scenes.sort();
+    scenes
+}
+
+/// Checksums of the columns after the first steps, or what the binary said.
+fn sums(binary: &str, scene: &Path, threads: usize, steps: &str) -> Result<Sums, String> {
+    let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
+    let run = Command::new(binary)
+        .args(["run", "--quiet", "--threads", &threads.to_string()])
+        .args(["--set", &format!("run.max_steps={steps}"), "--out"])
+        .arg(folder.path())
+        .arg(scene)
+        .output();
+    let run = run.map_err(|e| format!("{binary}: {e}"))?;
+    let said = || String::from_utf8_lossy(&run.stderr).trim().to_string();
+    let checkpoint = Checkpoint::load(folder.path().join("checkpoint.sph")).map_err(|_| said())?;
+    let sums = checkpoint.columns.iter().map(|column| {
+        let bits: Vec<u64> = match &column.data {
+            ColumnData::F64(v) => v.iter().map(|x| x.to_bits()).collect(),
+            ColumnData::U32(v) => v.iter().map(|x| u64::from(*x)).collect(),
+            ColumnData::U64(v) => v.clone(),
+        };
+        (column.name.clone(), hash(&bits))
+    });
+    Ok(sums.collect())
+}
+
+fn hash(of: &impl Hash) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    of.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// Names of the columns that are not the same or not in both.
+fn differing(one: &Sums, two: &Sums) -> Vec<String> {
+    let names = one
+        .keys()
+        .chain(two.keys().filter(|k| !one.contains_key(*k)));
+    let differ = names.filter(|name| one.get(*name) != two.get(*name));
+    differ.cloned().collect()
+}
