@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::arguments::{Arguments, Command};
-use crate::{check, explain, new, plugins, run, scenes, schema, study};
+use crate::{check, console, explain, new, plugins, run, scenes, schema, study};
 
 /// Runs the command that the process was called with.
 ///
@@ -31,7 +31,7 @@ pub fn main() -> ExitCode {
         Command::New(a) => new::command(a),
     };
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => ExitCode::from(u8::from(!console::complete())),
         Err(trouble) => {
             trouble.report(json);
             ExitCode::from(trouble.exit_code())

@@ -1,14 +1,30 @@
 //! Output that does not panic when nobody listens any more.
 
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::clean::{clean, escaped};
+use sph_io::{clean, escaped};
 
 /// A line, or several, on stdout.
 pub fn out(text: &str) {
     let mut stdout = std::io::stdout().lock();
+    let written = writeln!(stdout, "{}", clean(text).trim_end_matches('\n'));
+    let written = written.and_then(|()| stdout.flush());
     // `sph schema | head` closes the pipe: no reason to complain.
-    let _ = writeln!(stdout, "{}", clean(text).trim_end_matches('\n'));
+    if let Err(error) = written
+        && error.kind() != ErrorKind::BrokenPipe
+        && !UNWRITTEN.swap(true, Ordering::Relaxed)
+    {
+        err(&format!("error: cannot write to stdout: {error}"));
+    }
+}
+
+/// Whether something that was asked for on stdout is not there.
+static UNWRITTEN: AtomicBool = AtomicBool::new(false);
+
+/// Whether stdout took all that was said.
+pub fn complete() -> bool {
+    !UNWRITTEN.load(Ordering::Relaxed)
 }
 
 /// A line, or several, on stderr.

@@ -9,7 +9,7 @@ use sph_core::MOST_PROBLEMS;
 use sph_scene::{Diagnostic, Source};
 use sph_study::Mistake;
 
-use crate::clean::clean;
+use sph_io::clean;
 
 /// Diagnostics shown one by one; of the others only the number.
 const MOST: usize = 20;

@@ -25,6 +25,7 @@ pub fn flag() -> Arc<AtomicBool> {
             "note: Ctrl-C will stop without a checkpoint ({error})"
         ));
     }
+    too_long();
     terminated(&raised).unwrap_or_else(|error| {
         console::err(&format!(
             "note: SIGTERM will stop without a checkpoint ({error})"
@@ -32,6 +33,16 @@ pub fn flag() -> Arc<AtomicBool> {
     });
     raised
 }
+
+/// A file longer than `ulimit -f` allows is a disk that is full, and no reason to die without a word.
+#[cfg(unix)]
+fn too_long() {
+    use signal_hook::{consts::SIGXFSZ, flag};
+    let _ = flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
+}
+
+#[cfg(not(unix))]
+fn too_long() {}
 
 /// SIGTERM raises the flag too; where it is up, the process ends. SIGHUP is left to `nohup`.
 #[cfg(unix)]

@@ -14,7 +14,6 @@
 mod app;
 mod arguments;
 mod check;
-mod clean;
 mod console;
 mod diagnostics;
 mod explain;

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sph_solver::{Command, Observer, Progress};
 
-use crate::clean::clean;
 use crate::{console, number};
+use sph_io::clean;
 
 /// Wall-clock time between two updates of the bar.
 const BAR: Duration = Duration::from_millis(100);

@@ -71,7 +71,7 @@ fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
 
 /// What is refused before the folder is touched.
 fn look_before_writing(arguments: &RunArguments, out: &Path) -> Result<(), Trouble> {
-    if arguments.resume && !out.join(CHECKPOINT).exists() {
+    if arguments.resume && !out.join(CHECKPOINT).is_file() {
         return Err(Trouble::usage(format!(
             "there is no checkpoint in {} to resume from: start without --resume",
             out.display()

@@ -9,8 +9,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sph_solver::Progress;
 use sph_study::{Cost, Options, Record, Status, Study, Variant, to_run, verdict};
 
-use crate::clean::clean;
 use crate::{console, number};
+use sph_io::clean;
 
 /// Wall-clock time between two updates of the bar.
 const BAR: Duration = Duration::from_millis(100);

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use crate::Access;
+use crate::{Access, fields};
 
 /// Who is at work, the innermost last, with what they touched.
 #[derive(Default)]
@@ -21,8 +21,13 @@ impl Watch {
 
     pub fn begin(&self, access: &Access) {
         let names = |fields: &[crate::AnyField]| fields.iter().map(|f| f.name).collect();
+        let mut reads: Vec<_> = names(&access.reads());
+        // Nobody walks over neighbours without their places, and what walls cut off.
+        if access.sweep {
+            reads.extend([fields::POSITION.name, fields::RENORMALISATION.name]);
+        }
         self.all().push(Watched {
-            reads: names(&access.reads()),
+            reads,
             writes: names(&access.writes),
             undeclared: Vec::new(),
         });

@@ -43,6 +43,7 @@ mod atomic;
 mod axes;
 mod canvas;
 mod checkpoint;
+mod clean;
 mod colour;
 mod colour_bar;
 mod error;
@@ -70,6 +71,7 @@ mod xml;
 
 pub use atomic::{AtomicFile, Durability, sweep_temporaries, write_atomic};
 pub use checkpoint::{Checkpoint, CheckpointFault, Column, ColumnData};
+pub use clean::{clean, escaped};
 pub use colour::{Colour, ColourMap};
 pub use error::{IoError, Result};
 pub use folder::{Checksum, checksum, readable, writable};

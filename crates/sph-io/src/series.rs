@@ -38,6 +38,11 @@ impl SeriesWriter {
     ) -> Result<Self> {
         let path = path.as_ref();
         let cells = headings(path, columns)?;
+        // A pipe would wait for a reader, and a link lead to what is somebody else's.
+        if std::fs::symlink_metadata(path).is_ok_and(|known| !known.is_file()) {
+            let error = std::io::Error::other("what has this name is not a file");
+            return Err(IoError::write(path, error));
+        }
         let file = File::create(path).map_err(|e| IoError::write(path, e))?;
         let mut series = Self {
             path: path.to_path_buf(),

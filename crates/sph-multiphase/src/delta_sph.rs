@@ -108,6 +108,7 @@ impl Declares for DensityGradient {
             .both(fields::POSITION)
             .both(fields::DENSITY)
             .both(fields::VOLUME)
+            .both(fields::PHASE)
             .writes(DENSITY_GRADIENT)
     }
 }

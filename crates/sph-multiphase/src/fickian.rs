@@ -147,6 +147,7 @@ impl Declares for ShiftVelocity {
         Access::none()
             .both(fields::POSITION)
             .both(fields::VOLUME)
+            .both(fields::PHASE)
             .here(fields::VELOCITY)
             .here(fields::MASS)
             .writes(fields::SHIFT_VELOCITY)

@@ -88,6 +88,7 @@ impl Declares for PhaseDensity {
             .both(fields::POSITION)
             .both(fields::MASS)
             .both(fields::VOLUME)
+            .both(fields::PHASE)
             .writes(fields::DENSITY)
             .writes(FILLING)
     }

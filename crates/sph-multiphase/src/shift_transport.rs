@@ -40,6 +40,7 @@ impl<const D: usize> PairTerm<D> for ShiftTransport {
             .both(fields::SHIFT_VELOCITY)
             .both(fields::VELOCITY)
             .both(fields::DENSITY)
+            .both(fields::PHASE)
             .here(fields::EMPTINESS)
             .neighbours(fields::VOLUME)
             .here(fields::MASS)

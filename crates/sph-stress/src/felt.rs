@@ -25,6 +25,11 @@ impl Felt {
         self.laws.iter().any(|l| l.needs().strain_rate)
     }
 
+    /// Whether some law feels a pressure.
+    fn feels_pressure(&self) -> bool {
+        self.laws.iter().any(|l| l.needs().pressure)
+    }
+
     /// The columns that the laws read.
     pub(crate) fn access(&self) -> Access {
         let mut access = Access::none();
@@ -34,7 +39,7 @@ impl Felt {
         if self.strain_rate() {
             access = access.here(fields::STRAIN_RATE);
         }
-        match self.laws.iter().any(|l| l.needs().pressure) {
+        match self.feels_pressure() {
             true => access.here(self.pressure),
             false => access,
         }
@@ -48,8 +53,14 @@ impl Felt {
         column: &mut [T],
         work: impl Fn(&dyn Rheology, &Inputs<'_>, Range<usize>, &mut [T]) + Sync,
     ) -> Result<(), StepError> {
-        let strain_rate = world.free.get(fields::STRAIN_RATE).unwrap_or(&[]);
-        let pressure = world.free.get(self.pressure).unwrap_or(&[]);
+        let strain_rate = match self.strain_rate() {
+            true => world.free.get(fields::STRAIN_RATE)?,
+            false => &[],
+        };
+        let pressure = match self.feels_pressure() {
+            true => world.free.get(self.pressure)?,
+            false => &[],
+        };
         let phase = match self.laws.len() {
             1 => None,
             _ => Some(world.free.get(fields::PHASE)?),

@@ -77,6 +77,8 @@ impl<const D: usize> PoreFlow<D> for PoreWater {
             .both(fields::PRESSURE)
             .both(fields::VOLUME)
             .both(fields::PHASE)
+            .both(fields::VELOCITY)
+            .both(fields::MASS)
             .here(SEEPAGE_VELOCITY)
             .here(SEEPAGE_PRESSURE)
     }

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use sph_core::number;
-use sph_io::{Durability, IoError, write_atomic};
+use sph_io::{Durability, IoError, clean, write_atomic};
 
 use crate::matrix;
 use crate::record::Status;
@@ -145,8 +145,13 @@ fn csv(results: &Results, file: &mut dyn Write) -> std::io::Result<()> {
     line(file, &heads)?;
     for v in &results.variants {
         let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x}"));
-        let mut row = vec![v.name.clone()];
-        row.extend(results.axes.iter().map(|a| v.values[a].clone()));
+        let mut row = vec![clean(&v.name).into_owned()];
+        row.extend(
+            results
+                .axes
+                .iter()
+                .map(|a| clean(&v.values[a]).into_owned()),
+        );
         row.push(number(v.refinement));
         row.push(v.status.name().into());
         row.extend(errors.iter().map(|e| number(v.error(e))));

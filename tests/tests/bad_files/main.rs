@@ -11,6 +11,8 @@ mod plausible;
 #[cfg(unix)]
 mod reach;
 #[cfg(target_os = "linux")]
+mod second_attack;
+#[cfg(target_os = "linux")]
 mod sizes;
 
 use sph_io::{Checkpoint, ColumnData};

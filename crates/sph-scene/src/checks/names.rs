@@ -207,10 +207,27 @@ fn measured(reference: &Reference, path: &str, found: &mut Problems) {
         let message = "the norm `period` needs the `period` of the reference";
         found.add(format!("{path}.norm"), message);
     }
+    if reference.norm() == Norm::Lag && reference.period.is_none() {
+        let message = "the norm `lag` needs the `period` of the reference";
+        found.add(format!("{path}.norm"), message);
+    }
+    if reference.norm() == Norm::DecayRate && reference.solution.is_none() {
+        let message = "the norm `decay-rate` needs a `solution` with a constant rate";
+        found.add(format!("{path}.norm"), message);
+    }
+    for (key, scale) in [
+        ("scale_value", reference.scale_value),
+        ("scale_time", reference.scale_time),
+    ] {
+        if scale == 0.0 || !scale.is_finite() {
+            let message = format!("a scale is a finite number other than 0, found {scale}");
+            found.add(format!("{path}.{key}"), message);
+        }
+    }
     let about = |norm: &str, what: &str| format!("the norm `{norm}` is for {what}");
     match (reference.norm(), &reference.field, &reference.probe) {
-        (Norm::L2Mean, None, Some(_)) => {
-            found.add(format!("{path}.norm"), about("l2-mean", "fields"));
+        (norm @ (Norm::L2Mean | Norm::Rms), None, Some(_)) => {
+            found.add(format!("{path}.norm"), about(norm.name(), "fields"));
         }
         (norm, Some(_), None) if reference.stands_alone() => {
             found.add(format!("{path}.norm"), about(norm.name(), "probes"));

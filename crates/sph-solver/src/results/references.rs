@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use sph_core::fields;
-use sph_io::{Plot, Series, Table, read_columns, read_table};
+use sph_io::{IoError, Plot, Series, Table, read_columns, read_table};
 use sph_probes::{Solution, norm};
 use sph_scene::{Norm, Reference, Scene};
 
@@ -177,7 +177,11 @@ fn against_series<const D: usize>(
             "a probe is compared with a `file`, or by the norm `decay-rate`".into(),
         ));
     };
-    let table = reference_table(reference, path)?;
+    // It was good when the run began; what has been computed since is not lost with it.
+    let table = match reference_table(reference, path) {
+        Ok(table) => table,
+        Err(gone) => return Ok(Err(gone.to_string())),
+    };
     let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
         table.columns[k]
             .values
@@ -287,7 +291,9 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<(), SolverError> {
             .iter()
             .find(|c| c.name == *probe)
             .map(|c| c.unit.clone());
-        let table = reference_table(reference, path)?;
+        let Ok(table) = reference_table(reference, path) else {
+            continue;
+        };
         let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
             let column = table.columns.get(k).map_or(&[][..], |c| &c.values);
             column.iter().map(|v| v * scale + offset).collect()
@@ -340,9 +346,51 @@ fn shown(times: &[f64], end: f64) -> Vec<usize> {
 /// Longest file of a reference or a probe, bytes.
 pub const LONGEST: u64 = 64 << 20;
 
-/// The reference's columns: time, value, and for a band the upper limit.
-fn reference_table(reference: &Reference, path: &Path) -> Result<Table, sph_io::IoError> {
+/// The reference's columns: time, value, and for a band the upper limit; finite numbers, in the order of time.
+fn reference_table(reference: &Reference, path: &Path) -> Result<Table, IoError> {
     sph_io::readable(path, LONGEST)?;
+    let table = columns_of(reference, path)?;
+    match unfit(&table, reference.norm() == Norm::Band) {
+        None => Ok(table),
+        Some(problem) => Err(IoError::Read {
+            path: path.to_path_buf(),
+            source: std::io::Error::other(problem),
+        }),
+    }
+}
+
+/// Why nothing can be compared with a table.
+fn unfit(table: &Table, band: bool) -> Option<String> {
+    let used = if band { 3 } else { 2 };
+    let columns = &table.columns[..used.min(table.columns.len())];
+    let [times, _, ..] = columns else {
+        return Some("it has one column where a time and a value are expected".into());
+    };
+    if table.rows() == 0 {
+        return Some("it has no rows".into());
+    }
+    for column in columns {
+        if let Some(row) = column.values.iter().position(|v| !v.is_finite()) {
+            let (name, value) = (&column.name, column.values[row]);
+            let row = row + 1;
+            return Some(format!(
+                "expected finite numbers, found {value} in row {row} of `{name}`"
+            ));
+        }
+    }
+    let times = &times.values;
+    if let Some(row) = times.windows(2).position(|t| t[1] < t[0]) {
+        let [before, after] = [times[row], times[row + 1]];
+        let row = row + 2;
+        return Some(format!(
+            "times must not fall: {after} comes after {before} in row {row}"
+        ));
+    }
+    let still = table.rows() > 1 && times[0] == times[times.len() - 1];
+    still.then(|| "all its times are the same".to_string())
+}
+
+fn columns_of(reference: &Reference, path: &Path) -> Result<Table, IoError> {
     if let (Norm::Band, Some(low), Some(high)) =
         (reference.norm(), &reference.lower, &reference.upper)
     {
@@ -387,6 +435,29 @@ fn decay<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tables_that_nothing_can_be_compared_with_are_told_from_others() {
+        let unfit = |text: &str, band: bool| {
+            let table = Table::parse(text, "r.csv").unwrap();
+            super::unfit(&table, band).unwrap_or_default()
+        };
+        for (text, told) in [
+            ("t\n0\n1\n", "one column"),
+            ("t,u\n", "no rows"),
+            ("t,u\n0,1\n1,nan\n", "found NaN in row 2 of `u`"),
+            ("t,u\n0,1\ninf,1\n", "found inf in row 2 of `t`"),
+            ("t,u\n0,1\n2,1\n1,1\n", "1 comes after 2 in row 3"),
+            ("t,u\n1,1\n1,2\n", "the same"),
+        ] {
+            let found = unfit(text, false);
+            assert!(found.contains(told), "{text:?}: {found}");
+        }
+        assert!(unfit("t,a,b\n0,1,2\n1,1,inf\n", true).contains("`b`"));
+        for good in ["t,u,v\n0,1,nan\n1,1,1\n", "t,u\n0,1\n0,2\n1,1\n", "0,1\n"] {
+            assert_eq!(unfit(good, false), "");
+        }
+    }
 
     #[test]
     fn a_picture_ends_with_the_run_unless_nothing_were_left() {

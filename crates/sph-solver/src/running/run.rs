@@ -149,6 +149,19 @@ fn begin<const D: usize>(
     Ok(counters)
 }
 
+/// Why a run cannot go on whose steps have become too short to move its clock.
+fn standing_still(time: f64, dt: f64, target: f64, limiter: &str) -> Option<StepError> {
+    // What is left of the way to an output may be as short: it is made up for after the step.
+    let moves = time + dt > time || time + dt >= target * (1.0 - 1e-12);
+    (!moves).then(|| StepError::Stage {
+        stage: "clock".into(),
+        reason: format!(
+            "a step of {dt:.1e} s, which `{limiter}` allows, does not move it any more: lower the stiffness, the \
+             viscosity or the speed behind it, or raise `run.safety`"
+        ),
+    })
+}
+
 /// Factor by which a rolled-back step recovers per good step.
 const RECOVERY: f64 = 1.05;
 
@@ -204,6 +217,10 @@ impl<const D: usize> Running<'_, D> {
             if self.scene.run.retries > 0 {
                 snapshot.take(&self.parts.flow)?;
                 have_snapshot = true;
+            }
+            if let Some(cause) = standing_still(time, dt, self.target(end), limiter) {
+                let kept = have_snapshot.then_some(&snapshot);
+                return Err(self.fail(cause, kept, observer));
             }
             self.tried = (dt, limiter);
             self.parts.flow.world.dt = dt;

@@ -107,6 +107,12 @@ fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examinati
     let flow = &assembled.flow;
     let world = &flow.world;
     let names = |f: &[sph_core::AnyField]| f.iter().map(|f| f.name.to_string()).collect::<Vec<_>>();
+    // Who tells phases apart does not where there is one.
+    let alone = !world.free.has(sph_core::fields::PHASE.name);
+    let there = |mut names: Vec<String>| {
+        names.retain(|name| !(alone && name == sph_core::fields::PHASE.name));
+        names
+    };
     let stages: Vec<StageUse> = flow
         .stages
         .iter()
@@ -115,8 +121,8 @@ fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examinati
             StageUse {
                 name: s.name(),
                 sweep: access.sweep,
-                reads_here: names(&access.here),
-                reads_at_neighbours: names(&access.neighbours),
+                reads_here: there(names(&access.here)),
+                reads_at_neighbours: there(names(&access.neighbours)),
                 writes: names(&access.writes),
             }
         })

@@ -326,7 +326,8 @@ pub fn plan_stages<const D: usize>(
     .into_iter()
     .chain([diffused.evolved.value.any()])
     .chain(choices.formulation.compressed().map(|c| c.value.any()))
-    .filter(|f| world.free.has(f.name))
+    // Who tells phases apart does so where there are several.
+    .filter(|f| *f == fields::PHASE.any() || world.free.has(f.name))
     .chain(elastic.iter().flat_map(ElasticMotion::remembered))
     .chain(
         seepage

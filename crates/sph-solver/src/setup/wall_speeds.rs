@@ -19,7 +19,7 @@ pub fn too_fast<const D: usize>(walls: &[WallSpec<D>], sound: f64, end: f64) -> 
         let speeds: Vec<f64> = walls.iter().map(|wall| speed(wall, time)).collect();
         let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
         let against = fastest.iter_mut().zip(&speeds);
-        against.for_each(|(most, speed)| *most = most.max(speed - slowest));
+        against.for_each(|(most, speed)| *most = most.max(known(speed - slowest)));
     }
     let loud = walls.iter().zip(&fastest).filter(|(_, v)| **v >= sound);
     loud.map(|(wall, v)| {
@@ -32,6 +32,11 @@ pub fn too_fast<const D: usize>(walls: &[WallSpec<D>], sound: f64, end: f64) -> 
         )
     })
     .collect()
+}
+
+/// A speed that cannot be told is too fast for any sound.
+fn known(speed: f64) -> f64 {
+    if speed.is_nan() { f64::INFINITY } else { speed }
 }
 
 /// Largest speed of the corners of a wall, m/s.
@@ -47,7 +52,7 @@ fn speed<const D: usize>(wall: &WallSpec<D>, time: f64) -> f64 {
             .norm()
     };
     let point = |p: &[f64]| at(std::array::from_fn(|k| p[k]));
-    let largest = |speeds: &mut dyn Iterator<Item = f64>| speeds.fold(0.0, f64::max);
+    let largest = |speeds: &mut dyn Iterator<Item = f64>| speeds.map(known).fold(0.0, f64::max);
     match &wall.drawing {
         Drawing::Line(line) => largest(&mut line.points.iter().map(|p| point(p))),
         Drawing::Surface(surface) => largest(&mut surface.points.iter().map(|p| point(p))),

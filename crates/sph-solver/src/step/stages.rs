@@ -54,6 +54,8 @@ impl<const D: usize> Declares for WallState<D> {
     }
     fn access(&self) -> Access {
         Access::none()
+            .neighbours(fields::POSITION)
+            .neighbours(fields::VELOCITY)
             .neighbours(fields::PRESSURE)
             .neighbours(fields::DENSITY)
             .neighbours(fields::VOLUME)
