@@ -102,6 +102,49 @@ fn a_slide_draws_the_water_down_and_pushes_a_crest() {
     );
 }
 
+/// Beads slide into water 0.15 m deep. The crest that they push is slower than a solitary wave of its height, √(g(h + A)),
+/// the fastest there is, and faster than a train of waves five depths long, √(g tanh(kh)/k) = 0.82 √(gh); it falls
+/// from gauge to gauge.
+#[test]
+fn the_crest_before_a_slide_from_the_air_runs_between_two_speeds_of_theory_at_1_05_m_s() {
+    let run = finished(
+        "subaerial-landslide",
+        &[
+            "numerics.spacing=0.012",
+            "run.end=1.2",
+            "output.times=[1.2]",
+            "output.picture=[]",
+        ],
+    );
+    let times = column(&run, "time");
+    let crest = |gauge: &str| {
+        let levels = column(&run, gauge);
+        let highest = (0..levels.len()).max_by(|a, b| levels[*a].total_cmp(&levels[*b]));
+        let highest = highest.expect("a level");
+        (times[highest], levels[highest] - levels[0])
+    };
+    let [first, .., last] = ["G1", "G2", "G3"].map(crest);
+    let speed = 0.6 / (last.0 - first.0);
+    let (g, depth) = (9.81_f64, 0.15);
+    let solitary = (g * (depth + first.1)).sqrt();
+    let k = std::f64::consts::TAU / (5.0 * depth);
+    let train = (g * (k * depth).tanh() / k).sqrt();
+    println!(
+        "{speed} m/s between {train} and {solitary}, {} and {} m high",
+        first.1, last.1
+    );
+    assert!(
+        speed > train && speed < solitary,
+        "{train} < {speed} < {solitary}"
+    );
+    assert!(
+        last.1 > 0.0 && last.1 < first.1,
+        "{} and {} m",
+        first.1,
+        last.1
+    );
+}
+
 /// Friction that grows with the strain rate in a viscous fluid: the closed form, between the speeds that were measured.
 #[test]
 fn an_avalanche_under_a_viscous_fluid_has_its_steady_speed() {
