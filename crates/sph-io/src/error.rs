@@ -67,6 +67,14 @@ pub enum IoError {
         /// What the operating system says.
         source: io::Error,
     },
+    /// What has been read is not what is needed.
+    #[error("{}: {problem}", path.display())]
+    Unfit {
+        /// The file.
+        path: PathBuf,
+        /// What was expected, and what was found.
+        problem: String,
+    },
     /// The data handed over do not fit together; nothing was written.
     #[error("cannot write {}: {problem}", path.display())]
     Input {

@@ -1,6 +1,7 @@
 //! A run from start to end: clock, files, checkpoints.
 
 pub(crate) mod checkpoint;
+pub(crate) mod clock;
 pub(crate) mod counters;
 pub(crate) mod driver;
 pub(crate) mod edges;

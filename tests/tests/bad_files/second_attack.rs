@@ -38,7 +38,7 @@ fn references_that_nothing_can_be_compared_with_are_refused_before_the_run() {
         }
         assert!(!bench.path("r").exists());
     }
-    let band = "norm = \"band\"\ncolumns = [\"t\", \"a\", \"b\"]";
+    let band = "norm = \"band\"\nlower = \"a\"\nupper = \"b\"";
     let bench = with_reference(band, "t,a,b\n0,0,1\n0.1,0,inf\n0.2,0,1\n");
     let outcome = bench.call("check scene.toml");
     assert!(
@@ -99,19 +99,6 @@ fn a_wall_whose_speed_is_no_number_is_refused() {
     let outcome = bench.call("check scene.toml");
     assert_eq!(outcome.code, Some(2), "{}", outcome.err);
     assert!(outcome.err.contains("wall.block.motion"), "{}", outcome.err);
-}
-
-/// Later steps may become as short as the first may not be.
-#[test]
-fn a_clock_that_stands_still_ends_the_run() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
-    bench.done("run scene.toml --quiet --out a --set run.end=0.02");
-    let thick = "--set phase.water.rheology.newtonian.viscosity=1e20";
-    let outcome = bench.call(&format!("run scene.toml --quiet --out b --from a {thick}"));
-    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
-    for part in ["clock", "`viscosity` allows", "does not move it any more"] {
-        assert!(outcome.err.contains(part), "{}", outcome.err);
-    }
 }
 
 #[test]

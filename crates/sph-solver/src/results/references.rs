@@ -352,9 +352,9 @@ fn reference_table(reference: &Reference, path: &Path) -> Result<Table, IoError>
     let table = columns_of(reference, path)?;
     match unfit(&table, reference.norm() == Norm::Band) {
         None => Ok(table),
-        Some(problem) => Err(IoError::Read {
+        Some(problem) => Err(IoError::Unfit {
             path: path.to_path_buf(),
-            source: std::io::Error::other(problem),
+            problem,
         }),
     }
 }

@@ -13,6 +13,7 @@ use crate::results::balance::Balance;
 use crate::results::references;
 use crate::results::summary::{Status, Summary};
 use crate::running::checkpoint;
+use crate::running::clock::standing_still;
 use crate::running::counters::Counters;
 use crate::running::driver::{Command, Observer, Progress};
 use crate::running::mach::MachWatch;
@@ -147,19 +148,6 @@ fn begin<const D: usize>(
         std::fs::remove_file(&file).map_err(|source| IoError::Write { path, source })?;
     }
     Ok(counters)
-}
-
-/// Why a run cannot go on whose steps have become too short to move its clock.
-fn standing_still(time: f64, dt: f64, target: f64, limiter: &str) -> Option<StepError> {
-    // What is left of the way to an output may be as short: it is made up for after the step.
-    let moves = time + dt > time || time + dt >= target * (1.0 - 1e-12);
-    (!moves).then(|| StepError::Stage {
-        stage: "clock".into(),
-        reason: format!(
-            "a step of {dt:.1e} s, which `{limiter}` allows, does not move it any more: lower the stiffness, the \
-             viscosity or the speed behind it, or raise `run.safety`"
-        ),
-    })
 }
 
 /// Factor by which a rolled-back step recovers per good step.
