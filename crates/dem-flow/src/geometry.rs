@@ -2,6 +2,7 @@
 
 use dem_triangulation::{Triangulation, Vertex};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use crate::facet::Facet;
 use crate::throat::Pores;
@@ -18,7 +19,7 @@ pub enum Grip {
 }
 
 /// How solid angles of throats are summed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
 pub enum SolidAngles {
     /// With their signs: void volume and wetted surface add up to those of the packing exactly.
     #[default]
