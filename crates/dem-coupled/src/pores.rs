@@ -31,6 +31,11 @@ impl Places {
     }
 }
 
+/// Deepest overlap, in terms of the smaller radius, of grains at the start, and of those that a load has pressed
+/// together since.
+pub(crate) const GIVEN: f64 = 0.1;
+pub(crate) const PRESSED: f64 = 0.5;
+
 /// Everything that lasts as long as a mesh.
 pub(crate) struct Pores {
     pub geometry: PoreGeometry,
@@ -41,21 +46,22 @@ pub(crate) struct Pores {
 }
 
 impl Pores {
-    /// Makes the mesh of grains at their places, and its system for a step (s).
+    /// Makes the mesh of grains at their places, and its system, at a time and for a step (s). Overlaps may be as deep as
+    /// `deepest` in terms of the smaller radius.
     pub fn new(
         places: Places,
         radii: &[f64],
         setup: &FlowSetup,
         law: &dyn Conductance,
-        time: f64,
-        step: f64,
+        [time, step]: [f64; 2],
+        deepest: f64,
     ) -> Result<Self, CoupledError> {
         let spheres = places.centres.iter().zip(radii);
         let spheres: Vec<_> = spheres.map(|(x, r)| Sphere::new((*x).into(), *r)).collect();
         let mesh = Triangulation::within(&spheres, &places.planes())?;
         let grip = |sticks: bool| if sticks { Grip::NoSlip } else { Grip::Slip };
         let grips: Vec<_> = setup.sides.iter().map(|s| grip(s.sticks)).collect();
-        let geometry = PoreGeometry::new(mesh, &grips, setup.angles)?;
+        let geometry = PoreGeometry::pressed(mesh, &grips, setup.angles, deepest)?;
         let boundary = condition::boundary(&setup.sides, &geometry, time);
         let system = Self::assemble(&geometry, &boundary, setup, law, step)?;
         let forces = UnitForces::new(&geometry);

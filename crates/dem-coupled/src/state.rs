@@ -4,7 +4,7 @@ use dem_flow::{Conductance, HydraulicRadius, SolidAngles, Solver};
 use dem_grains::{ContactLaw, GrainSystem};
 use serde::{Deserialize, Serialize};
 
-use crate::pores::{Places, Pores};
+use crate::pores::{PRESSED, Places, Pores};
 use crate::system::{Clock, check};
 use crate::{CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, Side};
 
@@ -73,8 +73,9 @@ impl CoupledSystem {
         if places.centres.len() != grains.grains().len() || places.walls.len() != grains.walls().len() {
             return Err(bad("the mesh is that of other grains or walls"));
         }
-        let (radii, time) = (grains.grains().radii(), grains.time());
-        let pores = Pores::new(places, radii, &setup, &*law, time, clock.storage_step)?;
+        let now = [grains.time(), clock.storage_step];
+        let radii = grains.grains().radii();
+        let pores = Pores::new(places, radii, &setup, &*law, now, PRESSED)?;
         let cells = pores.geometry.volumes().len();
         if [&clock.volumes, &clock.rates, &clock.pressures].iter().any(|c| c.len() != cells) {
             return Err(bad("columns of the pores differ in length from the mesh"));
@@ -85,6 +86,7 @@ impl CoupledSystem {
             law,
             pores,
             clock,
+            evaluated: false,
         })
     }
 }

@@ -5,7 +5,7 @@ use dem_grains::GrainSystem;
 
 use crate::error::number;
 use crate::limit::{Mode, StepLimit, combined, strongest_drag};
-use crate::pores::{Places, Pores};
+use crate::pores::{GIVEN, PRESSED, Places, Pores};
 use crate::transfer::transferred;
 use crate::{CoupledError, FlowSetup, Side};
 
@@ -27,6 +27,8 @@ pub struct CoupledSystem {
     pub(crate) law: Box<dyn Conductance>,
     pub(crate) pores: Pores,
     pub(crate) clock: Clock,
+    /// Whether contacts were found where the grains are now.
+    pub(crate) evaluated: bool,
 }
 
 /// What is remembered from step to step.
@@ -77,7 +79,7 @@ impl CoupledSystem {
         let places = Places::of(&grains);
         let storage_step = 0.1 * grains.critical_step();
         let radii = grains.grains().radii();
-        let pores = Pores::new(places, radii, &setup, &*law, grains.time(), storage_step)?;
+        let pores = Pores::new(places, radii, &setup, &*law, [grains.time(), storage_step], GIVEN)?;
         let cells = pores.geometry.volumes().len();
         let clock = Clock {
             volumes: pores.geometry.volumes().to_vec(),
@@ -97,7 +99,16 @@ impl CoupledSystem {
             law,
             pores,
             clock,
+            evaluated: false,
         })
+    }
+
+    fn evaluate(&mut self) -> Result<(), CoupledError> {
+        if !self.evaluated {
+            self.grains.evaluate()?;
+            self.evaluated = true;
+        }
+        Ok(())
     }
 
     /// Makes a step (s).
@@ -107,7 +118,7 @@ impl CoupledSystem {
     /// [`CoupledSystem::step_unchecked`] may refuse.
     pub fn step(&mut self, step: f64) -> Result<(), CoupledError> {
         number("the step", step, "positive and finite", step > 0.0)?;
-        self.grains.evaluate()?;
+        self.evaluate()?;
         self.store(step)?;
         let limit = self.limit_here()?;
         if step > limit.step {
@@ -125,15 +136,16 @@ impl CoupledSystem {
     /// Makes a step (s) without asking whether it is stable.
     ///
     /// # Errors
-    /// A step that is not positive; grains that flew away, that came to overlap or to reach into walls by more than a
-    /// tenth of their radius when pores are made anew; a system that cannot be solved.
+    /// A step that is not positive; grains that flew away, that overlap or reach into walls by more than half their
+    /// radius when pores are made anew; a system that cannot be solved.
     pub fn step_unchecked(&mut self, step: f64) -> Result<(), CoupledError> {
         number("the step", step, "positive and finite", step > 0.0)?;
-        self.grains.evaluate()?;
+        self.evaluate()?;
         // Volumes changed, and fluid gave way, over the last step.
         self.store(self.clock.last_step.unwrap_or(step))?;
         self.press()?;
         let before = Places::of(&self.grains);
+        self.evaluated = false;
         self.grains.integrate_unchecked(step)?;
         let here = Places::of(&self.grains);
         self.clock.last_step = Some(step);
@@ -176,7 +188,7 @@ impl CoupledSystem {
     /// # Errors
     /// A system that cannot be solved.
     pub fn step_limit(&mut self) -> Result<StepLimit, CoupledError> {
-        self.grains.evaluate()?;
+        self.evaluate()?;
         let mut limit = self.limit_here()?;
         if self.setup.fluid.bulk_modulus.is_some() {
             // A stiffer answer in a longer step: halve the distance to what holds for the last one.
@@ -251,9 +263,9 @@ impl CoupledSystem {
 
     /// Makes the mesh anew where the grains are; rates are left to the caller.
     fn rebuild(&mut self, places: Places) -> Result<(), CoupledError> {
-        let (time, step) = (self.grains.time(), self.clock.storage_step);
+        let now = [self.grains.time(), self.clock.storage_step];
         let radii = self.grains.grains().radii();
-        let pores = Pores::new(places, radii, &self.setup, &*self.law, time, step)?;
+        let pores = Pores::new(places, radii, &self.setup, &*self.law, now, PRESSED)?;
         let clock = &mut self.clock;
         clock.pressures = transferred(&self.pores, &clock.pressures, &pores);
         clock.volumes = pores.geometry.volumes().to_vec();
@@ -268,7 +280,7 @@ impl CoupledSystem {
     /// outside counts for no pressure.
     ///
     /// # Errors
-    /// Grains that overlap or reach into walls by more than a tenth of their radius.
+    /// Grains that overlap or reach into walls by more than half their radius.
     pub fn remesh(&mut self) -> Result<(), CoupledError> {
         self.rebuild(Places::of(&self.grains))
     }
