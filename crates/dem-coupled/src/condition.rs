@@ -107,7 +107,9 @@ impl Side {
                 () if places.is_empty() || places.len() != pressures.len() => {
                     bad("needs as many pressures as places, and one at least")
                 }
-                () if !finite(places) || !finite(pressures) => bad("has numbers that are not finite"),
+                () if !finite(places) || !finite(pressures) => {
+                    bad("has numbers that are not finite")
+                }
                 () if !places.is_sorted() => bad("has places that do not ascend"),
                 () => Ok(()),
             },

@@ -18,7 +18,9 @@ pub enum CoupledError {
     #[error(transparent)]
     Mesh(#[from] TriangulationError),
     /// The flow sees plane walls only.
-    #[error("there are {meshes} meshes of triangles; fluid would flow through them, use plane walls")]
+    #[error(
+        "there are {meshes} meshes of triangles; fluid would flow through them, use plane walls"
+    )]
     Meshes {
         /// How many.
         meshes: usize,

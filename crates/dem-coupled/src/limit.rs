@@ -74,7 +74,10 @@ pub(crate) fn strongest_drag(
         }
     }
     let speeds = mode.grains.iter().map(Vector::norm_squared).enumerate();
-    let fastest = speeds.fold((0, -1.0), |best, (i, v)| if v > best.1 { (i, v) } else { best });
+    let fastest = speeds.fold(
+        (0, -1.0),
+        |best, (i, v)| if v > best.1 { (i, v) } else { best },
+    );
     mode.grain = fastest.0;
     Ok(mode)
 }
@@ -106,7 +109,9 @@ impl Bodies {
             _ => f64::INFINITY,
         };
         Self {
-            grains: held.map(|(held, m)| if *held { f64::INFINITY } else { *m }).collect(),
+            grains: held
+                .map(|(held, m)| if *held { f64::INFINITY } else { *m })
+                .collect(),
             walls: system.walls().iter().map(wall).collect(),
             smallest: grains.radii().iter().copied().fold(f64::INFINITY, f64::min),
         }
@@ -114,7 +119,10 @@ impl Bodies {
 
     /// Alternating velocities that no symmetry of a packing shares, if there is no mode from before.
     fn started(&self, mode: Mode) -> Mode {
-        if mode.grains.len() == self.grains.len() && mode.walls.len() == self.walls.len() && mode.rate > 0.0 {
+        if mode.grains.len() == self.grains.len()
+            && mode.walls.len() == self.walls.len()
+            && mode.rate > 0.0
+        {
             return mode;
         }
         let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
@@ -126,7 +134,10 @@ impl Bodies {
             (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
         };
         let free = |mass: f64| if mass.is_finite() { 1.0 } else { 0.0 };
-        let grains = self.grains.iter().map(|m| Vector::from_fn(|_, _| draw()) * free(*m));
+        let grains = self
+            .grains
+            .iter()
+            .map(|m| Vector::from_fn(|_, _| draw()) * free(*m));
         Mode {
             grains: grains.collect(),
             walls: self.walls.iter().map(|m| free(*m)).collect(),
@@ -138,8 +149,16 @@ impl Bodies {
     /// Scales to Σ m v² = 1; tells what the root of it was.
     fn normalise(&self, mode: &mut Mode) -> f64 {
         let finite = |m: &f64| if m.is_finite() { *m } else { 0.0 };
-        let grains = mode.grains.iter().zip(&self.grains).map(|(v, m)| finite(m) * v.norm_squared());
-        let walls = mode.walls.iter().zip(&self.walls).map(|(v, m)| finite(m) * v * v);
+        let grains = mode
+            .grains
+            .iter()
+            .zip(&self.grains)
+            .map(|(v, m)| finite(m) * v.norm_squared());
+        let walls = mode
+            .walls
+            .iter()
+            .zip(&self.walls)
+            .map(|(v, m)| finite(m) * v * v);
         let size = grains.chain(walls).sum::<f64>().sqrt();
         if size > 0.0 {
             mode.grains.iter_mut().for_each(|v| *v /= size);
@@ -171,7 +190,10 @@ impl Bodies {
             }
         };
         let (after, before) = (pores.volumes(&moved(time)), pores.volumes(&moved(-time)));
-        let rates = after.iter().zip(&before).map(|(a, b)| (a - b) / (2.0 * time));
+        let rates = after
+            .iter()
+            .zip(&before)
+            .map(|(a, b)| (a - b) / (2.0 * time));
         let rates: Vec<_> = rates.collect();
         let pressures = pores.system.solve(boundary, &rates)?;
         let forces = pores.forces.apply(&pressures);
@@ -180,7 +202,13 @@ impl Bodies {
             *v = -f / *m;
         }
         let normals = places.walls.iter().map(|(n, _)| n);
-        for (((v, m), f), n) in mode.walls.iter_mut().zip(&self.walls).zip(on_walls).zip(normals) {
+        for (((v, m), f), n) in mode
+            .walls
+            .iter_mut()
+            .zip(&self.walls)
+            .zip(on_walls)
+            .zip(normals)
+        {
             *v = -f.dot(n) / m;
         }
         Ok(())

@@ -18,9 +18,14 @@ impl CoupledSystem {
     #[must_use]
     pub fn layer_pressure(&self, axis: usize, from: f64, to: f64) -> Option<f64> {
         let places = self.pores.middles();
-        let cells = places.iter().zip(&self.clock.volumes).zip(&self.clock.pressures);
+        let cells = places
+            .iter()
+            .zip(&self.clock.volumes)
+            .zip(&self.clock.pressures);
         let inside = cells.filter(|((x, _), _)| (from..to).contains(&x[axis]));
-        let sums = inside.fold((0.0, 0.0), |(v, pv), ((_, volume), p)| (v + volume, pv + p * volume));
+        let sums = inside.fold((0.0, 0.0), |(v, pv), ((_, volume), p)| {
+            (v + volume, pv + p * volume)
+        });
         (sums.0 > 0.0).then(|| sums.1 / sums.0)
     }
 
@@ -29,7 +34,10 @@ impl CoupledSystem {
     #[must_use]
     pub fn gradient(&self, axis: usize, from: f64, to: f64) -> Option<f64> {
         let places = self.pores.middles();
-        let cells = places.iter().zip(&self.clock.volumes).zip(&self.clock.pressures);
+        let cells = places
+            .iter()
+            .zip(&self.clock.volumes)
+            .zip(&self.clock.pressures);
         let inside = cells.filter(|((x, _), _)| (from..to).contains(&x[axis]));
         let [mut w, mut x1, mut p1, mut xx, mut xp] = [0.0; 5];
         for ((x, volume), p) in inside {
@@ -67,7 +75,11 @@ impl CoupledSystem {
                 Partner::Triangle { .. } => first,
             };
             if first != second {
-                force += if first { touch.force[axis] } else { -touch.force[axis] };
+                force += if first {
+                    touch.force[axis]
+                } else {
+                    -touch.force[axis]
+                };
             }
         }
         Ok(force / self.section(axis)?)
@@ -100,7 +112,9 @@ impl CoupledSystem {
     /// What flows into the box through a wall with a given pressure, m³/s.
     #[must_use]
     pub fn inflow(&self, wall: usize) -> f64 {
-        self.pores.system.inflow(&self.pores.geometry, wall, &self.clock.pressures)
+        self.pores
+            .system
+            .inflow(&self.pores.geometry, wall, &self.clock.pressures)
     }
 
     /// K = κ/µ of the packing as it was meshed, m²/(Pa s): 1 Pa between the two walls across an axis, other walls
@@ -124,7 +138,13 @@ impl CoupledSystem {
         sides[high] = crate::Side::drained(1.0);
         let boundary = condition::boundary(&sides, geometry, 0.0);
         let viscosity = self.setup.fluid.viscosity;
-        let mut system = FlowSystem::new(geometry, &boundary, &*self.law, viscosity, Solver::Automatic)?;
+        let mut system = FlowSystem::new(
+            geometry,
+            &boundary,
+            &*self.law,
+            viscosity,
+            Solver::Automatic,
+        )?;
         let pressures = system.solve(&boundary, &[])?;
         let length = self.grains.box_lengths().ok_or(none)?[axis];
         Ok(system.inflow(geometry, high, &pressures) * length / self.section(axis)?)

@@ -37,8 +37,18 @@ impl Fluid {
 
     fn check(&self) -> Result<(), CoupledError> {
         let positive = "positive and finite";
-        number("the viscosity", self.viscosity, positive, self.viscosity > 0.0)?;
-        number("the fluid's density", self.density, "at least 0 and finite", self.density >= 0.0)?;
+        number(
+            "the viscosity",
+            self.viscosity,
+            positive,
+            self.viscosity > 0.0,
+        )?;
+        number(
+            "the fluid's density",
+            self.density,
+            "at least 0 and finite",
+            self.density >= 0.0,
+        )?;
         match self.bulk_modulus {
             Some(k) => number("the bulk modulus", k, positive, k > 0.0),
             None => Ok(()),
@@ -94,7 +104,8 @@ impl Remeshing {
     }
 
     pub(crate) fn due(&self, strain: f64, steps: u64) -> bool {
-        self.strain.is_some_and(|most| strain >= most) || self.most_steps.is_some_and(|n| steps >= n)
+        self.strain.is_some_and(|most| strain >= most)
+            || self.most_steps.is_some_and(|n| steps >= n)
     }
 }
 

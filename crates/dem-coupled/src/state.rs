@@ -70,14 +70,19 @@ impl CoupledSystem {
             problem: problem.to_string(),
         };
         let (places, clock) = (state.places, state.clock);
-        if places.centres.len() != grains.grains().len() || places.walls.len() != grains.walls().len() {
+        if places.centres.len() != grains.grains().len()
+            || places.walls.len() != grains.walls().len()
+        {
             return Err(bad("the mesh is that of other grains or walls"));
         }
         let now = [grains.time(), clock.storage_step];
         let radii = grains.grains().radii();
         let pores = Pores::new(places, radii, &setup, &*law, now, PRESSED)?;
         let cells = pores.geometry.volumes().len();
-        if [&clock.volumes, &clock.rates, &clock.pressures].iter().any(|c| c.len() != cells) {
+        if [&clock.volumes, &clock.rates, &clock.pressures]
+            .iter()
+            .any(|c| c.len() != cells)
+        {
             return Err(bad("columns of the pores differ in length from the mesh"));
         }
         Ok(Self {

@@ -79,7 +79,14 @@ impl CoupledSystem {
         let places = Places::of(&grains);
         let storage_step = 0.1 * grains.critical_step();
         let radii = grains.grains().radii();
-        let pores = Pores::new(places, radii, &setup, &*law, [grains.time(), storage_step], GIVEN)?;
+        let pores = Pores::new(
+            places,
+            radii,
+            &setup,
+            &*law,
+            [grains.time(), storage_step],
+            GIVEN,
+        )?;
         let cells = pores.geometry.volumes().len();
         let clock = Clock {
             volumes: pores.geometry.volumes().to_vec(),
@@ -165,7 +172,12 @@ impl CoupledSystem {
     /// # Errors
     /// As [`CoupledSystem::step`]; a share that is not between 0 and 1.
     pub fn run_to(&mut self, time: f64, safety: f64) -> Result<u64, CoupledError> {
-        number("the share of the limit", safety, "in (0, 1]", safety > 0.0 && safety <= 1.0)?;
+        number(
+            "the share of the limit",
+            safety,
+            "in (0, 1]",
+            safety > 0.0 && safety <= 1.0,
+        )?;
         let mut steps = 0;
         while self.time() < time {
             let step = safety * self.step_limit()?.step;
@@ -193,7 +205,9 @@ impl CoupledSystem {
         if self.setup.fluid.bulk_modulus.is_some() {
             // A stiffer answer in a longer step: halve the distance to what holds for the last one.
             for _ in 0..6 {
-                if limit.step >= self.clock.storage_step && limit.step < 1.1 * self.clock.storage_step {
+                if limit.step >= self.clock.storage_step
+                    && limit.step < 1.1 * self.clock.storage_step
+                {
                     break;
                 }
                 self.store((limit.step * self.clock.storage_step).sqrt())?;
@@ -221,13 +235,21 @@ impl CoupledSystem {
         }
         let (pores, clock) = (&mut self.pores, &mut self.clock);
         pores.system.start_from(&clock.pressures)?;
-        clock.pressures = pores.system.step(&pores.boundary, &clock.rates, &clock.pressures)?;
+        clock.pressures = pores
+            .system
+            .step(&pores.boundary, &clock.rates, &clock.pressures)?;
         let forces = pores.forces.apply(&clock.pressures);
         let (on_grains, on_walls) = forces.split_at(self.grains.grains().len());
         let lift = -self.setup.fluid.density * self.grains.gravity();
         let radii = self.grains.grains().radii();
         let buoyancy: Vec<_> = radii.iter().map(|r| lift * sphere(*r)).collect();
-        for ((external, f), b) in self.grains.external_forces_mut().iter_mut().zip(on_grains).zip(buoyancy) {
+        for ((external, f), b) in self
+            .grains
+            .external_forces_mut()
+            .iter_mut()
+            .zip(on_grains)
+            .zip(buoyancy)
+        {
             *external = f + b;
         }
         for (wall, f) in self.grains.walls_mut().iter_mut().zip(on_walls) {
@@ -241,7 +263,9 @@ impl CoupledSystem {
         if let Some(bulk_modulus) = self.setup.fluid.bulk_modulus
             && step != self.clock.storage_step
         {
-            self.pores.system.set_storage(Storage { bulk_modulus, step })?;
+            self.pores
+                .system
+                .set_storage(Storage { bulk_modulus, step })?;
             self.clock.storage_step = step;
             self.clock.fresh = false;
         }
@@ -336,4 +360,3 @@ pub(crate) fn check(grains: &GrainSystem, setup: &FlowSetup) -> Result<(), Coupl
     }
     setup.check(grains.walls().len())
 }
-

@@ -30,7 +30,11 @@ impl UnitForces {
         for throat in pores.throats() {
             let wetted = throat.wetted.iter().sum::<f64>();
             for (c, vertex) in throat.vertices.iter().enumerate() {
-                let share = if throat.open { 0.0 } else { throat.wetted[c] / wetted };
+                let share = if throat.open {
+                    0.0
+                } else {
+                    throat.wetted[c] / wetted
+                };
                 let vector = (throat.sectors[c] + throat.fluid_area * share) * throat.normal;
                 for (cell, sign) in throat.cells.into_iter().zip([1.0, -1.0]) {
                     let vertices = mesh.cells()[cell].vertices();
@@ -68,7 +72,9 @@ impl UnitForces {
         let force = |body: usize| {
             let range = self.starts[body]..self.starts[body + 1];
             let terms = self.cells[range.clone()].iter().zip(&self.vectors[range]);
-            terms.fold(Vector::zeros(), |sum, (c, u)| sum + u * pressures[*c as usize])
+            terms.fold(Vector::zeros(), |sum, (c, u)| {
+                sum + u * pressures[*c as usize]
+            })
         };
         let bodies = (0..self.starts.len() - 1).into_par_iter();
         bodies.with_min_len(TASK).map(force).collect()

@@ -1,9 +1,9 @@
 //! The same bits on any number of threads, and after a resumption.
 
-use dem_coupled::{CoupledSystem, Condition, FlowSetup, Fluid, Side, State, Wave};
+use dem_coupled::{Condition, CoupledSystem, FlowSetup, Fluid, Side, State, Wave};
 use dem_grains::{Control, GrainSystem};
 
-use crate::{BOX1000, MODULUS, boxed, box_of_laws, packing};
+use crate::{BOX1000, MODULUS, box_of_laws, boxed, packing};
 
 /// A packing under a piston with a wave on top, of a fluid that gives way: everything that is remembered.
 fn system() -> CoupledSystem {
@@ -37,10 +37,25 @@ fn run(system: &mut CoupledSystem, steps: usize) {
 
 fn bits(system: &CoupledSystem) -> Vec<u64> {
     let grains = system.grains().grains();
-    let columns = [grains.positions(), grains.velocities(), grains.external_forces()];
-    let vectors = columns.into_iter().flatten().flat_map(|v| v.iter().copied());
-    let walls = system.grains().walls().iter().flat_map(|w| [w.point.z, w.external_force.z]);
-    let flow = system.pressures().iter().chain(system.volume_rates()).copied();
+    let columns = [
+        grains.positions(),
+        grains.velocities(),
+        grains.external_forces(),
+    ];
+    let vectors = columns
+        .into_iter()
+        .flatten()
+        .flat_map(|v| v.iter().copied());
+    let walls = system
+        .grains()
+        .walls()
+        .iter()
+        .flat_map(|w| [w.point.z, w.external_force.z]);
+    let flow = system
+        .pressures()
+        .iter()
+        .chain(system.volume_rates())
+        .copied();
     vectors.chain(walls).chain(flow).map(f64::to_bits).collect()
 }
 
@@ -74,7 +89,10 @@ fn a_resumed_run_goes_on_to_the_same_bits() {
     let mut second = CoupledSystem::resume(state, box_of_laws(MODULUS)).expect("resumed");
     let before = second.meshes();
     run(&mut second, 23);
-    assert!(second.meshes() > before, "no mesh was made after the resumption");
+    assert!(
+        second.meshes() > before,
+        "no mesh was made after the resumption"
+    );
     assert_eq!(second.meshes(), whole.meshes());
     assert_eq!(bits(&second), bits(&whole));
 }

@@ -26,11 +26,20 @@ fn unit_forces_are_the_forces_of_the_flow() {
     let mut system = CoupledSystem::new(held(BOX200), setup).expect("a system");
     system.step(1e-6).expect("a step");
     let forces = Forces::new(system.pores(), system.pressures());
-    let grains = system.grains().grains().external_forces().iter().enumerate();
-    let worst = grains.map(|(k, f)| (f - forces.on_sphere(k)).amax()).fold(0.0, f64::max);
+    let grains = system
+        .grains()
+        .grains()
+        .external_forces()
+        .iter()
+        .enumerate();
+    let worst = grains
+        .map(|(k, f)| (f - forces.on_sphere(k)).amax())
+        .fold(0.0, f64::max);
     let walls = system.grains().walls().iter().enumerate();
     let wall = |w: usize| forces.wall_pressure[w] + forces.wall_viscous[w];
-    let worst = walls.map(|(w, x)| (x.external_force - wall(w)).amax()).fold(worst, f64::max);
+    let worst = walls
+        .map(|(w, x)| (x.external_force - wall(w)).amax())
+        .fold(worst, f64::max);
     println!("largest difference {worst:e} N of 7 N");
     assert!(worst < 7.0 * 1e-13, "{worst:e}");
 }
@@ -57,7 +66,12 @@ fn a_cosine_load_seeps_as_darcy_has_it() {
         let mut system = CoupledSystem::new(held(text), setup).expect("a system");
         system.step(1e-6).expect("a step");
         let pores = system.pores();
-        let cells = pores.mesh().cells().iter().zip(pores.centres()).zip(system.pressures());
+        let cells = pores
+            .mesh()
+            .cells()
+            .iter()
+            .zip(pores.centres())
+            .zip(system.pressures());
         let (mut square, mut sum, mut count) = (0.0, 0.0, 0.0);
         for ((_, at), p) in cells.filter(|((cell, _), _)| cell.walls() == 0) {
             let exact = 0.5 * (PI * at.x).cos() * (PI * at[up]).cosh() / PI.cosh();
@@ -72,7 +86,10 @@ fn a_cosine_load_seeps_as_darcy_has_it() {
         (0.5 * (both[0].0 + both[1].0), 0.5 * (both[0].1 + both[1].1))
     };
     let (few, many) = (mean(BOX200), mean(BOX1000));
-    println!("RMS {:.4} with 200, {:.4} with 1000 grains; means {:+.4}, {:+.4}", few.0, many.0, few.1, many.1);
+    println!(
+        "RMS {:.4} with 200, {:.4} with 1000 grains; means {:+.4}, {:+.4}",
+        few.0, many.0, few.1, many.1
+    );
     assert!(many.0 < few.0, "{few:?} {many:?}");
     assert!(many.1.abs() < 0.01, "{many:?}");
 }
@@ -123,7 +140,10 @@ fn profiles_and_waves_press_as_they_say() {
     system.step(1e-6).expect("a step");
     let out = -system.inflow(5);
     println!("0.01 m3/s in, {out} out");
-    assert!((out / 0.01 - 1.0).abs() < 1e-9 && system.meshes() == mesh, "{out}");
+    assert!(
+        (out / 0.01 - 1.0).abs() < 1e-9 && system.meshes() == mesh,
+        "{out}"
+    );
 }
 
 /// Undrained loading: skeleton and fluid are parallel springs, p = sigma K_f/n / (E_oed + K_f/n), Biot's coefficient
@@ -160,7 +180,10 @@ fn a_closed_box_shares_a_load_between_grains_and_fluid() {
         "E_oed {modulus:.4e} Pa: the fluid bears {share:.4}, the grains {squeezed:.4} of the load; 0.5 each ({} meshes)",
         system.meshes()
     );
-    assert!((share - 0.5).abs() < 0.005 && (squeezed - 0.5).abs() < 0.005, "{share} {squeezed}");
+    assert!(
+        (share - 0.5).abs() < 0.005 && (squeezed - 0.5).abs() < 0.005,
+        "{share} {squeezed}"
+    );
 }
 
 /// What leaves through the walls is what the room lost, whatever the grains do: the balance of all pores.
@@ -173,7 +196,10 @@ fn the_room_loses_what_flows_out() {
     for _ in 0..20 {
         system.step(1e-4).expect("a step");
     }
-    let on_floor = system.pores().mesh().cells_around(dem_triangulation::Vertex::Wall(4));
+    let on_floor = system
+        .pores()
+        .mesh()
+        .cells_around(dem_triangulation::Vertex::Wall(4));
     let rates = system.volume_rates().to_vec();
     let total: f64 = rates.iter().sum();
     assert!((total / -0.01 - 1.0).abs() < 1e-9, "{total} m3/s of 0.01");
@@ -181,7 +207,13 @@ fn the_room_loses_what_flows_out() {
     // Forces of the coming step belong to these rates.
     system.step(1e-4).expect("a step");
     let out = -system.inflow(4);
-    println!("{out:.6e} m3/s out, {:.6e} lost by the other pores", drained - total);
-    assert!((out / (drained - total) - 1.0).abs() < 1e-9, "{out} {}", drained - total);
+    println!(
+        "{out:.6e} m3/s out, {:.6e} lost by the other pores",
+        drained - total
+    );
+    assert!(
+        (out / (drained - total) - 1.0).abs() < 1e-9,
+        "{out} {}",
+        drained - total
+    );
 }
-

@@ -21,7 +21,10 @@ const DENSITY: f64 = 2600.0;
 fn packing(text: &str) -> Vec<Grain> {
     let lines = text.lines().filter(|l| !l.starts_with('#'));
     let grain = |line: &str| {
-        let numbers: Vec<f64> = line.split_whitespace().map(|w| w.parse().expect("a number")).collect();
+        let numbers: Vec<f64> = line
+            .split_whitespace()
+            .map(|w| w.parse().expect("a number"))
+            .collect();
         Grain::new([numbers[0], numbers[1], numbers[2]], numbers[3], DENSITY)
     };
     lines.map(grain).collect()
@@ -30,7 +33,10 @@ fn packing(text: &str) -> Vec<Grain> {
 /// Friction of 30 degrees between grains, a = 0.5, smooth walls: the thesis' samples.
 fn laws(modulus: f64) -> [LinearElastic; 2] {
     let friction = 30_f64.to_radians().tan();
-    [LinearElastic::new(modulus, 0.5, friction), LinearElastic::new(modulus, 0.0, 0.0)]
+    [
+        LinearElastic::new(modulus, 0.5, friction),
+        LinearElastic::new(modulus, 0.0, 0.0),
+    ]
 }
 
 /// Grains in the unit box.
@@ -41,5 +47,7 @@ fn boxed(grains: Vec<Grain>, modulus: f64) -> Setup {
 }
 
 fn box_of_laws(modulus: f64) -> Vec<Box<dyn ContactLaw>> {
-    laws(modulus).map(|l| Box::new(l) as Box<dyn ContactLaw>).into()
+    laws(modulus)
+        .map(|l| Box::new(l) as Box<dyn ContactLaw>)
+        .into()
 }
