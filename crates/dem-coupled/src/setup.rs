@@ -62,7 +62,7 @@ impl Fluid {
 /// 2012, Eqs. (5.13), (5.14).
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Remeshing {
-    /// ε_RTRG; zero remeshes at every step, infinity by the number of steps only.
+    /// ε_RTRG; zero remeshes at every step, `None` by the number of steps only.
     pub strain: Option<f64>,
     /// Steps after which it is done whatever the strain.
     pub most_steps: Option<u64>,
@@ -172,7 +172,7 @@ impl FlowSetup {
             side.check(wall)?;
         }
         match self.remeshing.strain {
-            Some(strain) if !(strain >= 0.0) => Err(CoupledError::BadNumber {
+            Some(strain) if strain.is_nan() || strain < 0.0 => Err(CoupledError::BadNumber {
                 what: "the strain for remeshing",
                 value: strain,
                 valid: "at least 0",
