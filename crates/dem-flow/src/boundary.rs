@@ -67,4 +67,9 @@ impl Boundary {
     pub fn source(&mut self, cell: usize, rate: f64) {
         self.sources[cell] += rate;
     }
+
+    /// For every cell, whether it has a given pressure.
+    pub fn given(&self) -> impl Iterator<Item = bool> {
+        self.pressures.iter().map(Option::is_some)
+    }
 }

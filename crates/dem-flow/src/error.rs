@@ -31,7 +31,7 @@ pub enum FlowError {
     },
     /// Two spheres overlap deeply.
     #[error(
-        "spheres {first} and {second} overlap by {overlap} m, more than a tenth of the smaller radius"
+        "spheres {first} and {second} overlap by {overlap} m, more than {deepest} of the smaller radius"
     )]
     Overlap {
         /// A sphere.
@@ -40,10 +40,12 @@ pub enum FlowError {
         second: usize,
         /// Depth of the overlap, m.
         overlap: f64,
+        /// Allowed, in terms of the smaller radius.
+        deepest: f64,
     },
     /// A sphere reaches far into a wall.
     #[error(
-        "sphere {sphere} reaches {overlap} m into wall {wall}, more than a tenth of its radius"
+        "sphere {sphere} reaches {overlap} m into wall {wall}, more than {deepest} of its radius"
     )]
     InWall {
         /// The sphere.
@@ -52,6 +54,8 @@ pub enum FlowError {
         wall: usize,
         /// Depth, m.
         overlap: f64,
+        /// Allowed, in terms of the radius.
+        deepest: f64,
     },
     /// A number that must be positive is not.
     #[error("{what} is {value}; it must be positive and finite")]

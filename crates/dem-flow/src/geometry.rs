@@ -2,6 +2,7 @@
 
 use dem_triangulation::{Triangulation, Vertex};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use crate::facet::Facet;
 use crate::throat::Pores;
@@ -18,7 +19,7 @@ pub enum Grip {
 }
 
 /// How solid angles of throats are summed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
 pub enum SolidAngles {
     /// With their signs: void volume and wetted surface add up to those of the packing exactly.
     #[default]
@@ -51,6 +52,20 @@ impl PoreGeometry {
         grips: &[Grip],
         angles: SolidAngles,
     ) -> Result<Self, FlowError> {
+        Self::pressed(mesh, grips, angles, DEEPEST)
+    }
+
+    /// The same for spheres that a load has pressed together: `deepest` is the largest overlap, in terms of the
+    /// smaller radius. Throats that spheres fill are closed. Where a centre is in another sphere, at 1, formulas end.
+    ///
+    /// # Errors
+    /// As [`PoreGeometry::new`].
+    pub fn pressed(
+        mesh: Triangulation,
+        grips: &[Grip],
+        angles: SolidAngles,
+        deepest: f64,
+    ) -> Result<Self, FlowError> {
         if grips.len() != mesh.walls().len() {
             return Err(FlowError::Length {
                 what: "grips of walls",
@@ -59,7 +74,7 @@ impl PoreGeometry {
             });
         }
         check_walls(&mesh)?;
-        check_overlaps(&mesh)?;
+        check_overlaps(&mesh, deepest)?;
         let cells = 0..mesh.cells().len();
         let centres: Vec<_> = cells.map(|c| mesh.power_centre(c)).collect();
         let positions: Vec<_> = mesh.spheres().iter().map(|s| s.centre).collect();
@@ -141,7 +156,7 @@ fn check_walls(mesh: &Triangulation) -> Result<(), FlowError> {
     }
 }
 
-fn check_overlaps(mesh: &Triangulation) -> Result<(), FlowError> {
+fn check_overlaps(mesh: &Triangulation, deepest: f64) -> Result<(), FlowError> {
     for cell in mesh.cells() {
         for v in cell.vertices() {
             let Vertex::Sphere(first) = v else { continue };
@@ -151,21 +166,23 @@ fn check_overlaps(mesh: &Triangulation) -> Result<(), FlowError> {
                     Vertex::Sphere(second) if second > first => {
                         let b = &mesh.spheres()[second];
                         let overlap = a.radius + b.radius - (a.centre - b.centre).norm();
-                        if overlap > DEEPEST * a.radius.min(b.radius) {
+                        if overlap > deepest * a.radius.min(b.radius) {
                             return Err(FlowError::Overlap {
                                 first,
                                 second,
                                 overlap,
+                                deepest,
                             });
                         }
                     }
                     Vertex::Wall(wall) => {
                         let overlap = a.radius - mesh.walls()[wall].distance(a.centre);
-                        if overlap > DEEPEST * a.radius {
+                        if overlap > deepest * a.radius {
                             return Err(FlowError::InWall {
                                 sphere: first,
                                 wall,
                                 overlap,
+                                deepest,
                             });
                         }
                     }

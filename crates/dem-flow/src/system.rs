@@ -1,12 +1,14 @@
 //! The balance of all pores as one linear system.
 
+use serde::{Deserialize, Serialize};
+
 use crate::assembly::{GIVEN, assemble, conductances, given, givers, joined, numbered, reachable};
 use crate::cholesky::Cholesky;
 use crate::matrix::Matrix;
 use crate::{Boundary, Conductance, FlowError, PoreGeometry, conjugate_gradient};
 
 /// How the system is solved.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub enum Solver {
     /// Cholesky factorisation by faer, kept from solve to solve.
     Direct,
@@ -181,6 +183,29 @@ impl FlowSystem {
         let per_volume = |s: Storage| 1.0 / (s.bulk_modulus * s.step);
         self.storage
             .map_or(0.0, |s| self.void_volumes[cell].max(0.0) * per_volume(s))
+    }
+
+    /// Pressures of all cells (Pa) from which conjugate gradients start; the last ones if nothing is said. A
+    /// factorisation takes no notice.
+    ///
+    /// # Errors
+    /// A list of another length than the cells.
+    pub fn start_from(&mut self, pressures: &[f64]) -> Result<(), FlowError> {
+        let (given, needed) = (pressures.len(), self.unknowns.len());
+        if given != needed {
+            let what = "pressures to start from";
+            return Err(FlowError::Length {
+                what,
+                given,
+                needed,
+            });
+        }
+        for (&u, &p) in self.unknowns.iter().zip(pressures) {
+            if u != GIVEN {
+                self.last[u as usize] = p;
+            }
+        }
+        Ok(())
     }
 
     /// How many pressures are unknown.

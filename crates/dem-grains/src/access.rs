@@ -47,6 +47,12 @@ impl GrainSystem {
         moved.check(mesh)
     }
 
+    /// Axes along which the box repeats itself.
+    #[must_use]
+    pub fn period(&self) -> &crate::Period {
+        &self.period
+    }
+
     /// Time, s.
     #[must_use]
     pub fn time(&self) -> f64 {
