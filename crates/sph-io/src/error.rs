@@ -170,6 +170,7 @@ impl IoError {
             | Self::DiskFull { path, .. }
             | Self::Write { path, .. }
             | Self::Read { path, .. }
+            | Self::Unfit { path, .. }
             | Self::Input { path, .. }
             | Self::Json { path, .. }
             | Self::Table { path, .. }
@@ -180,8 +181,11 @@ impl IoError {
     }
 }
 
-/// Whether `error` says that the disk or the quota is full.
+/// Whether `error` says that the disk, the quota or what `ulimit -f` leaves is full.
 pub(crate) fn is_full(error: &io::Error) -> bool {
-    use io::ErrorKind::{QuotaExceeded, StorageFull, WriteZero};
-    matches!(error.kind(), StorageFull | QuotaExceeded | WriteZero)
+    use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull, WriteZero};
+    matches!(
+        error.kind(),
+        StorageFull | QuotaExceeded | WriteZero | FileTooLarge
+    )
 }
