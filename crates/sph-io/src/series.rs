@@ -19,6 +19,18 @@ pub struct SeriesWriter {
     position: u64,
 }
 
+/// Whether a pipe is there, which would wait for a reader, or a link, which may lead to what is somebody else's.
+fn leads_elsewhere(path: &Path) -> bool {
+    let kind = std::fs::symlink_metadata(path).map(|known| known.file_type());
+    kind.is_ok_and(|kind| {
+        #[cfg(unix)]
+        let pipe = std::os::unix::fs::FileTypeExt::is_fifo(&kind);
+        #[cfg(not(unix))]
+        let pipe = false;
+        pipe || kind.is_symlink()
+    })
+}
+
 impl SeriesWriter {
     /// Starts a series with columns given as (name, unit); an empty unit
     /// stands for a pure number.
@@ -38,9 +50,8 @@ impl SeriesWriter {
     ) -> Result<Self> {
         let path = path.as_ref();
         let cells = headings(path, columns)?;
-        // A pipe would wait for a reader, and a link lead to what is somebody else's.
-        if std::fs::symlink_metadata(path).is_ok_and(|known| !known.is_file()) {
-            let error = std::io::Error::other("what has this name is not a file");
+        if leads_elsewhere(path) {
+            let error = std::io::Error::other("what has this name is a link or a pipe");
             return Err(IoError::write(path, error));
         }
         let file = File::create(path).map_err(|e| IoError::write(path, e))?;
