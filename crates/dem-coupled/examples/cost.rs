@@ -2,32 +2,18 @@
 //!
 //! `RAYON_NUM_THREADS=1 cargo run --release -p dem-coupled --example cost <file of spheres in a unit box, x y z r>`
 
+mod common;
+
 use std::time::Instant;
 
 use dem_coupled::{CoupledSystem, FlowSetup, Fluid, Remeshing, Side};
-use dem_grains::{Control, Grain, GrainSystem, LinearElastic, Setup, Wall};
-
-fn laws() -> [LinearElastic; 2] {
-    [0.5, 0.0].map(|ratio| LinearElastic::new(15e6, ratio, 0.577))
-}
+use dem_grains::Control;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args()
         .nth(1)
         .ok_or("name a file of spheres, x y z r")?;
-    let mut grains = Vec::new();
-    for line in std::fs::read_to_string(file)?
-        .lines()
-        .filter(|l| !l.starts_with('#'))
-    {
-        let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
-        if let [x, y, z, r] = numbers?[..] {
-            grains.push(Grain::new([x, y, z], r, 2600.0));
-        }
-    }
-    let [between, at_walls] = laws();
-    let walls = Wall::cuboid([0.0; 3], [1.0; 3]).map(|w| w.with_law(1));
-    let mut grains = GrainSystem::new(Setup::new(grains, between).law(at_walls).walls(walls))?;
+    let mut grains = common::boxed(common::spheres(&file)?, 0.0)?;
     let (count, porosity) = (grains.grains().len(), grains.porosity().unwrap_or_default());
     let mass = 0.1 * grains.grains().masses().iter().sum::<f64>();
     grains.walls_mut()[5].control = Control::Piston {
@@ -52,8 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "strongest drag                {:8.2} ms",
         1e3 * (start.elapsed() - made).as_secs_f64()
     );
-    let laws = laws().map(|l| Box::new(l) as Box<dyn dem_grains::ContactLaw>);
-    let mut dry = GrainSystem::resume(system.grains().save(), laws.into())?;
+    let mut dry = common::boxed(common::spheres(&file)?, 0.0)?;
     let (steps, step) = (300, 0.8 * limit.step);
     let start = Instant::now();
     for _ in 0..steps {

@@ -69,8 +69,8 @@ fn the_combined_limit_is_stable_where_contacts_and_drag_are_alike() {
     );
 }
 
-/// Eq. (4.20) with the packings of the page's table: 0.32 and 0.21 of it is the true limit. Both have two digits, half of
-/// the last of which is 2.4 %, and power iterations end at changes of 0.1 %: 3 %.
+/// Eq. (4.20) with the packings of the page's table: 0.32 and 0.21 of it is the true limit. Both have two digits, half
+/// of the last of which is 2.4 %, and power iterations end at changes of 0.1 %: 3 %.
 #[test]
 fn the_rule_of_the_thesis_is_too_long_as_the_page_has_it() {
     for (text, expected) in [(BOX200, 0.32), (BOX1000, 0.21)] {
