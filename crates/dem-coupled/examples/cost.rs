@@ -1,44 +1,23 @@
-//! Time per coupled step of a packing under load, on as many threads as RAYON_NUM_THREADS says.
+//! Time per coupled step of a packing under a load that came suddenly, and of what is done once per mesh.
 //!
-//! `RAYON_NUM_THREADS=1 cargo run --release -p dem-coupled --example cost [grains]`
+//! `RAYON_NUM_THREADS=1 cargo run --release -p dem-coupled --example cost <file of spheres in a unit box, x y z r>`
+
+mod common;
 
 use std::time::Instant;
 
-use dem_coupled::{CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, Side};
-use dem_grains::{
-    Cloud, Control, Grain, GrainSystem, Growth, LinearElastic, Setup, Target, Wall, uniform_radii,
-};
-
-/// Grown to 50 kPa with E = 15 MPa in a unit box, d_max / d_min = 1.22.
-fn sample(count: usize) -> Result<GrainSystem, CoupledError> {
-    let radius = (0.25 * 0.75 / std::f64::consts::PI / count as f64).cbrt();
-    let radii = uniform_radii(count, 0.9 * radius, 1.1 * radius, 1);
-    let places = Cloud::new([0.0; 3], [1.0; 3]).place(&radii, 1)?;
-    let grains = places.iter().zip(&radii);
-    let grains = grains
-        .map(|(at, &r)| Grain::new((*at).into(), r, 2600.0))
-        .collect();
-    let law = |ratio, friction| LinearElastic::new(15e6, ratio, friction);
-    let walls = Wall::cuboid([0.0; 3], [1.0; 3]).map(|w| w.with_law(1));
-    let setup = Setup::new(grains, law(0.5, 0.0175))
-        .law(law(0.0, 0.0))
-        .walls(walls);
-    let mut system = GrainSystem::new(setup.damping(0.2))?;
-    let growth = Growth {
-        tolerance: 0.02,
-        ..Growth::new(Target::Stress(5e4), 15e6)
-    };
-    growth.run(&mut system)?;
-    system.set_damping(0.0)?;
-    Ok(system)
-}
+use dem_coupled::{CoupledSystem, FlowSetup, Fluid, Remeshing, Side};
+use dem_grains::Control;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let count = std::env::args().nth(1).map_or(Ok(5000), |a| a.parse())?;
-    let mut grains = sample(count)?;
+    let file = std::env::args()
+        .nth(1)
+        .ok_or("name a file of spheres, x y z r")?;
+    let mut grains = common::boxed(common::spheres(&file)?, 0.0)?;
+    let (count, porosity) = (grains.grains().len(), grains.porosity().unwrap_or_default());
     let mass = 0.1 * grains.grains().masses().iter().sum::<f64>();
     grains.walls_mut()[5].control = Control::Piston {
-        stress: 5.5e4,
+        stress: 1.5e4,
         mass,
     };
     let setup = FlowSetup::new(Fluid::new(250.0, 0.0));
@@ -49,11 +28,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut system = CoupledSystem::new(grains, setup.clone())?;
     let made = start.elapsed();
     let limit = system.step_limit()?;
-    println!(
-        "# {count} grains, {} cells, porosity {:.4}",
-        system.pores().volumes().len(),
-        system.grains().porosity().unwrap_or_default()
-    );
+    let cells = system.pores().volumes().len();
+    println!("# {count} grains, {cells} cells, porosity {porosity:.4}");
     println!(
         "mesh, throats, factorisation  {:8.2} ms",
         1e3 * made.as_secs_f64()
@@ -62,13 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "strongest drag                {:8.2} ms",
         1e3 * (start.elapsed() - made).as_secs_f64()
     );
-    let mut dry = GrainSystem::resume(
-        system.grains().save(),
-        vec![
-            Box::new(LinearElastic::new(15e6, 0.5, 0.0175)),
-            Box::new(LinearElastic::new(15e6, 0.0, 0.0)),
-        ],
-    )?;
+    let mut dry = common::boxed(common::spheres(&file)?, 0.0)?;
     let (steps, step) = (300, 0.8 * limit.step);
     let start = Instant::now();
     for _ in 0..steps {

@@ -2,28 +2,18 @@
 //!
 //! `cargo run --release -p dem-coupled --example darcy <file of spheres in a unit box, x y z r>`
 
+mod common;
+
 use std::f64::consts::PI;
 
 use dem_coupled::{Condition, CoupledSystem, FlowSetup, Fluid, Side, Wave};
-use dem_grains::{Grain, GrainSystem, LinearElastic, Setup, Wall};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args()
         .nth(1)
         .ok_or("name a file of spheres, x y z r")?;
-    let mut grains = Vec::new();
-    for line in std::fs::read_to_string(file)?
-        .lines()
-        .filter(|l| !l.starts_with('#'))
-    {
-        let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
-        if let [x, y, z, r] = numbers?[..] {
-            grains.push(Grain {
-                held: true,
-                ..Grain::new([x, y, z], r, 2600.0)
-            });
-        }
-    }
+    let mut grains = common::spheres(&file)?;
+    grains.iter_mut().for_each(|g| g.held = true);
     for up in [1, 2] {
         let condition = Condition::Wave(Wave {
             axis: 0,
@@ -33,8 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             ramp: 0.0,
             period: None,
         });
-        let setup = Setup::new(grains.clone(), LinearElastic::new(15e6, 0.5, 0.5));
-        let grains = GrainSystem::new(setup.walls(Wall::cuboid([0.0; 3], [1.0; 3])))?;
+        let grains = common::boxed(grains.clone(), 0.0)?;
         let top = Side {
             condition,
             sticks: false,

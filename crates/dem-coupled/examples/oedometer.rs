@@ -3,14 +3,12 @@
 //! Catalano 2012, §4.4.1: 5000 grains, 5 kPa, E = 15 MPa, a = 0.5; the packing comes from the example `pack`.
 //! `cargo run --release -p dem-coupled --example oedometer <file> [confining Pa] [load Pa] [viscosity Pa s]`
 
+mod common;
+
 use dem_coupled::{CoupledSystem, FlowSetup, Fluid, Side, Terzaghi};
-use dem_grains::{Control, Grain, GrainError, GrainSystem, LinearElastic, Setup, Wall, settle};
+use dem_grains::{Control, GrainError, GrainSystem, settle};
 
 type Failure = Box<dyn std::error::Error>;
-
-fn law(ratio: f64) -> LinearElastic {
-    LinearElastic::new(15e6, ratio, 30_f64.to_radians().tan())
-}
 
 /// Loads the top, a piston of a twentieth of the grains' mass.
 fn press(grains: &mut GrainSystem, stress: f64) {
@@ -19,21 +17,7 @@ fn press(grains: &mut GrainSystem, stress: f64) {
 }
 
 fn sample(file: &str, stress: f64) -> Result<GrainSystem, Failure> {
-    let text = std::fs::read_to_string(file)?;
-    let mut grains = Vec::new();
-    for line in text.lines().filter(|l| !l.starts_with('#')) {
-        let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
-        if let [x, y, z, r] = numbers?[..] {
-            grains.push(Grain::new([x, y, z], r, 2600.0));
-        }
-    }
-    let walls = Wall::cuboid([0.0; 3], [1.0; 3]).map(|w| w.with_law(1));
-    let smooth = LinearElastic::new(15e6, 0.0, 0.0);
-    let setup = Setup::new(grains, law(0.5))
-        .law(smooth)
-        .walls(walls)
-        .damping(0.4);
-    let mut grains = GrainSystem::new(setup)?;
+    let mut grains = common::boxed(common::spheres(file)?, 0.4)?;
     press(&mut grains, stress);
     settle(&mut grains, 0.8, 1e-5, 100_000)?;
     Ok(grains)

@@ -2,8 +2,8 @@
 //!
 //! Each step, pores that shrink press their fluid out, pressures push grains, grains move (Catalano 2012, ch. 4).
 //!
-//! * [`CoupledSystem`]: steps grains and flow together; [`FlowSetup`], [`Fluid`], [`Side`] and [`Condition`] are what it
-//!   starts from, [`Wave`] the load of waves on a bed.
+//! * [`CoupledSystem`]: steps grains and flow together; [`FlowSetup`], [`Fluid`], [`Side`] and [`Condition`] are what
+//!   it starts from, [`Wave`] the load of waves on a bed.
 //! * [`Remeshing`]: when pores are found anew. [`StepLimit`]: the largest stable step, of contacts and drag.
 //! * [`CoupledSystem::layer_pressure`], [`CoupledSystem::gradient`], [`CoupledSystem::effective_stress`],
 //!   [`CoupledSystem::mobility`]: measures.

@@ -52,8 +52,8 @@ impl CoupledSystem {
         (spread > 0.0).then(|| -(w * xp - x1 * p1) / spread)
     }
 
-    /// Normal component of the contact forces that cross a plane normal to an axis, over the plane's area (Pa), positive
-    /// in compression: the effective stress σ'. Grains belong to the side of their centres.
+    /// Normal component of the contact forces that cross a plane normal to an axis, over the plane's area (Pa),
+    /// positive in compression: the effective stress σ'. Grains belong to the side of their centres.
     ///
     /// # Errors
     /// If the box is not closed.

@@ -46,8 +46,8 @@ pub(crate) struct Pores {
 }
 
 impl Pores {
-    /// Makes the mesh of grains at their places, and its system, at a time and for a step (s). Overlaps may be as deep as
-    /// `deepest` in terms of the smaller radius.
+    /// Makes the mesh of grains at their places, and its system, at a time and for a step (s). Overlaps may be as deep
+    /// as `deepest` in terms of the smaller radius.
     pub fn new(
         places: Places,
         radii: &[f64],

@@ -1,6 +1,7 @@
 //! Factorisation by faer: the order of elimination is kept while only numbers change.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
     factorize_symbolic_cholesky,
@@ -19,14 +20,18 @@ pub struct Cholesky {
 }
 
 impl Cholesky {
-    /// The symbolic phase: order of elimination and shape of the factor.
-    pub fn analyse(matrix: &Matrix) -> Result<Self, FlowError> {
+    /// The symbolic phase: the shape of the factor for an order of elimination.
+    pub fn analyse(matrix: &Matrix, order: &[u32]) -> Result<Self, FlowError> {
         let unknowns = matrix.len();
         let no_memory = || FlowError::NoMemory { unknowns };
+        let mut inverse = vec![0; unknowns];
+        for (place, unknown) in (0_u32..).zip(order) {
+            inverse[*unknown as usize] = place;
+        }
         let symbolic = factorize_symbolic_cholesky(
             shape(matrix),
             Side::Upper,
-            SymmetricOrdering::Amd,
+            SymmetricOrdering::Custom(PermRef::new_checked(order, &inverse, unknowns)),
             CholeskySymbolicParams::default(),
         );
         let symbolic = symbolic.map_err(|_| no_memory())?;

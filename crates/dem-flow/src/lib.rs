@@ -37,6 +37,7 @@ mod boundary;
 mod cholesky;
 mod conductance;
 mod conjugate_gradient;
+mod dissection;
 mod error;
 mod facet;
 mod forces;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::assembly::{GIVEN, assemble, conductances, given, givers, joined, numbered, reachable};
 use crate::cholesky::Cholesky;
 use crate::matrix::Matrix;
-use crate::{Boundary, Conductance, FlowError, PoreGeometry, conjugate_gradient};
+use crate::{Boundary, Conductance, FlowError, PoreGeometry, conjugate_gradient, dissection};
 
 /// How the system is solved.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
@@ -141,7 +141,14 @@ impl FlowSystem {
             last: vec![0.0; count],
         };
         if system.solver == Solver::Direct && count > 0 {
-            system.factor = Some(Cholesky::analyse(&system.matrix)?);
+            let mut places = vec![Default::default(); count];
+            for (&u, at) in system.unknowns.iter().zip(geometry.centres()) {
+                if u != GIVEN {
+                    places[u as usize] = *at;
+                }
+            }
+            let order = dissection::order(&system.matrix, &places);
+            system.factor = Some(Cholesky::analyse(&system.matrix, &order)?);
         }
         system.refresh()?;
         Ok(system)

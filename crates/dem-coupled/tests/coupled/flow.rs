@@ -177,7 +177,7 @@ fn a_closed_box_shares_a_load_between_grains_and_fluid() {
     let share = system.layer_pressure(2, 0.0, 1.0).expect("pores") / load;
     let squeezed = (start - height(system.grains())) / start * modulus / load;
     println!(
-        "E_oed {modulus:.4e} Pa: the fluid bears {share:.4}, the grains {squeezed:.4} of the load; 0.5 each ({} meshes)",
+        "E_oed {modulus:.4e} Pa: the fluid bears {share:.4}, the grains {squeezed:.4} of the load ({} meshes)",
         system.meshes()
     );
     assert!(

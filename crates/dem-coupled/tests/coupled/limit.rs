@@ -7,7 +7,7 @@ use dem_grains::{Grain, GrainSystem, LinearElastic, Setup, Wall};
 
 use crate::{BOX200, BOX1000, DENSITY, MODULUS, boxed, packing};
 
-/// Top and bottom drained, all walls stick: the packings of the page's table.
+/// Drained at both ends of y, along which the page has its flow; all walls stick.
 fn drained(text: &str, viscosity: f64) -> CoupledSystem {
     let mut grains = GrainSystem::new(boxed(packing(text), MODULUS)).expect("grains");
     for (i, v) in grains.velocities_mut().iter_mut().enumerate() {
@@ -20,7 +20,7 @@ fn drained(text: &str, viscosity: f64) -> CoupledSystem {
         sticks: true,
         ..Side::drained(0.0)
     };
-    let setup = setup.side(4, open.clone()).side(5, open);
+    let setup = setup.side(2, open.clone()).side(3, open);
     CoupledSystem::new(grains, setup.remeshing(Remeshing::never())).expect("a system")
 }
 
@@ -69,8 +69,8 @@ fn the_combined_limit_is_stable_where_contacts_and_drag_are_alike() {
     );
 }
 
-/// Eq. (4.20) with the packings of the page's table: 0.32 and 0.21 of it is the true limit. Its last digit counts, and
-/// power iterations end within a few percent below the eigenvalue.
+/// Eq. (4.20) with the packings of the page's table: 0.32 and 0.21 of it is the true limit. Both have two digits, half
+/// of the last of which is 2.4 %, and power iterations end at changes of 0.1 %: 3 %.
 #[test]
 fn the_rule_of_the_thesis_is_too_long_as_the_page_has_it() {
     for (text, expected) in [(BOX200, 0.32), (BOX1000, 0.21)] {
@@ -87,7 +87,7 @@ fn the_rule_of_the_thesis_is_too_long_as_the_page_has_it() {
         let ratio = limit.viscous / rule;
         println!("2/lambda is {ratio:.3} of Eq. (4.20), page: {expected}");
         assert!(
-            (ratio / expected - 1.0).abs() < 0.1,
+            (ratio / expected - 1.0).abs() < 0.03,
             "{ratio} for {expected}"
         );
     }

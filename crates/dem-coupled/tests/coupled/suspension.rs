@@ -33,8 +33,8 @@ fn below(grain: &Grain, at: f64) -> f64 {
     PI * h * h * (grain.radius - h / 3.0)
 }
 
-/// Grains that hang in the fluid weigh on it alone: 1000 spheres of 0.0801 m in a unit box, n = 0.73, mu = 100 Pa s, as
-/// on the page, whose 2 % become 1 %. They lie near a lattice: where a column is denser than its neighbour it sinks, the
+/// Grains that hang in the fluid weigh on it alone: 1000 spheres of 0.0801 m in a unit box, n = 0.73, mu = 100 Pa s,
+/// as on the page, whose 2 % become 1 %. They lie near a lattice: where a column is denser than its neighbour it sinks, the
 /// other rises, no pore changes its volume, and nothing in the method resists this; clouds at random never come to a
 /// steady fall.
 #[test]
