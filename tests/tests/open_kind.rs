@@ -367,8 +367,7 @@ fn scenes_are_told_what_is_wrong_with_it() {
     let told = |scene: &str| match parse(scene, "scene.toml", &[]) {
         Err(refused) => refused.to_string(),
         Ok(loaded) => examine(&loaded.scene, 1)
-            .err()
-            .expect("a refusal")
+            .expect_err("a refusal")
             .to_string(),
     };
     let unknown = told(&SCENE.replace("tracer.heat-and-salt", "tracer.heat-and-sald"));
