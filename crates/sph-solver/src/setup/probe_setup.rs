@@ -5,7 +5,7 @@ use sph_probes::Probe;
 use sph_scene::Scene;
 
 use crate::SolverError;
-use crate::results::references::LONGEST;
+use crate::results::reference_table::LONGEST;
 
 /// Tells the probes the names of the phases and what is in their files, and refuses references to columns that no probe has.
 ///
