@@ -9,17 +9,21 @@ macro_rules! readmes {
 
 readmes! {
     Workspace "../README.md"
+    Grains "../crates/dem-scene/README.md"
+    SceneText "../crates/scene-text/README.md"
+    SurfaceFile "../crates/surface-file/README.md"
     Flow "../crates/dem-flow/README.md"
     Triangulation "../crates/dem-triangulation/README.md"
     Boundary "../crates/sph-boundary/README.md"
     Core "../crates/sph-core/README.md"
     Integrators "../crates/sph-integrators/README.md"
     Kernels "../crates/sph-kernels/README.md"
-    Multiphase "../crates/sph-multiphase/README.md"
     Neighbours "../crates/sph-neighbours/README.md"
     Probes "../crates/sph-probes/README.md"
     Rheology "../crates/sph-rheology/README.md"
+    Seepage "../crates/sph-seepage/README.md"
     Solver "../crates/sph-solver/README.md"
+    State "../crates/sph-state/README.md"
     Stress "../crates/sph-stress/README.md"
     Study "../crates/sph-study/README.md"
 }

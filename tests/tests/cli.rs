@@ -136,12 +136,16 @@ fn laws_are_drawn_whatever_they_are_and_mistakes_leave_no_file() {
 #[test]
 fn the_schema_is_json_and_mentions_every_plugin() {
     let bench = Bench::new(PROGRAM);
-    let schema = bench.done("schema");
-    assert!(json(&schema)["properties"]["numerics"].is_object());
+    let of_particles = bench.done("schema");
+    let of_grains = bench.done("schema --grains");
+    assert!(json(&of_particles)["properties"]["numerics"].is_object());
+    assert!(json(&of_grains)["properties"]["grains"].is_object());
     for kind in json(&bench.done("plugins --json"))
         .as_array()
         .expect("kinds")
     {
+        let grains = ["contact-law", "conductance"].contains(&text(&kind["kind"]));
+        let schema = if grains { &of_grains } else { &of_particles };
         for plugin in kind["plugins"].as_array().expect("plugins") {
             let quoted = format!("\"{}\"", text(&plugin["name"]));
             assert!(

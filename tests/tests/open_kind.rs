@@ -1,161 +1,9 @@
-//! A kind of plugin from outside: heat and salt that diffuse through a fluid, `[tracer.heat-and-salt]`.
-//!
-//! Everything between the two lines could be a crate of its own; no crate of the workspace knows it.
-
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_contribution::{Contribution, OwnColumn, Setting, contribution_kind};
-use sph_core::reexport::inventory;
-use sph_core::{Access, Evolved, Field, Scalar, StepError, StepLimit, fields, register};
-use sph_multiphase::Limiter;
-use sph_neighbours::{
-    BoundTerm, FusionEntry, Interaction, Pair, PairTerm, Rates, Term, There, World, fuse_two,
-};
-
-// ------------------------------------------------------------------------------------------------
-
-contribution_kind!(
-    /// What diffuses through a fluid.
-    pub TracerEntry, "tracer", Any, "what diffuses through the fluid", "none if left out"
-);
-
-const VALUE: [Field<Scalar>; 2] = [
-    Field::new(
-        "temperature",
-        "K",
-        "temperature over that of the surroundings",
-    ),
-    Field::new("salinity", "g/kg", "salt over mass"),
-];
-const RATE: [Field<Scalar>; 2] = [
-    Field::new("temperature_rate", "K/s", "rate of the temperature"),
-    Field::new("salinity_rate", "g/(kg s)", "rate of the salinity"),
-];
-
-/// dA/dt = 2κ Σ_b V_b (A_a − A_b) F_ab of the scalar number K (Morris 1997, for a scalar).
-struct Diffusion<const K: usize>(f64);
-
-struct BoundDiffusion<'a> {
-    value: &'a [f64],
-    twice: f64,
-    slot: usize,
-}
-
-impl<const D: usize, const K: usize> PairTerm<D> for Diffusion<K> {
-    type Bound<'a> = BoundDiffusion<'a>;
-    fn name(&self) -> String {
-        format!("diffusion of {}", VALUE[K].name)
-    }
-    fn access(&self) -> Access {
-        let access = Access::none().both(VALUE[K]).writes(RATE[K]);
-        access.neighbours(fields::VOLUME)
-    }
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError> {
-        Ok(BoundDiffusion {
-            value: world.free.get(VALUE[K])?,
-            twice: 2.0 * self.0,
-            slot: world.slot(RATE[K])?,
-        })
-    }
-}
-
-impl<const D: usize> BoundTerm<D> for BoundDiffusion<'_> {
-    type Here = f64;
-    type Sum = f64;
-    fn here(&self, i: usize) -> f64 {
-        self.value[i]
-    }
-    fn zero(&self) -> f64 {
-        0.0
-    }
-    #[inline(always)]
-    fn free(&self, here: &f64, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
-        *sum += there.volume * (here - self.value[j]) * pair.factor;
-    }
-    fn finish(&self, _: &f64, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.more[self.slot] += self.twice * sum * inverse_gamma;
-    }
-}
-
-inventory::submit! {
-    FusionEntry {
-        terms: 2,
-        fuse_2d: fuse_two::<2, Diffusion<0>, Diffusion<1>>,
-        fuse_3d: fuse_two::<3, Diffusion<0>, Diffusion<1>>,
-    }
-}
-
-/// Heat and salt, waves at the start.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct HeatAndSalt {
-    /// Diffusivity of heat.
-    #[schemars(range(min = 0.0), extend("unit" = "m²/s"))]
-    heat: f64,
-    /// Diffusivity of salt.
-    #[schemars(range(min = 0.0), extend("unit" = "m²/s"))]
-    salt: f64,
-    /// Bound on the step: Δt ≤ limit · h²/κ.
-    #[serde(default = "quarter")]
-    limit: f64,
-}
-
-fn quarter() -> f64 {
-    0.25
-}
-
-impl<const D: usize> Contribution<D> for HeatAndSalt {
-    fn columns(&self) -> Vec<OwnColumn<D>> {
-        let wave = |x: f64| (std::f64::consts::TAU * x).cos();
-        vec![
-            OwnColumn::scalar(VALUE[0], move |birth| wave(birth.position[0])),
-            OwnColumn::scalar(VALUE[1], move |birth| 35.0 * wave(birth.position[1])),
-        ]
-    }
-    fn transported(&self) -> Vec<Evolved> {
-        let both = VALUE.into_iter().zip(RATE);
-        both.map(|(value, rate)| Evolved { value, rate }).collect()
-    }
-    fn terms(&self, _: &Setting<'_>) -> Vec<Box<dyn Interaction<D>>> {
-        vec![
-            Box::new(Term(Diffusion::<0>(self.heat))),
-            Box::new(Term(Diffusion::<1>(self.salt))),
-        ]
-    }
-    fn limiters(&self, _: &Setting<'_>) -> Vec<Box<dyn Limiter<D>>> {
-        vec![Box::new(*self)]
-    }
-    fn advice(&self, _: &World<D>) -> Vec<String> {
-        vec!["stir it".into()]
-    }
-}
-
-impl<const D: usize> Limiter<D> for HeatAndSalt {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
-        let h = world.kernel.smoothing_length();
-        Ok(StepLimit::new(
-            "tracer",
-            self.limit * h * h / self.heat.max(self.salt),
-        ))
-    }
-    fn formula(&self) -> String {
-        "tracer: limit · h²/κ".into()
-    }
-}
-
-register!(
-    TracerEntry [2, 3],
-    HeatAndSalt,
-    "heat-and-salt",
-    "heat and salt",
-    "Fick 1855"
-);
-
-// ------------------------------------------------------------------------------------------------
+//! The kind of plugin of `examples/tracer`: heat and salt that diffuse through a fluid, `[tracer.heat-and-salt]`.
 
 use sph_scene::{Override, parse};
 use sph_solver::{Examination, RunOptions, SolverError, Start, Summary, examine, run};
 use sph_tests::FinalState;
+use tracer as _;
 
 const SCENE: &str = r#"
 title = "Heat and salt in a box at rest"
@@ -382,4 +230,13 @@ fn scenes_are_told_what_is_wrong_with_it() {
     let schema = sph_scene::schema();
     let at = "/properties/tracer/properties/heat-and-salt/properties/heat/unit";
     assert_eq!(schema.pointer(at).and_then(|u| u.as_str()), Some("m²/s"));
+}
+
+/// A contract that no kind is for would be listed and never be reached by a scene, and the reverse.
+#[test]
+fn every_contract_has_its_kind_and_every_kind_its_contract() {
+    let mut kinds: Vec<_> = sph_core::kinds().iter().map(|k| k.name).collect();
+    let contracts: Vec<_> = sph_core::contracts().iter().map(|c| c.kind).collect();
+    kinds.sort_unstable();
+    assert_eq!(kinds, contracts);
 }

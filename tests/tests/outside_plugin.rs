@@ -1,4 +1,5 @@
-//! Plugins from outside: a kernel, a force, a rheology and eddy viscosities that no crate of the workspace knows.
+//! Plugins from outside: a kernel, a force and eddy viscosities that no crate of the workspace knows, and the law of
+//! `examples/syrup`.
 //!
 //! Everything between the two lines could be a crate of its own. A binary that mentions it,
 //! `use my_plugins as _;`, and calls `sph_cli::main()` has the plugins in all its commands.
@@ -10,8 +11,7 @@ use serde::Deserialize;
 use sph_core::{Access, Declares, Stage, StepError, fields, register};
 use sph_kernels::{Kernel, Sampler, ScalarSampler};
 use sph_neighbours::{Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, World};
-use sph_rheology::{Inputs, Needs, Rheology, RheologyEntry};
-use sph_stress::{EddyViscosity, EddyViscosityEntry};
+use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
 // ------------------------------------------------------------------------------------------------
 
@@ -92,38 +92,6 @@ impl<const D: usize> Interaction<D> for LinearDrag {
 }
 
 register!(TermEntry [2, 3], LinearDrag, "linear-drag", "a force against the velocity", "Stokes");
-
-/// τ = 2 η γ̇ with constant η, under another name.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct Syrup {
-    /// Dynamic viscosity.
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s"))]
-    thickness: f64,
-}
-
-impl Rheology for Syrup {
-    fn needs(&self) -> Needs {
-        Needs::default()
-    }
-    fn uniform_viscosity(&self) -> Option<f64> {
-        Some(self.thickness)
-    }
-    fn viscosity(&self, _inputs: &Inputs<'_>, viscosity: &mut [f64]) {
-        viscosity.fill(self.thickness);
-    }
-    fn largest_viscosity(&self) -> f64 {
-        self.thickness
-    }
-}
-
-register!(
-    RheologyEntry,
-    Syrup,
-    "syrup",
-    "constant viscosity",
-    "breakfast"
-);
 
 /// η_t = η₀ + ρ (C δr)² γ̇: Smagorinsky's, with a constant part.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
@@ -246,6 +214,7 @@ register!(
 use sph_scene::parse;
 use sph_solver::{RunOptions, SolverError, Start, Summary, run};
 use sph_tests::{DAM_BREAK, FinalState, PERIODIC};
+use syrup as _;
 
 fn run_text(scene: &str) -> Result<(Summary, tempfile::TempDir), SolverError> {
     let loaded = parse(scene, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));

@@ -17,31 +17,28 @@ impl CoupledSystem {
     /// without such cells.
     #[must_use]
     pub fn layer_pressure(&self, axis: usize, from: f64, to: f64) -> Option<f64> {
-        let places = self.pores.middles();
-        let cells = places
-            .iter()
-            .zip(&self.clock.volumes)
-            .zip(&self.clock.pressures);
-        let inside = cells.filter(|((x, _), _)| (from..to).contains(&x[axis]));
-        let sums = inside.fold((0.0, 0.0), |(v, pv), ((_, volume), p)| {
+        let cells = self.layer(axis, from, to);
+        let sums = cells.iter().fold((0.0, 0.0), |(v, pv), (_, volume, p)| {
             (v + volume, pv + p * volume)
         });
         (sums.0 > 0.0).then(|| sums.1 / sums.0)
+    }
+
+    /// Place along an axis (m), volume (m³) and pressure (Pa) of the cells that lie between two places along it.
+    fn layer(&self, axis: usize, from: f64, to: f64) -> Vec<(f64, f64, f64)> {
+        let places = self.pores.middles();
+        let clock = &self.clock;
+        let cells = places.iter().zip(&clock.volumes).zip(&clock.pressures);
+        let cells = cells.map(|((x, volume), p)| (x[axis], *volume, *p));
+        cells.filter(|(x, ..)| (from..to).contains(x)).collect()
     }
 
     /// Slope −dp/dx of the pressure along an axis (Pa/m) between two places (m): least squares over the cells that lie
     /// there, by their volumes; none with fewer than two.
     #[must_use]
     pub fn gradient(&self, axis: usize, from: f64, to: f64) -> Option<f64> {
-        let places = self.pores.middles();
-        let cells = places
-            .iter()
-            .zip(&self.clock.volumes)
-            .zip(&self.clock.pressures);
-        let inside = cells.filter(|((x, _), _)| (from..to).contains(&x[axis]));
         let [mut w, mut x1, mut p1, mut xx, mut xp] = [0.0; 5];
-        for ((x, volume), p) in inside {
-            let x = x[axis];
+        for (x, volume, p) in self.layer(axis, from, to) {
             w += volume;
             x1 += volume * x;
             p1 += volume * p;

@@ -108,4 +108,42 @@ pub enum FlowError {
         /// Iterations made.
         iterations: usize,
     },
+    /// No conductance has this name.
+    #[error("no conductance is called {name:?}; known are {known}")]
+    UnknownConductance {
+        /// The name.
+        name: String,
+        /// Those that are known.
+        known: String,
+    },
+    /// Two plugins have the same name.
+    #[error("both {first} and {second} register a conductance {name:?}")]
+    TwoConductances {
+        /// The name.
+        name: &'static str,
+        /// A crate.
+        first: &'static str,
+        /// Another.
+        second: &'static str,
+    },
+    /// A table of parameters that a conductance does not understand.
+    #[error("the parameters of the conductance {name:?}: {problem}")]
+    Parameters {
+        /// The conductance.
+        name: &'static str,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A parameter of a conductance out of range.
+    #[error("the {what} of the conductance {name:?} is {value}; it must be {valid}")]
+    BadParameter {
+        /// The conductance.
+        name: &'static str,
+        /// The parameter.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it may be.
+        valid: &'static str,
+    },
 }

@@ -9,7 +9,8 @@
 //! ```
 //!
 //! * [`PoreGeometry`]: cells and [`Throat`]s of spheres in a box, by signed [`SolidAngles`].
-//! * [`Conductance`]: [`HydraulicRadius`] and [`EffectiveRadius`], or one of your own.
+//! * [`Conductance`]: [`HydraulicRadius`], [`EffectiveRadius`], or a plugin of your own: [`register_conductance!`],
+//!   [`conductance()`].
 //! * [`Boundary`]: pressures and inflows on any part of a wall, in any cell.
 //! * [`FlowSystem`]: the system, its [`Solver`], compressibility of the fluid, permeability.
 //! * [`Forces`]: pressure and viscous forces on spheres and walls.
@@ -44,6 +45,7 @@ mod forces;
 mod geometry;
 mod inscribed;
 mod matrix;
+mod registry;
 mod solid_angle;
 mod system;
 mod throat;
@@ -54,7 +56,16 @@ pub use conductance::{Conductance, EffectiveRadius, HydraulicRadius};
 pub use error::FlowError;
 pub use forces::Forces;
 pub use geometry::{Grip, PoreGeometry, SolidAngles};
+pub use registry::{ConductanceEntry, conductance, conductances};
 pub use solid_angle::solid_angle;
 pub use system::{FlowSystem, Solver, Storage};
 pub use throat::Throat;
 pub use volume::cell_volumes;
+
+/// Crates that the registration macro names; use them through the macro only.
+#[doc(hidden)]
+pub mod reexport {
+    pub use inventory;
+    pub use schemars;
+    pub use serde;
+}

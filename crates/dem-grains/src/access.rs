@@ -71,6 +71,11 @@ impl GrainSystem {
         self.renewals
     }
 
+    /// Sets the clock to zero, as when a preparation is over. Nothing else changes.
+    pub fn restart_clock(&mut self) {
+        (self.time, self.steps, self.limit_due) = (0.0, 0, 0);
+    }
+
     /// Gravity, m/s².
     #[must_use]
     pub fn gravity(&self) -> Vector {
@@ -103,6 +108,18 @@ impl GrainSystem {
         number: usize,
         law: impl ContactLaw + 'static,
     ) -> Result<(), GrainError> {
+        self.replace_law(number, Box::new(law))
+    }
+
+    /// The same for a law that was found by its name ([`crate::contact_law`]).
+    ///
+    /// # Errors
+    /// As [`GrainSystem::set_law`].
+    pub fn replace_law(
+        &mut self,
+        number: usize,
+        law: Box<dyn ContactLaw>,
+    ) -> Result<(), GrainError> {
         law.check()?;
         let laws = self.laws.len();
         let slot = self.laws.get_mut(number).ok_or(GrainError::NoLaw {
@@ -111,7 +128,7 @@ impl GrainSystem {
             law: number,
             laws,
         })?;
-        *slot = Box::new(law);
+        *slot = law;
         self.limit = None;
         self.check()
     }

@@ -1,6 +1,7 @@
 //! The critical time step.
 
 use nalgebra::Matrix3;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::{Control, GrainSystem};
@@ -35,6 +36,29 @@ impl GrainSystem {
     #[must_use]
     pub fn critical_step(&self) -> f64 {
         self.find_limit().step
+    }
+
+    /// Step (s) in which no grain goes further than a share of its radius, under the forces of the last evaluation:
+    /// |v| Δt + ½ |F/m + g| Δt² ≤ share · R. Contacts are looked for once per step, so a grain that goes further can
+    /// pass through another or through a wall; stability alone does not forbid it where contacts are soft.
+    #[must_use]
+    pub fn motion_limit(&self, share: f64) -> f64 {
+        let g = &self.grains;
+        let forces = (&g.contact_force, &g.external_force);
+        let columns = (&g.velocity, &g.mass, &g.radius, &g.held);
+        let steps = (columns, forces).into_par_iter().map(|(columns, forces)| {
+            let (velocity, &mass, &radius, &held) = columns;
+            let force = if held {
+                0.0
+            } else {
+                (forces.0 + forces.1 + self.gravity * mass).norm()
+            };
+            let (speed, acceleration) = (velocity.norm(), force / mass);
+            // The root without a difference of large numbers, which is also that of no acceleration.
+            let root = (speed * speed + 2.0 * acceleration * share * radius).sqrt();
+            2.0 * share * radius / (speed + root)
+        });
+        steps.reduce(|| f64::INFINITY, f64::min)
     }
 
     pub(crate) fn find_limit(&self) -> Limit {

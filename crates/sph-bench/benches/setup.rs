@@ -9,17 +9,18 @@
 use std::fmt::Debug;
 
 use sph_core::{Contract, Field, Registry, Role, Scalar, Vect, fields};
+use sph_diffusion::{BrezziPitkaranta, SmootherEntry};
 use sph_kernels::Sampler;
-use sph_multiphase::{
-    BrezziPitkaranta, Choice, EquationOfState, FirstDifferences, FormulationEntry, Laws, Linear,
-    PressureGradient, Reference, SmootherEntry, SquaredVolumes, Uniform, Viscosity,
-    ViscousOperatorEntry, ViscousTerm,
-};
+use sph_multiphase::{FormulationEntry, PressureGradient, SquaredVolumes};
 use sph_neighbours::{
     Domain, Fused, KernelEntry, PairTerm, Terms, There, World, fuse_all, interactions,
     interactions_with, kernel_sums, pack,
 };
 use sph_scene::SplitMix;
+use sph_state::{EquationOfState, Laws, Linear, Reference};
+use sph_viscosity::{
+    Choice, FirstDifferences, Uniform, Viscosity, ViscousOperatorEntry, ViscousTerm,
+};
 
 /// Viscosity of the terms, Pa s.
 const VISCOSITY: f64 = 1e-3;

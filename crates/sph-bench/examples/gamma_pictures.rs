@@ -125,6 +125,7 @@ fn at_rest<const D: usize>(drawing: Drawing) -> WallSpec<D> {
         condition: Condition::NoSlip,
         surface_velocity: Vect::zeros(),
         motion: RigidMotion::default(),
+        mover: None,
     }
 }
 

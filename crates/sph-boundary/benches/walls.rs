@@ -135,6 +135,7 @@ impl<const D: usize> Flow<D> {
             condition: Condition::NoSlip,
             surface_velocity: Vect::zeros(),
             motion: RigidMotion::default(),
+            mover: None,
         };
         let setup = WallSetup {
             walls: &[spec],

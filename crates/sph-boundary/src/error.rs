@@ -1,7 +1,7 @@
 //! What can be wrong with a wall or with the kernel that looks at it.
 
-use crate::mesh::WallEnd;
-use crate::surface::SurfaceError;
+use crate::geometry::mesh::WallEnd;
+use crate::geometry::surface::SurfaceError;
 
 /// Most pairs of edges or triangles that are held against each other: a second or two of work.
 pub(crate) const MOST_PAIRS: usize = 200_000_000;

@@ -11,7 +11,9 @@
 //!
 //! [`WallMesh`] is what the two have in common ([`PlanarWalls`], [`SpatialWalls`]); wall plugins
 //! are written once over it. [`Wall`] is the contract of a plugin, [`Usaw`] and [`DummyParticles`]
-//! fulfil it. [`RigidMotion`] moves a wall along [`Course`]s.
+//! fulfil it. [`Mover`] is the contract of what moves a wall, whose [`RigidState`] is kept, rolled back and saved;
+//! [`RigidMotion`] moves one along [`Course`]s,
+//! [`Spring`] holds one against the fluid.
 //!
 //! # In the plane
 //! ```
@@ -67,52 +69,35 @@
 //! # Ok::<(), sph_boundary::BoundaryError>(())
 //! ```
 
-mod checks;
-mod contract;
-mod course;
-mod cover;
-mod dummy;
 mod error;
-mod gamma;
-mod grid;
-mod inside;
-mod lattice_layers;
-mod layers;
-mod mesh;
-mod motion;
-mod near;
-mod outline;
-mod periodic;
-mod planar;
-mod plate;
-mod polyline;
-mod pose;
-mod shepard;
-mod spatial;
-mod spatial_walls;
-mod surface;
-mod touching;
-mod usaw;
-mod wall_mesh;
+mod geometry;
+mod integrals;
+mod rigid;
+mod treatment;
 
-pub use contract::{Condition, Drawing, Wall, WallEntry, WallSetup, WallSpec};
-pub use course::{Course, Stage};
-pub use dummy::DummyParticles;
 pub use error::{BoundaryError, WallWarning};
-pub use gamma::{Contact, GammaSum, Renormalisation2d, SegmentIntegral};
-pub use grid::{NearSegment, SegmentGrid};
-pub use mesh::{FreeEnd, SeenSegment, Segment, SegmentMesh, Vertex, WallEnd};
-pub use motion::{Movement, RigidMotion, Rotation, Translation};
-pub use periodic::PeriodicBox;
-pub use planar::PlanarWalls;
-pub use plate::thin_plate;
-pub use polyline::Polyline;
-pub use pose::Pose;
-pub use spatial::{FacetIntegral, GammaSum3d, Renormalisation3d};
-pub use spatial_walls::SpatialWalls;
-pub use surface::{
+pub use geometry::grid::{NearSegment, SegmentGrid};
+pub use geometry::mesh::{FreeEnd, SeenSegment, Segment, SegmentMesh, Vertex, WallEnd};
+pub use geometry::periodic::PeriodicBox;
+pub use geometry::planar::PlanarWalls;
+pub use geometry::plate::thin_plate;
+pub use geometry::polyline::Polyline;
+pub use geometry::spatial_walls::SpatialWalls;
+pub use geometry::surface::{
     Closest, Face, FaceEdge, Feature, FreeEdge, NearTriangle, Node, Opening, SeenTriangle, Surface,
     SurfaceError, Triangle, TriangleGrid, TriangleMesh,
 };
-pub use usaw::Usaw;
-pub use wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
+pub use geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
+pub use integrals::gamma::{Contact, GammaSum, Renormalisation2d, SegmentIntegral};
+pub use integrals::spatial::{FacetIntegral, GammaSum3d, Renormalisation3d};
+pub use rigid::course::{Course, Stage};
+pub use rigid::motion::{Movement, RigidMotion, Rotation, Translation};
+pub use rigid::mover::{Mover, MoverEntry};
+pub use rigid::pose::Pose;
+pub use rigid::rigid_state::{Load, RigidState};
+pub use rigid::spring::Spring;
+pub use treatment::contract::{
+    Condition, Drawing, Wall, WallEntry, WallSetup, WallSpec, WallStates,
+};
+pub use treatment::dummy::DummyParticles;
+pub use treatment::usaw::Usaw;

@@ -26,7 +26,7 @@ pub fn main() -> ExitCode {
         Command::Check(a) => check::command(a),
         Command::Explain(a) => explain::command(a),
         Command::Plugins(a) => plugins::command(a),
-        Command::Schema => schema::command(),
+        Command::Schema(a) => schema::command(a),
         Command::Scenes(a) => scenes::command(a),
         Command::New(a) => new::command(a),
     };

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-/// Smoothed particle hydrodynamics from scene files.
+/// Smoothed particle hydrodynamics, and grains one by one, from scene files.
 #[derive(Debug, Parser)]
 #[command(
     name = "sph",
@@ -17,6 +17,7 @@ Examples:
   sph study poiseuille-order              what error in what time, over several variants
   sph new pool && sph check pool.toml     start a scene of your own
   sph plugins rheology                    what can stand in [phase.NAME.rheology.…]
+  sph run grains-oedometer                grains one by one, and the fluid in their pores
 
 Exit codes: 0 done, 1 the run failed or was interrupted, 2 bad usage or a bad scene
 (then nothing was written)."
@@ -111,12 +112,13 @@ A plugin of another crate appears here if the binary mentions the crate: `use my
     Plugins(PluginArguments),
     /// Print the JSON schema of scenes, for completion in editors
     #[command(after_help = "\
-Example:
+Examples:
   sph schema > scene.schema.json
+  sph schema --grains > grains.schema.json
 
 Then put `#:schema scene.schema.json` into the first line of a scene; editors with a TOML
 language server (taplo, Even Better TOML) complete and check it.")]
-    Schema,
+    Schema(SchemaArguments),
     /// List the shipped scenes
     #[command(after_help = "\
 The scenes in ./scenes are listed if there are any, otherwise those compiled into the program.
@@ -143,7 +145,7 @@ impl Command {
             Command::Explain(a) => a.json,
             Command::Plugins(a) => a.json,
             Command::Scenes(a) => a.json,
-            Command::Schema | Command::New(_) => false,
+            Command::Schema(_) | Command::New(_) => false,
         }
     }
 }
@@ -291,6 +293,14 @@ pub struct PluginArguments {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// Arguments of `sph schema`.
+#[derive(Debug, Args)]
+pub struct SchemaArguments {
+    /// The schema of scenes of grains
+    #[arg(long)]
+    pub grains: bool,
 }
 
 /// Arguments of commands that only list.

@@ -5,9 +5,9 @@ use sph_solver::{Examination, Memory, examine};
 
 use crate::arguments::CheckArguments;
 use crate::layout::{columns, remarks};
-use crate::scene_file::open;
+use crate::scene_file::{AnyScene, open};
 use crate::trouble::Trouble;
-use crate::{console, number};
+use crate::{console, grains, number};
 
 /// Above this Mach number the fluid is not nearly incompressible.
 const MACH: f64 = 0.1;
@@ -17,8 +17,12 @@ pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = arguments.threads.map_or(cores, usize::from);
-    let examined = examine(&opened.loaded.scene, threads);
-    let mut examined = examined.map_err(|e| Trouble::of(e, &opened.loaded.source))?;
+    let loaded = match &opened.scene {
+        AnyScene::Particles(loaded) => loaded,
+        AnyScene::Grains(loaded) => return grains::check::scene(arguments.json, loaded),
+    };
+    let examined = examine(&loaded.scene, threads);
+    let mut examined = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
     let too_fast = too_fast(&examined);
     examined.warnings.extend(too_fast);
     if arguments.json {
@@ -26,7 +30,7 @@ pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
         all["threads"] = json!(threads);
         console::json(&all);
     } else {
-        console::out(&text(&examined, opened.loaded.source.file(), threads));
+        console::out(&text(&examined, loaded.source.file(), threads));
     }
     Ok(())
 }

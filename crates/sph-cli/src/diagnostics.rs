@@ -6,10 +6,9 @@ use std::sync::Arc;
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, sources};
 use serde_json::{Value as Json, json};
 use sph_core::MOST_PROBLEMS;
+use sph_io::clean;
 use sph_scene::{Diagnostic, Source};
 use sph_study::Mistake;
-
-use sph_io::clean;
 
 /// Diagnostics shown one by one; of the others only the number.
 const MOST: usize = 20;

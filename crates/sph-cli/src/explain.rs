@@ -5,16 +5,20 @@ use sph_solver::{Examination, PluginInForce, StageUse, examine};
 
 use crate::arguments::ExplainArguments;
 use crate::check::memory;
-use crate::console;
 use crate::layout::{columns, paragraph};
-use crate::scene_file::open;
+use crate::scene_file::{AnyScene, open};
 use crate::trouble::Trouble;
+use crate::{console, grains};
 
 /// Shows what a scene is made of.
 pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
-    let examined = examine(&opened.loaded.scene, 1);
-    let examined = examined.map_err(|e| Trouble::of(e, &opened.loaded.source))?;
+    let loaded = match &opened.scene {
+        AnyScene::Particles(loaded) => loaded,
+        AnyScene::Grains(loaded) => return grains::explain::scene(arguments.json, loaded),
+    };
+    let examined = examine(&loaded.scene, 1);
+    let examined = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
     match arguments.json {
         true => console::json(&serde_json::to_value(&examined).unwrap_or(Json::Null)),
         false => console::out(&text(&examined)),
@@ -65,7 +69,7 @@ fn plugins(plugins: &[PluginInForce]) -> Vec<Vec<String>> {
     rows
 }
 
-fn parameters(all: &Json) -> String {
+pub(crate) fn parameters(all: &Json) -> String {
     let one = |(name, value): (&String, &Json)| format!("{name} = {value}");
     let given = all.as_object().into_iter().flatten();
     let list: Vec<String> = given.filter(|(_, v)| !v.is_null()).map(one).collect();

@@ -18,6 +18,7 @@ mod console;
 mod diagnostics;
 mod explain;
 mod failed;
+mod grains;
 mod interrupt;
 mod layout;
 mod new;

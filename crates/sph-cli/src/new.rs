@@ -4,8 +4,11 @@ use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use sph_scene::Source;
+
 use crate::arguments::NewArguments;
 use crate::console;
+use crate::scene_file::{self, AnyScene};
 use crate::shipped;
 use crate::trouble::Trouble;
 
@@ -93,10 +96,18 @@ fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>
         return shipped::unpack_data(text, folder).map_err(Trouble::Usage);
     };
     let name = origin.join("scene.toml").display().to_string();
-    let Ok(loaded) = sph_scene::parse(text, &name, &[]) else {
-        return Ok(Vec::new());
+    let loaded = match scene_file::read(Source::new(text, &name, &[])) {
+        Ok(AnyScene::Particles(loaded)) => loaded,
+        Ok(AnyScene::Grains(loaded)) => {
+            let files = loaded.files();
+            let placed = files.iter().filter_map(|(key, file)| {
+                let path = loaded.source.resolve(key, file).ok()?;
+                Some((file.clone(), path))
+            });
+            return copied(placed.collect(), folder);
+        }
+        Err(_) => return Ok(Vec::new()),
     };
-    let mut copied = Vec::new();
     let scene = &loaded.scene;
     let references = scene.reference.values();
     let references = references.filter_map(|r| Some((r.file.as_deref()?, r.path.as_ref()?)));
@@ -104,7 +115,15 @@ fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>
         let table = scene.probe.get(name).or_else(|| scene.gauge.get(name))?;
         Some((table.get("file")?.as_str()?, path))
     });
-    for (file, path) in references.chain(probes) {
+    let all = references.chain(probes);
+    let all = all.map(|(file, path)| (file.to_string(), path.clone()));
+    copied(all.collect(), folder)
+}
+
+/// Copies files, by the names that the scene has for them, into a folder; returns what was not there before.
+fn copied(files: Vec<(String, PathBuf)>, folder: &Path) -> Result<Vec<PathBuf>, Trouble> {
+    let mut copied = Vec::new();
+    for (file, path) in files {
         let target = folder.join(file);
         if target.exists() || !path.is_file() {
             continue;
@@ -113,7 +132,7 @@ fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>
         if let Some(parent) = target.parent() {
             std::fs::create_dir_all(parent).map_err(told)?;
         }
-        std::fs::copy(path, &target).map_err(told)?;
+        std::fs::copy(&path, &target).map_err(told)?;
         copied.push(target);
     }
     Ok(copied)

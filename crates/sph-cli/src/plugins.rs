@@ -8,16 +8,19 @@ use serde_json::{Value as Json, json};
 use sph_core::{ContractInfo, Parameter, PluginInfo, contracts, parameters, suggestion};
 
 use crate::arguments::PluginArguments;
-use crate::console;
 use crate::layout::{columns, paragraph};
 use crate::trouble::Trouble;
+use crate::{console, grains};
 
 /// The kind of plugin that can be drawn.
 const LAWS: &str = "rheology";
 
 /// Lists kinds, the plugins of a kind, or some plugins; or draws laws.
 pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
-    let kinds = contracts();
+    let own = grains::plugins::contracts();
+    let mut kinds = contracts();
+    kinds.extend(&own);
+    kinds.sort_by_key(|kind| kind.kind);
     let Some(kind) = &arguments.kind else {
         let json = kinds.iter().map(|k| kind_json(k)).collect();
         return shown(arguments, &overview(&kinds), &json);

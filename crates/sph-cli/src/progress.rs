@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use sph_io::clean;
 use sph_solver::{Command, Observer, Progress};
 
 use crate::{console, number};
-use sph_io::clean;
 
 /// Wall-clock time between two updates of the bar.
 const BAR: Duration = Duration::from_millis(100);
@@ -31,6 +31,8 @@ pub struct Watcher {
     /// Said once the scene is known to be good.
     start: Option<String>,
     stop: Arc<AtomicBool>,
+    /// What is counted: "particle", "grain".
+    noun: &'static str,
     every: Duration,
     told: Instant,
     meter: Option<Meter>,
@@ -49,11 +51,17 @@ impl Watcher {
             display,
             start: Some(start),
             stop,
+            noun: "particle",
             every,
             told: Instant::now(),
             meter: None,
             last: None,
         }
+    }
+
+    /// The same, counting something else.
+    pub fn counting(self, noun: &'static str) -> Self {
+        Watcher { noun, ..self }
     }
 
     /// Removes the bar, or says where the run ended.
@@ -84,7 +92,7 @@ impl Watcher {
 
     fn tell(&self, progress: &Progress, meter: &Meter) {
         let share = progress.time / progress.end;
-        let text = line(progress, meter);
+        let text = line(progress, meter, self.noun);
         match &self.display {
             Display::Bar(bar) => {
                 bar.set_position((share * DIVISIONS as f64) as u64);
@@ -127,10 +135,10 @@ fn bar() -> ProgressBar {
     bar
 }
 
-fn line(progress: &Progress, meter: &Meter) -> String {
+fn line(progress: &Progress, meter: &Meter, noun: &str) -> String {
     let speed = match meter.work_rate {
-        Some(rate) => format!("{} particle-steps/s", number::rate(rate)),
-        None => format!("{} particles", number::count(progress.particles as f64)),
+        Some(rate) => format!("{} {noun}-steps/s", number::rate(rate)),
+        None => format!("{} {noun}s", number::count(progress.particles as f64)),
     };
     let left = match meter.time_rate {
         Some(rate) if rate > 0.0 => {

@@ -4,17 +4,18 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
 use sph_io::IoError;
+use sph_scene::Source;
 use sph_solver::{Identity, RunOptions, SolverError, Start, Status, Summary, run};
 
 use crate::arguments::RunArguments;
 use crate::progress::Watcher;
-use crate::scene_file::{Opened, open};
+use crate::scene_file::{AnyScene, open};
 use crate::shell::quoted;
 use crate::trouble::Trouble;
-use crate::{console, interrupt, outcome};
+use crate::{console, grains, interrupt, outcome};
 
 /// Name of the checkpoint in a run's folder.
-const CHECKPOINT: &str = "checkpoint.sph";
+pub(crate) const CHECKPOINT: &str = "checkpoint.sph";
 /// Name of the summary in a run's folder.
 const SUMMARY: &str = "summary.json";
 
@@ -24,19 +25,23 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| Path::new("results").join(&opened.stem));
     look_before_writing(arguments, &out)?;
-    let told = |error| Trouble::of(error, &opened.loaded.source);
+    let loaded = match &opened.scene {
+        AnyScene::Particles(loaded) => loaded,
+        AnyScene::Grains(loaded) => return grains::run::scene(arguments, loaded, &out),
+    };
+    let told = |error| Trouble::of(error, &loaded.source);
     let options = RunOptions {
         out: out.clone(),
         start: start(arguments, &out)?,
         threads: arguments.threads.map(usize::from),
-        identity: Identity::of(&opened.loaded).map_err(told)?,
+        identity: Identity::of(loaded).map_err(told)?,
     };
-    let title = &opened.loaded.scene.title;
+    let title = &loaded.scene.title;
     let start = format!("{title}: running into {}", out.display());
     let mut watcher = Watcher::new(arguments.quiet, start, interrupt::flag());
-    let result = run(&opened.loaded.scene, &options, &mut watcher);
+    let result = run(&loaded.scene, &options, &mut watcher);
     watcher.finish();
-    let summary = result.map_err(|error| trouble(error, arguments, &opened, &out))?;
+    let summary = result.map_err(|error| trouble(error, arguments, &loaded.source, &out))?;
     conclude(arguments, &summary, &out)
 }
 
@@ -101,7 +106,7 @@ fn conclude(arguments: &RunArguments, summary: &Summary, out: &Path) -> Result<(
 }
 
 /// The command that resumes the run.
-fn going_on(arguments: &RunArguments, out: &Path) -> String {
+pub(crate) fn going_on(arguments: &RunArguments, out: &Path) -> String {
     let mut words = vec!["sph".to_string(), "run".to_string()];
     words.push(quoted(&arguments.scene.scene));
     words.extend(["--out".to_string(), quoted(&out.display().to_string())]);
@@ -115,17 +120,17 @@ fn going_on(arguments: &RunArguments, out: &Path) -> String {
     words.join(" ")
 }
 
-fn trouble(error: SolverError, arguments: &RunArguments, opened: &Opened, out: &Path) -> Trouble {
+fn trouble(error: SolverError, arguments: &RunArguments, source: &Source, out: &Path) -> Trouble {
     let ran = matches!(error, SolverError::Failed(_));
     let advice = unwritten(&error)
-        .filter(|_| out.join(CHECKPOINT).exists())
+        .filter(|_| out.join(CHECKPOINT).is_file())
         .map(|why| {
             format!(
                 "the last checkpoint stands: {why}, then go on with\n  {}",
                 going_on(arguments, out)
             )
         });
-    match Trouble::of(error, &opened.loaded.source) {
+    match Trouble::of(error, source) {
         Trouble::Failed { error, .. } => Trouble::Failed {
             error,
             summary: ran
@@ -141,16 +146,22 @@ fn trouble(error: SolverError, arguments: &RunArguments, opened: &Opened, out: &
 /// What is to be done first, if a file could not be written.
 fn unwritten(error: &SolverError) -> Option<&'static str> {
     match error {
-        SolverError::Io(IoError::DiskFull { .. }) => Some("make room"),
-        SolverError::Io(IoError::Write { .. } | IoError::NotWritable { .. }) => {
-            Some("make the folder writable")
-        }
+        SolverError::Io(io) => remedy(io),
+        _ => None,
+    }
+}
+
+/// What is to be done first where a file could not be written.
+pub(crate) fn remedy(error: &IoError) -> Option<&'static str> {
+    match error {
+        IoError::DiskFull { .. } => Some("make room"),
+        IoError::Write { .. } | IoError::NotWritable { .. } => Some("make the folder writable"),
         _ => None,
     }
 }
 
 /// The summary that a failed run left; not one of an earlier run.
-fn failed_summary(path: &PathBuf) -> Option<Json> {
+pub(crate) fn failed_summary(path: &PathBuf) -> Option<Json> {
     let text = std::fs::read_to_string(path).ok()?;
     let summary: Json = serde_json::from_str(&text).ok()?;
     (summary["status"] == "failed").then_some(summary)

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sph_core::suggestion;
 use sph_io::Scratch;
-use sph_scene::{Loaded, Override, Source, load_allowing, read, read_text, within};
+use sph_scene::{LoadError, Override, Source, read_text, within};
 use sph_study::SceneText;
 
 use crate::arguments::SceneArguments;
@@ -12,10 +12,51 @@ use crate::diagnostics;
 use crate::shipped::{self, Shipped};
 use crate::trouble::Trouble;
 
-/// A scene ready for the solver, and the folder its data were unpacked to.
+/// A scene of one kind or the other, with its text.
+pub enum AnyScene {
+    /// Of particles.
+    Particles(Box<sph_scene::Loaded>),
+    /// Of grains.
+    Grains(Box<dem_scene::Loaded>),
+}
+
+/// Reads a scene of either kind: the one place where they are told apart.
+pub fn read(source: Source) -> Result<AnyScene, Trouble> {
+    let mistakes = |source: &Source, diagnostics: &[sph_scene::Diagnostic]| {
+        Trouble::Scene(diagnostics::located(source, diagnostics))
+    };
+    // What is no TOML is told by the reader of particles.
+    let table = source.table();
+    if table.is_ok_and(|table| dem_scene::is_grain_scene(&table)) {
+        let loaded = dem_scene::read(source);
+        let loaded = loaded.map_err(|(source, found)| mistakes(&source, &found))?;
+        return Ok(AnyScene::Grains(Box::new(loaded)));
+    }
+    let loaded = sph_scene::read(source);
+    let loaded = loaded.map_err(|refused| mistakes(&refused.source, &refused.diagnostics))?;
+    Ok(AnyScene::Particles(Box::new(loaded)))
+}
+
+impl AnyScene {
+    /// Title, description and dimension.
+    pub fn card(&self) -> (&str, Option<&str>, usize) {
+        match self {
+            AnyScene::Particles(loaded) => {
+                let scene = &loaded.scene;
+                (&scene.title, scene.description.as_deref(), scene.dimension)
+            }
+            AnyScene::Grains(loaded) => {
+                let scene = &loaded.scene;
+                (&scene.title, scene.description.as_deref(), 3)
+            }
+        }
+    }
+}
+
+/// A scene ready for its solver, and the folder its data were unpacked to.
 pub struct Opened {
     /// The scene with its text.
-    pub loaded: Loaded,
+    pub scene: AnyScene,
     /// Name without folder and extension.
     pub stem: String,
     /// Kept until the scene is done with.
@@ -90,6 +131,7 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, St
         (Some(file), _) => {
             let shown = file.display().to_string();
             let text = read_text(&file).map_err(|why| format!("cannot read `{shown}`: {why}"))?;
+            of_particles(&text, &shown)?;
             Ok(Found {
                 scene: SceneText {
                     name,
@@ -102,6 +144,7 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, St
         }
         (None, text) => {
             let text = text.unwrap_or_default().to_string();
+            of_particles(&text, &name)?;
             let (file, unpacked) = unpacked(&name, &text)?;
             Ok(Found {
                 scene: SceneText {
@@ -116,13 +159,29 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, St
     }
 }
 
+/// Studies vary scenes of particles.
+fn of_particles(text: &str, name: &str) -> Result<(), String> {
+    let table = Source::new(text, name, &[]).table();
+    match table.is_ok_and(|table| dem_scene::is_grain_scene(&table)) {
+        true => Err(format!(
+            "`{name}` is a scene of grains, and studies vary scenes of particles: run it with --set"
+        )),
+        false => Ok(()),
+    }
+}
+
 fn stem(path: &Path) -> &str {
     path.file_stem().and_then(|s| s.to_str()).unwrap_or("scene")
 }
 
 fn from_file(path: &Path, overrides: &[Override], allowed: &[PathBuf]) -> Result<Opened, Trouble> {
+    let file = path.display().to_string();
+    let text = read_text(path).map_err(|reason| {
+        let file = file.clone();
+        Trouble::Usage(LoadError::Unreadable { file, reason }.to_string())
+    })?;
     Ok(Opened {
-        loaded: load_allowing(path, overrides, allowed)?,
+        scene: read(Source::new(&text, &file, overrides).allowing(allowed))?,
         stem: stem(path).to_string(),
         _unpacked: None,
     })
@@ -136,12 +195,8 @@ fn compiled_in(
     allowed: &[PathBuf],
 ) -> Result<Opened, Trouble> {
     let (file, unpacked) = unpacked(name, text).map_err(Trouble::Usage)?;
-    let source = Source::new(text, &file, overrides).allowing(allowed);
-    let loaded = read(source).map_err(|refused| {
-        Trouble::Scene(diagnostics::located(&refused.source, &refused.diagnostics))
-    })?;
     Ok(Opened {
-        loaded,
+        scene: read(Source::new(text, &file, overrides).allowing(allowed))?,
         stem: name.to_string(),
         _unpacked: unpacked,
     })

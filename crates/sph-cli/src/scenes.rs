@@ -1,13 +1,14 @@
 //! `sph scenes`.
 
 use serde_json::{Value as Json, json};
-use sph_scene::{Scene, load, parse};
+use sph_scene::{Source, read_text};
 
 use crate::arguments::JsonArguments;
-use crate::console;
 use crate::layout::{columns, paragraph};
+use crate::scene_file::{self, AnyScene};
 use crate::shipped::{self, Shipped};
 use crate::trouble::Trouble;
+use crate::{console, diagnostics};
 
 /// Lists the shipped scenes.
 pub fn command(arguments: &JsonArguments) -> Result<(), Trouble> {
@@ -19,20 +20,24 @@ pub fn command(arguments: &JsonArguments) -> Result<(), Trouble> {
     Ok(())
 }
 
-fn read(shipped: &Shipped) -> Result<Scene, String> {
-    match (&shipped.file, shipped.text) {
-        (Some(file), _) => load(file, &[]).map(|l| l.scene).map_err(|e| e.to_string()),
+fn read(shipped: &Shipped) -> Result<AnyScene, String> {
+    let (text, file) = match (&shipped.file, shipped.text) {
+        (Some(file), _) => (read_text(file)?, file.display().to_string()),
         (None, text) => {
             let name = format!("{}.toml", shipped.name);
-            let parsed = parse(text.unwrap_or_default(), &name, &[]);
-            parsed.map(|l| l.scene).map_err(|e| e.to_string())
+            (text.unwrap_or_default().to_string(), name)
         }
-    }
+    };
+    let scene = scene_file::read(Source::new(&text, &file, &[]));
+    scene.map_err(|trouble| match trouble {
+        Trouble::Scene(all) => diagnostics::render(&all, false),
+        _ => "cannot be read".into(),
+    })
 }
 
 /// The first sentence of a description.
-fn sentence(scene: &Scene) -> String {
-    let words = scene.description.as_deref().unwrap_or_default();
+fn sentence(description: Option<&str>) -> String {
+    let words = description.unwrap_or_default();
     let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
     match words.split_once(". ") {
         Some((first, _)) => format!("{first}."),
@@ -43,10 +48,13 @@ fn sentence(scene: &Scene) -> String {
 fn entry(shipped: &Shipped) -> Json {
     let file = shipped.file.as_ref().map(|f| f.display().to_string());
     match read(shipped) {
-        Ok(scene) => json!({
-            "name": shipped.name, "file": file, "title": scene.title,
-            "description": scene.description, "dimension": scene.dimension,
-        }),
+        Ok(scene) => {
+            let (title, description, dimension) = scene.card();
+            json!({
+                "name": shipped.name, "file": file, "title": title,
+                "description": description, "dimension": dimension,
+            })
+        }
         Err(problem) => json!({ "name": shipped.name, "file": file, "problem": problem }),
     }
 }
@@ -55,7 +63,10 @@ fn text(all: &[Shipped]) -> String {
     let mut text = String::new();
     for shipped in all {
         let (title, sentence) = match read(shipped) {
-            Ok(scene) => (scene.title.clone(), sentence(&scene)),
+            Ok(scene) => {
+                let (title, description, _) = scene.card();
+                (title.to_string(), sentence(description))
+            }
             Err(_) => (
                 "has mistakes".into(),
                 format!("sph check {} tells them", shipped.name),

@@ -6,11 +6,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use sph_io::clean;
 use sph_solver::Progress;
 use sph_study::{Cost, Options, Record, Status, Study, Variant, to_run, verdict};
 
 use crate::{console, number};
-use sph_io::clean;
 
 /// Wall-clock time between two updates of the bar.
 const BAR: Duration = Duration::from_millis(100);

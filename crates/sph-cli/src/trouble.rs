@@ -1,5 +1,6 @@
 //! Everything that keeps a command from its end, and how it is told.
 
+use dem_scene::DemError;
 use serde_json::{Value as Json, json};
 use sph_core::SceneProblem;
 use sph_io::IoError;
@@ -7,8 +8,8 @@ use sph_scene::{LoadError, Source};
 use sph_solver::SolverError;
 use sph_study::{ReadError, Refused};
 
-use crate::console;
 use crate::diagnostics::{self, Located};
+use crate::{console, grains};
 
 /// Why a command did not do what it was asked for.
 pub enum Trouble {
@@ -20,6 +21,15 @@ pub enum Trouble {
     Failed {
         /// What happened.
         error: SolverError,
+        /// Content of `summary.json`.
+        summary: Option<Box<Json>>,
+        /// How to go on.
+        advice: Option<String>,
+    },
+    /// A run of grains failed; as `Failed`.
+    Grains {
+        /// What happened.
+        error: DemError,
         /// Content of `summary.json`.
         summary: Option<Box<Json>>,
         /// How to go on.
@@ -56,6 +66,20 @@ impl From<Refused> for Trouble {
 }
 
 impl Trouble {
+    /// What a run of grains says, with places in the scene where it is the scene's fault.
+    pub fn of_grains(error: DemError, source: &Source) -> Self {
+        match error {
+            DemError::Scene(problems) => {
+                Trouble::Scene(diagnostics::located(source, &source.diagnose(&problems)))
+            }
+            error => Trouble::Grains {
+                error,
+                summary: None,
+                advice: None,
+            },
+        }
+    }
+
     /// A bad command line.
     pub fn usage(message: impl Into<String>) -> Self {
         Trouble::Usage(message.into())
@@ -82,6 +106,7 @@ impl Trouble {
         match self {
             Trouble::Usage(_) | Trouble::Scene(_) => 2,
             Trouble::Failed { .. } | Trouble::Interrupted => 1,
+            Trouble::Grains { error, .. } => error.exit_code(),
         }
     }
 
@@ -106,6 +131,20 @@ impl Trouble {
                 advice,
             } => {
                 console::err(&failed(error));
+                if let Some(advice) = advice {
+                    console::err(advice);
+                }
+                if json {
+                    let told = json!([{ "message": error.to_string() }]);
+                    console::json(summary.as_deref().unwrap_or(&told));
+                }
+            }
+            Trouble::Grains {
+                error,
+                summary,
+                advice,
+            } => {
+                console::err(&grains::failed::text(error));
                 if let Some(advice) = advice {
                     console::err(advice);
                 }

@@ -1,8 +1,10 @@
 //! What a piece of physics may offer a flow, and kinds of plugins for it that no crate of this project knows.
 //!
-//! * [`Contribution`]: columns with their values at the start, stages, pair terms, transported scalars, step
-//!   limits, and work after kicks and drifts. The solver asks all of them for all of it and knows none by name.
+//! * [`Contribution`]: columns with their values at the start, stages, pair terms, transported scalars and step
+//!   limits. The solver asks all of them for all of it and knows none by name.
+//! * [`StepWork`]: what it does with velocities, positions and columns of its own between the evaluations, and [`Newborn`] particles.
 //! * [`OwnColumn`]: a column that carries history. The store sorts, saves, keeps and rolls it back by its role.
+//! * [`Limiter`]: a bound on the step; [`SoundLimit`] and [`ForceLimit`] are in every scene.
 //! * [`contribution_kind!`] declares a kind: scenes may name its plugins, `sph plugins` and the schema list them.
 //!
 //! What a contribution remembers from step to step belongs into its columns, not into its own fields: only
@@ -12,10 +14,23 @@
 mod column;
 mod contribution;
 mod kinds;
+mod limiter;
+mod limits;
+mod newborn;
+mod refusal;
+mod step_work;
 
 pub use column::{Birth, Initial, OwnColumn};
-pub use contribution::{Contribution, Setting, Stages};
+pub use contribution::{Contribution, Setting};
 pub use kinds::{OpenKind, open_kinds};
+pub use limiter::Limiter;
+pub use limits::{ForceLimit, SoundLimit};
+pub use newborn::Newborn;
+pub use refusal::Refusal;
+pub use step_work::{OutsideForce, StepWork, StoredEnergy};
+
+/// Stages of an evaluation.
+pub type Stages<const D: usize> = Vec<Box<dyn sph_core::Stage<sph_neighbours::World<D>>>>;
 
 /// Crates that the macros name; use them through the macros only.
 #[doc(hidden)]

@@ -1,5 +1,6 @@
 //! Typed errors of the shared vocabulary.
 
+use scene_text::SceneProblem;
 use thiserror::Error;
 
 /// A column that is not what its reader takes it for.
@@ -40,26 +41,6 @@ pub enum PlanError {
     /// Stages that wait for each other.
     #[error("the stages {0} wait for each other's fields")]
     Cycle(String),
-}
-
-/// Something wrong with the text of a scene, addressed by its key.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[error("{path}: {message}")]
-pub struct SceneProblem {
-    /// Dotted path of the key, `phase.water.density`.
-    pub path: String,
-    /// What is wrong, what was expected, the nearest valid name.
-    pub message: String,
-}
-
-impl SceneProblem {
-    /// A problem at a key.
-    pub fn new(path: impl Into<String>, message: impl Into<String>) -> Self {
-        SceneProblem {
-            path: path.into(),
-            message: message.into(),
-        }
-    }
 }
 
 /// A plugin that cannot be found or built.

@@ -74,6 +74,17 @@ impl<const D: usize> Column<D> {
         }
     }
 
+    /// Cuts or lengthens it; new entries are zeros.
+    pub(crate) fn resize(&mut self, n: usize) {
+        match self {
+            Column::Scalar(items) => items.resize(n, 0.0),
+            Column::Vector(items) => items.resize(n, Vect::zeros()),
+            Column::Index(items) => items.resize(n, 0),
+            Column::Tensor(items) => items.resize(n, SMatrix::zeros()),
+            Column::SymmetricTensor(items) => items.resize(n, Symmetric::ZERO),
+        }
+    }
+
     /// No entry, of the same type.
     pub(crate) fn empty(&self) -> Self {
         self.zeros(0)

@@ -9,6 +9,8 @@ pub enum Place {
     Any,
     /// `[phase.NAME.KIND.PLUGIN]`, one at most in every phase.
     InPhase,
+    /// `[wall.NAME.KIND.PLUGIN]`, one at most for every wall.
+    InWall,
     /// `[probe.NAME]` and `[gauge.NAME]`, their key `kind` being the plugin.
     Probe,
     /// `solution` of `[reference.NAME]`, and `[body.NAME.initial.PLUGIN]`.
@@ -29,7 +31,7 @@ inventory::collect!(KindInfo);
 
 impl KindInfo {
     /// Whether its plugins stand in a table of the scene's own, `[KIND.PLUGIN]`.
-    pub fn is_open(&self) -> bool {
+    pub fn has_table(&self) -> bool {
         matches!(self.place, Place::One | Place::Any)
     }
 }
@@ -55,7 +57,7 @@ const fn at(place: Place, name: &'static str) -> KindInfo {
 }
 
 /// Those that the crates of this project have; others register theirs with [`kind!`](crate::kind).
-static OWN: [KindInfo; 20] = [
+static OWN: [KindInfo; 21] = [
     one("kernel", DEFAULT),
     one("formulation", DEFAULT),
     one("integrator", DEFAULT),
@@ -77,6 +79,7 @@ static OWN: [KindInfo; 20] = [
     at(Place::Any, "term"),
     at(Place::InPhase, "equation-of-state"),
     at(Place::InPhase, "rheology"),
+    at(Place::InWall, "mover"),
     at(Place::Probe, "probe"),
     at(Place::Solution, "solution"),
 ];

@@ -19,42 +19,42 @@
 //! assert_eq!(store.get(DENSITY).unwrap(), [1000.0; 3]);
 //! ```
 
+mod births;
 mod boxes;
-mod conform;
 mod error;
 mod evolve;
 mod field;
 pub mod fields;
 mod kinds;
 mod limit;
-mod names;
-pub mod number;
 mod plan;
-pub mod plausible;
-mod quantity;
 mod registry;
 mod saved;
+mod slots;
 mod stage;
 mod store;
 mod symmetric;
 mod taken;
 mod watch;
 
+pub use births::Born;
 pub use boxes::{BoxTree, Corners};
-pub use conform::{MOST_PROBLEMS, conform, defaults};
-pub use error::{FieldError, PlanError, RegistryError, SceneProblem, StepError};
+pub use error::{FieldError, PlanError, RegistryError, StepError};
 pub use evolve::{Evolved, Recall, System};
 pub use field::{AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector};
 pub use kinds::{KindInfo, Place, kind_of, kinds};
 pub use limit::StepLimit;
-pub use names::{nearest, suggestion};
 pub use plan::{Plan, plan};
-pub use quantity::{Dimensions, parse_quantity, parse_unit};
 pub use registry::{
-    Contract, ContractInfo, Parameter, PluginInfo, Registry, contracts, parameters,
+    Contract, ContractInfo, Makes, Parameter, PluginInfo, Registry, contracts, parameters,
     registry_contract_info, schema_of, typed,
 };
 pub use saved::Saved;
+pub use scene_text::{
+    Dimensions, MOST_PROBLEMS, SceneProblem, conform, defaults, nearest, number, parse_quantity,
+    parse_unit, plausible, suggestion,
+};
+pub use slots::Slots;
 pub use stage::{Access, Declares, Stage};
 pub use store::{Plain, Role, Store};
 pub use symmetric::Symmetric;

@@ -165,6 +165,17 @@ impl<E: Contract> Registry<E> {
     }
 }
 
+/// A kind of plugin, its plugins built by one call whatever they are: in D dimensions, or in none of their own.
+pub trait Makes<const D: usize>: Contract {
+    /// What a plugin of the kind is.
+    type Made: ?Sized;
+    /// Builds the plugin from its table of parameters.
+    ///
+    /// # Errors
+    /// If a parameter is wrong or the plugin has no form in D dimensions.
+    fn make(&self, table: &Table) -> Result<Box<Self::Made>, RegistryError>;
+}
+
 /// Typed parameters from a table: checked against the type's own schema, units converted.
 ///
 /// # Errors
@@ -226,6 +237,15 @@ macro_rules! contract {
                 built.downcast::<Box<dyn $tr<D>>>().map(|b| *b).map_err(|_| absent())
             }
         }
+        impl<const D: usize> $crate::Makes<D> for $entry {
+            type Made = dyn $tr<D>;
+            fn make(
+                &self,
+                table: &$crate::reexport::toml::Table,
+            ) -> Result<Box<dyn $tr<D>>, $crate::RegistryError> {
+                self.build::<D>(table)
+            }
+        }
         $crate::contract!(@common $entry, $kind, $purpose);
     };
     ($(#[$doc:meta])* $vis:vis $entry:ident, $kind:literal, $purpose:literal, $tr:ident) => {
@@ -236,6 +256,15 @@ macro_rules! contract {
             /// Builds the plugin from its table of parameters.
             pub build:
                 fn(&$crate::reexport::toml::Table) -> Result<Box<dyn $tr>, $crate::RegistryError>,
+        }
+        impl<const D: usize> $crate::Makes<D> for $entry {
+            type Made = dyn $tr;
+            fn make(
+                &self,
+                table: &$crate::reexport::toml::Table,
+            ) -> Result<Box<dyn $tr>, $crate::RegistryError> {
+                (self.build)(table)
+            }
         }
         $crate::contract!(@common $entry, $kind, $purpose);
     };

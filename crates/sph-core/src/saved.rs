@@ -1,11 +1,14 @@
 //! Copies of what a store remembers, to go back to.
 
 use crate::field::Column;
-use crate::{Field, FieldError, Kind, Role, Store};
+use crate::{Born, Field, FieldError, Kind, Role, Store, Taken};
 
 /// Copies of all [`State`](Role::State) columns of a store, whoever declared them, in the order the particles had.
 #[derive(Clone, Debug, Default)]
 pub struct Saved<const D: usize> {
+    len: usize,
+    taken: Vec<Taken>,
+    born: Born,
     columns: Vec<(&'static str, Column<D>)>,
 }
 
@@ -66,7 +69,22 @@ impl<const D: usize> Store<D> {
         for (entry, (name, to)) in state().zip(&mut saved.columns) {
             both!(to, &entry.column, name, copy);
         }
+        saved.len = self.len;
+        saved.taken.clone_from(&self.taken);
+        saved.born = self.born;
         Ok(())
+    }
+
+    /// Puts everything back as it was saved: who has left comes back, who has been born since is gone. State columns that have
+    /// come since become zero; derived ones have to be computed anew.
+    ///
+    /// # Errors
+    /// If a column has changed its type.
+    pub fn restore_state(&mut self, saved: &Saved<D>) -> Result<(), FieldError> {
+        self.set_len(saved.len);
+        self.taken.clone_from(&saved.taken);
+        self.born = saved.born;
+        self.put_state(saved, None, |_| true)
     }
 
     /// Puts the copies of the state columns back whose names are `wanted`; `places` tells where every particle of now is in the copies,

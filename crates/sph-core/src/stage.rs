@@ -15,6 +15,8 @@ pub struct Access {
     pub neighbours: Vec<AnyField>,
     /// Columns written at the particle itself.
     pub writes: Vec<AnyField>,
+    /// Columns read, here and at neighbours, in scenes that have them (phases); nobody has to write them.
+    pub where_there: Vec<AnyField>,
     /// Whether the stage walks over neighbours (a sweep).
     pub sweep: bool,
 }
@@ -50,6 +52,12 @@ impl Access {
         self
     }
 
+    /// Adds a column that is read where a scene has it.
+    pub fn where_there<K: Kind>(mut self, field: Field<K>) -> Self {
+        push(&mut self.where_there, field.any());
+        self
+    }
+
     /// Joins the accesses of two pieces of work done in one walk.
     pub fn and(mut self, other: Access) -> Self {
         other.here.into_iter().for_each(|f| push(&mut self.here, f));
@@ -61,6 +69,10 @@ impl Access {
             .writes
             .into_iter()
             .for_each(|f| push(&mut self.writes, f));
+        other
+            .where_there
+            .into_iter()
+            .for_each(|f| push(&mut self.where_there, f));
         self.sweep |= other.sweep;
         self
     }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::field::{AnyField, Column};
 use crate::watch::Watch;
-use crate::{Access, Field, FieldError, Kind, StepError, Taken, Vect};
+use crate::{Access, Born, Field, FieldError, Kind, StepError, Taken, Vect};
 
 /// What happens to a column over a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub enum Role {
 
 pub(crate) struct Entry<const D: usize> {
     pub name: &'static str,
-    pub unit: &'static str,
+    pub field: AnyField,
     pub role: Role,
     pub column: Column<D>,
 }
@@ -28,6 +28,8 @@ pub struct Store<const D: usize> {
     pub(crate) entries: Vec<Entry<D>>,
     /// What has been taken out.
     pub(crate) taken: Vec<Taken>,
+    /// What has been born.
+    pub(crate) born: Born,
     pub(crate) watch: Watch,
 }
 
@@ -47,31 +49,32 @@ impl<const D: usize> Store<D> {
             len,
             entries: Vec::new(),
             taken: Vec::new(),
+            born: Born::default(),
             watch: Watch::default(),
         }
     }
 
-    /// Holds what follows to the columns of `access`, in builds with debug assertions; several may be at work within
-    /// each other.
-    pub fn watch(&self, access: &Access) {
+    /// Holds what follows to the columns of `access`, in builds with debug assertions alone; several may be at work
+    /// within each other.
+    pub fn watch(&self, access: impl FnOnce() -> Access) {
         if cfg!(debug_assertions) {
-            self.watch.begin(access);
+            self.watch.begin(&access());
         }
     }
 
-    /// Ends the last [`watch`](Self::watch) of the work called `name`.
+    /// Ends the last [`watch`](Self::watch), of the work called `name`.
     ///
     /// # Errors
     /// If it touched a column that it had not declared.
-    pub fn unwatch(&self, name: &str) -> Result<(), StepError> {
-        let undeclared = match cfg!(debug_assertions) {
-            true => self.watch.end(),
-            false => Vec::new(),
-        };
+    pub fn unwatch(&self, name: impl FnOnce() -> String) -> Result<(), StepError> {
+        if !cfg!(debug_assertions) {
+            return Ok(());
+        }
+        let undeclared = self.watch.end();
         match undeclared.is_empty() {
             true => Ok(()),
             false => Err(StepError::Stage {
-                stage: name.to_string(),
+                stage: name(),
                 reason: format!("it {} without declaring it", undeclared.join(" and ")),
             }),
         }
@@ -94,6 +97,12 @@ impl<const D: usize> Store<D> {
         self.len
     }
 
+    /// Cuts or lengthens all columns; new entries are zeros.
+    pub fn set_len(&mut self, len: usize) {
+        self.entries.iter_mut().for_each(|e| e.column.resize(len));
+        self.len = len;
+    }
+
     /// Whether there is no particle.
     pub fn is_empty(&self) -> bool {
         self.len == 0
@@ -111,7 +120,7 @@ impl<const D: usize> Store<D> {
             Some(_) => {}
             None => self.entries.push(Entry {
                 name: field.name,
-                unit: field.unit,
+                field,
                 role,
                 column: field.shape.column(self.len),
             }),
@@ -201,6 +210,11 @@ impl<const D: usize> Store<D> {
         }
     }
 
+    /// The fields that have a column, in order of allocation.
+    pub fn fields(&self) -> impl Iterator<Item = AnyField> {
+        self.entries.iter().map(|e| e.field)
+    }
+
     /// Name, unit, role, components and numbers of every column, in order of allocation.
     pub fn columns(
         &self,
@@ -221,7 +235,7 @@ impl<const D: usize> Store<D> {
                     (6, Plain::Real(v.iter().flat_map(|t| t.0).collect()))
                 }
             };
-            (e.name, e.unit, e.role, components, plain)
+            (e.name, e.field.unit, e.role, components, plain)
         })
     }
 

@@ -22,6 +22,7 @@ impl Watch {
     pub fn begin(&self, access: &Access) {
         let names = |fields: &[crate::AnyField]| fields.iter().map(|f| f.name).collect();
         let mut reads: Vec<_> = names(&access.reads());
+        reads.extend(access.where_there.iter().map(|f| f.name));
         // Nobody walks over neighbours without their places, and what walls cut off.
         if access.sweep {
             reads.extend([fields::POSITION.name, fields::RENORMALISATION.name]);
@@ -41,21 +42,25 @@ impl Watch {
     pub fn read(&self, name: &'static str) {
         if let Some(last) = self.all().last_mut() {
             let known = last.reads.contains(&name) || last.writes.contains(&name);
-            last.note(known, format!("reads `{name}`"));
+            last.note(known, "reads", name);
         }
     }
 
     pub fn write(&self, name: &'static str) {
         if let Some(last) = self.all().last_mut() {
             let known = last.writes.contains(&name);
-            last.note(known, format!("writes `{name}`"));
+            last.note(known, "writes", name);
         }
     }
 }
 
 impl Watched {
-    fn note(&mut self, known: bool, what: String) {
-        if !known && !self.undeclared.contains(&what) {
+    fn note(&mut self, known: bool, does: &str, name: &str) {
+        if known {
+            return;
+        }
+        let what = format!("{does} `{name}`");
+        if !self.undeclared.contains(&what) {
             self.undeclared.push(what);
         }
     }

@@ -6,22 +6,23 @@ use sph_neighbours::{CHUNK, Neighbourhood, Rows, Surroundings, World};
 
 use crate::{Entry, Pattern, Values};
 
-/// What a row has besides its neighbours.
+/// What a row has besides its neighbours, in a system of C components: the dimensions of space for velocities, one for a
+/// pressure.
 #[derive(Clone, Copy, Debug)]
-pub struct Row<E, const D: usize> {
+pub struct Row<E, const C: usize> {
     /// What stands on the diagonal besides the sum of the couplings: mass, walls.
     pub own: E,
     /// Part of the right-hand side.
-    pub source: Vect<D>,
+    pub source: Vect<C>,
 }
 
 /// Rows of one chunk of particles.
-struct Part<E, const D: usize> {
+struct Part<E, const C: usize> {
     counts: Vec<u32>,
     columns: Vec<u32>,
     others: Vec<E>,
     diagonal: Vec<E>,
-    sources: Vec<Vect<D>>,
+    sources: Vec<Vect<C>>,
 }
 
 /// Buffers of one thread.
@@ -40,11 +41,11 @@ struct Buffers<E, const D: usize> {
 ///
 /// # Errors
 /// If the world has no positions.
-pub fn assemble<const D: usize, E: Entry<D>>(
+pub fn assemble<const D: usize, const C: usize, E: Entry<C>>(
     world: &World<D>,
     former: Values<E>,
-    row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<(u32, E)>) -> Row<E, D> + Sync,
-) -> Result<(Pattern, Values<E>, Vec<Vect<D>>), StepError> {
+    row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<(u32, E)>) -> Row<E, C> + Sync,
+) -> Result<(Pattern, Values<E>, Vec<Vect<C>>), StepError> {
     assemble_some(world, former, |_| None, row)
 }
 
@@ -52,15 +53,15 @@ pub fn assemble<const D: usize, E: Entry<D>>(
 ///
 /// # Errors
 /// If the world has no positions.
-pub fn assemble_some<const D: usize, E: Entry<D>>(
+pub fn assemble_some<const D: usize, const C: usize, E: Entry<C>>(
     world: &World<D>,
     former: Values<E>,
-    known: impl Fn(usize) -> Option<Row<E, D>> + Sync,
-    row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<(u32, E)>) -> Row<E, D> + Sync,
-) -> Result<(Pattern, Values<E>, Vec<Vect<D>>), StepError> {
+    known: impl Fn(usize) -> Option<Row<E, C>> + Sync,
+    row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<(u32, E)>) -> Row<E, C> + Sync,
+) -> Result<(Pattern, Values<E>, Vec<Vect<C>>), StepError> {
     let surroundings = Surroundings::new(world)?;
     let particles = surroundings.particles();
-    let one = |buffers: &mut Buffers<E, D>, part: &mut Part<E, D>, i: usize| {
+    let one = |buffers: &mut Buffers<E, D>, part: &mut Part<E, C>, i: usize| {
         let couplings = &mut buffers.couplings;
         couplings.clear();
         let row = match known(i) {
@@ -90,7 +91,7 @@ pub fn assemble_some<const D: usize, E: Entry<D>>(
         order: Vec::new(),
     };
     let chunks = particles.div_ceil(CHUNK);
-    let parts: Vec<Part<E, D>> = (0..chunks)
+    let parts: Vec<Part<E, C>> = (0..chunks)
         .into_par_iter()
         .map_init(new, |buffers, c| {
             let mut part = Part {
@@ -109,11 +110,11 @@ pub fn assemble_some<const D: usize, E: Entry<D>>(
     Ok(joined(parts, particles, former))
 }
 
-fn joined<const D: usize, E: Entry<D>>(
-    parts: Vec<Part<E, D>>,
+fn joined<const C: usize, E: Entry<C>>(
+    parts: Vec<Part<E, C>>,
     rows: usize,
     mut values: Values<E>,
-) -> (Pattern, Values<E>, Vec<Vect<D>>) {
+) -> (Pattern, Values<E>, Vec<Vect<C>>) {
     let entries = parts.iter().map(|p| p.columns.len()).sum();
     let mut pattern = Pattern {
         starts: Vec::with_capacity(rows + 1),

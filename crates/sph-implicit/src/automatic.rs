@@ -5,8 +5,8 @@ use serde::Deserialize;
 use sph_core::{Vect, register};
 
 use crate::{
-    Cholesky, ConjugateGradient, Entries, LinearSolver, LinearSolverEntry, Matrix, Preconditioner,
-    Report, SolveError,
+    Cholesky, ConjugateGradient, Entries, LinearSolver, LinearSolverEntry, Matrix, Operator,
+    Preconditioner, Report, SolveError,
 };
 
 /// Iterates, and factorises where that takes too long:
@@ -75,20 +75,28 @@ fn patience<const D: usize>(matrix: &Matrix<D>) -> Option<usize> {
 impl<const D: usize> LinearSolver<D> for Automatic {
     fn solve(
         &mut self,
-        matrix: &Matrix<D>,
+        operator: &dyn Operator<D>,
         right: &[Vect<D>],
         x: &mut [Vect<D>],
     ) -> Result<Report, SolveError> {
-        self.solve_roughly(matrix, right, x, 0.0)
+        self.solve_roughly(operator, right, x, 0.0)
     }
 
     fn solve_roughly(
         &mut self,
-        matrix: &Matrix<D>,
+        operator: &dyn Operator<D>,
         right: &[Vect<D>],
         x: &mut [Vect<D>],
         enough: f64,
     ) -> Result<Report, SolveError> {
+        let Some(matrix) = operator.assembled() else {
+            let mut plain = ConjugateGradient {
+                tolerance: self.tolerance,
+                preconditioner: Preconditioner::None,
+                ..ConjugateGradient::default()
+            };
+            return plain.solve_roughly(operator, right, x, enough);
+        };
         let mild = matrix.stiffness() < MILD;
         let stages = match (mild, &matrix.entries) {
             (true, _) => &[Preconditioner::Jacobi][..],
@@ -97,7 +105,8 @@ impl<const D: usize> LinearSolver<D> for Automatic {
                 &[Preconditioner::Jacobi, Preconditioner::IncompleteCholesky]
             }
         };
-        let patience = patience(matrix);
+        // Factors are of whole matrices.
+        let patience = patience(matrix).filter(|_| operator.whole("").is_ok());
         let mut spent = 0;
         for (k, &preconditioner) in stages.iter().enumerate() {
             let last = k + 1 == stages.len();
@@ -111,7 +120,7 @@ impl<const D: usize> LinearSolver<D> for Automatic {
                 },
             };
             // What a stage reached is where the next one starts.
-            match solver.solve_roughly(matrix, right, x, enough) {
+            match solver.solve_roughly(operator, right, x, enough) {
                 Err(SolveError::NotConverged { .. } | SolveError::NotPositive { .. })
                     if !last || patience.is_some() =>
                 {
@@ -125,7 +134,7 @@ impl<const D: usize> LinearSolver<D> for Automatic {
                 }
             }
         }
-        let report = self.direct.solve(matrix, right, x)?;
+        let report = self.direct.solve(operator, right, x)?;
         Ok(Report {
             iterations: spent,
             ..report

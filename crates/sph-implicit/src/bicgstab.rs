@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Vect, register};
 
-use crate::krylov::{Tolerance, Watch, residual};
-use crate::vector::{add, dot, norm};
-use crate::{LinearSolver, LinearSolverEntry, Matrix, Preconditioner, Report, SolveError};
+use crate::krylov::{Tolerance, Watch};
+use crate::vector::add;
+use crate::{LinearSolver, LinearSolverEntry, Operator, Preconditioner, Report, SolveError};
 
 /// BiCGSTAB (van der Vorst 1992), which needs no symmetry: what the thesis solves with. Two products
 /// per iteration; for these matrices conjugate gradients are faster.
@@ -46,7 +46,7 @@ const METHOD: &str = "BiCGSTAB";
 impl<const D: usize> LinearSolver<D> for Bicgstab {
     fn solve(
         &mut self,
-        matrix: &Matrix<D>,
+        operator: &dyn Operator<D>,
         right: &[Vect<D>],
         x: &mut [Vect<D>],
     ) -> Result<Report, SolveError> {
@@ -54,19 +54,22 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
             residual: self.tolerance,
             iterations: self.iterations,
         };
-        let mut watch = Watch::new(METHOD, tolerance, right)?;
-        let mut r = residual(matrix, right, x);
-        if let Some(residual) = watch.reached(norm(&r))? {
+        let mut watch = Watch::new(METHOD, tolerance, operator, right)?;
+        let mut r = operator.residual(right, x);
+        if let Some(residual) = watch.reached(operator.norm(&r))? {
             return Ok(watch.report(residual, size_of_val(&r[..])));
         }
-        let precondition = self.preconditioner.bind(matrix, METHOD)?;
+        let precondition = self.preconditioner.bind(operator, METHOD)?;
         let bytes = 7 * size_of_val(&r[..]) + precondition.bytes();
-        let zeros = || vec![Vect::<D>::zeros(); right.len()];
+        let rows = right.len();
+        let zeros = || vec![Vect::<D>::zeros(); operator.columns()];
         let shadow = r.clone();
-        let (mut p, mut v, mut y, mut z, mut t) = (zeros(), zeros(), zeros(), zeros(), zeros());
+        let (mut y, mut z) = (zeros(), zeros());
+        let own = || vec![Vect::<D>::zeros(); rows];
+        let (mut p, mut v, mut t) = (own(), own(), own());
         let (mut rho, mut alpha, mut omega) = (1.0, 1.0, 1.0);
         loop {
-            let next = dot(&shadow, &r);
+            let next = operator.dot(&shadow, &r);
             if next == 0.0 || omega == 0.0 {
                 return Err(watch.not_positive());
             }
@@ -75,22 +78,22 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
             for ((p, r), v) in p.iter_mut().zip(&r).zip(&v) {
                 *p = r + (*p - v * omega) * beta;
             }
-            precondition.apply(&p, &mut y);
-            matrix.multiply(&y, &mut v);
-            alpha = rho / dot(&shadow, &v);
+            precondition.apply(&p, &mut y[..rows]);
+            operator.apply(&mut y, &mut v);
+            alpha = rho / operator.dot(&shadow, &v);
             add(&mut r, -alpha, &v);
             add(x, alpha, &y);
-            precondition.apply(&r, &mut z);
-            matrix.multiply(&z, &mut t);
-            let squared = dot(&t, &t);
+            precondition.apply(&r, &mut z[..rows]);
+            operator.apply(&mut z, &mut t);
+            let squared = operator.dot(&t, &t);
             omega = if squared > 0.0 {
-                dot(&t, &r) / squared
+                operator.dot(&t, &r) / squared
             } else {
                 0.0
             };
             add(x, omega, &z);
             add(&mut r, -omega, &t);
-            if let Some(residual) = watch.reached(norm(&r))? {
+            if let Some(residual) = watch.reached(operator.norm(&r))? {
                 return Ok(watch.report(residual, bytes));
             }
         }

@@ -14,10 +14,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Vect, register};
 
-use crate::krylov::residual;
 use crate::matrix::{Entries, Matrix, Values};
 use crate::vector::norm;
-use crate::{Entry, LinearSolver, LinearSolverEntry, Pattern, Report, SolveError};
+use crate::{Entry, LinearSolver, LinearSolverEntry, Operator, Pattern, Report, SolveError};
 
 /// A = L Lᵀ by faer, with the order of elimination kept while the pattern stays the same.
 ///
@@ -71,10 +70,11 @@ const REFUSE: f64 = 1e-4;
 impl<const D: usize> LinearSolver<D> for Cholesky {
     fn solve(
         &mut self,
-        matrix: &Matrix<D>,
+        operator: &dyn Operator<D>,
         right: &[Vect<D>],
         x: &mut [Vect<D>],
     ) -> Result<Report, SolveError> {
+        let matrix = operator.whole(METHOD)?;
         if right.is_empty() {
             return Ok(report(0.0, 0));
         }
@@ -93,12 +93,12 @@ impl<const D: usize> LinearSolver<D> for Cholesky {
         factorise(kept, right.len())?;
         solve(kept, right, x, blocks)?;
         let scale = norm(right).max(f64::MIN_POSITIVE);
-        let mut rest = residual(matrix, right, x);
+        let mut rest = operator.residual(right, x);
         if norm(&rest) > REFINE * scale {
             let mut correction = vec![Vect::zeros(); rest.len()];
             solve(kept, &rest, &mut correction, blocks)?;
             crate::vector::add(x, 1.0, &correction);
-            rest = residual(matrix, right, x);
+            rest = operator.residual(right, x);
         }
         let relative = norm(&rest) / scale;
         match relative <= REFUSE {

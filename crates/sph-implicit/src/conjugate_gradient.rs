@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Vect, register};
 
-use crate::krylov::{Tolerance, Watch, residual};
-use crate::vector::{add, dot, norm, scale_and_add};
-use crate::{LinearSolver, LinearSolverEntry, Matrix, Preconditioner, Report, SolveError};
+use crate::krylov::{Tolerance, Watch};
+use crate::vector::{add, scale_and_add};
+use crate::{LinearSolver, LinearSolverEntry, Operator, Preconditioner, Report, SolveError};
 
 /// Conjugate gradients (Hestenes & Stiefel 1952), warm from the present state.
 ///
@@ -49,16 +49,16 @@ const METHOD: &str = "conjugate gradients";
 impl<const D: usize> LinearSolver<D> for ConjugateGradient {
     fn solve(
         &mut self,
-        matrix: &Matrix<D>,
+        operator: &dyn Operator<D>,
         right: &[Vect<D>],
         x: &mut [Vect<D>],
     ) -> Result<Report, SolveError> {
-        self.solve_roughly(matrix, right, x, 0.0)
+        self.solve_roughly(operator, right, x, 0.0)
     }
 
     fn solve_roughly(
         &mut self,
-        matrix: &Matrix<D>,
+        operator: &dyn Operator<D>,
         right: &[Vect<D>],
         x: &mut [Vect<D>],
         enough: f64,
@@ -67,33 +67,34 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
             residual: self.tolerance.max(enough),
             iterations: self.iterations,
         };
-        let mut watch = Watch::new(METHOD, tolerance, right)?;
-        let mut r = residual(matrix, right, x);
-        if let Some(residual) = watch.reached(norm(&r))? {
+        let mut watch = Watch::new(METHOD, tolerance, operator, right)?;
+        let mut r = operator.residual(right, x);
+        if let Some(residual) = watch.reached(operator.norm(&r))? {
             return Ok(watch.report(residual, size_of_val(&r[..])));
         }
-        let precondition = self.preconditioner.bind(matrix, METHOD)?;
+        let precondition = self.preconditioner.bind(operator, METHOD)?;
         let bytes = 4 * size_of_val(&r[..]) + precondition.bytes();
         let mut z = vec![Vect::zeros(); r.len()];
         precondition.apply(&r, &mut z);
         let mut direction = z.clone();
+        direction.resize(operator.columns(), Vect::zeros());
         let mut image = vec![Vect::zeros(); r.len()];
-        let mut slope = dot(&r, &z);
+        let mut slope = operator.dot(&r, &z);
         loop {
-            matrix.multiply(&direction, &mut image);
-            let curvature = dot(&direction, &image);
+            operator.apply(&mut direction, &mut image);
+            let curvature = operator.dot(&direction, &image);
             if curvature <= 0.0 || slope <= 0.0 {
                 return Err(watch.not_positive());
             }
             let length = slope / curvature;
             add(x, length, &direction);
             add(&mut r, -length, &image);
-            if let Some(residual) = watch.reached(norm(&r))? {
+            if let Some(residual) = watch.reached(operator.norm(&r))? {
                 return Ok(watch.report(residual, bytes));
             }
             precondition.apply(&r, &mut z);
-            let next = dot(&r, &z);
-            scale_and_add(&mut direction, next / slope, &z);
+            let next = operator.dot(&r, &z);
+            scale_and_add(&mut direction[..z.len()], next / slope, &z);
             slope = next;
         }
     }

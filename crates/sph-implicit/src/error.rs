@@ -36,6 +36,12 @@ pub enum SolveError {
         /// Matrix or right-hand side.
         what: &'static str,
     },
+    /// Entries that the method needs are not there.
+    #[error("{method} needs all entries of the matrix, and this operator only multiplies")]
+    NotWhole {
+        /// Which solver.
+        method: String,
+    },
     /// The factorisation has no room.
     #[error("{method}: no memory for the factorisation of {rows} rows")]
     NoMemory {

@@ -2,9 +2,8 @@
 
 use sph_core::Vect;
 
-use crate::krylov::{Tolerance, Watch, residual};
-use crate::vector::norm;
-use crate::{LinearSolver, Matrix, Preconditioner, Report, SolveError};
+use crate::krylov::{Tolerance, Watch};
+use crate::{LinearSolver, Operator, Preconditioner, Report, SolveError};
 
 /// x ← x + D⁻¹(b − A x) with the diagonal blocks D of A, until |b − A x|/|b| is small.
 ///
@@ -23,7 +22,7 @@ const METHOD: &str = "Jacobi";
 impl<const D: usize> LinearSolver<D> for Jacobi {
     fn solve(
         &mut self,
-        matrix: &Matrix<D>,
+        operator: &dyn Operator<D>,
         right: &[Vect<D>],
         x: &mut [Vect<D>],
     ) -> Result<Report, SolveError> {
@@ -31,13 +30,13 @@ impl<const D: usize> LinearSolver<D> for Jacobi {
             residual: self.tolerance,
             iterations: self.sweeps,
         };
-        let mut watch = Watch::new(METHOD, tolerance, right)?;
-        let diagonal = Preconditioner::BlockJacobi.bind(matrix, METHOD)?;
+        let mut watch = Watch::new(METHOD, tolerance, operator, right)?;
+        let diagonal = Preconditioner::BlockJacobi.bind(operator, METHOD)?;
         let mut step = vec![Vect::zeros(); right.len()];
         let bytes = 2 * size_of_val(&step[..]) + diagonal.bytes();
         loop {
-            let r = residual(matrix, right, x);
-            if let Some(residual) = watch.reached(norm(&r))? {
+            let r = operator.residual(right, x);
+            if let Some(residual) = watch.reached(operator.norm(&r))? {
                 return Ok(watch.report(residual, bytes));
             }
             diagonal.apply(&r, &mut step);
@@ -49,7 +48,7 @@ impl<const D: usize> LinearSolver<D> for Jacobi {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Entries, Pattern};
+    use crate::{Entries, Matrix, Pattern};
 
     /// A chain of n rows, held at both ends: the spectral radius is cos(π/(n + 1)).
     fn sweeps(n: u32) -> usize {

@@ -2,8 +2,7 @@
 
 use sph_core::Vect;
 
-use crate::vector::norm;
-use crate::{Matrix, Report, SolveError};
+use crate::{Operator, Report, SolveError};
 
 /// When an iteration ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,9 +27,10 @@ impl Watch {
     pub fn new<const D: usize>(
         method: &'static str,
         tolerance: Tolerance,
+        operator: &dyn Operator<D>,
         right: &[Vect<D>],
     ) -> Result<Self, SolveError> {
-        let scale = norm(right);
+        let scale = operator.norm(right);
         match scale.is_finite() {
             true => Ok(Watch {
                 method,
@@ -97,16 +97,4 @@ impl Watch {
             row: 0,
         }
     }
-}
-
-/// r = b − A x.
-pub(crate) fn residual<const D: usize>(
-    matrix: &Matrix<D>,
-    right: &[Vect<D>],
-    x: &[Vect<D>],
-) -> Vec<Vect<D>> {
-    let mut r = vec![Vect::zeros(); right.len()];
-    matrix.multiply(x, &mut r);
-    r.iter_mut().zip(right).for_each(|(r, b)| *r = b - *r);
-    r
 }

@@ -1,6 +1,7 @@
 //! Sparse symmetric systems on the neighbour graph, and what solves them.
 //!
 //! * [`Matrix`]: rows of particles, scalar or d × d entries, [`assemble`]d from the neighbour lists.
+//! * [`Operator`]: what a solver needs of a system; a [`Matrix`] is one, a product without a matrix may be another.
 //! * [`LinearSolver`]: [`Automatic`], [`Cholesky`], [`ConjugateGradient`], [`Bicgstab`], as plugins;
 //!   [`Jacobi`] for comparison.
 //! * [`TimeScheme`]: how friction is taken over a step, [`BackwardEuler`] or [`CrankNicolson`].
@@ -31,6 +32,7 @@ mod incomplete;
 mod jacobi;
 mod krylov;
 mod matrix;
+mod operator;
 mod precondition;
 mod scheme;
 mod solver;
@@ -47,6 +49,7 @@ pub use incomplete::Incomplete;
 pub use jacobi::Jacobi;
 pub use krylov::Tolerance;
 pub use matrix::{Entries, Matrix, Pattern, Values};
+pub use operator::Operator;
 pub use precondition::Preconditioner;
 pub use scheme::{
     BackwardEuler, CrankNicolson, ImplicitViscosityEntry, OuterIteration, TimeScheme,

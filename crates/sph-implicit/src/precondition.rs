@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use sph_core::Vect;
 
 use crate::incomplete::Incomplete;
-use crate::matrix::{Entries, Matrix, ROWS, Values};
-use crate::{Block, Entry, Pattern, SolveError};
+use crate::matrix::{Entries, ROWS, Values};
+use crate::{Block, Entry, Operator, Pattern, SolveError};
 
 /// z ≈ A⁻¹ r.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
@@ -41,15 +41,20 @@ impl Preconditioner {
     /// If a pivot is not positive.
     pub(crate) fn bind<const D: usize>(
         self,
-        matrix: &Matrix<D>,
+        operator: &dyn Operator<D>,
         method: &'static str,
     ) -> Result<Bound<D>, SolveError> {
+        if self == Preconditioner::None {
+            return Ok(Bound::Nothing);
+        }
+        let matrix = operator.assembled().ok_or_else(|| SolveError::NotWhole {
+            method: method.into(),
+        })?;
         let failed = |row| SolveError::NotPositive {
             method: method.into(),
             row,
         };
         Ok(match (self, &matrix.entries) {
-            (Preconditioner::None, _) => Bound::Nothing,
             (Preconditioner::Jacobi, Entries::Block(values)) => {
                 let diagonal = |d: &Block<D>| Entry::<D>::diagonal(d);
                 Bound::Block(inverted::<D, _>(values, diagonal).map_err(failed)?)

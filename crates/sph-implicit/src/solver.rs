@@ -2,7 +2,7 @@
 
 use sph_core::{Vect, contract};
 
-use crate::{Matrix, SolveError};
+use crate::{Operator, SolveError};
 
 /// What a solve took.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,13 +19,13 @@ pub struct Report {
 
 /// Solves symmetric positive definite systems.
 pub trait LinearSolver<const D: usize>: Send {
-    /// Solves A x = b, starting from x.
+    /// Solves A x = b, starting from x; right and x have a value for every row.
     ///
     /// # Errors
     /// If x is not what was asked for; it is then no better than a start for another solver.
     fn solve(
         &mut self,
-        matrix: &Matrix<D>,
+        operator: &dyn Operator<D>,
         right: &[Vect<D>],
         x: &mut [Vect<D>],
     ) -> Result<Report, SolveError>;
@@ -37,12 +37,12 @@ pub trait LinearSolver<const D: usize>: Send {
     /// As [`solve`](LinearSolver::solve).
     fn solve_roughly(
         &mut self,
-        matrix: &Matrix<D>,
+        operator: &dyn Operator<D>,
         right: &[Vect<D>],
         x: &mut [Vect<D>],
         _enough: f64,
     ) -> Result<Report, SolveError> {
-        self.solve(matrix, right, x)
+        self.solve(operator, right, x)
     }
 }
 

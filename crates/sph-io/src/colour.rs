@@ -25,6 +25,11 @@ impl Colour {
     /// Particles without a finite value.
     pub(crate) const MISSING: Self = Self::hex(0xff00ff);
 
+    /// The same, darker: the rim of a sphere.
+    pub(crate) fn darker(self) -> Self {
+        Self(self.0.map(|part| (f64::from(part) * 0.55) as u8))
+    }
+
     /// The colour written `0xrrggbb`.
     pub(crate) const fn hex(code: u32) -> Self {
         Self([(code >> 16) as u8, (code >> 8) as u8, code as u8])

@@ -38,6 +38,8 @@ pub enum Cells<'a> {
     Segments(Cow<'a, [[u32; 2]]>),
     /// Triples of point numbers: walls in 3D.
     Triangles(Cow<'a, [[u32; 3]]>),
+    /// Fours of point numbers: pores.
+    Tetrahedra(Cow<'a, [[u32; 4]]>),
 }
 
 /// Where the values of a field live.
@@ -165,6 +167,7 @@ impl Cells<'_> {
             Self::Vertices => points,
             Self::Segments(cells) => cells.len(),
             Self::Triangles(cells) => cells.len(),
+            Self::Tetrahedra(cells) => cells.len(),
         }
     }
 
@@ -174,6 +177,7 @@ impl Cells<'_> {
             Self::Vertices => None,
             Self::Segments(cells) => cells.as_flattened().iter().max().copied(),
             Self::Triangles(cells) => cells.as_flattened().iter().max().copied(),
+            Self::Tetrahedra(cells) => cells.as_flattened().iter().max().copied(),
         }
     }
 }

@@ -57,6 +57,8 @@ pub struct Picture<'a> {
     pub values: &'a [f64],
     /// Diameter of the discs in metres: the particle spacing.
     pub diameter: f64,
+    /// Diameters of the particles in metres where they differ, one per particle; else empty.
+    pub diameters: &'a [f64],
     /// Wall segments by their ends in metres.
     pub walls: &'a [[[f64; 3]; 2]],
     /// Which plane is drawn.
@@ -85,6 +87,7 @@ impl<'a> Picture<'a> {
             points,
             values,
             diameter: 0.0,
+            diameters: &[],
             walls: &[],
             view: View::Plane,
             window: None,
@@ -142,6 +145,17 @@ impl<'a> Picture<'a> {
         }
         if !(self.diameter.is_finite() && self.diameter >= 0.0) {
             return Err(format!("a diameter of {} m", self.diameter));
+        }
+        let sizes = self.diameters.len();
+        if sizes != 0 && sizes != points {
+            return Err(format!("{sizes} diameters for {points} particles"));
+        }
+        if let Some(bad) = self
+            .diameters
+            .iter()
+            .find(|d| !(d.is_finite() && **d >= 0.0))
+        {
+            return Err(format!("a diameter of {bad} m"));
         }
         let rising = |r: &[f64; 2]| r[0] < r[1] && (r[1] - r[0]).is_finite();
         if let Some(range) = self.range.filter(|r| !rising(r)) {
@@ -210,7 +224,11 @@ impl<'a> Picture<'a> {
 
     fn draw_particles(&self, canvas: &mut Canvas, axes: &Axes, [lo, hi]: [f64; 2]) {
         let scale = axes.frame.width() / (axes.x.hi - axes.x.lo);
-        let radius = drawn_radius(0.5 * self.diameter * scale);
+        let radius = |i: usize| match self.diameters.get(i) {
+            // Spheres of their own size are drawn as they are.
+            Some(diameter) => 0.5 * diameter * scale,
+            None => drawn_radius(0.5 * self.diameter * scale),
+        };
         let mut order: Vec<usize> = (0..self.points.len()).collect();
         if self.view == View::Front {
             order.sort_by(|&a, &b| self.points[b][1].total_cmp(&self.points[a][1]));
@@ -224,8 +242,19 @@ impl<'a> Picture<'a> {
                 Colour::MISSING
             };
             if x.is_finite() && y.is_finite() {
+                let (spot, radius) = (axes.spot(x, y), radius(i));
                 let fill = Fill::solid(colour);
-                canvas.clipped_disc(axes.spot(x, y), radius, fill, &axes.frame);
+                // A rim tells spheres of one colour apart.
+                let rim = if self.diameters.is_empty() {
+                    0.0
+                } else {
+                    0.1 * radius
+                };
+                if rim > 0.0 {
+                    let dark = Fill::solid(colour.darker());
+                    canvas.clipped_disc(spot, radius, dark, &axes.frame);
+                }
+                canvas.clipped_disc(spot, radius - rim, fill, &axes.frame);
             }
         }
     }

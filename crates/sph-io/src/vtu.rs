@@ -98,7 +98,7 @@ impl Document {
     }
 
     fn cells(&mut self, cells: &Cells, count: usize) -> std::io::Result<()> {
-        // VTK's numbers for vertex, line and triangle.
+        // VTK's numbers for vertex, line, triangle and tetrahedron.
         let (kind, corners, joined) = match cells {
             Cells::Vertices => (
                 1_u8,
@@ -113,6 +113,11 @@ impl Document {
             Cells::Triangles(c) => (
                 5,
                 3,
+                bytes(c.as_flattened(), |p| i64::from(p).to_le_bytes()),
+            ),
+            Cells::Tetrahedra(c) => (
+                10,
+                4,
                 bytes(c.as_flattened(), |p| i64::from(p).to_le_bytes()),
             ),
         };

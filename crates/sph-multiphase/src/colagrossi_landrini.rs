@@ -8,7 +8,8 @@ use sph_neighbours::{Interaction, World};
 use crate::divergence::{Divergence, TheirVolume};
 use crate::gradient::{PressureGradient, SumOfPressures};
 use crate::volume::VolumeStage;
-use crate::{Compressed, Diffused, Formulation, FormulationEntry, Stages};
+use crate::{Compressed, Diffused, Formulation, FormulationEntry};
+use sph_contribution::Stages;
 
 /// dρ_a/dt = −ρ_a D_a{u}, V = m/ρ, with
 /// D_a{u} = −1/γ_a [Σ_b θ_b V_b u_ab·∇w_ab − Σ_s u_as·∇γ_as] and its adjoint

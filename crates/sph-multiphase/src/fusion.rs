@@ -3,10 +3,11 @@
 use sph_core::reexport::inventory;
 use sph_neighbours::{FusionEntry, fuse_three, fuse_two};
 
-use crate::{
-    HuAdamsPressure as Pressure, InSeries, MorrisTerm, PerParticle, PressureDiffusion as Smooth,
-    Uniform,
-};
+use crate::HuAdamsPressure as Pressure;
+
+use sph_diffusion::PressureDiffusion as Smooth;
+
+use sph_viscosity::{InSeries, MorrisTerm, PerParticle, Uniform};
 
 macro_rules! fuse {
     ($terms:literal, $fuse:ident: $($t:ty),+) => {

@@ -10,7 +10,9 @@ use sph_neighbours::{
     BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
 };
 
-use crate::{Compressed, Diffused, Formulation, FormulationEntry, Stages};
+use crate::{Compressed, Diffused, Formulation, FormulationEntry};
+
+use sph_contribution::Stages;
 use sph_neighbours::{Values, walk};
 
 /// d_a = 1/γ_a Σ_b θ_b V_b w_ab: how full the support is.
@@ -88,7 +90,7 @@ impl Declares for PhaseDensity {
             .both(fields::POSITION)
             .both(fields::MASS)
             .both(fields::VOLUME)
-            .both(fields::PHASE)
+            .where_there(fields::PHASE)
             .writes(fields::DENSITY)
             .writes(FILLING)
     }

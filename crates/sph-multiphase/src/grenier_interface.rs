@@ -6,7 +6,8 @@ use sph_core::register;
 use sph_neighbours::Interaction;
 
 use crate::repulsion::{Repelling, Repulsion};
-use crate::{InterfaceEntry, InterfaceModel, Laws};
+use crate::{InterfaceEntry, InterfaceModel};
+use sph_state::Laws;
 
 /// ρ_a a = −ε Σ_{b of other phases} V_b (|p_a| + |p_b|) ∇w_ab.
 ///

@@ -8,7 +8,8 @@ use sph_neighbours::{Interaction, World, kernel_sums};
 
 use crate::divergence::{Divergence, OwnVolume};
 use crate::gradient::{PressureGradient, SquaredVolumes};
-use crate::{Diffused, Formulation, FormulationEntry, Stages};
+use crate::{Diffused, Formulation, FormulationEntry};
+use sph_contribution::Stages;
 
 /// Density from volumes, ρ_a = (K_a + m_a Σ_b θ_b w_ab)/γ_a, with the skew-adjoint gradient
 /// G_a = 1/(γ_a V_a) [Σ_b θ_b (p_aV_a² + p_bV_b²) ∇w_ab − Σ_s (p_aV_a² + p_sV_s²)/V_s ∇γ_as].

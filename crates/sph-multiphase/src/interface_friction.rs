@@ -10,8 +10,10 @@ use sph_neighbours::{
     World,
 };
 
-use crate::lattice::lattice_sum;
-use crate::{InterfaceEntry, InterfaceModel, Laws, Limiter};
+use crate::{InterfaceEntry, InterfaceModel};
+use sph_contribution::Limiter;
+use sph_neighbours::lattice_sum;
+use sph_state::Laws;
 
 /// m_a a = h Σ_b 2 m_a m_b/(ρ_a + ρ_b) v_ab (u_ab·r_ab)/r² ∇w_ab over the pairs with at least one particle that
 /// is not of the heaviest phase, with v = α c̄ (unlike phases only) + β min(h |u_ab·r_ab|/r², c̄) (closing pairs only).

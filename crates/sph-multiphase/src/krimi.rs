@@ -9,7 +9,8 @@ use crate::colagrossi_landrini::{compressed_density, integrated_density};
 use crate::divergence::{DensityWeighted, Divergence, TheirVolume};
 use crate::gradient::{BetweenParticles, PressureGradient};
 use crate::volume::VolumeStage;
-use crate::{Compressed, Diffused, Formulation, FormulationEntry, Stages};
+use crate::{Compressed, Diffused, Formulation, FormulationEntry};
+use sph_contribution::Stages;
 
 /// m_a a = −1/γ_a Σ_b θ_b (V_a² + V_b²) p̃_ab ∇w_ab with the pressure between two particles,
 /// p̃_ab = (ρ_b p_a + ρ_a p_b)/(ρ_a + ρ_b), which is continuous where ∇p/ρ is; dρ/dt = −ρ D{u}.

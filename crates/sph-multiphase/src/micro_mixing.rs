@@ -6,7 +6,8 @@ use sph_core::register;
 use sph_neighbours::Interaction;
 
 use crate::repulsion::{Repelling, Repulsion};
-use crate::{InterfaceEntry, InterfaceModel, Laws};
+use crate::{InterfaceEntry, InterfaceModel};
+use sph_state::Laws;
 
 /// m_a a = −ε Σ_{b of other phases} (|p_a| V_a² + |p_b| V_b²) ∇w_ab: a share ε of the pressure
 /// gradient between phases, always repulsive.

@@ -7,8 +7,12 @@ use sph_core::{
 };
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
-use crate::{InterfaceEntry, InterfaceModel, Laws, Limiter, Stages};
+use crate::{InterfaceEntry, InterfaceModel};
+
+use sph_contribution::{Limiter, Stages};
+
 use sph_neighbours::{Around, Values, walk};
+use sph_state::Laws;
 
 /// m_a a = Σ_b (V_a² Π_a + V_b² Π_b)·∇w_ab with the surface stress
 /// Π = σ/|∇c| (|∇c|² ι I − ∇c ∇c) and the gradient of the colour of all other phases,

@@ -6,7 +6,8 @@
 //!   elements, the lists, the kernel.
 //! * A pair term is a scalar formula ([`BoundTerm`]); tuples of terms are one fused term, and
 //!   [`Interaction`] is the object-safe form, called once per particle and never per pair.
-//! * [`interactions`] is the sweep that sums all terms, [`kernel_sums`] the density sum.
+//! * [`interactions`] is the sweep that sums all terms, [`kernel_sums`] the density sum, [`lattice_sum`] what a sum
+//!   would be on a lattice.
 //!
 //! Each particle sums its own neighbourhood in the order of its list: no atomics, and the same
 //! bits for any number of threads.
@@ -16,8 +17,12 @@ mod contacts;
 mod domain;
 mod fuse;
 mod grid;
+mod kernel_sums;
 mod kernels;
+mod lattice;
 mod list;
+mod moment;
+mod packed;
 mod reaction;
 mod row;
 mod shares;
@@ -32,15 +37,16 @@ pub use contacts::{Contact, Contacts};
 pub use domain::Domain;
 pub use fuse::{FusionEntry, Terms, fuse_all, fuse_three, fuse_two};
 pub use grid::CellGrid;
+pub use kernel_sums::{kernel_sums, shepard, shepard_some};
 pub use kernels::KernelEntry;
+pub use lattice::{lattice_sum, rows_sum};
 pub use list::{CHUNK, NeighbourList};
+pub use moment::trusted_inverse;
+pub use packed::{Packed, pack};
 pub use reaction::{WallForce, cross, wall_forces, wall_parts};
 pub use row::{Neighbourhood, Row, Scratch};
 pub use shares::{TermShare, shares_at};
-pub use sweep::{
-    Packed, Sums, accelerations_of, all_sums, interactions, interactions_with, kernel_sums, pack,
-    shepard, shepard_some,
-};
+pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,
     TermEntry, There,

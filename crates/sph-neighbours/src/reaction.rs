@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
+use crate::packed::{Packed, pack};
 use crate::row::Row;
-use crate::sweep::{Packed, pack};
 use crate::term::Rates;
 use crate::{Contact, Interaction, Neighbourhood, Scratch, World};
 

@@ -2,7 +2,7 @@
 
 use sph_core::{StepError, Vect};
 
-use crate::sweep::{Packed, pack};
+use crate::packed::{Packed, pack};
 use crate::{Interaction, Neighbourhood, Part, Rates, Rows, Scratch, Surroundings, World};
 
 /// What one term does to a particle.

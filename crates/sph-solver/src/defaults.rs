@@ -23,3 +23,15 @@ pub fn of(kind: &str) -> Option<&'static str> {
         .find(|(k, _)| *k == kind)
         .map(|(_, name)| *name)
 }
+
+/// Kind and name of what a scene without one is advised to take.
+const SUGGESTIONS: [(&str, &str); 2] = [
+    ("smoother", "brezzi-pitkaranta"),
+    ("implicit-viscosity", "backward-euler"),
+];
+
+/// The table of what a scene without a plugin of a kind is advised to take.
+pub fn suggested(kind: &str) -> Option<String> {
+    let found = SUGGESTIONS.iter().find(|(k, _)| *k == kind);
+    found.map(|(kind, name)| format!("`[{kind}.{name}]`"))
+}

@@ -31,7 +31,7 @@ pub use setup::estimate::{Estimate, Size, size};
 pub use setup::examination::{Examination, FieldUse, StageUse, examine};
 pub use setup::memory::Memory;
 pub use setup::relax::Relaxation;
+pub use sph_viscosity::Solves;
 pub use step::flow::Flow;
-pub use step::implicit::Solves;
 pub use step::outlets::Left;
 pub use step::snapshot::Snapshot;

@@ -1,6 +1,7 @@
 //! Grains that slide on a wall.
 
 use rayon::prelude::*;
+use sph_contribution::StepWork;
 use sph_core::{Access, Field, Scalar, StepError, Symmetric, Vect, fields};
 use sph_neighbours::{Contact, Interaction, WallForce, World, cross, wall_parts};
 
@@ -22,28 +23,31 @@ use sph_neighbours::{Contact, Interaction, WallForce, World, cross, wall_parts};
 /// Source: Ghaïtanellis 2017, Eq. 4.115–4.123 (`literal`); the force of elements is ours.
 pub struct CoulombFriction<const D: usize> {
     /// Whether the phases rub, in the order of their numbers.
-    pub rubs: Vec<bool>,
+    rubs: Vec<bool>,
     /// The pressure that makes friction, Pa.
-    pub pressure: Field<Scalar>,
+    pressure: Field<Scalar>,
+    /// What the elements get, of the state before the last kick.
+    pressed: Vec<f64>,
     /// Force on every wall in the last kick, in the order of their numbers.
-    pub forces: Vec<WallForce<D>>,
+    forces: Vec<WallForce<D>>,
 }
 
 impl<const D: usize> CoulombFriction<D> {
-    /// What it reads.
-    pub fn access(&self) -> Access {
-        Access::none()
-            .here(self.pressure)
-            .here(fields::PRESSURE)
-            .here(fields::VOLUME)
-            .here(fields::MASS)
+    /// Of phases that rub, in the order of their numbers, with the pressure that makes friction.
+    pub fn new(rubs: Vec<bool>, pressure: Field<Scalar>) -> Self {
+        CoulombFriction {
+            rubs,
+            pressure,
+            pressed: Vec::new(),
+            forces: Vec::new(),
+        }
     }
 
     /// What particles press on walls at the state of the last evaluation; called before a kick.
     ///
     /// # Errors
     /// If a column is missing.
-    pub fn pressed(
+    fn pressed(
         &self,
         world: &World<D>,
         terms: &[&dyn Interaction<D>],
@@ -66,12 +70,7 @@ impl<const D: usize> CoulombFriction<D> {
     ///
     /// # Errors
     /// If a column is missing.
-    pub fn apply(
-        &mut self,
-        world: &mut World<D>,
-        pressed: &[f64],
-        dt: f64,
-    ) -> Result<(), StepError> {
+    fn apply(&mut self, world: &mut World<D>, pressed: &[f64], dt: f64) -> Result<(), StepError> {
         let soil = self.soil(world)?;
         let contacts = &world.walls.contacts;
         let particles = contacts.particles.par_iter().with_min_len(512);
@@ -119,6 +118,38 @@ impl<const D: usize> CoulombFriction<D> {
             gamma: world.free.get(fields::RENORMALISATION).ok(),
             world,
         })
+    }
+}
+
+impl<const D: usize> StepWork<D> for CoulombFriction<D> {
+    fn name(&self) -> String {
+        "friction on walls".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::POSITION)
+            .here(self.pressure)
+            .here(fields::PRESSURE)
+            .here(fields::VOLUME)
+            .here(fields::MASS)
+            .where_there(fields::PHASE)
+            .where_there(fields::CARRIED_STRESS)
+            .writes(fields::VELOCITY)
+    }
+    fn before_kick(
+        &mut self,
+        world: &mut World<D>,
+        forces: &[&dyn Interaction<D>],
+    ) -> Result<(), StepError> {
+        self.pressed = self.pressed(world, forces)?;
+        Ok(())
+    }
+    fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        let pressed = std::mem::take(&mut self.pressed);
+        self.apply(world, &pressed, dt)
+    }
+    fn wall_forces(&self) -> &[WallForce<D>] {
+        &self.forces
     }
 }
 

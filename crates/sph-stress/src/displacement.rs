@@ -3,10 +3,10 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Symmetric, Vect, fields, register};
-use sph_multiphase::{OnLattice, PairFriction, WithTransposed};
 use sph_neighbours::{
     BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
 };
+use sph_viscosity::{OnLattice, PairFriction, WithTransposed};
 
 use crate::divergence::Sum;
 use crate::{Blend, ElasticForce, ElasticForceEntry, Felt};

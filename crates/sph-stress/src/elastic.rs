@@ -1,7 +1,7 @@
 //! What an elastic material remembers follows the motion.
 
 use nalgebra::Matrix3;
-use sph_core::{AnyField, Stage, StepError, Symmetric, Vect, fields};
+use sph_core::{Access, AnyField, Declares, Stage, StepError, Symmetric, Vect, fields};
 use sph_neighbours::World;
 use sph_rheology::{Elastic, Yielding, jaumann};
 
@@ -39,6 +39,21 @@ impl<const D: usize> ElasticMotion<D> {
         match self.displaced {
             true => stress.into_iter().chain(displaced).collect(),
             false => stress.into(),
+        }
+    }
+
+    /// What it reads and writes.
+    pub fn access(&self) -> Access {
+        let access = self.gradient.access().and(self.felt.access());
+        let access = access
+            .writes(fields::ELASTIC_STRESS)
+            .writes(fields::STRAIN_RATE);
+        match self.displaced {
+            false => access,
+            true => access
+                .here(fields::VELOCITY)
+                .writes(fields::ELASTIC_DISPLACEMENT)
+                .writes(fields::ELASTIC_TURN),
         }
     }
 

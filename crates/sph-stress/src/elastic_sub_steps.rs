@@ -1,8 +1,9 @@
 //! Steps of the elastic force within that of the flow.
 
 use rayon::prelude::*;
+use sph_contribution::OutsideForce;
 use sph_core::{Stage, StepError, Vect, fields};
-use sph_neighbours::{Interaction, Packed, There, World, accelerations_of, pack};
+use sph_neighbours::{Packed, There, World, accelerations_of, pack};
 
 use crate::{CarriedStress, ElasticMotion, Felt};
 
@@ -25,7 +26,7 @@ use crate::{CarriedStress, ElasticMotion, Felt};
 /// Ours, after the multiple time steps of Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97, 1990.
 pub struct ElasticSubSteps<const D: usize> {
     /// The force.
-    pub term: Box<dyn Interaction<D>>,
+    pub term: OutsideForce<D>,
     felt: Felt,
     longest: f64,
     states: Vec<There<D>>,
@@ -37,7 +38,7 @@ pub struct ElasticSubSteps<const D: usize> {
 
 impl<const D: usize> ElasticSubSteps<D> {
     /// For a force that reads no velocity, the laws of the scene, and the longest sub-step, s.
-    pub fn new(term: Box<dyn Interaction<D>>, felt: Felt, longest: f64) -> Self {
+    pub fn new(term: OutsideForce<D>, felt: Felt, longest: f64) -> Self {
         ElasticSubSteps {
             term,
             felt,

@@ -156,7 +156,8 @@ struct Solve<const D: usize> {
     least_depth: f64,
     /// Time between solves over √(δr/|g|).
     interval: f64,
-    solver: Box<dyn LinearSolver<D>>,
+    /// Of systems with one component.
+    solver: Box<dyn LinearSolver<1>>,
 }
 
 /// What a particle is to the problem.
@@ -238,11 +239,9 @@ impl<const D: usize> Solve<D> {
             }
             // Soil that fills a closed box has no surface: the level is then that of zero.
             let all: f64 = out.iter().map(|(_, c)| c).sum();
-            let mut right = Vect::zeros();
-            right[0] = source;
             Row {
                 own: held + FAINT * all + f64::MIN_POSITIVE,
-                source: right,
+                source: Vect::from([source]),
             }
         };
         let known = |i: usize| match parts[i] {
@@ -252,7 +251,7 @@ impl<const D: usize> Solve<D> {
         let (pattern, values, right) = assemble_some(world, MatrixValues::default(), known, row)?;
         let matrix = Matrix::new(pattern, Entries::Scalar(values));
         let mut pressure = world.free.take(fields::EFFECTIVE_PRESSURE)?;
-        let mut x: Vec<Vect<D>> = pressure
+        let mut x: Vec<Vect<1>> = pressure
             .iter()
             .zip(&parts)
             .map(|(p, part)| start(*p, part))
@@ -273,22 +272,18 @@ impl<const D: usize> Solve<D> {
 /// Share of a row's couplings that keeps a system without a surface regular.
 const FAINT: f64 = 1e-9;
 
-fn known_row<const D: usize>(pressure: f64) -> Row<f64, D> {
-    let mut right = Vect::zeros();
-    right[0] = pressure;
+fn known_row(pressure: f64) -> Row<f64, 1> {
     Row {
         own: 1.0,
-        source: right,
+        source: Vect::from([pressure]),
     }
 }
 
-fn start<const D: usize>(pressure: f64, part: &Part) -> Vect<D> {
-    let mut x = Vect::zeros();
-    x[0] = match part {
+fn start(pressure: f64, part: &Part) -> Vect<1> {
+    Vect::from([match part {
         Part::Inside(_) => pressure,
         _ => part.known(),
-    };
-    x
+    }])
 }
 
 impl<const D: usize> Solve<D> {

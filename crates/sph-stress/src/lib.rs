@@ -10,34 +10,30 @@
 //!   and [`ElasticSubSteps`] gives a force steps of its own.
 //! * [`EffectivePressure`] is a kind of plugin: the pressure between the grains, where it is not that
 //!   of the equation of state. [`Laplace`] is one. [`PorePressure`] is what is left for the water.
-//! * [`Seepage`] is a kind of plugin: water that moves through the pores. [`DarcyForchheimer`] is one.
-//! * [`EddyViscosity`] is a kind of plugin, added to the viscosity of the laws. None is built in.
 //! * [`CoulombFriction`] brakes soils on walls that have a coefficient of friction.
+//! * [`Friction`], [`Elasticity`], [`Straining`], [`GrainPressure`] and [`WallFriction`] bring all that into a scene; they
+//!   share its [`Materials`].
 //!
 //! Nothing here runs in a scene whose laws do not ask for it.
 
 mod adjoint;
 mod blended;
 mod carried;
+mod contribution;
 mod coulomb;
-mod darcy_forchheimer;
 mod displacement;
 mod divergence;
-mod eddy_viscosity;
 mod effective_pressure;
 mod elastic;
 mod elastic_force;
 mod elastic_sub_steps;
+mod elastic_work;
 mod felt;
 mod gradient;
 mod isotropic;
 mod laplace;
 mod pore_pressure;
-mod pore_resistance;
 mod renormalised;
-mod seepage;
-mod seepage_exchange;
-mod seepage_flow;
 mod soil_surface;
 mod strain_rate;
 mod symmetric_difference;
@@ -48,26 +44,21 @@ mod yielded;
 pub use adjoint::{AdjointDivergence, StressCorrection};
 pub use blended::Blended;
 pub use carried::{CarriedAhead, CarriedStress};
+pub use contribution::{Elasticity, Friction, GrainPressure, Materials, Straining, WallFriction};
 pub use coulomb::CoulombFriction;
-pub use darcy_forchheimer::DarcyForchheimer;
 pub use displacement::{Displacement, DisplacementForce};
 pub use divergence::{Divergence, StressDivergence};
-pub use eddy_viscosity::{EddyViscosity, EddyViscosityEntry};
 pub use effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 pub use elastic::ElasticMotion;
 pub use elastic_force::{Blend, ElasticForce, ElasticForceEntry};
 pub use elastic_sub_steps::ElasticSubSteps;
+pub use elastic_work::ElasticWork;
 pub use felt::Felt;
 pub use gradient::{GradientStage, NeighbourSums, VelocityGradient, VelocityGradientEntry};
 pub use isotropic::Isotropic;
 pub use laplace::{Laplace, PressureSolver};
 pub use pore_pressure::PorePressure;
-pub use pore_resistance::PoreResistance;
 pub use renormalised::Renormalised;
-pub use seepage::{
-    PoreFlow, SEEPAGE_PRESSURE, SEEPAGE_VELOCITY, Seepage, SeepageEntry, SeepagePhases,
-    SeepageProblem,
-};
 pub use strain_rate::StrainRate;
 pub use symmetric_difference::SymmetricDifference;
 pub use viscosity::ViscosityStage;

@@ -4,6 +4,7 @@ use nalgebra::SMatrix;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::register;
+use sph_neighbours::trusted_inverse;
 
 use crate::{Isotropic, NeighbourSums, VelocityGradient, VelocityGradientEntry};
 
@@ -27,12 +28,9 @@ pub struct Renormalised {
     pub adjoint: bool,
 }
 
-/// Least determinant of the moment, over that of an even one with the same trace.
-const LEAST: f64 = 0.05;
-
 impl<const D: usize> VelocityGradient<D> for Renormalised {
     fn gradient(&self, sums: &NeighbourSums<D>) -> SMatrix<f64, D, D> {
-        match trusted(&sums.position) {
+        match trusted_inverse(&sums.position) {
             Some(inverse) => sums.velocity * inverse,
             None => Isotropic {}.gradient(sums),
         }
@@ -44,35 +42,11 @@ impl<const D: usize> VelocityGradient<D> for Renormalised {
 
     fn correction(&self, sums: &NeighbourSums<D>) -> SMatrix<f64, D, D> {
         let gamma = 1.0 / sums.inverse_renormalisation;
-        match trusted(&sums.position) {
+        match trusted_inverse(&sums.position) {
             Some(inverse) => inverse * gamma,
             None => Isotropic {}.correction(sums),
         }
     }
-}
-
-/// The inverse of a moment, unless neighbours are nearly in one line or plane.
-pub(crate) fn trusted<const D: usize>(moment: &SMatrix<f64, D, D>) -> Option<SMatrix<f64, D, D>> {
-    let even = (moment.trace() / D as f64).powi(D as i32);
-    let (inverse, determinant) = inverse(moment)?;
-    (determinant > LEAST * even).then_some(inverse)
-}
-
-/// Inverse and determinant by cofactors; only two and three dimensions have them.
-fn inverse<const D: usize>(m: &SMatrix<f64, D, D>) -> Option<(SMatrix<f64, D, D>, f64)> {
-    let cofactor = |i: usize, j: usize| match D {
-        2 => {
-            let sign = if i == j { 1.0 } else { -1.0 };
-            sign * m[(1 - i, 1 - j)]
-        }
-        _ => {
-            let [a, b, c, d] = [(i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3];
-            m[(a, c)] * m[(b, d)] - m[(a, d)] * m[(b, c)]
-        }
-    };
-    let determinant = (0..D).map(|j| m[(0, j)] * cofactor(0, j)).sum::<f64>();
-    let adjugate = SMatrix::from_fn(|i, j| cofactor(j, i) / determinant);
-    (determinant > 0.0).then_some((adjugate, determinant))
 }
 
 register!(

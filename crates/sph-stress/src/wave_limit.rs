@@ -1,7 +1,7 @@
 //! The step that elastic waves allow.
 
+use sph_contribution::Limiter;
 use sph_core::{StepError, StepLimit};
-use sph_multiphase::Limiter;
 use sph_neighbours::World;
 
 /// Δt ≤ C h / √(c₀² + k𝒢/ρ₀): pressure waves in an elastic material, k being that of its
@@ -31,6 +31,11 @@ impl ElasticWaveLimit {
 impl<const D: usize> Limiter<D> for ElasticWaveLimit {
     fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
         Ok(StepLimit::new("elastic wave", self.longest(world)))
+    }
+    fn remedy(&self) -> Option<String> {
+        let away = "`elastic-force.divergence.sub_steps = true` with [integrator.symplectic-euler] takes this bound away: \
+                    the elastic force then has steps of its own within that of the flow";
+        Some(away.into())
     }
     fn formula(&self) -> String {
         format!(

@@ -64,7 +64,10 @@ fn used() -> BTreeMap<String, Users> {
                 ("build-dependencies", false),
                 ("dev-dependencies", true),
             ] {
-                for dependency in entries(of, key).keys() {
+                // What has a path is of this project.
+                let all = entries(of, key);
+                let outside = all.iter().filter(|(_, entry)| entry.get("path").is_none());
+                for (dependency, _) in outside {
                     let users = used.entry(dependency.clone()).or_default();
                     let users = if is_test {
                         &mut users.test

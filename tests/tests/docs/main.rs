@@ -5,10 +5,13 @@ mod dependencies;
 use std::path::{Path, PathBuf};
 
 const PLUGINS: &str = include_str!("../../../docs/plugins.md");
-const QUOTED: [&str; 2] = [
+const QUOTED: [&str; 4] = [
     include_str!("../outside_plugin.rs"),
-    include_str!("../open_kind.rs"),
+    include_str!("../../../examples/syrup/src/lib.rs"),
+    include_str!("../../../examples/tracer/src/lib.rs"),
+    include_str!("../../../examples/winch/src/lib.rs"),
 ];
+const MANIFEST: &str = include_str!("../../../examples/syrup/Cargo.toml");
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -45,11 +48,14 @@ fn the_code_of_the_plugin_page_is_that_of_a_test() {
     let (binary, quoted): (Vec<_>, Vec<_>) = blocks(PLUGINS, "rust")
         .into_iter()
         .partition(|block| block.starts_with("use my_plugins as _;"));
-    assert_eq!((binary.len(), quoted.len()), (1, 8));
+    assert_eq!((binary.len(), quoted.len()), (1, 10));
     for block in quoted {
         let found = QUOTED.iter().any(|file| file.contains(block));
-        assert!(found, "in none of the tests:\n{block}");
+        assert!(found, "in none of the tests and examples:\n{block}");
     }
+    let manifests = blocks(PLUGINS, "toml");
+    let manifest = manifests.iter().find(|b| b.starts_with("[package]"));
+    assert_eq!(manifest, Some(&MANIFEST), "the manifest of the page");
 }
 
 #[test]

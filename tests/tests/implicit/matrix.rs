@@ -4,13 +4,13 @@ use sph_core::{System, Vect, fields};
 use sph_implicit::{
     Cholesky, Entries, Entry, LinearSolver, Matrix, Row, Values, assemble as matrix_of,
 };
-use sph_multiphase::{
-    EspanolRevenga, HuAdamsViscosity, KrimiViscosity, MonaghanGingold, Morris, OnLattice,
-    Viscosity, ViscousOperator, WallTerm, Weak,
-};
 use sph_neighbours::{World, interactions};
 use sph_scene::parse;
 use sph_solver::assemble;
+use sph_viscosity::{
+    EspanolRevenga, HuAdamsViscosity, KrimiViscosity, MonaghanGingold, Morris, OnLattice,
+    Viscosity, ViscousOperator, WallTerm, Weak,
+};
 
 const ETA: f64 = 3.0;
 

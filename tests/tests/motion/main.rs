@@ -1,6 +1,7 @@
 //! What moves and what leaves: walls in motion, displacements, outlets, the times of outputs.
 
 mod displacement;
+mod movers;
 mod moving_walls_3d;
 mod outlets;
 mod output_times;

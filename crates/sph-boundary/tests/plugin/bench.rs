@@ -20,6 +20,7 @@ pub fn fixed(polyline: Polyline) -> WallSpec<2> {
         condition: Condition::NoSlip,
         surface_velocity: Vect::zeros(),
         motion: RigidMotion::default(),
+        mover: None,
     }
 }
 

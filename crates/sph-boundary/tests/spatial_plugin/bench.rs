@@ -18,6 +18,7 @@ pub fn fixed<const D: usize>(drawing: Drawing) -> WallSpec<D> {
         condition: Condition::NoSlip,
         surface_velocity: Vect::zeros(),
         motion: RigidMotion::default(),
+        mover: None,
     }
 }
 
@@ -25,6 +26,7 @@ pub fn fixed<const D: usize>(drawing: Drawing) -> WallSpec<D> {
 pub fn moving<const D: usize>(drawing: Drawing, motion: RigidMotion<D>) -> WallSpec<D> {
     WallSpec {
         motion,
+        mover: None,
         ..fixed(drawing)
     }
 }

@@ -21,6 +21,8 @@ pub fn of(kind: &str, plugin: &PluginInfo) -> String {
              [reference.NAME]               # as a reference\nfield = \"velocity\"\n\
              solution = \"{name}\"\n[reference.NAME.parameters]\n{keys}"
         ),
+        "contact-law" => format!("[grains.contact.{name}]\n{keys}"),
+        "conductance" => format!("[fluid.conductance.{name}]\n{keys}"),
         _ => format!("[{kind}.{name}]\n{keys}"),
     }
 }

@@ -1,6 +1,7 @@
 //! Every solver against a dense solution, on random graphs; errors; the same bits on any number of threads.
 
 mod choice;
+mod operators;
 mod systems;
 
 use sph_core::Vect;

@@ -1,11 +1,11 @@
 //! One sweep over some terms.
 
 use sph_core::Vect;
-use sph_multiphase::{
-    BrezziPitkaranta, EquationOfState, Formulation, HuAdams, Laws, Linear, Morris, OnLattice,
-    Reference, Smoother, Viscosity, ViscousOperator, WallTerm,
-};
+use sph_diffusion::{BrezziPitkaranta, Smoother};
+use sph_multiphase::{Formulation, HuAdams};
 use sph_neighbours::{Interaction, Terms, World, interactions};
+use sph_state::{EquationOfState, Laws, Linear, Reference};
+use sph_viscosity::{Morris, OnLattice, Viscosity, ViscousOperator, WallTerm};
 
 /// Accelerations and the rate of the density constant.
 pub fn rates<const D: usize>(world: &World<D>, terms: &Terms<D>) -> (Vec<Vect<D>>, Vec<f64>) {

@@ -2,10 +2,11 @@
 
 use sph_core::{Role, Vect, fields};
 use sph_multiphase::{
-    COLOUR_GRADIENT, EquationOfState, GrenierInterface, InterfaceFriction, InterfaceModel, Laws,
-    Linear, MicroMixing, Reference, SurfaceStress, SurfaceTension,
+    COLOUR_GRADIENT, GrenierInterface, InterfaceFriction, InterfaceModel, MicroMixing,
+    SurfaceStress, SurfaceTension,
 };
 use sph_neighbours::{Domain, World};
+use sph_state::{EquationOfState, Laws, Linear, Reference};
 
 use crate::evaluate::acceleration;
 use crate::world::{Random, disorder, lattice, periodic, set, set_velocity, world};

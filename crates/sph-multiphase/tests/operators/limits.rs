@@ -1,10 +1,10 @@
 //! The step limit of mixtures of light and heavy particles.
 
+use sph_contribution::Limiter;
 use sph_core::{Vect, fields};
-use sph_multiphase::{
-    EquationOfState, Formulation, HuAdams, InterfaceLimit, Limiter, Linear, Reference,
-};
+use sph_multiphase::{Formulation, HuAdams, InterfaceLimit};
 use sph_neighbours::World;
+use sph_state::{EquationOfState, Linear, Reference};
 
 use crate::evaluate::{acceleration, pressure};
 use crate::world::{Random, lattice, periodic, set, world};

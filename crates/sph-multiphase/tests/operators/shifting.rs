@@ -1,7 +1,8 @@
 //! Shifting: nothing to do on a lattice, at rest and across surfaces; evens out the rest.
 
 use sph_core::{Role, Vect, fields};
-use sph_multiphase::{Fickian, Formulation, HuAdams, ShiftedFlow, Shifting, Transport};
+use sph_diffusion::{Fickian, ShiftedFlow, Shifting, Transport};
+use sph_multiphase::{Formulation, HuAdams};
 use sph_neighbours::{Domain, World};
 
 use crate::channel::{Channel, SPACING};

@@ -1,12 +1,13 @@
 //! The other smoothers: blind to what is smooth, keen on noise, and a diffusion.
 
 use sph_core::{Role, Vect, fields};
-use sph_kernels::{Kernel, quintic_spline};
-use sph_multiphase::{
-    BrezziPitkaranta, DENSITY_GRADIENT, DeltaForm, DeltaMultiphase, DeltaSph, Laws, PRESSURE_SLOPE,
+use sph_diffusion::{
+    BrezziPitkaranta, DENSITY_GRADIENT, DeltaForm, DeltaMultiphase, DeltaSph, PRESSURE_SLOPE,
     RhieChow, Smoother,
 };
+use sph_kernels::{Kernel, quintic_spline};
 use sph_neighbours::{Domain, World};
+use sph_state::Laws;
 
 use crate::evaluate::{laws, rates};
 use crate::world::{Random, at, disorder, lattice, periodic, set, world};

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use sph_core::{Declares, Role, Stage, fields};
-use sph_multiphase::{
+use sph_neighbours::World;
+use sph_state::{
     BoundState, CompressibleGrains, EquationOfState, Laws, Linear, PressureStage, Reference,
 };
-use sph_neighbours::World;
 
 use crate::world::{lattice, periodic, set, world};
 

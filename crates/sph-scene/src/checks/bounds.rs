@@ -69,6 +69,12 @@ pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems)
             }
         }
     }
+    whole_periods(scene, filled, found);
+}
+
+/// Refuses periods that bodies span and that are no multiple of the spacing.
+fn whole_periods<const D: usize>(scene: &Scene, filled: [bool; D], found: &mut Problems) {
+    let spacing = scene.numerics.spacing;
     for (k, (axis, bounds)) in scene
         .numerics
         .periodic

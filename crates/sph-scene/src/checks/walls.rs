@@ -42,6 +42,13 @@ pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut 
     of.optional(&wall.velocity, &format!("{path}.velocity"), found);
     if let Some(motion) = &wall.motion {
         motion::check(motion, of, &format!("{path}.motion"), found);
+        if let Some(name) = wall.mover.keys().next() {
+            let path = format!("{path}.mover.{name}");
+            found.add(
+                path,
+                "the wall has a prescribed `motion`, too: take one of the two out",
+            );
+        }
     }
     match (wall.condition, wall.slip_length) {
         (Condition::PartialSlip, None) => found.add(

@@ -26,6 +26,7 @@ pub(crate) fn tables(scene: &Table) -> Vec<SceneProblem> {
         match kind.place {
             Place::One => single(scene.get(kind.name), kind.name, &mut found),
             Place::InPhase => nested.push(("phase", kind.name)),
+            Place::InWall => nested.push(("wall", kind.name)),
             Place::Any | Place::Probe | Place::Solution => {}
         }
     }

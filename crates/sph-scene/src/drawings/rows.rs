@@ -4,8 +4,9 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use scene_text::line_and_column;
+
 use crate::Line;
-use crate::reading::diagnostic::line_and_column;
 
 /// Longest text file, bytes.
 const BYTES: u64 = 64 << 20;

@@ -3,8 +3,6 @@
 use sph_core::{MOST_PROBLEMS, SceneProblem};
 use toml::{Table, Value};
 
-/// Longest scene file, bytes.
-pub(crate) const FILE_BYTES: usize = 4 << 20;
 /// Most corners of a wall.
 pub(crate) const WALL_CORNERS: usize = 1_000_000;
 /// Most corners of a polygon that is filled.

@@ -4,8 +4,24 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{RegistryError, SceneProblem};
+use sph_core::{KindInfo, Place, RegistryError, SceneProblem, kinds};
 use toml::Table;
+
+/// Tables that hold exactly one plugin, as the keys that lead to them.
+fn single_tables() -> Vec<Vec<&'static str>> {
+    let path = |kind: &'static KindInfo| match kind.place {
+        Place::One => Some(vec![kind.name]),
+        Place::InPhase => Some(vec!["phase", "*", kind.name]),
+        Place::InWall => Some(vec!["wall", "*", kind.name]),
+        Place::Solution => Some(vec!["body", "*", "initial"]),
+        Place::Any | Place::Probe => None,
+    };
+    kinds().into_iter().filter_map(path).collect()
+}
+
+inventory::submit! {
+    scene_text::OnePlugin(single_tables)
+}
 
 /// Parameter tables by plugin name.
 pub type Plugins = BTreeMap<String, Table>;

@@ -32,7 +32,7 @@ pub(crate) fn of_scene() -> Json {
     let Some(properties) = root.get_mut("properties").and_then(Json::as_object_mut) else {
         return root;
     };
-    for kind in kinds().into_iter().filter(|k| k.is_open()) {
+    for kind in kinds().into_iter().filter(|k| k.has_table()) {
         let mut place = schema_of::<AnyPlugins>();
         let purpose = purposes.iter().find(|c| c.kind == kind.name);
         let purpose = purpose.map_or(kind.name, |c| c.purpose);
@@ -67,9 +67,14 @@ pub fn unit(key: &str) -> Option<String> {
 fn insert(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, Json>) {
     let kind = contract.kind;
     match kind_of(kind).map(|k| k.place) {
-        Some(Place::InPhase) => {
+        Some(place @ (Place::InPhase | Place::InWall)) => {
+            let owner = if place == Place::InPhase {
+                "Phase"
+            } else {
+                "Wall"
+            };
             named(
-                root.pointer_mut(&format!("/$defs/Phase/properties/{kind}")),
+                root.pointer_mut(&format!("/$defs/{owner}/properties/{kind}")),
                 contract,
                 shared,
             );

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Place, SceneProblem, Vect, kind_of};
+use sph_core::{SceneProblem, Vect};
 use toml::Value;
 
 use crate::geometry::vector::array;
@@ -112,8 +112,7 @@ impl Scene {
 
     /// The plugin that the scene chooses for a kind of which it has one at most.
     pub fn choice(&self, kind: &str) -> Option<PluginChoice> {
-        let kind = kind_of(kind).filter(|k| k.place == Place::One)?.name;
-        single(kind, self.plugins.get(kind)?, kind)
+        self.choices(kind).into_iter().next()
     }
 
     /// The plugins that the scene names of a kind of which it has one or any number.
@@ -148,6 +147,12 @@ impl Scene {
     pub fn rheology(&self, phase: &str) -> Option<PluginChoice> {
         let path = format!("phase.{phase}.rheology");
         single("rheology", &self.phase.get(phase)?.rheology, &path)
+    }
+
+    /// What moves a wall, if the scene chooses something.
+    pub fn mover(&self, wall: &str) -> Option<PluginChoice> {
+        let path = format!("wall.{wall}.mover");
+        single("mover", &self.wall.get(wall)?.mover, &path)
     }
 
     /// The plugin that gives a body its velocity at the start, if the scene chooses one.

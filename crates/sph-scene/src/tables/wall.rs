@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::Motion;
+use crate::reading::plugins::{AnyPlugins, Plugins};
 use crate::tables::wall_shapes::{
     ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };
@@ -77,8 +78,12 @@ pub struct Wall {
     /// Velocity of the wall's surface, m/s, while its geometry stays: a belt.
     #[schemars(extend("unit" = "m/s"))]
     pub velocity: Option<Vec<f64>>,
-    /// Rigid motion of the geometry.
+    /// Rigid motion of the geometry, prescribed.
     pub motion: Option<Motion>,
+    /// What moves the geometry instead, with the force of the fluid on it, `[wall.NAME.mover.PLUGIN]`; none if left out.
+    #[serde(default)]
+    #[schemars(with = "AnyPlugins")]
+    pub mover: Plugins,
     /// The file with its folder, set when the scene is read.
     #[serde(skip)]
     pub path: Option<PathBuf>,

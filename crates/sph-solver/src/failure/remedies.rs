@@ -3,7 +3,11 @@
 use sph_core::StepError;
 use sph_scene::Scene;
 
+use crate::defaults;
 use crate::failure::findings::{Findings, Share, Sighting};
+
+/// What the plugins of a scene say of their terms, by kind.
+pub type Remedies = [(&'static str, String)];
 
 /// Roll-backs from which a shorter step is no remedy.
 const ENOUGH: u32 = 2;
@@ -13,9 +17,22 @@ const LARGE: f64 = 100.0;
 const CLOSE: f64 = 0.3;
 
 /// What to try: what helps against the quantity first, then against the largest term, then against the step.
-pub fn remedies(scene: &Scene, cause: &StepError, found: &Findings) -> Vec<String> {
+pub fn remedies(
+    scene: &Scene,
+    cause: &StepError,
+    found: &Findings,
+    told: &Remedies,
+) -> Vec<String> {
     let mut all = against_quantity(cause, found);
-    all.extend(found.largest().and_then(|share| against_term(scene, share)));
+    if let StepError::Stage { stage, .. } = cause {
+        let failed = told.iter().filter(|(name, _)| name == stage);
+        all.extend(failed.map(|(_, what)| what.clone()));
+    }
+    all.extend(
+        found
+            .largest()
+            .and_then(|share| against_term(scene, share, told)),
+    );
     all.extend(against_crowding(found));
     all.extend(against_step(scene, found));
     all
@@ -45,19 +62,11 @@ fn against_quantity(cause: &StepError, found: &Findings) -> Vec<String> {
              `numerics.domain`",
         ]),
         StepError::Bad { .. } if found.largest().is_none() => {
-            text(&["give the scene a smoother (`[smoother.brezzi-pitkaranta]`)"])
+            let smoother = defaults::suggested("smoother").into_iter();
+            smoother
+                .map(|s| format!("give the scene a smoother ({s})"))
+                .collect()
         }
-        StepError::Stage { stage, .. } => match stage.as_str() {
-            "implicit viscosity" => text(&[
-                "the friction could not be solved for: name a solver with more iterations (`[linear-solver.conjugate-gradient] \
-                 iterations`), or `[linear-solver.cholesky]`, which needs none",
-            ]),
-            "effective pressure" => text(&[
-                "the pressure between the grains could not be solved for: raise `effective-pressure.laplace.iterations`, or \
-                 loosen its `tolerance`",
-            ]),
-            _ => Vec::new(),
-        },
         _ => Vec::new(),
     }
 }
@@ -70,7 +79,7 @@ fn large(scene: &Scene, acceleration: f64) -> bool {
 }
 
 /// The setting that tames the term.
-fn against_term(scene: &Scene, share: &Share) -> Option<String> {
+fn against_term(scene: &Scene, share: &Share, told: &Remedies) -> Option<String> {
     let largest = format!("the largest term was `{}`", share.term);
     if let Some(a) = share.acceleration.filter(|a| !large(scene, *a)) {
         return Some(format!(
@@ -84,31 +93,16 @@ fn against_term(scene: &Scene, share: &Share) -> Option<String> {
              whether it moves faster than the fluid can follow"
         ));
     }
-    let chosen = |kind: &'static str| {
-        let choice = scene.choice(kind);
-        choice.map_or(format!("[{kind}]"), |c| format!("`{}`", c.path))
-    };
     let what = match share.kind.as_str() {
-        "formulation" if scene.choice("smoother").is_none() => {
-            "give the scene a smoother (`[smoother.brezzi-pitkaranta]`), or look whether bodies overlap or collide".into()
-        }
-        "formulation" => "look whether bodies overlap or collide there".into(),
-        "viscous-operator" if scene.choice("implicit-viscosity").is_none() => {
-            "treat the viscosity implicitly (`[implicit-viscosity.backward-euler]`), or lower it".into()
-        }
-        "viscous-operator" => format!(
-            "it is solved for, so look at the rheology: a smaller largest viscosity, or another {}",
-            chosen("linear-solver")
-        ),
-        "smoother" => format!("lower the strength in {}", chosen("smoother")),
-        "elastic-force" => format!(
-            "lower Young's modulus of the soil, give it `damping`, or change {}",
-            chosen("elastic-force")
-        ),
-        "interface" => format!("lower the coefficients of {}", chosen("interface")),
-        "shifting" => format!("weaken {}", chosen("shifting")),
-        "term" => "look at its parameters".into(),
-        _ => return None,
+        "formulation" => match (scene.choice("smoother"), defaults::suggested("smoother")) {
+            (None, Some(smoother)) => {
+                format!(
+                    "give the scene a smoother ({smoother}), or look whether bodies overlap or collide"
+                )
+            }
+            _ => "look whether bodies overlap or collide there".into(),
+        },
+        kind => told.iter().find(|(k, _)| *k == kind)?.1.clone(),
     };
     Some(format!("{largest}: {what}"))
 }

@@ -181,7 +181,8 @@ impl<const D: usize> Running<'_, D> {
         let files = failure.pictures.iter().chain(&failure.bad_state);
         let files = files.chain(&failure.checkpoint);
         failure.findings.files = files.filter_map(name).collect();
-        let all = remedies(self.scene, &failure.cause, &failure.findings);
+        let told = &self.parts.flow.remedies;
+        let all = remedies(self.scene, &failure.cause, &failure.findings, told);
         failure.findings.advice = all;
     }
 }

@@ -21,6 +21,8 @@ pub struct Costs<'a> {
     pub wall_seconds: f64,
     /// Share of the steps limited by each bound.
     pub dt_limiters: &'a BTreeMap<String, f64>,
+    /// What lengthens a bound, where its plugin knows.
+    pub remedies: &'a BTreeMap<String, String>,
     /// Mean of every bound, s.
     pub dt_limits: &'a BTreeMap<String, f64>,
     /// Wall-clock time per stage, s.
@@ -58,28 +60,9 @@ fn limiter(s: &Costs) -> Option<String> {
         ),
         _ => "no other bound is in force".to_string(),
     };
-    let what = match name.as_str() {
-        "viscosity" => format!(
-            "treating the viscosity implicitly (`[implicit-viscosity.backward-euler]`) takes this \
-             bound away; {then}, so at best that \
-             many times fewer steps"
-        ),
-        "sound" => format!(
-            "a lower `speed_of_sound` lengthens the step in proportion, as long as it stays ten \
-             times the largest speed; {then}"
-        ),
-        "elastic wave" => format!(
-            "`elastic-force.divergence.sub_steps = true` with [integrator.symplectic-euler] takes this bound away: the \
-             elastic force then has steps of its own within that of the flow; {then}"
-        ),
-        "interface" => format!(
-            "`numerics.reference_pressure = \"equal\"` makes all phases equally compressible and \
-             takes this bound away; {then}"
-        ),
-        "smoother" => {
-            format!("a smaller `strength` of the smoother lengthens the step; {then}")
-        }
-        _ => format!("{then}; a coarser `numerics.spacing` lengthens it"),
+    let what = match s.remedies.get(name) {
+        Some(remedy) => format!("{remedy}; {then}"),
+        None => format!("{then}; a coarser `numerics.spacing` lengthens it"),
     };
     let share = (100.0 * share).round();
     Some(format!("`{name}` limits {share} % of the steps: {what}"))
@@ -135,28 +118,25 @@ mod tests {
             steps: 1000,
             wall_seconds: 100.0,
             dt_limiters: &table(shares),
+            remedies: &BTreeMap::from([("viscosity".into(), "solve for it".into())]),
             dt_limits: &table(limits),
             stages: &table(stages),
         })
     }
 
     #[test]
-    fn a_viscous_run_is_told_what_an_implicit_viscosity_may_bring() {
+    fn a_viscous_run_is_told_what_its_plugin_says_and_what_it_may_bring() {
         let limits = [("viscosity", 1e-5), ("sound", 2.34e-4), ("force", 1.0)];
         let told = told(&[("viscosity", 0.9), ("sound", 0.1)], &limits, &[]);
         assert_eq!(told.len(), 1);
-        assert!(told[0].contains("implicitly") && told[0].contains("`sound`, is 23 times"));
+        assert!(told[0].contains("solve for it") && told[0].contains("`sound`, is 23 times"));
     }
 
     #[test]
-    fn a_stiff_run_is_told_of_sub_steps_and_a_solver_of_its_tolerance() {
+    fn a_bound_without_a_remedy_is_told_of_the_spacing_and_a_solver_of_its_tolerance() {
         let limits = [("elastic wave", 1e-5), ("sound", 1e-4)];
         let told_of = told(&[("elastic wave", 1.0)], &limits, &[]);
-        assert!(told_of[0].contains("sub_steps = true") && told_of[0].contains("10 times"));
-        assert!(
-            !told_of[0].contains("implicit"),
-            "which may hold it: {told_of:?}"
-        );
+        assert!(told_of[0].contains("spacing") && told_of[0].contains("10 times"));
         let solves = [("implicit viscosity", 9.0), ("interactions (a)", 1.0)];
         let told_of = told(&[], &[], &solves);
         assert!(told_of[0].contains("tolerance"), "{told_of:?}");

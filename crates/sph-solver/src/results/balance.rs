@@ -83,17 +83,9 @@ impl<const D: usize> Balance<D> {
         let phase = free.get(fields::PHASE).ok();
         let gravity = flow.world.gravity;
         let laws = &flow.laws;
-        let elastic = flow.elastic.as_ref();
-        let elastic =
-            elastic.and_then(|e| Some((&e.felt.laws, free.get(fields::ELASTIC_STRESS).ok()?)));
-        let strained = |i: usize, phase: usize| {
-            let Some((laws, stress)) = elastic else {
-                return 0.0;
-            };
-            let modulus = laws[phase].elastic().map(|e| e.shear_modulus());
-            let volume = mass[i] / density[i];
-            modulus.map_or(0.0, |g| volume * stress[i].contract(&stress[i]) / (4.0 * g))
-        };
+        let stored = flow.works.iter().filter_map(|w| w.energy(&flow.world));
+        let stored: Vec<_> = stored.collect();
+        let strained = |i: usize| stored.iter().map(|energy| energy(i)).sum::<f64>();
         let one = |i: usize| {
             let (m, u) = (mass[i], velocity[i]);
             let phase = phase.map_or(0, |p| p[i] as usize);
@@ -107,7 +99,7 @@ impl<const D: usize> Balance<D> {
                 momentum_scale: m * speed,
                 kinetic: 0.5 * m * speed * speed,
                 potential: -m * gravity.dot(&position[i]),
-                internal: m * law.internal_energy(density[i]) + strained(i, phase),
+                internal: m * law.internal_energy(density[i]) + strained(i),
                 fastest: speed,
                 mach,
                 faster: [COMPRESSIBLE, SUPERSONIC].map(|most| if mach > most { m } else { 0.0 }),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use sph_core::fields;
-use sph_io::{Plot, Series, read_table};
+use sph_io::{Plot, Series, Table, read_table};
 use sph_probes::{Solution, norm};
 use sph_scene::{Norm, Reference, Scene};
 
@@ -183,86 +183,119 @@ fn against_series<const D: usize>(
         Ok(table) => table,
         Err(gone) => return Ok(Err(gone.to_string())),
     };
-    let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
-        table.columns[k]
-            .values
-            .iter()
-            .map(|v| v * scale + offset)
-            .collect()
+    let samples = match Samples::of(reference, &table, times, values) {
+        Some(samples) => samples,
+        None => return Ok(Err("no time of the reference lies within the run".into())),
     };
-    let at = scaled(0, reference.scale_time, reference.offset_time);
-    let value = |k: usize| scaled(k, reference.scale_value, reference.offset_value);
-    let low = value(1);
-    let high = (reference.norm() == Norm::Band && table.columns.len() > 2).then(|| value(2));
-    let mut differences = Vec::new();
-    let mut compared = Vec::new();
-    let mut instants = Vec::new();
-    let weights = norm::time_weights(&at);
-    let (mut outside, mut whole) = (0.0, 0.0);
-    let mut last = None;
-    let mut window = [f64::INFINITY, f64::NEG_INFINITY];
-    for (k, &t) in at.iter().enumerate().filter(|(_, t)| counts(**t)) {
-        let Some(u) = norm::at(times, values, t).filter(|u| u.is_finite()) else {
-            continue;
+    Ok(samples.error(reference, [times, values]))
+}
+
+/// A series where a reference has values, and both there.
+struct Samples {
+    instants: Vec<f64>,
+    /// Values of the reference.
+    compared: Vec<f64>,
+    /// Series less reference.
+    differences: Vec<f64>,
+    /// Share of the time outside of the band.
+    outside: f64,
+    /// Relative error at the last instant.
+    last: f64,
+    /// First and last instant, s.
+    window: [f64; 2],
+}
+
+impl Samples {
+    /// At the instants of a table that count; none if none does.
+    fn of(reference: &Reference, table: &Table, times: &[f64], values: &[f64]) -> Option<Self> {
+        let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
+            let column = table.columns[k].values.iter();
+            column.map(|v| v * scale + offset).collect()
         };
-        window = [window[0].min(t), window[1].max(t)];
-        differences.push(u - low[k]);
-        compared.push(low[k]);
-        instants.push(t);
-        if let Some(high) = &high {
-            let out = u < low[k] || u > high[k];
-            outside += if out { weights[k] } else { 0.0 };
-            whole += weights[k];
-        }
-        if last.is_none_or(|(before, _)| t >= before) {
-            last = Some((t, ((u - low[k]) / low[k]).abs()));
-        }
-    }
-    let Some((_, last)) = last else {
-        return Ok(Err("no time of the reference lies within the run".into()));
-    };
-    let n = differences.len();
-    let largest = || differences.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
-    let ones = vec![1.0; n];
-    let exact_plus = || -> Vec<f64> {
-        compared
+        let at = scaled(0, reference.scale_time, reference.offset_time);
+        let value = |k: usize| scaled(k, reference.scale_value, reference.offset_value);
+        let low = value(1);
+        let high = (reference.norm() == Norm::Band && table.columns.len() > 2).then(|| value(2));
+        let weights = norm::time_weights(&at);
+        let (mut outside, mut whole) = (0.0, 0.0);
+        let mut last = None;
+        let mut samples = Samples {
+            instants: Vec::new(),
+            compared: Vec::new(),
+            differences: Vec::new(),
+            outside: 0.0,
+            last: 0.0,
+            window: [f64::INFINITY, f64::NEG_INFINITY],
+        };
+        for (k, &t) in at
             .iter()
-            .zip(&differences)
-            .map(|(e, d)| e + d)
-            .collect()
-    };
-    let (value, unit) = match reference.norm() {
-        Norm::RmsOverRange => (norm::rms_over_range(&differences, &compared), "1"),
-        Norm::Band => (outside / whole, "1"),
-        Norm::Final => (last, "1"),
-        Norm::Absolute => (largest(), ""),
-        Norm::L2 => (norm::l2(&exact_plus(), &compared, &ones, 1), "1"),
-        Norm::L1 => (norm::l1(&exact_plus(), &compared, 1), "1"),
-        Norm::Linf => (norm::linf(&exact_plus(), &compared, 1), "1"),
-        Norm::Range => (norm::range_error(&exact_plus(), &compared), "1"),
-        Norm::PeakTime => {
-            let peak = |values: &[f64]| norm::peak_time(&instants, values).unwrap_or(f64::NAN);
-            ((peak(&exact_plus()) / peak(&compared) - 1.0).abs(), "1")
-        }
-        Norm::Lag => {
-            let Some(period) = reference.period else {
-                return Ok(Err("the norm `lag` needs the `period`".into()));
+            .enumerate()
+            .filter(|(_, t)| counts(reference, **t))
+        {
+            let Some(u) = norm::at(times, values, t).filter(|u| u.is_finite()) else {
+                continue;
             };
-            let found = norm::lag([times, values], [&instants, &compared], 0.5 * period);
-            (found.map_or(f64::NAN, |lag| lag.abs() / period), "1")
+            samples.window = [samples.window[0].min(t), samples.window[1].max(t)];
+            samples.differences.push(u - low[k]);
+            samples.compared.push(low[k]);
+            samples.instants.push(t);
+            if let Some(high) = &high {
+                let out = u < low[k] || u > high[k];
+                outside += if out { weights[k] } else { 0.0 };
+                whole += weights[k];
+            }
+            if last.is_none_or(|(before, _)| t >= before) {
+                last = Some((t, ((u - low[k]) / low[k]).abs()));
+            }
         }
-        Norm::Rms
-        | Norm::DecayRate
-        | Norm::L2Mean
-        | Norm::Mean
-        | Norm::ErrorMean
-        | Norm::Period => {
-            return Ok(Err("this norm is for fields".into()));
-        }
-    };
-    let mut entry = entry(value, reference, n, window);
-    entry.unit = unit.to_string();
-    Ok(Ok(entry))
+        samples.outside = outside / whole;
+        samples.last = last?.1;
+        Some(samples)
+    }
+
+    /// The error by the norm of the reference; the whole series is there for norms that look between instants.
+    fn error(&self, reference: &Reference, series: [&[f64]; 2]) -> Result<ErrorEntry, String> {
+        let Samples {
+            instants,
+            compared,
+            differences,
+            ..
+        } = self;
+        let n = differences.len();
+        let largest = || differences.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+        let ones = vec![1.0; n];
+        let both = compared.iter().zip(differences);
+        let exact_plus: Vec<f64> = both.map(|(e, d)| e + d).collect();
+        let (value, unit) = match reference.norm() {
+            Norm::RmsOverRange => (norm::rms_over_range(differences, compared), "1"),
+            Norm::Band => (self.outside, "1"),
+            Norm::Final => (self.last, "1"),
+            Norm::Absolute => (largest(), ""),
+            Norm::L2 => (norm::l2(&exact_plus, compared, &ones, 1), "1"),
+            Norm::L1 => (norm::l1(&exact_plus, compared, 1), "1"),
+            Norm::Linf => (norm::linf(&exact_plus, compared, 1), "1"),
+            Norm::Range => (norm::range_error(&exact_plus, compared), "1"),
+            Norm::PeakTime => {
+                let peak = |values: &[f64]| norm::peak_time(instants, values).unwrap_or(f64::NAN);
+                ((peak(&exact_plus) / peak(compared) - 1.0).abs(), "1")
+            }
+            Norm::Lag => {
+                let period = reference.period;
+                let period = period.ok_or("the norm `lag` needs the `period`")?;
+                let found = norm::lag(series, [instants, compared], 0.5 * period);
+                (found.map_or(f64::NAN, |lag| lag.abs() / period), "1")
+            }
+            Norm::Rms
+            | Norm::DecayRate
+            | Norm::L2Mean
+            | Norm::Mean
+            | Norm::ErrorMean
+            | Norm::Period => return Err("this norm is for fields".into()),
+        };
+        let mut entry = entry(value, reference, n, self.window);
+        entry.unit = unit.to_string();
+        Ok(entry)
+    }
 }
 
 /// A picture of every probe beside its reference, `plots/NAME.png`.

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use sph_viscosity::ImplicitViscosity;
+
 use crate::failure::error::{Failure, SolverError};
 use crate::results::advice::{self, Costs};
 use crate::results::balance::Balance;
@@ -46,14 +48,7 @@ impl<const D: usize> Running<'_, D> {
             warnings.push(format!("the plots were not written: {error}"));
         }
         let balance = Balance::of(flow)?;
-        let [mass, energy] = self.counters.initial.map(f64::from_bits);
-        let momentum: f64 = balance
-            .momentum
-            .iter()
-            .zip(&self.counters.initial_momentum)
-            .map(|(now, then)| (now - f64::from_bits(*then)).powi(2))
-            .sum::<f64>()
-            .sqrt();
+        let drift = self.drift(&balance);
         let over = |x: f64, scale: f64| if scale > 0.0 { x / scale } else { 0.0 };
         let steps = self.counters.steps;
         let particles = world.free.len();
@@ -72,25 +67,14 @@ impl<const D: usize> Running<'_, D> {
             steps,
             wall_seconds,
             dt_limiters: &dt_limiters,
+            remedies: &flow.remedies_of_bounds()?,
             dt_limits: &dt_limits,
             stages: &stage_seconds,
         };
         let mut advice = advice::advice(&costs);
-        advice.extend(flow.contributions.iter().flat_map(|c| c.advice(world)));
         let escaped = flow.escaped()?;
-        if escaped > 0 {
-            warnings.push(format!("{escaped} particles are behind a wall at the end"));
-        }
-        let solves = flow.implicit.as_ref().map(|i| &i.solves);
-        let held = solves.and_then(|s| s.held_back);
-        warnings.extend(held.and_then(|held| held.warning()));
-        let [highest, mach] = self.series.peaks;
-        if mach > INCOMPRESSIBLE {
-            advice.push(format!(
-                "the largest speed was {mach:.2} of the speed of sound: above {INCOMPRESSIBLE} the density \
-                 of a liquid moves by more than 1 %; raise `speed_of_sound` or `velocity_scale` of the phase"
-            ));
-        }
+        let mach = self.say_what_is_odd(escaped, &mut warnings, &mut advice);
+        let held: usize = flow.works.iter().map(|w| w.most_bytes()).sum();
         let summary = Summary {
             schema_version: SCHEMA_VERSION,
             scene: self.scene.title.clone(),
@@ -111,21 +95,12 @@ impl<const D: usize> Running<'_, D> {
             particle_steps_per_second: over(work, working),
             nanoseconds_per_pair: over(1e9 * working * threads as f64, work * neighbours),
             bytes_per_particle: world.free.bytes_per_particle(),
-            memory: Memory::of(
-                self.scene,
-                flow,
-                solves.map_or(0.0, |s| s.most_bytes as f64),
-            )?,
+            memory: Memory::of(self.scene, flow, held as f64)?,
             list_builds: world.lists.builds,
             dt_limiters,
             dt_limits,
             advice,
-            drift: Drift {
-                mass: over(balance.mass + flow.mass_left() - mass, mass),
-                momentum: over(momentum, self.series.momentum_scale),
-                energy: over(balance.energy() - energy, self.series.energy_scale),
-                energy_rise: over((highest - energy).max(0.0), self.series.energy_scale),
-            },
+            drift,
             kinetic_energy: balance.kinetic,
             density_range: self.series.density_range,
             mach,
@@ -139,13 +114,58 @@ impl<const D: usize> Running<'_, D> {
                 .map(|(label, left)| (label.clone(), left))
                 .collect(),
             relaxation: self.parts.relaxation,
-            implicit_viscosity: self.parts.flow.implicit.as_ref().map(|i| i.solves.clone()),
+            implicit_viscosity: flow.counts_of(ImplicitViscosity::<D>::NAME),
             errors,
             warnings,
             files: listing(&self.options.out),
         };
         sph_io::write_json(self.options.out.join("summary.json"), &summary)?;
         Ok(summary)
+    }
+
+    /// Changes of conserved quantities since the start.
+    fn drift(&self, balance: &Balance<D>) -> Drift {
+        let flow = &self.parts.flow;
+        let [mass, energy] = self.counters.initial.map(f64::from_bits);
+        let then = &self.counters.initial_momentum;
+        let momentum = balance.momentum.iter().zip(then);
+        let momentum = momentum.map(|(now, then)| (now - f64::from_bits(*then)).powi(2));
+        let momentum = momentum.sum::<f64>().sqrt();
+        let over = |x: f64, scale: f64| if scale > 0.0 { x / scale } else { 0.0 };
+        let [highest, _] = self.series.peaks;
+        Drift {
+            mass: over(
+                balance.mass + flow.mass_left() - flow.world.free.born().mass - mass,
+                mass,
+            ),
+            momentum: over(momentum, self.series.momentum_scale),
+            energy: over(balance.energy() - energy, self.series.energy_scale),
+            energy_rise: over((highest - energy).max(0.0), self.series.energy_scale),
+        }
+    }
+
+    /// Adds remarks of the work within steps, on particles behind walls and on speeds near that of sound; gives the largest Mach
+    /// number.
+    fn say_what_is_odd(
+        &self,
+        escaped: usize,
+        warnings: &mut Vec<String>,
+        advice: &mut Vec<String>,
+    ) -> f64 {
+        let flow = &self.parts.flow;
+        advice.extend(flow.works.iter().flat_map(|w| w.advice(&flow.world)));
+        if escaped > 0 {
+            warnings.push(format!("{escaped} particles are behind a wall at the end"));
+        }
+        warnings.extend(flow.works.iter().flat_map(|w| w.warnings()));
+        let [_, mach] = self.series.peaks;
+        if mach > INCOMPRESSIBLE {
+            advice.push(format!(
+                "the largest speed was {mach:.2} of the speed of sound: above {INCOMPRESSIBLE} the density \
+                 of a liquid moves by more than 1 %; raise `speed_of_sound` or `velocity_scale` of the phase"
+            ));
+        }
+        mach
     }
 }
 

@@ -1,19 +1,24 @@
 //! Checkpoints: all state columns, the lists' reference positions, the clocks and counters.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
-use sph_core::{Plain, Role, Vect, fields};
+use sph_boundary::WallStates;
+use sph_core::{Born, Plain, Role, Vect, fields};
 use sph_io::{Checkpoint, Column, ColumnData};
 use sph_scene::Scene;
 
 use crate::running::counters::{Counters, MOST};
+use crate::step::stages::lock;
 use crate::{Flow, Identity, SolverError};
 
 /// Name of the checkpoint in a run's folder.
 pub const FILE: &str = "checkpoint.sph";
 const REFERENCE: &str = "list_reference";
 const WALL_REFERENCE: &str = "wall_list_reference";
+const WALL_STATES: &str = "wall_states";
+const WALL_LIST_STATES: &str = "wall_list_states";
 
 /// The clock, as bits, so that nothing is lost on the way through JSON.
 #[derive(Serialize, Deserialize)]
@@ -21,6 +26,8 @@ struct Clock {
     time: u64,
     dt: u64,
     list_builds: u64,
+    /// Identities that were given, mass as bits and number of the particles that came in. Runs of before births were known have none.
+    born: Option<(u32, u64, u64)>,
     /// Of the last build of the lists. Runs of before it was kept go on with walls where they were saved.
     list_time: Option<u64>,
 }
@@ -65,6 +72,18 @@ pub fn save<const D: usize, T: Serialize>(
             data: ColumnData::F64(positions.iter().flatten().copied().collect()),
         });
     }
+    if let Some(walls) = &flow.walls {
+        let states = lock(walls).states();
+        let listed = states.listed.unwrap_or_default();
+        let both = [(WALL_STATES, states.now), (WALL_LIST_STATES, listed)];
+        for (name, numbers) in both.into_iter().filter(|(_, n)| !n.is_empty()) {
+            columns.push(Column {
+                name: name.into(),
+                components: 1,
+                data: ColumnData::F64(numbers),
+            });
+        }
+    }
     let meta = Meta {
         identity: identity.clone(),
         dimension: D,
@@ -72,6 +91,10 @@ pub fn save<const D: usize, T: Serialize>(
             time: world.time.to_bits(),
             dt: world.dt.to_bits(),
             list_builds: world.lists.builds,
+            born: Some({
+                let born = world.free.born();
+                (born.identities, born.mass.to_bits(), born.particles)
+            }),
             list_time: Some(world.lists.time.to_bits()),
         },
         run,
@@ -112,7 +135,7 @@ pub fn load<const D: usize>(
     if let Some(why) = counters.nonsense(scene, time) {
         return Err(refused(path, why));
     }
-    fill(flow, &checkpoint, path)?;
+    fill(flow, &checkpoint, &meta.clock, path)?;
     let reference: Vec<Vect<D>> = positions(&checkpoint, path, REFERENCE)?;
     let wall_reference: Vec<Vect<D>> = positions(&checkpoint, path, WALL_REFERENCE)?;
     if reference.len() != flow.world.free.len()
@@ -120,7 +143,7 @@ pub fn load<const D: usize>(
     {
         return Err(refused(path, "its number of particles is not the scene's"));
     }
-    set_clock(flow, &meta.clock, path)?;
+    set_clock(flow, &meta.clock, &checkpoint, true, path)?;
     let list_time = meta.clock.list_time.map_or(flow.world.time, f64::from_bits);
     flow.world
         .build_lists_from(reference, wall_reference, list_time);
@@ -145,12 +168,12 @@ pub fn start_from<const D: usize>(
         _ => 0,
     };
     let here = flow.world.free.len();
-    if there > here || (there < here && flow.outlets.is_empty()) {
+    if (there > here && flow.nursery.is_none()) || (there < here && flow.outlets.is_empty()) {
         let why = format!("it has {there} particles, the scene {here}");
         return Err(refused(path, why));
     }
-    fill(flow, &checkpoint, path)?;
-    set_clock(flow, &meta.clock, path)?;
+    fill(flow, &checkpoint, &meta.clock, path)?;
+    set_clock(flow, &meta.clock, &checkpoint, false, path)?;
     flow.world.rebuild_lists()?;
     Ok(())
 }
@@ -172,16 +195,33 @@ fn read<const D: usize, T: DeserializeOwned>(
 fn fill<const D: usize>(
     flow: &mut Flow<D>,
     checkpoint: &Checkpoint,
+    clock: &Clock,
     path: &Path,
 ) -> Result<(), SolverError> {
-    let born = flow.world.free.len();
+    if let Some((identities, mass, particles)) = clock.born {
+        let mass = f64::from_bits(mass);
+        let known = flow.world.free.born().identities;
+        let comes_in = flow.nursery.is_some();
+        let sound = if comes_in {
+            identities >= known
+        } else {
+            identities == known
+        };
+        if !(sound && mass >= 0.0 && mass.is_finite()) {
+            return Err(refused(path, "its births are not the scene's"));
+        }
+        flow.world.free.set_born(Born {
+            identities,
+            mass,
+            particles,
+        });
+    }
     if let Some(ColumnData::U32(v)) = checkpoint
         .column(fields::IDENTITY.name)
         .map(|c| &c.data)
-        .filter(|_| !flow.outlets.is_empty())
+        .filter(|_| !flow.outlets.is_empty() || flow.nursery.is_some())
     {
-        let leaves: Vec<bool> = (0..flow.world.free.len()).map(|k| k >= v.len()).collect();
-        flow.world.free.take_out(&leaves);
+        flow.world.free.set_len(v.len());
     }
     for name in flow.state_columns() {
         let column = checkpoint.column(name);
@@ -195,7 +235,7 @@ fn fill<const D: usize>(
             }
         }
     }
-    match nonsense(flow, born)? {
+    match nonsense(flow)? {
         Some(why) => Err(refused(path, why)),
         None => Ok(()),
     }
@@ -245,13 +285,23 @@ fn believable(clock: &Clock, scene: &Scene, path: &Path) -> Result<(), SolverErr
 fn set_clock<const D: usize>(
     flow: &mut Flow<D>,
     clock: &Clock,
+    checkpoint: &Checkpoint,
+    same_lists: bool,
     path: &Path,
 ) -> Result<(), SolverError> {
     flow.world.time = f64::from_bits(clock.time);
     flow.world.dt = f64::from_bits(clock.dt);
     if let Some(walls) = &flow.walls {
         let now = flow.world.time;
-        let moved = crate::step::stages::lock(walls).move_to(&mut flow.world.walls, now);
+        let numbers = |name: &str| match checkpoint.column(name).map(|c| &c.data) {
+            Some(ColumnData::F64(numbers)) => numbers.clone(),
+            _ => Vec::new(),
+        };
+        let states = WallStates {
+            now: numbers(WALL_STATES),
+            listed: same_lists.then(|| numbers(WALL_LIST_STATES)),
+        };
+        let moved = lock(walls).put_back(&mut flow.world.walls, &states, now);
         moved.map_err(|e| refused(path, e.to_string()))?;
     }
     Ok(())
@@ -259,16 +309,11 @@ fn set_clock<const D: usize>(
 
 /// What cannot be in a state of this scene, though the file is whole: numbers of particles and phases
 /// that there are none of, places that are none.
-fn nonsense<const D: usize>(
-    flow: &Flow<D>,
-    born: usize,
-) -> Result<Option<&'static str>, SolverError> {
+fn nonsense<const D: usize>(flow: &Flow<D>) -> Result<Option<&'static str>, SolverError> {
     let free = &flow.world.free;
-    let mut seen = vec![false; born];
-    let mut new = |id: u32| {
-        let place = seen.get_mut(id as usize);
-        place.is_some_and(|seen| !std::mem::replace(seen, true))
-    };
+    let mut seen = HashSet::new();
+    let given = free.born().identities;
+    let mut new = |id: u32| id < given && seen.insert(id);
     let positions = free.get(fields::POSITION)?;
     Ok(if !free.get(fields::IDENTITY)?.iter().all(|id| new(*id)) {
         Some("its particles are not the scene's")

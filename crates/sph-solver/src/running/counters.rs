@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
 use sph_scene::Scene;
 
 use crate::failure::trouble::Trouble;
-use crate::step::implicit::Solves;
 
 /// Counters of a run, as they stand in a checkpoint.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -45,9 +45,9 @@ pub(crate) struct Counters {
     /// Mass (as bits) and number of particles that have left, by outlet and phase.
     #[serde(default)]
     pub(crate) left: Vec<[u64; 2]>,
-    /// What implicit solves took so far.
+    /// What the work within steps has counted so far, by its name.
     #[serde(default)]
-    pub(crate) solves: Option<Solves>,
+    pub(crate) works: BTreeMap<String, Json>,
 }
 
 /// Largest count that is believed: a million steps a second for three centuries. Far below 2⁶⁴, so that
@@ -102,10 +102,12 @@ impl Counters {
         ];
         counts.extend(self.limited.values().map(|n| ("limited", *n)));
         counts.extend(self.left.iter().map(|[_, n]| ("left", *n)));
-        if let Some(solves) = &self.solves {
-            counts.extend(solves.by_method.values().map(|n| ("solves", *n)));
-            let outer = solves.outer.iter();
-            counts.extend(outer.flat_map(|o| [("solves", o.steps), ("solves", o.unconverged)]));
+        for (name, counted) in &self.works {
+            counts.extend(
+                whole_numbers(counted)
+                    .into_iter()
+                    .map(|n| (name.as_str(), n)),
+            );
         }
         let largest = counts.into_iter().find(|(_, n)| *n > MOST);
         largest.map(|(name, n)| format!("its counter `{name}` is {n}, which no run reaches"))
@@ -160,5 +162,15 @@ impl Counters {
             self.rows = (last / scene.output.series_interval(scene.run.end)).floor() as u64 + 1;
         }
         self.checkpoints = (time / scene.run.checkpoint_interval()).floor() as u64;
+    }
+}
+
+/// All whole numbers in what a piece of work has counted.
+fn whole_numbers(counted: &Json) -> Vec<u64> {
+    match counted {
+        Json::Number(n) => n.as_u64().into_iter().collect(),
+        Json::Array(items) => items.iter().flat_map(whole_numbers).collect(),
+        Json::Object(items) => items.values().flat_map(whole_numbers).collect(),
+        _ => Vec::new(),
     }
 }

@@ -121,8 +121,10 @@ fn begin<const D: usize>(
         let identity = same.then_some(&options.identity);
         counters = checkpoint::load(flow, scene, &file, identity)?;
         flow.recount(&counters.left);
-        if let Some((implicit, solves)) = flow.implicit.as_mut().zip(counters.solves.take()) {
-            implicit.solves = solves;
+        for work in &mut flow.works {
+            if let Some(counts) = counters.works.remove(&work.name()) {
+                work.recount(counts);
+            }
         }
         let time = flow.world.time;
         observer.message(&format!(
@@ -150,14 +152,25 @@ fn begin<const D: usize>(
     Ok(counters)
 }
 
+/// The state before the last step, if any was kept.
+#[derive(Default)]
+struct LastGood<const D: usize> {
+    snapshot: Snapshot<D>,
+    taken: bool,
+}
+
+impl<const D: usize> LastGood<D> {
+    fn state(&self) -> Option<&Snapshot<D>> {
+        self.taken.then_some(&self.snapshot)
+    }
+}
+
 /// Factor by which a rolled-back step recovers per good step.
 const RECOVERY: f64 = 1.05;
 
 impl<const D: usize> Running<'_, D> {
     fn go(&mut self, observer: &mut (dyn Observer + Send)) -> Result<Status, SolverError> {
-        let end = self.scene.run.end;
-        let mut snapshot = Snapshot::default();
-        let mut have_snapshot = false;
+        let mut good = LastGood::default();
         match (&self.options.start, self.parts.flow.world.time) {
             (Start::Afresh, _) => self.counters.next_output = self.next_output(-1.0),
             (Start::From(_) | Start::Changed, time) => {
@@ -167,97 +180,109 @@ impl<const D: usize> Running<'_, D> {
         }
         loop {
             if let Err(cause) = self.evaluate() {
-                let kept = have_snapshot.then_some(&snapshot);
-                self.go_back(cause, kept, observer)?;
+                self.go_back(cause, good.state(), observer)?;
                 continue;
             }
-            if have_snapshot && f64::from_bits(self.counters.step_scale) >= 1.0 {
-                self.counters.retries = 0;
+            if let Some(status) = self.look(&good, observer)? {
+                return Ok(status);
             }
-            let time = self.parts.flow.world.time;
-            self.write_what_is_due(time, observer)?;
-            if let Some(cause) = self.mach.verdict(self.scene) {
-                let kept = have_snapshot.then_some(&snapshot);
-                return Err(self.fail(cause, kept, observer));
-            }
-            if time >= end {
-                let solves = self.parts.flow.implicit.as_ref().map(|i| &i.solves);
-                let held = solves.and_then(|s| s.held_back);
-                if let Some(cause) = held.and_then(|h| h.verdict(self.scene)) {
-                    let kept = have_snapshot.then_some(&snapshot);
-                    return Err(self.fail(cause, kept, observer));
-                }
-                return Ok(Status::Done);
-            }
-            if self
-                .scene
-                .run
-                .max_steps
-                .is_some_and(|m| self.counters.steps >= m)
-            {
-                observer.message("the largest number of steps is reached");
-                self.save()?;
-                return Ok(Status::Interrupted);
-            }
-            let limits = self.parts.flow.step_limits()?;
-            self.note_bounds(&limits);
-            let (dt, limiter) = self.choose_step(&limits, time, end);
-            if self.scene.run.retries > 0 {
-                snapshot.take(&self.parts.flow)?;
-                have_snapshot = true;
-            }
-            if let Some(cause) = standing_still(time, dt, self.target(end), limiter) {
-                let kept = have_snapshot.then_some(&snapshot);
-                return Err(self.fail(cause, kept, observer));
-            }
-            self.tried = (dt, limiter);
-            self.parts.flow.world.dt = dt;
-            self.parts.flow.outlets.forget();
-            let flow = &mut self.parts.flow;
-            let stepped = self.parts.integrator.step(flow, dt);
-            let stepped = stepped.and_then(|()| flow.let_out());
-            if let Err(cause) = stepped {
-                let kept = have_snapshot.then_some(&snapshot);
-                self.go_back(cause, kept, observer)?;
+            if let Err(cause) = self.step(&mut good, observer)? {
+                self.go_back(cause, good.state(), observer)?;
                 continue;
             }
-            // A drift in parts may end one rounding short of its aim, and the sliver that is left
-            // be too short for its parts to move the clock: for ever.
-            let target = self.target(end);
-            if time + dt >= target * (1.0 - 1e-12) {
-                self.parts.flow.world.time = target;
-            }
-            self.counters.steps += 1;
-            *self
-                .counters
-                .limited
-                .entry(limiter.to_string())
-                .or_default() += 1;
-            let scale = f64::from_bits(self.counters.step_scale);
-            self.counters.step_scale = (scale * RECOVERY).min(1.0).to_bits();
-            let command = observer.step(&Progress {
-                time: self.parts.flow.world.time,
-                end,
-                step: self.counters.steps,
-                dt,
-                limiter,
-                particles: self.parts.flow.world.free.len(),
-            });
-            let late = self
-                .scene
-                .run
-                .max_wall
-                .is_some_and(|m| self.wall_seconds() > m);
-            if command == Command::Stop || late {
+            if self.is_to_stop(observer) {
                 // The rates belong to a state; a checkpoint is taken where they are fresh.
                 if let Err(cause) = self.evaluate() {
-                    let kept = have_snapshot.then_some(&snapshot);
-                    return Err(self.fail(cause, kept, observer));
+                    return Err(self.fail(cause, good.state(), observer));
                 }
                 self.save()?;
                 return Ok(Status::Interrupted);
             }
         }
+    }
+
+    /// Writes what is due at an evaluated state; tells whether the run is over.
+    fn look(
+        &mut self,
+        good: &LastGood<D>,
+        observer: &mut (dyn Observer + Send),
+    ) -> Result<Option<Status>, SolverError> {
+        if good.taken && f64::from_bits(self.counters.step_scale) >= 1.0 {
+            self.counters.retries = 0;
+        }
+        let time = self.parts.flow.world.time;
+        self.write_what_is_due(time, observer)?;
+        if let Some(cause) = self.mach.verdict(self.scene) {
+            return Err(self.fail(cause, good.state(), observer));
+        }
+        if time >= self.scene.run.end {
+            let mut works = self.parts.flow.works.iter();
+            if let Some(cause) = works.find_map(|w| w.verdict()) {
+                return Err(self.fail(cause, good.state(), observer));
+            }
+            return Ok(Some(Status::Done));
+        }
+        let most = self.scene.run.max_steps;
+        if most.is_some_and(|m| self.counters.steps >= m) {
+            observer.message("the largest number of steps is reached");
+            self.save()?;
+            return Ok(Some(Status::Interrupted));
+        }
+        Ok(None)
+    }
+
+    /// One step from an evaluated state, which is kept; what went wrong in it, if something did.
+    fn step(
+        &mut self,
+        good: &mut LastGood<D>,
+        observer: &mut (dyn Observer + Send),
+    ) -> Result<Result<(), StepError>, SolverError> {
+        let (time, end) = (self.parts.flow.world.time, self.scene.run.end);
+        let limits = self.parts.flow.step_limits()?;
+        self.note_bounds(&limits);
+        let (dt, limiter) = self.choose_step(&limits, time, end);
+        if self.scene.run.retries > 0 {
+            good.snapshot.take(&self.parts.flow)?;
+            good.taken = true;
+        }
+        if let Some(cause) = standing_still(time, dt, self.target(end), limiter) {
+            return Err(self.fail(cause, good.state(), observer));
+        }
+        self.tried = (dt, limiter);
+        self.parts.flow.world.dt = dt;
+        let flow = &mut self.parts.flow;
+        let stepped = self.parts.integrator.step(flow, dt);
+        let stepped = stepped.and_then(|()| flow.let_out());
+        if let Err(cause) = stepped.and_then(|()| flow.let_in(dt)) {
+            return Ok(Err(cause));
+        }
+        // A drift in parts may end one rounding short of its aim, and the sliver that is left
+        // be too short for its parts to move the clock: for ever.
+        let target = self.target(end);
+        if time + dt >= target * (1.0 - 1e-12) {
+            self.parts.flow.world.time = target;
+        }
+        self.counters.steps += 1;
+        let limited = self.counters.limited.entry(limiter.to_string());
+        *limited.or_default() += 1;
+        let scale = f64::from_bits(self.counters.step_scale);
+        self.counters.step_scale = (scale * RECOVERY).min(1.0).to_bits();
+        Ok(Ok(()))
+    }
+
+    /// Tells of a step that is done; whether somebody or the clock on the wall asks to stop.
+    fn is_to_stop(&self, observer: &mut (dyn Observer + Send)) -> bool {
+        let (dt, limiter) = self.tried;
+        let command = observer.step(&Progress {
+            time: self.parts.flow.world.time,
+            end: self.scene.run.end,
+            step: self.counters.steps,
+            dt,
+            limiter,
+            particles: self.parts.flow.world.free.len(),
+        });
+        let most = self.scene.run.max_wall;
+        command == Command::Stop || most.is_some_and(|m| self.wall_seconds() > m)
     }
 
     pub(crate) fn evaluate(&mut self) -> Result<(), StepError> {
@@ -362,7 +387,7 @@ impl<const D: usize> Running<'_, D> {
         let counters = Counters {
             wall_seconds: self.wall_seconds(),
             stage_seconds: self.stage_seconds(),
-            solves: self.parts.flow.implicit.as_ref().map(|i| i.solves.clone()),
+            works: self.parts.flow.counts(),
             ..self.counters.clone()
         };
         let path = self.options.out.join(checkpoint::FILE);

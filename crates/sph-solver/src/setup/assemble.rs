@@ -1,45 +1,37 @@
 //! From a scene to a flow that can be evaluated.
 
-use std::sync::{Arc, Mutex};
-
-use sph_contribution::{Birth, Initial, OwnColumn};
-use sph_core::plausible::Quantity;
-use sph_core::{AnyField, Evolved, Field, Role, Scalar, SceneProblem, Store, fields};
+use sph_contribution::{ForceLimit, Setting};
+use sph_core::{Born, Role, SceneProblem, Store, fields};
 use sph_integrators::Integrator;
-use sph_multiphase::{BoundState, Compressed, Diffused, Reference};
-use sph_neighbours::{WallSet, World};
+use sph_multiphase::Formulation;
+use sph_neighbours::World;
 use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
-use sph_stress::ElasticSubSteps;
+use sph_state::{Laws, Reference};
 
-use crate::defaults;
 use crate::failure::error::SolverError;
 use crate::results::summary::PluginInForce;
 use crate::setup::choices::Choices;
-use crate::setup::domain::{check_periods, domain_of, height};
+use crate::setup::domain::height;
 use crate::setup::field_error;
-use crate::setup::initial::InitialState;
+use crate::setup::joining::{Given, evolved, joined, remedies};
 use crate::setup::lattices;
-use crate::setup::layers::Layers;
-use crate::setup::limits::{elastic_wave, limiters_of};
-use crate::setup::placement::place;
-use crate::setup::planning::plan_stages;
+use crate::setup::parts::{Part, parts};
+use crate::setup::placement::Placed;
+use crate::setup::planning::{Planned, Planning};
 use crate::setup::probe_setup;
-use crate::setup::relax::{Relaxation, relax};
+use crate::setup::relax::Relaxation;
+use crate::setup::room::Room;
 use crate::setup::shapes::Drawn;
 use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
+use crate::setup::start::{Start, start};
 use crate::setup::wall_speeds;
-use crate::setup::walls::{build_walls, wall_problem};
-use crate::step::dilatation::Dilatation;
 use crate::step::flow::Flow;
-use crate::step::implicit::{ImplicitViscosity, Solves};
+use crate::step::nursery::Nursery;
 use crate::step::outlets::Outlets;
-use crate::step::seepage;
-use crate::step::snapshot::Snapshot;
-use crate::step::stages::{SharedWall, WALL_STATE};
-use crate::step::sub_steps::SubSteps;
+use crate::step::stages::SharedWall;
 
 /// A flow with everything a run needs besides.
 pub struct Assembled<const D: usize> {
@@ -68,159 +60,70 @@ pub struct Assembled<const D: usize> {
 /// # Errors
 /// Every problem of the scene, with its path; nothing is written.
 pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverError> {
-    let drawn = Drawn::<D>::of(scene)?;
+    let mut drawn = Drawn::<D>::of(scene)?;
     crate::setup::estimate::refuse_the_absurd(scene, &drawn)?;
     let mut choices = Choices::<D>::of(scene).map_err(SolverError::Scene)?;
     choices.probes.extend(field_error::probes(scene)?);
     probe_setup::prepare(scene, &mut choices.probes)?;
+    for spec in &mut drawn.walls {
+        let of_it = |(name, _): &&(String, _)| name == spec.drawing.name();
+        spec.mover = choices.movers.iter().find(of_it).map(|(_, m)| m.clone());
+    }
     let laws = bind_laws::<D>(scene, &drawn, &choices)?;
-    let sounds = laws.iter().map(|law| law.reference().sound_speed);
-    let slowest = sounds.fold(f64::INFINITY, f64::min);
-    let too_fast = wall_speeds::too_fast(&drawn.walls, slowest, scene.run.end);
-    if !too_fast.is_empty() {
-        return Err(SolverError::Scene(too_fast));
-    }
-    let spacing = scene.numerics.spacing;
-    let h = scene.numerics.smoothing_ratio * spacing;
-    let sampler = choices.kernel.sampler(D, h);
-    let support = sampler.support_radius() / spacing;
-    if let Some(why) = Quantity::refused("kernel support over the spacing", support) {
-        return Err(SolverError::at("numerics.smoothing_ratio", why));
-    }
-    let skin = scene.numerics.skin.unwrap_or(defaults::SKIN);
-    let domain = domain_of(scene, &drawn);
-    check_periods(&domain, sampler.support_radius() * (1.0 + skin))?;
-
-    let mut warnings = scene.remarks.clone();
-    let mut wall_set = WallSet::default();
-    if let Some(walls) = &mut choices.walls {
-        wall_set = build_walls(
-            scene,
-            &drawn.walls,
-            &mut **walls,
-            &*choices.kernel,
-            &domain,
-            h,
-        )?;
-        warnings.extend(walls.warnings());
-    }
-    let placed =
-        place(scene, &drawn.regions, choices.walls.as_deref()).map_err(SolverError::Scene)?;
-    warnings.extend(placed.warnings.iter().cloned());
-    if let Some(walls) = &choices.walls {
-        let ends = walls.check_free_ends(&placed.positions);
-        ends.map_err(|e| wall_problem(scene, &e))?;
-    }
-    let walls: Option<SharedWall<D>> = choices.walls.take().map(|w| Arc::new(Mutex::new(w)));
-
-    let mut free = Store::new(placed.positions.len());
-    free.add(fields::POSITION, Role::State);
-    free.add(fields::VELOCITY, Role::State);
-    free.add(fields::MASS, Role::State);
-    free.add(fields::IDENTITY, Role::State);
-    if scene.phase.len() > 1 {
-        free.add(fields::PHASE, Role::State);
-    }
-    let diffused = choices.formulation.diffused();
-    let compressed = choices.formulation.compressed();
-    free.add(diffused.evolved.value, Role::State);
-    if let Some(compressed) = &compressed {
-        free.add(compressed.value, Role::State);
-    }
-    for column in own_columns(&choices) {
-        if free.has(column.field.name) {
-            let name = column.field.name;
-            let why = format!("two plugins of this scene have a column `{name}`");
-            return Err(SolverError::at("", why));
-        }
-        free.add_any(column.field, Role::State);
-    }
-    let outlets = Outlets::of(scene, &placed, &mut free).map_err(SolverError::Scene)?;
-    *free.get_mut(fields::POSITION)? = placed.positions;
-    let count = free.len() as u32;
-    *free.get_mut(fields::IDENTITY)? = (0..count).collect();
-    let world = World {
-        free,
-        walls: wall_set,
-        lists: Default::default(),
-        domain,
-        kernel: sampler,
-        spacing,
-        skin,
-        gravity: scene.gravity::<D>(),
-        driving: scene.driving::<D>(),
-        time: 0.0,
-        dt: 0.0,
-        transported: Vec::new(),
-    };
-
-    let ground = Ground::of(&choices);
-    let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
-    let phases: Vec<String> = scene.phase.keys().cloned().collect();
-    let limiters = limiters_of(&choices, &laws, &kinematic_viscosities, &phases);
-    let elastic_wave = elastic_wave(&choices, &laws);
-    let planned = plan_stages(scene, &mut choices, &laws, walls.as_ref(), &world)?;
-    let scheme = choices.implicit_viscosity.take();
-    let implicit = planned.friction.zip(scheme);
-    let (implicit, solved) = match implicit {
-        None => (None, None),
-        Some((friction, (scheme, solver))) => {
-            let implicit = ImplicitViscosity {
-                coupling: friction.coupling,
-                scheme,
-                solver,
-                lagged: planned.lagged,
-                stiffens: planned.ahead,
-                solves: Solves::default(),
-                former: None,
-            };
-            (Some(implicit), Some(friction.term))
-        }
-    };
-    let sub_steps = planned.sub_stepped.zip(elastic_wave);
-    let sub_steps = sub_steps.map(|((term, felt), wave)| {
-        let longest = wave.longest_sub_step(&world);
-        SubSteps::new(ElasticSubSteps::new(term, felt, longest))
-    });
-    let mut flow = Flow {
-        world,
-        stages: planned.stages,
-        pruned: planned.pruned,
-        terms: planned.terms,
-        kinds: planned.kinds,
-        solved,
-        implicit,
-        limiters,
+    refuse_fast_walls(scene, &drawn, &laws)?;
+    let Room {
+        world: room,
         walls,
-        evolved: evolved(&diffused, &choices),
-        integrated: integrated(&diffused, compressed.as_ref(), &choices),
-        elastic: planned.elastic,
-        sub_steps,
-        coulomb: planned.coulomb,
-        seepage: planned.seepage,
-        moved: true,
-        restored: false,
-        dilatation: compressed.map(|c| Dilatation::new(c, choices.formulation.divergence())),
-        kept: Snapshot::default(),
-        kept_rates: Default::default(),
+        placed,
+        mut warnings,
+    } = Room::of(scene, &drawn, &mut choices)?;
+
+    let ground = Ground::of(&choices.physics);
+    let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
+    let formulation = choices.physics.formulation.clone();
+    let mut parts = parts(scene, choices.physics);
+    let mut free = state(scene, &*formulation, &parts, placed.positions.len())?;
+    let outlets = Outlets::of(scene, &placed, &mut free).map_err(SolverError::Scene)?;
+    give_places(&mut free, &placed)?;
+    let mut world = World { free, ..room };
+    let shown = shown(scene, &choices.probes);
+    let about = About {
+        scene,
+        formulation: &*formulation,
+        integrator: &*choices.integrator,
+        laws: &laws,
+        walls: walls.as_ref(),
+        shown: &shown,
+    };
+    let planned = about.plan(&world, &mut parts)?;
+    world.transported = planned.transported.clone();
+    let given = Given {
+        walls,
         laws,
         kinematic_viscosities,
-        timings: Vec::new(),
         outlets,
-        contributions: Vec::new(),
+        remedies: remedies(scene, &parts),
+        evolved: evolved(&*formulation, &parts),
     };
-    flow.world.transported = planned.transported;
-    flow.reset_timings();
-    allocate(&mut flow);
-    let asked = scene.output.fields.iter().chain(&scene.output.picture);
-    let shown = asked.into_iter().any(|f| f == fields::DISPLACEMENT.name);
-    if shown || choices.probes.iter().any(|(_, p)| p.needs_displacement()) {
+    let mut flow = joined(world, planned, given);
+    let moved = shown.iter().any(|f| f == fields::DISPLACEMENT.name);
+    if moved || choices.probes.iter().any(|(_, p)| p.needs_displacement()) {
         flow.world.free.add(fields::DISPLACEMENT, Role::State);
     }
     check_output_fields(scene, &flow)?;
-    let relaxation = start(scene, &drawn, &choices, &mut flow, &placed.body)?;
-    let contributions = choices.contributions.into_iter();
-    flow.contributions = contributions.map(|(_, c)| c).collect();
+    let columns = || parts.iter().flat_map(|(_, p)| p.columns());
+    let beginning = Start {
+        scene,
+        drawn: &drawn,
+        body_of: &placed.body,
+        initial: &choices.initial,
+        formulation: &*formulation,
+        columns: &columns().collect::<Vec<_>>(),
+    };
+    let relaxation = start(&beginning, &mut flow)?;
+    if flow.works.iter().any(|w| w.gives_birth()) {
+        flow.nursery = Some(Nursery::new(scene, formulation, columns().collect()));
+    }
     warnings.extend(ground.remarks(scene, &flow)?);
     warnings.extend(lattices::remarks(scene, &flow, &placed.body)?);
     Ok(Assembled {
@@ -236,12 +139,123 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     })
 }
 
+/// Refuses walls that are faster than sound in the slowest phase.
+fn refuse_fast_walls<const D: usize>(
+    scene: &Scene,
+    drawn: &Drawn<D>,
+    laws: &Laws,
+) -> Result<(), SolverError> {
+    let sounds = laws.iter().map(|law| law.reference().sound_speed);
+    let slowest = sounds.fold(f64::INFINITY, f64::min);
+    let too_fast = wall_speeds::too_fast(&drawn.walls, slowest, scene.run.end);
+    match too_fast.is_empty() {
+        true => Ok(()),
+        false => Err(SolverError::Scene(too_fast)),
+    }
+}
+
+/// What a plan is about, before there is one.
+struct About<'a, const D: usize> {
+    scene: &'a Scene,
+    formulation: &'a dyn Formulation<D>,
+    integrator: &'a dyn Integrator,
+    laws: &'a Laws,
+    walls: Option<&'a SharedWall<D>>,
+    shown: &'a [String],
+}
+
+impl<const D: usize> About<'_, D> {
+    fn plan(&self, world: &World<D>, parts: &mut [Part<D>]) -> Result<Planned<D>, SolverError> {
+        let phases: Vec<String> = self.scene.phase.keys().cloned().collect();
+        let diffused = self.formulation.diffused();
+        let coefficients = self.integrator.coefficients();
+        let moves = |wall: &sph_scene::Wall| {
+            wall.motion.is_some() || wall.velocity.is_some() || !wall.mover.is_empty()
+        };
+        let moving = self.scene.wall.iter().find(|(_, wall)| moves(wall));
+        let setting = Setting {
+            laws: self.laws,
+            phases: &phases,
+            density: diffused.evolved,
+            summed: self.formulation.compressed().is_none(),
+            courant: coefficients.courant,
+            viscous: coefficients.viscous,
+            kicks_once: self.integrator.kicks_once(),
+            moving_wall: moving.map(|(name, _)| name.as_str()),
+            world,
+        };
+        let planning = Planning {
+            scene: self.scene,
+            setting: &setting,
+            walls: self.walls,
+            diffused,
+            shown: self.shown,
+        };
+        let mut planned = planning.plan(parts)?;
+        let force = Box::new(ForceLimit {
+            coefficient: coefficients.force,
+        });
+        planned.limiters.push(force);
+        Ok(planned)
+    }
+}
+
+/// The columns that carry history, whoever brings them.
+fn state<const D: usize>(
+    scene: &Scene,
+    formulation: &dyn Formulation<D>,
+    parts: &[Part<D>],
+    particles: usize,
+) -> Result<Store<D>, SolverError> {
+    let mut free = Store::new(particles);
+    free.add(fields::POSITION, Role::State);
+    free.add(fields::VELOCITY, Role::State);
+    free.add(fields::MASS, Role::State);
+    free.add(fields::IDENTITY, Role::State);
+    if scene.phase.len() > 1 {
+        free.add(fields::PHASE, Role::State);
+    }
+    free.add(formulation.diffused().evolved.value, Role::State);
+    if let Some(compressed) = formulation.compressed() {
+        free.add(compressed.value, Role::State);
+    }
+    for column in parts.iter().flat_map(|(_, p)| p.columns()) {
+        if free.has(column.field.name) {
+            let name = column.field.name;
+            let why = format!("two plugins of this scene have a column `{name}`");
+            return Err(SolverError::at("", why));
+        }
+        free.add_any(column.field, Role::State);
+    }
+    Ok(free)
+}
+
+fn give_places<const D: usize>(free: &mut Store<D>, placed: &Placed<D>) -> Result<(), SolverError> {
+    let count = free.len() as u32;
+    free.get_mut(fields::POSITION)?
+        .copy_from_slice(&placed.positions);
+    *free.get_mut(fields::IDENTITY)? = (0..count).collect();
+    free.set_born(Born {
+        identities: count,
+        ..Born::default()
+    });
+    Ok(())
+}
+
+/// Names of the columns that outputs show and probes measure.
+fn shown<const D: usize>(scene: &Scene, probes: &[(String, Box<dyn Probe<D>>)]) -> Vec<String> {
+    let shown = scene.output.fields.iter().chain(&scene.output.picture);
+    let measured = probes.iter().flat_map(|(_, p)| p.fields());
+    let measured = measured.map(|name| name.to_string());
+    shown.cloned().chain(measured).collect()
+}
+
 /// Equations of state with their reference states.
 fn bind_laws<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,
     choices: &Choices<D>,
-) -> Result<Arc<[Box<dyn BoundState>]>, SolverError> {
+) -> Result<Laws, SolverError> {
     let fall = (height(scene, &drawn.regions) * scene.gravity::<D>().norm()).sqrt();
     let speeds = sound_speeds(scene, fall)?;
     let phases = scene.phase.values().zip(speeds);
@@ -259,68 +273,6 @@ fn kinematic_viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Vec<f64> 
     phases
         .map(|(phase, law)| law.largest_viscosity() / phase.density)
         .collect()
-}
-
-/// Columns of contributions.
-fn own_columns<const D: usize>(choices: &Choices<D>) -> Vec<OwnColumn<D>> {
-    let all = choices.contributions.iter();
-    all.flat_map(|(_, c)| c.columns()).collect()
-}
-
-/// Scalars with rates: the formulation's, then those of contributions.
-fn evolved<const D: usize>(diffused: &Diffused, choices: &Choices<D>) -> Vec<Evolved> {
-    let others = choices.contributions.iter();
-    let others = others.flat_map(|(_, c)| c.transported());
-    std::iter::once(diffused.evolved).chain(others).collect()
-}
-
-/// What the integrator changes besides positions and velocities.
-fn integrated<const D: usize>(
-    diffused: &Diffused,
-    compressed: Option<&Compressed>,
-    choices: &Choices<D>,
-) -> Vec<Field<Scalar>> {
-    let evolved = evolved(diffused, choices);
-    let mut all: Vec<Field<Scalar>> = evolved.iter().map(|e| e.value).collect();
-    if let Some(c) = compressed.filter(|c| c.value != diffused.evolved.value) {
-        all.push(c.value);
-    }
-    all
-}
-
-/// Allocates every column that a planned stage touches.
-fn allocate<const D: usize>(flow: &mut Flow<D>) {
-    let touched: Vec<AnyField> = flow
-        .stages
-        .iter()
-        .flat_map(|s| {
-            let access = s.access();
-            let reads = access.reads();
-            access.writes.into_iter().chain(reads)
-        })
-        .filter(|f| f.name != WALL_STATE.name && f.name != fields::PHASE.name)
-        .collect();
-    for field in touched {
-        // Drifts may sort particles between their halves: the shift must be sorted, too.
-        // Solves for the effective pressure start from the last one.
-        let kept = [fields::SHIFT_VELOCITY.name, fields::EFFECTIVE_PRESSURE.name];
-        let role = match kept.contains(&field.name) {
-            true => Role::State,
-            false => Role::Derived,
-        };
-        flow.world.free.add_any(field, role);
-    }
-    // Drifts leave the gradient for the next evaluation.
-    for field in flow.elastic.iter().flat_map(|e| e.remembered()) {
-        flow.world.free.add_any(field, Role::State);
-    }
-    for field in flow.seepage.iter().flat_map(|_| seepage::remembered()) {
-        flow.world.free.add_any(field, Role::State);
-    }
-    flow.world.free.add(fields::ACCELERATION, Role::Derived);
-    // An evolved scalar that nothing changes is a constant: it needs no rate and no kick.
-    let free = &flow.world.free;
-    flow.evolved.retain(|e| free.has(e.rate.name));
 }
 
 fn check_output_fields<const D: usize>(scene: &Scene, flow: &Flow<D>) -> Result<(), SolverError> {
@@ -344,106 +296,4 @@ fn check_output_fields<const D: usize>(scene: &Scene, flow: &Flow<D>) -> Result<
         true => Ok(()),
         false => Err(SolverError::Scene(problems)),
     }
-}
-
-/// Sorts the particles and gives them their initial state.
-fn start<const D: usize>(
-    scene: &Scene,
-    drawn: &Drawn<D>,
-    choices: &Choices<D>,
-    flow: &mut Flow<D>,
-    body_of: &[u32],
-) -> Result<Option<Relaxation>, SolverError> {
-    let world = &mut flow.world;
-    world.rebuild_lists()?;
-    let relaxation = relax(scene, drawn, world, flow.walls.as_ref())?;
-    let phases: Vec<&String> = scene.phase.keys().collect();
-    let layers = Layers::of(scene, &drawn.regions);
-    let mut states = Vec::new();
-    let mut phase_of = Vec::new();
-    for ((name, body), region) in scene.body.iter().zip(&drawn.regions) {
-        let phase = phases.iter().position(|p| **p == body.phase).unwrap_or(0);
-        let field = choices.initial.iter().find(|(n, _)| n == name);
-        let field = field.map(|(_, f)| &**f);
-        states.push(InitialState::new(
-            scene,
-            body,
-            region,
-            &*flow.laws[phase],
-            field,
-            layers.as_ref(),
-        ));
-        phase_of.push(phase as u32);
-    }
-    let identity = world.free.get(fields::IDENTITY)?.to_vec();
-    let position = world.free.get(fields::POSITION)?.to_vec();
-    let body = |k: usize| body_of[identity[k] as usize] as usize;
-    let volume = relaxation.map_or(1.0, |r| r.volume);
-    let (noise, seed) = (scene.numerics.velocity_noise, scene.numerics.seed);
-    let whole = volume * world.spacing.powi(D as i32);
-    for k in 0..identity.len() {
-        let state = &states[body(k)];
-        let density = state.density(&position[k]);
-        world.free.get_mut(fields::DENSITY)?[k] = density;
-        world.free.get_mut(fields::MASS)?[k] = density * whole;
-        let mut velocity = state.velocity(&position[k]);
-        if noise > 0.0 {
-            velocity += sph_core::Vect::<D>::from(sph_scene::noise(identity[k], noise, seed));
-        }
-        world.free.get_mut(fields::VELOCITY)?[k] = velocity;
-        if world.free.has(fields::PHASE.name) {
-            world.free.get_mut(fields::PHASE)?[k] = phase_of[body(k)];
-        }
-    }
-    let bodies: Vec<&str> = scene.body.keys().map(String::as_str).collect();
-    for column in own_columns(choices) {
-        let name = |k: usize| {
-            let body = body(k);
-            (phases[phase_of[body] as usize].as_str(), bodies[body])
-        };
-        fill(world, &column, name)?;
-    }
-    if let Some(walls) = &flow.walls {
-        crate::step::stages::lock(walls).geometry(world)?;
-    }
-    choices.formulation.rebase(world)?;
-    let limits = flow.step_limits()?;
-    let least = sph_core::StepLimit::least(&limits).map_or(0.0, |l| l.dt);
-    flow.world.dt = scene.run.safety * least;
-    Ok(relaxation)
-}
-
-/// Gives a column of a contribution its values at the start; `names` has the phase and the body of a particle.
-fn fill<'n, const D: usize>(
-    world: &mut World<D>,
-    column: &OwnColumn<D>,
-    names: impl Fn(usize) -> (&'n str, &'n str),
-) -> Result<(), SolverError> {
-    let free = &world.free;
-    let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
-    let (density, mass) = (free.get(fields::DENSITY)?, free.get(fields::MASS)?);
-    let birth = |k: usize| {
-        let (phase, body) = names(k);
-        Birth {
-            position: position[k],
-            velocity: velocity[k],
-            density: density[k],
-            mass: mass[k],
-            phase,
-            body,
-        }
-    };
-    let all = 0..position.len();
-    match &column.initial {
-        Initial::Zero => {}
-        Initial::Scalar(formula) => {
-            let values = all.map(|k| formula(&birth(k))).collect();
-            world.free.put(column.field.scalar(), values)?;
-        }
-        Initial::Vector(formula) => {
-            let values = all.map(|k| formula(&birth(k))).collect();
-            world.free.put(column.field.vector(), values)?;
-        }
-    }
-    Ok(())
 }

@@ -107,12 +107,6 @@ fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examinati
     let flow = &assembled.flow;
     let world = &flow.world;
     let names = |f: &[sph_core::AnyField]| f.iter().map(|f| f.name.to_string()).collect::<Vec<_>>();
-    // Who tells phases apart does not where there is one.
-    let alone = !world.free.has(sph_core::fields::PHASE.name);
-    let there = |mut names: Vec<String>| {
-        names.retain(|name| !(alone && name == sph_core::fields::PHASE.name));
-        names
-    };
     let stages: Vec<StageUse> = flow
         .stages
         .iter()
@@ -121,8 +115,8 @@ fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examinati
             StageUse {
                 name: s.name(),
                 sweep: access.sweep,
-                reads_here: there(names(&access.here)),
-                reads_at_neighbours: there(names(&access.neighbours)),
+                reads_here: names(&access.here),
+                reads_at_neighbours: names(&access.neighbours),
                 writes: names(&access.writes),
             }
         })
@@ -155,7 +149,7 @@ fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examinati
         derived: derived::<D>(scene, flow, assembled.height),
         step_limits: limits.iter().map(|l| (l.name.to_string(), l.dt)).collect(),
         limit_formulas: (flow.limiters.iter().map(|l| l.formula()))
-            .chain(flow.sub_steps.iter().map(|sub| sub.formula()))
+            .chain(flow.works.iter().filter_map(|w| w.bound()))
             .collect(),
         plugins: assembled.plugins,
         fields,
@@ -181,10 +175,10 @@ fn memory<const D: usize>(
 ) -> Result<Memory, SolverError> {
     // Where the state is one that the run will refuse, what can be counted without it counts.
     let evaluated = flow.evaluate().is_ok();
-    let system = match &flow.implicit {
-        Some(implicit) if evaluated => implicit.bytes(&mut flow.world, dt)?,
-        _ => 0,
-    };
+    let mut system = 0;
+    for work in flow.works.iter().filter(|_| evaluated) {
+        system += work.bytes(&mut flow.world, dt)?;
+    }
     Ok(Memory::of(scene, flow, system as f64)?)
 }
 

@@ -1,9 +1,9 @@
 //! In what state the particles are at time zero.
 
 use sph_core::Vect;
-use sph_multiphase::BoundState;
 use sph_probes::Solution;
 use sph_scene::{Body, Pressure, Region, Scene};
+use sph_state::BoundState;
 
 use crate::setup::layers::Layers;
 

@@ -85,6 +85,7 @@ impl<const D: usize> Drawn<D> {
                     condition,
                     surface_velocity,
                     motion: motion.clone(),
+                    mover: None,
                 });
             }
         }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use sph_core::{Vect, fields};
 use sph_scene::Scene;
 
-use crate::setup::choices::Choices;
+use crate::setup::choices::Physics;
 use crate::step::stages::lock;
 use crate::{Flow, SolverError};
 
@@ -28,12 +28,12 @@ pub struct Ground {
 
 impl Ground {
     /// From the plugins of a scene.
-    pub fn of<const D: usize>(choices: &Choices<D>) -> Self {
-        let laws = || choices.rheologies.iter();
+    pub fn of<const D: usize>(physics: &Physics<D>) -> Self {
+        let laws = || physics.rheologies.iter();
         Ground {
             soil: laws().map(|law| law.needs().pressure).collect(),
             grains: laws().map(|law| law.grain_diameter()).collect(),
-            saturated: choices
+            saturated: physics
                 .effective_pressure
                 .as_ref()
                 .is_some_and(|p| p.saturated()),

@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use crate::step::flow::Flow;
-use crate::step::sub_steps::SUB_STEPS_NAME;
 
 /// Wall-clock time of one kind of work.
 #[derive(Clone, Debug)]
@@ -14,27 +13,20 @@ pub struct Timing {
     pub spent: Duration,
 }
 
-/// Place of the list refresh among the timings; the stages follow.
+/// Place of the list refresh among the timings.
 pub(crate) const LISTS: usize = 0;
 /// Name of the time spent on neighbour lists.
 pub(crate) const LISTS_NAME: &str = "neighbour lists";
-/// Name of the time spent on water in pores.
-pub(crate) const SEEPAGE_NAME: &str = "seepage";
-/// Place of kicks and drifts among the timings.
+/// Place of kicks and drifts among the timings; the stages follow, and then the work within a step.
 pub(crate) const MOTION: usize = 1;
 
 impl<const D: usize> Flow<D> {
     pub(crate) fn reset_timings(&mut self) {
         let services = [LISTS_NAME, "kick and drift"].map(String::from);
-        let seepage = self.seepage.iter().map(|_| SEEPAGE_NAME.into());
-        let sub_steps = self.sub_steps.iter().map(|_| SUB_STEPS_NAME.into());
-        let solves = self.implicit.iter().map(|_| "implicit viscosity".into());
         let names = services
             .into_iter()
             .chain(self.stages.iter().map(|s| s.name()))
-            .chain(sub_steps)
-            .chain(seepage)
-            .chain(solves);
+            .chain(self.works.iter().map(|w| w.name()));
         self.timings = names
             .map(|name| Timing {
                 name,

@@ -1,24 +1,24 @@
-//! A flow in motion: evaluation of all stages, kicks and drifts.
+//! A flow in motion: evaluation of all stages, forces, and what it tells of itself.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::time::Instant;
 
-use rayon::prelude::*;
-use sph_contribution::Contribution;
+use serde::de::DeserializeOwned;
+use serde_json::Value as Json;
+use sph_contribution::{Limiter, OutsideForce, StepWork};
 use sph_core::{
-    Access, Evolved, Field, Recall, Role, Scalar, Stage, StepError, StepLimit, System, Vect, fields,
+    Access, Evolved, Field, Recall, Role, Scalar, Stage, StepError, StepLimit, System, fields,
 };
-use sph_multiphase::{BoundState, Limiter};
 use sph_neighbours::{Interaction, World, wall_forces};
-use sph_stress::{CoulombFriction, ElasticMotion, PoreFlow};
+use sph_state::Laws;
 
-use crate::step::clocks::{LISTS, MOTION, SEEPAGE_NAME, Timing};
-use crate::step::dilatation::Dilatation;
-use crate::step::implicit::ImplicitViscosity;
+use crate::step::clocks::{LISTS, MOTION, Timing};
 use crate::step::kept_rates::Kept;
+use crate::step::nursery::Nursery;
 use crate::step::outlets::Outlets;
 use crate::step::snapshot::Snapshot;
 use crate::step::stages::{SharedWall, lock};
-use crate::step::sub_steps::SubSteps;
 
 /// The assembled system of one scene.
 pub struct Flow<const D: usize> {
@@ -31,41 +31,34 @@ pub struct Flow<const D: usize> {
     pub(crate) limiters: Vec<Box<dyn Limiter<D>>>,
     pub(crate) walls: Option<SharedWall<D>>,
     pub(crate) evolved: Vec<Evolved>,
-    /// All scalars that the integrator changes.
+    /// All scalars that are advanced in time.
     pub(crate) integrated: Vec<Field<Scalar>>,
-    /// Remembered stresses that follow the motion.
-    pub(crate) elastic: Option<ElasticMotion<D>>,
-    /// Elastic forces that have steps of their own.
-    pub(crate) sub_steps: Option<SubSteps<D>>,
-    /// Friction of soils on walls.
-    pub(crate) coulomb: Option<CoulombFriction<D>>,
-    /// Water that moves through pores.
-    pub(crate) seepage: Option<Box<dyn PoreFlow<D>>>,
+    /// What physics does within a step, in this order.
+    pub(crate) works: Vec<Box<dyn StepWork<D>>>,
+    /// Forces outside of the sweep.
+    pub(crate) outside: Vec<OutsideForce<D>>,
     /// Whether somebody moved since the last evaluation.
     pub(crate) moved: bool,
     /// Whether the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
     pub(crate) restored: bool,
-    /// What motion compresses.
-    pub(crate) dilatation: Option<Dilatation<D>>,
     /// The state that an integrator keeps within a step.
     pub(crate) kept: Snapshot<D>,
     /// Accelerations and scalar rates of the kept state.
     pub(crate) kept_rates: Kept<D>,
-    pub(crate) laws: std::sync::Arc<[Box<dyn BoundState>]>,
+    pub(crate) laws: Laws,
     /// η/ρ₀ of every phase, m²/s.
     pub(crate) kinematic_viscosities: Vec<f64>,
     /// The pair terms of the interaction sweep.
-    pub(crate) terms: std::sync::Arc<[Box<dyn Interaction<D>>]>,
+    pub(crate) terms: Arc<[Box<dyn Interaction<D>>]>,
     /// What plugin every term comes from, by the term's name.
     pub(crate) kinds: Vec<(String, &'static str)>,
-    /// Friction that is solved for, as a term.
-    pub(crate) solved: Option<Box<dyn Interaction<D>>>,
-    pub(crate) implicit: Option<ImplicitViscosity<D>>,
+    /// What to change where a term of a kind has thrown a particle about, by the kind, or a stage failed, by its name.
+    pub(crate) remedies: Vec<(&'static str, String)>,
     pub(crate) timings: Vec<Timing>,
     /// Where particles leave.
-    pub(crate) outlets: Outlets<D>,
-    /// What plugins bring along whose kinds the solver does not know.
-    pub(crate) contributions: Vec<Box<dyn Contribution<D>>>,
+    pub(crate) outlets: Outlets,
+    /// What newborn particles begin with, where some may come in.
+    pub(crate) nursery: Option<Nursery<D>>,
 }
 
 impl<const D: usize> Flow<D> {
@@ -75,6 +68,17 @@ impl<const D: usize> Flow<D> {
     /// If a limiter misses a column.
     pub fn step_limits(&self) -> Result<Vec<StepLimit>, StepError> {
         self.limiters.iter().map(|l| l.limit(&self.world)).collect()
+    }
+
+    /// What lengthens each bound, by its name, where its plugin knows.
+    pub(crate) fn remedies_of_bounds(&self) -> Result<BTreeMap<String, String>, StepError> {
+        let mut all = BTreeMap::new();
+        for limiter in &self.limiters {
+            if let Some(remedy) = limiter.remedy() {
+                all.insert(limiter.limit(&self.world)?.name.to_string(), remedy);
+            }
+        }
+        Ok(all)
     }
 }
 
@@ -109,74 +113,11 @@ impl<const D: usize> System for Flow<D> {
     }
 
     fn kick(&mut self, dt: f64) -> Result<(), StepError> {
-        let pressed = match &self.coulomb {
-            None => None,
-            Some(coulomb) => Some(coulomb.pressed(&self.world, &self.forces())?),
-        };
-        let start = Instant::now();
-        let mut velocity = self.world.free.take(fields::VELOCITY)?;
-        let solved = self.implicit.is_some() || self.seepage.is_some();
-        let earlier = if solved { velocity.clone() } else { Vec::new() };
-        if self.sub_steps.is_none() {
-            let acceleration = self.world.free.get(fields::ACCELERATION)?;
-            let all = velocity.par_iter_mut().zip(acceleration);
-            all.with_min_len(2048).for_each(|(u, a)| *u += a * dt);
-        }
-        self.world.free.put(fields::VELOCITY, velocity)?;
-        for evolved in &self.evolved {
-            let mut value = self.world.free.take(evolved.value)?;
-            let rate = self.world.free.get(evolved.rate)?;
-            value
-                .par_iter_mut()
-                .zip(rate)
-                .with_min_len(2048)
-                .for_each(|(v, r)| *v += r * dt);
-            self.world.free.put(evolved.value, value)?;
-        }
-        self.timings[MOTION].spent += start.elapsed();
-        self.vibrate(dt)?;
-        self.rub(&earlier, dt)?;
-        if let Some((coulomb, pressed)) = self.coulomb.as_mut().zip(pressed) {
-            coulomb.apply(&mut self.world, &pressed, dt)?;
-        }
-        self.seep(&earlier, dt)?;
-        for contribution in &mut self.contributions {
-            self.world.free.watch(&contribution.work());
-            let ran = contribution.after_kick(&mut self.world, dt);
-            self.world.free.unwatch("after a kick").and(ran)?;
-        }
-        Ok(())
+        self.kick_over(dt)
     }
 
     fn drift(&mut self, dt: f64) -> Result<(), StepError> {
-        let start = Instant::now();
-        // Places go with the mean of sub-steps, what is left of the stress with the last.
-        self.shift_to_mean(1.0)?;
-        if let Some(walls) = &self.walls {
-            lock(walls).constrain(&mut self.world, dt)?;
-        }
-        self.shift_to_mean(-1.0)?;
-        self.deform(self.stress_behind(dt))?;
-        self.shift_to_mean(1.0)?;
-        match self.dilatation.take() {
-            None => self.advance(dt)?,
-            Some(mut dilatation) => {
-                // The divergence of the middle of the drift: second order.
-                self.advance(0.5 * dt)?;
-                let applied = self.compress(&mut dilatation, dt);
-                self.dilatation = Some(dilatation);
-                applied?;
-                self.advance(0.5 * dt)?;
-            }
-        }
-        self.shift_to_mean(-1.0)?;
-        for contribution in &mut self.contributions {
-            self.world.free.watch(&contribution.work());
-            let ran = contribution.after_drift(&mut self.world, dt);
-            self.world.free.unwatch("after a drift").and(ran)?;
-        }
-        self.timings[MOTION].spent += start.elapsed();
-        Ok(())
+        self.drift_over(dt)
     }
 
     fn time(&self) -> f64 {
@@ -189,35 +130,34 @@ impl<const D: usize> System for Flow<D> {
 }
 
 impl<const D: usize> Flow<D> {
-    /// Friction from the end of the step, where it is taken so.
-    fn rub(&mut self, earlier: &[Vect<D>], dt: f64) -> Result<(), StepError> {
-        let Some(mut implicit) = self.implicit.take() else {
-            return Ok(());
-        };
-        let start = Instant::now();
-        let done = implicit.apply(&mut self.world, earlier, dt);
-        self.implicit = Some(implicit);
-        if let Some(last) = self.timings.last_mut() {
-            last.spent += start.elapsed();
-        }
-        done
+    /// Lets all work, in their order, and holds them to what they declared.
+    pub(crate) fn each_work(
+        &mut self,
+        work: impl Fn(&mut dyn StepWork<D>, &mut World<D>) -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
+        self.each_work_with(std::iter::empty, work)
     }
 
-    /// Water moves through pores, driven by what the kick has done.
-    fn seep(&mut self, earlier: &[Vect<D>], dt: f64) -> Result<(), StepError> {
-        let Some(seepage) = &mut self.seepage else {
-            return Ok(());
-        };
-        let start = Instant::now();
-        let done = seepage.advance(&mut self.world, earlier, dt);
-        let timing = self.timings.iter_mut().find(|t| t.name == SEEPAGE_NAME);
-        if let Some(timing) = timing {
-            timing.spent += start.elapsed();
+    /// The same, where all may read more columns than their own.
+    pub(crate) fn each_work_with<A: Iterator<Item = Access>>(
+        &mut self,
+        more: impl Fn() -> A,
+        work: impl Fn(&mut dyn StepWork<D>, &mut World<D>) -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
+        let first = MOTION + 1 + self.stages.len();
+        for (k, one) in self.works.iter_mut().enumerate() {
+            let start = Instant::now();
+            let access = || more().fold(one.access(), Access::and);
+            self.world.free.watch(access);
+            let done = work(&mut **one, &mut self.world);
+            let ended = self.world.free.unwatch(|| one.name());
+            ended.and(done)?;
+            self.timings[first + k].spent += start.elapsed();
         }
-        done
+        Ok(())
     }
 
-    fn run_stages(
+    pub(crate) fn run_stages(
         &mut self,
         wanted: impl Fn(&dyn Stage<World<D>>) -> bool,
     ) -> Result<(), StepError> {
@@ -241,83 +181,12 @@ impl<const D: usize> Flow<D> {
                 continue;
             }
             let start = Instant::now();
-            if cfg!(debug_assertions) {
-                self.world.free.watch(&stage.access());
-            }
+            self.world.free.watch(|| stage.access());
             let ran = stage.run(&mut self.world);
-            self.world.free.unwatch(&stage.name()).and(ran)?;
+            self.world.free.unwatch(|| stage.name()).and(ran)?;
             self.timings[MOTION + 1 + k].spent += start.elapsed();
         }
         Ok(())
-    }
-
-    /// Particles and walls follow their velocities for a time.
-    fn advance(&mut self, dt: f64) -> Result<(), StepError> {
-        let mut position = self.world.free.take(fields::POSITION)?;
-        let velocity = self.world.free.get(fields::VELOCITY)?;
-        let all = position.par_iter_mut().zip(velocity).with_min_len(2048);
-        match self.world.free.get(fields::SHIFT_VELOCITY) {
-            Err(_) => all.for_each(|(x, u)| *x += u * dt),
-            Ok(shift) => all.zip(shift).for_each(|((x, u), s)| *x += (u + s) * dt),
-        }
-        self.world.free.put(fields::POSITION, position)?;
-        self.displace(dt)?;
-        self.moved = true;
-        self.world.time += dt;
-        if let Some(walls) = &self.walls {
-            let time = self.world.time;
-            let moved = lock(walls).move_to(&mut self.world.walls, time);
-            moved.map_err(|e| StepError::Stage {
-                stage: "wall motion".into(),
-                reason: e.to_string(),
-            })?;
-        }
-        Ok(())
-    }
-
-    /// Adds the way of a drift to the displacements, where they are kept.
-    fn displace(&mut self, dt: f64) -> Result<(), StepError> {
-        let free = &mut self.world.free;
-        if !free.has(fields::DISPLACEMENT.name) {
-            return Ok(());
-        }
-        let mut displacement = free.take(fields::DISPLACEMENT)?;
-        let velocity = free.get(fields::VELOCITY)?;
-        let all = displacement.par_iter_mut().zip(velocity).with_min_len(2048);
-        match free.get(fields::SHIFT_VELOCITY) {
-            Err(_) => all.for_each(|(d, u)| *d += u * dt),
-            Ok(shift) => all.zip(shift).for_each(|((d, u), s)| *d += (u + s) * dt),
-        }
-        Ok(free.put(fields::DISPLACEMENT, displacement)?)
-    }
-
-    /// Remembered stresses follow the velocities of the drift that begins.
-    fn deform(&mut self, dt: f64) -> Result<(), StepError> {
-        let Some(mut elastic) = self.elastic.take() else {
-            return Ok(());
-        };
-        let given = [
-            fields::RENORMALISATION,
-            fields::DENSITY,
-            fields::VOLUME,
-            fields::PRESSURE,
-        ];
-        let gives_state = |a: &Access| given.iter().any(|f| a.writes.contains(&f.any()));
-        let moved = match self.moved {
-            true => self.run_stages(|stage| gives_state(&stage.access())),
-            false => Ok(()),
-        };
-        let done = moved.and_then(|()| elastic.apply(&mut self.world, dt));
-        self.elastic = Some(elastic);
-        done
-    }
-
-    fn compress(&mut self, dilatation: &mut Dilatation<D>, dt: f64) -> Result<(), StepError> {
-        self.refresh_lists_and_derived()?;
-        if let Some(walls) = &self.walls {
-            lock(walls).geometry(&mut self.world)?;
-        }
-        dilatation.apply(&mut self.world, dt)
     }
 
     /// Largest extent of the particles along any axis, m.
@@ -333,14 +202,10 @@ impl<const D: usize> Flow<D> {
             .fold(0.0, f64::max)
     }
 
-    /// The terms that push particles, included friction that is solved for and what has steps of its own.
+    /// The terms that push particles, those outside of the sweep included.
     pub(crate) fn forces(&self) -> Vec<&dyn Interaction<D>> {
         let terms = self.terms.iter().map(|t| &**t);
-        let own_steps = self.sub_steps.iter().map(|sub| &*sub.of.term);
-        terms
-            .chain(own_steps)
-            .chain(self.solved.as_deref())
-            .collect()
+        terms.chain(self.outside.iter().map(|f| &**f)).collect()
     }
 
     /// Measures the forces on the wanted walls at the state of the last evaluation; those on others are NaN.
@@ -353,12 +218,24 @@ impl<const D: usize> Flow<D> {
         }
         let wanted: Vec<bool> = self.world.walls.names.iter().map(|n| wanted(n)).collect();
         let mut forces = wall_forces(&self.world, &self.forces(), &wanted)?;
-        if let Some(coulomb) = &self.coulomb {
-            let walls = forces.iter_mut().zip(&coulomb.forces);
-            walls.for_each(|(whole, friction)| whole.add(friction));
+        for work in &self.works {
+            let walls = forces.iter_mut().zip(work.wall_forces());
+            walls.for_each(|(whole, own)| whole.add(own));
         }
         self.world.walls.forces = forces;
         Ok(())
+    }
+
+    /// What the work within steps has counted, by its name.
+    pub(crate) fn counts(&self) -> BTreeMap<String, Json> {
+        let all = self.works.iter();
+        all.filter_map(|w| Some((w.name(), w.counts()?))).collect()
+    }
+
+    /// What the work of a name has counted, if there is such work.
+    pub(crate) fn counts_of<T: DeserializeOwned>(&self, name: &str) -> Option<T> {
+        let work = self.works.iter().find(|w| w.name() == name)?;
+        serde_json::from_value(work.counts()?).ok()
     }
 
     /// Particles behind a wall.

@@ -6,8 +6,8 @@
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
-use sph_multiphase::BoundState;
 use sph_neighbours::World;
+use sph_state::BoundState;
 
 use crate::Flow;
 

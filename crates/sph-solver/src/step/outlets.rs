@@ -8,12 +8,11 @@ use sph_scene::{Outlet, Scene};
 use crate::Flow;
 use crate::setup::placement::Placed;
 
-/// The outlets of a scene, and who left by them in the last step.
-pub struct Outlets<const D: usize> {
+/// The outlets of a scene.
+pub struct Outlets {
     all: Vec<Outlet>,
     /// `outlet.NAME.PHASE`, as what has been taken out is counted.
     labels: Vec<String>,
-    last: Option<Store<D>>,
 }
 
 /// What has left by an outlet of a phase.
@@ -25,12 +24,12 @@ pub struct Left {
     pub particles: u64,
 }
 
-impl<const D: usize> Outlets<D> {
+impl Outlets {
     /// The outlets of a scene; `free` counts what leaves by them.
     ///
     /// # Errors
     /// If a body stands in one at the start.
-    pub fn of(
+    pub fn of<const D: usize>(
         scene: &Scene,
         placed: &Placed<D>,
         free: &mut Store<D>,
@@ -63,7 +62,6 @@ impl<const D: usize> Outlets<D> {
             true => Ok(Outlets {
                 all: scene.outlet.values().cloned().collect(),
                 labels,
-                last: None,
             }),
             false => Err(problems),
         }
@@ -77,11 +75,6 @@ impl<const D: usize> Outlets<D> {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.all.is_empty()
-    }
-
-    /// A new step begins: who left by the last one does not come back.
-    pub fn forget(&mut self) {
-        self.last = None;
     }
 }
 
@@ -113,7 +106,7 @@ impl<const D: usize> Flow<D> {
             count.particles += 1;
         }
         let leaves: Vec<bool> = left.iter().map(Option::is_some).collect();
-        self.outlets.last = Some(free.take_out(&leaves));
+        free.take_out(&leaves);
         free.set_taken(taken);
         match free.is_empty() {
             false => Ok(()),
@@ -122,14 +115,6 @@ impl<const D: usize> Flow<D> {
                 reason: "all particles have left: let the run end before".into(),
             }),
         }
-    }
-
-    /// Puts back who left in a step that failed.
-    pub(crate) fn take_back(&mut self, taken: &[Taken]) {
-        if let Some(last) = self.outlets.last.take() {
-            self.world.free.put_back(last);
-        }
-        self.world.free.set_taken(taken.to_vec());
     }
 
     /// What a resumed run has counted: mass as bits, and particles.
@@ -192,7 +177,6 @@ mod tests {
         let mut snapshot = Snapshot::default();
         snapshot.take(&flow).unwrap();
         let before = state(&flow);
-        flow.outlets.forget();
         sent(&mut flow, 3, [2.5, 0.0]);
         sent(&mut flow, 150, [0.5, -1.5]);
         flow.let_out().unwrap();

@@ -1,8 +1,10 @@
 //! The state before a step, to fall back on when the step fails.
 
-use sph_core::{FieldError, Recall, Saved, Taken, Vect, fields};
+use sph_boundary::WallStates;
+use sph_core::{FieldError, Recall, Saved, Slots, Vect, fields};
 
 use crate::Flow;
+use crate::step::stages::lock;
 
 /// All columns that carry history, whoever declared them, in the order the particles had, and the clock.
 #[derive(Default)]
@@ -11,19 +13,25 @@ pub struct Snapshot<const D: usize> {
     time: f64,
     /// The step before, s.
     dt: f64,
-    /// What had left.
-    taken: Vec<Taken>,
+    /// Walls that movers move.
+    walls: WallStates,
 }
 
 impl<const D: usize> Snapshot<D> {
     /// Copies the state; reuses its buffers.
     pub fn take(&mut self, flow: &Flow<D>) -> Result<(), FieldError> {
         let free = &flow.world.free;
-        self.taken.clear();
-        self.taken.extend_from_slice(free.taken());
         free.save_state(&mut self.columns)?;
         self.time = flow.world.time;
         self.dt = flow.world.dt;
+        if let Some(walls) = &flow.walls {
+            // Lists are built anew where a step is taken back.
+            let listed = None;
+            self.walls = WallStates {
+                listed,
+                ..lock(walls).states()
+            };
+        }
         Ok(())
     }
 
@@ -41,13 +49,13 @@ impl<const D: usize> Snapshot<D> {
         if now == then {
             return Ok(None);
         }
-        // Who has left is missing among the identities.
-        let ids = then.iter().max().map_or(0, |id| *id as usize + 1);
-        let mut place = vec![0u32; ids];
-        for (k, &id) in then.iter().enumerate() {
-            place[id as usize] = k as u32;
-        }
-        Ok(Some(now.iter().map(|&id| place[id as usize]).collect()))
+        let slots = Slots::of(then);
+        let place = |id: &u32| {
+            slots
+                .slot(*id)
+                .ok_or(FieldError::Missing(fields::IDENTITY.name))
+        };
+        now.iter().map(place).collect::<Result<_, _>>().map(Some)
     }
 
     /// Puts part of the state back, whatever order the particles are in now.
@@ -80,15 +88,14 @@ impl<const D: usize> Snapshot<D> {
     fn walls_back(&self, flow: &mut Flow<D>) {
         if let Some(walls) = &flow.walls {
             // The walls accepted this time before, so they accept it again.
-            let _ = crate::step::stages::lock(walls).move_to(&mut flow.world.walls, self.time);
+            let _ = lock(walls).put_back(&mut flow.world.walls, &self.walls, self.time);
         }
     }
 
     /// Puts the state back. If the particles were sorted meanwhile, they return to their
-    /// order; those that left by an outlet since come back.
+    /// order; those that left since come back, those that came in are gone.
     pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), FieldError> {
-        flow.take_back(&self.taken);
-        flow.world.free.put_state(&self.columns, None, |_| true)?;
+        flow.world.free.restore_state(&self.columns)?;
         // What the evaluation of this state has left is among it.
         flow.restored = true;
         flow.world.time = self.time;

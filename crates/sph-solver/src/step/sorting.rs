@@ -1,6 +1,6 @@
 //! Particles are sorted when lists expire: who goes on with what was derived before takes it along.
 
-use sph_core::{StepError, fields};
+use sph_core::{Slots, StepError, fields};
 
 use crate::step::flow::Flow;
 
@@ -19,12 +19,8 @@ impl<const D: usize> Flow<D> {
         if *now == earlier {
             return Ok(());
         }
-        let most = earlier.iter().max().map_or(0, |id| *id as usize + 1);
-        let mut place = vec![0; most];
-        for (k, &id) in earlier.iter().enumerate() {
-            place[id as usize] = k as u32;
-        }
-        let order: Vec<u32> = now.iter().map(|&id| place[id as usize]).collect();
+        let slots = Slots::of(&earlier);
+        let order: Vec<u32> = now.iter().filter_map(|&id| slots.slot(id)).collect();
         self.world.free.permute_derived(&order);
         Ok(())
     }

@@ -4,9 +4,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 use sph_boundary::Wall;
-use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, StepError, Vect, fields};
+use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, Vect, fields};
 use sph_multiphase::Diffused;
-use sph_neighbours::{Interaction, Sums, TRANSPORTED, There, World, all_sums};
+use sph_neighbours::{Interaction, Packed, Sums, TRANSPORTED, There, World, all_sums};
 
 /// Stands for all that walls carry; not a column of the free particles.
 pub const WALL_STATE: Field<Scalar> = Field::new(
@@ -72,30 +72,44 @@ impl<const D: usize> Stage<World<D>> for WallState<D> {
 /// All pair terms in one walk.
 pub struct InteractionSweep<const D: usize> {
     /// The terms, fused where a fusion is registered.
-    pub terms: Arc<[Box<dyn Interaction<D>>]>,
+    terms: Arc<[Box<dyn Interaction<D>>]>,
     /// What density diffusion changes, if there is any.
-    pub diffused: Option<Diffused>,
+    diffused: Option<Diffused>,
     /// Whether walls exist.
-    pub walls: bool,
+    walls: bool,
+    packed: Packed,
     /// Buffer of the packed states.
-    pub states: Vec<There<D>>,
-    /// Rates that terms sum besides, in the order of their slots.
-    pub transported: Vec<AnyField>,
-    /// Buffer of these rates.
-    pub more: Vec<[f64; TRANSPORTED]>,
+    states: Vec<There<D>>,
+    /// Buffer of rates that terms sum besides.
+    more: Vec<[f64; TRANSPORTED]>,
 }
 
 impl<const D: usize> InteractionSweep<D> {
+    /// Of these terms; with what density diffusion changes, if there is any, and whether walls exist.
+    pub fn new(
+        terms: Arc<[Box<dyn Interaction<D>>]>,
+        diffused: Option<Diffused>,
+        walls: bool,
+    ) -> Self {
+        InteractionSweep {
+            packed: Packed::of(terms.iter().map(|t| &**t)),
+            terms,
+            diffused,
+            walls,
+            states: Vec::new(),
+            more: Vec::new(),
+        }
+    }
+
     fn sweep(
         &mut self,
         world: &World<D>,
         acceleration: &mut [Vect<D>],
         scalar: Option<&mut [f64]>,
     ) -> Result<(), StepError> {
-        let wanted = if self.transported.is_empty() {
-            0
-        } else {
-            acceleration.len()
+        let wanted = match world.transported.is_empty() {
+            true => 0,
+            false => acceleration.len(),
         };
         self.more.resize(wanted, [0.0; TRANSPORTED]);
         let sums = Sums {
@@ -103,12 +117,12 @@ impl<const D: usize> InteractionSweep<D> {
             scalar,
             more: &mut self.more,
         };
-        all_sums(world, &mut self.states, &self.terms, sums)
+        all_sums(world, &mut self.states, self.packed, &self.terms, sums)
     }
 
     /// Rates into their columns.
     fn spread(&self, world: &mut World<D>) -> Result<(), StepError> {
-        for (slot, field) in self.transported.iter().enumerate() {
+        for (slot, field) in world.transported.iter().enumerate() {
             let rates = world.free.get_mut(field.scalar())?.par_iter_mut();
             let all = rates.zip(&self.more).with_min_len(2048);
             all.for_each(|(rate, more)| *rate = more[slot]);
@@ -163,28 +177,5 @@ impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
         }
         self.spread(world)?;
         Ok(world.free.put(fields::ACCELERATION, acceleration)?)
-    }
-}
-
-/// A stage with columns that only the assembler knows it reads (γ, where walls renormalise).
-pub struct Also<const D: usize> {
-    /// The stage.
-    pub stage: Box<dyn Stage<World<D>>>,
-    /// What it reads besides.
-    pub access: Access,
-}
-
-impl<const D: usize> Declares for Also<D> {
-    fn name(&self) -> String {
-        self.stage.name()
-    }
-    fn access(&self) -> Access {
-        self.stage.access().and(self.access.clone())
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for Also<D> {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        self.stage.run(world)
     }
 }

@@ -1,0 +1,235 @@
+//! From a scene to the system at the start of its preparation, and from there to the start of the run.
+
+use dem_coupled::{Condition, CoupledError, CoupledSystem, FlowSetup, Remeshing, Side, Wave};
+use dem_grains::{Control, GrainError, GrainSystem, Mesh, Setup, Wall};
+
+use crate::error::DemError;
+use crate::laws::{Laws, throats};
+use crate::model::{Load, Model};
+use crate::names::{BOX, planes};
+use crate::origin::Origin;
+use crate::prepare;
+use crate::read::Loaded;
+use crate::tables::{self, Scene};
+
+/// A scene ready to run.
+pub struct Assembled {
+    /// The system.
+    pub model: Model,
+    /// What measurements refer to.
+    pub origin: Origin,
+    /// Loads that change.
+    pub loads: Vec<Load>,
+}
+
+/// Puts a scene together and prepares its grains; tells what it does.
+///
+/// # Errors
+/// What the scene asks for and cannot be, by its key.
+pub fn assemble(loaded: &Loaded, tell: &mut dyn FnMut(&str)) -> Result<Assembled, DemError> {
+    let scene = &loaded.scene;
+    let laws = Laws::of(scene)?;
+    let mut grains = prepare::grains(loaded, laws, tell)?;
+    let mut origin = Origin::of(scene, &grains);
+    if let Some(test) = &scene.oedometer {
+        tell("loading the dry packing slowly");
+        origin.dry_strain = Some(prepare::dry_strain(scene, test, &grains)?);
+    }
+    run_controls(scene, &mut grains);
+    let damping = grains.set_damping(scene.run.damping);
+    damping.map_err(|e| DemError::at("run.damping", e))?;
+    grains.restart_clock();
+    let model = match &scene.fluid {
+        None => Model::Dry(Box::new(grains)),
+        Some(fluid) => {
+            let setup = flow(scene, fluid);
+            let system = CoupledSystem::with_law(grains, setup, throats(scene)?);
+            let system = system.map_err(|e| DemError::at(key_of(&e), e))?;
+            if scene.oedometer.is_some() {
+                let mobility = system.mobility(2).map_err(|e| DemError::at("fluid", e))?;
+                origin.mobility = Some(mobility);
+            }
+            Model::Wet(Box::new(system))
+        }
+    };
+    let loads = loads(scene);
+    Ok(Assembled {
+        model,
+        origin,
+        loads,
+    })
+}
+
+/// The key that is most likely at fault.
+fn key_of(error: &CoupledError) -> &'static str {
+    match error {
+        CoupledError::Grains(GrainError::NoGrains) => "grains",
+        CoupledError::Grains(_) | CoupledError::Mesh(_) => "start",
+        _ => "fluid",
+    }
+}
+
+/// Loads that change with time.
+pub fn loads(scene: &Scene) -> Vec<Load> {
+    let names = planes(scene);
+    let all = names.iter().enumerate().filter_map(|(wall, name)| {
+        let piston = scene.wall.get(name)?.piston.clone()?;
+        Some(Load { wall, piston })
+    });
+    all.filter(Load::varies).collect()
+}
+
+/// The planes and surfaces of a scene, at rest; a top that comes down later is out of the way.
+pub(crate) fn setup(
+    loaded: &Loaded,
+    grains: Vec<dem_grains::Grain>,
+    laws: Laws,
+) -> Result<Setup, DemError> {
+    let scene = &loaded.scene;
+    let numbers: Vec<_> = scene.wall.keys().zip(&laws.of_walls).collect();
+    let law_of = |name: &str, otherwise: usize| {
+        let own = numbers.iter().find(|(n, _)| n.as_str() == name);
+        own.and_then(|(_, number)| **number).unwrap_or(otherwise)
+    };
+    let mut setup = Setup {
+        grains,
+        laws: laws.all,
+        gravity: scene.grains.gravity.unwrap_or_default().into(),
+        damping: scene.start.damping,
+        skin: scene.grains.skin,
+        ..Setup::default()
+    };
+    let cuboid = scene.r#box.as_ref().map(|b| Wall::cuboid(b.low, b.high));
+    for name in planes(scene) {
+        let boxed = BOX.iter().position(|b| *b == name).zip(cuboid);
+        let wall = match (boxed, scene.wall.get(&name)) {
+            (Some((number, cuboid)), _) => cuboid[number].with_law(law_of(&name, laws.of_box)),
+            (None, Some(table)) => {
+                let (point, normal) = (
+                    table.point.unwrap_or_default(),
+                    table.normal.unwrap_or_default(),
+                );
+                Wall::new(point, normal).with_law(law_of(&name, 0))
+            }
+            (None, None) => continue,
+        };
+        setup.walls.push(wall);
+    }
+    if let Some(given) = &scene.r#box {
+        for axis in given.periodic.iter().map(|a| a.number()) {
+            setup = setup.periodic(axis, given.low[axis], given.high[axis]);
+        }
+    }
+    for (name, table) in &scene.wall {
+        if let Some(file) = &table.file {
+            let mut mesh = surface(loaded, name, file)?;
+            mesh.centre = table.point.unwrap_or_default().into();
+            mesh.law = law_of(name, 0);
+            setup = setup.mesh(mesh);
+        }
+    }
+    Ok(setup)
+}
+
+/// The triangles of a file.
+fn surface(loaded: &Loaded, name: &str, file: &str) -> Result<Mesh, DemError> {
+    let key = format!("wall.{name}.file");
+    let path = loaded.source.resolve(&key, file);
+    let path = path.map_err(|e| DemError::at(&key, e))?;
+    let corners = surface_file::read(&path)
+        .map_err(|e| DemError::at(&key, e))?
+        .triangles;
+    let vertices: Vec<[f64; 3]> = corners.iter().flatten().copied().collect();
+    let triangles = (0..corners.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]);
+    Ok(Mesh::new(vertices, triangles.collect()))
+}
+
+/// What moves the walls in the run.
+fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
+    let mass: f64 = grains.grains().masses().iter().sum();
+    for (number, name) in planes(scene).iter().enumerate() {
+        let Some(table) = scene.wall.get(name) else {
+            continue;
+        };
+        let wall = &mut grains.walls_mut()[number];
+        if table.removed {
+            // Out of reach: the system keeps its walls.
+            let away = wall.normal * FAR;
+            wall.point -= away;
+        }
+        wall.velocity = table.velocity.unwrap_or_default().into();
+        wall.control = control(table, mass, |p| p.stress);
+    }
+    for (number, name) in crate::names::surfaces(scene).iter().enumerate() {
+        if let Some(table) = scene.wall.get(name) {
+            let velocity = table.velocity.unwrap_or_default().into();
+            let spin = table.spin.unwrap_or_default().into();
+            // The numbers are finite: the schema saw them.
+            let _ = grains.steer_mesh(number, velocity, spin);
+        }
+    }
+}
+
+/// How far away a wall is that is not there, m.
+pub(crate) const FAR: f64 = 1e4;
+
+/// What moves a wall; pistons under the stress that is asked for, with their share of the grains' mass (kg).
+pub(crate) fn control(
+    table: &tables::Wall,
+    mass: f64,
+    stress: impl Fn(&tables::Piston) -> f64,
+) -> Control {
+    if let Some(piston) = &table.piston {
+        return Control::Piston {
+            stress: stress(piston),
+            mass: piston.mass_share * mass,
+        };
+    }
+    if let Some(servo) = &table.servo {
+        return Control::Stress {
+            stress: servo.stress,
+            largest_speed: servo.speed,
+        };
+    }
+    match table.strain_rate {
+        Some(rate) => Control::StrainRate { rate },
+        None => Control::Velocity,
+    }
+}
+
+/// The fluid and its conditions.
+fn flow(scene: &Scene, fluid: &tables::Fluid) -> FlowSetup {
+    let mut given = dem_coupled::Fluid::new(fluid.viscosity, fluid.density);
+    given.bulk_modulus = fluid.bulk_modulus;
+    let mut setup = FlowSetup::new(given).remeshing(Remeshing {
+        strain: Some(fluid.remesh_strain),
+        most_steps: fluid.remesh_steps,
+    });
+    for (number, name) in BOX.iter().enumerate() {
+        if let Some(table) = scene.wall.get(*name) {
+            setup = setup.side(number, side(table));
+        }
+    }
+    setup
+}
+
+fn side(table: &tables::Wall) -> Side {
+    let wave = |w: &tables::WaveLoad| Wave {
+        axis: w.axis.number(),
+        crest: w.crest,
+        half_length: w.half_length,
+        amplitude: w.amplitude,
+        ramp: w.ramp,
+        period: w.period,
+    };
+    let condition = match (table.pressure, table.inflow, &table.wave) {
+        (Some(pressure), ..) => Condition::Pressure(pressure),
+        (_, Some(speed), _) => Condition::Inflow(speed),
+        (.., Some(load)) => Condition::Wave(wave(load)),
+        _ => Condition::Closed,
+    };
+    Side {
+        condition,
+        sticks: table.sticks,
+    }
+}

@@ -1,0 +1,80 @@
+//! Scenes of grains: read, assembled, run, measured and written.
+//!
+//! A scene is a TOML text with a table `[grains]`. This crate joins `dem-grains` and `dem-coupled` to files; it knows of no
+//! particles, and carries no column of theirs.
+//!
+//! 1. [`read`] turns a [`scene_text::Source`] into a [`Loaded`] scene ([`Scene`] and its tables), or into all its mistakes
+//!    with their places; [`is_grain_scene`] tells such scenes from those of particles.
+//! 2. [`examine`] tells what it is made of without preparing its grains.
+//! 3. [`run()`] prepares the grains, steps them, measures ([`Probe`]), writes and compares ([`Reference`]);
+//!    [`assemble`] alone gives the [`Model`].
+//! 4. [`Summary`] is what a run leaves; [`DemError`] what keeps it from its end, with the grain at fault ([`Failure`]).
+//!
+//! ```
+//! let text = r#"
+//! title = "A ball on the floor"
+//! [run]
+//! end = "0.2 s"
+//! [grains]
+//! count = 1
+//! radius = ["10 cm", "10 cm"]
+//! density = "2.6 g/cm^3"
+//! gravity = [0, 0, "-9.81 m/s^2"]
+//! [grains.contact.linear-elastic]
+//! modulus = "1 MPa"
+//! stiffness_ratio = 0.5
+//! friction = 0.5
+//! [start.cloud]
+//! [box]
+//! low = [0, 0, 0]
+//! high = [0.3, 0.3, 0.3]
+//! "#;
+//! let source = scene_text::Source::new(text, "ball.toml", &[]);
+//! let loaded = dem_scene::read(source).expect("a scene");
+//! let model = dem_scene::assemble(&loaded, &mut |_| {})?.model;
+//! assert_eq!(model.grains().grains().radii(), [0.1]);
+//!
+//! let source = scene_text::Source::new(&text.replace("friction", "fricton"), "ball.toml", &[]);
+//! let (_, mistakes) = dem_scene::read(source).unwrap_err();
+//! assert!(mistakes[0].to_string().contains("did you mean `friction`?"));
+//! # Ok::<(), dem_scene::DemError>(())
+//! ```
+
+mod assemble;
+mod check;
+mod checkpoint;
+mod columns;
+mod compare;
+mod error;
+mod examine;
+mod fields;
+mod frames;
+mod laws;
+mod measure;
+mod model;
+mod names;
+mod origin;
+mod prepare;
+mod read;
+mod run;
+mod scaling;
+mod schema;
+mod summary;
+mod tables;
+mod written;
+
+pub use assemble::{Assembled, assemble};
+pub use checkpoint::FILE as CHECKPOINT;
+pub use compare::Compared;
+pub use error::{DemError, Failure};
+pub use examine::{Examination, examine};
+pub use model::{Load, Made, Model, Saved};
+pub use origin::Origin;
+pub use read::{Loaded, is_grain_scene, kinds_of_probes, kinds_of_references, read};
+pub use run::{Observer, RunOptions, SUMMARY, Start, Step, run};
+pub use schema::editor_schema;
+pub use summary::{PluginInForce, Status, Summary};
+pub use tables::{
+    Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,
+    Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple, Wall, WaveLoad,
+};

@@ -1,0 +1,30 @@
+//! A scene of grains as plain data: one file per group of tables.
+
+mod axis;
+mod fluid;
+mod grains;
+mod output;
+mod probe;
+mod reference;
+mod scene;
+mod wall;
+
+pub use axis::Axis;
+pub use fluid::Fluid;
+pub use grains::{Cloud, Grains, Grown, Lattice, Rained, Start};
+pub use output::Output;
+pub use probe::Probe;
+pub use reference::{Reference, Statistic};
+pub use scene::{Oedometer, Run, Scene};
+pub use wall::{Box, Piston, Servo, Wall, WaveLoad};
+
+use std::collections::BTreeMap;
+
+/// Parameter tables by plugin name.
+pub type Plugins = BTreeMap<String, toml::Table>;
+
+/// What the schema says of [`Plugins`], whose keys a plugin knows.
+pub(crate) type AnyPlugins = BTreeMap<String, serde_json::Map<String, serde_json::Value>>;
+
+/// A point or a vector along x, y and z.
+pub type Triple = [f64; 3];

@@ -1,0 +1,37 @@
+//! The table `[output]`.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// What a run writes and when.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// Simulated time between pictures and files for ParaView, s; a twentieth of the end if left out.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub every: Option<f64>,
+    /// Simulated time between rows of the series, s; a five-hundredth of the end if left out.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub series_every: Option<f64>,
+    /// Fields of which pictures are drawn; none if left out.
+    pub picture: Vec<String>,
+    /// Values at the ends of the picture's colours, SI; least and largest value if left out.
+    #[schemars(extend("unit" = "1"))]
+    pub picture_range: Option<[f64; 2]>,
+    /// Whether files for ParaView are left out.
+    pub no_vtk: bool,
+}
+
+impl Output {
+    /// Simulated time between outputs in force, s, for a run of `end` seconds.
+    #[must_use]
+    pub fn interval(&self, end: f64) -> f64 {
+        self.every.unwrap_or(end / 20.0)
+    }
+
+    /// Simulated time between rows in force, s.
+    #[must_use]
+    pub fn series_interval(&self, end: f64) -> f64 {
+        self.series_every.unwrap_or(end / 500.0)
+    }
+}

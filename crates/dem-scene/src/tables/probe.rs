@@ -1,0 +1,114 @@
+//! What a table `[probe.NAME]` says.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::{Axis, Triple};
+
+/// A measurement; the key `kind` says which.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Probe {
+    /// Total normal stress on a wall, Pa: that of the grains and that of the fluid.
+    Stress {
+        /// Name of the wall.
+        wall: String,
+    },
+    /// What a wall bears over the buoyant weight of all grains: contacts alone, not the fluid.
+    Borne {
+        /// Name of the wall.
+        wall: String,
+    },
+    /// What the fluid bears of the buoyant weight of all grains: the sum of its forces without buoyancy.
+    Carried {},
+    /// Mean pressure of a layer of pores, Pa.
+    Pressure {
+        /// Axis across the layer.
+        axis: Axis,
+        /// Its begin, m.
+        #[schemars(extend("unit" = "m"))]
+        from: f64,
+        /// Its end, m.
+        #[schemars(extend("unit" = "m"))]
+        to: f64,
+        /// Pressure by which it is divided, Pa.
+        #[schemars(extend("unit" = "Pa", "exclusiveMinimum" = 0.0))]
+        over: Option<f64>,
+    },
+    /// −dp/dx of a layer over the buoyant weight of the grains in it, per volume: 1 where nothing is left of the effective
+    /// stress (page §5.21, Eq. 6.28).
+    Gradient {
+        /// Axis across the layer.
+        axis: Axis,
+        /// Its begin, m.
+        #[schemars(extend("unit" = "m"))]
+        from: f64,
+        /// Its end, m.
+        #[schemars(extend("unit" = "m"))]
+        to: f64,
+        /// Part of the box along x in which it is taken, m; all of it if left out.
+        #[schemars(extend("unit" = "m"))]
+        between: Option<[f64; 2]>,
+    },
+    /// Normal contact force across a plane over its area, Pa: the effective stress.
+    EffectiveStress {
+        /// Axis across the plane.
+        axis: Axis,
+        /// Where it is, m.
+        #[schemars(extend("unit" = "m"))]
+        at: f64,
+    },
+    /// Logarithmic strain of the box along an axis since the start, positive in compression.
+    Strain {
+        /// The axis.
+        axis: Axis,
+    },
+    /// Logarithmic strain of the volume of the box since the start, positive in dilation.
+    VolumetricStrain {},
+    /// Stress of the two walls across an axis less that of the others, Pa.
+    Deviator {
+        /// The axis.
+        axis: Axis,
+    },
+    /// Porosity of a layer, grains cut by its planes.
+    Porosity {
+        /// Axis across the layer.
+        axis: Axis,
+        /// Its begin, m.
+        #[schemars(extend("unit" = "m"))]
+        from: f64,
+        /// Its end, m.
+        #[schemars(extend("unit" = "m"))]
+        to: f64,
+    },
+    /// Highest point of a grain, m.
+    Top {},
+    /// How much lower the mean height of the grains is than at the start, m.
+    Settlement {},
+    /// Share of the final dry strain that is reached, with `[oedometer]`.
+    Consolidation {},
+    /// (L − L₀)/L₀ of a deposit: L is where it is first thinner than a grain, so grains that roll on ahead do not count.
+    RunOut {
+        /// Axis along which it spreads.
+        axis: Axis,
+        /// L₀, m.
+        #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+        length: f64,
+    },
+    /// Mean displacement since the start of the grains that were in a part of the space, m.
+    Displacement {
+        /// Axis along which it is taken.
+        axis: Axis,
+        /// Lower corner of that part, m.
+        #[schemars(extend("unit" = "m"))]
+        low: Triple,
+        /// Upper corner, m.
+        #[schemars(extend("unit" = "m"))]
+        high: Triple,
+    },
+    /// Pressure amplitude of the wave on a wall, Pa, without its swing.
+    Amplitude {
+        /// Name of the wall.
+        wall: String,
+    },
+}

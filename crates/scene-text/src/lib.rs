@@ -1,0 +1,45 @@
+//! Scenes as texts, whatever they are about: units, schemas, overrides, and mistakes with their place.
+//!
+//! Nothing here knows what a scene describes. A reader of scenes
+//!
+//! 1. makes a [`Source`] of a text, its file name and the [`Override`]s on top ([`read_text`], `--set`);
+//! 2. holds its table against a JSON schema with [`conform`], which turns "10 kPa" into pascals ([`parse_quantity`])
+//!    and names unknown keys with the nearest valid one ([`suggestion`]);
+//! 3. tells what is wrong as [`SceneProblem`]s, by key, which [`Source::diagnose`] turns into [`Diagnostic`]s with
+//!    file, line, column and span.
+//!
+//! ```
+//! use scene_text::{SceneProblem, Source};
+//!
+//! let source = Source::new("[run]\nend = 1", "scene.toml", &[]);
+//! let problem = SceneProblem::new("run.end", "is too early");
+//! let told = source.diagnose(&[problem])[0].to_string();
+//! assert_eq!(told, "scene.toml:2:1: run.end: is too early");
+//! ```
+
+mod conform;
+mod diagnostic;
+mod locate;
+mod names;
+pub mod number;
+mod overrides;
+mod paths;
+pub mod plausible;
+mod problem;
+mod quantity;
+mod source;
+mod text;
+
+pub use conform::{MOST_PROBLEMS, conform, defaults};
+pub use diagnostic::{Diagnostic, Origin, line_and_column};
+pub use names::{nearest, suggestion};
+pub use overrides::{OnePlugin, Override};
+pub use paths::{PathProblem, within};
+pub use problem::SceneProblem;
+pub use quantity::{Dimensions, parse_quantity, parse_unit};
+pub use source::Source;
+pub use text::{FILE_BYTES, read_text};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

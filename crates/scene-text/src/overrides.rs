@@ -1,0 +1,298 @@
+//! Values put on top of a scene: `--set numerics.spacing=0.01`.
+
+use toml::{Table, Value};
+
+use crate::SceneProblem;
+
+/// Deepest path of an override.
+const DEEPEST: usize = 32;
+
+/// A list of tables that hold exactly one plugin, as the keys that lead to them; `*` stands for any key.
+///
+/// Whoever reads scenes submits theirs with `inventory`: setting another plugin there replaces the present one.
+pub struct OnePlugin(pub fn() -> Vec<Vec<&'static str>>);
+inventory::collect!(OnePlugin);
+
+/// All such tables of this binary.
+fn single() -> Vec<Vec<&'static str>> {
+    let lists = inventory::iter::<OnePlugin>.into_iter();
+    lists.flat_map(|list| (list.0)()).collect()
+}
+
+/// A value for a key of the scene, whatever the file says.
+///
+/// The value is TOML; what is not TOML is taken as a string, so that a shell needs no second
+/// pair of quotes. Setting another plugin where a scene has exactly one replaces the present
+/// one: `kernel.wendland-c4={}`.
+///
+/// ```
+/// use scene_text::Override;
+///
+/// let set = Override::parse("wall.tank.polyline[0][1]=30 cm").unwrap();
+/// assert_eq!(set.path(), "wall.tank.polyline[0][1]");
+/// assert_eq!(set.value().as_str(), Some("30 cm"));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Override {
+    text: String,
+    path: String,
+    segments: Vec<Segment>,
+    value: Value,
+    /// Whether it stood on the command line.
+    users: bool,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Segment {
+    Key(String),
+    Index(usize),
+}
+
+impl Override {
+    /// Reads `path.to.key=value` from the command line; a file that it names is the user's own choice.
+    ///
+    /// # Errors
+    /// If there is no `=`, the path is not one, or the value is broken TOML.
+    pub fn parse(text: &str) -> Result<Self, SceneProblem> {
+        let (path, value) = text
+            .split_once('=')
+            .ok_or_else(|| SceneProblem::new(text, "expected `path.to.key=value`, found no `=`"))?;
+        let (path, value) = (path.trim(), value.trim());
+        let value = match value.parse::<Value>() {
+            Ok(value) => value,
+            Err(why) if value.starts_with(['[', '{', '"', '\'']) => {
+                return Err(SceneProblem::new(path, why.message()));
+            }
+            Err(_) => Value::String(value.to_string()),
+        };
+        Ok(Override {
+            text: text.to_string(),
+            users: true,
+            ..Override::new(path, value)?
+        })
+    }
+
+    /// The value for a dotted path, for programs that vary scenes; it may name no files but those of the scene.
+    ///
+    /// # Errors
+    /// If the path is not one.
+    pub fn new(path: &str, value: Value) -> Result<Self, SceneProblem> {
+        let segments = segments(path).map_err(|why| SceneProblem::new(path, why))?;
+        Ok(Override {
+            text: format!("{path}={value}"),
+            path: path.to_string(),
+            segments,
+            value,
+            users: false,
+        })
+    }
+
+    /// The override as it was written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Dotted path of the key.
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// The value.
+    pub fn value(&self) -> &Value {
+        &self.value
+    }
+
+    /// Whether it stood on the command line.
+    pub(crate) fn is_the_users(&self) -> bool {
+        self.users
+    }
+
+    /// Whether the value of a key is its own or within its own.
+    pub(crate) fn gives(&self, key: &str) -> bool {
+        let rest = key.strip_prefix(self.path.as_str());
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+    }
+
+    /// Sets the value in a scene's table, making tables on the way where there are none.
+    ///
+    /// # Errors
+    /// If a key on the way is no table, or a list has no such entry.
+    pub fn apply(&self, table: &mut Table) -> Result<(), SceneProblem> {
+        let problem = |why: String| SceneProblem::new(self.path.clone(), why);
+        let mut root = Value::Table(std::mem::take(table));
+        let result = self.set(&mut root).map_err(problem);
+        if let Value::Table(changed) = root {
+            *table = changed;
+        }
+        result
+    }
+
+    fn set(&self, root: &mut Value) -> Result<(), String> {
+        let mut here = root;
+        for (depth, segment) in self.segments.iter().enumerate() {
+            here = match (segment, here) {
+                (Segment::Key(key), Value::Table(table)) => {
+                    if self.replaces(depth) {
+                        table.retain(|name, _| name == key);
+                    }
+                    let last = depth + 1 == self.segments.len();
+                    if last {
+                        table.insert(key.clone(), self.value.clone());
+                        return Ok(());
+                    }
+                    table
+                        .entry(key.clone())
+                        .or_insert_with(|| Value::Table(Table::new()))
+                }
+                (Segment::Key(key), _) => {
+                    return Err(format!("there is no key `{key}` in what is not a table"));
+                }
+                (Segment::Index(k), Value::Array(items)) => {
+                    let count = items.len();
+                    let entry = items.get_mut(*k);
+                    entry.ok_or(format!(
+                        "there is no entry {k} in a list of {count}, counted from 0"
+                    ))?
+                }
+                (Segment::Index(k), _) => {
+                    return Err(format!("there is no entry {k} in what is not a list"));
+                }
+            };
+        }
+        *here = self.value.clone();
+        Ok(())
+    }
+
+    /// Whether the key at that depth names a plugin where there is exactly one.
+    fn replaces(&self, depth: usize) -> bool {
+        let fits = |pattern: &Vec<&str>| {
+            pattern.len() == depth
+                && pattern
+                    .iter()
+                    .zip(&self.segments)
+                    .all(|(wanted, segment)| match segment {
+                        Segment::Key(key) => *wanted == "*" || wanted == key,
+                        Segment::Index(_) => false,
+                    })
+        };
+        single().iter().any(fits)
+    }
+}
+
+/// `probe.P1.at[0]` as keys and indices; a key in double quotes may hold anything.
+fn segments(path: &str) -> Result<Vec<Segment>, String> {
+    let mut found = Vec::new();
+    let mut rest = path;
+    loop {
+        let (key, after) = match rest.strip_prefix('"') {
+            Some(quoted) => quoted.split_once('"').ok_or("a quote is not closed")?,
+            None => rest.split_at(rest.find(['.', '[']).unwrap_or(rest.len())),
+        };
+        if key.trim().is_empty() {
+            return Err("a key of the path is empty".to_string());
+        }
+        found.push(Segment::Key(key.to_string()));
+        rest = after;
+        while let Some(bracket) = rest.strip_prefix('[') {
+            let (index, after) = bracket.split_once(']').ok_or("a bracket is not closed")?;
+            let index = index
+                .trim()
+                .parse()
+                .map_err(|_| format!("`{index}` is not an index"))?;
+            found.push(Segment::Index(index));
+            rest = after;
+        }
+        if found.len() > DEEPEST {
+            return Err(format!("the path is deeper than {DEEPEST} keys"));
+        }
+        match rest.strip_prefix('.') {
+            Some(after) => rest = after,
+            None if rest.is_empty() => return Ok(found),
+            None => return Err(format!("expected `.` or `[` before `{rest}`")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    inventory::submit! {
+        OnePlugin(|| vec![vec!["kernel"], vec!["phase", "*", "rheology"]])
+    }
+
+    fn after(scene: &str, set: &str) -> Result<Table, String> {
+        let mut table: Table = toml::from_str(scene).unwrap();
+        let set = Override::parse(set).map_err(|p| p.to_string())?;
+        set.apply(&mut table).map_err(|p| p.to_string())?;
+        Ok(table)
+    }
+
+    #[test]
+    fn values_lists_and_plugin_tables_are_set() {
+        let scene = "[probe.P1]\nat = [1, 2]\n[kernel.a]\nx = 1\n[smoother.b]";
+        assert_eq!(
+            after(scene, "probe.P1.at=[3,4]").unwrap()["probe"]["P1"]["at"][1].as_integer(),
+            Some(4)
+        );
+        assert_eq!(
+            after(scene, "probe.P1.at[0]=5").unwrap()["probe"]["P1"]["at"][0].as_integer(),
+            Some(5)
+        );
+        assert_eq!(
+            after(scene, "run.end=10 s").unwrap()["run"]["end"].as_str(),
+            Some("10 s")
+        );
+        assert_eq!(
+            after(scene, "kernel.a.x=2").unwrap()["kernel"]["a"]["x"].as_integer(),
+            Some(2)
+        );
+        assert!(
+            after(scene, "smoother={}").unwrap()["smoother"]
+                .as_table()
+                .unwrap()
+                .is_empty()
+        );
+    }
+
+    #[test]
+    fn another_plugin_takes_the_place_of_the_present_one() {
+        let table = after("[kernel.a]\nx = 1", "kernel.b={}").unwrap();
+        assert_eq!(
+            table["kernel"]
+                .as_table()
+                .unwrap()
+                .keys()
+                .collect::<Vec<_>>(),
+            ["b"]
+        );
+        let table = after(
+            "[phase.w.rheology.a]\n[phase.v.rheology.a]",
+            "phase.w.rheology.b.k=1",
+        )
+        .unwrap();
+        assert!(table["phase"]["w"]["rheology"].get("a").is_none());
+        assert!(table["phase"]["v"]["rheology"].get("a").is_some());
+    }
+
+    #[test]
+    fn mistakes_are_told() {
+        let scene = "a = 1\nb = [1]";
+        for (set, message) in [
+            ("x", "found no `=`"),
+            ("=1", "is empty"),
+            ("a..b=1", "is empty"),
+            ("a.b=1", "what is not a table"),
+            ("b[3]=1", "no entry 3 in a list of 1"),
+            ("a[0]=1", "what is not a list"),
+            ("b[0=1", "bracket is not closed"),
+            ("b[x]=1", "not an index"),
+            ("b[0]c=1", "expected `.`"),
+            ("\"a=1", "quote"),
+            ("a=[1, ", "array"),
+        ] {
+            let told = after(scene, set).unwrap_err();
+            assert!(told.contains(message), "{set}: {told}");
+        }
+    }
+}

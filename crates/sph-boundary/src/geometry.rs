@@ -1,0 +1,17 @@
+//! Walls as lines and triangles: meshed, joined, moved, and what is near or inside them.
+
+pub(crate) mod checks;
+pub(crate) mod cover;
+pub(crate) mod grid;
+pub(crate) mod inside;
+pub(crate) mod lattice_layers;
+pub(crate) mod layers;
+pub(crate) mod mesh;
+pub(crate) mod periodic;
+pub(crate) mod planar;
+pub(crate) mod plate;
+pub(crate) mod polyline;
+pub(crate) mod spatial_walls;
+pub(crate) mod surface;
+pub(crate) mod touching;
+pub(crate) mod wall_mesh;

@@ -1,0 +1,106 @@
+//! What makes a wall unusable or suspicious.
+
+mod crossing;
+
+use std::ops::ControlFlow;
+
+use sph_core::BoxTree;
+
+pub(crate) use crossing::{around, check_crossings, widened};
+
+use crate::error::{BoundaryError, WallWarning};
+use crate::geometry::grid::distance_squared;
+use crate::geometry::polyline::Polyline;
+
+/// Edges shorter than this part of the spacing are remarked upon.
+const SHORT: f64 = 0.25;
+
+/// Part of the perimeter squared below which an area counts as zero.
+const NO_AREA: f64 = 1e-12;
+
+/// Points that are too few, not finite or repeated.
+pub(crate) fn check_points(line: &Polyline) -> Result<(), BoundaryError> {
+    if line.points.len() < 2 {
+        let (wall, count) = (line.name.clone(), line.points.len());
+        return Err(BoundaryError::TooFewPoints { wall, count });
+    }
+    if let Some(point) = line
+        .points
+        .iter()
+        .position(|p| p.iter().any(|x| !x.is_finite()))
+    {
+        return Err(BoundaryError::NotFinite {
+            wall: line.name.clone(),
+            point,
+        });
+    }
+    let repeated = line
+        .edges()
+        .position(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]) == 0.0);
+    if let Some(edge) = repeated {
+        let [x, y] = line.points[edge];
+        let next = (edge + 1) % line.points.len();
+        return Err(BoundaryError::ZeroLengthEdge {
+            wall: line.name.clone(),
+            edge,
+            next,
+            x,
+            y,
+        });
+    }
+    Ok(())
+}
+
+/// A closed wall that encloses nothing and is not a plate of zero thickness.
+pub(crate) fn check_area(line: &Polyline, tolerance: f64) -> Result<(), BoundaryError> {
+    let perimeter: f64 = line
+        .edges()
+        .map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]))
+        .sum();
+    if line.closed
+        && line.signed_area().abs() <= NO_AREA * perimeter * perimeter
+        && let Some(edge) = unretraced_edge(line, tolerance)
+    {
+        return Err(BoundaryError::ZeroArea {
+            wall: line.name.clone(),
+            edge,
+        });
+    }
+    Ok(())
+}
+
+/// Edges far shorter than the spacing.
+pub(crate) fn short_edges(line: &Polyline, spacing: f64) -> impl Iterator<Item = WallWarning> {
+    let lengths = line
+        .edges()
+        .map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]))
+        .enumerate();
+    lengths
+        .filter(move |(_, length)| *length < SHORT * spacing)
+        .map(move |(edge, length)| WallWarning::ShortEdge {
+            wall: line.name.clone(),
+            edge,
+            length,
+            spacing,
+        })
+}
+
+/// An edge whose middle is not on another edge in the opposite direction.
+fn unretraced_edge(line: &Polyline, tolerance: f64) -> Option<usize> {
+    let tree = BoxTree::new(line.edges().map(around).collect());
+    line.edges().position(|[a, b]| {
+        let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+        let retraces = |k: usize| {
+            let [c, d] = line.edge(k);
+            let opposite = (b[0] - a[0]) * (d[0] - c[0]) + (b[1] - a[1]) * (d[1] - c[1]) < 0.0;
+            let seen = [c, d].map(|p| [p[0] - middle[0], p[1] - middle[1]]);
+            opposite && distance_squared(seen[0], seen[1]) <= tolerance * tolerance
+        };
+        let near = widened([middle; 2], tolerance);
+        let found = tree.overlapping(near, &mut |k| match retraces(k) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        });
+        found.is_continue()
+    })
+}

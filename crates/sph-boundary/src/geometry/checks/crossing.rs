@@ -1,0 +1,194 @@
+//! Edges that cross.
+
+use std::ops::ControlFlow;
+
+use sph_core::BoxTree;
+
+use crate::error::{BoundaryError, MOST_PAIRS};
+use crate::geometry::periodic::PeriodicBox;
+use crate::geometry::polyline::Polyline;
+
+struct Edge {
+    wall: usize,
+    edge: usize,
+    /// Whether it is an image of another edge across a periodic side.
+    image: bool,
+    ends: [[f64; 2]; 2],
+}
+
+/// Refuses two edges, of one wall or of two, that cross properly; touching is allowed.
+///
+/// An end within `tolerance` metres of the other edge's line touches it. Returns how many pairs of edges were
+/// held against each other: those whose boxes overlap.
+pub(crate) fn check_crossings(
+    polylines: &[Polyline],
+    tolerance: f64,
+    domain: &PeriodicBox,
+) -> Result<usize, BoundaryError> {
+    compared(polylines, tolerance, domain, MOST_PAIRS)
+}
+
+/// The same for so many pairs at most.
+fn compared(
+    polylines: &[Polyline],
+    tolerance: f64,
+    domain: &PeriodicBox,
+    most: usize,
+) -> Result<usize, BoundaryError> {
+    let edges = edges(polylines, domain);
+    let tree = BoxTree::new(edges.iter().map(|e| around(e.ends)).collect());
+    let mut pairs = 0;
+    for (i, first) in edges.iter().enumerate().filter(|(_, e)| !e.image) {
+        // The lowest of those that it crosses.
+        let mut met: Option<(usize, [f64; 2])> = None;
+        let whole = tree.overlapping(tree.of(i), &mut |j| {
+            if !edges[j].image && j <= i || met.is_some_and(|(k, _)| k < j) {
+                return ControlFlow::Continue(());
+            }
+            pairs += 1;
+            if let Some(place) = crossing(first.ends, edges[j].ends, tolerance) {
+                met = Some((j, place));
+            }
+            match pairs > most {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        });
+        if let Some((j, [x, y])) = met {
+            let second = &edges[j];
+            return Err(BoundaryError::Crossing {
+                wall: polylines[first.wall].name.clone(),
+                edge: first.edge,
+                other: polylines[second.wall].name.clone(),
+                other_edge: second.edge,
+                x,
+                y,
+            });
+        }
+        if whole.is_break() {
+            let wall = polylines[first.wall].name.clone();
+            return Err(BoundaryError::Tangled { wall });
+        }
+    }
+    Ok(pairs)
+}
+
+/// Lower and upper corner of the box around an edge, m.
+pub(crate) fn around([a, b]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    [
+        [a[0].min(b[0]), a[1].min(b[1])],
+        [a[0].max(b[0]), a[1].max(b[1])],
+    ]
+}
+
+/// A box with so much room around it.
+pub(crate) fn widened([low, high]: [[f64; 2]; 2], by: f64) -> [[f64; 2]; 2] {
+    [low.map(|x| x - by), high.map(|x| x + by)]
+}
+
+/// All edges, and their images across the periodic sides that come near the walls themselves.
+fn edges(polylines: &[Polyline], domain: &PeriodicBox) -> Vec<Edge> {
+    let points = || polylines.iter().flat_map(|line| &line.points);
+    let low = [0, 1].map(|k| points().map(|p| p[k]).fold(f64::INFINITY, f64::min));
+    let high = [0, 1].map(|k| points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
+    let walls = PeriodicBox {
+        lower: low,
+        upper: high,
+        ..*domain
+    };
+    let periods = domain.periods();
+    // Images of an interval that overlap the walls, counted in periods of the box.
+    let images = |k: usize, a: f64, b: f64| {
+        if !walls.periodic[k] {
+            return 0..=0;
+        }
+        let first = ((low[k] - b) / periods[k]).ceil() as i32;
+        first..=((high[k] - a) / periods[k]).floor() as i32
+    };
+    let mut edges = Vec::new();
+    for (wall, line) in polylines.iter().enumerate() {
+        for (edge, [a, b]) in line.edges().enumerate() {
+            for i in images(0, a[0].min(b[0]), a[0].max(b[0])) {
+                for j in images(1, a[1].min(b[1]), a[1].max(b[1])) {
+                    let shift = domain.shift([i, j]);
+                    let ends = [a, b].map(|p| [p[0] + shift[0], p[1] + shift[1]]);
+                    edges.push(Edge {
+                        wall,
+                        edge,
+                        image: [i, j] != [0; 2],
+                        ends,
+                    });
+                }
+            }
+        }
+    }
+    edges
+}
+
+/// Where two edges cross, if the ends of each are on opposite sides of the other.
+fn crossing([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2], tolerance: f64) -> Option<[f64; 2]> {
+    let [to_a, to_b] = [a, b].map(|p| distance_to_line(p, c, d));
+    let [to_c, to_d] = [c, d].map(|p| distance_to_line(p, a, b));
+    let opposite = |p: f64, q: f64| p * q < 0.0 && p.abs().min(q.abs()) > tolerance;
+    if !(opposite(to_a, to_b) && opposite(to_c, to_d)) {
+        return None;
+    }
+    let part = to_a / (to_a - to_b);
+    Some([a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])])
+}
+
+/// Signed distance of `p` to the line from `c` to `d`, positive on its left.
+fn distance_to_line(p: [f64; 2], c: [f64; 2], d: [f64; 2]) -> f64 {
+    let (x, y) = (d[0] - c[0], d[1] - c[1]);
+    (x * (p[1] - c[1]) - y * (p[0] - c[0])) / x.hypot(y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A comb along x or along y with teeth of some length.
+    fn comb(n: usize, along: usize, tooth: f64) -> Polyline {
+        let corner = |k: usize| {
+            let mut at = [(k / 2) as f64; 2];
+            at[1 - along] = tooth * (k.div_ceil(2) % 2) as f64;
+            at
+        };
+        Polyline::open("comb", (0..n).map(corner).collect())
+    }
+
+    #[test]
+    fn an_edge_is_held_against_those_beside_it_only() {
+        let none = PeriodicBox::none();
+        for (along, tooth) in [(0, 1.0), (0, 1000.0), (1, 1000.0)] {
+            let n = 20_000;
+            let pairs = check_crossings(&[comb(n, along, tooth)], 1e-6, &none).unwrap();
+            // An edge touches the boxes of the one before and of the one after.
+            assert_eq!(pairs, n - 2, "{tooth} along {along}");
+        }
+        let mut crossed = comb(20_000, 0, 1000.0);
+        crossed.points.extend([[10_001.0, 500.5], [-1.0, 500.5]]);
+        let found = check_crossings(&[crossed], 1e-6, &none);
+        assert!(
+            matches!(found, Err(BoundaryError::Crossing { edge: 0, .. })),
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn a_hatching_of_more_pairs_than_are_compared_is_refused() {
+        let line = |k: usize| {
+            let x = k as f64;
+            Polyline::open("hatch", vec![[x, 0.0], [x + 1e6, 1e6]])
+        };
+        let lines: Vec<_> = (0..300).map(line).collect();
+        let most = |most| compared(&lines, 1e-6, &PeriodicBox::none(), most);
+        // Every box overlaps every other.
+        assert_eq!(most(300 * 299 / 2), Ok(300 * 299 / 2));
+        let found = most(300 * 299 / 2 - 1);
+        assert!(
+            matches!(found, Err(BoundaryError::Tangled { .. })),
+            "{found:?}"
+        );
+    }
+}

@@ -1,0 +1,146 @@
+//! Walls that slide along each other or part: what one takes of the other's fluid.
+
+use rayon::prelude::*;
+use sph_core::Vect;
+
+use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
+
+/// Samples along a radius of the ball around a node; half a sample from its centre is the first.
+const SAMPLES: i32 = 3;
+
+/// How far around a node elements are looked for, over the spacing: those within 2 spacings, and those that may come
+/// there until the next search.
+const FAR: f64 = 2.8;
+
+/// Nodes near walls that move otherwise than their own, and what is left of their fluid.
+///
+/// A node stands for the fluid in a ball of half a spacing around it. Of that ball a wall that
+/// moves otherwise (a gate that stands on a floor, a piston that sweeps it) may take a part, which
+/// changes continuously with its position, and what is within half a spacing of both walls is
+/// stood for by the nodes of both. The visible share is the mean over samples of the ball of
+/// H(d_own) [H(d_other) + H(d_other − δr/2)]/2 over that of H(d_own), d being signed distances and
+/// H a ramp as wide as the samples are apart.
+#[derive(Debug)]
+pub(crate) struct Cover<N> {
+    /// Nodes within reach of other walls at the last search.
+    near: Vec<Surrounded<N>>,
+    /// Positions of all nodes at the last search, m.
+    searched_at: Vec<[f64; 3]>,
+}
+
+/// A node and what may be near it until the next search.
+#[derive(Debug)]
+struct Surrounded<N> {
+    node: usize,
+    /// Elements of walls that move with it, and of others.
+    own: Vec<N>,
+    others: Vec<N>,
+}
+
+impl<N> Default for Cover<N> {
+    fn default() -> Self {
+        Cover {
+            near: Vec::new(),
+            searched_at: Vec::new(),
+        }
+    }
+}
+
+impl<N: Copy + Send + Sync> Cover<N> {
+    /// The nodes whose visible share may differ from 1, with that share.
+    pub fn shares<const D: usize, M: WallMesh<D, Near = N>>(
+        &mut self,
+        mesh: &M,
+        points: &[MeshPoint<D>],
+        groups: &[usize],
+        spacing: f64,
+    ) -> Vec<(usize, f64)> {
+        let nodes = points.iter().map(|p| (p.position, groups[p.wall]));
+        let nodes: Vec<_> = nodes.collect();
+        if self.outdated(&nodes, spacing) {
+            let near = |(node, (x, group)): (usize, &(Vect<D>, usize))| {
+                let all = mesh.near(x, FAR * spacing).into_iter();
+                let own = |n: &N| groups[mesh.wall_of(*n)] == *group;
+                let (own, others): (Vec<_>, Vec<_>) = all.partition(own);
+                let seen = seen(mesh, x, &others);
+                let found = M::signed_distance(&seen, &Vect::zeros(), 2.0 * spacing);
+                found.map(|_| Surrounded { node, own, others })
+            };
+            self.near = nodes.par_iter().enumerate().filter_map(near).collect();
+            self.searched_at = nodes.iter().map(|(x, _)| padded(x)).collect();
+        }
+        let share = |near: &Surrounded<N>| {
+            let (x, _) = &nodes[near.node];
+            (near.node, visible(mesh, near, x, spacing))
+        };
+        self.near.par_iter().map(share).collect()
+    }
+
+    /// Whether a node may have come near since the search: from 2 spacings to where it is covered (7/6) two walls may each
+    /// come nearer by 0.4.
+    fn outdated<const D: usize>(&self, nodes: &[(Vect<D>, usize)], spacing: f64) -> bool {
+        if self.searched_at.len() != nodes.len() {
+            return true;
+        }
+        let moved = nodes.iter().zip(&self.searched_at).map(|((x, _), old)| {
+            let now = padded(x);
+            (0..3).map(|k| (now[k] - old[k]).powi(2)).sum::<f64>()
+        });
+        moved.fold(0.0, f64::max) > (0.4 * spacing).powi(2)
+    }
+}
+
+fn padded<const D: usize>(x: &Vect<D>) -> [f64; 3] {
+    std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0))
+}
+
+/// Elements as seen from a point.
+fn seen<const D: usize, M: WallMesh<D>>(mesh: &M, x: &Vect<D>, near: &[M::Near]) -> Vec<M::Seen> {
+    near.iter().map(|n| mesh.seen(x, *n)).collect()
+}
+
+fn visible<const D: usize, M: WallMesh<D>>(
+    mesh: &M,
+    around: &Surrounded<M::Near>,
+    x: &Vect<D>,
+    spacing: f64,
+) -> f64 {
+    let apart = 0.5 * spacing / f64::from(SAMPLES);
+    let mut others = seen(mesh, x, &around.others);
+    let Some(distance) = M::signed_distance(&others, &Vect::zeros(), 2.0 * spacing) else {
+        return 1.0;
+    };
+    if distance >= spacing + apart {
+        return 1.0;
+    }
+    if distance <= -(0.5 * spacing + apart) {
+        return 0.0;
+    }
+    let ramp = |d: f64| (0.5 + d / apart).clamp(0.0, 1.0);
+    let left = |d: f64| 0.5 * (ramp(d) + ramp(d - 0.5 * spacing));
+    // What is farther from the node than its wall by twice the radius of the ball is the nearest of no sample.
+    let reach = [0.0, distance.abs()].map(|d| d + 0.5 * spacing + apart);
+    let mut own = seen(mesh, x, &around.own);
+    for (elements, reach) in [&mut own, &mut others].into_iter().zip(reach) {
+        let (alone, far) = (std::slice::from_ref, reach + 0.5 * spacing);
+        elements.retain(|e| M::signed_distance(alone(e), &Vect::zeros(), far).is_some());
+    }
+    let (mut all, mut both) = (0.0, 0.0);
+    // No sample is in a plane through the node, where a side would be undecided.
+    let side = 2 * SAMPLES;
+    let middle = f64::from(SAMPLES) - 0.5;
+    for n in 0..side.pow(D as u32) {
+        let step = |k: usize| f64::from(n / side.pow(k as u32) % side) - middle;
+        let offset = Vect::<D>::from_fn(|k, _| apart * step(k));
+        if offset.norm() > 0.5 * spacing {
+            continue;
+        }
+        let mine = M::signed_distance(&own, &offset, reach[0]).map_or(1.0, ramp);
+        if mine > 0.0 {
+            let other = M::signed_distance(&others, &offset, reach[1]);
+            all += mine;
+            both += mine * other.map_or(1.0, left);
+        }
+    }
+    if all > 0.0 { both / all } else { 1.0 }
+}

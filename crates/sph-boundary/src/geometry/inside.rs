@@ -1,0 +1,212 @@
+//! On which side of the walls a point is.
+
+use std::sync::OnceLock;
+
+use crate::geometry::grid::NearSegment;
+use crate::geometry::mesh::SegmentMesh;
+use crate::geometry::periodic::PeriodicBox;
+
+/// Crossings of the ray closer to each other than this part of the wall's extent are one place.
+const SAME_HEIGHT: f64 = 1e-12;
+
+/// What the question on which side a point is needs of a mesh, for its present position: made when it is first asked.
+///
+/// Two meshes that are equal have equal sides, asked or not.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sides(OnceLock<Columns>);
+
+impl PartialEq for Sides {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// Segments by the columns, along the ray, that they reach into.
+#[derive(Clone, Debug)]
+struct Columns {
+    lower: f64,
+    per_metre: f64,
+    /// Where the segments of a column begin in `segments`.
+    starts: Vec<u32>,
+    segments: Vec<u32>,
+    beyond: bool,
+}
+
+impl Columns {
+    fn new(mesh: &SegmentMesh, along: usize) -> Self {
+        let across = 1 - along;
+        let ends = |s: usize| {
+            let [a, b] = mesh.ends(s);
+            (a[across].min(b[across]), a[across].max(b[across]))
+        };
+        let all = || (0..mesh.segments().len()).map(ends);
+        let domain = mesh.domain();
+        let [lower, upper] = match domain.periodic[across] {
+            true => [domain.lower[across], domain.upper[across]],
+            false => [
+                all().fold(f64::INFINITY, |low, (a, _)| low.min(a)),
+                all().fold(f64::NEG_INFINITY, |high, (_, b)| high.max(b)),
+            ],
+        };
+        // As many as segments, and fewer if many lie over each other: a segment is in some four columns in the mean.
+        let segments = mesh.segments().len() as f64;
+        let width: f64 = all().map(|(a, b)| b - a).sum();
+        let share = ((upper - lower) / width).min(1.0);
+        let count = (segments * share).clamp(1.0, 1e6) as usize;
+        let per_metre = match upper > lower {
+            true => count as f64 / (upper - lower),
+            false => 0.0,
+        };
+        let mut columns = Columns {
+            lower,
+            per_metre,
+            starts: vec![0; count + 1],
+            segments: Vec::new(),
+            beyond: mesh.fluid_beyond(along),
+        };
+        // A column more on either side, for what rounding may do.
+        let wraps = domain.periodic[across];
+        let reached = |(a, b): (f64, f64)| {
+            let [first, last] = [a, b].map(|x| ((x - lower) * per_metre).floor() as i64);
+            let (first, last) = (first - 1, last + 1);
+            let most = count as i64 - 1;
+            let range = match wraps {
+                // At most all of them once.
+                true => first..=last.min(first + most),
+                false => first.max(0)..=last.min(most),
+            };
+            range.map(move |k| k.rem_euclid(count as i64) as usize)
+        };
+        for s in 0..mesh.segments().len() {
+            reached(ends(s)).for_each(|k| columns.starts[k + 1] += 1);
+        }
+        for k in 0..count {
+            columns.starts[k + 1] += columns.starts[k];
+        }
+        let mut next = columns.starts.clone();
+        columns.segments = vec![0; columns.starts[count] as usize];
+        for s in 0..mesh.segments().len() {
+            for k in reached(ends(s)) {
+                columns.segments[next[k] as usize] = s as u32;
+                next[k] += 1;
+            }
+        }
+        columns
+    }
+
+    /// Segments, in the order of their numbers, that a ray from a place across may meet.
+    fn column(&self, x: f64, domain: &PeriodicBox, across: usize) -> &[u32] {
+        let count = self.starts.len() - 1;
+        let x = match domain.periodic[across] {
+            true => self.lower + (x - self.lower).rem_euclid(domain.periods()[across]),
+            false => x,
+        };
+        let k = ((x - self.lower) * self.per_metre).floor();
+        if !(-1.0..=count as f64).contains(&k) {
+            return &[];
+        }
+        let k = (k.max(0.0) as usize).min(count - 1);
+        &self.segments[self.starts[k] as usize..self.starts[k + 1] as usize]
+    }
+}
+
+impl SegmentMesh {
+    /// Whether a point is in the fluid, as the walls see it.
+    ///
+    /// A ray goes from the point along an axis that is not periodic (upwards if both or neither
+    /// are). Among the crossings at one height opposite ones cancel, as do the faces of a plate of
+    /// zero thickness or of two blocks that touch; the first height where one is left decides by
+    /// the side that faces the point. A ray that meets nothing asks the wall that reaches
+    /// furthest along it. Without walls every point is in the fluid.
+    ///
+    /// Walls must be closed by themselves or through periodicity; a free end shadows nothing. A
+    /// point on a wall within rounding may be given either answer.
+    ///
+    /// The first call after a motion sorts the segments into columns; then the cost is that of the
+    /// segments in one column.
+    pub fn contains(&self, point: [f64; 2]) -> bool {
+        let along = self.ray_axis();
+        let columns = self.sides.0.get_or_init(|| Columns::new(self, along));
+        let across = 1 - along;
+        let column = columns.column(point[across], self.domain(), across);
+        let mut crossings = self.crossings(column, point, along);
+        crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let scale = crossings
+            .last()
+            .map_or(0.0, |(height, _)| height.abs() + point[along].abs());
+        let mut rest = crossings.as_slice();
+        while let Some(&(height, _)) = rest.first() {
+            let count = rest.partition_point(|(h, _)| *h <= height + SAME_HEIGHT * scale);
+            let net: i32 = rest[..count].iter().map(|(_, facing)| facing).sum();
+            if net != 0 {
+                return net > 0;
+            }
+            rest = &rest[count..];
+        }
+        columns.beyond
+    }
+
+    fn ray_axis(&self) -> usize {
+        match self.domain().periodic {
+            [false, true] => 0,
+            _ => 1,
+        }
+    }
+
+    /// Heights above the point at which the ray meets a segment, with +1 where the fluid is on the
+    /// near side of it and −1 where it is on the far side.
+    fn crossings(&self, column: &[u32], point: [f64; 2], along: usize) -> Vec<(f64, i32)> {
+        let across = 1 - along;
+        let domain = self.domain();
+        let period = domain.periods()[along];
+        let mut crossings = Vec::new();
+        for s in column.iter().map(|s| *s as usize) {
+            let segment = &self.segments()[s];
+            // The image of the segment that faces the point.
+            let mut apart = [0.0; 2];
+            apart[across] = point[across] - segment.centre[across];
+            let image = domain.nearest_image(apart);
+            let [a, b] = self.seen_from(point, NearSegment { segment: s, image });
+            let x = [a[across], b[across]];
+            if (x[0] <= 0.0) == (x[1] <= 0.0) {
+                continue;
+            }
+            let part = x[0] / (x[0] - x[1]);
+            let mut height = a[along] + part * (b[along] - a[along]);
+            if domain.periodic[along] {
+                height = height.rem_euclid(period);
+            }
+            if height > 0.0 {
+                crossings.push((height, if segment.normal[along] < 0.0 { 1 } else { -1 }));
+            }
+        }
+        crossings
+    }
+
+    /// Whether the fluid lies beyond all walls along the positive direction of an axis.
+    fn fluid_beyond(&self, along: usize) -> bool {
+        let joined = || {
+            let vertices = self.vertices().iter();
+            vertices.filter_map(|v| Some((v.position[along], v.previous?, v.next?)))
+        };
+        let outward = |previous: usize, next: usize| {
+            self.segments()[previous].normal[along] + self.segments()[next].normal[along]
+        };
+        let top = joined().fold(f64::NEG_INFINITY, |top, (h, ..)| top.max(h));
+        let scale = joined().fold(0.0, |scale: f64, (h, ..)| scale.max(h.abs()));
+        // Both faces of a plate of zero thickness are as high; the upper one decides.
+        let furthest = joined()
+            .filter(|(h, ..)| *h >= top - SAME_HEIGHT * scale)
+            .max_by(|a, b| outward(a.1, a.2).total_cmp(&outward(b.1, b.2)));
+        let Some((_, previous, next)) = furthest else {
+            return true;
+        };
+        let outward = outward(previous, next);
+        if self.domain().periodic == [true; 2] || outward != 0.0 {
+            return self.domain().periodic == [true; 2] || outward > 0.0;
+        }
+        // A spike: the fluid is outside when it is travelled clockwise or folds back.
+        let [t, u] = [previous, next].map(|s| self.segments()[s].tangent());
+        t[0] * u[1] - t[1] * u[0] <= 0.0
+    }
+}

@@ -1,0 +1,73 @@
+//! Places of dummy particles behind a polyline.
+
+use sph_core::Vect;
+
+use crate::PlanarWalls;
+use crate::geometry::wall_mesh::WallMesh;
+
+/// Two particles nearer than this share of the spacing are one.
+const TOO_CLOSE: f64 = 0.7;
+
+/// Rows at ½, 1½, … spacings behind every straight stretch, prolonged round corners.
+///
+/// A place is kept if it is outside the fluid, not nearer to any wall than its own row, and not
+/// on top of a place already kept; so right angles are tiled exactly and others nearly so.
+pub(crate) fn layers(walls: &PlanarWalls, spacing: f64, support: f64) -> Vec<(usize, Vect<2>)> {
+    let rows = (support / spacing - 1e-9).ceil() as usize;
+    let mut kept: Vec<(usize, Vect<2>)> = Vec::new();
+    let mut cells = std::collections::HashMap::<(i64, i64), Vec<usize>>::new();
+    let cell = |p: [f64; 2]| {
+        let index = |x: f64| (x / spacing).floor() as i64;
+        (index(p[0]), index(p[1]))
+    };
+    let domain = walls.mesh.domain();
+    let inside_period = |p: [f64; 2]| {
+        (0..2).all(|k| {
+            !domain.periodic[k]
+                || (p[k] >= domain.lower[k] - 1e-9 * spacing
+                    && p[k] < domain.upper[k] - 1e-9 * spacing)
+        })
+    };
+    for row in 0..rows {
+        let depth = (row as f64 + 0.5) * spacing;
+        for (s, segment) in walls.mesh.segments().iter().enumerate() {
+            let [start, _] = walls.mesh.ends(s);
+            let tangent = segment.tangent();
+            // A segment is about one spacing long: its own place is in its middle, and both
+            // ends reach on so that outer corners are filled.
+            let reach = rows as i64;
+            for k in -reach..=reach {
+                let along = segment.length * 0.5 + k as f64 * spacing;
+                let p = [0, 1].map(|a| start[a] + tangent[a] * along - segment.normal[a] * depth);
+                let beyond = k != 0;
+                if !inside_period(p) || walls.contains(&p.into()) {
+                    continue;
+                }
+                let clearance = walls.nearest(&p.into(), depth);
+                if clearance.is_some_and(|(d, _)| d < depth * (1.0 - 1e-6)) {
+                    continue;
+                }
+                // A prolonged row serves only places that no segment's own row reaches.
+                if beyond && walls.nearest(&p.into(), depth * (1.0 + 1e-6)).is_some() {
+                    continue;
+                }
+                let (cx, cy) = cell(p);
+                let taken = (-1..=1).any(|dx| {
+                    (-1..=1).any(|dy| {
+                        cells.get(&(cx + dx, cy + dy)).is_some_and(|list| {
+                            list.iter().any(|&i: &usize| {
+                                let q = kept[i].1;
+                                (p[0] - q[0]).hypot(p[1] - q[1]) < TOO_CLOSE * spacing
+                            })
+                        })
+                    })
+                });
+                if !taken {
+                    cells.entry((cx, cy)).or_default().push(kept.len());
+                    kept.push((walls.wall_of[segment.wall], p.into()));
+                }
+            }
+        }
+    }
+    kept
+}

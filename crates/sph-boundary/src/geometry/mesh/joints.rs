@@ -1,0 +1,170 @@
+//! Which ends of open walls are the same place.
+
+use std::ops::ControlFlow;
+
+use sph_core::BoxTree;
+
+use super::WallEnd;
+use crate::error::BoundaryError;
+use crate::geometry::periodic::PeriodicBox;
+use crate::geometry::polyline::Polyline;
+
+/// Ends closer than this part of the spacing are the same place.
+pub(super) const SAME_PLACE: f64 = 1e-6;
+
+/// What follows the last point of a wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Continuation {
+    /// Nothing.
+    Free,
+    /// The first point of a wall, moved by whole periods.
+    Start { wall: usize, image: [i32; 2] },
+}
+
+/// For every wall, what follows its last point, and whether its first point is free.
+pub(super) struct Joints {
+    pub after: Vec<Continuation>,
+    pub starts_free: Vec<bool>,
+}
+
+struct OpenEnd {
+    wall: usize,
+    end: WallEnd,
+    position: [f64; 2],
+}
+
+pub(super) fn joints(
+    polylines: &[Polyline],
+    tolerance: f64,
+    domain: &PeriodicBox,
+) -> Result<Joints, BoundaryError> {
+    let own = |wall| Continuation::Start {
+        wall,
+        image: [0; 2],
+    };
+    let after = polylines
+        .iter()
+        .enumerate()
+        .map(|(wall, line)| {
+            if line.closed {
+                own(wall)
+            } else {
+                Continuation::Free
+            }
+        })
+        .collect();
+    let starts_free = polylines.iter().map(|line| !line.closed).collect();
+    let mut joints = Joints { after, starts_free };
+    let ends = open_ends(polylines);
+    let wrapped = |end: &OpenEnd| domain.wrapped(end.position);
+    let tree = BoxTree::new(ends.iter().map(|e| [wrapped(e); 2]).collect());
+    for (i, end) in ends.iter().enumerate() {
+        let images = |other: &OpenEnd| same_place(end.position, other.position, tolerance, domain);
+        let mut near = near(&tree, wrapped(end), tolerance, domain);
+        near.retain(|j| *j != i);
+        let met: Vec<(&OpenEnd, [i32; 2])> = near
+            .iter()
+            .filter_map(|j| Some((&ends[*j], images(&ends[*j])?)))
+            .collect();
+        let name = |end: &OpenEnd| polylines[end.wall].name.clone();
+        let [x, y] = end.position;
+        match met.as_slice() {
+            [] => {}
+            [(other, _)] if other.end == end.end => {
+                return Err(BoundaryError::OpposedWalls {
+                    wall: name(end),
+                    end: end.end,
+                    other: name(other),
+                    other_end: other.end,
+                    x,
+                    y,
+                });
+            }
+            [(other, image)] => {
+                if end.end == WallEnd::Last {
+                    joints.after[end.wall] = Continuation::Start {
+                        wall: other.wall,
+                        image: *image,
+                    };
+                    joints.starts_free[other.wall] = false;
+                }
+            }
+            more => {
+                let count = more.len() + 1;
+                return Err(BoundaryError::AmbiguousJoint {
+                    wall: name(end),
+                    count,
+                    x,
+                    y,
+                });
+            }
+        }
+    }
+    Ok(joints)
+}
+
+/// Ends, moved into the periodic box, that may be at a place in it, ascending.
+fn near(tree: &BoxTree<2>, place: [f64; 2], tolerance: f64, domain: &PeriodicBox) -> Vec<usize> {
+    let periods = domain.periods();
+    // What is just within one side of the box is at the place of what is just within the other.
+    let shifts = |k: usize| match domain.periodic[k] {
+        true => vec![-periods[k], 0.0, periods[k]],
+        false => vec![0.0],
+    };
+    // Twice the tolerance: wrapping rounds.
+    let reach = 2.0 * tolerance;
+    let mut found = Vec::new();
+    for x in shifts(0) {
+        for y in shifts(1) {
+            let at = [place[0] + x, place[1] + y];
+            let around = [at.map(|c| c - reach), at.map(|c| c + reach)];
+            let whole = tree.overlapping(around, &mut |end| {
+                found.push(end);
+                ControlFlow::<()>::Continue(())
+            });
+            debug_assert!(whole.is_continue(), "nothing breaks it off");
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+fn open_ends(polylines: &[Polyline]) -> Vec<OpenEnd> {
+    let open = polylines
+        .iter()
+        .enumerate()
+        .filter(|(_, line)| !line.closed);
+    open.filter_map(|(wall, line)| {
+        let (first, last) = (*line.points.first()?, *line.points.last()?);
+        let first = OpenEnd {
+            wall,
+            end: WallEnd::First,
+            position: first,
+        };
+        Some([
+            first,
+            OpenEnd {
+                wall,
+                end: WallEnd::Last,
+                position: last,
+            },
+        ])
+    })
+    .flatten()
+    .collect()
+}
+
+/// The image of `there` that coincides with `here`, if one does.
+fn same_place(
+    here: [f64; 2],
+    there: [f64; 2],
+    tolerance: f64,
+    domain: &PeriodicBox,
+) -> Option<[i32; 2]> {
+    let apart = [here[0] - there[0], here[1] - there[1]];
+    let image = domain.nearest_image(apart);
+    let shift = domain.shift(image);
+    let rest = (apart[0] - shift[0]).hypot(apart[1] - shift[1]);
+    (rest <= tolerance).then_some(image)
+}

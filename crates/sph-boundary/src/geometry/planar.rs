@@ -1,0 +1,297 @@
+//! Walls in the plane: segments for the wall treatments.
+
+use std::sync::OnceLock;
+
+use sph_core::Vect;
+use sph_kernels::PiecewisePolynomial;
+use sph_neighbours::Contact;
+
+use crate::geometry::checks::check_points;
+use crate::geometry::grid::distance_squared;
+use crate::geometry::touching::without_shared;
+use crate::geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
+use crate::treatment::outline::groups;
+use crate::{
+    BoundaryError, Drawing, GammaSum, NearSegment, PeriodicBox, Polyline, Pose, Renormalisation2d,
+    SeenSegment, Segment, SegmentGrid, SegmentMesh, Vertex, WallSpec,
+};
+
+/// Polylines cut into segments, with the grid that finds them.
+#[derive(Debug)]
+pub struct PlanarWalls {
+    pub(crate) mesh: SegmentMesh,
+    /// Of the present position, made when somebody asks.
+    grid: OnceLock<SegmentGrid>,
+    reach: f64,
+    spacing: f64,
+    names: Vec<String>,
+    /// The wall of every polyline of the mesh.
+    pub(crate) wall_of: Vec<usize>,
+}
+
+impl PlanarWalls {
+    fn grid(&self) -> &SegmentGrid {
+        let make = || SegmentGrid::build(&self.mesh, self.reach);
+        self.grid.get_or_init(make)
+    }
+
+    fn normal(&self, vertex: &Vertex) -> Vect<2> {
+        let of = |s: Option<usize>| s.map_or(Vect::zeros(), |s| self.segment(s).normal.into());
+        let sum: Vect<2> = of(vertex.previous) + of(vertex.next);
+        sum.try_normalize(1e-9).unwrap_or_else(Vect::zeros)
+    }
+
+    fn segment(&self, index: usize) -> &Segment {
+        &self.mesh.segments()[index]
+    }
+
+    /// Where a segment keeps a particle off.
+    fn hindrance(&self, x: &Vect<2>, near: NearSegment, reach: f64) -> Option<Hindrance<2>> {
+        let segment = self.segment(near.segment);
+        let [start, end] = self.mesh.seen_from([x[0], x[1]], near).map(Vect::from);
+        let normal = Vect::from(segment.normal);
+        // Only from the fluid's side: the far face of a plate is none of its business.
+        let height = -start.dot(&normal);
+        if height <= 0.0 || height > reach {
+            return None;
+        }
+        let along = end - start;
+        let share = -start.dot(&along) / along.norm_squared();
+        let nearest = start + along * share.clamp(0.0, 1.0);
+        let plane = Hindrance {
+            away: normal,
+            distance: height,
+            only_if: None,
+            wall: self.wall_of[segment.wall],
+            place: x + nearest,
+        };
+        if (0.0..=1.0).contains(&share) {
+            return Some(plane);
+        }
+        let distance = nearest.norm();
+        let round = -nearest / distance;
+        // Where the next segment at the vertex is nearer, it holds the particle back; the
+        // vertex is no bump on a straight wall. In a corner this one's plane counts as well.
+        let vertex = &self.mesh.vertices()[segment.vertices[usize::from(share > 1.0)]];
+        let next = match share > 1.0 {
+            true => vertex.next,
+            false => vertex.previous,
+        };
+        let over_next = next.is_some_and(|s| {
+            let ahead = -nearest.dot(&Vect::from(self.segment(s).tangent()));
+            if share > 1.0 {
+                ahead > 0.0
+            } else {
+                ahead < 0.0
+            }
+        });
+        match over_next {
+            false => Some(Hindrance {
+                away: round,
+                distance,
+                ..plane
+            }),
+            true if vertex.theta > 0.5 + 1e-9 => None,
+            true => Some(Hindrance {
+                only_if: Some((round, distance)),
+                ..plane
+            }),
+        }
+    }
+}
+
+impl WallMesh<2> for PlanarWalls {
+    type Near = NearSegment;
+    type Seen = SeenSegment;
+    type Integrals = Renormalisation2d;
+
+    fn build(
+        walls: &[WallSpec<2>],
+        spacing: f64,
+        reach: f64,
+        domain: &PeriodicBox<2>,
+    ) -> Result<Self, BoundaryError> {
+        let mut lines: Vec<Polyline> = Vec::new();
+        for spec in walls {
+            match &spec.drawing {
+                Drawing::Line(line) => lines.push(line.clone()),
+                Drawing::Surface(surface) => {
+                    let wall = surface.name.clone();
+                    return Err(BoundaryError::Dimension { wall, dimension: 2 });
+                }
+            }
+        }
+        for line in &lines {
+            check_points(line)?;
+        }
+        let pieces = without_shared(&lines, &groups(walls), spacing)?;
+        let (wall_of, lines): (Vec<usize>, Vec<Polyline>) = pieces.into_iter().unzip();
+        let mesh = SegmentMesh::build(&lines, spacing, domain)?;
+        let names = walls.iter().map(|w| w.drawing.name().to_string()).collect();
+        Ok(PlanarWalls {
+            grid: OnceLock::new(),
+            mesh,
+            reach,
+            spacing,
+            names,
+            wall_of,
+        })
+    }
+
+    fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation2d, BoundaryError> {
+        Renormalisation2d::new(shape, h)
+    }
+
+    fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    fn points(&self) -> impl Iterator<Item = MeshPoint<2>> + '_ {
+        self.mesh.vertices().iter().map(|vertex| {
+            let half = |s: Option<usize>| s.map_or(0.0, |s| 0.5 * self.segment(s).length);
+            // A free end answers for the half that is missing, too.
+            let (before, after) = (half(vertex.previous), half(vertex.next));
+            let length = match (vertex.previous, vertex.next) {
+                (Some(_), Some(_)) => before + after,
+                _ => 2.0 * (before + after),
+            };
+            MeshPoint {
+                position: vertex.position.into(),
+                normal: self.normal(vertex),
+                theta: vertex.theta,
+                size: length / self.spacing,
+                wall: self.wall_of[vertex.wall],
+            }
+        })
+    }
+
+    fn elements(&self) -> impl Iterator<Item = MeshElement<2>> + '_ {
+        self.mesh.segments().iter().map(|segment| MeshElement {
+            centre: segment.centre.into(),
+            normal: segment.normal.into(),
+            measure: segment.length,
+            wall: self.wall_of[segment.wall],
+            corners: segment.vertices.map(|v| v as u32),
+        })
+    }
+
+    fn move_walls(&mut self, poses: &[Pose<2>]) -> Result<(), BoundaryError> {
+        let poses: Vec<_> = self.wall_of.iter().map(|w| poses[*w]).collect();
+        if poses == self.mesh.poses() {
+            return Ok(());
+        }
+        self.mesh.move_walls(&poses)?;
+        self.grid = OnceLock::new();
+        Ok(())
+    }
+
+    fn near_all(
+        &self,
+        points: &[Vect<2>],
+        radius: f64,
+        counts: &mut Vec<u32>,
+        rows: &mut Vec<NearSegment>,
+    ) {
+        let (radius, grid) = (radius.min(self.reach), self.grid());
+        for point in points {
+            let from = rows.len();
+            rows.extend(grid.near(&self.mesh, [point[0], point[1]], radius));
+            counts.push((rows.len() - from) as u32);
+        }
+    }
+
+    fn gamma(
+        &self,
+        integrals: &Renormalisation2d,
+        point: &Vect<2>,
+        row: &[NearSegment],
+        contacts: &mut Vec<Contact<2>>,
+    ) -> f64 {
+        let mut sum = GammaSum::default();
+        for &near in row {
+            let segment = self.segment(near.segment);
+            let [start, end] = self.mesh.seen_from([point[0], point[1]], near);
+            let integral = integrals.segment(start, end, segment.normal);
+            sum.add(&integral, segment);
+            if integral.kernel != 0.0 {
+                let normal = Vect::from(segment.normal);
+                contacts.push(Contact {
+                    element: near.segment as u32,
+                    gradient: normal * integral.kernel,
+                    distance: -normal.dot(&Vect::from(start)),
+                });
+            }
+        }
+        sum.gamma()
+    }
+
+    fn hindrances(
+        &self,
+        point: &Vect<2>,
+        near: &[NearSegment],
+        reach: f64,
+        hindrances: &mut Vec<Hindrance<2>>,
+    ) {
+        hindrances.extend(
+            near.iter()
+                .filter_map(|near| self.hindrance(point, *near, reach)),
+        );
+    }
+
+    /// The side of the nearest segment if a wall is near, else of all walls together. Open walls
+    /// have no inside, but they have a front.
+    fn contains(&self, point: &Vect<2>) -> bool {
+        let near = self.near(point, self.reach);
+        let seen: Vec<_> = near.into_iter().map(|n| self.seen(point, n)).collect();
+        match Self::signed_distance(&seen, &Vect::zeros(), self.reach) {
+            Some(distance) => distance >= 0.0,
+            None => self.mesh.contains([point[0], point[1]]),
+        }
+    }
+
+    fn wall_of(&self, near: NearSegment) -> usize {
+        self.wall_of[self.segment(near.segment).wall]
+    }
+
+    fn seen(&self, point: &Vect<2>, near: NearSegment) -> SeenSegment {
+        self.mesh.seen((*point).into(), near)
+    }
+
+    fn signed_distance(seen: &[SeenSegment], place: &Vect<2>, within: f64) -> Option<f64> {
+        SeenSegment::signed_distance(seen, (*place).into(), within)
+    }
+
+    fn nearest(&self, point: &Vect<2>, within: f64) -> Option<(f64, usize)> {
+        let point = [point[0], point[1]];
+        let near = self.grid().near(&self.mesh, point, within.min(self.reach));
+        near.map(|near| {
+            let [start, end] = self.mesh.seen_from(point, near);
+            (distance_squared(start, end), near.segment)
+        })
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(d2, segment)| (d2.sqrt(), self.wall_of[self.segment(segment).wall]))
+    }
+
+    fn bounds(&self) -> Option<(Vect<2>, Vect<2>)> {
+        let places = || self.mesh.vertices().iter().map(|v| Vect::from(v.position));
+        let low = places().reduce(|a, b| a.inf(&b))?;
+        Some((low, places().reduce(|a, b| a.sup(&b))?))
+    }
+
+    fn check_free_ends(&self, points: &[Vect<2>], radius: f64) -> Result<(), BoundaryError> {
+        if self.mesh.free_ends().is_empty() {
+            return Ok(());
+        }
+        let points: Vec<[f64; 2]> = points.iter().map(|p| [p[0], p[1]]).collect();
+        self.mesh.check_free_ends(&points, radius)
+    }
+
+    fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<2>)> {
+        crate::geometry::layers::layers(self, spacing, support)
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let all = self.mesh.warnings().iter();
+        all.map(ToString::to_string).collect()
+    }
+}

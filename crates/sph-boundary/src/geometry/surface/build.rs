@@ -1,0 +1,236 @@
+//! From surfaces to the mesh.
+
+use rayon::prelude::*;
+
+use super::crossing::contacts;
+use super::drawn::{Drawn, check_extent, check_input, neighbours, weld};
+use super::edges::{Cuts, Nodes, free_pieces};
+use super::error::SurfaceError;
+use super::fill::{Corner, Filling, fill};
+use super::patches::{Patch, patches};
+use super::places::{Places, SAME_PLACE, Site};
+use super::removal::remove_contacts;
+use super::vector::{double_area, norm};
+use super::{Face, FaceEdge, MOST_ELEMENTS, Node, Surface, Triangle, TriangleMesh};
+use crate::error::{BoundaryError, WallWarning};
+use crate::geometry::periodic::PeriodicBox;
+use crate::rigid::pose::Pose;
+
+/// Elements with shorter sides than this part of the spacing are fine.
+const FINE: f64 = 0.25;
+
+pub(super) fn build(
+    surfaces: &[Surface],
+    groups: &[usize],
+    spacing: f64,
+    domain: &PeriodicBox<3>,
+) -> Result<TriangleMesh, BoundaryError> {
+    if !(spacing > 0.0 && spacing.is_finite()) {
+        return Err(BoundaryError::NotPositive {
+            name: "wall spacing",
+            value: spacing,
+        });
+    }
+    domain.check()?;
+    if groups.len() != surfaces.len() {
+        let (given, walls) = (groups.len(), surfaces.len());
+        return Err(SurfaceError::GroupCount { given, walls }.into());
+    }
+    let tolerance = SAME_PLACE * spacing;
+    let mut places = Places::new(tolerance, domain);
+    let patches = planar_pieces(surfaces, groups, spacing, &mut places)?;
+    let cuts = Cuts::new(&patches, &places, spacing);
+    let free = free_pieces(surfaces, &patches, &cuts, &places)?;
+
+    let mut nodes = Nodes::default();
+    let mut sides = Vec::with_capacity(patches.len());
+    for patch in &patches {
+        let edges = patch.boundary.iter();
+        let nodes = edges.map(|e| cuts.nodes(*e, &places, &mut nodes, patch.wall, spacing));
+        sides.push(nodes.collect::<Vec<_>>());
+    }
+    let position = |node: u32| nodes.positions[node as usize];
+    let filled: Vec<Result<Filling, String>> = patches
+        .par_iter()
+        .zip(&sides)
+        .map(|(patch, sides)| fill(patch, sides, &position, domain, spacing))
+        .collect();
+
+    let mut mesh = TriangleMesh {
+        walls: surfaces.iter().map(|s| s.name.clone()).collect(),
+        groups: groups.to_vec(),
+        spacing,
+        domain: *domain,
+        nodes: Vec::new(),
+        triangles: Vec::new(),
+        faces: Vec::with_capacity(patches.len()),
+        free_edges: Vec::new(),
+        openings: Vec::new(),
+        warnings: Vec::new(),
+        reference: Vec::new(),
+        reference_normals: patches.iter().map(|p| p.normal).collect(),
+        poses: vec![Pose::default(); surfaces.len()],
+        sides: std::sync::OnceLock::new(),
+    };
+    for (patch, filling) in patches.iter().zip(filled) {
+        let filling = filling.map_err(|reason| SurfaceError::NotMeshed {
+            wall: surfaces[patch.wall].name.clone(),
+            at: places.at(patch.boundary[0][0]),
+            reason,
+        })?;
+        mesh.append(patch, filling, &mut nodes, &places);
+    }
+    mesh.check_count()?;
+    mesh.reference = nodes.positions;
+    let at = mesh.reference.iter().zip(nodes.walls);
+    mesh.nodes = at
+        .map(|(position, wall)| Node {
+            position: *position,
+            theta: 0.5,
+            size: 0.0,
+            wall,
+        })
+        .collect();
+    for triangle in 0..mesh.triangles.len() {
+        mesh.measure(triangle);
+    }
+    mesh.free_edges = mesh.weigh();
+    let corner = |site: &[Site; 2]| nodes.at_corner.get(&site[0].id).map(|n| *n as usize);
+    mesh.find_openings(free.iter().filter_map(corner));
+    mesh.warnings = mesh.fine_walls();
+    Ok(mesh)
+}
+
+/// Checks the surfaces; returns their planar pieces without the places where walls touch.
+fn planar_pieces(
+    surfaces: &[Surface],
+    groups: &[usize],
+    spacing: f64,
+    places: &mut Places,
+) -> Result<Vec<Patch>, SurfaceError> {
+    let tolerance = SAME_PLACE * spacing;
+    for surface in surfaces {
+        check_input(surface)?;
+    }
+    check_extent(surfaces, spacing)?;
+    let mut drawn: Vec<Drawn> = Vec::new();
+    let mut pieces: Vec<Patch> = Vec::new();
+    let mut piece_of: Vec<u32> = Vec::new();
+    for (wall, surface) in surfaces.iter().enumerate() {
+        let own = weld(surface, wall, groups[wall], places)?;
+        let beside = neighbours(&surface.name, &own, places)?;
+        let (new, of) = patches(&own, &beside, tolerance);
+        piece_of.extend(of.iter().map(|p| pieces.len() as u32 + p));
+        pieces.extend(new);
+        drawn.extend(own);
+    }
+    let domain = places.domain;
+    let contacts = contacts(surfaces, groups, &drawn, tolerance, &domain)?;
+    remove_contacts(&mut pieces, &piece_of, &contacts, places, groups);
+    for (wall, surface) in surfaces.iter().enumerate() {
+        if !pieces.iter().any(|p| p.wall == wall) {
+            let wall = surface.name.clone();
+            return Err(SurfaceError::Covered { wall });
+        }
+    }
+    for piece in &mut pieces {
+        piece.straighten(places, tolerance);
+    }
+    Ok(pieces)
+}
+
+impl TriangleMesh {
+    fn append(&mut self, patch: &Patch, filling: Filling, nodes: &mut Nodes, places: &Places) {
+        let face = self.faces.len();
+        let mut corner = |c: Site| {
+            let site = nodes.corner(c, places, patch.wall);
+            (site.id as usize, site.image)
+        };
+        let edges = patch.boundary.iter().map(|edge| {
+            let [(a, at), (b, to)] = edge.map(&mut corner);
+            FaceEdge {
+                nodes: [a, b],
+                images: [at, to],
+            }
+        });
+        self.faces.push(Face {
+            wall: patch.wall,
+            normal: patch.normal,
+            edges: edges.collect(),
+        });
+        let first = nodes.positions.len() as u32;
+        for position in &filling.inside {
+            nodes.push(*position, patch.wall);
+        }
+        // A piece drawn in another image has its own nodes where it is drawn.
+        let site = |c: Corner| match c {
+            Corner::Edge(site) => site,
+            Corner::Inside(k) => Site {
+                id: first + k,
+                image: [0; 3],
+            },
+        };
+        for corners in filling.triangles {
+            let sites = corners.map(site);
+            self.triangles.push(Triangle {
+                nodes: sites.map(|s| s.id as usize),
+                images: sites.map(|s| s.image),
+                wall: patch.wall,
+                face,
+                area: 0.0,
+                centre: [0.0; 3],
+                normal: patch.normal,
+            });
+        }
+    }
+
+    fn check_count(&self) -> Result<(), SurfaceError> {
+        let count = |wall: usize| self.triangles.iter().filter(|t| t.wall == wall).count() as u64;
+        let estimate = self.triangles.len() as u64;
+        if estimate <= MOST_ELEMENTS {
+            return Ok(());
+        }
+        let most = (0..self.walls.len()).max_by_key(|w| count(*w)).unwrap_or(0);
+        Err(SurfaceError::TooManyElements {
+            wall: self.walls[most].clone(),
+            own: count(most),
+            estimate,
+            limit: MOST_ELEMENTS,
+        })
+    }
+
+    /// Area, centre and normal of a triangle from the positions of its nodes.
+    pub(super) fn measure(&mut self, triangle: usize) {
+        let corners = self.corners(triangle);
+        let double = double_area(corners);
+        let length = norm(double);
+        let triangle = &mut self.triangles[triangle];
+        let [a, b, c] = corners;
+        triangle.centre = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
+        triangle.area = 0.5 * length;
+        if length > 0.0 {
+            triangle.normal = double.map(|x| x / length);
+        }
+    }
+
+    /// Walls most of whose triangles are far smaller than the spacing.
+    fn fine_walls(&self) -> Vec<WallWarning> {
+        let mut counts = vec![[0usize; 2]; self.walls.len()];
+        for triangle in &self.triangles {
+            // Half a square of side s has the area s²/2.
+            let fine = 2.0 * triangle.area < (FINE * self.spacing).powi(2);
+            counts[triangle.wall][0] += usize::from(fine);
+            counts[triangle.wall][1] += 1;
+        }
+        let walls = self.walls.iter().zip(counts);
+        walls
+            .filter(|(_, [fine, all])| 2 * fine > *all)
+            .map(|(wall, [fine, all])| WallWarning::FineSurface {
+                wall: wall.clone(),
+                fine,
+                all,
+                spacing: self.spacing,
+            })
+            .collect()
+    }
+}

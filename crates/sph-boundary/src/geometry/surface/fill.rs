@@ -1,0 +1,266 @@
+//! Planar pieces cut into triangles.
+
+use std::collections::HashMap;
+
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+
+use super::lattice::Lattice;
+use super::patches::{Patch, in_plane, in_space};
+use super::places::{SAME_PLACE, Site};
+use super::vector::{Point, add, norm, sub};
+use crate::geometry::periodic::PeriodicBox;
+
+/// Nodes inside a piece keep this part of the spacing from its edges.
+const CLEARANCE: f64 = 0.6;
+
+/// Part of a length or an area that may be rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// A corner of a triangle while a piece is cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Corner {
+    /// On the edge of the piece: the node.
+    Edge(Site),
+    /// Inside the piece: number among its new nodes.
+    Inside(u32),
+}
+
+/// A piece cut into triangles.
+#[derive(Debug, Default)]
+pub(super) struct Filling {
+    pub inside: Vec<Point>,
+    pub triangles: Vec<[Corner; 3]>,
+}
+
+/// Cuts a planar piece into triangles of about the spacing.
+///
+/// `sides[e]` are the nodes along its edge e, both ends included; the edges of a loop follow each
+/// other. Inside are the points of a square
+/// lattice along its longest edge, joined by a constrained Delaunay triangulation; a rectangle gets
+/// a lattice that meets the nodes of all its sides. Says what is wrong if that is impossible.
+pub(super) fn fill(
+    patch: &Patch,
+    sides: &[Vec<Site>],
+    position: &impl Fn(u32) -> Point,
+    domain: &PeriodicBox<3>,
+    spacing: f64,
+) -> Result<Filling, String> {
+    let at = |site: Site| {
+        let here = position(site.id);
+        match site.image {
+            [0, 0, 0] => here,
+            image => add(here, domain.shift(image)),
+        }
+    };
+    if sides.len() == 3 && sides.iter().all(|nodes| nodes.len() == 2) {
+        return Ok(Filling {
+            inside: Vec::new(),
+            triangles: vec![[0, 1, 2].map(|e| Corner::Edge(sides[e][0]))],
+        });
+    }
+    let length = |e: usize| norm(sub(at(sides[e][sides[e].len() - 1]), at(sides[e][0])));
+    let most = (0..sides.len()).map(length).fold(0.0, f64::max);
+    // Of several equally long ones the first, whatever their rounding.
+    let longest = (0..sides.len()).find(|e| length(*e) >= (1.0 - ROUNDING) * most);
+    let longest = longest.ok_or("it has no edges")?;
+    let origin = at(sides[longest][0]);
+    let axes = patch.axes(sub(at(sides[longest][sides[longest].len() - 1]), origin));
+    let flat = |site: Site| in_plane(at(site), origin, &axes);
+    if let Some(filling) = rectangle(sides, longest, &flat, (origin, &axes), spacing) {
+        return Ok(filling);
+    }
+
+    let mut number: HashMap<Site, usize> = HashMap::new();
+    let mut sites = Vec::new();
+    let mut edges = Vec::new();
+    for side in sides {
+        let mut node = |site: &Site| {
+            *number.entry(*site).or_insert_with(|| {
+                sites.push(*site);
+                sites.len() - 1
+            })
+        };
+        let nodes: Vec<usize> = side.iter().map(&mut node).collect();
+        edges.extend(nodes.windows(2).map(|pair| [pair[0], pair[1]]));
+    }
+    let mut points: Vec<[f64; 2]> = sites.iter().map(|s| flat(*s)).collect();
+    let lines: Vec<_> = edges.iter().map(|e| e.map(|v| points[v])).collect();
+    let lattice = lattice(&points, length(longest), spacing);
+    let inside = lattice.inside(&lines, CLEARANCE * spacing);
+    points.extend(inside.iter().map(|index| lattice.point(*index)));
+
+    let mut triangles = triangulate(&points, &edges, spacing)?;
+    lattice.align_diagonals(&mut triangles, &points);
+    check_area(&triangles, &points, &lines)?;
+    let corner = |v: usize| match sites.get(v) {
+        Some(site) => Corner::Edge(*site),
+        None => Corner::Inside((v - sites.len()) as u32),
+    };
+    let new = points[sites.len()..].iter();
+    Ok(Filling {
+        inside: new.map(|x| in_space(*x, origin, &axes)).collect(),
+        triangles: triangles.iter().map(|t| t.map(corner)).collect(),
+    })
+}
+
+/// The lattice along the longest edge, which goes from the origin along the first axis.
+fn lattice(points: &[[f64; 2]], longest: f64, spacing: f64) -> Lattice {
+    let step = |length: f64| length / (length / spacing).round().max(1.0);
+    let heights = || points.iter().map(|p| p[1]);
+    let (low, high) = heights().fold((0.0, 0.0), |(l, h): (f64, f64), y| (l.min(y), h.max(y)));
+    let based = low > -ROUNDING * longest;
+    let across = if based { step(high) } else { spacing };
+    Lattice {
+        steps: [step(longest), if across > 0.0 { across } else { spacing }],
+    }
+}
+
+/// Constrained Delaunay triangles inside the directed edges, by winding number.
+fn triangulate(
+    points: &[[f64; 2]],
+    edges: &[[usize; 2]],
+    spacing: f64,
+) -> Result<Vec<[usize; 3]>, String> {
+    // Rounding far below the spacing would be too small for the exact predicates.
+    let scaled = |x: f64| {
+        let x = x / spacing;
+        if x.abs() < 1e-30 { 0.0 } else { x }
+    };
+    let vertices = points
+        .iter()
+        .map(|p| Point2::new(scaled(p[0]), scaled(p[1])));
+    let mut conflicts = 0;
+    let mesh = ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(
+        vertices.collect(),
+        edges.to_vec(),
+        |_| conflicts += 1,
+    )
+    .map_err(|e| e.to_string())?;
+    if conflicts > 0 {
+        return Err(format!("{conflicts} of its edges cross others"));
+    }
+    if mesh.num_vertices() != points.len() {
+        return Err("two of its corners are at one place".into());
+    }
+    // Net number of times an edge is travelled from its lower to its higher end.
+    let mut travelled: HashMap<[usize; 2], i32> = HashMap::new();
+    for &[a, b] in edges {
+        let step = if a < b { 1 } else { -1 };
+        *travelled.entry([a.min(b), a.max(b)]).or_default() += step;
+    }
+    let times = |a: usize, b: usize| {
+        let net = travelled.get(&[a.min(b), a.max(b)]).copied().unwrap_or(0);
+        if a < b { net } else { -net }
+    };
+    // From the outside inwards; left of an edge of the boundary it winds once more than right.
+    let mut winding: Vec<Option<i32>> = vec![None; mesh.num_all_faces()];
+    let outer = mesh.outer_face().fix();
+    winding[outer.index()] = Some(0);
+    let mut front = Vec::new();
+    for edge in mesh.directed_edges().filter(|e| e.face().is_outer()) {
+        front.push((edge.rev().fix(), 0));
+    }
+    while let Some((edge, right)) = front.pop() {
+        let edge = mesh.directed_edge(edge);
+        let here = edge.face().fix().index();
+        if winding[here].is_some() {
+            continue;
+        }
+        let [a, b] = [edge.from(), edge.to()].map(|v| v.fix().index());
+        let left = right + times(a, b);
+        winding[here] = Some(left);
+        if let Some(face) = edge.face().as_inner() {
+            front.extend(face.adjacent_edges().map(|e| (e.rev().fix(), left)));
+        }
+    }
+    let inside = mesh.inner_faces().filter(|face| {
+        let times = winding[face.fix().index()];
+        times.is_some_and(|n| n != 0)
+    });
+    Ok(inside
+        .map(|f| f.vertices().map(|v| v.fix().index()))
+        .collect())
+}
+
+fn check_area(
+    triangles: &[[usize; 3]],
+    points: &[[f64; 2]],
+    edges: &[[[f64; 2]; 2]],
+) -> Result<(), String> {
+    let double = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    };
+    let filled: f64 = triangles
+        .iter()
+        .map(|t| double(points[t[0]], points[t[1]], points[t[2]]))
+        .sum();
+    let origin = points[0];
+    let whole: f64 = edges.iter().map(|[a, b]| double(origin, *a, *b)).sum();
+    if (filled - whole).abs() <= ROUNDING * whole.abs() {
+        Ok(())
+    } else {
+        let [filled, whole] = [0.5 * filled, 0.5 * whole];
+        Err(format!("its triangles cover {filled} m² of {whole} m²"))
+    }
+}
+
+/// A rectangle whose sides are cut into equal parts gets a lattice that meets all their nodes.
+///
+/// `first` is the side along the first axis from the origin.
+fn rectangle(
+    sides: &[Vec<Site>],
+    first: usize,
+    flat: &impl Fn(Site) -> [f64; 2],
+    (origin, axes): (Point, &[Point; 2]),
+    spacing: f64,
+) -> Option<Filling> {
+    if sides.len() != 4 {
+        return None;
+    }
+    let side = |k: usize| &sides[(first + k) % 4];
+    let (m, n) = (side(0).len() - 1, side(1).len() - 1);
+    if side(2).len() - 1 != m || side(3).len() - 1 != n {
+        return None;
+    }
+    let [width, height] = flat(side(2)[0]);
+    let lattice = Lattice {
+        steps: [width / m as f64, height / n as f64],
+    };
+    let index = |k: usize, i: usize| match k {
+        0 => [i, 0],
+        1 => [m, i],
+        2 => [m - i, n],
+        _ => [0, n - i],
+    };
+    for k in 0..4 {
+        for (i, site) in side(k).iter().enumerate() {
+            let x = lattice.point(index(k, i).map(|i| i as i64));
+            let p = flat(*site);
+            if (p[0] - x[0]).hypot(p[1] - x[1]) > 4.0 * SAME_PLACE * spacing {
+                return None;
+            }
+        }
+    }
+    let corner = |i: usize, j: usize| match (i, j) {
+        (i, 0) => Corner::Edge(side(0)[i]),
+        (i, j) if i == m => Corner::Edge(side(1)[j]),
+        (i, j) if j == n => Corner::Edge(side(2)[m - i]),
+        (0, j) => Corner::Edge(side(3)[n - j]),
+        (i, j) => Corner::Inside(((j - 1) * (m - 1) + i - 1) as u32),
+    };
+    let mut filling = Filling::default();
+    for j in 1..n {
+        for i in 1..m {
+            let x = lattice.point([i as i64, j as i64]);
+            filling.inside.push(in_space(x, origin, axes));
+        }
+    }
+    for j in 0..n {
+        for i in 0..m {
+            let [a, b] = [corner(i, j), corner(i + 1, j)];
+            let [c, d] = [corner(i + 1, j + 1), corner(i, j + 1)];
+            filling.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    Some(filling)
+}

@@ -1,0 +1,186 @@
+//! Points of walls that are the same place.
+
+use std::collections::HashMap;
+
+use super::vector::{Point, add, dot, sub};
+use crate::geometry::periodic::PeriodicBox;
+
+/// Points closer than this part of the spacing are the same place, and so much may a point lie off
+/// an edge or a plane and still be on it.
+pub(super) const SAME_PLACE: f64 = 1e-6;
+
+/// Something numbered, moved by whole periods: a point of a wall as drawn, or a node of the mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct Site {
+    pub id: u32,
+    pub image: [i32; 3],
+}
+
+impl Site {
+    pub fn moved(self, by: [i32; 3]) -> Self {
+        let image = std::array::from_fn(|k| self.image[k] + by[k]);
+        Self { image, ..self }
+    }
+
+    pub fn moved_back(self, by: [i32; 3]) -> Self {
+        self.moved(by.map(|n| -n))
+    }
+}
+
+/// An edge whichever way it is travelled and across whichever period it is drawn: from `first`,
+/// unmoved, to `second`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct EdgeKey {
+    pub first: u32,
+    pub second: Site,
+}
+
+/// An edge between two sites: its key, whether it is travelled like the key, and where the key's
+/// first end is drawn.
+pub(super) fn edge_key(from: Site, to: Site) -> (EdgeKey, bool, [i32; 3]) {
+    let apart = to.moved_back(from.image);
+    let forward = (from.id, [0; 3]) < (to.id, apart.image);
+    let (first, second) = if forward { (from, to) } else { (to, from) };
+    let key = EdgeKey {
+        first: first.id,
+        second: second.moved_back(first.image),
+    };
+    (key, forward, first.image)
+}
+
+/// The distinct places among points, by group of walls and up to whole periods.
+pub(super) struct Places {
+    tolerance: f64,
+    pub domain: PeriodicBox<3>,
+    pub positions: Vec<Point>,
+    pub groups: Vec<usize>,
+    /// The last place of each cell, and for each place the one before it in its cell.
+    cells: HashMap<[i64; 3], u32>,
+    before: Vec<Option<u32>>,
+}
+
+impl Places {
+    pub fn new(tolerance: f64, domain: &PeriodicBox<3>) -> Self {
+        Self {
+            tolerance,
+            domain: *domain,
+            positions: Vec::new(),
+            groups: Vec::new(),
+            cells: HashMap::new(),
+            before: Vec::new(),
+        }
+    }
+
+    /// Where a site is, m.
+    pub fn at(&self, site: Site) -> Point {
+        let position = self.positions[site.id as usize];
+        if site.image == [0; 3] {
+            position
+        } else {
+            add(position, self.domain.shift(site.image))
+        }
+    }
+
+    /// The place of a point, a new one if there is none yet.
+    pub fn find(&mut self, point: Point, group: usize) -> Site {
+        if let Some(site) = self.known(point, group) {
+            return site;
+        }
+        let id = self.positions.len() as u32;
+        self.positions.push(point);
+        self.groups.push(group);
+        let cell = self.wrapped(point).map(|x| self.cell(x));
+        self.before.push(self.cells.insert(cell, id));
+        Site { id, image: [0; 3] }
+    }
+
+    fn known(&self, point: Point, group: usize) -> Option<Site> {
+        let wrapped = self.wrapped(point);
+        let [x, y, z] = [0, 1, 2].map(|k| self.cells_about(k, wrapped[k]));
+        for cell in product(&x, &y, &z) {
+            let mut next = self.cells.get(&cell).copied();
+            while let Some(id) = next {
+                let apart = sub(point, self.positions[id as usize]);
+                let image = self.domain.nearest_image(apart);
+                let rest = sub(apart, self.domain.shift(image));
+                let near = dot(rest, rest) <= self.tolerance * self.tolerance;
+                if near && self.groups[id as usize] == group {
+                    return Some(Site { id, image });
+                }
+                next = self.before[id as usize];
+            }
+        }
+        None
+    }
+
+    /// A point moved into the box along the periodic axes.
+    fn wrapped(&self, point: Point) -> Point {
+        let periods = self.domain.periods();
+        std::array::from_fn(|k| {
+            if self.domain.periodic[k] {
+                (point[k] - self.domain.lower[k]).rem_euclid(periods[k])
+            } else {
+                point[k]
+            }
+        })
+    }
+
+    fn cell(&self, x: f64) -> i64 {
+        (x / (4.0 * self.tolerance)).floor() as i64
+    }
+
+    /// Cells within the tolerance of a wrapped coordinate, also beyond the seam.
+    fn cells_about(&self, axis: usize, x: f64) -> Vec<i64> {
+        let mut cells = vec![self.cell(x - self.tolerance), self.cell(x + self.tolerance)];
+        if self.domain.periodic[axis] {
+            let period = self.domain.periods()[axis];
+            if x < self.tolerance {
+                cells.extend([self.cell(x + period - self.tolerance), self.cell(period)]);
+            }
+            if x > period - self.tolerance {
+                cells.extend([self.cell(0.0), self.cell(x - period + self.tolerance)]);
+            }
+        }
+        cells.sort_unstable();
+        cells.dedup();
+        cells
+    }
+}
+
+fn product<'a>(
+    x: &'a [i64],
+    y: &'a [i64],
+    z: &'a [i64],
+) -> impl Iterator<Item = [i64; 3]> + use<'a> {
+    x.iter().flat_map(move |&i| {
+        y.iter()
+            .flat_map(move |&j| z.iter().map(move |&k| [i, j, k]))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_seam_is_one_place() {
+        let domain = PeriodicBox {
+            lower: [1.0, 0.0, 0.0],
+            upper: [3.0, 1.0, 1.0],
+            periodic: [true, false, false],
+        };
+        let mut places = Places::new(1e-6, &domain);
+        let first = places.find([1.0, 0.5, 0.5], 0);
+        let second = places.find([3.0 - 2e-7, 0.5, 0.5], 0);
+        assert_eq!((first.id, second.id, second.image), (0, 0, [1, 0, 0]));
+        assert_eq!(places.at(second), [3.0, 0.5, 0.5]);
+        assert_eq!(places.find([3.0 - 2e-6, 0.5, 0.5], 0).id, 1);
+        assert_eq!(places.find([1.0, 0.5, 0.5], 1).id, 2, "of another group");
+        let (key, forward, at) = edge_key(second, places.find([3.0, 0.0, 0.0], 0));
+        assert!(forward);
+        assert_eq!(
+            (key.first, key.second.image, at),
+            (0, [-1, 0, 0], [1, 0, 0])
+        );
+    }
+}

@@ -1,0 +1,89 @@
+//! γ of a point from the segments around it, and the decision between inside and outside.
+
+use super::{Contact, Renormalisation2d, SegmentIntegral};
+use crate::geometry::grid::SegmentGrid;
+use crate::geometry::mesh::{Segment, SegmentMesh};
+
+/// A γ below this is taken for its other representative, 1 + γ.
+const SURELY_FLUID: f64 = 1e-9;
+
+/// Sums over the segments around one point.
+///
+/// # Which θ
+/// γ = θ − Σ Γ_as, where θ is the fluid angle at the point over 2π: 1 in the fluid, 0 outside, 1/2
+/// on a segment, θ_v on a vertex. Deciding by the side of a wall on which a point lies is fragile
+/// within rounding of the wall and wrong near corners and plates. It is not needed: θ is known up to
+/// a whole number, and γ = ∫_Ω w dV of a kernel w ≥ 0 lies between 0 and 1. So
+///
+/// ```text
+/// γ = x − ⌊x⌋,   x = Σ θ_contact − Σ Γ_as,   taken in [10⁻⁹, 1 + 10⁻⁹)
+/// ```
+///
+/// θ_contact being 1/2 for each segment the point lies on and θ_v for each vertex it coincides with.
+/// A point just inside has Σ Γ ≈ +1/2 and takes θ = 1, one a rounding error outside has −1/2 and
+/// takes θ = 0, one exactly on the wall has 0 and takes 1/2: γ = 1/2 in all three cases, and the
+/// same holds at corners, on plates of any thickness, zero included (1/2 + 1/2 = 1), and where
+/// several walls touch. At the ambiguous end γ = 0 or 1, the point is taken to be in the fluid: a
+/// point outside and out of reach of every wall has γ = 1, as has one in the fluid. Use
+/// [`SegmentMesh::contains`] to find particles that left. Equally, a fluid wedge narrower than
+/// 10⁻⁹ · 2π is not seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GammaSum {
+    /// Σ Γ_as over the segments that do not contain the point.
+    pub signed_sum: f64,
+    /// ∇γ = Σ n_s ∫_s w dS, 1/m.
+    pub gradient: [f64; 2],
+    /// Fluid angle over 2π of the segments and vertices that contain the point, 0 if there are none.
+    pub contact_fraction: f64,
+}
+
+impl GammaSum {
+    /// Adds what one segment contributes.
+    #[inline]
+    pub fn add(&mut self, integral: &SegmentIntegral, segment: &Segment) {
+        self.signed_sum += integral.gamma;
+        self.gradient[0] += integral.kernel * segment.normal[0];
+        self.gradient[1] += integral.kernel * segment.normal[1];
+        self.contact_fraction += match integral.contact {
+            Contact::None => 0.0,
+            Contact::Start => segment.theta_shares[0],
+            Contact::End => segment.theta_shares[1],
+            Contact::Inside => 0.5,
+        };
+    }
+
+    /// γ, with θ found from the sum itself.
+    #[inline]
+    pub fn gamma(&self) -> f64 {
+        let x = self.contact_fraction - self.signed_sum;
+        let gamma = x - x.floor();
+        if gamma < SURELY_FLUID {
+            gamma + 1.0
+        } else {
+            gamma
+        }
+    }
+
+    /// γ for a θ that is known.
+    ///
+    /// Without contact, θ is 1 in the fluid and 0 outside.
+    pub fn gamma_with(&self, theta: f64) -> f64 {
+        theta - self.signed_sum
+    }
+}
+
+impl Renormalisation2d {
+    /// γ and ∇γ of a point from the segments that `grid` finds around it.
+    ///
+    /// `grid` must have been built for at least this kernel radius and for the present position of
+    /// the walls. With periodic directions the point belongs in the box.
+    pub fn at(&self, point: [f64; 2], mesh: &SegmentMesh, grid: &SegmentGrid) -> GammaSum {
+        let mut sum = GammaSum::default();
+        for near in grid.near(mesh, point, self.kernel_radius()) {
+            let segment = &mesh.segments()[near.segment];
+            let [start, end] = mesh.seen_from(point, near);
+            sum.add(&self.segment(start, end, segment.normal), segment);
+        }
+        sum
+    }
+}

@@ -1,0 +1,8 @@
+//! How walls move: courses over time, movers, and the state of a rigid wall.
+
+pub(crate) mod course;
+pub(crate) mod motion;
+pub(crate) mod mover;
+pub(crate) mod pose;
+pub(crate) mod rigid_state;
+pub(crate) mod spring;

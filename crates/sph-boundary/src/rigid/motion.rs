@@ -1,0 +1,241 @@
+//! Prescribed rigid motion of a wall.
+
+use sph_core::Vect;
+
+use crate::{Course, Pose, RigidState};
+
+/// A translation along a direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Translation<const D: usize> {
+    /// Displacement per unit of the course.
+    pub along: [f64; D],
+    /// The course, m where `along` is a unit vector.
+    pub course: Course,
+}
+
+/// A rotation about a centre that is carried by the translations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rotation<const D: usize> {
+    /// Centre at time 0, m.
+    pub centre: [f64; D],
+    /// Axis, right-hand rule; ignored in two dimensions, where angles go counter-clockwise.
+    pub axis: [f64; 3],
+    /// The course, rad.
+    pub course: Course,
+}
+
+/// Translations and a rotation between two times; at rest before and after.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidMotion<const D: usize = 2> {
+    /// Translations, added up.
+    pub translations: Vec<Translation<D>>,
+    /// Rotation.
+    pub rotation: Option<Rotation<D>>,
+    /// Start, s; the courses count from here.
+    pub start: f64,
+    /// Stop, s.
+    pub stop: f64,
+}
+
+impl<const D: usize> Default for RigidMotion<D> {
+    fn default() -> Self {
+        RigidMotion {
+            translations: Vec::new(),
+            rotation: None,
+            start: 0.0,
+            stop: f64::INFINITY,
+        }
+    }
+}
+
+/// Velocity and acceleration of a place of the wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Movement<const D: usize> {
+    /// Velocity, m/s.
+    pub velocity: Vect<D>,
+    /// Acceleration, m/s².
+    pub acceleration: Vect<D>,
+}
+
+impl<const D: usize> RigidMotion<D> {
+    /// A constant velocity, m/s.
+    pub fn steady(velocity: [f64; D]) -> Self {
+        RigidMotion {
+            translations: vec![Translation {
+                along: velocity,
+                course: Course::Steady { speed: 1.0 },
+            }],
+            ..Self::default()
+        }
+    }
+
+    /// Whether the wall ever moves.
+    pub fn moves(&self) -> bool {
+        let shifts = |t: &Translation<D>| t.course.moves() && t.along != [0.0; D];
+        self.translations.iter().any(shifts)
+            || self.rotation.as_ref().is_some_and(|r| r.course.moves())
+    }
+
+    /// Whether all its numbers are finite and its courses sound.
+    pub fn is_sound(&self) -> bool {
+        let finite = |v: &[f64]| v.iter().all(|x| x.is_finite());
+        let sound = |t: &Translation<D>| t.course.is_sound() && finite(&t.along);
+        let turns = |r: &Rotation<D>| {
+            r.course.is_sound()
+                && finite(&r.centre)
+                && finite(&r.axis)
+                && (D == 2 || r.axis != [0.0; 3])
+        };
+        self.translations.iter().all(sound)
+            && self.rotation.iter().all(turns)
+            && self.start.is_finite()
+            && !self.stop.is_nan()
+    }
+
+    fn elapsed(&self, time: f64) -> f64 {
+        (time.min(self.stop) - self.start).max(0.0)
+    }
+
+    /// Where the wall is at a time, from where it was drawn.
+    pub fn pose(&self, time: f64) -> Pose<D> {
+        let t = self.elapsed(time);
+        let mut pose = match &self.rotation {
+            Some(rotation) => Pose::turned_about(
+                unit_axis(rotation),
+                rotation.course.at(t).value,
+                rotation.centre,
+            ),
+            None => Pose::default(),
+        };
+        for shift in &self.translations {
+            let s = shift.course.at(t).value;
+            for k in 0..D {
+                pose.translation[k] += shift.along[k] * s;
+            }
+        }
+        pose
+    }
+
+    /// Place and movement of the wall at a time.
+    pub fn state(&self, time: f64) -> RigidState<D> {
+        let t = self.elapsed(time);
+        let mut state = RigidState {
+            pose: self.pose(time),
+            ..RigidState::default()
+        };
+        if let Some(rotation) = &self.rotation {
+            state.centre = rotation.centre;
+            state.axis = unit_axis(rotation);
+        }
+        if time < self.start || time >= self.stop {
+            return state;
+        }
+        for shift in &self.translations {
+            let (along, stage) = (Vect::from(shift.along), shift.course.at(t));
+            state.velocity += along * stage.rate;
+            state.acceleration += along * stage.acceleration;
+        }
+        if let Some(rotation) = &self.rotation {
+            let stage = rotation.course.at(t);
+            (state.spin, state.spin_rate) = (stage.rate, stage.acceleration);
+        }
+        state
+    }
+
+    /// Velocity and acceleration of a point of the wall at its present position.
+    pub fn movement(&self, point: [f64; D], time: f64) -> Movement<D> {
+        self.state(time).movement(point)
+    }
+}
+
+fn unit_axis<const D: usize>(rotation: &Rotation<D>) -> [f64; 3] {
+    match D {
+        2 => [0.0, 0.0, 1.0],
+        _ => Vect::from(rotation.axis)
+            .try_normalize(0.0)
+            .map_or([0.0; 3], Into::into),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check<const D: usize>(motion: &RigidMotion<D>, corner: [f64; D]) {
+        assert!(motion.is_sound() && motion.moves());
+        let at = |t: f64| Vect::from(motion.pose(t).map()(corner));
+        for t in [0.2, 0.9, 1.7, 2.5] {
+            let h = 1e-5;
+            let now = motion.movement(at(t).into(), t);
+            let rate = (at(t + h) - at(t - h)) / (2.0 * h);
+            let velocity = |t: f64| motion.movement(at(t).into(), t).velocity;
+            let second = (velocity(t + h) - velocity(t - h)) / (2.0 * h);
+            assert!(
+                (rate - now.velocity).norm() < 1e-8,
+                "t = {t}: {rate} {now:?}"
+            );
+            assert!(
+                (second - now.acceleration).norm() < 1e-6,
+                "t = {t}: {second} {now:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn velocity_and_acceleration_are_those_of_the_pose() {
+        let sine = Course::Sine {
+            amplitude: 0.4,
+            period: 1.1,
+            phase: 0.3,
+            ramp: 0.6,
+        };
+        check(
+            &RigidMotion::<2> {
+                translations: vec![Translation {
+                    along: [0.3, -0.2],
+                    course: Course::Steady { speed: 1.0 },
+                }],
+                rotation: Some(Rotation {
+                    centre: [0.1, 0.4],
+                    axis: [0.0; 3],
+                    course: Course::Steady { speed: 1.7 },
+                }),
+                start: 0.5,
+                stop: 2.0,
+            },
+            [0.9, -0.3],
+        );
+        check(
+            &RigidMotion::<3> {
+                translations: vec![Translation {
+                    along: [0.0, 1.0, 1.0],
+                    course: sine.clone(),
+                }],
+                rotation: Some(Rotation {
+                    centre: [0.1, 0.4, -0.2],
+                    axis: [1.0, -2.0, 0.5],
+                    course: sine,
+                }),
+                start: 0.1,
+                stop: f64::INFINITY,
+            },
+            [0.9, -0.3, 0.2],
+        );
+    }
+
+    #[test]
+    fn both_ways_to_a_rotation_agree() {
+        let axis = [1.0, -2.0, 0.5];
+        let rotation = Rotation {
+            centre: [0.3, 0.2, 0.1],
+            axis,
+            course: Course::Steady { speed: 1.0 },
+        };
+        let (a, b) = (
+            Pose::turned_about(unit_axis(&rotation), 0.8, rotation.centre),
+            Pose::about_axis(axis, 0.8, rotation.centre),
+        );
+        let apart = a.rotation.iter().flatten().zip(b.rotation.iter().flatten());
+        assert!(apart.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 1e-15);
+    }
+}

@@ -1,0 +1,36 @@
+//! What moves a wall.
+
+use sph_core::contract;
+
+use crate::{Load, RigidMotion, RigidState};
+
+/// Moves one wall. What it remembers is the wall's state alone: that is rolled back with the particles, and in
+/// checkpoints.
+pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
+    /// The state at time 0.
+    fn start(&self) -> RigidState<D>;
+    /// Whether it asks what the fluid does to the wall; the force is then measured before every kick.
+    fn feels(&self) -> bool {
+        true
+    }
+    /// The state at `time + dt` from that at `time`, s, with the load of the last evaluation.
+    fn next(&self, now: &RigidState<D>, load: &Load<D>, time: f64, dt: f64) -> RigidState<D>;
+}
+
+contract!(
+    /// A mover that a wall may name.
+    pub MoverEntry, "mover", "what moves a wall, with the force of the fluid on it", Mover<D>
+);
+
+/// Prescribed courses feel nothing.
+impl<const D: usize> Mover<D> for RigidMotion<D> {
+    fn start(&self) -> RigidState<D> {
+        self.state(0.0)
+    }
+    fn feels(&self) -> bool {
+        false
+    }
+    fn next(&self, _: &RigidState<D>, _: &Load<D>, time: f64, dt: f64) -> RigidState<D> {
+        self.state(time + dt)
+    }
+}

@@ -1,0 +1,9 @@
+//! How the fluid meets the walls: the contract of a treatment, and the two that there are.
+
+pub(crate) mod contract;
+pub(crate) mod dummy;
+pub(crate) mod moving;
+pub(crate) mod near;
+pub(crate) mod outline;
+pub(crate) mod shepard;
+pub(crate) mod usaw;

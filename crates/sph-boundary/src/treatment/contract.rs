@@ -1,0 +1,208 @@
+//! What a wall treatment is.
+
+use std::sync::Arc;
+
+use sph_core::{StepError, Vect, contract};
+use sph_kernels::Kernel;
+use sph_neighbours::{Coulomb, Domain, WallSet, World};
+
+use crate::{BoundaryError, Mover, Polyline, RigidMotion, Surface};
+
+/// How the fluid meets a wall.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Condition {
+    /// The fluid sticks to the wall.
+    #[default]
+    NoSlip,
+    /// The wall exerts no friction.
+    FreeSlip,
+    /// The fluid slides as if it stuck to a wall this far behind the real one: u_t = λ ∂u_t/∂n
+    /// (Navier's condition).
+    PartialSlip {
+        /// Slip length λ, m.
+        length: f64,
+    },
+    /// Soils slide with Coulomb's friction; other fluids slip freely.
+    Coulomb(Coulomb),
+}
+
+impl Condition {
+    /// 1 where the wall rubs, 0 where it slips freely.
+    pub fn grip(&self) -> f64 {
+        match self {
+            Self::FreeSlip | Self::Coulomb(_) => 0.0,
+            Self::NoSlip | Self::PartialSlip { .. } => 1.0,
+        }
+    }
+
+    /// Slip length, m; 0 if the fluid sticks.
+    pub fn slip_length(&self) -> f64 {
+        match self {
+            Self::PartialSlip { length } => *length,
+            Self::NoSlip | Self::FreeSlip | Self::Coulomb(_) => 0.0,
+        }
+    }
+
+    /// Friction of soils.
+    pub fn coulomb(&self) -> Coulomb {
+        match self {
+            Self::Coulomb(coulomb) => *coulomb,
+            _ => Coulomb::default(),
+        }
+    }
+}
+
+/// How a wall is drawn.
+#[derive(Clone, Debug)]
+pub enum Drawing {
+    /// In two dimensions.
+    Line(Polyline),
+    /// In three dimensions.
+    Surface(Surface),
+}
+
+impl Drawing {
+    /// Name of the wall.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Line(line) => &line.name,
+            Self::Surface(surface) => &surface.name,
+        }
+    }
+}
+
+/// One named wall; a wall drawn in several pieces is several of these with one name.
+#[derive(Clone, Debug)]
+pub struct WallSpec<const D: usize> {
+    /// Its line or surface; the name is the wall's.
+    pub drawing: Drawing,
+    /// How the fluid meets it.
+    pub condition: Condition,
+    /// Velocity of the surface where the wall itself stays (a belt), m/s.
+    pub surface_velocity: Vect<D>,
+    /// Motion of the wall.
+    pub motion: RigidMotion<D>,
+    /// What moves it instead, with the force of the fluid.
+    pub mover: Option<Arc<dyn Mover<D>>>,
+}
+
+/// What a wall treatment needs to set itself up.
+pub struct WallSetup<'a, const D: usize> {
+    /// The walls of the scene.
+    pub walls: &'a [WallSpec<D>],
+    /// Particle spacing δr, m.
+    pub spacing: f64,
+    /// Smoothing length h, m.
+    pub smoothing_length: f64,
+    /// The kernel's shape.
+    pub kernel: &'a dyn Kernel,
+    /// The box with its periodic directions.
+    pub domain: &'a Domain<D>,
+}
+
+/// States of the walls that movers move, as plain numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WallStates {
+    /// Of now.
+    pub now: Vec<f64>,
+    /// Of the last build of the neighbour lists, for which the elements near particles were looked up; none if the lists
+    /// are built anew.
+    pub listed: Option<Vec<f64>>,
+}
+
+/// A treatment of all walls of a scene.
+pub trait Wall<const D: usize>: Send {
+    /// Where the first row of particles stands in front of a flat wall, in spacings beyond half
+    /// a spacing: 0 for rows at 1, 2, 3 δr (the wall itself carries points), 0.5 for ½, 1½, ….
+    fn lattice_offset(&self) -> f64;
+
+    /// Sets up the walls at time 0.
+    ///
+    /// # Errors
+    /// If a wall is refused; the message names it.
+    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError>;
+
+    /// Whether γ differs from 1 near walls, so that a column for it is needed.
+    fn renormalises(&self) -> bool;
+
+    /// Whether a point is on the fluid's side of all walls; for checks, not for inner loops.
+    fn contains(&self, point: &Vect<D>) -> bool;
+
+    /// Distance of a point from the nearest wall, m, and that wall's name, if nearer than `within`.
+    fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)>;
+
+    /// Refuses points near the free end of an open wall.
+    ///
+    /// # Errors
+    /// Names the wall and the end.
+    fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError>;
+
+    /// Moves walls with a prescribed motion to a time; those with movers are placed where they are.
+    ///
+    /// # Errors
+    /// If a wall cannot follow.
+    fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError>;
+
+    /// Moves all walls from a time on by `dt`; movers are told the [forces](WallSet::forces) that were measured last.
+    ///
+    /// # Errors
+    /// If a wall cannot follow.
+    fn advance(
+        &mut self,
+        walls: &mut WallSet<D>,
+        gravity: Vect<D>,
+        time: f64,
+        dt: f64,
+    ) -> Result<(), BoundaryError>;
+
+    /// Whether the mover of a wall, by its number, asks for forces.
+    fn feels(&self, _wall: usize) -> bool {
+        false
+    }
+
+    /// [Numbers](crate::RigidState::numbers) of all walls with movers, one after the other.
+    fn states(&self) -> WallStates {
+        WallStates::default()
+    }
+
+    /// Puts all walls back where they were at a time.
+    ///
+    /// # Errors
+    /// If the states are not those of these walls, or a wall cannot follow.
+    fn put_back(
+        &mut self,
+        walls: &mut WallSet<D>,
+        states: &WallStates,
+        time: f64,
+    ) -> Result<(), BoundaryError>;
+
+    /// Lower and upper corner of the box around all walls, m.
+    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)>;
+
+    /// Contacts and γ at the present positions; called after the lists are fresh.
+    ///
+    /// # Errors
+    /// If a column is missing or a particle is where γ has no meaning.
+    fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError>;
+
+    /// Pressures, volumes and velocities of wall points and elements from the fluid's state.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    fn state(&mut self, world: &mut World<D>) -> Result<(), StepError>;
+
+    /// Corrects velocities that would carry particles through a wall within `dt`; called before
+    /// every drift.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError>;
+
+    /// Remarks on the walls.
+    fn warnings(&self) -> Vec<String>;
+}
+
+contract!(
+    /// A wall treatment that a scene may name.
+    pub WallEntry, "walls", "the treatment of all walls", Wall<D>
+);

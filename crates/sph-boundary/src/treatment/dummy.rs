@@ -1,0 +1,217 @@
+//! Walls of dummy particles after Adami, Hu & Adams (2012).
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, Vect, fields, register};
+use sph_neighbours::{Contacts, WallPoints, WallSet, World, shepard};
+
+use crate::geometry::wall_mesh::WallMesh;
+use crate::treatment::near::NearLists;
+use crate::treatment::outline::{Outline, checks_by_outline};
+use crate::{
+    BoundaryError, Condition, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallSpec,
+    WallStates,
+};
+
+/// Layers of fixed particles behind the wall that take part in all sums like fluid particles.
+///
+/// p_w = Σ [p_f + ρ_f (g − a_w)·(r_w − r_f)] w / Σ w (their Eq. 27); no-slip by the velocity
+/// 2 u_wall − Σ u_f w / Σ w in viscous sums (their Eq. 23). With a slip length λ and a particle at
+/// the depth δ the mean velocity counts for u_wall by the share λ/(λ + δ). No renormalisation: the
+/// layers fill the kernel. Walls thinner than two supports lack layers and push too little.
+///
+/// Source: Adami, Hu & Adams 2012, J. Comput. Phys. 231, 7057–7075.
+///
+/// ```toml
+/// [walls.dummy-particles]
+/// ```
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, bound = "")]
+#[schemars(rename = "DummyParticles", bound = "")]
+pub struct DummyParticles<const D: usize, M: WallMesh<D>> {
+    #[serde(skip)]
+    set_up: Option<SetUp<D, M>>,
+}
+
+#[derive(Debug)]
+struct SetUp<const D: usize, M: WallMesh<D>> {
+    outline: Outline<D, M>,
+    /// Positions of the particles as drawn, with their wall.
+    drawn: Vec<(usize, Vect<D>)>,
+    /// λ/(λ + δ), empty unless a wall slips partly.
+    slip: Vec<f64>,
+    near: NearLists<M::Near>,
+}
+
+register!(
+    WallEntry [2 => DummyParticles<2, PlanarWalls>, 3 => DummyParticles<3, SpatialWalls>],
+    "dummy-particles",
+    "layers of fixed particles behind the wall",
+    "Adami, Hu & Adams 2012"
+);
+
+impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
+    fn new(setup: &WallSetup<'_, D>) -> Result<Self, BoundaryError> {
+        let support = setup.kernel.support() * setup.smoothing_length;
+        let rough = |w: &&WallSpec<D>| matches!(w.condition, Condition::Coulomb(_));
+        if let Some(wall) = setup.walls.iter().find(rough) {
+            return Err(BoundaryError::NoElements {
+                wall: wall.drawing.name().into(),
+            });
+        }
+        let outline = Outline::<D, M>::new(setup, support)?;
+        // The mesh stands where it is at time 0; the layers move from there.
+        let drawn = outline.mesh.layers(setup.spacing, support);
+        let slip = |(wall, place): &(usize, Vect<D>)| {
+            let slip = outline.specs[*wall].condition.slip_length();
+            let depth = outline.mesh.nearest(place, support);
+            slip / (slip + depth.map_or(support, |(d, _)| d))
+        };
+        let slip = match outline.slips() {
+            true => drawn.iter().map(slip).collect(),
+            false => Vec::new(),
+        };
+        Ok(SetUp {
+            outline,
+            drawn,
+            slip,
+            near: NearLists::default(),
+        })
+    }
+
+    fn place(&self, points: &mut WallPoints<D>) {
+        let maps = self.outline.maps();
+        for (v, (wall, drawn)) in self.drawn.iter().enumerate() {
+            let position = maps[*wall]((*drawn).into()).into();
+            let movement = self.outline.movement(*wall, &position);
+            points.position[v] = position;
+            points.velocity[v] = movement.velocity;
+            if let Some(acceleration) = points.acceleration.get_mut(v) {
+                *acceleration = movement.acceleration;
+            }
+        }
+    }
+}
+
+impl<const D: usize, M: WallMesh<D>> DummyParticles<D, M> {
+    /// Lets the outline move, and places the layers where it is then.
+    fn moved(
+        &mut self,
+        walls: &mut WallSet<D>,
+        way: impl FnOnce(&mut Outline<D, M>) -> Result<bool, BoundaryError>,
+    ) -> Result<(), BoundaryError> {
+        let Some(set_up) = self.set_up.as_mut().filter(|s| s.outline.moves()) else {
+            return Ok(());
+        };
+        way(&mut set_up.outline)?;
+        set_up.place(&mut walls.points);
+        walls.frames = set_up.outline.frames();
+        Ok(())
+    }
+}
+
+impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
+    fn lattice_offset(&self) -> f64 {
+        0.5
+    }
+
+    fn renormalises(&self) -> bool {
+        false
+    }
+
+    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
+        let set_up = SetUp::<D, M>::new(setup)?;
+        let mut points = WallPoints::default();
+        for (wall, position) in &set_up.drawn {
+            let velocity = set_up.outline.movement(*wall, position).velocity;
+            points.position.push(*position);
+            points.velocity.push(velocity);
+            points.viscous_velocity.push(velocity);
+            points.share.push(1.0);
+            points.volume.push(setup.spacing.powi(D as i32));
+            points.pressure.push(0.0);
+            let condition = &set_up.outline.specs[*wall].condition;
+            points.grip.push(condition.grip());
+            points.wall.push(*wall as u32);
+            if set_up.outline.moves() {
+                points.acceleration.push(Vect::zeros());
+            }
+        }
+        set_up.place(&mut points);
+        let names = set_up.outline.mesh.names().to_vec();
+        let frames = set_up.outline.frames();
+        self.set_up = Some(set_up);
+        Ok(WallSet {
+            names,
+            points,
+            elements: Default::default(),
+            contacts: Contacts::default(),
+            frames,
+            forces: Vec::new(),
+        })
+    }
+
+    checks_by_outline!();
+
+    fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        match &mut self.set_up {
+            Some(set_up) => set_up.near.refresh(&mut set_up.outline, world),
+            None => Ok(()),
+        }
+    }
+
+    fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        match &self.set_up {
+            // Nobody measured the heights here: all near particles are looked at.
+            Some(set_up) => set_up
+                .near
+                .constrain(&set_up.outline, world, dt, |_| f64::NAN),
+            None => Ok(()),
+        }
+    }
+
+    fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let Some(set_up) = &self.set_up else {
+            return Ok(());
+        };
+        let position = world.free.get(fields::POSITION)?;
+        let velocity = world.free.get(fields::VELOCITY)?;
+        let pressure = world.free.get(fields::PRESSURE)?;
+        let density = world.free.get(fields::DENSITY)?;
+        let points = &world.walls.points;
+        let means = shepard(
+            world,
+            &points.position,
+            &world.lists.of_points,
+            |v, row, w| {
+                let (mut sum_w, mut sum_p, mut sum_u) = (0.0, 0.0, Vect::<D>::zeros());
+                let felt = match points.acceleration.get(v) {
+                    Some(acceleration) => world.gravity - acceleration,
+                    None => world.gravity,
+                };
+                for (&j, w) in row.iter().zip(w) {
+                    let j = j as usize;
+                    let apart = world.domain.nearest_image(points.position[v] - position[j]);
+                    sum_w += w;
+                    sum_p += w * (pressure[j] + density[j] * felt.dot(&apart));
+                    sum_u += velocity[j] * *w;
+                }
+                if sum_w <= 0.0 {
+                    return (0.0, points.velocity[v]);
+                }
+                let (wall, mean) = (points.velocity[v], sum_u / sum_w);
+                let surface = match set_up.slip.get(v) {
+                    Some(share) => wall + (mean - wall) * *share,
+                    None => wall,
+                };
+                (sum_p / sum_w, surface * 2.0 - mean)
+            },
+        )?;
+        let points = &mut world.walls.points;
+        for (v, (pressure, velocity)) in means.into_iter().enumerate() {
+            points.pressure[v] = pressure;
+            points.viscous_velocity[v] = velocity;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,140 @@
+//! Outlines that move: by prescribed courses and by movers.
+
+use sph_core::Vect;
+use sph_neighbours::WallForce;
+
+use crate::geometry::wall_mesh::WallMesh;
+use crate::treatment::outline::{Outline, is_piece};
+use crate::{BoundaryError, Load, RigidState, WallSpec, WallStates};
+
+impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
+    /// The states at a time; those of walls with movers are taken from `others`.
+    fn states_at(&self, time: f64, others: &[RigidState<D>]) -> Vec<RigidState<D>> {
+        let specs = self.specs.iter().enumerate();
+        let state = |(k, spec): (usize, &WallSpec<D>)| match spec.mover {
+            Some(_) => others[k],
+            None => spec.motion.state(time),
+        };
+        specs.map(state).collect()
+    }
+
+    /// Moves the mesh to what is prescribed at a time; says whether anything moved.
+    pub fn move_to(&mut self, time: f64) -> Result<bool, BoundaryError> {
+        let states = self.states_at(time, &self.states);
+        self.put(states)
+    }
+
+    /// Moves the mesh on by `dt`; says whether anything moved.
+    pub fn advance(
+        &mut self,
+        forces: &[WallForce<D>],
+        gravity: Vect<D>,
+        time: f64,
+        dt: f64,
+    ) -> Result<bool, BoundaryError> {
+        let mut states = self.states_at(time + dt, &self.states);
+        for k in 0..states.len() {
+            if is_piece(&self.specs, k) {
+                states[k] = states[k - 1];
+            } else if let Some(mover) = &self.specs[k].mover {
+                let load = self.load(k, forces, gravity);
+                states[k] = mover.next(&self.states[k], &load, time, dt);
+                let name = || self.specs[k].drawing.name().to_string();
+                if RigidState::<D>::from_numbers(&states[k].numbers()).is_none() {
+                    return Err(BoundaryError::Motion { wall: name() });
+                }
+            }
+        }
+        self.put(states)
+    }
+
+    /// What acts on a wall with all its pieces.
+    fn load(&self, wall: usize, forces: &[WallForce<D>], gravity: Vect<D>) -> Load<D> {
+        let mut whole = WallForce::zero();
+        let pieces =
+            (wall..self.specs.len()).take_while(|k| *k == wall || is_piece(&self.specs, *k));
+        for force in pieces.filter_map(|k| forces.get(k)) {
+            whole.add(force);
+        }
+        Load {
+            force: whole.force,
+            moment: whole.moment,
+            gravity,
+        }
+    }
+
+    /// Whether the mover of a wall asks for forces.
+    pub fn feels(&self, wall: usize) -> bool {
+        let mover = self.specs.get(wall).and_then(|spec| spec.mover.as_ref());
+        mover.is_some_and(|mover| mover.feels())
+    }
+
+    /// The walls with movers, each by its first piece.
+    fn moved(&self) -> impl Iterator<Item = usize> {
+        let all = 0..self.specs.len();
+        all.filter(|k| self.specs[*k].mover.is_some() && !is_piece(&self.specs, *k))
+    }
+
+    /// Numbers of the walls with movers.
+    pub fn numbers(&self) -> WallStates {
+        let of =
+            |states: &[RigidState<D>]| self.moved().flat_map(|k| states[k].numbers()).collect();
+        WallStates {
+            now: of(&self.states),
+            listed: Some(of(&self.listed)),
+        }
+    }
+
+    /// Puts walls back where they were at a time; says whether anything moved.
+    pub fn put_back(&mut self, numbers: &WallStates, time: f64) -> Result<bool, BoundaryError> {
+        let given = |numbers: &[f64]| {
+            let mut states = self.states_at(time, &self.states);
+            let mut parts = numbers.chunks(RigidState::<D>::NUMBERS);
+            for k in self.moved() {
+                let wall = || self.specs[k].drawing.name().to_string();
+                let part = parts.next().and_then(RigidState::from_numbers);
+                let state = part.ok_or_else(|| BoundaryError::Motion { wall: wall() })?;
+                let pieces = (k..states.len()).take_while(|p| *p == k || is_piece(&self.specs, *p));
+                pieces.for_each(|p| states[p] = state);
+            }
+            Ok::<_, BoundaryError>(states)
+        };
+        let states = given(&numbers.now)?;
+        if let Some(listed) = &numbers.listed {
+            self.listed = given(listed)?;
+            self.put_back = true;
+        }
+        self.put(states)
+    }
+
+    fn put(&mut self, states: Vec<RigidState<D>>) -> Result<bool, BoundaryError> {
+        let poses: Vec<_> = states.iter().map(|s| s.pose).collect();
+        let moved = !self.states.iter().map(|s| &s.pose).eq(&poses);
+        if moved {
+            self.mesh.move_walls(&poses)?;
+        }
+        self.states = states;
+        Ok(moved)
+    }
+
+    /// Asks the mesh something as if the walls were where they were at the last build of the lists, at a time.
+    pub fn at_lists<R>(
+        &mut self,
+        time: f64,
+        ask: impl FnOnce(&M) -> R,
+    ) -> Result<R, BoundaryError> {
+        if !std::mem::take(&mut self.put_back) {
+            self.listed.clone_from(&self.states);
+        }
+        let states = self.states_at(time, &self.listed);
+        let poses = |states: &[RigidState<D>]| states.iter().map(|s| s.pose).collect::<Vec<_>>();
+        let (there, here) = (poses(&states), poses(&self.states));
+        if there == here {
+            return Ok(ask(&self.mesh));
+        }
+        self.mesh.move_walls(&there)?;
+        let answer = ask(&self.mesh);
+        self.mesh.move_walls(&here)?;
+        Ok(answer)
+    }
+}

@@ -1,0 +1,303 @@
+//! What all wall treatments share: the mesh, the conditions, the motion, the checks.
+
+use sph_core::Vect;
+use sph_neighbours::{Elements, Frame, WallPoints};
+
+use crate::error::MOST_PERIODS;
+use crate::geometry::cover::Cover;
+use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
+use crate::{BoundaryError, Drawing, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
+
+/// The walls of a scene as a mesh, with what the scene says of each.
+#[derive(Debug)]
+pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
+    pub mesh: M,
+    pub support: f64,
+    pub states: Vec<RigidState<D>>,
+    /// Those of walls with movers, at the last build of the lists.
+    pub listed: Vec<RigidState<D>>,
+    /// Whether `listed` are those of a build in an earlier process, which nobody looked at yet.
+    pub put_back: bool,
+    /// Walls with the same number move together.
+    groups: Vec<usize>,
+    spacing: f64,
+    cover: Cover<M::Near>,
+    pub specs: Vec<WallSpec<D>>,
+}
+
+impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
+    pub fn new(setup: &WallSetup<'_, D>, support: f64) -> Result<Self, BoundaryError> {
+        let whole = |k: &usize| !is_piece(setup.walls, *k);
+        for spec in (0..setup.walls.len())
+            .filter(whole)
+            .map(|k| &setup.walls[k])
+        {
+            if !spec.motion.is_sound() {
+                let wall = spec.drawing.name().to_string();
+                return Err(BoundaryError::Motion { wall });
+            }
+            let slip = spec.condition.slip_length();
+            if !(slip >= 0.0 && slip.is_finite()) {
+                let name = "slip length";
+                return Err(BoundaryError::NotPositive { name, value: slip });
+            }
+        }
+        // Twice the support also serves the queries of filling and of a generous skin.
+        let reach = 2.0 * support;
+        let domain = PeriodicBox::of(setup.domain);
+        check_reach(setup.walls, &domain)?;
+        let mesh = M::build(setup.walls, setup.spacing, reach, &domain)?;
+        let mut outline = Outline {
+            mesh,
+            support,
+            states: setup.walls.iter().map(start).collect(),
+            listed: Vec::new(),
+            put_back: false,
+            groups: groups(setup.walls),
+            spacing: setup.spacing,
+            cover: Cover::default(),
+            specs: setup.walls.to_vec(),
+        };
+        let poses: Vec<_> = outline.states.iter().map(|s| s.pose).collect();
+        if poses.iter().any(|pose| *pose != Pose::default()) {
+            outline.mesh.move_walls(&poses)?;
+        }
+        outline.listed = outline.states.clone();
+        Ok(outline)
+    }
+
+    /// Velocity and acceleration of the wall: its motion and the velocity of its surface.
+    pub fn movement(&self, wall: usize, point: &Vect<D>) -> Movement<D> {
+        let mut movement = self.states[wall].movement((*point).into());
+        movement.velocity += self.specs[wall].surface_velocity;
+        movement
+    }
+
+    /// From where a place of a wall was drawn to where it is.
+    pub fn maps(&self) -> Vec<impl Fn([f64; D]) -> [f64; D] + use<D, M>> {
+        self.states.iter().map(|s| s.pose.map()).collect()
+    }
+
+    /// Whether any wall ever moves.
+    pub fn moves(&self) -> bool {
+        self.specs
+            .iter()
+            .any(|s| s.motion.moves() || s.mover.is_some())
+    }
+
+    /// Shares of the nodes of which walls that move otherwise may take a part.
+    pub fn covered(&mut self, nodes: &[MeshPoint<D>]) -> Vec<(usize, f64)> {
+        if self.groups.iter().all(|g| *g == self.groups[0]) {
+            return Vec::new();
+        }
+        let visible = self
+            .cover
+            .shares(&self.mesh, nodes, &self.groups, self.spacing);
+        let share = |(v, part): (usize, f64)| (v, part * nodes[v].theta * nodes[v].size);
+        visible.into_iter().map(share).collect()
+    }
+
+    /// Where the walls are; empty where none ever moves.
+    pub fn frames(&self) -> Vec<Frame<D>> {
+        let frame = |state: &RigidState<D>| Frame {
+            rotation: state.pose.rotation,
+            offset: state.pose.map()([0.0; D]).into(),
+        };
+        match self.moves() {
+            true => self.states.iter().map(frame).collect(),
+            false => Vec::new(),
+        }
+    }
+
+    /// Whether any wall slips partly.
+    pub fn slips(&self) -> bool {
+        self.specs.iter().any(|s| s.condition.slip_length() > 0.0)
+    }
+
+    pub fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {
+        let (distance, wall) = self.mesh.nearest(point, within)?;
+        Some((distance, self.mesh.names()[wall].as_str()))
+    }
+
+    /// The nodes as wall points, at rest without fluid around.
+    pub fn points(&self, spacing: f64) -> WallPoints<D> {
+        let mut points = WallPoints::default();
+        let (moves, slips) = (self.moves(), self.slips());
+        for node in self.mesh.points() {
+            let condition = &self.specs[node.wall].condition;
+            points.position.push(node.position);
+            points.share.push(node.theta * node.size);
+            points.volume.push(spacing.powi(D as i32));
+            points.pressure.push(0.0);
+            points.grip.push(condition.grip());
+            points.wall.push(node.wall as u32);
+            points.velocity.push(Vect::zeros());
+            points.viscous_velocity.push(Vect::zeros());
+            if moves {
+                points.acceleration.push(Vect::zeros());
+            }
+            if slips {
+                points.slip.push((condition.slip_length(), node.normal));
+            }
+        }
+        points
+    }
+
+    /// The elements, at rest without fluid around.
+    pub fn elements(&self, spacing: f64) -> Elements<D> {
+        let mut elements = Elements::default();
+        let (moves, slips) = (self.moves(), self.slips());
+        let rubs = self
+            .specs
+            .iter()
+            .any(|s| s.condition.coulomb().coefficient > 0.0);
+        for element in self.mesh.elements() {
+            let condition = &self.specs[element.wall].condition;
+            elements.centre.push(element.centre);
+            elements.normal.push(element.normal);
+            elements.velocity.push(Vect::zeros());
+            elements.measure.push(element.measure);
+            elements.volume.push(spacing.powi(D as i32));
+            elements.pressure.push(0.0);
+            elements.grip.push(condition.grip());
+            elements.wall.push(element.wall as u32);
+            elements.corners.push(element.corners);
+            if moves {
+                elements.acceleration.push(Vect::zeros());
+            }
+            if slips {
+                elements.slip.push(condition.slip_length());
+            }
+            if rubs {
+                elements.coulomb.push(condition.coulomb());
+            }
+        }
+        elements
+    }
+}
+
+/// Where a wall is at time 0.
+fn start<const D: usize>(spec: &WallSpec<D>) -> RigidState<D> {
+    match &spec.mover {
+        Some(mover) => mover.start(),
+        None => spec.motion.state(0.0),
+    }
+}
+
+/// Refuses walls that reach so far out of a periodic box that their images would be without number.
+fn check_reach<const D: usize>(
+    walls: &[WallSpec<D>],
+    domain: &PeriodicBox<D>,
+) -> Result<(), BoundaryError> {
+    domain.check()?;
+    for spec in walls {
+        let periods = match &spec.drawing {
+            Drawing::Line(line) => domain.periods_to(line.points.iter().map(of)),
+            Drawing::Surface(surface) => domain.periods_to(surface.points.iter().map(of)),
+        };
+        if periods > MOST_PERIODS {
+            let wall = spec.drawing.name().to_string();
+            return Err(BoundaryError::ManyPeriods { wall, periods });
+        }
+    }
+    Ok(())
+}
+
+/// A place of as many dimensions as are asked for.
+fn of<const N: usize, const D: usize>(place: &[f64; N]) -> [f64; D] {
+    std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0))
+}
+
+/// For every wall the first one that moves as it does.
+pub(crate) fn groups<const D: usize>(walls: &[WallSpec<D>]) -> Vec<usize> {
+    let mut groups: Vec<usize> = Vec::with_capacity(walls.len());
+    for (k, wall) in walls.iter().enumerate() {
+        let first = match is_piece(walls, k) {
+            true => groups[k - 1],
+            false => {
+                let prescribed = |w: &WallSpec<D>| w.mover.is_none();
+                let as_it = |o: &WallSpec<D>| prescribed(o) && o.motion == wall.motion;
+                let mut before = walls[..k].iter();
+                let together = before.position(|o| prescribed(wall) && as_it(o));
+                together.unwrap_or(k)
+            }
+        };
+        groups.push(first);
+    }
+    groups
+}
+
+/// Whether a wall is a further piece of the one before it, of which there may be thousands.
+pub(crate) fn is_piece<const D: usize>(walls: &[WallSpec<D>], k: usize) -> bool {
+    k > 0 && walls[k].drawing.name() == walls[k - 1].drawing.name()
+}
+
+/// The methods of [`Wall`](crate::Wall) that ask nothing but the outline of the walls; the
+/// plugin keeps it in `self.set_up`.
+macro_rules! checks_by_outline {
+    () => {
+        fn contains(&self, point: &Vect<D>) -> bool {
+            let set_up = self.set_up.as_ref();
+            set_up.is_none_or(|s| s.outline.mesh.contains(point))
+        }
+
+        fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {
+            self.set_up.as_ref()?.outline.clearance(point, within)
+        }
+
+        fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
+            self.set_up.as_ref()?.outline.mesh.bounds()
+        }
+
+        fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {
+            match &self.set_up {
+                Some(SetUp { outline, .. }) => {
+                    outline.mesh.check_free_ends(points, outline.support)
+                }
+                None => Ok(()),
+            }
+        }
+
+        fn feels(&self, wall: usize) -> bool {
+            let set_up = self.set_up.as_ref();
+            set_up.is_some_and(|s| s.outline.feels(wall))
+        }
+
+        fn states(&self) -> WallStates {
+            let set_up = self.set_up.as_ref();
+            set_up.map_or(WallStates::default(), |s| s.outline.numbers())
+        }
+
+        fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError> {
+            self.moved(walls, |outline| outline.move_to(time))
+        }
+
+        fn advance(
+            &mut self,
+            walls: &mut WallSet<D>,
+            gravity: Vect<D>,
+            time: f64,
+            dt: f64,
+        ) -> Result<(), BoundaryError> {
+            let forces = std::mem::take(&mut walls.forces);
+            let moved = self.moved(walls, |outline| outline.advance(&forces, gravity, time, dt));
+            walls.forces = forces;
+            moved
+        }
+
+        fn put_back(
+            &mut self,
+            walls: &mut WallSet<D>,
+            states: &WallStates,
+            time: f64,
+        ) -> Result<(), BoundaryError> {
+            self.moved(walls, |outline| outline.put_back(states, time))
+        }
+
+        fn warnings(&self) -> Vec<String> {
+            let set_up = self.set_up.as_ref();
+            set_up.map_or(Vec::new(), |s| s.outline.mesh.warnings())
+        }
+    };
+}
+pub(crate) use checks_by_outline;

@@ -1,0 +1,339 @@
+//! Unified semi-analytical walls.
+
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, Vect, fields, register};
+use sph_neighbours::{Contact, Contacts, WallSet, World};
+
+use crate::error::stage_error;
+use crate::geometry::wall_mesh::WallMesh;
+use crate::treatment::near::NearLists;
+use crate::treatment::outline::{Outline, checks_by_outline};
+use crate::treatment::shepard::wall_means;
+use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallStates};
+
+/// Walls of segments or triangles with vertex particles; sums are renormalised by γ, the share of
+/// the kernel inside the walls, and completed by ∇γ. γ is geometry here (a closed form, no history).
+///
+/// The pressure on elements and vertices is the Shepard mean of p + ρ (g − a_w)·(r_wall − r) over
+/// the fluid (∂p*/∂n = 0).
+///
+/// With `vertices` the first row of particles lies at δr, and vertices carry the half row of fluid
+/// between: the share θ_v of a particle's volume. That half row stays at the wall. Under a lid that
+/// moves along itself it takes a flux of U δr/2 into a corner where nothing turns it down, an error of
+/// first order; and points that stand while rows of particles pass make a rough wall, which stirs
+/// the fluid the more the stiffer it is. Without vertices the first row lies at δr/2, all of the
+/// fluid is in particles, and the wall is smooth.
+///
+/// Source: Ghaïtanellis 2017, §2.5, Eq. 2.63–2.91; γ by the divergence theorem; walls without vertices
+/// are ours.
+///
+/// ```toml
+/// [walls.usaw]
+/// vertices = false
+/// [wall.tank]
+/// polyline = [[0, 0.6], [0, 0], [1, 0], [1, 0.6]]
+/// ```
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, bound = "")]
+#[schemars(rename = "Usaw", bound = "")]
+pub struct Usaw<const D: usize, M: WallMesh<D>> {
+    /// Whether vertices carry the half row of fluid next to the wall, as in the source.
+    #[serde(default = "with_vertices")]
+    #[schemars(extend("source" = "Ghaïtanellis 2017, §2.5; without them: ours"))]
+    vertices: bool,
+    #[serde(skip)]
+    set_up: Option<SetUp<D, M>>,
+}
+
+/// As in the source.
+fn with_vertices() -> bool {
+    true
+}
+
+#[derive(Debug)]
+struct SetUp<const D: usize, M: WallMesh<D>> {
+    outline: Outline<D, M>,
+    integrals: M::Integrals,
+    spacing: f64,
+    near: NearLists<M::Near>,
+    /// Moves of walls so far.
+    moves: u64,
+    /// Version of the near lists, moves and positions for which the contacts were found.
+    found_for: (u64, u64, Vec<Vect<D>>),
+    /// What was found last, batch by batch; kept for its memory.
+    found: Vec<Found>,
+    /// Least height of the particles of the near lists over the planes of their contacts, m; ∞ for
+    /// those on no plane's fluid side.
+    clearance: Vec<f64>,
+}
+
+register!(
+    WallEntry [2 => Usaw<2, PlanarWalls>, 3 => Usaw<3, SpatialWalls>],
+    "usaw",
+    "semi-analytical walls with exact renormalisation",
+    "Ghaïtanellis 2017, Eq. 2.63–2.91; Ferrand et al. 2013"
+);
+
+/// Particles that one task works through.
+const BATCH: usize = 64;
+
+/// γ of a batch of particles, and where their contacts end.
+#[derive(Debug, Default)]
+struct Found {
+    gamma: Vec<f64>,
+    /// Contacts up to and including each particle's.
+    ends: Vec<u32>,
+    clearance: Vec<f64>,
+}
+
+impl Found {
+    fn clear(&mut self) {
+        self.gamma.clear();
+        self.ends.clear();
+        self.clearance.clear();
+    }
+}
+
+impl<const D: usize, M: WallMesh<D>> Usaw<D, M> {
+    fn ready(&self) -> Result<&SetUp<D, M>, StepError> {
+        self.set_up.as_ref().ok_or_else(not_built)
+    }
+
+    /// Lets the outline move, and places points and elements where it is then.
+    fn moved(
+        &mut self,
+        walls: &mut WallSet<D>,
+        way: impl FnOnce(&mut Outline<D, M>) -> Result<bool, BoundaryError>,
+    ) -> Result<(), BoundaryError> {
+        let Some(set_up) = self.set_up.as_mut().filter(|s| s.outline.moves()) else {
+            return Ok(());
+        };
+        set_up.moves += u64::from(way(&mut set_up.outline)?);
+        set_up.place(walls);
+        Ok(())
+    }
+}
+
+fn not_built() -> StepError {
+    stage_error("the walls were not built")
+}
+
+impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
+    /// Positions, normals and movements of points and elements.
+    fn place(&mut self, walls: &mut WallSet<D>) {
+        let nodes: Vec<_> = self.outline.mesh.points().collect();
+        if walls.points.in_sums() {
+            // All anew: shares follow from the time alone, whatever places a wall has been to.
+            for (v, node) in nodes.iter().enumerate() {
+                walls.points.share[v] = node.theta * node.size;
+            }
+            for (v, share) in self.outline.covered(&nodes) {
+                walls.points.share[v] = share;
+            }
+        }
+        let outline = &self.outline;
+        walls.frames = outline.frames();
+        let points = &mut walls.points;
+        for (v, node) in nodes.iter().enumerate() {
+            let movement = outline.movement(node.wall, &node.position);
+            points.position[v] = node.position;
+            points.velocity[v] = movement.velocity;
+            points.viscous_velocity[v] = movement.velocity;
+            if let Some(acceleration) = points.acceleration.get_mut(v) {
+                *acceleration = movement.acceleration;
+            }
+            if let Some((_, normal)) = points.slip.get_mut(v) {
+                *normal = node.normal;
+            }
+        }
+        let elements = &mut walls.elements;
+        for (s, element) in outline.mesh.elements().enumerate() {
+            let movement = outline.movement(element.wall, &element.centre);
+            elements.centre[s] = element.centre;
+            elements.normal[s] = element.normal;
+            elements.velocity[s] = movement.velocity;
+            if let Some(acceleration) = elements.acceleration.get_mut(s) {
+                *acceleration = movement.acceleration;
+            }
+        }
+    }
+
+    /// Whether the contacts were found for these very positions of particles and walls.
+    fn is_fresh(&mut self, positions: &[Vect<D>]) -> bool {
+        let here = || self.near.particles.iter().map(|p| positions[*p as usize]);
+        let (version, moves, known) = &self.found_for;
+        let walls = (*version, *moves) == (self.near.version, self.moves);
+        if walls && here().eq(known.iter().copied()) {
+            return true;
+        }
+        let here: Vec<_> = here().collect();
+        self.found_for = (self.near.version, self.moves, here);
+        false
+    }
+
+    /// Finds γ and contacts of all particles of the near lists, a block per batch.
+    fn find(&mut self, positions: &[Vect<D>], blocks: &mut Vec<Vec<Contact<D>>>) {
+        let (near, mesh, integrals) = (&self.near, &self.outline.mesh, &self.integrals);
+        let batches = near.particles.par_chunks(BATCH);
+        self.found.resize_with(batches.len(), Found::default);
+        blocks.resize_with(batches.len(), Vec::new);
+        let all = self.found.par_iter_mut().zip(blocks).zip(batches);
+        all.enumerate().for_each(|(b, ((found, contacts), batch))| {
+            found.clear();
+            contacts.clear();
+            for (k, &particle) in batch.iter().enumerate() {
+                let (x, row) = (&positions[particle as usize], near.row(b * BATCH + k));
+                let from = contacts.len();
+                let gamma = mesh.gamma(integrals, x, row, contacts);
+                let heights = contacts[from..].iter().map(|c| c.distance);
+                let least = heights.filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
+                found.gamma.push(gamma);
+                found.ends.push(contacts.len() as u32);
+                found.clearance.push(least);
+            }
+        });
+        self.clearance.clear();
+        let least = self.found.iter().flat_map(|f| &f.clearance);
+        self.clearance.extend(least);
+    }
+}
+
+impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
+    fn lattice_offset(&self) -> f64 {
+        if self.vertices { 0.0 } else { 0.5 }
+    }
+
+    fn renormalises(&self) -> bool {
+        true
+    }
+
+    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
+        let shape = setup
+            .kernel
+            .polynomial()
+            .ok_or_else(|| BoundaryError::Kernel {
+                reason: format!(
+                    "`{}` gives no radial moments, and semi-analytical walls integrate them",
+                    setup.kernel.name()
+                ),
+            })?;
+        let integrals = M::integrals(shape, setup.smoothing_length)?;
+        let support = setup.kernel.support() * setup.smoothing_length;
+        let outline = Outline::<D, M>::new(setup, support)?;
+        let mut walls = WallSet {
+            names: outline.mesh.names().to_vec(),
+            points: outline.points(setup.spacing),
+            elements: outline.elements(setup.spacing),
+            contacts: Contacts::default(),
+            frames: Vec::new(),
+            forces: Vec::new(),
+        };
+        if !self.vertices {
+            walls.points.corners_only = true;
+            walls.points.share.fill(0.0);
+        }
+        let mut set_up = SetUp {
+            outline,
+            integrals,
+            spacing: setup.spacing,
+            near: NearLists::default(),
+            moves: 0,
+            found_for: (0, 0, Vec::new()),
+            found: Vec::new(),
+            clearance: Vec::new(),
+        };
+        set_up.place(&mut walls);
+        self.set_up = Some(set_up);
+        Ok(walls)
+    }
+
+    checks_by_outline!();
+
+    fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
+        set_up.near.refresh(&mut set_up.outline, world)?;
+        if set_up.is_fresh(world.free.get(fields::POSITION)?) {
+            return Ok(());
+        }
+        let mut renormalisation = world.free.take(fields::RENORMALISATION)?;
+        renormalisation.fill(1.0);
+        let positions = world.free.get(fields::POSITION)?;
+        let contacts = &mut world.walls.contacts;
+        let mut blocks = contacts.take_blocks(positions.len());
+        set_up.find(positions, &mut blocks);
+        contacts.put_blocks(blocks);
+        let batches = set_up.near.particles.chunks(BATCH).zip(&set_up.found);
+        for (b, (batch, found)) in batches.enumerate() {
+            let mut start = 0;
+            let results = found.gamma.iter().zip(&found.ends);
+            for (&particle, (&gamma, &end)) in batch.iter().zip(results) {
+                renormalisation[particle as usize] = gamma;
+                contacts.place(particle, b, start..end);
+                start = end;
+            }
+        }
+        Ok(world.free.put(fields::RENORMALISATION, renormalisation)?)
+    }
+
+    fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        let set_up = self.ready()?;
+        // Heights over the planes of all elements in reach bound the distances from below.
+        let clearance = |place: usize| set_up.clearance.get(place).copied().unwrap_or(0.0);
+        set_up.near.constrain(&set_up.outline, world, dt, clearance)
+    }
+
+    fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let spacing = self.ready()?.spacing;
+        let whole = spacing.powi(D as i32);
+        let (points, elements) = (&world.walls.points, &world.walls.elements);
+        let lists = &world.lists;
+        let at_points = match points.in_sums() {
+            true => wall_means(
+                world,
+                &points.position,
+                &points.acceleration,
+                &lists.of_points,
+                whole,
+            )?,
+            false => Vec::new(),
+        };
+        let at_elements = wall_means(
+            world,
+            &elements.centre,
+            &elements.acceleration,
+            &lists.of_elements,
+            whole,
+        )?;
+        let walls = &mut world.walls;
+        for (v, mean) in at_points.iter().enumerate() {
+            walls.points.pressure[v] = mean.pressure;
+            walls.points.volume[v] = mean.volume;
+        }
+        for (s, mean) in at_elements.iter().enumerate() {
+            walls.elements.pressure[s] = mean.pressure;
+            walls.elements.volume[s] = mean.volume;
+        }
+        if walls.points.corners_only {
+            pressure_at_corners(walls);
+        }
+        Ok(())
+    }
+}
+
+/// Means over the elements around each corner, for pictures.
+fn pressure_at_corners<const D: usize>(walls: &mut WallSet<D>) {
+    let (points, elements) = (&mut walls.points, &walls.elements);
+    let mut around = vec![0u32; points.pressure.len()];
+    points.pressure.fill(0.0);
+    for (corners, pressure) in elements.corners.iter().zip(&elements.pressure) {
+        for corner in corners.map(|c| c as usize) {
+            around[corner] += 1;
+            points.pressure[corner] += pressure;
+        }
+    }
+    for (pressure, n) in points.pressure.iter_mut().zip(around) {
+        *pressure /= f64::from(n.max(1));
+    }
+}

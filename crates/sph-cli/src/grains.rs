@@ -1,0 +1,8 @@
+//! The commands where the scene is one of grains.
+
+pub mod check;
+pub mod explain;
+pub mod failed;
+mod outcome;
+pub mod plugins;
+pub mod run;

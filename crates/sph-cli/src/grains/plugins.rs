@@ -1,0 +1,48 @@
+//! The kinds of plugins that scenes of grains know.
+
+use dem_flow::conductances;
+use dem_grains::contact_laws;
+use sph_core::{ContractInfo, PluginInfo};
+
+/// Grains are spheres in space.
+const DIMENSIONS: &[usize] = &[3];
+
+/// Contact laws and conductances, as `sph plugins` lists the kinds of particles.
+pub fn contracts() -> [ContractInfo; 2] {
+    [
+        ContractInfo {
+            kind: "contact-law",
+            purpose: "forces of grains that touch, in [grains.contact.LAW], [box.contact.LAW], [wall.NAME.contact.LAW]",
+            plugins: laws,
+        },
+        ContractInfo {
+            kind: "conductance",
+            purpose: "what a throat between two pores lets through, in [fluid.conductance.LAW]",
+            plugins: throats,
+        },
+    ]
+}
+
+fn laws() -> Vec<PluginInfo> {
+    let info = |e: &&dem_grains::LawEntry| PluginInfo {
+        name: e.name,
+        summary: e.summary,
+        source: e.source,
+        provider: e.provider,
+        dimensions: DIMENSIONS,
+        schema: e.schema,
+    };
+    contact_laws().iter().map(info).collect()
+}
+
+fn throats() -> Vec<PluginInfo> {
+    let info = |e: &&dem_flow::ConductanceEntry| PluginInfo {
+        name: e.name,
+        summary: e.summary,
+        source: e.source,
+        provider: e.provider,
+        dimensions: DIMENSIONS,
+        schema: e.schema,
+    };
+    conductances().iter().map(info).collect()
+}

@@ -1,0 +1,77 @@
+//! The steps that sound and forces allow.
+
+use rayon::prelude::*;
+use sph_core::{StepError, StepLimit, fields};
+use sph_neighbours::World;
+use sph_state::{BoundState, Laws};
+
+use crate::Limiter;
+
+/// Δt ≤ C h / c with the largest local speed of sound, Ghaïtanellis 2017, Eq. 2.104.
+pub struct SoundLimit {
+    /// C.
+    pub courant: f64,
+    /// The equations of state, in the order of the phase numbers.
+    pub laws: Laws,
+}
+
+impl<const D: usize> Limiter<D> for SoundLimit {
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+        let density = world.free.get(fields::DENSITY)?;
+        // Sound is fastest where density is highest, so one law call per phase is enough.
+        let fastest = match &self.laws[..] {
+            [law] => law.sound_speed(largest(density, |rho| *rho)),
+            laws => {
+                let phase = world.free.get(fields::PHASE)?;
+                let fastest = |k: usize, law: &dyn BoundState| {
+                    let pairs = density.iter().zip(phase);
+                    let own = pairs.filter(|(_, p)| **p as usize == k);
+                    law.sound_speed(own.map(|(rho, _)| *rho).fold(0.0, f64::max))
+                };
+                let each = laws.iter().enumerate();
+                each.map(|(k, law)| fastest(k, &**law)).fold(0.0, f64::max)
+            }
+        };
+        let h = world.kernel.smoothing_length();
+        Ok(StepLimit::new("sound", self.courant * h / fastest))
+    }
+    fn remedy(&self) -> Option<String> {
+        Some(
+            "a lower `speed_of_sound` lengthens the step in proportion, as long as it stays ten times the largest speed"
+                .into(),
+        )
+    }
+    fn formula(&self) -> String {
+        format!("sound: dt <= {} h / c", self.courant)
+    }
+}
+
+/// Δt ≤ C √(h / |a|) with the largest acceleration.
+pub struct ForceLimit {
+    /// C.
+    pub coefficient: f64,
+}
+
+impl<const D: usize> Limiter<D> for ForceLimit {
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+        let acceleration = world.free.get(fields::ACCELERATION)?;
+        let squared = largest(acceleration, |a| a.norm_squared());
+        let h = world.kernel.smoothing_length();
+        Ok(StepLimit::new(
+            "force",
+            self.coefficient * (h / squared.sqrt()).sqrt(),
+        ))
+    }
+    fn formula(&self) -> String {
+        format!("force: dt <= {} sqrt(h / |a|)", self.coefficient)
+    }
+}
+
+/// The largest value of a column; a value that is not a number counts as infinite.
+fn largest<T: Sync>(column: &[T], value: impl Fn(&T) -> f64 + Sync) -> f64 {
+    let all = column.par_iter().with_min_len(1024).map(|x| {
+        let v = value(x);
+        if v.is_nan() { f64::INFINITY } else { v }
+    });
+    all.reduce(|| 0.0, f64::max)
+}

@@ -1,0 +1,23 @@
+//! Why a contribution cannot be part of a scene.
+
+/// A key of a scene, and what is wrong with it there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// The kind whose plugin's table has the key.
+    pub kind: &'static str,
+    /// The key in that table; the table itself, if empty.
+    pub key: String,
+    /// What is wrong, and what to do.
+    pub why: String,
+}
+
+impl Refusal {
+    /// Of a key in the table of a kind's plugin.
+    pub fn of(kind: &'static str, key: impl Into<String>, why: impl Into<String>) -> Self {
+        Refusal {
+            kind,
+            key: key.into(),
+            why: why.into(),
+        }
+    }
+}

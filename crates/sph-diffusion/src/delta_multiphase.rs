@@ -1,0 +1,242 @@
+//! The δ-SPH smoother for several phases.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Access, StepError, Vect, fields, register};
+use sph_neighbours::{BoundTerm, Contact, Interaction, Pair, PairTerm, Rates, Term, There, World};
+
+use crate::diffusion_limit::DiffusionLimit;
+use crate::per_phase::PerPhase;
+use crate::{Smoother, SmootherEntry};
+use sph_contribution::Limiter;
+use sph_state::Laws;
+
+/// dρ_a/dt += 2 δ h c_a ρ₀_a/γ_a [Σ_b V_b (β_a − β_b) F_ab − Σ_s (β_a − β_s)/d_s |∇γ_as|], β = ρ/ρ₀,
+/// over neighbours of all phases and over walls.
+///
+/// Symbols: δ number; h smoothing length (m); c, ρ₀ speed of sound (m/s) and density (kg/m³) of the
+/// phase at rest; F = w'/r; d distance from an element (m), not below δr/2. A neighbour of another
+/// phase counts as one of the own phase that is compressed as much. A wall point or element has
+/// the β at which the own phase has the wall's pressure, and a point the volume V_a of whoever
+/// looks at it; without `walls` a hydrostatic density has a source at a bottom.
+///
+/// Limits: as printed, a hydrostatic density has a source of about δ ρ₀ g/c at a free surface, and
+/// across an interface, where β has a kink at rest, because ρ₀g/(ρ₀c²) jumps unless c is the same: two
+/// layers at rest have 6 to 8 % too much pressure between them. `balance = "hydrostatic"` takes
+/// (ρ_a + ρ_b)/2 g·r_ab/(ρ₀_a c_a²) from every difference, as the Brezzi–Pitkäranta smoother does,
+/// and nothing is left to diffuse at rest. The volume that a pair of phases exchanges balances only
+/// if c is the same.
+///
+/// Source: Krimi et al. 2018, Eq. 30–31; c of the own phase and the walls are ours.
+///
+/// ```toml
+/// [smoother.delta-msph]
+/// strength = 0.1
+/// balance = "hydrostatic"
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct DeltaMultiphase {
+    /// Strength δ.
+    #[schemars(
+        range(min = 0.0, max = 1.0),
+        extend("unit" = "1", "source" = "Krimi et al. 2018: 0.1")
+    )]
+    pub strength: f64,
+    /// Whether walls count.
+    #[schemars(extend("source" = "ours"))]
+    pub walls: bool,
+    /// What is not to be diffused.
+    #[schemars(extend("source" = "ours; literal: Krimi et al. 2018, Eq. 30"))]
+    pub balance: Balance,
+}
+
+/// What is not to be diffused.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Balance {
+    /// The compression of a fluid at rest.
+    #[default]
+    Hydrostatic,
+    /// Nothing: as printed.
+    Literal,
+}
+
+impl Default for DeltaMultiphase {
+    fn default() -> Self {
+        DeltaMultiphase {
+            strength: 0.1,
+            walls: true,
+            balance: Balance::default(),
+        }
+    }
+}
+
+impl<const D: usize> Smoother<D> for DeltaMultiphase {
+    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
+        Box::new(Term(DeltaTerm {
+            smoother: *self,
+            density: PerPhase::of(laws, |law| law.reference().density),
+            sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
+            laws: laws.clone(),
+        }))
+    }
+    fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
+        DiffusionLimit::of(self.strength, laws)
+    }
+}
+
+register!(
+    SmootherEntry [2, 3],
+    DeltaMultiphase,
+    "delta-msph",
+    "diffusion of the relative density, across interfaces and at walls",
+    "Krimi et al. 2018, Eq. 30–31"
+);
+
+/// The term of [`DeltaMultiphase`].
+pub struct DeltaTerm {
+    smoother: DeltaMultiphase,
+    density: PerPhase,
+    sound_speed: PerPhase,
+    laws: Laws,
+}
+
+impl DeltaTerm {
+    /// β of every phase at given pressures: entry k n + i for phase k and place i of n.
+    fn compressions(&self, pressure: &[f64]) -> Vec<f64> {
+        let of =
+            |law: &dyn sph_state::BoundState, p: &f64| law.density(*p) / law.reference().density;
+        let each = self.laws.iter();
+        each.flat_map(|law| pressure.iter().map(move |p| of(&**law, p)))
+            .collect()
+    }
+}
+
+impl<const D: usize> PairTerm<D> for DeltaTerm {
+    type Bound<'a> = Bound<'a, D>;
+
+    fn name(&self) -> String {
+        "δ-SPH smoother for several phases".into()
+    }
+
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::DENSITY)
+            .both(fields::VOLUME)
+            .and(self.density.access())
+    }
+
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
+        let points = &world.walls.points;
+        let elements = &world.walls.elements;
+        let beside_walls = |pressure: &[f64]| match self.smoother.walls {
+            true => self.compressions(pressure),
+            false => Vec::new(),
+        };
+        Ok(Bound {
+            term: self,
+            density: world.free.get(fields::DENSITY)?,
+            volume: world.free.get(fields::VOLUME)?,
+            phase: self.density.column(world)?,
+            wall_share: &points.share,
+            at_points: beside_walls(&points.pressure),
+            at_elements: beside_walls(&elements.pressure),
+            normals: &elements.normal,
+            gravity: match self.smoother.balance {
+                Balance::Hydrostatic => world.gravity,
+                Balance::Literal => Vect::zeros(),
+            },
+            nearest: 0.5 * world.spacing,
+            weight: 2.0 * self.smoother.strength * world.kernel.smoothing_length(),
+        })
+    }
+}
+
+/// [`DeltaTerm`] with its columns.
+pub struct Bound<'a, const D: usize> {
+    term: &'a DeltaTerm,
+    density: &'a [f64],
+    volume: &'a [f64],
+    phase: Option<&'a [u32]>,
+    wall_share: &'a [f64],
+    /// β of every phase at the points' pressures; empty where walls do not count.
+    at_points: Vec<f64>,
+    at_elements: Vec<f64>,
+    normals: &'a [Vect<D>],
+    gravity: Vect<D>,
+    nearest: f64,
+    weight: f64,
+}
+
+/// What is read once per particle.
+#[derive(Clone, Copy)]
+pub struct Own {
+    compression: f64,
+    density: f64,
+    volume: f64,
+    phase: u32,
+    /// 1/(ρ₀c²).
+    compressibility: f64,
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    type Here = Own;
+    type Sum = f64;
+
+    #[inline(always)]
+    fn here(&self, i: usize) -> Own {
+        let phase = self.phase.map_or(0, |p| p[i]);
+        let (rest, c) = (self.term.density.at(phase), self.term.sound_speed.at(phase));
+        Own {
+            compression: self.density[i] / rest,
+            density: self.density[i],
+            volume: self.volume[i],
+            phase,
+            compressibility: 1.0 / (rest * c * c),
+        }
+    }
+
+    #[inline(always)]
+    fn zero(&self) -> f64 {
+        0.0
+    }
+
+    #[inline(always)]
+    fn free(&self, own: &Own, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
+        let phase = self.phase.map_or(0, |p| p[j]);
+        let compression = there.density / self.term.density.at(phase);
+        let mean = 0.5 * (own.density + there.density);
+        let at_rest = mean * self.gravity.dot(&pair.separation) * own.compressibility;
+        *sum += there.volume * (own.compression - compression - at_rest) * pair.factor;
+    }
+
+    #[inline(always)]
+    fn wall(&self, own: &Own, v: usize, pair: &Pair<D>, sum: &mut f64) {
+        if !self.at_points.is_empty() {
+            let there = self.at_points[own.phase as usize * self.wall_share.len() + v];
+            let weight = self.wall_share[v] * own.volume;
+            let at_rest = own.density * self.gravity.dot(&pair.separation) * own.compressibility;
+            *sum += weight * (own.compression - there - at_rest) * pair.factor;
+        }
+    }
+
+    #[inline(always)]
+    fn element(&self, own: &Own, contact: &Contact<D>, sum: &mut f64) {
+        if !self.at_elements.is_empty() {
+            let s = contact.element as usize;
+            let there = self.at_elements[own.phase as usize * self.normals.len() + s];
+            let apart = contact.distance.max(self.nearest);
+            let slope = (own.compression - there) / apart;
+            let at_rest = own.density * self.gravity.dot(&self.normals[s]) * own.compressibility;
+            *sum -= (slope - at_rest) * contact.gradient.norm();
+        }
+    }
+
+    #[inline(always)]
+    fn finish(&self, own: &Own, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
+        let term = self.term;
+        let scale = term.density.at(own.phase) * term.sound_speed.at(own.phase);
+        rates.scalar += self.weight * scale * sum * inverse_gamma;
+    }
+}

@@ -1,0 +1,217 @@
+//! The δ-SPH smoother.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
+use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
+
+use crate::diffusion_limit::DiffusionLimit;
+use crate::linear_exact::linear_exact;
+use crate::per_phase::PerPhase;
+use crate::{Smoother, SmootherEntry};
+use sph_contribution::{Limiter, Stages};
+use sph_neighbours::{Around, Values, walk};
+use sph_state::Laws;
+
+/// dρ_a/dt += 2 δ h c_a/γ_a Σ_b V_b [ρ_a − ρ_b − ½(∇ρ_a + ∇ρ_b)·r_ab] F_ab over free neighbours
+/// of the same phase.
+///
+/// Symbols: δ number; h smoothing length (m); c speed of sound of the phase at rest (m/s); F = w'/r.
+/// In the `renormalised` form ∇ρ is the gradient that is exact for linear densities, so that the
+/// hydrostatic one is left alone also where the support is cut; it costs one more walk. The `plain`
+/// form has no ∇ρ: at a free surface a hydrostatic density then has a source of about δ ρ₀ g/c.
+/// Neighbours of other phases do not count, as in Fourtakas & Rogers (2016), so each phase sees the interface as a free
+/// surface; [`DeltaMultiphase`](crate::DeltaMultiphase) looks across.
+///
+/// Source: Molteni & Colagrossi 2009 (plain); Antuono et al. 2010 (renormalised).
+///
+/// ```toml
+/// [smoother.delta-sph]
+/// form = "renormalised"
+/// strength = 0.1
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct DeltaSph {
+    /// Strength δ.
+    #[schemars(
+        range(min = 0.0, max = 1.0),
+        extend("unit" = "1", "source" = "Antuono et al. 2010: 0.1")
+    )]
+    pub strength: f64,
+    /// With or without the gradients of the density.
+    #[schemars(extend("source" = "Molteni & Colagrossi 2009; Antuono et al. 2010"))]
+    pub form: DeltaForm,
+}
+
+/// The forms of [`DeltaSph`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DeltaForm {
+    /// Differences of density.
+    Plain,
+    /// Differences from the linear density.
+    #[default]
+    Renormalised,
+}
+
+impl Default for DeltaSph {
+    fn default() -> Self {
+        DeltaSph {
+            strength: 0.1,
+            form: DeltaForm::Renormalised,
+        }
+    }
+}
+
+impl<const D: usize> Smoother<D> for DeltaSph {
+    fn stages(&self, _laws: &Laws) -> Stages<D> {
+        match self.form {
+            DeltaForm::Plain => Vec::new(),
+            DeltaForm::Renormalised => vec![Box::new(DensityGradient)],
+        }
+    }
+    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
+        Box::new(Term(DeltaTerm {
+            smoother: *self,
+            sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
+        }))
+    }
+    fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
+        DiffusionLimit::of(self.strength, laws)
+    }
+}
+
+register!(
+    SmootherEntry [2, 3],
+    DeltaSph,
+    "delta-sph",
+    "density diffusion within each phase",
+    "Molteni & Colagrossi 2009; Antuono et al. 2010"
+);
+
+/// Renormalised gradient of the density within the phase.
+pub const DENSITY_GRADIENT: Field<Vector> = Field::new(
+    "density_gradient",
+    "kg/m⁴",
+    "gradient of the density within the phase, exact for linear densities",
+);
+
+/// ∇ρ_a = [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b (ρ_b − ρ_a) ∇w_ab; nothing where the neighbours
+/// span no volume.
+struct DensityGradient;
+
+impl Declares for DensityGradient {
+    fn name(&self) -> String {
+        "density gradient".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::POSITION)
+            .both(fields::DENSITY)
+            .both(fields::VOLUME)
+            .where_there(fields::PHASE)
+            .writes(DENSITY_GRADIENT)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for DensityGradient {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let density = world.free.get(fields::DENSITY)?;
+        let volume = world.free.get(fields::VOLUME)?;
+        let phase = world.free.get(fields::PHASE).ok();
+        let gradients = walk(world, Values::Gradient, |around: &Around<'_, D>| {
+            let i = around.rows.particle;
+            linear_exact(&around.rows.free, volume, |j| {
+                let same = phase.is_none_or(|p| p[i] == p[j]);
+                same.then(|| density[j] - density[i])
+            })
+        })?;
+        Ok(world.free.put(DENSITY_GRADIENT, gradients)?)
+    }
+}
+
+/// The term of [`DeltaSph`].
+pub struct DeltaTerm {
+    smoother: DeltaSph,
+    sound_speed: PerPhase,
+}
+
+impl<const D: usize> PairTerm<D> for DeltaTerm {
+    type Bound<'a> = Bound<'a, D>;
+
+    fn name(&self) -> String {
+        "δ-SPH smoother".into()
+    }
+
+    fn access(&self) -> Access {
+        let access = Access::none()
+            .both(fields::DENSITY)
+            .neighbours(fields::VOLUME)
+            .and(self.sound_speed.access());
+        match self.smoother.form {
+            DeltaForm::Plain => access,
+            DeltaForm::Renormalised => access.both(DENSITY_GRADIENT),
+        }
+    }
+
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
+        Ok(Bound {
+            density: world.free.get(fields::DENSITY)?,
+            gradient: match self.smoother.form {
+                DeltaForm::Plain => None,
+                DeltaForm::Renormalised => Some(world.free.get(DENSITY_GRADIENT)?),
+            },
+            phase: self.sound_speed.column(world)?,
+            sound_speed: &self.sound_speed,
+            weight: 2.0 * self.smoother.strength * world.kernel.smoothing_length(),
+        })
+    }
+}
+
+/// [`DeltaTerm`] with its columns.
+pub struct Bound<'a, const D: usize> {
+    density: &'a [f64],
+    gradient: Option<&'a [Vect<D>]>,
+    phase: Option<&'a [u32]>,
+    sound_speed: &'a PerPhase,
+    weight: f64,
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    /// Density, its gradient, phase.
+    type Here = (f64, Vect<D>, u32);
+    type Sum = f64;
+
+    #[inline(always)]
+    fn here(&self, i: usize) -> Self::Here {
+        (
+            self.density[i],
+            self.gradient.map_or_else(Vect::zeros, |g| g[i]),
+            self.phase.map_or(0, |p| p[i]),
+        )
+    }
+
+    #[inline(always)]
+    fn zero(&self) -> f64 {
+        0.0
+    }
+
+    #[inline(always)]
+    fn free(&self, here: &Self::Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
+        if self.phase.is_some_and(|p| p[j] != here.2) {
+            return;
+        }
+        let linear = match self.gradient {
+            Some(g) => 0.5 * (here.1 + g[j]).dot(&pair.separation),
+            None => 0.0,
+        };
+        *sum += there.volume * (here.0 - there.density - linear) * pair.factor;
+    }
+
+    #[inline(always)]
+    fn finish(&self, here: &Self::Here, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
+        let c = self.sound_speed.at(here.2);
+        rates.scalar += self.weight * c * sum * inverse_gamma;
+    }
+}

@@ -1,0 +1,211 @@
+//! How evenly particles are spread, and where they end: free surfaces and interfaces.
+
+use rayon::prelude::*;
+use sph_core::{StepError, Vect, fields};
+use sph_neighbours::World;
+
+use sph_neighbours::lattice_sum;
+
+use sph_neighbours::{Around, Contact, Values, walk, walk_some};
+
+/// What the neighbourhood of a particle says of its arrangement.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Evenness<const D: usize> {
+    /// The concentration C = ΣθVw/γ: 1 in the bulk.
+    pub filling: f64,
+    /// ∇C = (ΣθV∇w − C Σ∇γ)/γ, 1/m: into the fluid at a surface, and 0 for an even
+    /// arrangement of any concentration beside a wall.
+    pub gradient: Vect<D>,
+    /// The same with the term against clumping, 1/m.
+    pub push: Vect<D>,
+    /// Unit normal of the interface between phases, where the other phase is near.
+    pub interface: Option<Vect<D>>,
+}
+
+/// Least h |∇c| of another phase's colour at an interface: the first row has 0.7, the third 0.04.
+const AT_INTERFACE: f64 = 0.1;
+
+/// All particles' [`Evenness`].
+pub(crate) fn evenness<const D: usize>(
+    world: &World<D>,
+    tensile: f64,
+    exponent: i32,
+) -> Result<Vec<Evenness<D>>, StepError> {
+    let volume = world.free.get(fields::VOLUME)?;
+    let phase = world.free.get(fields::PHASE).ok();
+    let points = &world.walls.points;
+    let own = world.kernel.value_at_zero();
+    let between = 1.0 / world.kernel.at(world.spacing).0;
+    let mirrored = !points.in_sums();
+    let least = AT_INTERFACE / world.kernel.smoothing_length();
+    // A power with a known exponent is two products.
+    let power = move |ratio: f64| match exponent {
+        4 => (ratio * ratio) * (ratio * ratio),
+        n => ratio.powi(n),
+    };
+    // An image stands for the row of images of a lattice, which pushes as much and the more for those aside.
+    let row = if mirrored {
+        row_of_images(world, power)
+    } else {
+        0.0
+    };
+    walk(world, Values::Both, |around: &Around<'_, D>| {
+        let (rows, i) = (&around.rows, around.rows.particle);
+        let mut filling = volume[i] * own;
+        let mut gradient = Vect::<D>::zeros();
+        let mut push = Vect::<D>::zeros();
+        let mut colour = Vect::<D>::zeros();
+        let free = rows.free.index.iter().zip(around.free);
+        for (k, (&j, w)) in free.enumerate() {
+            let v = volume[j as usize];
+            let slope = rows.free.separation[k] * (v * rows.free.factor[k]);
+            filling += v * w;
+            gradient += slope;
+            push += slope * (tensile * power(w * between));
+            if phase.is_some_and(|p| p[i] != p[j as usize]) {
+                colour += slope;
+            }
+        }
+        for (k, (&v, w)) in rows.wall.index.iter().zip(around.wall).enumerate() {
+            let part = points.share[v as usize] * points.volume[v as usize];
+            filling += part * w;
+            gradient += rows.wall.separation[k] * (part * rows.wall.factor[k]);
+            if part > 0.0 {
+                // However little of it is fluid, a particle is not to come nearer to a point than to another.
+                let whole = points.volume[v as usize] * rows.wall.factor[k];
+                push += rows.wall.separation[k] * (whole * tensile * power(w * between));
+            }
+        }
+        let inverse = rows.inverse_renormalisation;
+        let concentration = filling * inverse;
+        for contact in rows.contacts {
+            gradient -= contact.gradient * concentration;
+        }
+        if mirrored {
+            push +=
+                images(world, rows.contacts, |w| row * tensile * power(w * between)) * volume[i];
+        }
+        Evenness {
+            filling: concentration,
+            gradient: gradient * inverse,
+            push: (gradient + push) * inverse,
+            interface: colour.try_normalize(least),
+        }
+    })
+}
+
+/// Σ F y (w/w(δr))ⁿ over the half of a lattice behind a plane midway between rows, over its largest term.
+fn row_of_images<const D: usize>(world: &World<D>, power: impl Fn(f64) -> f64) -> f64 {
+    let (between, factor) = world.kernel.at(world.spacing);
+    let sum = lattice_sum(world, |pair| {
+        let height = pair.separation[D - 1];
+        let w = world.kernel.at(pair.separation.norm()).0;
+        height.max(0.0) * pair.factor * power(w / between)
+    });
+    sum / (world.spacing * factor)
+}
+
+/// Elements whose normals differ by less than 45° are one wall.
+const ONE_WALL: f64 = 0.7;
+
+/// Σ weight(w) ∇w over the images of a particle behind the walls around it: one behind each wall, at twice the distance.
+fn images<const D: usize>(
+    world: &World<D>,
+    contacts: &[Contact<D>],
+    weight: impl Fn(f64) -> f64,
+) -> Vect<D> {
+    let normal = |c: &Contact<D>| world.walls.elements.normal[c.element as usize];
+    let mut sum = Vect::zeros();
+    for contact in contacts {
+        let apart = 2.0 * contact.distance.max(0.0);
+        let (w, factor) = world.kernel.at(apart);
+        let weight = weight(w);
+        if weight < FAINT {
+            continue;
+        }
+        // The elements of a wall share its image.
+        let own = normal(contact);
+        let one_wall = contacts.iter().filter(|c| normal(c).dot(&own) > ONE_WALL);
+        let all: f64 = one_wall.map(|c| c.gradient.norm()).sum();
+        let share = contact.gradient.norm() / all;
+        sum += own * (share * weight * apart * factor);
+    }
+    sum
+}
+
+/// Least weight of an image that is looked at.
+const FAINT: f64 = 1e-4;
+
+/// What a particle near a free surface may not do.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Held<const D: usize> {
+    /// Far from surfaces: nothing.
+    No,
+    /// Leave its distance from a surface with this normal.
+    Along(Vect<D>),
+    /// Move at all.
+    Still,
+}
+
+impl<const D: usize> Held<D> {
+    /// What is left of a shift.
+    pub fn held(&self, shift: Vect<D>) -> Vect<D> {
+        match self {
+            Held::No => shift,
+            Held::Along(normal) => shift - normal * normal.dot(&shift),
+            Held::Still => Vect::zeros(),
+        }
+    }
+}
+
+/// Least length of the mean of the unit normals nearby; below it there is no single normal.
+const AGREE: f64 = 0.7;
+
+/// How particles near free surfaces are held; `None` where no support is less full than `surface`.
+pub(crate) fn held_normals<const D: usize>(
+    world: &World<D>,
+    all: &[Evenness<D>],
+    surface: f64,
+) -> Result<Option<Vec<Held<D>>>, StepError> {
+    let at_surface = |e: &Evenness<D>| e.filling < surface;
+    if !all.par_iter().with_min_len(4096).any(at_surface) {
+        return Ok(None);
+    }
+    let normal = |e: &Evenness<D>| e.gradient.try_normalize(0.0).unwrap_or_else(Vect::zeros);
+    let own = world.kernel.value_at_zero();
+    let near_any = |i: usize| {
+        let near = |j: &u32| at_surface(&all[*j as usize]);
+        at_surface(&all[i]) || world.lists.free.row(i).iter().any(near)
+    };
+    let near: Vec<bool> = (0..all.len())
+        .into_par_iter()
+        .with_min_len(1024)
+        .map(near_any)
+        .collect();
+    let held = walk_some(
+        world,
+        Values::Both,
+        |i| near[i],
+        |around: &Around<'_, D>| {
+            let i = around.rows.particle;
+            let (mut sum, mut weight) = (Vect::<D>::zeros(), 0.0);
+            let mut add = |k: usize, w: f64| {
+                if at_surface(&all[k]) {
+                    sum += normal(&all[k]) * w;
+                    weight += w;
+                }
+            };
+            add(i, own);
+            let free = around.rows.free.index.iter().zip(around.free);
+            free.for_each(|(&j, w)| add(j as usize, *w));
+            match (weight > 0.0, sum.norm() >= AGREE * weight) {
+                (false, _) => Held::No,
+                (true, true) => Held::Along(sum.normalize()),
+                (true, false) => Held::Still,
+            }
+        },
+    )?;
+    Ok(Some(
+        held.into_iter().map(|h| h.unwrap_or(Held::No)).collect(),
+    ))
+}

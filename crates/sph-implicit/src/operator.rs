@@ -1,0 +1,96 @@
+//! What a solver needs to know of a system.
+
+use sph_core::Vect;
+
+use crate::vector::dot;
+use crate::{Matrix, SolveError};
+
+/// A symmetric operator on vectors of particles, with or without a matrix behind it.
+///
+/// Rows are those of particles of one's own. Columns are the same particles and, after them, guests: copies of particles
+/// whose rows are elsewhere, across a seam or in another process. [`import`](Operator::import) gives guests the values
+/// of their owners, [`total`](Operator::total) adds what all owners of rows have summed. A [`Matrix`] has no guests.
+pub trait Operator<const D: usize>: Sync {
+    /// Rows: particles of one's own.
+    fn rows(&self) -> usize;
+
+    /// Columns: the rows, then the guests.
+    fn columns(&self) -> usize {
+        self.rows()
+    }
+
+    /// Gives the guests, x\[rows..columns\], the values of their owners.
+    fn import(&self, _x: &mut [Vect<D>]) {}
+
+    /// The sum over the owners of all rows of what each has summed over its own; the same bits for everybody.
+    fn total(&self, part: f64) -> f64 {
+        part
+    }
+
+    /// y = A x; x has a value for every column, y for every row.
+    fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]);
+
+    /// The entries between rows of one's own, for preconditioners and factorisations; none where nobody wrote them
+    /// down.
+    fn assembled(&self) -> Option<&Matrix<D>> {
+        None
+    }
+}
+
+impl<const D: usize> Operator<D> for Matrix<D> {
+    fn rows(&self) -> usize {
+        Matrix::rows(self)
+    }
+
+    fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
+        Matrix::multiply(self, x, y);
+    }
+
+    fn assembled(&self) -> Option<&Matrix<D>> {
+        Some(self)
+    }
+}
+
+impl<const D: usize> dyn Operator<D> + '_ {
+    /// y = A x, for an x whose guests may be of an earlier iteration.
+    pub(crate) fn apply(&self, x: &mut [Vect<D>], y: &mut [Vect<D>]) {
+        self.import(x);
+        self.multiply(x, y);
+    }
+
+    /// Σ x·y over all rows, in an order that does not depend on the number of threads.
+    pub(crate) fn dot(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
+        let rows = self.rows();
+        self.total(dot(&x[..rows], &y[..rows]))
+    }
+
+    /// |x| over all rows.
+    pub(crate) fn norm(&self, x: &[Vect<D>]) -> f64 {
+        self.dot(x, x).sqrt()
+    }
+
+    /// r = b − A x.
+    pub(crate) fn residual(&self, right: &[Vect<D>], x: &[Vect<D>]) -> Vec<Vect<D>> {
+        let mut r = vec![Vect::zeros(); right.len()];
+        if self.columns() == self.rows() {
+            self.multiply(x, &mut r);
+        } else {
+            let mut x = x.to_vec();
+            x.resize(self.columns(), Vect::zeros());
+            self.apply(&mut x, &mut r);
+        }
+        r.iter_mut().zip(right).for_each(|(r, b)| *r = b - *r);
+        r
+    }
+
+    /// The whole matrix.
+    ///
+    /// # Errors
+    /// If it is not written down, or some of it is with the owners of guests.
+    pub(crate) fn whole(&self, method: &'static str) -> Result<&Matrix<D>, SolveError> {
+        let whole = self.assembled().filter(|_| self.columns() == self.rows());
+        whole.ok_or_else(|| SolveError::NotWhole {
+            method: method.into(),
+        })
+    }
+}

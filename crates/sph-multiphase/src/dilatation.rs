@@ -1,0 +1,81 @@
+//! Scalars that the motion compresses: d ln(value)/dt = exponent · D{u}, down to a particle alone.
+
+use rayon::prelude::*;
+use sph_contribution::StepWork;
+use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
+use sph_neighbours::{Interaction, There, World, interactions};
+
+use crate::Compressed;
+
+/// The divergence of a formulation, at work while positions drift.
+pub struct Dilatation<const D: usize> {
+    compressed: Compressed,
+    term: [Box<dyn Interaction<D>>; 1],
+    states: Vec<There<D>>,
+    /// The sweep sums accelerations, too; nobody reads them.
+    unused: Vec<Vect<D>>,
+    divergence: Vec<f64>,
+}
+
+impl<const D: usize> Dilatation<D> {
+    /// Of a scalar, with the divergence term of its formulation.
+    pub fn new(compressed: Compressed, term: Box<dyn Interaction<D>>) -> Self {
+        Dilatation {
+            compressed,
+            term: [term],
+            states: Vec::new(),
+            unused: Vec::new(),
+            divergence: Vec::new(),
+        }
+    }
+}
+
+impl<const D: usize> StepWork<D> for Dilatation<D> {
+    fn name(&self) -> String {
+        "dilatation".into()
+    }
+    fn access(&self) -> Access {
+        let access = self.term[0].access().both(fields::POSITION);
+        access.here(fields::MASS).writes(self.compressed.value)
+    }
+    fn advanced(&self) -> Vec<Field<Scalar>> {
+        vec![self.compressed.value]
+    }
+    fn halves_drifts(&self) -> bool {
+        true
+    }
+    /// value ← value · exp(exponent · D{u} · dt) at the present positions and velocities, the volume at most 1/w(0).
+    ///
+    /// That is what a particle alone has where densities are sums, ρ = m w(0). Spray flies apart within the supports of its
+    /// particles, and would thin out to 2 % of the fluid; with 50 times their volume such particles throw the fluid about when
+    /// they fall back into it.
+    fn amid_drift(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        self.unused.resize(world.free.len(), Vect::zeros());
+        self.divergence.resize(world.free.len(), 0.0);
+        interactions(
+            world,
+            &mut self.states,
+            &self.term,
+            &mut self.unused,
+            Some(&mut self.divergence),
+        )?;
+        let exponent = self.compressed.exponent;
+        let factor = exponent * dt;
+        let own_share = world.kernel.value_at_zero();
+        let mut value = world.free.take(self.compressed.value)?;
+        let mass = world.free.get(fields::MASS)?;
+        let changes = self.divergence.par_iter().zip(mass);
+        value
+            .par_iter_mut()
+            .zip(changes)
+            .with_min_len(2048)
+            .for_each(|(v, (divergence, mass))| {
+                *v *= (factor * divergence).exp();
+                *v = match exponent < 0.0 {
+                    true => v.max(mass * own_share),
+                    false => v.min(1.0 / own_share),
+                };
+            });
+        Ok(world.free.put(self.compressed.value, value)?)
+    }
+}

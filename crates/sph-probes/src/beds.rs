@@ -1,0 +1,7 @@
+//! Probes of beds under water.
+
+pub(crate) mod bed_lines;
+pub(crate) mod columns;
+pub(crate) mod eroded_mass;
+pub(crate) mod pore_pressure;
+pub(crate) mod scour_map;

@@ -1,0 +1,143 @@
+//! The lines of a movable bed: free surface, water–sediment interface, limit of motion.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, Vect, fields, register};
+use sph_neighbours::World;
+
+use crate::beds::columns::{Columns, End};
+use crate::phases::phase::{self, Counted};
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// Three curves over a movable bed, mass of what moves of it (kg, per metre of width), and lowest
+/// point of the motion (m).
+///
+/// A grain moves if its speed |u| is above `threshold` = Δx/Δt, one pixel of the experiment's
+/// camera in one of its images: 1 mm in 5 ms. Columns are two spacings wide, and in every one
+/// * `surface` is half a spacing above the highest particle of all,
+/// * `interface` half a spacing above the highest grain,
+/// * `limit` half a spacing below the lowest grain that moves; the interface where none does.
+///
+/// Between the particles of neighbouring columns the curves are straight; they are told at the
+/// middles of the columns from the first particle to the last, and NaN where there is none. With every
+/// output of fields they go to `curves/NAME_0003.csv`, numbered as the pictures, with the columns x,
+/// surface, interface and limit in m. `line` compares any of the three with a drawn one.
+///
+/// The lowest point is that of the limit where something moves, NaN where nothing does. A single
+/// grain that moves deep in the bed draws the limit down to it. Two dimensions only.
+///
+/// Source: Ghaïtanellis 2017, §5.4.1 and Eq. 5.21.
+///
+/// ```toml
+/// [probe.bed]
+/// kind = "bed-lines"
+/// phase = "sand"
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BedLines {
+    /// Name of the phase that makes the bed.
+    pub phase: String,
+    /// Speed above which a grain moves.
+    #[serde(default = "threshold")]
+    #[schemars(extend(
+        "unit" = "m/s",
+        "exclusiveMinimum" = 0.0,
+        "source" = "Ghaïtanellis 2017, Eq. 5.21"
+    ))]
+    pub threshold: f64,
+    #[serde(skip)]
+    number: Option<u32>,
+}
+
+/// One millimetre in five milliseconds, m/s.
+pub(crate) fn threshold() -> f64 {
+    0.2
+}
+
+/// The three curves, and what moves.
+struct Drawn {
+    surface: Columns,
+    interface: Columns,
+    /// Lowest moving grains.
+    moving: Columns,
+    /// Mass of what moves, kg.
+    mass: f64,
+}
+
+impl BedLines {
+    fn draw(&self, world: &World<2>) -> Result<Drawn, StepError> {
+        let bed = Counted::of(world, Some(&self.phase), self.number)?;
+        let positions = world.free.get(fields::POSITION)?;
+        let velocity = world.free.get(fields::VELOCITY)?;
+        let mass = world.free.get(fields::MASS)?;
+        let xs = || positions.iter().map(|x: &Vect<2>| x[0]);
+        let range = [
+            xs().fold(f64::INFINITY, f64::min),
+            xs().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        let empty = |end| Columns::over(range, world.spacing, end);
+        let mut drawn = Drawn {
+            surface: empty(End::Highest),
+            interface: empty(End::Highest),
+            moving: empty(End::Lowest),
+            mass: 0.0,
+        };
+        for (k, x) in positions.iter().enumerate() {
+            drawn.surface.put(x);
+            if !bed.has(k) {
+                continue;
+            }
+            drawn.interface.put(x);
+            if velocity[k].norm() > self.threshold {
+                drawn.moving.put(x);
+                drawn.mass += mass[k];
+            }
+        }
+        Ok(drawn)
+    }
+}
+
+impl Probe<2> for BedLines {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        vec![
+            ProbeColumn::named(".moving", "kg"),
+            ProbeColumn::named(".lowest", "m"),
+        ]
+    }
+
+    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+        self.number = Some(phase::number(&self.phase, names)?);
+        Ok(())
+    }
+
+    fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {
+        let drawn = self.draw(world)?;
+        let heights = drawn.moving.places().map(|place| place[1]);
+        Ok(vec![drawn.mass, heights.fold(f64::NAN, f64::min)])
+    }
+
+    fn curve_columns(&self) -> Vec<ProbeColumn> {
+        let names = ["x", "surface", "interface", "limit"];
+        names.map(|name| ProbeColumn::named(name, "m")).into()
+    }
+
+    fn curves(&self, world: &World<2>) -> Result<Vec<Vec<f64>>, StepError> {
+        let drawn = self.draw(world)?;
+        let limit = drawn.moving.or(&drawn.interface);
+        let lines = [&drawn.surface, &drawn.interface, &limit];
+        let row = |x: f64| {
+            let heights = lines.map(|line| line.height(x).unwrap_or(f64::NAN));
+            [x].into_iter().chain(heights).collect()
+        };
+        Ok(drawn.surface.middles().map(row).collect())
+    }
+}
+
+register!(
+    ProbeEntry[2],
+    BedLines,
+    "bed-lines",
+    "free surface, interface and limit of motion over a movable bed, as curves",
+    "outermost particles; Ghaïtanellis 2017, Eq. 5.21"
+);

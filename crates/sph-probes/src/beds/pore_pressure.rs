@@ -1,0 +1,84 @@
+//! The pressure of the water in the pores at a point.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, fields, register};
+use sph_neighbours::World;
+
+use crate::flow::point::{carried, point};
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// Pore-water pressure q = p − p' at a point: that of the water in the pores of a soil, and of the
+/// water beside it.
+///
+/// q = Σ V [q_b + ρ_w g·(x − r_b)] w / Σ V w, as `pressure` with the weight of the pores' fluid;
+/// 0 where there is nothing. p is the pressure of the equation of state and p' the effective
+/// pressure, 0 outside of soils. Only scenes with `[effective-pressure.PLUGIN]` have it; for such
+/// probes the field `pore_pressure` is computed.
+///
+/// Source: Ghaïtanellis 2017, Eqs. 2.91 and 5.26.
+///
+/// ```toml
+/// [gauge.PG1]
+/// kind = "pore-pressure"
+/// at = [1.2, 0.05]
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PorePressureProbe {
+    /// Where.
+    #[schemars(extend("unit" = "m"))]
+    pub at: Vec<f64>,
+    /// Density ρ_w of the fluid in the pores.
+    #[serde(default = "water")]
+    #[schemars(extend("unit" = "kg/m³", "exclusiveMinimum" = 0.0))]
+    pub density: f64,
+    /// Name of the moving wall that carries the sensor; it stands still if left out.
+    pub follows: Option<String>,
+}
+
+fn water() -> f64 {
+    1000.0
+}
+
+impl<const D: usize> Probe<D> for PorePressureProbe {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        ProbeColumn::only("Pa")
+    }
+
+    fn fields(&self) -> Vec<&str> {
+        vec![fields::PORE_PRESSURE.name]
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let pore = world.free.get(fields::PORE_PRESSURE);
+        let pore = pore.map_err(|_| StepError::Stage {
+            stage: "probes".into(),
+            reason: "there is no pore pressure without an effective one: \
+                     [effective-pressure.PLUGIN]"
+                .into(),
+        })?;
+        let x = carried(world, point::<D>(&self.at), self.follows.as_deref())?;
+        let volume = world.free.get(fields::VOLUME)?;
+        let radius = world.kernel.support_radius();
+        let (mut filling, mut sum) = (0.0, 0.0);
+        for (j, r) in world.free.get(fields::POSITION)?.iter().enumerate() {
+            let d = world.domain.nearest_image(x - r);
+            let r2 = d.norm_squared();
+            if r2 < radius * radius {
+                let vw = volume[j] * world.kernel.at(r2.sqrt()).0;
+                filling += vw;
+                sum += vw * (pore[j] + self.density * world.gravity.dot(&d));
+            }
+        }
+        Ok(vec![if filling > 0.0 { sum / filling } else { 0.0 }])
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    PorePressureProbe,
+    "pore-pressure",
+    "pressure of the water in a soil's pores at a point",
+    "p − p'; Ghaïtanellis 2017, Eqs. 2.91, 5.26"
+);

@@ -1,0 +1,174 @@
+//! A bed from above: how deep it is scoured, and where.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, fields, register};
+use sph_neighbours::World;
+
+use crate::phases::phase::{self, Counted};
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// Width of a cell in spacings: one that grains have spread from by less than a spacing is not empty.
+const WIDTH: f64 = 2.0;
+/// Gap in spacings above which grains float over the bed: rows of a bed are one apart.
+const GAP: f64 = 2.0;
+
+/// Deepest scour and highest deposit (m), and volume scoured (m³) of a bed.
+///
+/// The bed is seen from above in cells two spacings wide, or a little wider so that whole ones fill the part that counts: where a
+/// bed begins in the middle of a cell, its grains leave the half cell for the next. Its height in a cell is half a spacing above the
+/// last grain, from the bottom up, over which there is a gap of two spacings: what is in suspension does not count.
+/// The depth of scour is `level` less that height, negative where the bed has risen.
+///
+/// With every output of fields the map goes to `curves/NAME_0003.csv`, with the columns x, y, height and depth in m, and to
+/// `pictures/NAME_0003.png`. Cells without grains are left out: where the bed is gone to its ground there is nothing to
+/// measure. Three dimensions only.
+///
+/// Source: the scour map of Ghaïtanellis 2017, §5.4.3; cells and gap are ours.
+///
+/// ```toml
+/// [probe.scour]
+/// kind = "scour-map"
+/// phase = "sand"
+/// level = 0.15
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ScourMap {
+    /// Name of the phase that makes the bed.
+    pub phase: String,
+    /// Height of the bed's top at the start.
+    #[schemars(extend("unit" = "m"))]
+    pub level: f64,
+    /// Lower and upper corner, seen from above, of the part that counts; all of it if left out.
+    #[schemars(extend("unit" = "m"))]
+    pub within: Option<[[f64; 2]; 2]>,
+    #[serde(skip)]
+    number: Option<u32>,
+}
+
+/// How the part that counts is divided, m.
+struct Grid {
+    corner: [f64; 2],
+    width: [f64; 2],
+    /// Cells along x and y, if there is an end.
+    cells: [i64; 2],
+}
+
+/// A cell: its middle and the height of the bed, m.
+struct Cell {
+    middle: [f64; 2],
+    height: f64,
+}
+
+impl ScourMap {
+    fn grid(&self, spacing: f64) -> Grid {
+        let least = WIDTH * spacing;
+        let Some([low, high]) = self.within else {
+            return Grid {
+                corner: [0.0; 2],
+                width: [least; 2],
+                cells: [i64::MAX; 2],
+            };
+        };
+        let long = [0, 1].map(|k| high[k] - low[k]);
+        let cells = long.map(|l| (l / least + 1e-9).floor().max(1.0));
+        Grid {
+            corner: low,
+            width: [0, 1].map(|k| long[k] / cells[k]),
+            cells: cells.map(|n| n as i64),
+        }
+    }
+
+    fn cells(&self, world: &World<3>) -> Result<Vec<Cell>, StepError> {
+        let bed = Counted::of(world, Some(&self.phase), self.number)?;
+        let grid = self.grid(world.spacing);
+        let cell = |k: usize, x: f64| {
+            let n = ((x - grid.corner[k]) / grid.width[k]).floor() as i64;
+            n.min(grid.cells[k] - 1)
+        };
+        let inside = |x: f64, y: f64| {
+            let between = |[low, high]: [f64; 2], v: f64| low <= v && v <= high;
+            self.within
+                .is_none_or(|[lo, hi]| between([lo[0], hi[0]], x) && between([lo[1], hi[1]], y))
+        };
+        let positions = world.free.get(fields::POSITION)?.iter().enumerate();
+        let grains = positions.filter(|(k, x)| bed.has(*k) && inside(x[0], x[1]));
+        let mut grains: Vec<([i64; 2], f64)> = grains
+            .map(|(_, x)| ([0, 1].map(|k| cell(k, x[k])), x[2]))
+            .collect();
+        grains.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let columns = grains.chunk_by(|a, b| a.0 == b.0);
+        Ok(columns
+            .map(|column| {
+                let mut top = column[0].1;
+                for (_, height) in column {
+                    if height - top > GAP * world.spacing {
+                        break;
+                    }
+                    top = *height;
+                }
+                let middle = |k: usize| {
+                    let n = column[0].0[k] as f64;
+                    grid.corner[k] + (n + 0.5) * grid.width[k]
+                };
+                Cell {
+                    middle: [middle(0), middle(1)],
+                    height: top + 0.5 * world.spacing,
+                }
+            })
+            .collect())
+    }
+}
+
+impl Probe<3> for ScourMap {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        vec![
+            ProbeColumn::named(".deepest", "m"),
+            ProbeColumn::named(".highest", "m"),
+            ProbeColumn::named(".volume", "m³"),
+        ]
+    }
+
+    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+        self.number = Some(phase::number(&self.phase, names)?);
+        Ok(())
+    }
+
+    fn measure(&self, world: &World<3>) -> Result<Vec<f64>, StepError> {
+        let cells = self.cells(world)?;
+        let depths = || cells.iter().map(|cell| self.level - cell.height);
+        let [long, wide] = self.grid(world.spacing).width;
+        let area = long * wide;
+        Ok(vec![
+            depths().fold(f64::NAN, f64::max),
+            -depths().fold(f64::NAN, f64::min),
+            depths().map(|depth| depth.max(0.0) * area).sum(),
+        ])
+    }
+
+    fn curve_columns(&self) -> Vec<ProbeColumn> {
+        let names = ["x", "y", "height", "depth"];
+        names.map(|name| ProbeColumn::named(name, "m")).into()
+    }
+
+    fn curves(&self, world: &World<3>) -> Result<Vec<Vec<f64>>, StepError> {
+        let row = |cell: &Cell| {
+            let [x, y] = cell.middle;
+            vec![x, y, cell.height, self.level - cell.height]
+        };
+        Ok(self.cells(world)?.iter().map(row).collect())
+    }
+
+    fn drawn_column(&self) -> Option<usize> {
+        Some(3)
+    }
+}
+
+register!(
+    ProbeEntry[3],
+    ScourMap,
+    "scour-map",
+    "depth of scour and deposits of a bed, as a map",
+    "Ghaïtanellis 2017, §5.4.3"
+);

@@ -1,0 +1,12 @@
+//! Probes of the whole flow, and of places in it.
+
+pub(crate) mod angular_momentum;
+pub(crate) mod displacement;
+pub(crate) mod energy;
+pub(crate) mod front;
+pub(crate) mod level;
+pub(crate) mod point;
+pub(crate) mod profile;
+pub(crate) mod range;
+pub(crate) mod stream_function;
+pub(crate) mod wall_force;

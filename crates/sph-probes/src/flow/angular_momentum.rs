@@ -1,0 +1,72 @@
+//! Angular momentum of the fluid.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, fields, register};
+use sph_neighbours::{World, cross};
+
+use crate::flow::point::point;
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// Σ m (r − c) × u over all particles; one column in two dimensions, three in three.
+///
+/// ```toml
+/// [probe.spin]
+/// kind = "angular-momentum"
+/// about = [0.5, 0.5]
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AngularMomentum {
+    /// Point c; the origin if left out.
+    #[serde(default)]
+    #[schemars(extend("unit" = "m"))]
+    pub about: Vec<f64>,
+    /// All columns are divided by this.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "kg m²/s"))]
+    pub scale: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl<const D: usize> Probe<D> for AngularMomentum {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        let unit = match (D, self.scale == 1.0) {
+            (_, false) => "1",
+            (2, _) => "kg m/s",
+            _ => "kg m²/s",
+        };
+        if D == 2 {
+            return ProbeColumn::only(unit);
+        }
+        let column = |axis: &str| ProbeColumn {
+            suffix: format!(".{axis}"),
+            unit,
+        };
+        ["x", "y", "z"].iter().map(|a| column(a)).collect()
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let about = point::<D>(&self.about);
+        let position = world.free.get(fields::POSITION)?;
+        let velocity = world.free.get(fields::VELOCITY)?;
+        let mass = world.free.get(fields::MASS)?;
+        let mut sum = [0.0; 3];
+        for ((x, u), m) in position.iter().zip(velocity).zip(mass) {
+            let spin = cross(&(x - about), u);
+            (0..3).for_each(|k| sum[k] += m * spin[k] / self.scale);
+        }
+        Ok(sum[if D == 2 { 2 } else { 0 }..].to_vec())
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    AngularMomentum,
+    "angular-momentum",
+    "angular momentum of the fluid about a point",
+    "Σ m r × u"
+);

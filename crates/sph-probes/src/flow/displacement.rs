@@ -1,0 +1,64 @@
+//! How far a piece of material has moved.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, Vect, fields, register};
+use sph_neighbours::World;
+
+use crate::flow::point::point;
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// Mean displacement of the particles that started within one spacing of a point.
+///
+/// ```toml
+/// [probe.tip]
+/// kind = "displacement"
+/// at = [0.2, 0.0]
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DisplacementProbe {
+    /// Where the material was at the start.
+    #[schemars(extend("unit" = "m"))]
+    pub at: Vec<f64>,
+}
+
+impl<const D: usize> Probe<D> for DisplacementProbe {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        let column = |axis: &str| ProbeColumn {
+            suffix: format!(".{axis}"),
+            unit: "m",
+        };
+        ["x", "y", "z"].iter().take(D).map(|a| column(a)).collect()
+    }
+
+    fn needs_displacement(&self) -> bool {
+        true
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let at = point::<D>(&self.at);
+        let position = world.free.get(fields::POSITION)?;
+        let displacement = world.free.get(fields::DISPLACEMENT)?;
+        let near = position.iter().zip(displacement).filter(|(x, moved)| {
+            let start = world.domain.wrapped(*x - *moved);
+            // A little more than one spacing: a place on the lattice must not depend on rounding.
+            world.domain.nearest_image(start - at).norm() < 1.001 * world.spacing
+        });
+        let (mut count, mut sum) = (0.0, Vect::<D>::zeros());
+        for (_, moved) in near {
+            count += 1.0;
+            sum += moved;
+        }
+        // Without particles NaN: there is nothing to measure.
+        Ok((sum / count).iter().copied().collect())
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    DisplacementProbe,
+    "displacement",
+    "how far the material of a place has moved",
+    "mean over the particles that started there"
+);

@@ -1,0 +1,92 @@
+//! The height of the free surface, or of the top of a phase, over a point.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, register};
+use sph_neighbours::World;
+
+use crate::flow::point::{carried, point};
+use crate::phases::phase::{self, Counted, column, share};
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// The highest place over a point where Σ V w falls to one half, V being at most a cell δr^d.
+///
+/// The sum is over the particles of `phase`, so that its top is found under another fluid, or over
+/// all particles.
+///
+/// ```toml
+/// [gauge.H1]
+/// kind = "level"
+/// at = [0.3]
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Level {
+    /// Horizontal coordinates: one in 2D, two in 3D.
+    #[schemars(extend("unit" = "m"))]
+    pub at: Vec<f64>,
+    /// Name of the moving wall that carries the gauge; it stands still if left out.
+    pub follows: Option<String>,
+    /// Name of the phase whose top is measured; the free surface of all of them if left out.
+    pub phase: Option<String>,
+    #[serde(skip)]
+    number: Option<u32>,
+}
+
+impl<const D: usize> Probe<D> for Level {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        ProbeColumn::only("m")
+    }
+
+    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+        if let Some(name) = &self.phase {
+            self.number = Some(phase::number(name, names)?);
+        }
+        Ok(())
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let radius = world.kernel.support_radius();
+        let drawn = point::<D>(&self.at[..self.at.len().min(D - 1)]);
+        let mut foot = carried(world, drawn, self.follows.as_deref())?;
+        foot[D - 1] = 0.0;
+        let counted = Counted::of(world, self.phase.as_deref(), self.number)?;
+        // Only the particles whose support meets the vertical line matter.
+        let mut near = column(world, &foot)?;
+        near.retain(|(_, _, k)| counted.has(*k));
+        let filling = |z: f64| -> f64 { near.iter().map(|(d, v, _)| share(world, d, *v, z)).sum() };
+        let heights = || near.iter().map(|(d, ..)| d[D - 1]);
+        let top = heights().fold(f64::NEG_INFINITY, f64::max);
+        let bottom = heights().fold(f64::INFINITY, f64::min);
+        if near.is_empty() {
+            return Ok(vec![f64::NAN]);
+        }
+        // Down from above until half full, then bisect.
+        let step = 0.25 * world.spacing;
+        let mut z = top + radius;
+        while z > bottom && filling(z) < 0.5 {
+            z -= step;
+        }
+        if filling(z) < 0.5 {
+            return Ok(vec![f64::NAN]);
+        }
+        let (mut full, mut empty) = (z, z + step);
+        for _ in 0..30 {
+            let middle = 0.5 * (full + empty);
+            if filling(middle) < 0.5 {
+                empty = middle
+            } else {
+                full = middle
+            }
+        }
+        Ok(vec![0.5 * (full + empty)])
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    Level,
+    "level",
+    "height of the free surface, or of a phase, over a point",
+    "half-filling of the Shepard sum"
+);

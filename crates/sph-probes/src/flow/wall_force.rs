@@ -1,0 +1,104 @@
+//! Force and moment of the fluid on a wall.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, register, suggestion};
+use sph_neighbours::{WallForce, World, cross};
+
+use crate::flow::point::point;
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// Force and moment of the fluid on a named wall, pressure and friction together, and the
+/// pressure integral by itself.
+///
+/// The force is the reaction to what the wall does to the particles, F = −Σ m_a a_a,wall: with the
+/// weight it is the whole change of the fluid's momentum. The columns `.pressure` are
+/// −Σ p_s S_s n_s over the wall's elements (none with dummy particles). In two dimensions forces
+/// are per metre of depth.
+///
+/// The reaction balances the particles, which begin half a spacing off the wall: under gravity it
+/// is that of a body larger by this half spacing: 1.30 times the buoyancy of the block of the
+/// tests, where the pressure integral gives 1.03. Take `.pressure` for buoyancy.
+///
+/// ```toml
+/// [probe.drag]
+/// kind = "wall-force"
+/// wall = "square"
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WallForceProbe {
+    /// Name of the wall.
+    pub wall: String,
+    /// Point about which moments are taken; the origin if left out.
+    #[serde(default)]
+    #[schemars(extend("unit" = "m"))]
+    pub about: Vec<f64>,
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+impl<const D: usize> Probe<D> for WallForceProbe {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        let mut columns = Vec::new();
+        let mut say = |suffix: String, unit| columns.push(ProbeColumn { suffix, unit });
+        for axis in &AXES[..D] {
+            say(format!(".{axis}"), if D == 2 { "N/m" } else { "N" });
+        }
+        for axis in moments::<D>() {
+            say(format!(".moment{axis}"), if D == 2 { "N" } else { "N m" });
+        }
+        for axis in &AXES[..D] {
+            say(
+                format!(".pressure.{axis}"),
+                if D == 2 { "N/m" } else { "N" },
+            );
+        }
+        columns
+    }
+
+    fn force_on(&self) -> Option<&str> {
+        Some(&self.wall)
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let names = &world.walls.names;
+        if !names.contains(&self.wall) {
+            let near = suggestion(&self.wall, names.iter().map(String::as_str));
+            return Err(StepError::Stage {
+                stage: "probe `wall-force`".into(),
+                reason: format!("there is no wall `{}`{near}", self.wall),
+            });
+        }
+        let mut total = WallForce::<D>::zero();
+        // A wall drawn in several pieces has several forces.
+        let pieces = names.iter().zip(&world.walls.forces);
+        for (_, force) in pieces.filter(|(name, _)| **name == self.wall) {
+            total.force += force.force;
+            total.pressure_force += force.pressure_force;
+            (0..3).for_each(|k| total.moment[k] += force.moment[k]);
+        }
+        let shift = cross(&point::<D>(&self.about), &total.force);
+        let moment = (0..3).map(|k| total.moment[k] - shift[k]);
+        let mut values: Vec<f64> = total.force.iter().copied().collect();
+        values.extend(moment.skip(3 - moments::<D>().len()));
+        values.extend(total.pressure_force.iter());
+        Ok(values)
+    }
+}
+
+/// Suffixes of the moments: one in the plane, three in space.
+fn moments<const D: usize>() -> &'static [&'static str] {
+    match D {
+        2 => &[""],
+        _ => &[".x", ".y", ".z"],
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    WallForceProbe,
+    "wall-force",
+    "force and moment of the fluid on a wall",
+    "reaction to the wall terms; Ghaïtanellis 2017, Eq. 2.75 and 2.83"
+);

@@ -1,0 +1,104 @@
+//! The height of the interface between phases over a point.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, register};
+use sph_neighbours::World;
+
+use crate::flow::point::{carried, point};
+use crate::phases::phase::{self, Counted, column, share};
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// The highest place over a point where the share Σ_phase V w / Σ V w crosses one half, m.
+///
+/// Σ_phase is over the particles of `phase` and Σ over all; V is at most a cell δr^d. Places where
+/// Σ V w is less than a fifth are empty and do not count. NaN where nothing crosses.
+///
+/// Source: ours.
+///
+/// ```toml
+/// [probe.spike]
+/// kind = "interface"
+/// at = [0.125]
+/// phase = "heavy"
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Interface {
+    /// Horizontal coordinates: one in 2D, two in 3D.
+    #[schemars(extend("unit" = "m"))]
+    pub at: Vec<f64>,
+    /// Name of the phase on one side of the interface.
+    pub phase: String,
+    /// Name of the moving wall that carries the gauge; it stands still if left out.
+    pub follows: Option<String>,
+    #[serde(skip)]
+    number: Option<u32>,
+}
+
+/// Least Σ V w of a place that is not empty: on a plane surface it is one half, in a corner of two
+/// walls one quarter.
+const EMPTY: f64 = 0.2;
+
+impl<const D: usize> Probe<D> for Interface {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        ProbeColumn::only("m")
+    }
+
+    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+        self.number = Some(phase::number(&self.phase, names)?);
+        Ok(())
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let drawn = point::<D>(&self.at[..self.at.len().min(D - 1)]);
+        let mut foot = carried(world, drawn, self.follows.as_deref())?;
+        foot[D - 1] = 0.0;
+        let counted = Counted::of(world, Some(&self.phase), self.number)?;
+        let near = column(world, &foot)?;
+        // Share of the phase less one half, if the place is not empty.
+        let excess = |z: f64| -> Option<f64> {
+            let (mut of_phase, mut of_all) = (0.0, 0.0);
+            for (d, v, k) in &near {
+                let w = share(world, d, *v, z);
+                of_all += w;
+                of_phase += if counted.has(*k) { w } else { 0.0 };
+            }
+            (of_all >= EMPTY).then(|| of_phase / of_all - 0.5)
+        };
+        let heights = || near.iter().map(|(d, ..)| d[D - 1]);
+        let top = heights().fold(f64::NEG_INFINITY, f64::max);
+        let bottom = heights().fold(f64::INFINITY, f64::min);
+        let step = 0.25 * world.spacing;
+        let (mut z, mut above): (f64, Option<(f64, f64)>) = (top + step, None);
+        // Down from above until the side changes, then bisect.
+        while z > bottom - step {
+            let here = excess(z);
+            match (above, here) {
+                (Some((over, before)), Some(now)) if (before >= 0.0) != (now >= 0.0) => {
+                    let (mut high, mut low) = (over, z);
+                    for _ in 0..30 {
+                        let middle = 0.5 * (high + low);
+                        match excess(middle) {
+                            Some(e) if (e >= 0.0) == (before >= 0.0) => high = middle,
+                            _ => low = middle,
+                        }
+                    }
+                    return Ok(vec![0.5 * (high + low)]);
+                }
+                (_, Some(now)) => above = Some((z, now)),
+                _ => {}
+            }
+            z -= step;
+        }
+        Ok(vec![f64::NAN])
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    Interface,
+    "interface",
+    "height of the interface of a phase over a point",
+    "Shepard share of a phase crosses one half"
+);

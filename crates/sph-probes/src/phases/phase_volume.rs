@@ -1,0 +1,68 @@
+//! The volume of a phase.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, fields, register};
+use sph_neighbours::World;
+
+use crate::phases::phase::{self, Counted};
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// Σ V over the particles of a phase, m² in two dimensions and m³ in three.
+///
+/// V = m/ρ: what a phase loses of it, it is compressed; what it gains, it has torn or swollen.
+///
+/// ```toml
+/// [probe.air-volume]
+/// kind = "phase-volume"
+/// phase = "air"
+/// scale = 0.786
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PhaseVolume {
+    /// Name of the phase; all particles if left out.
+    pub phase: Option<String>,
+    /// The volume is divided by this, m² or m³.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub scale: f64,
+    #[serde(skip)]
+    number: Option<u32>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl<const D: usize> Probe<D> for PhaseVolume {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        ProbeColumn::only(match (self.scale == 1.0, D) {
+            (false, _) => "1",
+            (_, 2) => "m²",
+            _ => "m³",
+        })
+    }
+
+    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+        if let Some(name) = &self.phase {
+            self.number = Some(phase::number(name, names)?);
+        }
+        Ok(())
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let counted = Counted::of(world, self.phase.as_deref(), self.number)?;
+        let volume = world.free.get(fields::VOLUME)?.iter().enumerate();
+        let of_phase = volume.filter(|(k, _)| counted.has(*k)).map(|(_, v)| v);
+        Ok(vec![of_phase.sum::<f64>() / self.scale])
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    PhaseVolume,
+    "phase-volume",
+    "volume of a phase",
+    "Σ m/ρ"
+);

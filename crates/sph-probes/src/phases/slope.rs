@@ -1,0 +1,100 @@
+//! The slope of a phase's surface.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, fields, register};
+use sph_neighbours::World;
+
+use crate::phases::phase::{self, Counted};
+use crate::{Probe, ProbeColumn, ProbeEntry, norm};
+
+/// Angle θ = arctan(dy/dx) of the line through the surface between two places, and the root mean
+/// square of the surface about it: the angle of repose of a heap.
+///
+/// The surface is the highest particle of every column of a spacing's width, and half a spacing;
+/// the line is that of least squares. An angle is negative where the surface falls towards larger x. NaN where
+/// fewer than three columns have a particle.
+///
+/// Source: ours.
+///
+/// ```toml
+/// [probe.repose]
+/// kind = "slope"
+/// phase = "sand"
+/// between = [0.05, 0.15]
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceSlope {
+    /// First and last x of the surface.
+    #[schemars(extend("unit" = "m"))]
+    pub between: [f64; 2],
+    /// Name of the phase; all particles if left out.
+    pub phase: Option<String>,
+    #[serde(skip)]
+    number: Option<u32>,
+}
+
+impl Probe<2> for SurfaceSlope {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        let column = |suffix: &str, unit| ProbeColumn {
+            suffix: suffix.into(),
+            unit,
+        };
+        vec![column(".angle", "rad"), column(".rms", "m")]
+    }
+
+    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+        if let Some(name) = &self.phase {
+            self.number = Some(phase::number(name, names)?);
+        }
+        Ok(())
+    }
+
+    fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {
+        let counted = Counted::of(world, self.phase.as_deref(), self.number)?;
+        let positions = world.free.get(fields::POSITION)?;
+        let [first, last] = self.between;
+        let columns = ((last - first) / world.spacing).round().max(0.0);
+        // Only of columns that have a particle: the places may be as far apart as they like.
+        let mut highest: BTreeMap<u64, [f64; 2]> = BTreeMap::new();
+        for (_, x) in positions
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| counted.has(*k))
+        {
+            let along = (x[0] - first) / (last - first) * columns;
+            // A negative or too large place is in no column.
+            let column = along.floor();
+            if column >= 0.0 && column < columns {
+                let top = highest.entry(column as u64).or_insert([x[0], x[1]]);
+                if x[1] > top[1] {
+                    *top = [x[0], x[1]];
+                }
+            }
+        }
+        let (x, y): (Vec<f64>, Vec<f64>) = highest
+            .values()
+            .map(|[x, y]| (*x, y + 0.5 * world.spacing))
+            .unzip();
+        if x.len() < 3 {
+            return Ok(vec![f64::NAN; 2]);
+        }
+        let slope = norm::slope(&x, &y);
+        let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
+        let (mx, my) = (mean(&x), mean(&y));
+        let about = x.iter().zip(&y).map(|(x, y)| y - my - slope * (x - mx));
+        let squares: f64 = about.map(|d| d * d).sum();
+        Ok(vec![slope.atan(), (squares / x.len() as f64).sqrt()])
+    }
+}
+
+register!(
+    ProbeEntry[2],
+    SurfaceSlope,
+    "slope",
+    "angle of a phase's surface between two places: angle of repose",
+    "least squares through the highest particles"
+);

@@ -1,0 +1,14 @@
+//! Exact solutions, as references and as initial states.
+
+pub(crate) mod bagnold;
+pub(crate) mod bifluid_poiseuille;
+pub(crate) mod bingham_poiseuille;
+pub(crate) mod cantilever;
+pub(crate) mod couette;
+pub(crate) mod elastic_shear_wave;
+pub(crate) mod hagen_poiseuille;
+pub(crate) mod hydrostatic;
+pub(crate) mod poiseuille;
+pub(crate) mod rigid_rotation;
+pub(crate) mod rotating_square;
+pub(crate) mod taylor_green;

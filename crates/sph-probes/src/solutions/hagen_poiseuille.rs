@@ -1,0 +1,96 @@
+//! Developed flow in a round pipe.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Vect, register};
+
+use crate::flow::front::Axis;
+use crate::flow::point::point;
+use crate::{Solution, SolutionEntry};
+
+/// u = a (R² − r²)/(4ν) along the axis of a pipe, driven by the body acceleration a.
+///
+/// The last transient falls as exp(−5.783 νt/R²): after νt = 1.5 R² it is below 2·10⁻⁴. In two
+/// dimensions `axis` is x or y and the flow that between planes, a (R² − r²)/(2ν).
+///
+/// Source: Hagen 1839, Poiseuille 1840; see Batchelor 1967, Eq. 4.2.5.
+///
+/// ```toml
+/// [reference.profile]
+/// field = "velocity"
+/// solution = "hagen-poiseuille"
+/// norm = "l2"
+/// [reference.profile.parameters]
+/// axis = "x"
+/// centre = [0.0, 0.0, 0.0]
+/// radius = 0.5
+/// acceleration = 1.0
+/// kinematic_viscosity = 0.1
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HagenPoiseuille {
+    /// Direction of the pipe.
+    #[serde(default)]
+    pub axis: Axis,
+    /// A point on its axis.
+    #[serde(default)]
+    #[schemars(extend("unit" = "m"))]
+    pub centre: Vec<f64>,
+    /// Radius R.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    pub radius: f64,
+    /// Body acceleration a along the axis.
+    #[schemars(extend("unit" = "m/s²"))]
+    pub acceleration: f64,
+    /// Kinematic viscosity ν.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m²/s"))]
+    pub kinematic_viscosity: f64,
+}
+
+impl<const D: usize> Solution<D> for HagenPoiseuille {
+    fn velocity(&self, position: &Vect<D>, _time: f64) -> Option<Vect<D>> {
+        let axis = (self.axis as usize).min(D - 1);
+        let mut across = position - point::<D>(&self.centre);
+        across[axis] = 0.0;
+        let share = if D == 2 { 2.0 } else { 4.0 };
+        let parabola = self.radius * self.radius - across.norm_squared();
+        let mut velocity = Vect::zeros();
+        velocity[axis] = self.acceleration * parabola / (share * self.kinematic_viscosity);
+        Some(velocity)
+    }
+}
+
+register!(
+    SolutionEntry [2, 3],
+    HagenPoiseuille,
+    "hagen-poiseuille",
+    "developed flow in a round pipe",
+    "Batchelor 1967, Eq. 4.2.5"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_laplacian_of_the_profile_balances_the_acceleration() {
+        let pipe = HagenPoiseuille {
+            axis: Axis::Z,
+            centre: vec![0.1, -0.2, 5.0],
+            radius: 0.5,
+            acceleration: 3.0,
+            kinematic_viscosity: 0.7,
+        };
+        let u = |x: f64, y: f64| {
+            pipe.velocity(&Vect::from([x, y, 1.0]), 0.0)
+                .map(|u: Vect<3>| u[2])
+        };
+        let (x, y, h) = (0.2, 0.05, 1e-3);
+        let at = |dx: f64, dy: f64| u(x + dx, y + dy).unwrap_or(f64::NAN);
+        let laplacian =
+            (at(h, 0.0) + at(-h, 0.0) + at(0.0, h) + at(0.0, -h) - 4.0 * at(0.0, 0.0)) / (h * h);
+        assert!((0.7 * laplacian + 3.0).abs() < 1e-6, "{laplacian}");
+        assert!(at(0.4, -0.25).abs() < 1e-12, "at rest on the wall");
+    }
+}

@@ -1,0 +1,74 @@
+//! The pieces of physics of a scene, as contributions.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use sph_contribution::{Contribution, Setting};
+use sph_diffusion::{Shifted, Smoothed};
+use sph_multiphase::{Compressible, Meeting};
+use sph_neighbours::Terms;
+use sph_scene::Scene;
+use sph_seepage::Seeping;
+use sph_stress::{Elasticity, Friction, GrainPressure, Materials, Straining, WallFriction};
+
+use crate::setup::choices::Physics;
+
+/// A contribution with the kind of plugin that it comes from.
+pub type Part<const D: usize> = (&'static str, Box<dyn Contribution<D>>);
+
+/// Pair terms that a scene names itself; taken once.
+struct Given<const D: usize>(RefCell<Terms<D>>);
+
+impl<const D: usize> Contribution<D> for Given<D> {
+    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
+        self.0.take()
+    }
+    fn remedy(&self, _: &str) -> Option<String> {
+        Some("look at its parameters".into())
+    }
+}
+
+/// All of them, in the order in which their terms are summed.
+pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>) -> Vec<Part<D>> {
+    let share = |(scheme, _): &(Box<dyn sph_implicit::TimeScheme>, _)| scheme.implicit_share();
+    let materials = Rc::new(Materials {
+        laws: physics.rheologies.clone(),
+        gradient: physics.velocity_gradient,
+        operator: physics.viscous_operator,
+        force: physics.elastic_force,
+        eddies: physics.eddy_viscosity,
+        implicit_share: physics.implicit_viscosity.as_ref().map(share),
+        grain_pressure: physics.effective_pressure.is_some(),
+    });
+    let mut all: Vec<Part<D>> = vec![(
+        "formulation",
+        Box::new(Compressible(physics.formulation.clone())),
+    )];
+    if let Some(effective) = physics.effective_pressure {
+        let laws = physics.rheologies;
+        let part = GrainPressure { effective, laws };
+        all.push(("effective-pressure", Box::new(part)));
+    }
+    let solve = physics.implicit_viscosity;
+    let friction = Friction::new(materials.clone(), solve, scene.numerics.delayed_yield);
+    all.push(("velocity-gradient", Box::new(Straining(materials.clone()))));
+    all.push(("viscous-operator", Box::new(friction)));
+    all.push(("elastic-force", Box::new(Elasticity(materials.clone()))));
+    if let Some(smoother) = physics.smoother {
+        all.push(("smoother", Box::new(Smoothed(smoother))));
+    }
+    for interface in physics.interfaces {
+        all.push(("interface", Box::new(Meeting(interface))));
+    }
+    if let Some(shifting) = physics.shifting {
+        all.push(("shifting", Box::new(Shifted(shifting))));
+    }
+    let given = Given(RefCell::new(physics.terms));
+    all.push(("term", Box::new(given)));
+    all.push(("walls", Box::new(WallFriction(materials))));
+    if let Some(seepage) = physics.seepage {
+        all.push(("seepage", Box::new(Seeping(seepage))));
+    }
+    all.extend(physics.contributions);
+    all
+}

@@ -1,0 +1,86 @@
+//! Box, kernel, walls and places of a scene: the world before it has columns.
+
+use std::sync::{Arc, Mutex};
+
+use sph_core::Store;
+use sph_core::plausible::Quantity;
+use sph_neighbours::{WallSet, World};
+use sph_scene::Scene;
+
+use crate::defaults;
+use crate::failure::error::SolverError;
+use crate::setup::choices::Choices;
+use crate::setup::domain::{check_periods, domain_of};
+use crate::setup::placement::{Placed, place};
+use crate::setup::shapes::Drawn;
+use crate::setup::walls::{build_walls, wall_problem};
+use crate::step::stages::SharedWall;
+
+/// The room in which particles will move, and where they begin.
+pub(crate) struct Room<const D: usize> {
+    /// Without columns.
+    pub world: World<D>,
+    /// The walls, if there are any.
+    pub walls: Option<SharedWall<D>>,
+    /// Places and bodies of the particles.
+    pub placed: Placed<D>,
+    /// Remarks.
+    pub warnings: Vec<String>,
+}
+
+impl<const D: usize> Room<D> {
+    /// Builds the walls and fills the bodies; takes the wall plugin out of the choices.
+    ///
+    /// # Errors
+    /// The key of the scene that is wrong.
+    pub(crate) fn of(
+        scene: &Scene,
+        drawn: &Drawn<D>,
+        choices: &mut Choices<D>,
+    ) -> Result<Self, SolverError> {
+        let spacing = scene.numerics.spacing;
+        let h = scene.numerics.smoothing_ratio * spacing;
+        let kernel = choices.kernel.sampler(D, h);
+        let support = kernel.support_radius() / spacing;
+        if let Some(why) = Quantity::refused("kernel support over the spacing", support) {
+            return Err(SolverError::at("numerics.smoothing_ratio", why));
+        }
+        let skin = scene.numerics.skin.unwrap_or(defaults::SKIN);
+        let domain = domain_of(scene, drawn);
+        check_periods(&domain, kernel.support_radius() * (1.0 + skin))?;
+        let mut warnings = scene.remarks.clone();
+        let mut wall_set = WallSet::default();
+        if let Some(walls) = &mut choices.walls {
+            let shape = &*choices.kernel;
+            wall_set = build_walls(scene, &drawn.walls, &mut **walls, shape, &domain, h)?;
+            warnings.extend(walls.warnings());
+        }
+        let placed = place(scene, &drawn.regions, choices.walls.as_deref());
+        let placed = placed.map_err(SolverError::Scene)?;
+        warnings.extend(placed.warnings.iter().cloned());
+        if let Some(walls) = &choices.walls {
+            let ends = walls.check_free_ends(&placed.positions);
+            ends.map_err(|e| wall_problem(scene, &e))?;
+        }
+        let world = World {
+            free: Store::new(0),
+            walls: wall_set,
+            lists: Default::default(),
+            domain,
+            kernel,
+            spacing,
+            skin,
+            gravity: scene.gravity::<D>(),
+            driving: scene.driving::<D>(),
+            time: 0.0,
+            dt: 0.0,
+            transported: Vec::new(),
+        };
+        Ok(Room {
+            world,
+            walls: choices.walls.take().map(|w| Arc::new(Mutex::new(w))),
+            placed,
+            warnings,
+        })
+    }
+}

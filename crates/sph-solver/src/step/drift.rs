@@ -1,0 +1,106 @@
+//! The drift: particles and walls follow their velocities.
+
+use std::time::Instant;
+
+use rayon::prelude::*;
+use sph_core::{Access, AnyField, StepError, fields};
+
+use crate::step::clocks::MOTION;
+use crate::step::flow::Flow;
+use crate::step::stages::lock;
+
+/// Particles that one thread takes at least.
+const BATCH: usize = 2048;
+
+/// What work before a drift may ask for at the present positions.
+const STATE: [AnyField; 4] = [
+    fields::RENORMALISATION.any(),
+    fields::DENSITY.any(),
+    fields::VOLUME.any(),
+    fields::PRESSURE.any(),
+];
+
+impl<const D: usize> Flow<D> {
+    /// Positions: r += Δt u, and all that works besides.
+    pub(crate) fn drift_over(&mut self, dt: f64) -> Result<(), StepError> {
+        self.each_work(|work, world| work.before_walls(world))?;
+        let start = Instant::now();
+        if let Some(walls) = &self.walls {
+            lock(walls).constrain(&mut self.world, dt)?;
+        }
+        self.timings[MOTION].spent += start.elapsed();
+        if self.moved && self.works.iter().any(|w| w.needs_state_in_drifts()) {
+            let gives = |a: &Access| STATE.iter().any(|f| a.writes.contains(f));
+            self.run_stages(|stage| gives(&stage.access()))?;
+        }
+        self.each_work(|work, world| work.before_drift(world, dt))?;
+        match self.works.iter().any(|w| w.halves_drifts()) {
+            false => self.advance(dt)?,
+            true => {
+                // What works in the middle is of second order.
+                self.advance(0.5 * dt)?;
+                self.look_around()?;
+                self.each_work(|work, world| work.amid_drift(world, dt))?;
+                self.advance(0.5 * dt)?;
+            }
+        }
+        self.each_work(|work, world| work.after_drift(world, dt))
+    }
+
+    /// Lists, wall contacts and γ of the present positions.
+    fn look_around(&mut self) -> Result<(), StepError> {
+        let start = Instant::now();
+        self.refresh_lists_and_derived()?;
+        if let Some(walls) = &self.walls {
+            lock(walls).geometry(&mut self.world)?;
+        }
+        self.timings[MOTION].spent += start.elapsed();
+        Ok(())
+    }
+
+    /// Particles and walls follow their velocities for a time.
+    fn advance(&mut self, dt: f64) -> Result<(), StepError> {
+        let start = Instant::now();
+        let mut position = self.world.free.take(fields::POSITION)?;
+        let velocity = self.world.free.get(fields::VELOCITY)?;
+        let all = position.par_iter_mut().zip(velocity).with_min_len(BATCH);
+        match self.world.free.get(fields::SHIFT_VELOCITY) {
+            Err(_) => all.for_each(|(x, u)| *x += u * dt),
+            Ok(shift) => all.zip(shift).for_each(|((x, u), s)| *x += (u + s) * dt),
+        }
+        self.world.free.put(fields::POSITION, position)?;
+        self.displace(dt)?;
+        self.moved = true;
+        let time = self.world.time;
+        self.world.time += dt;
+        if let Some(walls) = &self.walls {
+            let gravity = self.world.gravity;
+            let moved = lock(walls).advance(&mut self.world.walls, gravity, time, dt);
+            moved.map_err(|e| StepError::Stage {
+                stage: "wall motion".into(),
+                reason: e.to_string(),
+            })?;
+        }
+        self.timings[MOTION].spent += start.elapsed();
+        Ok(())
+    }
+
+    /// Adds the way of a drift to the displacements, where they are kept.
+    fn displace(&mut self, dt: f64) -> Result<(), StepError> {
+        let free = &mut self.world.free;
+        if !free.has(fields::DISPLACEMENT.name) {
+            return Ok(());
+        }
+        let mut displacement = free.take(fields::DISPLACEMENT)?;
+        let velocity = free.get(fields::VELOCITY)?;
+        let all = displacement
+            .par_iter_mut()
+            .zip(velocity)
+            .with_min_len(BATCH);
+        match free.get(fields::SHIFT_VELOCITY) {
+            Err(_) => all.for_each(|(d, u)| *d += u * dt),
+            Ok(shift) => all.zip(shift).for_each(|((d, u), s)| *d += (u + s) * dt),
+        }
+        Ok(free.put(fields::DISPLACEMENT, displacement)?)
+    }
+}

@@ -1,0 +1,15 @@
+//! The laws of a scene and what goes with them, as contributions to a flow.
+
+mod elasticity;
+mod friction;
+mod grain_pressure;
+mod materials;
+mod straining;
+mod wall_friction;
+
+pub use elasticity::Elasticity;
+pub use friction::Friction;
+pub use grain_pressure::GrainPressure;
+pub use materials::Materials;
+pub use straining::Straining;
+pub use wall_friction::WallFriction;

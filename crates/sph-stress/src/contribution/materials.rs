@@ -1,0 +1,91 @@
+//! What the contributions of a scene's laws know of each other.
+
+use std::sync::Arc;
+
+use sph_core::{AnyField, fields};
+use sph_rheology::Rheology;
+use sph_viscosity::{EddyViscosity, Viscosity, ViscousOperator};
+
+use crate::{Blend, ElasticForce, Felt, GradientStage, Rheologies, VelocityGradient};
+
+/// The laws of a scene, and the plugins that make forces of them.
+pub struct Materials<const D: usize> {
+    /// The laws, in the order of the phase numbers.
+    pub laws: Rheologies,
+    /// The gradient of the velocity, where somebody needs it.
+    pub gradient: Option<Arc<dyn VelocityGradient<D>>>,
+    /// What makes friction of viscosities.
+    pub operator: Box<dyn ViscousOperator<D>>,
+    /// What makes forces of elastic stresses, where a law has them.
+    pub force: Option<Box<dyn ElasticForce<D>>>,
+    /// The viscosity of eddies.
+    pub eddies: Option<Box<dyn EddyViscosity<D>>>,
+    /// Share of the friction that is of the end of the step, where it is solved for.
+    pub implicit_share: Option<f64>,
+    /// Whether the pressure between grains is another than that of the equation of state.
+    pub grain_pressure: bool,
+}
+
+impl<const D: usize> Materials<D> {
+    /// What the laws feel.
+    pub(crate) fn felt(&self) -> Felt {
+        let blend = self.force.as_ref().map(|force| force.blend());
+        Felt {
+            laws: self.laws.clone(),
+            pressure: match self.grain_pressure {
+                true => fields::EFFECTIVE_PRESSURE,
+                false => fields::PRESSURE,
+            },
+            blend: blend.unwrap_or(Blend::Stresses),
+        }
+    }
+
+    /// Whether stresses are those of the end of the step.
+    pub(crate) fn ahead(&self) -> bool {
+        self.force.as_ref().is_some_and(|force| force.implicit())
+    }
+
+    /// The formula whose adjoint is the elastic force, if it is.
+    pub(crate) fn adjoint(&self) -> Option<&Arc<dyn VelocityGradient<D>>> {
+        let formula = self.gradient.as_ref()?;
+        (self.force.is_some() && formula.adjoint()).then_some(formula)
+    }
+
+    /// One viscosity for all, or a column, which something besides the laws may need.
+    pub(crate) fn viscosity(&self) -> Viscosity {
+        let column = self.eddies.is_some() || self.ahead();
+        let laws = &self.laws;
+        let uniform: Vec<_> = laws.iter().map(|l| l.uniform_viscosity()).collect();
+        match uniform.first() {
+            Some(Some(first)) if !column && uniform.iter().all(|v| v == &Some(*first)) => {
+                Viscosity::Uniform(*first)
+            }
+            _ if laws.len() > 1 => Viscosity::PerPhase,
+            _ => Viscosity::PerParticle,
+        }
+    }
+
+    /// Whether nothing has a viscosity.
+    pub(crate) fn inviscid(&self) -> bool {
+        self.viscosity() == Viscosity::Uniform(0.0)
+    }
+
+    /// The gradient of the phases whose laws read it, or of all if others read it too.
+    pub(crate) fn gradient_stage(&self, read: &[AnyField]) -> Option<GradientStage<D>> {
+        let formula = self.gradient.clone()?;
+        let of_gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
+        let others = self.eddies.is_some() || read.iter().any(|f| of_gradients.contains(f));
+        let phases = match others {
+            true => None,
+            false => self.phases_with_gradients(),
+        };
+        Some(GradientStage { formula, phases })
+    }
+
+    /// By phase number, whether the law reads velocity gradients; `None` if all do.
+    fn phases_with_gradients(&self) -> Option<Arc<[bool]>> {
+        let reads = |law: &dyn Rheology| law.needs().strain_rate || law.elastic().is_some();
+        let phases: Arc<[bool]> = self.laws.iter().map(|law| reads(&**law)).collect();
+        phases.contains(&false).then_some(phases)
+    }
+}

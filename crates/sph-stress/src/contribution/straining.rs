@@ -1,0 +1,25 @@
+//! Gradients of the velocity in a scene.
+
+use std::rc::Rc;
+
+use sph_contribution::{Contribution, Setting, Stages};
+use sph_core::AnyField;
+
+use crate::{Materials, StrainRate};
+
+/// Velocity gradients and strain rates, where a law or somebody else needs them.
+pub struct Straining<const D: usize>(pub Rc<Materials<D>>);
+
+impl<const D: usize> Contribution<D> for Straining<D> {
+    fn stages_for(&self, _: &Setting<'_, D>, read: &[AnyField]) -> Stages<D> {
+        let mut stages: Stages<D> = Vec::new();
+        // An elastic motion leaves the gradients of its drift.
+        if let (Some(stage), None) = (self.0.gradient_stage(read), &self.0.force) {
+            stages.push(Box::new(stage));
+        }
+        if self.0.gradient.is_some() {
+            stages.push(Box::new(StrainRate));
+        }
+        stages
+    }
+}

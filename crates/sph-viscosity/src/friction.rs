@@ -1,0 +1,326 @@
+//! Viscous operators as sums over pairs, and their friction at walls.
+
+use sph_core::{Access, StepError, Vect, fields};
+use sph_neighbours::{BoundTerm, Contact, Contacts, Elements, Pair, PairTerm, Rates, There, World};
+
+use crate::ViscositySource;
+use crate::viscosity_source::BoundViscosity;
+
+mod choice;
+mod coupling;
+
+pub use choice::{Across, Choice, OnLattice, WallTerm, Within};
+
+/// A viscous operator as a sum over pairs: the force on a per volume is
+/// 1/γ_a Σ_b θ_b η̄_ab f(V_a, V_b, u_ab, r_ab), plus the wall's.
+pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
+    /// Name in plans.
+    const NAME: &'static str;
+    /// Whether a sheared layer's response depends on its direction: else β is not looked at.
+    const DIRECTIONAL: bool = true;
+    /// α, 1/m², and β, 1/m⁴, of f(u) = α u + β (u·r) r.
+    fn strengths(self, volume: f64, there: f64, pair: &Pair<D>) -> [f64; 2];
+    /// f, 1/m² times the relative velocity u_ab.
+    #[inline(always)]
+    fn force(self, volume: f64, there: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
+        let [even, along] = self.strengths(volume, there, pair);
+        match Self::DIRECTIONAL {
+            true => relative * even + pair.separation * (along * relative.dot(&pair.separation)),
+            false => relative * even,
+        }
+    }
+    /// ½ t·f(t): what a unit velocity along t gives.
+    #[inline(always)]
+    fn shear(self, volume: f64, there: f64, along: &Vect<D>, pair: &Pair<D>) -> f64 {
+        match Self::DIRECTIONAL {
+            true => 0.5 * self.force(volume, there, along, pair).dot(along),
+            false => 0.5 * self.strengths(volume, there, pair)[0],
+        }
+    }
+    /// η̄ of a pair; that of the source.
+    #[inline(always)]
+    fn mean<S: BoundViscosity>(self, viscosity: &S, here: &S::Here, j: usize, _: [f64; 2]) -> f64 {
+        viscosity.mean(here, j)
+    }
+    /// Factor of the literal friction on an element, from the volumes of particle and element.
+    #[inline(always)]
+    fn at_element(self, _volume: f64, _there: f64) -> f64 {
+        1.0
+    }
+}
+
+/// The term of a pair formula with a source of viscosities.
+#[derive(Clone, Copy, Debug)]
+pub struct ViscousTerm<F, S>(pub F, pub S, pub Choice);
+
+impl<const D: usize, F: PairFriction<D>, S: ViscositySource> PairTerm<D> for ViscousTerm<F, S> {
+    type Bound<'a> = Bound<'a, D, F, S::Bound<'a>>;
+
+    fn name(&self) -> String {
+        F::NAME.into()
+    }
+
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::VELOCITY)
+            .both(fields::VOLUME)
+            .both(fields::DENSITY)
+            .here(fields::MASS)
+            .and(self.1.access())
+    }
+
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError> {
+        let points = &world.walls.points;
+        Ok(Bound {
+            friction: self.0,
+            velocity: world.free.get(fields::VELOCITY)?,
+            volume: world.free.get(fields::VOLUME)?,
+            density: world.free.get(fields::DENSITY)?,
+            mass: world.free.get(fields::MASS)?,
+            viscosity: self.1.bind(world)?,
+            wall_velocity: &points.viscous_velocity,
+            wall_volume: &points.volume,
+            wall_share: &points.share,
+            wall_grip: &points.grip,
+            wall_slip: &points.slip,
+            elements: &world.walls.elements,
+            contacts: &world.walls.contacts,
+            corrected: self.2.wall_term == WallTerm::Corrected,
+            scale: self.2.on_lattice.scale(self.0, world),
+            spacing: world.spacing,
+        })
+    }
+}
+
+/// [`ViscousTerm`] with its columns.
+pub struct Bound<'a, const D: usize, F, S> {
+    friction: F,
+    velocity: &'a [Vect<D>],
+    volume: &'a [f64],
+    density: &'a [f64],
+    mass: &'a [f64],
+    viscosity: S,
+    wall_velocity: &'a [Vect<D>],
+    wall_volume: &'a [f64],
+    wall_share: &'a [f64],
+    wall_grip: &'a [f64],
+    wall_slip: &'a [(f64, Vect<D>)],
+    elements: &'a Elements<D>,
+    contacts: &'a Contacts<D>,
+    corrected: bool,
+    scale: f64,
+    spacing: f64,
+}
+
+/// The particle's own values.
+#[derive(Clone, Copy)]
+pub struct Here<const D: usize, V> {
+    velocity: Vect<D>,
+    viscosity: V,
+    own_viscosity: f64,
+    volume: f64,
+    density: f64,
+    /// V/m, which a formulation may keep apart from 1/ρ.
+    specific_volume: f64,
+    /// Unit vector along the slip past the nearest wall.
+    along: Vect<D>,
+    /// Normal and distance of the nearest element, where the wall term is to be corrected.
+    nearest: Option<(Vect<D>, f64)>,
+}
+
+/// Sums of one particle.
+#[derive(Clone, Copy)]
+pub struct Sum<const D: usize> {
+    /// Σ θ η̄ f.
+    force: Vect<D>,
+    /// Σ θ ½ t·f(t) r_ab; of V F r_ab where the direction does not matter.
+    discrete: Vect<D>,
+    /// 2 Σ η u_t/δr |∇γ_as|.
+    flux: Vect<D>,
+    /// Σ ∇γ_as.
+    gradient: Vect<D>,
+}
+
+/// κ is left at 1 where |∇γ| δr is below this: opposite walls, or the edge of the support.
+const FAINT: f64 = 1e-3;
+/// Elements whose normals differ by less than 45° are one smooth wall.
+const ONE_WALL: f64 = 0.7;
+/// Least distance from a wall over the spacing, for stability.
+const LEAST_DISTANCE: f64 = 0.5;
+/// Bounds of κ.
+const BOUNDS: [f64; 2] = [0.0, 4.0];
+
+impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
+    /// Normal and distance of the element with the largest mean kernel, the nearest one.
+    #[inline(always)]
+    fn nearest(&self, i: usize) -> Option<&Contact<D>> {
+        if !self.corrected {
+            return None;
+        }
+        let mean = |c: &Contact<D>| {
+            let measure = self.elements.measure[c.element as usize];
+            c.gradient.norm_squared() / (measure * measure)
+        };
+        let mut nearest = None;
+        let mut largest = 0.0;
+        for contact in self.contacts.of(i) {
+            let mean = mean(contact);
+            if mean > largest {
+                largest = mean;
+                nearest = Some(contact);
+            }
+        }
+        nearest
+    }
+
+    /// Unit vector along the velocity relative to an element, in its plane.
+    #[inline(always)]
+    fn along(&self, i: usize, nearest: &Contact<D>) -> Vect<D> {
+        let s = nearest.element as usize;
+        let slip = self.velocity[i] - self.elements.velocity[s];
+        let normal = &self.elements.normal[s];
+        let slip = slip - normal * slip.dot(normal);
+        slip.try_normalize(0.0).unwrap_or_else(Vect::zeros)
+    }
+
+    /// Friction per tangential velocity at an element, before κ: 2 η |∇γ_as|/δr.
+    #[inline(always)]
+    fn weight<V>(&self, here: &Here<D, V>, contact: &Contact<D>) -> f64 {
+        let s = contact.element as usize;
+        let slip = self.elements.slip.get(s).copied().unwrap_or(0.0);
+        let distance = self.distance(here, contact, &self.elements.normal[s]) + slip;
+        // κ holds whatever the pair formula makes of volumes and strength.
+        let factor = match here.nearest {
+            Some(_) => 1.0,
+            None => self
+                .friction
+                .at_element(here.volume, self.elements.volume[s]),
+        };
+        let grip = self.elements.grip[s];
+        2.0 * factor * grip * here.own_viscosity * contact.gradient.norm() / distance
+    }
+
+    /// Share of a wall point's friction that counts.
+    #[inline(always)]
+    fn rubbing(&self, v: usize, pair: &Pair<D>) -> f64 {
+        let mut rubbing = self.wall_share[v] * self.wall_grip[v];
+        if let Some((slip, normal)) = self.wall_slip.get(v) {
+            // At the wall the fluid goes with the share λ/(d + λ) of the velocity at d.
+            let distance = pair.separation.dot(normal).max(self.spacing);
+            rubbing *= distance / (distance + slip);
+        }
+        rubbing
+    }
+
+    /// κ.
+    #[inline(always)]
+    fn correction<V>(&self, here: &Here<D, V>, sum: &Sum<D>) -> f64 {
+        let squared = sum.gradient.norm_squared();
+        match here.nearest.is_some() && squared * self.spacing * self.spacing > FAINT * FAINT {
+            true => (sum.discrete.dot(&sum.gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]),
+            false => 1.0,
+        }
+    }
+
+    /// Over which the velocity falls to that of an element.
+    #[inline(always)]
+    fn distance<V>(&self, here: &Here<D, V>, contact: &Contact<D>, normal: &Vect<D>) -> f64 {
+        let Some((nearest, distance)) = &here.nearest else {
+            return contact.distance.max(self.spacing);
+        };
+        let cosine = normal.dot(nearest);
+        let distance = match cosine > ONE_WALL {
+            true => distance / cosine,
+            false => contact.distance,
+        };
+        distance.max(LEAST_DISTANCE * self.spacing)
+    }
+}
+
+impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bound<'_, D, F, S> {
+    type Here = Here<D, S::Here>;
+    type Sum = Sum<D>;
+
+    #[inline(always)]
+    fn here(&self, i: usize) -> Self::Here {
+        let nearest = self.nearest(i);
+        let along = match (F::DIRECTIONAL, nearest) {
+            (true, Some(nearest)) => self.along(i, nearest),
+            _ => Vect::zeros(),
+        };
+        let viscosity = self.viscosity.here(i);
+        Here {
+            velocity: self.velocity[i],
+            viscosity,
+            own_viscosity: self.viscosity.own(&viscosity),
+            volume: self.volume[i],
+            density: self.density[i],
+            specific_volume: self.volume[i] / self.mass[i],
+            along,
+            nearest: nearest.map(|c| (self.elements.normal[c.element as usize], c.distance)),
+        }
+    }
+
+    #[inline(always)]
+    fn zero(&self) -> Sum<D> {
+        Sum {
+            force: Vect::zeros(),
+            discrete: Vect::zeros(),
+            flux: Vect::zeros(),
+            gradient: Vect::zeros(),
+        }
+    }
+
+    #[inline(always)]
+    fn free(
+        &self,
+        here: &Self::Here,
+        j: usize,
+        there: &There<D>,
+        pair: &Pair<D>,
+        sum: &mut Sum<D>,
+    ) {
+        let densities = [here.density, there.density];
+        let mean = self
+            .friction
+            .mean(&self.viscosity, &here.viscosity, j, densities);
+        let relative = here.velocity - there.velocity;
+        let force = self
+            .friction
+            .force(here.volume, there.volume, &relative, pair);
+        sum.force += force * mean;
+        if here.nearest.is_some() {
+            let shear = self
+                .friction
+                .shear(here.volume, there.volume, &here.along, pair);
+            sum.discrete += pair.separation * shear;
+        }
+    }
+
+    #[inline(always)]
+    fn wall(&self, here: &Self::Here, v: usize, pair: &Pair<D>, sum: &mut Sum<D>) {
+        let (share, volume) = (self.wall_share[v], self.wall_volume[v]);
+        let rubbing = self.rubbing(v, pair);
+        let relative = here.velocity - self.wall_velocity[v];
+        let force = self.friction.force(here.volume, volume, &relative, pair);
+        sum.force += force * (rubbing * here.own_viscosity);
+        let shear = self.friction.shear(here.volume, volume, &here.along, pair);
+        sum.discrete += pair.separation * (share * shear);
+    }
+
+    #[inline(always)]
+    fn element(&self, here: &Self::Here, contact: &Contact<D>, sum: &mut Sum<D>) {
+        let s = contact.element as usize;
+        let normal = &self.elements.normal[s];
+        let relative = here.velocity - self.elements.velocity[s];
+        let tangential = relative - normal * relative.dot(normal);
+        sum.flux += tangential * self.weight(here, contact);
+        sum.gradient += contact.gradient;
+    }
+
+    #[inline(always)]
+    fn finish(&self, here: &Self::Here, sum: &Sum<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
+        let total = sum.force - sum.flux * self.correction(here, sum);
+        rates.acceleration += total * (self.scale * inverse_gamma * here.specific_volume);
+    }
+}

@@ -1,0 +1,89 @@
+//! The viscous operator of Hu and Adams.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::register;
+use sph_neighbours::{Interaction, Pair};
+
+use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
+use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry};
+use sph_contribution::Stages;
+
+/// L_a = 1/γ_a Σ_b θ_b (V_a² + V_b²)/V_a η̄_ab u_ab F_ab plus the wall's friction, as of
+/// [`Morris`](crate::Morris) times (V_a² + V_s²)/(2 V_a V_s).
+///
+/// The same as Morris's operator for equal volumes. The thesis prints the wall's factor without the
+/// 1/2, which is twice Morris's.
+///
+/// Source: Ghaïtanellis 2017, Eq. 3.27, corrected; Hu & Adams 2006.
+///
+/// ```toml
+/// [viscous-operator.hu-adams]
+/// wall_term = "corrected"
+/// ```
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct HuAdamsViscosity {
+    /// Friction at walls.
+    pub wall_term: WallTerm,
+    /// Scale of the operator on a lattice.
+    #[schemars(extend("source" = "ours; literal: as printed"))]
+    pub on_lattice: OnLattice,
+    /// Viscosity of pairs of two phases.
+    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
+    pub across: Across,
+    /// Viscosity of pairs of one phase.
+    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
+    pub within: Within,
+}
+
+impl HuAdamsViscosity {
+    fn choice(&self) -> Choice {
+        Choice {
+            wall_term: self.wall_term,
+            on_lattice: self.on_lattice,
+            across: self.across,
+            within: self.within,
+        }
+    }
+}
+
+impl<const D: usize> ViscousOperator<D> for HuAdamsViscosity {
+    fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
+        self.choice().term(BothVolumes, viscosity)
+    }
+    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
+        self.choice().coupling(BothVolumes, viscosity)
+    }
+    fn stages(&self, viscosity: Viscosity) -> Stages<D> {
+        self.choice().stages(viscosity)
+    }
+    fn stiffness(&self) -> f64 {
+        1.0
+    }
+}
+
+register!(
+    ViscousOperatorEntry [2, 3],
+    HuAdamsViscosity,
+    "hu-adams",
+    "div(η grad u) with the volumes of both particles",
+    "Ghaïtanellis 2017, Eq. 3.27; Hu & Adams 2006"
+);
+
+/// (V_a² + V_b²)/V_a u_ab F_ab: the pair formula of [`HuAdamsViscosity`].
+#[derive(Clone, Copy, Debug)]
+pub struct BothVolumes;
+
+impl<const D: usize> PairFriction<D> for BothVolumes {
+    const NAME: &'static str = "Hu–Adams viscosity";
+    const DIRECTIONAL: bool = false;
+    #[inline(always)]
+    fn strengths(self, volume: f64, there: f64, pair: &Pair<D>) -> [f64; 2] {
+        [(volume + there * there / volume) * pair.factor, 0.0]
+    }
+    #[inline(always)]
+    fn at_element(self, volume: f64, there: f64) -> f64 {
+        0.5 * (volume / there + there / volume)
+    }
+}

@@ -1,0 +1,274 @@
+//! Friction from the end of the step: (M + θΔt K) uⁿ⁺¹ = M u* + Δt s − (1 − θ)Δt K uⁿ.
+//!
+//! M = diag(m_a γ_a) and K are those of [`Coupling`]; u* is the velocity after all other forces. Where K depends on the
+//! velocity, it follows it (Picard). Pairs whose friction is weak act with uⁿ if θ = 1. Ghaïtanellis 2017, Eq. 5.3–5.6, made
+//! symmetric by the factor m_a γ_a.
+
+use std::time::Instant;
+
+use serde_json::Value as Json;
+use sph_contribution::{OutsideForce, Stages, StepWork};
+use sph_core::{Access, StepError, Vect, fields};
+use sph_implicit::{Entries, LinearSolver, TimeScheme};
+use sph_neighbours::{Interaction, World};
+
+use crate::system::start_between;
+use crate::{Coupling, Solves};
+
+/// Residual of a solve within an outer iteration, over the tolerance of the latter.
+const INNER: f64 = 0.1;
+
+/// Vectors of a solve: right-hand side, uⁿ, u*, what they start from, and those of conjugate gradients.
+const VECTORS: usize = 8;
+
+/// What makes the viscosity follow the velocity within a step.
+pub struct Lagged<const D: usize> {
+    /// What gives the viscosity of the present velocity; empty where it does not depend on it.
+    pub stages: Stages<D>,
+    /// Whether an elastic material stiffens while it is strained: 𝒢Δt then acts as a viscosity.
+    pub stiffens: bool,
+    /// Whether a soil may be held by the solve beyond its strength.
+    pub may_hold: bool,
+}
+
+/// The viscous operator, a scheme and a solver.
+pub struct ImplicitViscosity<const D: usize> {
+    pub(crate) coupling: Box<dyn Coupling<D>>,
+    force: OutsideForce<D>,
+    pub(crate) scheme: Box<dyn TimeScheme>,
+    solver: Box<dyn LinearSolver<D>>,
+    lagged: Lagged<D>,
+    solves: Solves,
+    /// The entries of the last matrix, for their memory.
+    former: Option<Entries<D>>,
+    /// uⁿ.
+    earlier: Vec<Vect<D>>,
+}
+
+impl<const D: usize> ImplicitViscosity<D> {
+    /// Its name among the work of a step.
+    pub const NAME: &'static str = "implicit viscosity";
+
+    /// Of an operator as a matrix and as a term, for a scheme and a solver.
+    pub fn new(
+        (coupling, force): (Box<dyn Coupling<D>>, Box<dyn Interaction<D>>),
+        (scheme, solver): (Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>),
+        lagged: Lagged<D>,
+    ) -> Self {
+        ImplicitViscosity {
+            coupling,
+            force: force.into(),
+            scheme,
+            solver,
+            lagged,
+            solves: Solves::default(),
+            former: None,
+            earlier: Vec::new(),
+        }
+    }
+
+    /// Takes friction over a step; `earlier` is uⁿ.
+    ///
+    /// # Errors
+    /// If the system cannot be solved to its tolerance.
+    fn apply(
+        &mut self,
+        world: &mut World<D>,
+        earlier: &[Vect<D>],
+        dt: f64,
+    ) -> Result<(), StepError> {
+        let outer = self.scheme.outer();
+        let most = match self.lagged.stages.is_empty() {
+            true => 1,
+            false => outer.iterations.max(1),
+        };
+        let ahead = world.free.get(fields::VELOCITY)?.to_vec();
+        let (mut iterations, mut change) = (0, f64::INFINITY);
+        while iterations < most && change > outer.tolerance {
+            let again = iterations > 0;
+            if again {
+                for stage in &mut self.lagged.stages {
+                    stage.run(world)?;
+                }
+            }
+            let mut velocity = world.free.get(fields::VELOCITY)?.to_vec();
+            let plain = match self.lagged.stiffens {
+                true => Some(stiffen(world)?),
+                false => None,
+            };
+            let solved = self.solve(world, [earlier, &ahead], again, &mut velocity, dt);
+            if let Some(plain) = plain {
+                world.free.put(fields::VISCOSITY, plain)?;
+            }
+            solved?;
+            if again {
+                change = relative_change(world, &velocity, dt)?;
+            }
+            world.free.put(fields::VELOCITY, velocity)?;
+            iterations += 1;
+        }
+        if self.lagged.stiffens && !self.lagged.stages.is_empty() {
+            let held = self.solves.held_back.get_or_insert_default();
+            held.add(world, &ahead, dt)?;
+        }
+        if !self.lagged.stages.is_empty() {
+            let converged = change <= outer.tolerance;
+            let change = if change.is_finite() { change } else { 0.0 };
+            let outer = self.solves.outer.get_or_insert_default();
+            outer.add(iterations, change, converged);
+        }
+        Ok(())
+    }
+
+    /// One linear solve from uⁿ and u*; `velocity` is the start and the result.
+    ///
+    /// The first one of a step starts on the line from uⁿ to u*, one that comes `again` where the last ended.
+    fn solve(
+        &mut self,
+        world: &World<D>,
+        [earlier, ahead]: [&[Vect<D>]; 2],
+        again: bool,
+        velocity: &mut [Vect<D>],
+        dt: f64,
+    ) -> Result<(), StepError> {
+        let share = self.scheme.implicit_share();
+        let former = self.former.take();
+        let mut system = self.system_of(world, earlier, dt, former)?;
+        let rows = system.right.iter_mut().zip(ahead).zip(&system.mass);
+        rows.for_each(|((b, u), m)| *b += u * *m);
+        if share < 1.0 || !again {
+            let mut before = vec![Vect::zeros(); earlier.len()];
+            system.matrix.multiply(earlier, &mut before);
+            if share < 1.0 {
+                let rest = (1.0 - share) / share;
+                for (k, b) in system.right.iter_mut().enumerate() {
+                    *b -= (before[k] - earlier[k] * system.mass[k]) * rest;
+                }
+            }
+            if !again {
+                start_between(&system, &before, earlier, velocity);
+            }
+        }
+        let (matrix, right) = (&system.matrix, &system.right);
+        let start = Instant::now();
+        let solved = match self.lagged.stages.is_empty() {
+            true => self.solver.solve(matrix, right, velocity),
+            false => {
+                // More than the outer iteration asks for would be lost on it.
+                let enough = INNER * self.scheme.outer().tolerance;
+                self.solver.solve_roughly(matrix, right, velocity, enough)
+            }
+        };
+        let report = solved.map_err(|e| StepError::Stage {
+            stage: Self::NAME.into(),
+            reason: e.to_string(),
+        })?;
+        let seconds = start.elapsed().as_secs_f64();
+        self.solves.add(&report, seconds, matrix.bytes());
+        self.former = Some(system.matrix.entries);
+        Ok(())
+    }
+}
+
+impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
+    fn name(&self) -> String {
+        Self::NAME.into()
+    }
+    fn access(&self) -> Access {
+        let mut access = self.coupling.access().both(fields::POSITION);
+        access = access.here(fields::MASS).writes(fields::VELOCITY);
+        for stage in &self.lagged.stages {
+            access = access.and(stage.access());
+        }
+        match self.lagged.stiffens {
+            false => access,
+            true => access
+                .here(fields::VOLUME)
+                .here(fields::STRAIN_RATE)
+                .here(fields::ELASTIC_STIFFNESS)
+                .writes(fields::VISCOSITY),
+        }
+    }
+    fn force(&self) -> Option<OutsideForce<D>> {
+        Some(self.force.clone())
+    }
+    fn before_kick(
+        &mut self,
+        world: &mut World<D>,
+        _: &[&dyn Interaction<D>],
+    ) -> Result<(), StepError> {
+        let velocity = world.free.get(fields::VELOCITY)?;
+        self.earlier.clear();
+        self.earlier.extend_from_slice(velocity);
+        Ok(())
+    }
+    fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        let earlier = std::mem::take(&mut self.earlier);
+        let done = self.apply(world, &earlier, dt);
+        self.earlier = earlier;
+        done
+    }
+    fn bytes(&self, world: &mut World<D>, dt: f64) -> Result<usize, StepError> {
+        let plain = match self.lagged.stiffens {
+            true => Some(stiffen(world)?),
+            false => None,
+        };
+        let system = self.system_of(world, world.free.get(fields::VELOCITY)?, dt, None);
+        if let Some(plain) = plain {
+            world.free.put(fields::VISCOSITY, plain)?;
+        }
+        let vectors = VECTORS * world.free.len() * size_of::<Vect<D>>();
+        Ok(system?.matrix.bytes() + vectors)
+    }
+    fn counts(&self) -> Option<Json> {
+        serde_json::to_value(&self.solves).ok()
+    }
+    fn recount(&mut self, counts: Json) {
+        self.solves = serde_json::from_value(counts).unwrap_or_default();
+    }
+    fn verdict(&self) -> Option<StepError> {
+        let held = self.solves.held_back.filter(|_| !self.lagged.may_hold);
+        held.and_then(|held| held.verdict())
+    }
+    fn most_bytes(&self) -> usize {
+        self.solves.most_bytes
+    }
+    fn warnings(&self) -> Vec<String> {
+        let held = self.solves.held_back;
+        held.and_then(|held| held.warning()).into_iter().collect()
+    }
+}
+
+/// Adds what the strain of the step does to an elastic material, s𝒢Δt, to the viscosities, and gives those without it.
+///
+/// Δt is the whole step, over which stresses follow the velocity, also in a kick over a part of it.
+fn stiffen<const D: usize>(world: &mut World<D>) -> Result<Vec<f64>, StepError> {
+    let dt = world.dt;
+    let plain = world.free.take(fields::VISCOSITY)?;
+    let stiffness = world.free.get(fields::ELASTIC_STIFFNESS)?;
+    let both = plain.iter().zip(stiffness);
+    let stiff = both.map(|(eta, g)| eta + g * dt).collect();
+    world.free.put(fields::VISCOSITY, stiff)?;
+    Ok(plain)
+}
+
+/// √(Σm|u − u'|²/Σm(|u|² + Δt²|g|²)) of a velocity against the world's, with what drives the flow:
+/// next to rest nobody needs to know the velocity better than what one step could give it.
+fn relative_change<const D: usize>(
+    world: &World<D>,
+    velocity: &[Vect<D>],
+    dt: f64,
+) -> Result<f64, StepError> {
+    let mass = world.free.get(fields::MASS)?;
+    let last = world.free.get(fields::VELOCITY)?;
+    let kick = dt * dt * (world.gravity + world.driving).norm_squared();
+    let mut sums = [0.0, 0.0];
+    for ((u, l), m) in velocity.iter().zip(last).zip(mass) {
+        sums[0] += m * (u - l).norm_squared();
+        sums[1] += m * (u.norm_squared() + kick);
+    }
+    Ok(match sums[1] > 0.0 {
+        true => (sums[0] / sums[1]).sqrt(),
+        false => 0.0,
+    })
+}

@@ -1,0 +1,34 @@
+//! A mover from outside: `[wall.NAME.mover.winch]`.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_boundary::{Load, Mover, MoverEntry, RigidState};
+use sph_core::register;
+
+/// A winch that lifts a wall with a force of its own, against weight and water: m v̇ = F + f − m g, upwards.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Winch {
+    /// Mass of the wall.
+    #[schemars(extend("unit" = "kg", "exclusiveMinimum" = 0.0))]
+    mass: f64,
+    /// Force of the winch, upwards.
+    #[schemars(extend("unit" = "N"))]
+    pull: f64,
+}
+
+impl<const D: usize> Mover<D> for Winch {
+    fn start(&self) -> RigidState<D> {
+        RigidState::default()
+    }
+    fn next(&self, now: &RigidState<D>, load: &Load<D>, _time: f64, dt: f64) -> RigidState<D> {
+        let up = D - 1;
+        let mut state = *now;
+        state.acceleration[up] = (self.pull + load.force[up]) / self.mass + load.gravity[up];
+        state.velocity[up] += dt * state.acceleration[up];
+        state.pose.translation[up] += dt * state.velocity[up];
+        state
+    }
+}
+
+register!(MoverEntry [2, 3], Winch, "winch", "lifts a wall with a force", "Archimedes");

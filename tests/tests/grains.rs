@@ -1,0 +1,181 @@
+//! Scenes of grains through the program: results, bits, failures, bad input.
+
+use serde_json::Value as Json;
+use sph_tests::{Bench, files_with_extension};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+
+/// Sixty grains that fall into a box.
+const DRY: &str = r#"title = "Grains fall"
+[run]
+end = "0.2 s"
+[grains]
+count = 60
+radius = ["9 mm", "11 mm"]
+density = "2500 kg/m³"
+gravity = [0, 0, -9.81]
+[grains.contact.linear-elastic]
+modulus = "1 MPa"
+stiffness_ratio = 0.5
+friction = 0.5
+damping = 0.2
+[start.cloud]
+[box]
+low = [0, 0, 0]
+high = [0.1, 0.1, 0.15]
+"#;
+
+/// The same in a fluid that drains through the top.
+fn wet() -> String {
+    format!("{DRY}[fluid]\nviscosity = \"5 Pa s\"\ndensity = 1000\n[wall.top]\npressure = 0\n")
+}
+
+/// Columns of the series and the last file of fields, as they are.
+fn bytes(bench: &Bench, folder: &str) -> [Vec<u8>; 2] {
+    let path = bench.path(folder);
+    let fields = files_with_extension(&path.join("fields"), "vtu");
+    let last = fields.iter().max().expect("a file of fields");
+    [
+        std::fs::read(path.join("series.csv")).expect("a series"),
+        std::fs::read(last).expect("fields"),
+    ]
+}
+
+fn summary(bench: &Bench, folder: &str) -> Json {
+    serde_json::from_str(&bench.read(&format!("{folder}/summary.json"))).expect("JSON")
+}
+
+#[test]
+fn threads_and_a_stop_change_no_bit_of_dry_and_wet_grains() {
+    for (scene, end) in [(DRY.to_string(), "0.2"), (wet(), "0.05")] {
+        let bench = Bench::with(PROGRAM, &scene);
+        let set = format!("--quiet --set run.end={end}");
+        for threads in [1, 2, 4] {
+            bench.done(&format!(
+                "run scene.toml {set} --threads {threads} --out r{threads}"
+            ));
+        }
+        let half = summary(&bench, "r1")["steps"].as_u64().expect("steps") / 2;
+        // The stop is a change of the scene, and nothing else is.
+        bench.done(&format!(
+            "run scene.toml {set} --out stopped --set run.max_steps={half}"
+        ));
+        assert_eq!(summary(&bench, "stopped")["steps"], half);
+        bench.done(&format!(
+            "run scene.toml {set} --out stopped --resume --changed --threads 2"
+        ));
+        let one = bytes(&bench, "r1");
+        for other in ["r2", "r4"] {
+            assert!(one == bytes(&bench, other), "{other} differs from 1 thread");
+        }
+        // The stop wrote no row of its own: the rows are those of the run in one go.
+        let [series, fields] = bytes(&bench, "stopped");
+        assert!(series == one[0], "the series after a stop differs");
+        assert!(fields == one[1], "the fields after a stop differ");
+    }
+}
+
+#[test]
+fn a_scene_of_grains_carries_no_particles_and_the_reverse() {
+    let bench = Bench::with(PROGRAM, &wet());
+    let explained = bench.done("explain scene.toml").out;
+    for word in ["smoothing", "kernel", "formulation", "density_rate"] {
+        assert!(!explained.contains(word), "`{word}` in\n{explained}");
+    }
+    assert!(explained.contains("linear-elastic") && explained.contains("hydraulic-radius"));
+    let particles = bench.done("explain hydrostatic-tank").out;
+    for word in ["contact", "throat", "grain"] {
+        assert!(!particles.contains(word), "`{word}` in\n{particles}");
+    }
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_line_and_nothing_is_written() {
+    let spheres = "0.05 0.05 0.05 0.01\n0.05 0.05 0.065 0.01\n";
+    let beyond = "0.05 0.05 -0.05 0.01\n";
+    let from_file = |scene: &str| {
+        let scene = scene.replace("count = 60\nradius = [\"9 mm\", \"11 mm\"]\n", "");
+        scene.replace("[start.cloud]", "[start]\nfile = \"spheres.txt\"")
+    };
+    let wet = wet();
+    let cases = [
+        (
+            DRY.replace("friction = 0.5", "fricton = 0.5"),
+            "",
+            "did you mean `friction`?",
+        ),
+        (
+            DRY.replace("linear-elastic", "linear-elastik"),
+            "",
+            "did you mean `linear-elastic`?",
+        ),
+        (DRY.replace("count = 60", "count = 0"), "", "count"),
+        (DRY.replace("count = 60\n", ""), "", "`count` is missing"),
+        (
+            DRY.replace("[0.1, 0.1, 0.15]", "[0.1, 0.1, 0.0]"),
+            "",
+            "above the lower corner",
+        ),
+        (from_file(DRY), spheres, "overlap"),
+        (from_file(DRY), beyond, "wall"),
+        (from_file(DRY), "", "holds no spheres"),
+        (
+            wet.replace("viscosity = \"5 Pa s\"", "viscosity = 0"),
+            "",
+            "viscosity",
+        ),
+        (
+            wet.replace("[wall.top]\npressure = 0\n", ""),
+            "",
+            "no wall has a `pressure`",
+        ),
+        (
+            format!("{DRY}[wall.lid]\nvelocity = [0, 0, 1]\n"),
+            "",
+            "`point` and `normal`",
+        ),
+        (
+            format!("{DRY}[probe.p]\nkind = \"stres\"\nwall = \"top\"\n"),
+            "",
+            "did you mean `stress`?",
+        ),
+    ];
+    for (scene, spheres, told) in cases {
+        let bench = Bench::with(PROGRAM, &scene);
+        bench.write("spheres.txt", spheres);
+        let outcome = bench.call("run scene.toml --quiet");
+        assert_eq!(outcome.code, Some(2), "{told}: {}", outcome.err);
+        assert!(outcome.err.contains(told), "{told}: {}", outcome.err);
+        assert!(
+            !bench.path("results").exists(),
+            "{told}: something was written"
+        );
+    }
+}
+
+#[test]
+fn a_failed_run_names_the_grain_and_leaves_its_picture() {
+    // Grains so soft that their own weight presses them through the floor.
+    let soft = wet().replace("1 MPa", "20 Pa");
+    let bench = Bench::with(PROGRAM, &soft);
+    let outcome = bench.call("run scene.toml --quiet --out r");
+    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
+    assert!(outcome.err.contains("grain"), "{}", outcome.err);
+    for file in ["bad_state.vtu", "bad_state.png", "summary.json"] {
+        assert!(bench.path("r").join(file).is_file(), "{file} is missing");
+    }
+    assert_eq!(summary(&bench, "r")["status"], "failed");
+}
+
+/// `immersed-deposition` of the method's page: weight within 1 %.
+#[test]
+fn settled_grains_rest_on_the_floor_with_their_buoyant_weight() {
+    let bench = Bench::new(PROGRAM);
+    bench.done("run grains-immersed-deposition --quiet --out r");
+    let summary = summary(&bench, "r");
+    for (reference, name) in [("floor-at-last", "floor"), ("fluid-at-last", "fluid")] {
+        let error = summary["errors"][reference]["value"].as_f64();
+        let error = error.expect("an error");
+        assert!(error < 0.01, "{name}: {error}, 0.01 asked");
+    }
+}
