@@ -13,7 +13,7 @@ use sph_diffusion::{BrezziPitkaranta, SmootherEntry};
 use sph_kernels::Sampler;
 use sph_multiphase::{FormulationEntry, PressureGradient, SquaredVolumes};
 use sph_neighbours::{
-    Domain, Fused, KernelEntry, PairTerm, Terms, There, World, fuse_all, interactions,
+    Domain, FusedLanes, KernelEntry, LanePairTerm, Lanewise, Terms, There, World, fuse_all, interactions,
     interactions_with, kernel_sums, pack,
 };
 use sph_scene::SplitMix;
@@ -106,8 +106,8 @@ fn found<E: Contract>(name: &str) -> &'static E {
 
 /// True pairs within the support, counted from both ends.
 pub fn pairs(world: &World<2>) -> usize {
-    let pruned = world.lists.pruned.as_ref();
-    pruned.expect("kernel sums leave it").candidates()
+    let mean = world.mean_neighbours().expect("there are positions");
+    (mean * world.free.len() as f64).round() as usize
 }
 
 /// One phase, c = 20 m/s.
@@ -176,8 +176,8 @@ impl Sums {
             ViscousTerm(FirstDifferences, Uniform(VISCOSITY), Choice::default()),
             smoother,
         );
-        let term = sph_neighbours::Term(terms);
-        let bound = Fused(column(PairTerm::<2>::bind(&term.0, world)));
+        let term = Lanewise(terms);
+        let bound = FusedLanes(column(LanePairTerm::<2>::bind(&term.0, world)));
         let packed = sph_neighbours::Packed::of([&term as &dyn sph_neighbours::Interaction<2>]);
         pack(world, &mut self.states, packed).expect("all columns are there");
         let sums = sph_neighbours::Sums {

@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
-use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
+use sph_neighbours::{
+    BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There, World, dot, splat,
+};
 
 use crate::diffusion_limit::{DiffusionLimit, fastest};
 use crate::{Smoother, SmootherEntry};
@@ -43,7 +45,7 @@ impl Default for BrezziPitkaranta {
 
 impl<const D: usize> Smoother<D> for BrezziPitkaranta {
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Term(self.of(laws)))
+        Box::new(Lanewise(self.of(laws)))
     }
     fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         DiffusionLimit::of(self.strength, laws)
@@ -74,7 +76,7 @@ pub struct PressureDiffusion {
     slowness: f64,
 }
 
-impl<const D: usize> PairTerm<D> for PressureDiffusion {
+impl<const D: usize> LanePairTerm<D> for PressureDiffusion {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -121,14 +123,53 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     }
 
     #[inline(always)]
-    fn free(&self, here: &(f64, f64), _j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
-        let bracket = 2.0 * (here.0 - there.pressure) / (here.1 + there.density)
-            - self.gravity.dot(&pair.separation);
-        *sum += there.volume * bracket * pair.factor;
+    fn free(&self, here: &(f64, f64), j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
+        self.add_one(here, j, there, pair, sum);
     }
 
     #[inline(always)]
     fn finish(&self, here: &(f64, f64), sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
         rates.scalar += self.weight * here.1 * sum * inverse_gamma;
+    }
+}
+
+impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
+    type Side<L: Lane> = (L, L);
+    type Sums<L: Lane> = L;
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[(f64, f64)]) -> (L, L) {
+        let mut side = (L::splat(0.0), L::splat(0.0));
+        for (lane, own) in here.iter().enumerate() {
+            side.0.set(lane, own.0);
+            side.1.set(lane, own.1);
+        }
+        side
+    }
+
+    #[inline(always)]
+    fn sums<L: Lane>(&self, sum: &f64) -> L {
+        L::splat(*sum)
+    }
+
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &L, lane: usize) -> f64 {
+        sums.at(lane)
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        here: &(L, L),
+        _j: usize,
+        there: &There<D>,
+        pair: &LanePair<D, L>,
+        sum: &mut L,
+    ) {
+        let [pressure, density, volume] = [there.pressure, there.density, there.volume].map(L::splat);
+        let gravity = splat::<D, L>(&self.gravity);
+        let bracket = L::splat(2.0) * (here.0 - pressure) / (here.1 + density)
+            - dot(&gravity, &pair.separation);
+        *sum += volume * bracket * pair.factor;
     }
 }

@@ -175,7 +175,7 @@ pub(crate) fn held_normals<const D: usize>(
     let own = world.kernel.value_at_zero();
     let near_any = |i: usize| {
         let near = |j: &u32| at_surface(&all[*j as usize]);
-        at_surface(&all[i]) || world.lists.free.row(i).iter().any(near)
+        at_surface(&all[i]) || world.lists.free.candidates(i).iter().any(near)
     };
     let near: Vec<bool> = (0..all.len())
         .into_par_iter()

@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
-use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
+use sph_neighbours::{
+    BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There, World, dot, set,
+};
 
 use crate::diffusion_limit::{DiffusionLimit, fastest};
 use crate::linear_exact::linear_exact;
@@ -55,7 +57,7 @@ impl<const D: usize> Smoother<D> for RhieChow {
         vec![Box::new(PressureSlope)]
     }
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Term(NarrowLessWide {
+        Box::new(Lanewise(NarrowLessWide {
             slowness: self.strength / fastest(laws),
         }))
     }
@@ -118,7 +120,7 @@ struct NarrowLessWide {
     slowness: f64,
 }
 
-impl<const D: usize> PairTerm<D> for NarrowLessWide {
+impl<const D: usize> LanePairTerm<D> for NarrowLessWide {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -179,13 +181,59 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
 
     #[inline(always)]
     fn free(&self, own: &Own<D>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
-        let narrow = 2.0 * (own.pressure - there.pressure) / (own.density + there.density);
-        let wide = 0.5 * (own.slope + self.slope[j]).dot(&pair.separation);
-        *sum += there.volume * (narrow - wide) * pair.factor;
+        self.add_one(own, j, there, pair, sum);
     }
 
     #[inline(always)]
     fn finish(&self, own: &Own<D>, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
         rates.scalar += self.weight * own.density * sum * inverse_gamma;
+    }
+}
+
+impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
+    /// Pressure, density, slope.
+    type Side<L: Lane> = (L, L, [L; D]);
+    type Sums<L: Lane> = L;
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Own<D>]) -> Self::Side<L> {
+        let zero = L::splat(0.0);
+        let mut side = (zero, zero, [zero; D]);
+        for (lane, own) in here.iter().enumerate() {
+            side.0.set(lane, own.pressure);
+            side.1.set(lane, own.density);
+            set(&mut side.2, lane, &own.slope);
+        }
+        side
+    }
+
+    #[inline(always)]
+    fn sums<L: Lane>(&self, sum: &f64) -> L {
+        L::splat(*sum)
+    }
+
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &L, lane: usize) -> f64 {
+        sums.at(lane)
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        own: &Self::Side<L>,
+        j: usize,
+        there: &There<D>,
+        pair: &LanePair<D, L>,
+        sum: &mut L,
+    ) {
+        let [pressure, density, volume] = [there.pressure, there.density, there.volume].map(L::splat);
+        let narrow = L::splat(2.0) * (own.0 - pressure) / (own.1 + density);
+        let mut slopes = own.2;
+        for (slope, other) in slopes.iter_mut().zip(self.slope[j].iter()) {
+            *slope += L::splat(*other);
+        }
+        let half = L::splat(0.5);
+        let wide = dot(&slopes.map(|s| half * s), &pair.separation);
+        *sum += volume * (narrow - wide) * pair.factor;
     }
 }

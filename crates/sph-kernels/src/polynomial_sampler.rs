@@ -1,5 +1,7 @@
 //! The sampler of piecewise polynomial kernels: slices in vector instructions.
 
+use sph_lanes::{Body, Lane, dispatch};
+
 use crate::factored;
 use crate::formula::{Formula, General, Product, Selection};
 use crate::sampler::assert_smoothing_length;
@@ -108,24 +110,38 @@ impl<V: Formula, F: Formula> Sampler for PolynomialSampler<V, F> {
 
     fn value(&self, r2: &[f64], w: &mut [f64]) {
         assert_eq!(r2.len(), w.len());
-        for (w, r2) in w.iter_mut().zip(r2) {
-            *w = self.value.at(self.range.q(*r2));
-        }
+        let (range, formula) = (&self.range, &self.value);
+        dispatch(Loop { range, formula, r2, out: w });
     }
 
     fn gradient_factor(&self, r2: &[f64], factor: &mut [f64]) {
         assert_eq!(r2.len(), factor.len());
-        for (factor, r2) in factor.iter_mut().zip(r2) {
-            *factor = self.factor.at(self.range.q(*r2));
-        }
+        let (range, formula) = (&self.range, &self.factor);
+        dispatch(Loop { range, formula, r2, out: factor });
     }
 
     fn both(&self, r2: &[f64], w: &mut [f64], factor: &mut [f64]) {
         assert_eq!((r2.len(), r2.len()), (w.len(), factor.len()));
-        for ((w, factor), r2) in w.iter_mut().zip(factor).zip(r2) {
-            let q = self.range.q(*r2);
-            *w = self.value.at(q);
-            *factor = self.factor.at(q);
+        self.value(r2, w);
+        self.gradient_factor(r2, factor);
+    }
+}
+
+/// A formula over a slice; whatever the width of the lanes, the compiler fills them.
+struct Loop<'a, F> {
+    range: &'a Range,
+    formula: &'a F,
+    r2: &'a [f64],
+    out: &'a mut [f64],
+}
+
+impl<F: Formula> Body for Loop<'_, F> {
+    type Output = ();
+    #[inline(always)]
+    fn call<L: Lane>(self) {
+        let Loop { range, formula, r2, out } = self;
+        for (out, r2) in out.iter_mut().zip(r2) {
+            *out = formula.at(range.q(*r2));
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
+    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair,
+    Rates, There, World, dot, minus, set,
 };
 
 /// Which weight a pair has in D_a{u} = −1/γ_a [Σ_b θ_b W_ab u_ab·∇w_ab − Σ_s W_as/V_s u_as·∇γ_as].
@@ -10,7 +11,7 @@ pub trait DivergenceWeight: Copy + Send + Sync + 'static {
     /// Name in plans.
     const NAME: &'static str;
     /// W from the volumes and densities here and there.
-    fn weight(self, volume: f64, density: f64, there: f64, there_density: f64) -> f64;
+    fn weight<L: Lane>(self, volume: L, density: L, there: L, there_density: L) -> L;
 }
 
 /// W = V_a: belongs to [`HuAdams`](crate::HuAdams), Ghaïtanellis 2017, Eq. 3.26.
@@ -20,7 +21,7 @@ pub struct OwnVolume;
 impl DivergenceWeight for OwnVolume {
     const NAME: &'static str = "Hu–Adams divergence";
     #[inline(always)]
-    fn weight(self, volume: f64, _: f64, _: f64, _: f64) -> f64 {
+    fn weight<L: Lane>(self, volume: L, _: L, _: L, _: L) -> L {
         volume
     }
 }
@@ -32,7 +33,7 @@ pub struct TheirVolume;
 impl DivergenceWeight for TheirVolume {
     const NAME: &'static str = "Colagrossi–Landrini divergence";
     #[inline(always)]
-    fn weight(self, _: f64, _: f64, there: f64, _: f64) -> f64 {
+    fn weight<L: Lane>(self, _: L, _: L, there: L, _: L) -> L {
         there
     }
 }
@@ -45,7 +46,7 @@ pub struct DensityWeighted;
 impl DivergenceWeight for DensityWeighted {
     const NAME: &'static str = "Krimi divergence";
     #[inline(always)]
-    fn weight(self, volume: f64, density: f64, there: f64, there_density: f64) -> f64 {
+    fn weight<L: Lane>(self, volume: L, density: L, there: L, there_density: L) -> L {
         (volume * volume + there * there) / volume * there_density / (density + there_density)
     }
 }
@@ -57,11 +58,11 @@ pub struct Divergence<W>(pub W);
 impl<W: DivergenceWeight> Divergence<W> {
     /// As a term of a sweep.
     pub fn boxed<const D: usize>(weight: W) -> Box<dyn Interaction<D>> {
-        Box::new(Term(Divergence(weight)))
+        Box::new(Lanewise(Divergence(weight)))
     }
 }
 
-impl<const D: usize, W: DivergenceWeight> PairTerm<D> for Divergence<W> {
+impl<const D: usize, W: DivergenceWeight> LanePairTerm<D> for Divergence<W> {
     type Bound<'a> = Bound<'a, D, W>;
 
     fn name(&self) -> String {
@@ -118,12 +119,8 @@ impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for Bound<'_, D, W> {
     }
 
     #[inline(always)]
-    fn free(&self, here: &Self::Here, _j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
-        let weight = self
-            .weight
-            .weight(here.1, here.2, there.volume, there.density);
-        let apart = (here.0 - there.velocity).dot(&pair.separation);
-        *sum -= weight * apart * pair.factor;
+    fn free(&self, here: &Self::Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
+        self.add_one(here, j, there, pair, sum);
     }
 
     #[inline(always)]
@@ -146,5 +143,47 @@ impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for Bound<'_, D, W> {
     #[inline(always)]
     fn finish(&self, _: &Self::Here, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
         rates.scalar += sum * inverse_gamma;
+    }
+}
+
+impl<const D: usize, W: DivergenceWeight> LaneTerm<D> for Bound<'_, D, W> {
+    type Side<L: Lane> = ([L; D], L, L);
+    type Sums<L: Lane> = L;
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L> {
+        let zero = L::splat(0.0);
+        let mut side = ([zero; D], zero, zero);
+        for (lane, own) in here.iter().enumerate() {
+            set(&mut side.0, lane, &own.0);
+            side.1.set(lane, own.1);
+            side.2.set(lane, own.2);
+        }
+        side
+    }
+
+    #[inline(always)]
+    fn sums<L: Lane>(&self, sum: &f64) -> L {
+        L::splat(*sum)
+    }
+
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &L, lane: usize) -> f64 {
+        sums.at(lane)
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        here: &Self::Side<L>,
+        _j: usize,
+        there: &There<D>,
+        pair: &LanePair<D, L>,
+        sum: &mut L,
+    ) {
+        let [volume, density] = [there.volume, there.density].map(L::splat);
+        let weight = self.weight.weight(here.1, here.2, volume, density);
+        let apart = dot(&minus(&here.0, &there.velocity), &pair.separation);
+        *sum -= weight * apart * pair.factor;
     }
 }

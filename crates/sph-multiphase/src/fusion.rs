@@ -1,7 +1,7 @@
 //! The combinations of built-in terms that are compiled into one loop.
 
 use sph_core::reexport::inventory;
-use sph_neighbours::{FusionEntry, fuse_three, fuse_two};
+use sph_neighbours::{FusionEntry, fuse_three_lanes, fuse_two_lanes};
 
 use crate::HuAdamsPressure as Pressure;
 
@@ -21,9 +21,9 @@ macro_rules! fuse {
     };
 }
 
-fuse!(3, fuse_three: Pressure, MorrisTerm<Uniform>, Smooth);
-fuse!(3, fuse_three: Pressure, MorrisTerm<PerParticle>, Smooth);
-fuse!(3, fuse_three: Pressure, MorrisTerm<InSeries>, Smooth);
-fuse!(2, fuse_two: Pressure, MorrisTerm<Uniform>);
-fuse!(2, fuse_two: Pressure, MorrisTerm<PerParticle>);
-fuse!(2, fuse_two: Pressure, Smooth);
+fuse!(3, fuse_three_lanes: Pressure, MorrisTerm<Uniform>, Smooth);
+fuse!(3, fuse_three_lanes: Pressure, MorrisTerm<PerParticle>, Smooth);
+fuse!(3, fuse_three_lanes: Pressure, MorrisTerm<InSeries>, Smooth);
+fuse!(2, fuse_two_lanes: Pressure, MorrisTerm<Uniform>);
+fuse!(2, fuse_two_lanes: Pressure, MorrisTerm<PerParticle>);
+fuse!(2, fuse_two_lanes: Pressure, Smooth);

@@ -2,18 +2,19 @@
 
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
+    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair,
+    Rates, There, World, add_scaled, splat, vector,
 };
 
 /// Pressure, volume and density of one side of a pair.
 #[derive(Clone, Copy, Debug)]
-pub struct Side {
+pub struct Side<L = f64> {
     /// p, Pa.
-    pub pressure: f64,
+    pub pressure: L,
     /// V, m^d.
-    pub volume: f64,
+    pub volume: L,
     /// ρ, kg/m³.
-    pub density: f64,
+    pub density: L,
 }
 
 /// The weight P_ab of a pair in m_a a = −1/γ_a [Σ_b θ_b P_ab ∇w_ab − Σ_s P_as/V_s ∇γ_as].
@@ -23,7 +24,7 @@ pub trait PairPressure: Copy + Send + Sync + 'static {
     /// Whether P_ab looks at the densities.
     const DENSITY: bool;
     /// P_ab = P_ba, Pa m^2d.
-    fn pair(self, here: Side, there: Side) -> f64;
+    fn pair<L: Lane>(self, here: Side<L>, there: Side<L>) -> L;
 }
 
 /// P_ab = p_a V_a² + p_b V_b²: [`HuAdams`](crate::HuAdams), Ghaïtanellis 2017, Eq. 3.25.
@@ -34,7 +35,7 @@ impl PairPressure for SquaredVolumes {
     const NAME: &'static str = "Hu–Adams pressure gradient";
     const DENSITY: bool = false;
     #[inline(always)]
-    fn pair(self, here: Side, there: Side) -> f64 {
+    fn pair<L: Lane>(self, here: Side<L>, there: Side<L>) -> L {
         here.pressure * here.volume * here.volume + there.pressure * there.volume * there.volume
     }
 }
@@ -47,7 +48,7 @@ impl PairPressure for SumOfPressures {
     const NAME: &'static str = "Colagrossi–Landrini pressure gradient";
     const DENSITY: bool = false;
     #[inline(always)]
-    fn pair(self, here: Side, there: Side) -> f64 {
+    fn pair<L: Lane>(self, here: Side<L>, there: Side<L>) -> L {
         here.volume * there.volume * (here.pressure + there.pressure)
     }
 }
@@ -60,7 +61,7 @@ impl PairPressure for BetweenParticles {
     const NAME: &'static str = "Krimi pressure gradient";
     const DENSITY: bool = true;
     #[inline(always)]
-    fn pair(self, here: Side, there: Side) -> f64 {
+    fn pair<L: Lane>(self, here: Side<L>, there: Side<L>) -> L {
         let between = there.density * here.pressure + here.density * there.pressure;
         let volumes = here.volume * here.volume + there.volume * there.volume;
         volumes * between / (here.density + there.density)
@@ -74,11 +75,11 @@ pub struct PressureGradient<P>(pub P);
 impl<P: PairPressure> PressureGradient<P> {
     /// As a term of a sweep.
     pub fn boxed<const D: usize>(weight: P) -> Box<dyn Interaction<D>> {
-        Box::new(Term(PressureGradient(weight)))
+        Box::new(Lanewise(PressureGradient(weight)))
     }
 }
 
-impl<const D: usize, P: PairPressure> PairTerm<D> for PressureGradient<P> {
+impl<const D: usize, P: PairPressure> LanePairTerm<D> for PressureGradient<P> {
     type Bound<'a> = Bound<'a, D, P>;
 
     fn name(&self) -> String {
@@ -152,17 +153,12 @@ impl<const D: usize, P: PairPressure> BoundTerm<D> for Bound<'_, D, P> {
     fn free(
         &self,
         here: &Self::Here,
-        _j: usize,
+        j: usize,
         there: &There<D>,
         pair: &Pair<D>,
         sum: &mut Vect<D>,
     ) {
-        let there = Side {
-            pressure: there.pressure,
-            volume: there.volume,
-            density: there.density,
-        };
-        *sum += pair.separation * (self.weight.pair(here.0, there) * pair.factor);
+        self.add_one(here, j, there, pair, sum);
     }
 
     #[inline(always)]
@@ -191,5 +187,54 @@ impl<const D: usize, P: PairPressure> BoundTerm<D> for Bound<'_, D, P> {
     #[inline(always)]
     fn finish(&self, here: &Self::Here, sum: &Vect<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
         rates.acceleration -= sum * (here.1 * inverse_gamma);
+    }
+}
+
+impl<const D: usize, P: PairPressure> LaneTerm<D> for Bound<'_, D, P> {
+    type Side<L: Lane> = Side<L>;
+    type Sums<L: Lane> = [L; D];
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Self::Here]) -> Side<L> {
+        let zero = L::splat(0.0);
+        let mut side = Side {
+            pressure: zero,
+            volume: zero,
+            density: zero,
+        };
+        for (lane, (own, _)) in here.iter().enumerate() {
+            side.pressure.set(lane, own.pressure);
+            side.volume.set(lane, own.volume);
+            side.density.set(lane, own.density);
+        }
+        side
+    }
+
+    #[inline(always)]
+    fn sums<L: Lane>(&self, sum: &Vect<D>) -> [L; D] {
+        splat(sum)
+    }
+
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &[L; D], lane: usize) -> Vect<D> {
+        vector(sums, lane)
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        here: &Side<L>,
+        _j: usize,
+        there: &There<D>,
+        pair: &LanePair<D, L>,
+        sums: &mut [L; D],
+    ) {
+        let there = Side {
+            pressure: L::splat(there.pressure),
+            volume: L::splat(there.volume),
+            density: L::splat(there.density),
+        };
+        let weight = self.weight.pair(*here, there) * pair.factor;
+        add_scaled(sums, &pair.separation, weight);
     }
 }

@@ -7,6 +7,7 @@ use std::any::Any;
 
 use sph_core::reexport::inventory;
 
+use crate::lane_term::{LanePairTerm, Lanewise};
 use crate::term::{Interaction, PairTerm, Term};
 
 /// Terms on their way into the sweep.
@@ -38,49 +39,51 @@ pub fn fuse_all<const D: usize>(mut terms: Terms<D>) -> Terms<D> {
     terms
 }
 
-/// Replaces the terms of the types A and B by their tuple, if both are there.
-pub fn fuse_two<const D: usize, A: PairTerm<D>, B: PairTerm<D>>(mut terms: Terms<D>) -> Terms<D> {
-    match (extract::<D, A>(&mut terms), extract::<D, B>(&mut terms)) {
-        (Some(a), Some(b)) => terms.insert(0, Box::new(Term((a, b)))),
-        (a, b) => {
-            restore(&mut terms, b);
-            restore(&mut terms, a);
+/// The functions that join terms of one kind: the trait that they have, and what makes an interaction of them.
+macro_rules! joined {
+    ($term:ident, $wrapper:ident, $extract:ident, $restore:ident, $two:ident, $three:ident, $what:literal) => {
+        #[doc = concat!("Replaces the ", $what, " of the types A and B by their tuple, if both are there.")]
+        pub fn $two<const D: usize, A: $term<D>, B: $term<D>>(mut terms: Terms<D>) -> Terms<D> {
+            match ($extract::<D, A>(&mut terms), $extract::<D, B>(&mut terms)) {
+                (Some(a), Some(b)) => terms.insert(0, Box::new($wrapper((a, b)))),
+                (a, b) => {
+                    $restore(&mut terms, b);
+                    $restore(&mut terms, a);
+                }
+            }
+            terms
         }
-    }
-    terms
-}
 
-/// Replaces the terms of the types A, B and C by their tuple, if all are there.
-pub fn fuse_three<const D: usize, A: PairTerm<D>, B: PairTerm<D>, C: PairTerm<D>>(
-    mut terms: Terms<D>,
-) -> Terms<D> {
-    let a = extract::<D, A>(&mut terms);
-    let b = extract::<D, B>(&mut terms);
-    let c = extract::<D, C>(&mut terms);
-    match (a, b, c) {
-        (Some(a), Some(b), Some(c)) => terms.insert(0, Box::new(Term((a, b, c)))),
-        (a, b, c) => {
-            restore(&mut terms, c);
-            restore(&mut terms, b);
-            restore(&mut terms, a);
+        #[doc = concat!("Replaces the ", $what, " of the types A, B and C by their tuple, if all are there.")]
+        pub fn $three<const D: usize, A: $term<D>, B: $term<D>, C: $term<D>>(
+            mut terms: Terms<D>,
+        ) -> Terms<D> {
+            let a = $extract::<D, A>(&mut terms);
+            let b = $extract::<D, B>(&mut terms);
+            let c = $extract::<D, C>(&mut terms);
+            match (a, b, c) {
+                (Some(a), Some(b), Some(c)) => terms.insert(0, Box::new($wrapper((a, b, c)))),
+                (a, b, c) => {
+                    $restore(&mut terms, c);
+                    $restore(&mut terms, b);
+                    $restore(&mut terms, a);
+                }
+            }
+            terms
         }
-    }
-    terms
-}
 
-fn extract<const D: usize, T: PairTerm<D>>(terms: &mut Terms<D>) -> Option<T> {
-    for k in 0..terms.len() {
-        let term = terms.remove(k);
-        match term.as_any_ref().is::<Term<T>>() {
-            true => return term.into_any().downcast::<Term<T>>().ok().map(|t| t.0),
-            false => terms.insert(k, term),
+        fn $extract<const D: usize, T: $term<D>>(terms: &mut Terms<D>) -> Option<T> {
+            let is = |term: &Box<dyn Interaction<D>>| term.as_any_ref().is::<$wrapper<T>>();
+            let term = terms.remove(terms.iter().position(is)?);
+            term.into_any().downcast::<$wrapper<T>>().ok().map(|t| t.0)
         }
-    }
-    None
-}
 
-fn restore<const D: usize, T: PairTerm<D>>(terms: &mut Terms<D>, term: Option<T>) {
-    if let Some(term) = term {
-        terms.insert(0, Box::new(Term(term)));
-    }
+        fn $restore<const D: usize, T: $term<D>>(terms: &mut Terms<D>, term: Option<T>) {
+            if let Some(term) = term {
+                terms.insert(0, Box::new($wrapper(term)));
+            }
+        }
+    };
 }
+joined!(PairTerm, Term, scalar, restore_scalar, fuse_two, fuse_three, "scalar terms");
+joined!(LanePairTerm, Lanewise, lanes, restore_lanes, fuse_two_lanes, fuse_three_lanes, "terms in lanes");

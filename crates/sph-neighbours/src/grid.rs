@@ -112,10 +112,21 @@ impl<const D: usize> CellGrid<D> {
 
     /// Calls `visit` with ranges of places that together hold every point within `radius`; the same for all points of a cell.
     #[inline]
-    pub fn ranges(&self, x: &Vect<D>, radius: f64, mut visit: impl FnMut(std::ops::Range<usize>)) {
+    pub fn ranges(&self, x: &Vect<D>, radius: f64, visit: impl FnMut(std::ops::Range<usize>)) {
+        self.ranges_around([x, x], radius, visit);
+    }
+
+    /// The same for all points of a box with these two corners; the ranges ascend.
+    #[inline]
+    pub fn ranges_around(
+        &self,
+        corners: [&Vect<D>; 2],
+        radius: f64,
+        mut visit: impl FnMut(std::ops::Range<usize>),
+    ) {
         let mut spans = [[(0usize, 0usize); 2]; 3];
         for (axis, span) in spans.iter_mut().enumerate().take(D) {
-            *span = self.span(x, radius, axis);
+            *span = self.span(corners, radius, axis);
         }
         // Axes that do not exist contribute the single cell 0.
         for span in spans.iter_mut().skip(D) {
@@ -143,22 +154,22 @@ impl<const D: usize> CellGrid<D> {
     }
 
     /// Half-open spans of cells along an axis, at most two where a period is crossed.
-    fn span(&self, x: &Vect<D>, radius: f64, axis: usize) -> [(usize, usize); 2] {
+    fn span(&self, corners: [&Vect<D>; 2], radius: f64, axis: usize) -> [(usize, usize); 2] {
         let n = self.counts[axis];
         let reach = (radius * self.inverse_width[axis]).ceil().min(n as f64) as usize;
-        let c = self.coordinate(x, axis);
+        let [low, high] = corners.map(|x| self.coordinate(x, axis));
         if !self.periodic[axis] {
-            return [(c.saturating_sub(reach), (c + reach + 1).min(n)), (0, 0)];
+            return [(low.saturating_sub(reach), (high + reach + 1).min(n)), (0, 0)];
         }
-        if 2 * reach + 1 >= n {
+        if high - low + 2 * reach + 1 >= n {
             return [(0, n), (0, 0)];
         }
-        if c < reach {
-            [(0, c + reach + 1), (n + c - reach, n)]
-        } else if c + reach >= n {
-            [(0, c + reach + 1 - n), (c - reach, n)]
+        if low < reach {
+            [(0, high + reach + 1), (n + low - reach, n)]
+        } else if high + reach >= n {
+            [(0, high + reach + 1 - n), (low - reach, n)]
         } else {
-            [(c - reach, c + reach + 1), (0, 0)]
+            [(low - reach, high + reach + 1), (0, 0)]
         }
     }
 }

@@ -3,8 +3,11 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
+use sph_lanes::{Body, Lane, dispatch_at, width};
 
+use crate::clusters::{Members, groups};
 use crate::list::CHUNK;
+use crate::separation::Distances;
 use crate::sweep::wrapping;
 use crate::{Domain, NeighbourList, World};
 
@@ -22,32 +25,94 @@ pub fn kernel_sums<const D: usize>(
     let mut pruned = std::mem::take(&mut world.lists.spare);
     let positions = world.free.get(fields::POSITION)?;
     let points = &world.walls.points;
-    let list = &world.lists.free;
     let kernel = &*world.kernel;
     let own = kernel.value_at_zero();
     let limit = kernel.support_radius().powi(2);
-    let row = |values: &mut Values, i: usize, slots: &mut [u32]| {
-        let x = &positions[i];
-        let domain = wrapping(&world.domain, x, world.reach());
-        let (n, w) = values.prune(x, positions, list.row(i), limit, domain, kernel, slots);
-        let mut sum = own + total(w);
-        if points.in_sums() {
-            let row = world.lists.wall.row(i);
-            if !row.is_empty() {
-                let w = values.fill(x, &points.position, row, domain, kernel);
-                let shares = row.iter().map(|&v| points.share[v as usize]);
-                sum += w
-                    .iter()
-                    .zip(shares)
-                    .map(|(w, share)| w * share)
-                    .sum::<f64>();
+    let width = width();
+    let cluster = |room: &mut Room, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
+        let domain = |i: usize| wrapping(&world.domain, &positions[i], world.reach());
+        let mut inside = std::mem::take(&mut room.inside);
+        inside.clear();
+        inside.resize(all.candidates.len(), false);
+        for members in groups(all, width.lanes()) {
+            let first = members.from - all.from;
+            let near = (members.from..members.from + members.count).find_map(domain);
+            let out = &mut room.lanes.distance2;
+            dispatch_at(width, Distances { members, positions, domain: near, out });
+            let values = &mut room.lanes;
+            let needed = members.candidates.len() * width.lanes();
+            values.reserve(needed);
+            let distance2 = &values.distance2[..needed];
+            let value = &mut values.value[..needed];
+            kernel.value(distance2, value);
+            let sums = &mut sums[first..first + members.count];
+            dispatch_at(width, Total { distance2, value, limit, inside: &mut inside, sums });
+        }
+        for (k, sum) in sums.iter_mut().enumerate() {
+            *sum += own;
+            if points.in_sums() {
+                let i = all.from + k;
+                let row = world.lists.wall.row(i);
+                if !row.is_empty() {
+                    let values = &mut room.row;
+                    let w = values.fill(&positions[i], &points.position, row, domain(i), kernel);
+                    let shares = row.iter().map(|&v| points.share[v as usize]);
+                    *sum += w
+                        .iter()
+                        .zip(shares)
+                        .map(|(w, share)| w * share)
+                        .sum::<f64>();
+                }
             }
         }
-        (n, sum)
+        let mut n = 0;
+        for (&j, &near) in all.candidates.iter().zip(&inside) {
+            slots[n] = j;
+            n += usize::from(near);
+        }
+        room.inside = inside;
+        n
     };
-    pruned.fill_rows(sums, |i| list.row(i).len(), Values::default, row);
+    pruned.fill(&world.lists.free, sums, Room::default, cluster);
     world.lists.pruned = Some(pruned);
     Ok(())
+}
+
+/// Buffers of a thread.
+#[derive(Default)]
+struct Room {
+    lanes: Values,
+    row: Values,
+    /// Which candidates some member has within its support.
+    inside: Vec<bool>,
+}
+
+/// Σ w in every lane, and who is within the support of any.
+struct Total<'a> {
+    distance2: &'a [f64],
+    value: &'a [f64],
+    limit: f64,
+    inside: &'a mut [bool],
+    sums: &'a mut [f64],
+}
+
+impl Body for Total<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<L: Lane>(self) {
+        let limit = L::splat(self.limit);
+        let mut sum = L::splat(0.0);
+        let lanes = self.distance2.chunks_exact(L::N);
+        let lanes = lanes.zip(self.value.chunks_exact(L::N));
+        for ((distance2, value), inside) in lanes.zip(self.inside) {
+            sum += L::load(value);
+            *inside |= L::load(distance2).any_less(limit);
+        }
+        for (lane, out) in self.sums.iter_mut().enumerate() {
+            *out = sum.at(lane);
+        }
+    }
 }
 
 /// Calls `use_row(target, candidates, w)` for every target and collects what it returns: the
@@ -101,36 +166,6 @@ impl Values {
         }
     }
 
-    /// Kernel values of the candidates within the support; their indices go to `slots`.
-    #[allow(clippy::too_many_arguments)]
-    fn prune<const D: usize>(
-        &mut self,
-        x: &Vect<D>,
-        sources: &[Vect<D>],
-        candidates: &[u32],
-        limit: f64,
-        domain: Option<&Domain<D>>,
-        kernel: &dyn Sampler,
-        slots: &mut [u32],
-    ) -> (usize, &[f64]) {
-        let m = candidates.len();
-        self.reserve(m);
-        let (distance2, slots) = (&mut self.distance2[..m], &mut slots[..m]);
-        let mut n = 0;
-        for &j in candidates {
-            let mut d = x - sources[j as usize];
-            if let Some(domain) = domain {
-                d = domain.nearest_image(d);
-            }
-            let r2 = d.norm_squared();
-            slots[n] = j;
-            distance2[n] = r2;
-            n += usize::from(r2 < limit);
-        }
-        kernel.value(&distance2[..n], &mut self.value[..n]);
-        (n, &self.value[..n])
-    }
-
     fn fill<const D: usize>(
         &mut self,
         x: &Vect<D>,
@@ -157,16 +192,4 @@ impl Values {
         kernel.value(distance2, &mut self.value[..n]);
         &self.value[..n]
     }
-}
-
-/// A sum over four lanes in a fixed order.
-fn total(values: &[f64]) -> f64 {
-    let (whole, rest) = values.as_chunks::<4>();
-    let mut lanes = [0.0; 4];
-    for chunk in whole {
-        for k in 0..4 {
-            lanes[k] += chunk[k];
-        }
-    }
-    (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]) + rest.iter().sum::<f64>()
 }

@@ -13,18 +13,23 @@
 //! bits for any number of threads.
 
 mod batches;
+mod cluster;
+mod clusters;
 mod contacts;
 mod domain;
 mod fuse;
 mod grid;
 mod kernel_sums;
 mod kernels;
+mod lane_term;
+mod lane_vector;
 mod lattice;
 mod list;
 mod moment;
 mod packed;
 mod reaction;
 mod row;
+mod separation;
 mod shares;
 mod sweep;
 mod term;
@@ -33,18 +38,25 @@ mod walls;
 mod world;
 
 pub use batches::by_phase;
+pub use cluster::Cluster;
+pub use clusters::Clusters;
 pub use contacts::{Contact, Contacts};
 pub use domain::Domain;
-pub use fuse::{FusionEntry, Terms, fuse_all, fuse_three, fuse_two};
+pub use fuse::{
+    FusionEntry, Terms, fuse_all, fuse_three, fuse_three_lanes, fuse_two, fuse_two_lanes,
+};
 pub use grid::CellGrid;
 pub use kernel_sums::{kernel_sums, shepard, shepard_some};
 pub use kernels::KernelEntry;
+pub use lane_term::{FusedLanes, LanePair, LanePairTerm, LaneTerm, Lanewise};
+pub use lane_vector::{minus, set, splat, vector};
 pub use lattice::{lattice_sum, rows_sum};
 pub use list::{CHUNK, NeighbourList};
 pub use moment::trusted_inverse;
 pub use packed::{Packed, pack};
 pub use reaction::{WallForce, cross, wall_forces, wall_parts};
-pub use row::{Neighbourhood, Row, Scratch};
+pub use row::{NOBODY, Neighbourhood, Row, Scratch};
+pub use sph_lanes::{Lane, add_scaled, dot};
 pub use shares::{TermShare, shares_at};
 pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
 pub use term::{

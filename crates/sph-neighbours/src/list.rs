@@ -53,8 +53,7 @@ pub struct NeighbourList {
 impl NeighbourList {
     /// Finds, for every target, the sources nearer than `reach`.
     ///
-    /// `skip_self` leaves out the source with the target's own index. The candidates stand in
-    /// the grid's cell order, which is index order where the sources are sorted.
+    /// The candidates stand in the grid's cell order, which is index order where the sources are sorted.
     pub fn build<const D: usize>(
         &mut self,
         targets: &[Vect<D>],
@@ -62,7 +61,6 @@ impl NeighbourList {
         grid: &CellGrid<D>,
         reach: f64,
         domain: &Domain<D>,
-        skip_self: bool,
     ) {
         self.len = targets.len();
         self.blocks
@@ -77,18 +75,17 @@ impl NeighbourList {
                 let from = b * CHUNK;
                 let to = (from + CHUNK).min(targets.len());
                 let mut around = Around::default();
-                for (i, x) in targets[from..to].iter().enumerate() {
-                    let own = if skip_self { from + i } else { usize::MAX };
+                for x in &targets[from..to] {
                     around.go_to(x, grid, reach);
                     let room = len + around.places;
                     make_room(buffer, room);
                     let slots = &mut buffer[len..room];
                     len += if grid.is_sorted() && !domain.near_periodic_face(x, reach) {
-                        keep_sorted(slots, x, sources, &around.ranges, reach2, own)
+                        keep_sorted(slots, x, sources, &around.ranges, reach2)
                     } else {
                         let ranges = around.ranges.iter();
                         let members = ranges.flat_map(|range| &grid.order()[range.clone()]);
-                        keep(slots, members, own, |j| {
+                        keep(slots, members, |j| {
                             domain.nearest_image(x - sources[j]).norm_squared() < reach2
                         })
                     };
@@ -96,43 +93,6 @@ impl NeighbourList {
                 }
                 block.keep(&buffer[..len]);
             });
-    }
-
-    /// Fills `self` row by row in parallel, and one number per row along with it.
-    ///
-    /// `row` gets the target and room for `capacity(target)` entries, and returns how many it
-    /// wrote and the number.
-    pub(crate) fn fill_rows<S>(
-        &mut self,
-        numbers: &mut [f64],
-        capacity: impl Fn(usize) -> usize + Sync,
-        scratch: impl Fn() -> S + Sync + Send,
-        row: impl Fn(&mut S, usize, &mut [u32]) -> (usize, f64) + Sync,
-    ) {
-        self.len = numbers.len();
-        self.blocks
-            .resize_with(numbers.len().div_ceil(CHUNK), Block::default);
-        self.blocks
-            .par_iter_mut()
-            .zip(numbers.par_chunks_mut(CHUNK))
-            .enumerate()
-            .for_each_init(
-                || (scratch(), Vec::new()),
-                |(scratch, buffer), (b, (block, numbers))| {
-                    block.begin();
-                    let mut used = 0;
-                    for (k, number) in numbers.iter_mut().enumerate() {
-                        let i = b * CHUNK + k;
-                        let room = used + capacity(i);
-                        make_room(buffer, room);
-                        let (written, value) = row(scratch, i, &mut buffer[used..room]);
-                        *number = value;
-                        used += written;
-                        block.starts.push(used as u32);
-                    }
-                    block.keep(&buffer[..used]);
-                },
-            );
     }
 
     /// The candidates of a target.
@@ -199,12 +159,11 @@ fn keep_sorted<const D: usize>(
     sources: &[Vect<D>],
     ranges: &[Range<usize>],
     reach2: f64,
-    own: usize,
 ) -> usize {
     let mut n = 0;
     for range in ranges {
         for (j, y) in range.clone().zip(&sources[range.clone()]) {
-            let near = ((x - y).norm_squared() < reach2) & (j != own);
+            let near = (x - y).norm_squared() < reach2;
             slots[n] = j as u32;
             n += usize::from(near);
         }
@@ -216,12 +175,11 @@ fn keep_sorted<const D: usize>(
 fn keep<'a>(
     slots: &mut [u32],
     members: impl Iterator<Item = &'a u32>,
-    own: usize,
     near: impl Fn(usize) -> bool,
 ) -> usize {
     let mut n = 0;
     for &j in members {
-        if near(j as usize) && j as usize != own {
+        if near(j as usize) {
             slots[n] = j;
             n += 1;
         }

@@ -6,7 +6,7 @@ use sph_core::{StepError, Vect, fields};
 use crate::packed::{Packed, pack};
 use crate::row::Row;
 use crate::term::Rates;
-use crate::{Contact, Interaction, Neighbourhood, Scratch, World};
+use crate::{Contact, Interaction, NOBODY, Neighbourhood, Scratch, World};
 
 /// Force and moment of the fluid on one wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -215,15 +215,15 @@ impl<const D: usize> WallRow<D> {
         let kernel = &*world.kernel;
         let domain = world.domain.any_periodic().then_some(&world.domain);
         if let Ok(positions) = world.free.get(fields::POSITION) {
-            let candidates = world.lists.free.row(i);
+            let candidates = world.lists.free.candidates(i);
             self.free
-                .fill(x, positions, candidates, false, domain, kernel);
+                .fill(x, positions, candidates, i as u32, domain, kernel);
         }
         self.points.clear();
         if !world.lists.wall.is_empty() {
             let (candidates, sources) = (world.lists.wall.row(i), &set.points.position);
             self.points
-                .fill(x, sources, candidates, false, domain, kernel);
+                .fill(x, sources, candidates, NOBODY, domain, kernel);
         }
         self.contacts.clear();
         self.contacts.extend_from_slice(set.contacts.of(i));

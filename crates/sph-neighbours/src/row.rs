@@ -35,6 +35,9 @@ pub struct Neighbourhood<'a, const D: usize> {
     pub inverse_renormalisation: f64,
 }
 
+/// No index of any source.
+pub const NOBODY: u32 = u32::MAX;
+
 /// Buffers for one row; one per thread.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch<const D: usize> {
@@ -59,56 +62,28 @@ impl<const D: usize> Scratch<D> {
 
     /// Keeps the candidates within the support and evaluates F for them.
     ///
-    /// `pruned` says that all candidates are within the support already.
+    /// `own` is left out: the target's index where it is one of the sources, else [`NOBODY`].
     #[inline]
     pub fn fill<K: Sampler + ?Sized>(
         &mut self,
         x: &Vect<D>,
         sources: &[Vect<D>],
         candidates: &[u32],
-        pruned: bool,
+        own: u32,
         domain: Option<&Domain<D>>,
         kernel: &K,
     ) {
         let radius = kernel.support_radius();
         let limit = radius * radius;
-        if self.index.len() < candidates.len() {
-            let n = candidates.len().next_power_of_two();
-            self.index.resize(n, 0);
-            self.separation.resize(n, Vect::zeros());
-            self.distance2.resize(n, 0.0);
-            self.factor.resize(n, 0.0);
-        }
-        self.len = match (domain, pruned) {
-            (None, true) => self.gather(x, sources, candidates, |d| d),
-            (None, false) => self.compress(x, sources, candidates, limit, |d| d),
-            (Some(domain), _) => {
-                self.compress(x, sources, candidates, limit, |d| domain.nearest_image(d))
-            }
+        self.make_room(candidates.len());
+        self.len = match domain {
+            None => self.compress(x, sources, candidates, own, limit, |d| d),
+            Some(domain) => self.compress(x, sources, candidates, own, limit, |d| {
+                domain.nearest_image(d)
+            }),
         };
         let n = self.len;
         kernel.gradient_factor(&self.distance2[..n], &mut self.factor[..n]);
-    }
-
-    #[inline(always)]
-    fn gather(
-        &mut self,
-        x: &Vect<D>,
-        sources: &[Vect<D>],
-        candidates: &[u32],
-        image: impl Fn(Vect<D>) -> Vect<D>,
-    ) -> usize {
-        let m = candidates.len();
-        self.index[..m].copy_from_slice(candidates);
-        let rows = self.separation[..m]
-            .iter_mut()
-            .zip(&mut self.distance2[..m]);
-        for ((separation, distance2), &j) in rows.zip(candidates) {
-            let d = image(x - sources[j as usize]);
-            *separation = d;
-            *distance2 = d.norm_squared();
-        }
-        m
     }
 
     #[inline(always)]
@@ -117,6 +92,7 @@ impl<const D: usize> Scratch<D> {
         x: &Vect<D>,
         sources: &[Vect<D>],
         candidates: &[u32],
+        own: u32,
         limit: f64,
         image: impl Fn(Vect<D>) -> Vect<D>,
     ) -> usize {
@@ -131,9 +107,50 @@ impl<const D: usize> Scratch<D> {
             index[n] = j;
             separation[n] = d;
             distance2[n] = r2;
-            n += usize::from(r2 < limit);
+            n += usize::from((r2 < limit) & (j != own));
         }
         n
+    }
+
+    /// Keeps the candidates of one lane that are nearer than √`limit`; `[r², F]` of all of them stand in lanes.
+    #[allow(clippy::too_many_arguments, reason = "what a row is made of")]
+    pub(crate) fn pick(
+        &mut self,
+        x: &Vect<D>,
+        sources: &[Vect<D>],
+        candidates: &[u32],
+        [distances, factors]: [&[f64]; 2],
+        [lane, lanes]: [usize; 2],
+        limit: f64,
+        domain: Option<&Domain<D>>,
+    ) {
+        self.make_room(candidates.len());
+        let m = candidates.len();
+        let index = &mut self.index[..m];
+        let separation = &mut self.separation[..m];
+        let distance2 = &mut self.distance2[..m];
+        let factor = &mut self.factor[..m];
+        let mut n = 0;
+        let in_lanes = distances.chunks_exact(lanes).zip(factors.chunks_exact(lanes));
+        for (&j, (r2, f)) in candidates.iter().zip(in_lanes) {
+            let d = x - sources[j as usize];
+            index[n] = j;
+            separation[n] = domain.map_or(d, |domain| domain.nearest_image(d));
+            distance2[n] = r2[lane];
+            factor[n] = f[lane];
+            n += usize::from(r2[lane] < limit);
+        }
+        self.len = n;
+    }
+
+    fn make_room(&mut self, candidates: usize) {
+        if self.index.len() < candidates {
+            let n = candidates.next_power_of_two();
+            self.index.resize(n, 0);
+            self.separation.resize(n, Vect::zeros());
+            self.distance2.resize(n, 0.0);
+            self.factor.resize(n, 0.0);
+        }
     }
 
     /// The row that was filled last.

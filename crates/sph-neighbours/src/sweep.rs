@@ -3,11 +3,14 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
+use sph_lanes::{Width, width};
 
+use crate::cluster::{Buffers, Cluster};
+use crate::clusters::{Members, groups};
 use crate::list::CHUNK;
 use crate::packed::{Packed, pack};
 use crate::term::{Interaction, Rates, RowTerm, TRANSPORTED, There};
-use crate::{Domain, NeighbourList, Neighbourhood, Scratch, World};
+use crate::{Clusters, Domain, NOBODY, Neighbourhood, World};
 
 /// Sums all terms of all particles.
 ///
@@ -83,6 +86,11 @@ impl<const D: usize> RowTerm<D> for Several<'_, '_, D> {
             term.row(neighbourhood, rates);
         }
     }
+    fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
+        for term in self.0 {
+            term.cluster(cluster, rates);
+        }
+    }
 }
 
 /// The sweep for a kernel and a term known by type or as objects.
@@ -102,52 +110,52 @@ where
 {
     let sweep = Sweep::new(world, states, kernel)?;
     let start = Rates::of(world.gravity + world.driving);
-    let work = |from: usize, scratch: &mut [Scratch<D>; 2], i: usize| {
-        sweep.rates(term, start, scratch, from + i)
+    let work = |(buffers, rates): &mut Room<D>, block: usize, particles: usize| {
+        rates.clear();
+        rates.resize(particles, start);
+        sweep.block(term, |_| true, buffers, block, rates);
     };
-    let new_scratch = || [Scratch::new(), Scratch::new()];
     let Sums {
         acceleration,
         scalar,
         more,
     } = sums;
-    let all = acceleration.par_chunks_mut(CHUNK);
+    let all = acceleration.par_chunks_mut(CHUNK).enumerate();
     match (scalar, more) {
-        (Some(scalar), []) => all
-            .zip(scalar.par_chunks_mut(CHUNK))
-            .enumerate()
-            .for_each_init(new_scratch, |scratch, (c, (a, s))| {
-                for i in 0..a.len() {
-                    let rates = work(c * CHUNK, scratch, i);
-                    (a[i], s[i]) = (rates.acceleration, rates.scalar);
-                }
-            }),
-        (None, []) => all
-            .enumerate()
-            .for_each_init(new_scratch, |scratch, (c, a)| {
-                for (i, a) in a.iter_mut().enumerate() {
-                    *a = work(c * CHUNK, scratch, i).acceleration;
-                }
-            }),
-        (Some(scalar), more) => all
-            .zip(scalar.par_chunks_mut(CHUNK))
-            .zip(more.par_chunks_mut(CHUNK))
-            .enumerate()
-            .for_each_init(new_scratch, |scratch, (c, ((a, s), m))| {
-                for i in 0..a.len() {
-                    let rates = work(c * CHUNK, scratch, i);
-                    (a[i], s[i], m[i]) = (rates.acceleration, rates.scalar, rates.more);
-                }
-            }),
-        (None, more) => all
-            .zip(more.par_chunks_mut(CHUNK))
-            .enumerate()
-            .for_each_init(new_scratch, |scratch, (c, (a, m))| {
-                for i in 0..a.len() {
-                    let rates = work(c * CHUNK, scratch, i);
-                    (a[i], m[i]) = (rates.acceleration, rates.more);
-                }
-            }),
+        (Some(scalar), []) => {
+            all.zip(scalar.par_chunks_mut(CHUNK))
+                .for_each_init(Room::default, |room, ((c, a), s)| {
+                    work(room, c, a.len());
+                    for ((a, s), rates) in a.iter_mut().zip(s).zip(&room.1) {
+                        (*a, *s) = (rates.acceleration, rates.scalar);
+                    }
+                });
+        }
+        (None, []) => all.for_each_init(Room::default, |room, (c, a)| {
+            work(room, c, a.len());
+            for (a, rates) in a.iter_mut().zip(&room.1) {
+                *a = rates.acceleration;
+            }
+        }),
+        (Some(scalar), more) => {
+            let scalars = scalar.par_chunks_mut(CHUNK).zip(more.par_chunks_mut(CHUNK));
+            all.zip(scalars)
+                .for_each_init(Room::default, |room, ((c, a), (s, m))| {
+                    work(room, c, a.len());
+                    for (((a, s), m), rates) in a.iter_mut().zip(s).zip(m).zip(&room.1) {
+                        (*a, *s, *m) = (rates.acceleration, rates.scalar, rates.more);
+                    }
+                });
+        }
+        (None, more) => {
+            all.zip(more.par_chunks_mut(CHUNK))
+                .for_each_init(Room::default, |room, ((c, a), m)| {
+                    work(room, c, a.len());
+                    for ((a, m), rates) in a.iter_mut().zip(m).zip(&room.1) {
+                        (*a, *m) = (rates.acceleration, rates.more);
+                    }
+                });
+        }
     }
     Ok(())
 }
@@ -166,16 +174,23 @@ pub fn accelerations_of<const D: usize>(
     let bound = term.bind(world)?;
     let sweep = Sweep::new(world, states, &*world.kernel)?;
     let start = Rates::of(Vect::zeros());
-    let all = acceleration.par_iter_mut().enumerate().with_min_len(CHUNK);
-    let new_scratch = || [Scratch::new(), Scratch::new()];
-    all.for_each_init(new_scratch, |scratch, (i, a)| {
-        *a = match wanted(i) {
-            true => sweep.rates(&*bound, start, scratch, i).acceleration,
-            false => Vect::zeros(),
-        };
+    let all = acceleration.par_chunks_mut(CHUNK).enumerate();
+    all.for_each_init(Room::default, |(buffers, rates), (c, a)| {
+        rates.clear();
+        rates.resize(a.len(), start);
+        sweep.block(&*bound, &wanted, buffers, c, rates);
+        for (k, (a, rates)) in a.iter_mut().zip(rates.iter()).enumerate() {
+            *a = match wanted(c * CHUNK + k) {
+                true => rates.acceleration,
+                false => Vect::zeros(),
+            };
+        }
     });
     Ok(())
 }
+
+/// Buffers of a thread, and the rates of its block.
+type Room<const D: usize> = (Buffers<D>, Vec<Rates<D>>);
 
 /// What a walk over neighbourhoods looks at.
 struct Sweep<'a, const D: usize, K: ?Sized> {
@@ -185,17 +200,12 @@ struct Sweep<'a, const D: usize, K: ?Sized> {
     positions: &'a [Vect<D>],
     points: &'a [Vect<D>],
     renormalisation: Option<&'a [f64]>,
-    list: &'a NeighbourList,
-    /// Whether the list has nobody beyond the support.
-    pruned: bool,
+    lists: &'a Clusters,
+    width: Width,
 }
 
 impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
     fn new(world: &'a World<D>, states: &'a [There<D>], kernel: &'a K) -> Result<Self, StepError> {
-        let (list, pruned) = match &world.lists.pruned {
-            Some(list) => (list, true),
-            None => (&world.lists.free, false),
-        };
         Ok(Sweep {
             world,
             states,
@@ -206,44 +216,62 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
                 false => &[],
             },
             renormalisation: world.free.get(fields::RENORMALISATION).ok(),
-            list,
-            pruned,
+            lists: world.lists.nearest(),
+            width: width(),
         })
     }
 
-    /// What a term adds to `start` for one particle.
-    #[inline(always)]
-    fn rates<T: RowTerm<D> + ?Sized>(
+    /// Adds what a term gives the particles of a block, in clusters where anyone is `wanted`.
+    fn block<T: RowTerm<D> + ?Sized>(
         &self,
         term: &T,
-        start: Rates<D>,
-        scratch: &mut [Scratch<D>; 2],
-        i: usize,
-    ) -> Rates<D> {
-        let world = self.world;
-        let x = &self.positions[i];
-        let domain = wrapping(&world.domain, x, world.reach());
-        let [free, wall] = scratch;
-        let row = self.list.row(i);
-        free.fill(x, self.positions, row, self.pruned, domain, self.kernel);
-        wall.clear();
-        if !self.points.is_empty() {
-            let candidates = world.lists.wall.row(i);
-            if !candidates.is_empty() {
-                wall.fill(x, self.points, candidates, false, domain, self.kernel);
+        wanted: impl Fn(usize) -> bool,
+        buffers: &mut Buffers<D>,
+        block: usize,
+        rates: &mut [Rates<D>],
+    ) {
+        for cluster in self.lists.of_block(block) {
+            for members in groups(cluster, self.width.lanes()) {
+                let own = members.from..members.from + members.count;
+                if !own.clone().any(&wanted) {
+                    continue;
+                }
+                let first = members.from - block * CHUNK;
+                let mut cluster = self.measured(buffers, members);
+                term.cluster(&mut cluster, &mut rates[first..first + members.count]);
             }
         }
-        let neighbourhood = Neighbourhood {
-            particle: i,
-            free: free.row(),
+    }
+
+    /// A cluster with all that its terms look at.
+    fn measured<'b>(&'b self, buffers: &'b mut Buffers<D>, members: Members<'b>) -> Cluster<'b, D> {
+        let world = self.world;
+        let own = members.from..members.from + members.count;
+        let mut domain = None;
+        for (i, row) in own.zip(&mut buffers.walls) {
+            let x = &self.positions[i];
+            let near = wrapping(&world.domain, x, world.reach());
+            domain = domain.or(near);
+            row.clear();
+            if !self.points.is_empty() {
+                let candidates = world.lists.wall.row(i);
+                if !candidates.is_empty() {
+                    row.fill(x, self.points, candidates, NOBODY, near, self.kernel);
+                }
+            }
+        }
+        buffers.measure(self.width, members, self.positions, domain, self.kernel);
+        Cluster {
+            width: self.width,
+            members,
+            positions: self.positions,
             states: self.states,
-            wall: wall.row(),
-            contacts: world.walls.contacts.of(i),
-            inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[i]),
-        };
-        let mut rates = start;
-        term.row(&neighbourhood, &mut rates);
-        rates
+            contacts: &world.walls.contacts,
+            renormalisation: self.renormalisation,
+            limit: self.kernel.support_radius().powi(2),
+            domain,
+            buffers,
+        }
     }
 }
 

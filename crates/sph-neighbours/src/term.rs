@@ -4,7 +4,7 @@ use std::any::Any;
 
 use sph_core::{Access, StepError, Vect, contract};
 
-use crate::{Contact, Neighbourhood, Row, World};
+use crate::{Cluster, Contact, Neighbourhood, Row, World};
 
 /// What the interaction sweep sums per particle.
 #[derive(Clone, Copy, Debug)]
@@ -118,6 +118,10 @@ pub trait PairTerm<const D: usize>: Send + Sync + 'static {
 pub trait RowTerm<const D: usize>: Sync {
     /// Adds the term's rates for one particle.
     fn row(&self, neighbourhood: &Neighbourhood<'_, D>, rates: &mut Rates<D>);
+    /// Adds the rates of all particles of a cluster, row by row unless the term knows better.
+    fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
+        cluster.rows(|k, neighbourhood| self.row(neighbourhood, &mut rates[k]));
+    }
 }
 
 /// A term on its own: its name, and the term with its columns.
@@ -183,24 +187,33 @@ pub struct Fused<B>(pub B);
 impl<const D: usize, B: BoundTerm<D>> RowTerm<D> for Fused<B> {
     #[inline]
     fn row(&self, n: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
-        let term = &self.0;
-        let here = term.here(n.particle);
-        let mut sum = term.zero();
-        each(&n.free, |j, pair| {
-            term.free(&here, j, &n.states[j], pair, &mut sum)
-        });
-        if !n.wall.index.is_empty() {
-            each(&n.wall, |v, pair| term.wall(&here, v, pair, &mut sum));
-        }
-        for contact in n.contacts {
-            term.element(&here, contact, &mut sum);
-        }
-        term.finish(&here, &sum, n.inverse_renormalisation, rates);
+        free_then_walls(&self.0, n, rates);
     }
 }
 
+/// What a term sums over a whole neighbourhood: the free neighbours, then wall points, then elements.
 #[inline(always)]
-fn each<const D: usize>(row: &Row<'_, D>, mut visit: impl FnMut(usize, &Pair<D>)) {
+pub(crate) fn free_then_walls<const D: usize, B: BoundTerm<D>>(
+    term: &B,
+    n: &Neighbourhood<'_, D>,
+    rates: &mut Rates<D>,
+) {
+    let here = term.here(n.particle);
+    let mut sum = term.zero();
+    each(&n.free, |j, pair| {
+        term.free(&here, j, &n.states[j], pair, &mut sum)
+    });
+    if !n.wall.index.is_empty() {
+        each(&n.wall, |v, pair| term.wall(&here, v, pair, &mut sum));
+    }
+    for contact in n.contacts {
+        term.element(&here, contact, &mut sum);
+    }
+    term.finish(&here, &sum, n.inverse_renormalisation, rates);
+}
+
+#[inline(always)]
+pub(crate) fn each<const D: usize>(row: &Row<'_, D>, mut visit: impl FnMut(usize, &Pair<D>)) {
     let pairs = row.index.iter().zip(row.separation);
     for ((&j, &separation), (&factor, &distance2)) in
         pairs.zip(row.factor.iter().zip(row.distance2))

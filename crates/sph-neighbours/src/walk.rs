@@ -3,15 +3,14 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
-use crate::{CHUNK, NeighbourList, Neighbourhood, Scratch, World};
+use crate::{CHUNK, Clusters, NOBODY, Neighbourhood, Scratch, World};
 
 /// Finds neighbourhoods one by one, with the buffers of one thread.
 pub struct Surroundings<'w, const D: usize> {
     world: &'w World<D>,
     position: &'w [Vect<D>],
     renormalisation: Option<&'w [f64]>,
-    list: &'w NeighbourList,
-    pruned: bool,
+    lists: &'w Clusters,
 }
 
 /// Buffers for the rows of free neighbours and wall points.
@@ -35,16 +34,11 @@ impl<'w, const D: usize> Surroundings<'w, D> {
     /// # Errors
     /// If the world has no positions.
     pub fn new(world: &'w World<D>) -> Result<Self, StepError> {
-        let (list, pruned) = match &world.lists.pruned {
-            Some(list) => (list, true),
-            None => (&world.lists.free, false),
-        };
         Ok(Surroundings {
             world,
             position: world.free.get(fields::POSITION)?,
             renormalisation: world.free.get(fields::RENORMALISATION).ok(),
-            list,
-            pruned,
+            lists: world.lists.nearest(),
         })
     }
 
@@ -60,15 +54,16 @@ impl<'w, const D: usize> Surroundings<'w, D> {
         let x = &self.position[particle];
         let near = world.domain.near_periodic_face(x, 2.0 * world.reach());
         let domain = near.then_some(&world.domain);
-        let candidates = self.list.row(particle);
+        let (candidates, own) = (self.lists.candidates(particle), particle as u32);
         rows.free
-            .fill(x, self.position, candidates, self.pruned, domain, kernel);
+            .fill(x, self.position, candidates, own, domain, kernel);
         rows.wall.clear();
         if world.walls.points.in_sums() {
             let points = &world.walls.points.position[..];
             let candidates = world.lists.wall.row(particle);
             if !candidates.is_empty() {
-                rows.wall.fill(x, points, candidates, false, domain, kernel);
+                rows.wall
+                    .fill(x, points, candidates, NOBODY, domain, kernel);
             }
         }
         Neighbourhood {

@@ -4,17 +4,17 @@ use rayon::prelude::*;
 use sph_core::{AnyField, Field, FieldError, Scalar, Store, Vect, fields};
 use sph_kernels::Sampler;
 
-use crate::{CellGrid, Domain, NeighbourList, WallSet};
+use crate::{CellGrid, Clusters, Domain, NeighbourList, WallSet};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
 #[derive(Default)]
 pub struct Lists<const D: usize> {
-    /// Free particles around free particles, skin included.
-    pub free: NeighbourList,
+    /// Free particles around clusters of free particles, skin included.
+    pub free: Clusters,
     /// The same without the skin, at the present positions; filled by a sweep that looks at all
     /// distances anyway ([`kernel_sums`](crate::kernel_sums)), `None` once somebody moved.
-    pub pruned: Option<NeighbourList>,
-    pub(crate) spare: NeighbourList,
+    pub pruned: Option<Clusters>,
+    pub(crate) spare: Clusters,
     /// Wall points around free particles.
     pub wall: NeighbourList,
     /// Free particles around wall points.
@@ -31,6 +31,11 @@ pub struct Lists<const D: usize> {
 }
 
 impl<const D: usize> Lists<D> {
+    /// The shortest lists of free particles that hold at the present positions.
+    pub fn nearest(&self) -> &Clusters {
+        self.pruned.as_ref().unwrap_or(&self.free)
+    }
+
     /// Positions of the wall points at the last build, m.
     pub fn reference_points(&self) -> &Vec<Vect<D>> {
         &self.reference_points
@@ -137,17 +142,15 @@ impl<const D: usize> World<D> {
         let grid = CellGrid::new(&positions, reach, &self.domain);
         let lists = &mut self.lists;
         let domain = &self.domain;
-        lists
-            .free
-            .build(&positions, &positions, &grid, reach, domain, true);
+        lists.free.build(&positions, &grid, reach, domain);
         if self.walls.points.in_sums() {
             let wall_grid = CellGrid::new(&points, reach, domain);
             lists
                 .wall
-                .build(&positions, &points, &wall_grid, reach, domain, false);
+                .build(&positions, &points, &wall_grid, reach, domain);
             lists
                 .of_points
-                .build(&points, &positions, &grid, reach, domain, false);
+                .build(&points, &positions, &grid, reach, domain);
         }
         let elements = &self.walls.elements;
         if !elements.centre.is_empty() {
@@ -157,7 +160,7 @@ impl<const D: usize> World<D> {
                 .collect();
             lists
                 .of_elements
-                .build(&centres, &positions, &grid, reach, domain, false);
+                .build(&centres, &positions, &grid, reach, domain);
         }
         lists.reference_points = points;
         lists.reference = positions;
@@ -177,12 +180,8 @@ impl<const D: usize> World<D> {
         let points = &self.walls.points.position;
         let count = |i: usize| {
             let x = &positions[i];
-            let free = self
-                .lists
-                .free
-                .row(i)
-                .iter()
-                .filter(|&&j| near(x, &positions[j as usize]));
+            let free = self.lists.free.candidates(i).iter();
+            let free = free.filter(|&&j| j as usize != i && near(x, &positions[j as usize]));
             let wall = match self.walls.points.in_sums() {
                 false => &[][..],
                 true => self.lists.wall.row(i),
@@ -210,8 +209,9 @@ impl<const D: usize> World<D> {
         let positions = self.free.get(fields::POSITION)?;
         let limit = self.kernel.support_radius();
         let nearest = |(i, x): (usize, &Vect<D>)| {
-            let others = self.lists.free.row(i).iter();
+            let others = self.lists.free.candidates(i).iter();
             let distance = others
+                .filter(|&&j| j as usize != i)
                 .map(|&j| self.domain.nearest_image(x - positions[j as usize]).norm())
                 .fold(f64::INFINITY, f64::min);
             (distance < limit).then_some(distance)

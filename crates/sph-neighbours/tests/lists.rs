@@ -3,7 +3,8 @@
 use proptest::prelude::*;
 use sph_core::{Role, Store, Vect, fields};
 use sph_kernels::Kernel;
-use sph_neighbours::{CellGrid, Domain, NeighbourList, World, kernel_sums};
+use sph_lanes::{Width, force_width};
+use sph_neighbours::{CellGrid, Clusters, Domain, NeighbourList, World, kernel_sums};
 
 fn cloud<const D: usize>(n: usize, seed: u64) -> Vec<Vect<D>> {
     let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
@@ -18,7 +19,6 @@ fn cloud<const D: usize>(n: usize, seed: u64) -> Vec<Vect<D>> {
 
 fn brute<const D: usize>(x: &[Vect<D>], i: usize, reach: f64, domain: &Domain<D>) -> Vec<u32> {
     (0..x.len() as u32)
-        .filter(|&j| j as usize != i)
         .filter(|&j| domain.nearest_image(x[i] - x[j as usize]).norm_squared() < reach * reach)
         .collect()
 }
@@ -36,11 +36,24 @@ fn check<const D: usize>(n: usize, seed: u64, reach: f64, periodic: [bool; D]) {
     for points in [&x, &sorted] {
         let grid = CellGrid::new(points, reach, &domain);
         let mut list = NeighbourList::default();
-        list.build(points, points, &grid, reach, &domain, true);
+        list.build(points, points, &grid, reach, &domain);
+        let mut clusters = Clusters::default();
+        clusters.build(points, &grid, reach, &domain);
         for i in 0..n {
             let mut row = list.row(i).to_vec();
             row.sort_unstable();
-            assert_eq!(row, brute(points, i, reach, &domain), "particle {i}");
+            let mut shared = clusters.candidates(i).to_vec();
+            assert!(!grid.is_sorted() || shared.is_sorted(), "cluster of {i}");
+            shared.sort_unstable();
+            shared.dedup();
+            assert_eq!(shared.len(), clusters.candidates(i).len(), "cluster of {i}");
+            shared.retain(|&j| {
+                let apart = domain.nearest_image(points[i] - points[j as usize]);
+                apart.norm_squared() < reach * reach
+            });
+            let brute = brute(points, i, reach, &domain);
+            assert_eq!(row, brute, "particle {i}");
+            assert_eq!(shared, brute, "cluster of {i}");
         }
     }
 }
@@ -139,4 +152,21 @@ fn the_list_stands_until_half_the_skin_is_used_up() {
     assert!(!world.refresh_lists().unwrap());
     world.free.get_mut(fields::POSITION).unwrap()[17].x += 0.02 * half_skin;
     assert!(world.refresh_lists().unwrap());
+}
+
+#[test]
+fn sums_have_the_same_bits_for_2_4_and_8_lanes() {
+    let mut world = world(5000, 11, |k| k);
+    let mut bits = Vec::new();
+    for list in [Width::Two, Width::Four, Width::Eight] {
+        for sweep in [Width::Two, Width::Four, Width::Eight] {
+            force_width(Some(list));
+            world.rebuild_lists().unwrap();
+            force_width(Some(sweep));
+            bits.push(sums(&mut world).into_iter().map(f64::to_bits));
+        }
+    }
+    force_width(None);
+    let first: Vec<u64> = bits[0].clone().collect();
+    assert!(bits.into_iter().all(|b| b.eq(first.iter().copied())));
 }

@@ -144,11 +144,11 @@ impl<const D: usize> ElasticSubSteps<D> {
             return Ok(());
         }
         let phase = world.free.get(fields::PHASE)?;
-        let list = world.lists.pruned.as_ref().unwrap_or(&world.lists.free);
+        let lists = world.lists.nearest();
         let carries = |i: usize| carries[phase[i] as usize];
         let all = touched.par_iter_mut().enumerate().with_min_len(2048);
         all.for_each(|(i, touched)| {
-            *touched = carries(i) || list.row(i).iter().any(|&j| carries(j as usize));
+            *touched = lists.candidates(i).iter().any(|&j| carries(j as usize));
         });
         Ok(())
     }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::register;
-use sph_neighbours::{Interaction, Pair};
+use sph_neighbours::{Interaction, Lane};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
 use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry};
@@ -80,11 +80,9 @@ pub struct WithTransposed;
 impl<const D: usize> PairFriction<D> for WithTransposed {
     const NAME: &'static str = "Español–Revenga viscosity";
     #[inline(always)]
-    fn strengths(self, _: f64, there: f64, pair: &Pair<D>) -> [f64; 2] {
-        let even = there * pair.factor;
-        [
-            even,
-            (D + 2) as f64 * even / pair.distance2.max(f64::MIN_POSITIVE),
-        ]
+    fn strengths<L: Lane>(self, _: L, there: L, distance2: L, factor: L) -> [L; 2] {
+        let even = there * factor;
+        let along = L::splat((D + 2) as f64) * even;
+        [even, along / distance2.max(L::splat(f64::MIN_POSITIVE))]
     }
 }

@@ -1,7 +1,11 @@
 //! Viscous operators as sums over pairs, and their friction at walls.
 
 use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{BoundTerm, Contact, Contacts, Elements, Pair, PairTerm, Rates, There, World};
+use sph_lanes::MOST;
+use sph_neighbours::{
+    BoundTerm, Contact, Contacts, Elements, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates, There,
+    World, add_scaled, dot, minus, set, splat, vector,
+};
 
 use crate::ViscositySource;
 use crate::viscosity_source::BoundViscosity;
@@ -18,29 +22,61 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
     const NAME: &'static str;
     /// Whether a sheared layer's response depends on its direction: else β is not looked at.
     const DIRECTIONAL: bool = true;
-    /// α, 1/m², and β, 1/m⁴, of f(u) = α u + β (u·r) r.
-    fn strengths(self, volume: f64, there: f64, pair: &Pair<D>) -> [f64; 2];
-    /// f, 1/m² times the relative velocity u_ab.
+    /// α, 1/m², and β, 1/m⁴, of f(u) = α u + β (u·r) r, from the volumes here and there, r² and F.
+    fn strengths<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2];
+    /// f, 1/m² times the relative velocity u_ab, of several particles.
+    #[inline(always)]
+    fn forces<L: Lane>(
+        self,
+        volume: L,
+        there: L,
+        relative: &[L; D],
+        pair: &LanePair<D, L>,
+    ) -> [L; D] {
+        let [even, along] = self.strengths(volume, there, pair.distance2, pair.factor);
+        let mut force = relative.map(|u| u * even);
+        if Self::DIRECTIONAL {
+            let along = along * dot(relative, &pair.separation);
+            add_scaled(&mut force, &pair.separation, along);
+        }
+        force
+    }
+    /// ½ t·f(t) of several particles: what a unit velocity along t gives.
+    #[inline(always)]
+    fn shears<L: Lane>(
+        self,
+        volume: L,
+        there: L,
+        along: &[L; D],
+        pair: &LanePair<D, L>,
+    ) -> L {
+        let half = L::splat(0.5);
+        match Self::DIRECTIONAL {
+            true => half * dot(&self.forces(volume, there, along, pair), along),
+            false => half * self.strengths(volume, there, pair.distance2, pair.factor)[0],
+        }
+    }
+    /// f of one particle.
     #[inline(always)]
     fn force(self, volume: f64, there: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
-        let [even, along] = self.strengths(volume, there, pair);
-        match Self::DIRECTIONAL {
-            true => relative * even + pair.separation * (along * relative.dot(&pair.separation)),
-            false => relative * even,
-        }
+        let force = self.forces(volume, there, &splat(relative), &pair.into());
+        vector(&force, 0)
     }
-    /// ½ t·f(t): what a unit velocity along t gives.
+    /// ½ t·f(t) of one particle.
     #[inline(always)]
     fn shear(self, volume: f64, there: f64, along: &Vect<D>, pair: &Pair<D>) -> f64 {
-        match Self::DIRECTIONAL {
-            true => 0.5 * self.force(volume, there, along, pair).dot(along),
-            false => 0.5 * self.strengths(volume, there, pair)[0],
-        }
+        self.shears(volume, there, &splat(along), &pair.into())
     }
-    /// η̄ of a pair; that of the source.
+    /// η̄ of pairs with one neighbour; that of the source.
     #[inline(always)]
-    fn mean<S: BoundViscosity>(self, viscosity: &S, here: &S::Here, j: usize, _: [f64; 2]) -> f64 {
-        viscosity.mean(here, j)
+    fn means<S: BoundViscosity, L: Lane>(
+        self,
+        viscosity: &S,
+        here: &S::Side<L>,
+        j: usize,
+        _: [L; 2],
+    ) -> L {
+        viscosity.means(here, j)
     }
     /// Factor of the literal friction on an element, from the volumes of particle and element.
     #[inline(always)]
@@ -53,7 +89,7 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
 #[derive(Clone, Copy, Debug)]
 pub struct ViscousTerm<F, S>(pub F, pub S, pub Choice);
 
-impl<const D: usize, F: PairFriction<D>, S: ViscositySource> PairTerm<D> for ViscousTerm<F, S> {
+impl<const D: usize, F: PairFriction<D>, S: ViscositySource> LanePairTerm<D> for ViscousTerm<F, S> {
     type Bound<'a> = Bound<'a, D, F, S::Bound<'a>>;
 
     fn name(&self) -> String {
@@ -280,21 +316,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
         pair: &Pair<D>,
         sum: &mut Sum<D>,
     ) {
-        let densities = [here.density, there.density];
-        let mean = self
-            .friction
-            .mean(&self.viscosity, &here.viscosity, j, densities);
-        let relative = here.velocity - there.velocity;
-        let force = self
-            .friction
-            .force(here.volume, there.volume, &relative, pair);
-        sum.force += force * mean;
-        if here.nearest.is_some() {
-            let shear = self
-                .friction
-                .shear(here.volume, there.volume, &here.along, pair);
-            sum.discrete += pair.separation * shear;
-        }
+        self.add_one(here, j, there, pair, sum);
     }
 
     #[inline(always)]
@@ -322,5 +344,95 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
     fn finish(&self, here: &Self::Here, sum: &Sum<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
         let total = sum.force - sum.flux * self.correction(here, sum);
         rates.acceleration += total * (self.scale * inverse_gamma * here.specific_volume);
+    }
+}
+
+/// Own values of several particles.
+#[derive(Clone, Copy)]
+pub struct Side<const D: usize, V, L> {
+    velocity: [L; D],
+    viscosity: V,
+    volume: L,
+    density: L,
+    along: [L; D],
+    /// Whether any has an element at which the wall term is to be corrected.
+    near: bool,
+}
+
+/// Sums of several particles over their free neighbours, and what they started from.
+#[derive(Clone, Copy)]
+pub struct Sums<const D: usize, L> {
+    force: [L; D],
+    discrete: [L; D],
+    start: Sum<D>,
+}
+
+impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> LaneTerm<D> for Bound<'_, D, F, S> {
+    type Side<L: Lane> = Side<D, S::Side<L>, L>;
+    type Sums<L: Lane> = Sums<D, L>;
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L> {
+        let zero = L::splat(0.0);
+        let mut viscosity = [here[0].viscosity; MOST];
+        let mut side = Side {
+            velocity: [zero; D],
+            viscosity: self.viscosity.side::<L>(&viscosity[..1]),
+            volume: zero,
+            density: zero,
+            along: [zero; D],
+            near: false,
+        };
+        for (lane, own) in here.iter().enumerate() {
+            set(&mut side.velocity, lane, &own.velocity);
+            set(&mut side.along, lane, &own.along);
+            side.volume.set(lane, own.volume);
+            side.density.set(lane, own.density);
+            side.near |= own.nearest.is_some();
+            viscosity[lane] = own.viscosity;
+        }
+        side.viscosity = self.viscosity.side::<L>(&viscosity[..L::N]);
+        side
+    }
+
+    #[inline(always)]
+    fn sums<L: Lane>(&self, sum: &Sum<D>) -> Sums<D, L> {
+        Sums {
+            force: splat(&sum.force),
+            discrete: splat(&sum.discrete),
+            start: *sum,
+        }
+    }
+
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &Sums<D, L>, lane: usize) -> Sum<D> {
+        Sum {
+            force: vector(&sums.force, lane),
+            discrete: vector(&sums.discrete, lane),
+            ..sums.start
+        }
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        here: &Self::Side<L>,
+        j: usize,
+        there: &There<D>,
+        pair: &LanePair<D, L>,
+        sums: &mut Sums<D, L>,
+    ) {
+        let [volume, density] = [there.volume, there.density].map(L::splat);
+        let densities = [here.density, density];
+        let mean = self
+            .friction
+            .means(&self.viscosity, &here.viscosity, j, densities);
+        let relative = minus(&here.velocity, &there.velocity);
+        let force = self.friction.forces(here.volume, volume, &relative, pair);
+        add_scaled(&mut sums.force, &force, mean);
+        if here.near {
+            let shear = self.friction.shears(here.volume, volume, &here.along, pair);
+            add_scaled(&mut sums.discrete, &pair.separation, shear);
+        }
     }
 }

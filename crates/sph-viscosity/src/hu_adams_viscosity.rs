@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::register;
-use sph_neighbours::{Interaction, Pair};
+use sph_neighbours::{Interaction, Lane};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
 use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry};
@@ -79,8 +79,8 @@ impl<const D: usize> PairFriction<D> for BothVolumes {
     const NAME: &'static str = "Hu–Adams viscosity";
     const DIRECTIONAL: bool = false;
     #[inline(always)]
-    fn strengths(self, volume: f64, there: f64, pair: &Pair<D>) -> [f64; 2] {
-        [(volume + there * there / volume) * pair.factor, 0.0]
+    fn strengths<L: Lane>(self, volume: L, there: L, _: L, factor: L) -> [L; 2] {
+        [(volume + there * there / volume) * factor, L::splat(0.0)]
     }
     #[inline(always)]
     fn at_element(self, volume: f64, there: f64) -> f64 {

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields};
 use sph_kernels::Sampler;
-use sph_neighbours::{World, shepard_some};
+use sph_neighbours::{Around, Values, World, walk_some};
 
 /// Distance of a particle from the interface of its phase; the support's radius where there is
 /// none in reach.
@@ -36,8 +36,8 @@ impl Mixed {
             return;
         }
         self.built_for = world.lists.builds;
-        let list = &world.lists.free;
-        let near = |i: usize| list.row(i).iter().any(|&j| phase[j as usize] != phase[i]);
+        let lists = &world.lists.free;
+        let near = |i: usize| lists.candidates(i).iter().any(|&j| phase[j as usize] != phase[i]);
         let all = (0..phase.len()).into_par_iter().with_min_len(1024);
         all.map(near).collect_into_vec(&mut self.near);
     }
@@ -59,20 +59,20 @@ impl Declares for InterfaceDistance {
 impl<const D: usize> Stage<World<D>> for InterfaceDistance {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut distance = world.free.take(INTERFACE_DISTANCE)?;
-        let positions = world.free.get(fields::POSITION)?;
         let volume = world.free.get(fields::VOLUME)?;
         let phase = world.free.get(fields::PHASE)?;
         let kernel = &*world.kernel;
         let own = kernel.value_at_zero();
         let beyond = self.beyond.get_or_insert_with(|| Beyond::new(kernel));
-        let list = world.lists.pruned.as_ref().unwrap_or(&world.lists.free);
+        let lists = world.lists.nearest();
         self.mixed.refresh(world, phase);
         let mixed = &self.mixed.near;
-        let near =
-            |i: usize, row: &[u32]| mixed[i] && row.iter().any(|&j| phase[j as usize] != phase[i]);
-        let shares = shepard_some(world, positions, list, near, |i, row, w| {
+        let unlike = |i: usize, j: &u32| phase[*j as usize] != phase[i];
+        let near = |i: usize| mixed[i] && lists.candidates(i).iter().any(|j| unlike(i, j));
+        let shares = walk_some(world, Values::Both, near, |around: &Around<'_, D>| {
+            let i = around.rows.particle;
             let (mut other, mut all) = (0.0, volume[i] * own);
-            for (&j, w) in row.iter().zip(w) {
+            for (&j, w) in around.rows.free.index.iter().zip(around.free) {
                 let j = j as usize;
                 let part = volume[j] * w;
                 all += part;

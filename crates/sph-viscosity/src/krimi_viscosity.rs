@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::register;
-use sph_neighbours::{Interaction, Pair};
+use sph_neighbours::{Interaction, Lane};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
 use crate::viscosity_source::BoundViscosity;
@@ -104,19 +104,20 @@ impl BetweenStresses {
 impl<const D: usize> PairFriction<D> for BetweenStresses {
     const NAME: &'static str = "Krimi viscosity";
     #[inline(always)]
-    fn strengths(self, volume: f64, there: f64, pair: &Pair<D>) -> [f64; 2] {
-        let even = self.strength(D) * (volume + there * there / volume) * pair.factor;
-        [even, even / pair.distance2.max(f64::MIN_POSITIVE)]
+    fn strengths<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2] {
+        let even = L::splat(self.strength(D)) * (volume + there * there / volume) * factor;
+        [even, even / distance2.max(L::splat(f64::MIN_POSITIVE))]
     }
     #[inline(always)]
-    fn mean<S: BoundViscosity>(
+    fn means<S: BoundViscosity, L: Lane>(
         self,
         viscosity: &S,
-        here: &S::Here,
+        here: &S::Side<L>,
         j: usize,
-        rho: [f64; 2],
-    ) -> f64 {
-        (rho[0] * viscosity.at(j) + rho[1] * viscosity.own(here)) / (rho[0] + rho[1])
+        rho: [L; 2],
+    ) -> L {
+        let there = L::splat(viscosity.at(j));
+        (rho[0] * there + rho[1] * viscosity.owns(here)) / (rho[0] + rho[1])
     }
     #[inline(always)]
     fn at_element(self, _: f64, _: f64) -> f64 {

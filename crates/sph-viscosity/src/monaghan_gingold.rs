@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::register;
-use sph_neighbours::{Interaction, Pair};
+use sph_neighbours::{Interaction, Lane};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
 use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry};
@@ -82,8 +82,9 @@ pub struct Central;
 impl<const D: usize> PairFriction<D> for Central {
     const NAME: &'static str = "Monaghan–Gingold viscosity";
     #[inline(always)]
-    fn strengths(self, _: f64, there: f64, pair: &Pair<D>) -> [f64; 2] {
-        let along = (2 * (D + 2)) as f64 * there * pair.factor;
-        [0.0, along / pair.distance2.max(f64::MIN_POSITIVE)]
+    fn strengths<L: Lane>(self, _: L, there: L, distance2: L, factor: L) -> [L; 2] {
+        let along = L::splat((2 * (D + 2)) as f64) * there * factor;
+        let along = along / distance2.max(L::splat(f64::MIN_POSITIVE));
+        [L::splat(0.0), along]
     }
 }

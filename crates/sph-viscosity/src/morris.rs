@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::register;
-use sph_neighbours::{Interaction, Pair};
+use sph_neighbours::{Interaction, Lane};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm, Within};
 use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry};
@@ -94,7 +94,7 @@ impl<const D: usize> PairFriction<D> for FirstDifferences {
     const NAME: &'static str = "Morris viscosity";
     const DIRECTIONAL: bool = false;
     #[inline(always)]
-    fn strengths(self, _: f64, there: f64, pair: &Pair<D>) -> [f64; 2] {
-        [2.0 * there * pair.factor, 0.0]
+    fn strengths<L: Lane>(self, _: L, there: L, _: L, factor: L) -> [L; 2] {
+        [L::splat(2.0) * there * factor, L::splat(0.0)]
     }
 }

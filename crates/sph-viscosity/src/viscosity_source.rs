@@ -1,7 +1,7 @@
 //! Where pair terms read the viscosity: one number, or a column with means of pairs.
 
 use sph_core::{Access, StepError, fields};
-use sph_neighbours::World;
+use sph_neighbours::{Lane, World};
 
 use crate::friction::Within;
 use crate::interface_distance::INTERFACE_DISTANCE;
@@ -23,6 +23,14 @@ pub trait ViscositySource: Copy + Send + Sync + 'static {
 pub trait BoundViscosity: Copy + Sync {
     /// What is read once per particle.
     type Here: Copy;
+    /// The same of several particles.
+    type Side<L: Lane>: Copy;
+    /// Puts what was read of several particles side by side.
+    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L>;
+    /// η of the particles themselves, Pa s.
+    fn owns<L: Lane>(&self, here: &Self::Side<L>) -> L;
+    /// Means of the particles and one neighbour, Pa s.
+    fn means<L: Lane>(&self, here: &Self::Side<L>, neighbour: usize) -> L;
     /// Reads the particle's own values.
     fn here(&self, particle: usize) -> Self::Here;
     /// η of the particle itself, Pa s.
@@ -30,7 +38,10 @@ pub trait BoundViscosity: Copy + Sync {
     /// η of a neighbour, Pa s.
     fn at(&self, neighbour: usize) -> f64;
     /// Mean of a pair, Pa s.
-    fn mean(&self, here: &Self::Here, neighbour: usize) -> f64;
+    #[inline(always)]
+    fn mean(&self, here: &Self::Here, neighbour: usize) -> f64 {
+        self.means::<f64>(&self.side(std::slice::from_ref(here)), neighbour)
+    }
 }
 
 /// The same viscosity everywhere, Pa s.
@@ -49,6 +60,17 @@ impl ViscositySource for Uniform {
 
 impl BoundViscosity for Uniform {
     type Here = ();
+    type Side<L: Lane> = ();
+    #[inline(always)]
+    fn side<L: Lane>(&self, _here: &[()]) {}
+    #[inline(always)]
+    fn owns<L: Lane>(&self, _here: &()) -> L {
+        L::splat(self.0)
+    }
+    #[inline(always)]
+    fn means<L: Lane>(&self, _here: &(), _neighbour: usize) -> L {
+        L::splat(self.0)
+    }
     #[inline(always)]
     fn here(&self, _particle: usize) {}
     #[inline(always)]
@@ -57,10 +79,6 @@ impl BoundViscosity for Uniform {
     }
     #[inline(always)]
     fn at(&self, _neighbour: usize) -> f64 {
-        self.0
-    }
-    #[inline(always)]
-    fn mean(&self, _here: &(), _neighbour: usize) -> f64 {
         self.0
     }
 }
@@ -85,6 +103,19 @@ impl ViscositySource for PerParticle {
 
 impl BoundViscosity for Column<'_> {
     type Here = f64;
+    type Side<L: Lane> = L;
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[f64]) -> L {
+        side(here, |eta| *eta)
+    }
+    #[inline(always)]
+    fn owns<L: Lane>(&self, here: &L) -> L {
+        *here
+    }
+    #[inline(always)]
+    fn means<L: Lane>(&self, here: &L, neighbour: usize) -> L {
+        within(self.1, *here, L::splat(self.0[neighbour]))
+    }
     #[inline(always)]
     fn here(&self, particle: usize) -> f64 {
         self.0[particle]
@@ -96,10 +127,6 @@ impl BoundViscosity for Column<'_> {
     #[inline(always)]
     fn at(&self, neighbour: usize) -> f64 {
         self.0[neighbour]
-    }
-    #[inline(always)]
-    fn mean(&self, here: &f64, neighbour: usize) -> f64 {
-        within(self.1, *here, self.0[neighbour])
     }
 }
 
@@ -142,6 +169,25 @@ impl ViscositySource for InSeries {
 impl BoundViscosity for SeriesColumns<'_> {
     /// Viscosity, phase, distance.
     type Here = (f64, u32, f64);
+    /// The same; phases are small whole numbers, exact as any.
+    type Side<L: Lane> = (L, L, L);
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Self::Here]) -> (L, L, L) {
+        let phase = side(here, |own| f64::from(own.1));
+        (side(here, |own| own.0), phase, side(here, |own| own.2))
+    }
+    #[inline(always)]
+    fn owns<L: Lane>(&self, here: &(L, L, L)) -> L {
+        here.0
+    }
+    #[inline(always)]
+    fn means<L: Lane>(&self, here: &(L, L, L), j: usize) -> L {
+        let there = L::splat(self.viscosity[j]);
+        let apart = here.1 - L::splat(f64::from(self.phase[j]));
+        let mixed = in_series(here.2, here.0, L::splat(self.distance[j]), there);
+        // Positive where the phases differ.
+        (apart * apart).where_positive(mixed, within(self.within, here.0, there))
+    }
     #[inline(always)]
     fn here(&self, i: usize) -> Self::Here {
         (self.viscosity[i], self.phase[i], self.distance[i])
@@ -154,31 +200,30 @@ impl BoundViscosity for SeriesColumns<'_> {
     fn at(&self, neighbour: usize) -> f64 {
         self.viscosity[neighbour]
     }
-    #[inline(always)]
-    fn mean(&self, here: &Self::Here, j: usize) -> f64 {
-        match here.1 == self.phase[j] {
-            true => within(self.within, here.0, self.viscosity[j]),
-            false => in_series(here.2, here.0, self.distance[j], self.viscosity[j]),
-        }
+}
+
+/// One number of several particles.
+#[inline(always)]
+fn side<H, L: Lane>(here: &[H], of: impl Fn(&H) -> f64) -> L {
+    let mut side = L::splat(0.0);
+    for (lane, own) in here.iter().enumerate() {
+        side.set(lane, of(own));
     }
+    side
 }
 
 /// Mean of a pair of one phase.
 #[inline(always)]
-fn within(mean: Within, eta: f64, other: f64) -> f64 {
+fn within<L: Lane>(mean: Within, eta: L, other: L) -> L {
     match mean {
-        Within::Harmonic => in_series(1.0, eta, 1.0, other),
-        Within::Arithmetic => 0.5 * (eta + other),
+        Within::Harmonic => in_series(L::splat(1.0), eta, L::splat(1.0), other),
+        Within::Arithmetic => L::splat(0.5) * (eta + other),
     }
 }
 
 /// (d_a + d_b)/(d_a/η_a + d_b/η_b); zero viscosity on either side means no friction, not 0/0.
 #[inline(always)]
-fn in_series(here: f64, eta: f64, there: f64, other: f64) -> f64 {
+fn in_series<L: Lane>(here: L, eta: L, there: L, other: L) -> L {
     let sum = here * other + there * eta;
-    if sum > 0.0 {
-        (here + there) * eta * other / sum
-    } else {
-        0.0
-    }
+    sum.where_positive((here + there) * eta * other / sum, L::splat(0.0))
 }

@@ -81,7 +81,7 @@ fn a_list_without_its_skin_gives_the_same_bits() {
     let mut sums = vec![0.0; flat.free.len()];
     kernel_sums(&mut flat, &mut sums).unwrap();
     let pruned = flat.lists.pruned.as_ref().expect("the sum prunes");
-    assert!(pruned.candidates() < flat.lists.free.candidates());
+    assert!(pruned.entries() < flat.lists.free.entries());
     assert!(with_skin == bits(&flat, fuse_all(terms())));
 }
 

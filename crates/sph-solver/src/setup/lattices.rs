@@ -72,7 +72,7 @@ pub fn remarks<const D: usize>(
     let first = walls.as_ref().map_or(1.0, |w| 1.0 - w.lattice_offset());
     for (k, x) in position.iter().enumerate() {
         let mut nearest: BTreeMap<u32, f64> = BTreeMap::new();
-        for j in world.lists.free.row(k).iter().map(|j| *j as usize) {
+        for j in world.lists.free.candidates(k).iter().map(|j| *j as usize) {
             if body(j) > body(k) {
                 let apart = world.domain.nearest_image(x - position[j]).norm() / world.spacing;
                 let least = nearest.entry(body(j)).or_insert(f64::INFINITY);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use sph_core::{FieldError, Role};
-use sph_neighbours::{Contact, NeighbourList, There, World};
+use sph_neighbours::{Clusters, Contact, NeighbourList, There, World};
 use sph_scene::Scene;
 
 use crate::Flow;
@@ -70,7 +70,7 @@ impl Memory {
         let particles = world.free.len() as f64;
         Ok(Memory {
             columns: particles * world.free.bytes_per_particle() as f64,
-            lists: lists(world)?,
+            lists: lists(world),
             copies: particles * copies(scene, world),
             walls: walls(world),
             // Rows are put together before they are joined: for a moment they are there twice.
@@ -86,24 +86,26 @@ fn list(list: &NeighbourList) -> f64 {
     size_of::<u32>() as f64 * (SPARE * entries as f64 + list.len() as f64)
 }
 
-fn lists<const D: usize>(world: &World<D>) -> Result<f64, FieldError> {
+fn clusters(all: &Clusters) -> f64 {
+    // Two bytes of a particle say which cluster is its own, and where that begins.
+    size_of::<u32>() as f64 * SPARE * all.entries() as f64 + 2.0 * all.len() as f64
+}
+
+fn lists<const D: usize>(world: &World<D>) -> f64 {
     let lists = &world.lists;
+    let free = clusters(&lists.free);
     let pruned = match &lists.pruned {
-        Some(pruned) => list(pruned),
-        // Wall points are among the neighbours and not in the list, and nobody knows it better before the first step.
-        None => {
-            let entries = world.mean_neighbours()? * world.free.len() as f64;
-            size_of::<u32>() as f64 * SPARE * entries
-        }
+        Some(pruned) => clusters(pruned),
+        // Nobody knows it better before the first step: they are not longer than those with the skin.
+        None => free,
     };
     let others = [
-        &lists.free,
         &lists.wall,
         &lists.of_points,
         &lists.of_elements,
     ];
     let places = lists.reference.len() + lists.reference_points().len();
-    Ok(pruned + others.map(list).iter().sum::<f64>() + (8 * D * places) as f64)
+    free + pruned + others.map(list).iter().sum::<f64>() + (8 * D * places) as f64
 }
 
 /// Bytes of one particle in copies.

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use sph_boundary::Wall;
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::{CHUNK, Domain, Row, Scratch, World};
+use sph_neighbours::{CHUNK, Domain, NOBODY, Row, Scratch, World};
 use sph_scene::Scene;
 
 use crate::setup::shapes::Drawn;
@@ -206,11 +206,12 @@ fn concentrations<const D: usize>(world: &World<D>) -> Result<Vec<Concentration<
                 gradient += row.separation[k] * (share * row.factor[k]);
             }
         };
-        row.fill(x, position, world.lists.free.row(i), false, domain, kernel);
+        let candidates = world.lists.free.candidates(i);
+        row.fill(x, position, candidates, i as u32, domain, kernel);
         add(row.row(), values, &|_| 1.0);
         if points.in_sums() {
             let candidates = world.lists.wall.row(i);
-            row.fill(x, &points.position, candidates, false, domain, kernel);
+            row.fill(x, &points.position, candidates, NOBODY, domain, kernel);
             add(row.row(), values, &|v| points.share[v as usize]);
         }
         let contacts = world.walls.contacts.of(i).iter();

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::Vect;
-use sph_neighbours::{Interaction, Pair, Term, World};
+use sph_neighbours::{Interaction, Pair, Lanewise, World};
 
 use super::{PairFriction, ViscousTerm};
 use crate::interface_distance::InterfaceDistance;
@@ -107,12 +107,12 @@ impl Choice {
     ) -> Box<dyn Interaction<D>> {
         match (viscosity, self.across) {
             (Viscosity::Uniform(eta), _) => {
-                Box::new(Term(ViscousTerm(friction, Uniform(eta), self)))
+                Box::new(Lanewise(ViscousTerm(friction, Uniform(eta), self)))
             }
             (Viscosity::PerPhase, Across::Series) => {
-                Box::new(Term(ViscousTerm(friction, InSeries(self.within), self)))
+                Box::new(Lanewise(ViscousTerm(friction, InSeries(self.within), self)))
             }
-            _ => Box::new(Term(ViscousTerm(friction, PerParticle(self.within), self))),
+            _ => Box::new(Lanewise(ViscousTerm(friction, PerParticle(self.within), self))),
         }
     }
 

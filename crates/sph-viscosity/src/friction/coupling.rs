@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use sph_core::{Access, StepError, Vect};
-use sph_neighbours::{BoundTerm, Neighbourhood, Pair, PairTerm, Row, World};
+use sph_neighbours::{BoundTerm, LanePairTerm, Neighbourhood, Pair, Row, World};
 
 use super::{Bound, Here, PairFriction, Sum, ViscousTerm};
 use crate::viscosity_source::BoundViscosity;
@@ -10,7 +10,7 @@ use crate::{BoundCoupling, Coupling, CouplingRow, ViscositySource, Weak};
 
 impl<const D: usize, F: PairFriction<D>, S: ViscositySource> Coupling<D> for ViscousTerm<F, S> {
     fn access(&self) -> Access {
-        PairTerm::<D>::access(self)
+        LanePairTerm::<D>::access(self)
     }
     fn mixes_components(&self) -> bool {
         F::DIRECTIONAL
@@ -19,7 +19,7 @@ impl<const D: usize, F: PairFriction<D>, S: ViscositySource> Coupling<D> for Vis
         &'a self,
         world: &'a World<D>,
     ) -> Result<Box<dyn BoundCoupling<D> + 'a>, StepError> {
-        Ok(Box::new(PairTerm::bind(self, world)?))
+        Ok(Box::new(LanePairTerm::bind(self, world)?))
     }
 }
 
@@ -48,7 +48,8 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
     /// −α and −β of a pair times its viscosity.
     #[inline(always)]
     fn strengths(&self, here: &Here<D, S::Here>, there: f64, pair: &Pair<D>, eta: f64) -> [f64; 2] {
-        let strengths = self.friction.strengths(here.volume, there, pair);
+        let (distance2, factor) = (pair.distance2, pair.factor);
+        let strengths = self.friction.strengths(here.volume, there, distance2, factor);
         strengths.map(|s| -(s * eta))
     }
 
@@ -110,8 +111,8 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
     #[inline(always)]
     fn mean_with(&self, here: &Here<D, S::Here>, j: usize) -> f64 {
         let densities = [here.density, self.density[j]];
-        self.friction
-            .mean(&self.viscosity, &here.viscosity, j, densities)
+        let own = self.viscosity.side::<f64>(std::slice::from_ref(&here.viscosity));
+        self.friction.means(&self.viscosity, &own, j, densities)
     }
 }
 

@@ -1,0 +1,124 @@
+//! The neighbourhood of a few particles at once.
+
+use sph_core::Vect;
+use sph_kernels::Sampler;
+use sph_lanes::{MOST, Width, dispatch_at};
+
+use crate::clusters::Members;
+use crate::separation::Distances;
+use crate::{Contacts, Domain, Neighbourhood, Scratch, There};
+
+/// A few particles that follow each other, with distances and kernel gradients for all whom they may have as neighbours.
+pub struct Cluster<'a, const D: usize> {
+    pub(crate) width: Width,
+    pub(crate) members: Members<'a>,
+    pub(crate) positions: &'a [Vect<D>],
+    pub(crate) states: &'a [There<D>],
+    pub(crate) contacts: &'a Contacts<D>,
+    pub(crate) renormalisation: Option<&'a [f64]>,
+    /// Square of the support radius, m².
+    pub(crate) limit: f64,
+    /// Where images across periodic faces may be nearer.
+    pub(crate) domain: Option<&'a Domain<D>>,
+    pub(crate) buffers: &'a mut Buffers<D>,
+}
+
+/// What is kept from cluster to cluster; one per thread.
+pub(crate) struct Buffers<const D: usize> {
+    /// Squared distances, one number per lane for each candidate; infinite for a particle and itself.
+    pub distance2: Vec<f64>,
+    /// F in the same order.
+    pub factor: Vec<f64>,
+    /// Rows of wall points, one per member.
+    pub walls: [Scratch<D>; MOST],
+    /// Rows of free neighbours, one per member, where somebody asked for rows.
+    free: [Scratch<D>; MOST],
+    /// Whether `free` is of the cluster at hand.
+    rows: bool,
+}
+
+impl<const D: usize> Default for Buffers<D> {
+    fn default() -> Self {
+        Buffers {
+            distance2: Vec::new(),
+            factor: Vec::new(),
+            walls: std::array::from_fn(|_| Scratch::new()),
+            free: std::array::from_fn(|_| Scratch::new()),
+            rows: false,
+        }
+    }
+}
+
+impl<const D: usize> Buffers<D> {
+    /// Distances and kernel gradients of the members of a cluster.
+    pub fn measure<K: Sampler + ?Sized>(
+        &mut self,
+        width: Width,
+        members: Members<'_>,
+        positions: &[Vect<D>],
+        domain: Option<&Domain<D>>,
+        kernel: &K,
+    ) {
+        let out = &mut self.distance2;
+        dispatch_at(
+            width,
+            Distances {
+                members,
+                positions,
+                domain,
+                out,
+            },
+        );
+        let needed = members.candidates.len() * width.lanes();
+        if self.factor.len() < needed {
+            self.factor.resize(needed.next_power_of_two(), 0.0);
+        }
+        kernel.gradient_factor(&self.distance2[..needed], &mut self.factor[..needed]);
+        self.rows = false;
+    }
+}
+
+impl<const D: usize> Cluster<'_, D> {
+    /// Calls `visit` with the number and the neighbourhood of every member, one after the other.
+    pub fn rows(&mut self, mut visit: impl FnMut(usize, &Neighbourhood<'_, D>)) {
+        if !self.buffers.rows {
+            self.fill_rows();
+        }
+        for k in 0..self.members.count {
+            let particle = self.members.from + k;
+            let neighbourhood = Neighbourhood {
+                particle,
+                free: self.buffers.free[k].row(),
+                states: self.states,
+                wall: self.buffers.walls[k].row(),
+                contacts: self.contacts.of(particle),
+                inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
+            };
+            visit(k, &neighbourhood);
+        }
+    }
+
+    fn fill_rows(&mut self) {
+        let lanes = self.width.lanes();
+        let Buffers {
+            distance2,
+            factor,
+            free,
+            rows,
+            ..
+        } = &mut *self.buffers;
+        for (k, row) in free.iter_mut().enumerate().take(self.members.count) {
+            let x = &self.positions[self.members.from + k];
+            row.pick(
+                x,
+                self.positions,
+                self.members.candidates,
+                [distance2, factor],
+                [k, lanes],
+                self.limit,
+                self.domain,
+            );
+        }
+        *rows = true;
+    }
+}

@@ -1,0 +1,298 @@
+//! Verlet lists of clusters: particles that follow each other share the union of their neighbours.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+use sph_core::Vect;
+use sph_lanes::{Body, Lane, MOST, dispatch_at, width};
+
+use crate::separation::{distance2_at, places};
+use crate::{CHUNK, CellGrid, Domain};
+
+/// A cluster ends where its box would be longer than this many reaches: at the ends of rows of cells, in splashes.
+const LONGEST: f64 = 1.5;
+
+/// Clusters of one task.
+#[derive(Clone, Debug, Default)]
+struct Block {
+    /// Where each cluster begins, counted from the block's first particle; the number of particles at the end.
+    first: Vec<u8>,
+    /// Where the candidates of each cluster begin, and where the last ones end.
+    starts: Vec<u32>,
+    candidates: Vec<u32>,
+    /// The cluster of each particle.
+    of: Vec<u8>,
+}
+
+/// Some particles that follow each other, and whom any of them may have within reach.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Members<'a> {
+    /// The first particle.
+    pub from: usize,
+    /// How many.
+    pub count: usize,
+    /// Candidates, the members themselves among them, in index order.
+    pub candidates: &'a [u32],
+}
+
+/// For every free particle the free particles that may be within reach: one list for a cluster of at most
+/// [`MOST`] particles that follow each other.
+#[derive(Clone, Debug, Default)]
+pub struct Clusters {
+    blocks: Vec<Block>,
+    len: usize,
+}
+
+impl Clusters {
+    /// Finds, for every cluster of points, the points nearer than `reach` to any of its members.
+    ///
+    /// The candidates stand in the grid's cell order, which is index order where the points are sorted.
+    pub fn build<const D: usize>(
+        &mut self,
+        points: &[Vect<D>],
+        grid: &CellGrid<D>,
+        reach: f64,
+        domain: &Domain<D>,
+    ) {
+        self.resize(points.len());
+        let width = width();
+        let blocks = self.blocks.par_iter_mut().enumerate();
+        blocks.for_each_init(Default::default, |(buffer, ranges), (b, block)| {
+            let from = b * CHUNK;
+            let to = (from + CHUNK).min(points.len());
+            block.part(&points[from..to], width.lanes(), LONGEST * reach);
+            let mut used = 0;
+            for c in 0..block.clusters() {
+                let near = Near {
+                    points,
+                    grid,
+                    reach,
+                    domain,
+                    members: block.span(c, from),
+                    from: used,
+                    slots: buffer,
+                    ranges,
+                };
+                used = dispatch_at(width, near);
+                block.starts.push(used as u32);
+            }
+            block.keep(&buffer[..used]);
+        });
+    }
+
+    /// For as many particles, with buffers that are kept.
+    fn resize(&mut self, particles: usize) {
+        self.len = particles;
+        let blocks = particles.div_ceil(CHUNK);
+        self.blocks.resize_with(blocks, Block::default);
+    }
+
+    /// Fills `self` with the clusters of `all`, cluster by cluster in parallel, and one number per particle along with it.
+    ///
+    /// `cluster` gets the members, room for as many candidates as they have and the members' numbers, and returns how many
+    /// candidates it left.
+    pub(crate) fn fill<S>(
+        &mut self,
+        all: &Clusters,
+        numbers: &mut [f64],
+        scratch: impl Fn() -> S + Sync + Send,
+        cluster: impl Fn(&mut S, Members<'_>, &mut [u32], &mut [f64]) -> usize + Sync,
+    ) {
+        self.resize(all.len);
+        let blocks = self.blocks.par_iter_mut().zip(&all.blocks);
+        blocks
+            .zip(numbers.par_chunks_mut(CHUNK))
+            .enumerate()
+            .for_each_init(
+                || (scratch(), Vec::new()),
+                |(scratch, buffer), (b, ((block, all), numbers))| {
+                    block.begin(all);
+                    buffer.resize(buffer.len().max(all.candidates.len()), 0);
+                    let mut used = 0;
+                    for c in 0..all.clusters() {
+                        let members = all.members(c, b * CHUNK);
+                        let own = members.from - b * CHUNK..members.from - b * CHUNK + members.count;
+                        let room = &mut buffer[used..used + members.candidates.len()];
+                        used += cluster(scratch, members, room, &mut numbers[own]);
+                        block.starts.push(used as u32);
+                    }
+                    block.keep(&buffer[..used]);
+                },
+            );
+    }
+
+    /// The clusters of a block of [`CHUNK`] particles.
+    #[inline]
+    pub(crate) fn of_block(&self, block: usize) -> impl Iterator<Item = Members<'_>> {
+        let (from, block) = (block * CHUNK, &self.blocks[block]);
+        (0..block.clusters()).map(move |c| block.members(c, from))
+    }
+
+    /// Candidates of a particle's cluster, the particle itself among them.
+    #[inline(always)]
+    pub fn candidates(&self, particle: usize) -> &[u32] {
+        let block = &self.blocks[particle / CHUNK];
+        block.row(block.of[particle % CHUNK] as usize)
+    }
+
+    /// Number of particles.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there is no particle.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Entries of all lists.
+    pub fn entries(&self) -> usize {
+        self.blocks.iter().map(|b| b.candidates.len()).sum()
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        let words = |b: &Block| 4 * (b.candidates.capacity() + b.starts.capacity());
+        let small = |b: &Block| b.first.capacity() + b.of.capacity();
+        self.blocks.iter().map(|b| words(b) + small(b)).sum()
+    }
+}
+
+impl Block {
+    fn clusters(&self) -> usize {
+        self.first.len().saturating_sub(1)
+    }
+
+    /// First particle and number of particles of a cluster.
+    fn span(&self, cluster: usize, from: usize) -> [usize; 2] {
+        let [first, next] = [cluster, cluster + 1].map(|c| self.first[c] as usize);
+        [from + first, next - first]
+    }
+
+    #[inline(always)]
+    fn row(&self, cluster: usize) -> &[u32] {
+        &self.candidates[self.starts[cluster] as usize..self.starts[cluster + 1] as usize]
+    }
+
+    fn members(&self, cluster: usize, from: usize) -> Members<'_> {
+        let [from, count] = self.span(cluster, from);
+        let candidates = self.row(cluster);
+        Members {
+            from,
+            count,
+            candidates,
+        }
+    }
+
+    /// Parts points into clusters of at most `width` that are not longer than `longest`, and forgets all candidates.
+    fn part<const D: usize>(&mut self, points: &[Vect<D>], width: usize, longest: f64) {
+        self.first.clear();
+        self.of.clear();
+        let (mut begun, mut low, mut high) = (0, Vect::<D>::zeros(), Vect::<D>::zeros());
+        for (k, x) in points.iter().enumerate() {
+            (low, high) = (low.inf(x), high.sup(x));
+            let fits = (high - low).iter().all(|side| *side <= longest);
+            if k == 0 || k - begun == width || !fits {
+                self.first.push(k as u8);
+                (begun, low, high) = (k, *x, *x);
+            }
+            self.of.push(self.first.len() as u8 - 1);
+        }
+        self.first.push(points.len() as u8);
+        self.starts.clear();
+        self.starts.push(0);
+    }
+
+    /// The same clusters as another, without candidates.
+    fn begin(&mut self, other: &Block) {
+        self.first.clone_from(&other.first);
+        self.of.clone_from(&other.of);
+        self.starts.clear();
+        self.starts.push(0);
+    }
+
+    /// Takes the candidates over, in a buffer that is at most a quarter too large: lists are most of what a run needs.
+    fn keep(&mut self, candidates: &[u32]) {
+        let (needed, held) = (candidates.len(), self.candidates.capacity());
+        if needed > held || needed + needed / 4 < held {
+            self.candidates = Vec::with_capacity(needed + needed / 16);
+        }
+        self.candidates.clear();
+        self.candidates.extend_from_slice(candidates);
+    }
+}
+
+/// Looks for the candidates of one cluster.
+struct Near<'a, const D: usize> {
+    points: &'a [Vect<D>],
+    grid: &'a CellGrid<D>,
+    reach: f64,
+    domain: &'a Domain<D>,
+    /// First particle and how many.
+    members: [usize; 2],
+    /// Slots that are filled already.
+    from: usize,
+    slots: &'a mut Vec<u32>,
+    ranges: &'a mut Vec<Range<usize>>,
+}
+
+impl<const D: usize> Body for Near<'_, D> {
+    /// How many slots are filled.
+    type Output = usize;
+
+    #[inline(always)]
+    fn call<L: Lane>(self) -> usize {
+        let [first, count] = self.members;
+        let own = &self.points[first..first + count];
+        let (mut low, mut high) = (own[0], own[0]);
+        for x in own {
+            (low, high) = (low.inf(x), high.sup(x));
+        }
+        let ranges = self.ranges;
+        ranges.clear();
+        self.grid
+            .ranges_around([&low, &high], self.reach, |range| ranges.push(range));
+        let room = self.from + ranges.iter().map(Range::len).sum::<usize>();
+        if self.slots.len() < room {
+            self.slots.resize(room.next_power_of_two(), 0);
+        }
+        let slots = &mut self.slots[self.from..room];
+        let limit = self.reach * self.reach;
+        let crosses = own
+            .iter()
+            .any(|x| self.domain.near_periodic_face(x, self.reach));
+        let mut n = 0;
+        if crosses || !self.grid.is_sorted() || count > L::N {
+            for range in ranges.iter() {
+                for &j in &self.grid.order()[range.clone()] {
+                    let near = |x: &Vect<D>| {
+                        let apart = self.domain.nearest_image(x - self.points[j as usize]);
+                        apart.norm_squared() < limit
+                    };
+                    slots[n] = j;
+                    n += usize::from(own.iter().any(near));
+                }
+            }
+            return self.from + n;
+        }
+        let x = places::<D, L>(own);
+        let limit = L::splat(limit);
+        for range in ranges.iter() {
+            for j in range.clone() {
+                slots[n] = j as u32;
+                n += usize::from(distance2_at(&x, &self.points[j]).any_less(limit));
+            }
+        }
+        self.from + n
+    }
+}
+
+/// Members of a cluster in groups of at most as many as there are lanes.
+pub(crate) fn groups(members: Members<'_>, lanes: usize) -> impl Iterator<Item = Members<'_>> {
+    let step = lanes.min(MOST);
+    (0..members.count).step_by(step).map(move |k| Members {
+        from: members.from + k,
+        count: step.min(members.count - k),
+        candidates: members.candidates,
+    })
+}

@@ -1,0 +1,42 @@
+//! Vectors whose components stand in lanes.
+
+use sph_core::Vect;
+use sph_lanes::Lane;
+
+/// The same vector in all lanes.
+#[inline(always)]
+pub fn splat<const D: usize, L: Lane>(v: &Vect<D>) -> [L; D] {
+    let mut lanes = [L::splat(0.0); D];
+    for k in 0..D {
+        lanes[k] = L::splat(v[k]);
+    }
+    lanes
+}
+
+/// The vector in a lane.
+#[inline(always)]
+pub fn vector<const D: usize, L: Lane>(lanes: &[L; D], lane: usize) -> Vect<D> {
+    let mut v = Vect::zeros();
+    for k in 0..D {
+        v[k] = lanes[k].at(lane);
+    }
+    v
+}
+
+/// Puts a vector into a lane.
+#[inline(always)]
+pub fn set<const D: usize, L: Lane>(lanes: &mut [L; D], lane: usize, v: &Vect<D>) {
+    for k in 0..D {
+        lanes[k].set(lane, v[k]);
+    }
+}
+
+/// a − b, b being the same in all lanes.
+#[inline(always)]
+pub fn minus<const D: usize, L: Lane>(a: &[L; D], b: &Vect<D>) -> [L; D] {
+    let mut difference = *a;
+    for k in 0..D {
+        difference[k] -= L::splat(b[k]);
+    }
+    difference
+}

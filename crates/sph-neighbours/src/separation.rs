@@ -1,0 +1,76 @@
+//! Separations of the members of a cluster from one neighbour after the other, in lanes.
+
+use sph_core::Vect;
+use sph_lanes::{Body, Lane};
+
+use crate::Domain;
+use crate::clusters::Members;
+use crate::lane_vector::minus;
+
+/// The places of some points, one in each lane; the last one fills what is left over.
+#[inline(always)]
+pub(crate) fn places<const D: usize, L: Lane>(points: &[Vect<D>]) -> [L; D] {
+    let mut x = [L::splat(0.0); D];
+    let last = points.len() - 1;
+    for lane in 0..L::N {
+        let point = &points[if lane < last { lane } else { last }];
+        for k in 0..D {
+            x[k].set(lane, point[k]);
+        }
+    }
+    x
+}
+
+/// |r_i − r_j|² in all lanes.
+#[inline(always)]
+pub(crate) fn distance2_at<const D: usize, L: Lane>(x: &[L; D], there: &Vect<D>) -> L {
+    let d = minus(x, there);
+    sph_lanes::dot(&d, &d)
+}
+
+/// Squared distances of the members of a cluster from all candidates, `N` numbers for each candidate.
+///
+/// A member is infinitely far from itself, so that the kernel leaves it out.
+pub(crate) struct Distances<'a, const D: usize> {
+    pub members: Members<'a>,
+    pub positions: &'a [Vect<D>],
+    /// Where images across periodic faces may be nearer.
+    pub domain: Option<&'a Domain<D>>,
+    pub out: &'a mut Vec<f64>,
+}
+
+impl<const D: usize> Body for Distances<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<L: Lane>(self) {
+        let Members {
+            from,
+            count,
+            candidates,
+        } = self.members;
+        let needed = candidates.len() * L::N;
+        if self.out.len() < needed {
+            self.out.resize(needed.next_power_of_two(), 0.0);
+        }
+        let out = &mut self.out[..needed];
+        let own = &self.positions[from..from + count];
+        let x = places::<D, L>(own);
+        for (&j, out) in candidates.iter().zip(out.chunks_exact_mut(L::N)) {
+            let there = &self.positions[j as usize];
+            match self.domain {
+                None => distance2_at(&x, there).store(out),
+                Some(domain) => {
+                    for (lane, out) in out.iter_mut().enumerate() {
+                        let x = &own[lane.min(count - 1)];
+                        *out = domain.nearest_image(x - there).norm_squared();
+                    }
+                }
+            }
+            let lane = (j as usize).wrapping_sub(from);
+            if lane < count {
+                out[lane] = f64::INFINITY;
+            }
+        }
+    }
+}
