@@ -17,6 +17,7 @@ readmes! {
     Boundary "../crates/sph-boundary/README.md"
     Core "../crates/sph-core/README.md"
     Integrators "../crates/sph-integrators/README.md"
+    Lanes "../crates/sph-lanes/README.md"
     Kernels "../crates/sph-kernels/README.md"
     Neighbours "../crates/sph-neighbours/README.md"
     Probes "../crates/sph-probes/README.md"

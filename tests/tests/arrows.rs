@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 26] = [
+const ALLOWED: [(&str, &[&str]); 27] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation"]),
     ("dem-grains", &[]),
@@ -30,9 +30,10 @@ const ALLOWED: [(&str, &[&str]); 26] = [
             "sph-io",
         ],
     ),
-    ("sph-kernels", &[]),
+    ("sph-lanes", &[]),
+    ("sph-kernels", &["sph-lanes"]),
     ("sph-core", &["scene-text"]),
-    ("sph-neighbours", &["sph-core", "sph-kernels"]),
+    ("sph-neighbours", &["sph-core", "sph-kernels", "sph-lanes"]),
     (
         "sph-boundary",
         &["sph-core", "sph-kernels", "sph-neighbours"],

@@ -13,8 +13,8 @@ use sph_diffusion::{BrezziPitkaranta, SmootherEntry};
 use sph_kernels::Sampler;
 use sph_multiphase::{FormulationEntry, PressureGradient, SquaredVolumes};
 use sph_neighbours::{
-    Domain, FusedLanes, KernelEntry, LanePairTerm, Lanewise, Terms, There, World, fuse_all, interactions,
-    interactions_with, kernel_sums, pack,
+    Domain, FusedLanes, KernelEntry, LanePairTerm, Lanewise, Terms, There, World, fuse_all,
+    interactions, interactions_with, kernel_sums, pack,
 };
 use sph_scene::SplitMix;
 use sph_state::{EquationOfState, Laws, Linear, Reference};

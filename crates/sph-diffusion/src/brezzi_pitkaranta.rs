@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There, World, dot, splat,
+    BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There,
+    World, dot, splat,
 };
 
 use crate::diffusion_limit::{DiffusionLimit, fastest};
@@ -166,7 +167,8 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         pair: &LanePair<D, L>,
         sum: &mut L,
     ) {
-        let [pressure, density, volume] = [there.pressure, there.density, there.volume].map(L::splat);
+        let [pressure, density, volume] =
+            [there.pressure, there.density, there.volume].map(L::splat);
         let gravity = splat::<D, L>(&self.gravity);
         let bracket = L::splat(2.0) * (here.0 - pressure) / (here.1 + density)
             - dot(&gravity, &pair.separation);

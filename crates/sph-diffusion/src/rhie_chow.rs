@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There, World, dot, set,
+    BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There,
+    World, dot, set,
 };
 
 use crate::diffusion_limit::{DiffusionLimit, fastest};
@@ -226,7 +227,8 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         pair: &LanePair<D, L>,
         sum: &mut L,
     ) {
-        let [pressure, density, volume] = [there.pressure, there.density, there.volume].map(L::splat);
+        let [pressure, density, volume] =
+            [there.pressure, there.density, there.volume].map(L::splat);
         let narrow = L::splat(2.0) * (own.0 - pressure) / (own.1 + density);
         let mut slopes = own.2;
         for (slope, other) in slopes.iter_mut().zip(self.slope[j].iter()) {

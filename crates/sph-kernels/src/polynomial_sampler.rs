@@ -111,13 +111,23 @@ impl<V: Formula, F: Formula> Sampler for PolynomialSampler<V, F> {
     fn value(&self, r2: &[f64], w: &mut [f64]) {
         assert_eq!(r2.len(), w.len());
         let (range, formula) = (&self.range, &self.value);
-        dispatch(Loop { range, formula, r2, out: w });
+        dispatch(Loop {
+            range,
+            formula,
+            r2,
+            out: w,
+        });
     }
 
     fn gradient_factor(&self, r2: &[f64], factor: &mut [f64]) {
         assert_eq!(r2.len(), factor.len());
         let (range, formula) = (&self.range, &self.factor);
-        dispatch(Loop { range, formula, r2, out: factor });
+        dispatch(Loop {
+            range,
+            formula,
+            r2,
+            out: factor,
+        });
     }
 
     fn both(&self, r2: &[f64], w: &mut [f64], factor: &mut [f64]) {
@@ -139,7 +149,12 @@ impl<F: Formula> Body for Loop<'_, F> {
     type Output = ();
     #[inline(always)]
     fn call<L: Lane>(self) {
-        let Loop { range, formula, r2, out } = self;
+        let Loop {
+            range,
+            formula,
+            r2,
+            out,
+        } = self;
         for (out, r2) in out.iter_mut().zip(r2) {
             *out = formula.at(range.q(*r2));
         }

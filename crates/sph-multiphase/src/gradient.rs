@@ -2,8 +2,8 @@
 
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair,
-    Rates, There, World, add_scaled, splat, vector,
+    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
+    Pair, Rates, There, World, add_scaled, splat, vector,
 };
 
 /// Pressure, volume and density of one side of a pair.

@@ -111,7 +111,8 @@ impl Clusters {
                     let mut used = 0;
                     for c in 0..all.clusters() {
                         let members = all.members(c, b * CHUNK);
-                        let own = members.from - b * CHUNK..members.from - b * CHUNK + members.count;
+                        let own =
+                            members.from - b * CHUNK..members.from - b * CHUNK + members.count;
                         let room = &mut buffer[used..used + members.candidates.len()];
                         used += cluster(scratch, members, room, &mut numbers[own]);
                         block.starts.push(used as u32);

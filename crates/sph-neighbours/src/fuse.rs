@@ -85,5 +85,21 @@ macro_rules! joined {
         }
     };
 }
-joined!(PairTerm, Term, scalar, restore_scalar, fuse_two, fuse_three, "scalar terms");
-joined!(LanePairTerm, Lanewise, lanes, restore_lanes, fuse_two_lanes, fuse_three_lanes, "terms in lanes");
+joined!(
+    PairTerm,
+    Term,
+    scalar,
+    restore_scalar,
+    fuse_two,
+    fuse_three,
+    "scalar terms"
+);
+joined!(
+    LanePairTerm,
+    Lanewise,
+    lanes,
+    restore_lanes,
+    fuse_two_lanes,
+    fuse_three_lanes,
+    "terms in lanes"
+);

@@ -159,7 +159,10 @@ impl<const D: usize> CellGrid<D> {
         let reach = (radius * self.inverse_width[axis]).ceil().min(n as f64) as usize;
         let [low, high] = corners.map(|x| self.coordinate(x, axis));
         if !self.periodic[axis] {
-            return [(low.saturating_sub(reach), (high + reach + 1).min(n)), (0, 0)];
+            return [
+                (low.saturating_sub(reach), (high + reach + 1).min(n)),
+                (0, 0),
+            ];
         }
         if high - low + 2 * reach + 1 >= n {
             return [(0, n), (0, 0)];

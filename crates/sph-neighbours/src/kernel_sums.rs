@@ -38,7 +38,15 @@ pub fn kernel_sums<const D: usize>(
             let first = members.from - all.from;
             let near = (members.from..members.from + members.count).find_map(domain);
             let out = &mut room.lanes.distance2;
-            dispatch_at(width, Distances { members, positions, domain: near, out });
+            dispatch_at(
+                width,
+                Distances {
+                    members,
+                    positions,
+                    domain: near,
+                    out,
+                },
+            );
             let values = &mut room.lanes;
             let needed = members.candidates.len() * width.lanes();
             values.reserve(needed);
@@ -46,7 +54,16 @@ pub fn kernel_sums<const D: usize>(
             let value = &mut values.value[..needed];
             kernel.value(distance2, value);
             let sums = &mut sums[first..first + members.count];
-            dispatch_at(width, Total { distance2, value, limit, inside: &mut inside, sums });
+            dispatch_at(
+                width,
+                Total {
+                    distance2,
+                    value,
+                    limit,
+                    inside: &mut inside,
+                    sums,
+                },
+            );
         }
         for (k, sum) in sums.iter_mut().enumerate() {
             *sum += own;

@@ -2,6 +2,8 @@
 
 use std::any::Any;
 
+use schemars::JsonSchema;
+use serde::Deserialize;
 use sph_core::{Access, StepError};
 use sph_lanes::{Body, Lane, MOST, dispatch_at};
 
@@ -101,7 +103,9 @@ pub trait LanePairTerm<const D: usize>: Send + Sync + 'static {
     }
 }
 
-/// Makes a [`LanePairTerm`] an [`Interaction`].
+/// Makes a [`LanePairTerm`] an [`Interaction`], with its parameters.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(transparent)]
 pub struct Lanewise<T>(pub T);
 
 impl<const D: usize, T: LanePairTerm<D>> Interaction<D> for Lanewise<T> {

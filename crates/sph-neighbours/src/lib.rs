@@ -56,8 +56,8 @@ pub use moment::trusted_inverse;
 pub use packed::{Packed, pack};
 pub use reaction::{WallForce, cross, wall_forces, wall_parts};
 pub use row::{NOBODY, Neighbourhood, Row, Scratch};
-pub use sph_lanes::{Lane, add_scaled, dot};
 pub use shares::{TermShare, shares_at};
+pub use sph_lanes::{Lane, MOST, add_scaled, dot};
 pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,

@@ -131,7 +131,9 @@ impl<const D: usize> Scratch<D> {
         let distance2 = &mut self.distance2[..m];
         let factor = &mut self.factor[..m];
         let mut n = 0;
-        let in_lanes = distances.chunks_exact(lanes).zip(factors.chunks_exact(lanes));
+        let in_lanes = distances
+            .chunks_exact(lanes)
+            .zip(factors.chunks_exact(lanes));
         for (&j, (r2, f)) in candidates.iter().zip(in_lanes) {
             let d = x - sources[j as usize];
             index[n] = j;

@@ -123,13 +123,15 @@ where
     let all = acceleration.par_chunks_mut(CHUNK).enumerate();
     match (scalar, more) {
         (Some(scalar), []) => {
-            all.zip(scalar.par_chunks_mut(CHUNK))
-                .for_each_init(Room::default, |room, ((c, a), s)| {
+            all.zip(scalar.par_chunks_mut(CHUNK)).for_each_init(
+                Room::default,
+                |room, ((c, a), s)| {
                     work(room, c, a.len());
                     for ((a, s), rates) in a.iter_mut().zip(s).zip(&room.1) {
                         (*a, *s) = (rates.acceleration, rates.scalar);
                     }
-                });
+                },
+            );
         }
         (None, []) => all.for_each_init(Room::default, |room, (c, a)| {
             work(room, c, a.len());
@@ -148,13 +150,15 @@ where
                 });
         }
         (None, more) => {
-            all.zip(more.par_chunks_mut(CHUNK))
-                .for_each_init(Room::default, |room, ((c, a), m)| {
+            all.zip(more.par_chunks_mut(CHUNK)).for_each_init(
+                Room::default,
+                |room, ((c, a), m)| {
                     work(room, c, a.len());
                     for ((a, m), rates) in a.iter_mut().zip(m).zip(&room.1) {
                         (*a, *m) = (rates.acceleration, rates.more);
                     }
-                });
+                },
+            );
         }
     }
     Ok(())

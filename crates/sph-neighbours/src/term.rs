@@ -2,6 +2,8 @@
 
 use std::any::Any;
 
+use schemars::JsonSchema;
+use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, contract};
 
 use crate::{Cluster, Contact, Neighbourhood, Row, World};
@@ -157,7 +159,9 @@ contract!(
     pub TermEntry, "term", "an additional term of the interaction sweep", Interaction<D>
 );
 
-/// Makes a [`PairTerm`] an [`Interaction`].
+/// Makes a [`PairTerm`] an [`Interaction`], with its parameters.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(transparent)]
 pub struct Term<T>(pub T);
 
 impl<const D: usize, T: PairTerm<D>> Interaction<D> for Term<T> {

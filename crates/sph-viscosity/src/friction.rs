@@ -1,10 +1,9 @@
 //! Viscous operators as sums over pairs, and their friction at walls.
 
 use sph_core::{Access, StepError, Vect, fields};
-use sph_lanes::MOST;
 use sph_neighbours::{
-    BoundTerm, Contact, Contacts, Elements, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates, There,
-    World, add_scaled, dot, minus, set, splat, vector,
+    BoundTerm, Contact, Contacts, Elements, Lane, LanePair, LanePairTerm, LaneTerm, MOST, Pair,
+    Rates, There, World, add_scaled, dot, minus, set, splat, vector,
 };
 
 use crate::ViscositySource;
@@ -43,13 +42,7 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
     }
     /// ½ t·f(t) of several particles: what a unit velocity along t gives.
     #[inline(always)]
-    fn shears<L: Lane>(
-        self,
-        volume: L,
-        there: L,
-        along: &[L; D],
-        pair: &LanePair<D, L>,
-    ) -> L {
+    fn shears<L: Lane>(self, volume: L, there: L, along: &[L; D], pair: &LanePair<D, L>) -> L {
         let half = L::splat(0.5);
         match Self::DIRECTIONAL {
             true => half * dot(&self.forces(volume, there, along, pair), along),

@@ -59,6 +59,17 @@ fn the_code_of_the_plugin_page_is_that_of_a_test() {
 }
 
 #[test]
+fn the_code_of_the_page_on_lanes_is_that_of_a_test() {
+    let page = include_str!("../../../docs/lanes.md");
+    let test = include_str!("../lanes.rs");
+    let quoted = blocks(page, "rust");
+    assert_eq!(quoted.len(), 2);
+    for block in quoted {
+        assert!(test.contains(block), "not in the test:\n{block}");
+    }
+}
+
+#[test]
 fn every_scene_and_every_study_is_in_its_page() {
     for (folder, page) in [("scenes", "docs/scenes.md"), ("studies", "docs/studies.md")] {
         let page = std::fs::read_to_string(root().join(page)).expect("a page");

@@ -99,11 +99,7 @@ fn lists<const D: usize>(world: &World<D>) -> f64 {
         // Nobody knows it better before the first step: they are not longer than those with the skin.
         None => free,
     };
-    let others = [
-        &lists.wall,
-        &lists.of_points,
-        &lists.of_elements,
-    ];
+    let others = [&lists.wall, &lists.of_points, &lists.of_elements];
     let places = lists.reference.len() + lists.reference_points().len();
     free + pruned + others.map(list).iter().sum::<f64>() + (8 * D * places) as f64
 }

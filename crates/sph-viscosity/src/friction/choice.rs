@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::Vect;
-use sph_neighbours::{Interaction, Pair, Lanewise, World};
+use sph_neighbours::{Interaction, Lanewise, Pair, World};
 
 use super::{PairFriction, ViscousTerm};
 use crate::interface_distance::InterfaceDistance;
@@ -112,7 +112,11 @@ impl Choice {
             (Viscosity::PerPhase, Across::Series) => {
                 Box::new(Lanewise(ViscousTerm(friction, InSeries(self.within), self)))
             }
-            _ => Box::new(Lanewise(ViscousTerm(friction, PerParticle(self.within), self))),
+            _ => Box::new(Lanewise(ViscousTerm(
+                friction,
+                PerParticle(self.within),
+                self,
+            ))),
         }
     }
 

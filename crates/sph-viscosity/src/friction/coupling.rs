@@ -49,7 +49,9 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
     #[inline(always)]
     fn strengths(&self, here: &Here<D, S::Here>, there: f64, pair: &Pair<D>, eta: f64) -> [f64; 2] {
         let (distance2, factor) = (pair.distance2, pair.factor);
-        let strengths = self.friction.strengths(here.volume, there, distance2, factor);
+        let strengths = self
+            .friction
+            .strengths(here.volume, there, distance2, factor);
         strengths.map(|s| -(s * eta))
     }
 
@@ -111,7 +113,9 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
     #[inline(always)]
     fn mean_with(&self, here: &Here<D, S::Here>, j: usize) -> f64 {
         let densities = [here.density, self.density[j]];
-        let own = self.viscosity.side::<f64>(std::slice::from_ref(&here.viscosity));
+        let own = self
+            .viscosity
+            .side::<f64>(std::slice::from_ref(&here.viscosity));
         self.friction.means(&self.viscosity, &own, j, densities)
     }
 }
