@@ -3,14 +3,16 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
-use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
+use sph_neighbours::{
+    Around, BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates,
+    There, Values, World, dot, set, walk,
+};
 
 use crate::diffusion_limit::DiffusionLimit;
 use crate::linear_exact::linear_exact;
 use crate::per_phase::PerPhase;
 use crate::{Smoother, SmootherEntry};
 use sph_contribution::{Limiter, Stages};
-use sph_neighbours::{Around, Values, walk};
 use sph_state::Laws;
 
 /// dρ_a/dt += 2 δ h c_a/γ_a Σ_b V_b [ρ_a − ρ_b − ½(∇ρ_a + ∇ρ_b)·r_ab] F_ab over free neighbours
@@ -72,7 +74,7 @@ impl<const D: usize> Smoother<D> for DeltaSph {
         }
     }
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Term(DeltaTerm {
+        Box::new(Lanewise(DeltaTerm {
             smoother: *self,
             sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
         }))
@@ -137,7 +139,7 @@ pub struct DeltaTerm {
     sound_speed: PerPhase,
 }
 
-impl<const D: usize> PairTerm<D> for DeltaTerm {
+impl<const D: usize> LanePairTerm<D> for DeltaTerm {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -199,19 +201,69 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
 
     #[inline(always)]
     fn free(&self, here: &Self::Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
-        if self.phase.is_some_and(|p| p[j] != here.2) {
-            return;
-        }
-        let linear = match self.gradient {
-            Some(g) => 0.5 * (here.1 + g[j]).dot(&pair.separation),
-            None => 0.0,
-        };
-        *sum += there.volume * (here.0 - there.density - linear) * pair.factor;
+        self.add_one(here, j, there, pair, sum);
     }
 
     #[inline(always)]
     fn finish(&self, here: &Self::Here, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
         let c = self.sound_speed.at(here.2);
         rates.scalar += self.weight * c * sum * inverse_gamma;
+    }
+}
+
+impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
+    /// Density, its gradient, phase, which is a small whole number.
+    type Side<L: Lane> = (L, [L; D], L);
+    type Sums<L: Lane> = L;
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L> {
+        let zero = L::splat(0.0);
+        let mut side = (zero, [zero; D], zero);
+        for (lane, own) in here.iter().enumerate() {
+            side.0.set(lane, own.0);
+            set(&mut side.1, lane, &own.1);
+            side.2.set(lane, f64::from(own.2));
+        }
+        side
+    }
+
+    #[inline(always)]
+    fn sums<L: Lane>(&self, sum: &f64) -> L {
+        L::splat(*sum)
+    }
+
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &L, lane: usize) -> f64 {
+        sums.at(lane)
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        here: &Self::Side<L>,
+        j: usize,
+        there: &There<D>,
+        pair: &LanePair<D, L>,
+        sum: &mut L,
+    ) {
+        let zero = L::splat(0.0);
+        let linear = match self.gradient {
+            Some(g) => {
+                let mut both = here.1;
+                for k in 0..D {
+                    both[k] = L::splat(0.5) * (both[k] + L::splat(g[j][k]));
+                }
+                dot(&both, &pair.separation)
+            }
+            None => zero,
+        };
+        let rise = here.0 - L::splat(there.density) - linear;
+        let mut more = L::splat(there.volume) * rise * pair.factor;
+        if let Some(phase) = self.phase {
+            let apart = here.2 - L::splat(f64::from(phase[j]));
+            more = (apart * apart).where_positive(zero, more);
+        }
+        *sum += more;
     }
 }

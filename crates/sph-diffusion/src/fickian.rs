@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, register};
-use sph_neighbours::{Interaction, Term, World};
+use sph_neighbours::{Interaction, Lanewise, World};
 
 use crate::evenness::{Evenness, Held, evenness, held_normals};
 use crate::shift_transport::ShiftTransport;
@@ -126,7 +126,7 @@ impl<const D: usize> Shifting<D> for Fickian {
             relaxation: self.relaxation,
             summed: flow.summed,
         };
-        (self.transport != Transport::Nothing).then(|| Box::new(Term(term)) as _)
+        (self.transport != Transport::Nothing).then(|| Box::new(Lanewise(term)) as _)
     }
 }
 

@@ -1,7 +1,10 @@
 //! What shifted particles take up where they go.
 
 use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{BoundTerm, Contact, Elements, Pair, PairTerm, Rates, There, World};
+use sph_neighbours::{
+    BoundTerm, Contact, Elements, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates, There,
+    World, add_scaled, dot, set, splat, vector,
+};
 
 /// du/dt += (s·∇)u and dρ/dt += s·∇ρ with the shift velocity s, the gradients from differences:
 /// s·∇f = 1/γ_a [Σ_b θ_b V_b (f_b − f_a) s_a·∇w_ab − Σ_s (f_s − f_a) s_a·∇γ_as].
@@ -28,7 +31,7 @@ pub struct ShiftTransport {
     pub summed: bool,
 }
 
-impl<const D: usize> PairTerm<D> for ShiftTransport {
+impl<const D: usize> LanePairTerm<D> for ShiftTransport {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -118,16 +121,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
 
     #[inline(always)]
     fn free(&self, own: &Own<D>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Self::Sum) {
-        let along = own.shift.dot(&pair.separation);
-        let weight = there.volume * along * pair.factor;
-        let relative = there.velocity - own.velocity;
-        sum.2 += there.volume * relative.dot(&pair.separation).abs() * pair.factor.abs();
-        if self.phase.is_none_or(|p| p[j] == own.phase) {
-            sum.0 += relative * weight;
-            sum.1 += (there.density - own.density) * weight;
-        }
-        let nearer = along - self.shift[j].dot(&pair.separation);
-        sum.1 -= own.summed * nearer * pair.factor;
+        self.add_one(own, j, there, pair, sum);
     }
 
     #[inline(always)]
@@ -160,5 +154,77 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
             let back = self.which.relaxation * own.density * own.emptiness * sum.2;
             rates.scalar += (sum.1 - back) * inverse_gamma;
         }
+    }
+}
+
+/// [`Own`] of several particles; phases are small whole numbers, exact as any.
+#[derive(Clone, Copy)]
+pub struct Side<const D: usize, L> {
+    shift: [L; D],
+    velocity: [L; D],
+    density: L,
+    summed: L,
+    phase: L,
+}
+
+impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
+    type Side<L: Lane> = Side<D, L>;
+    type Sums<L: Lane> = ([L; D], L, L);
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Own<D>]) -> Side<D, L> {
+        let zero = L::splat(0.0);
+        let mut side = Side {
+            shift: [zero; D],
+            velocity: [zero; D],
+            density: zero,
+            summed: zero,
+            phase: zero,
+        };
+        for (lane, own) in here.iter().enumerate() {
+            set(&mut side.shift, lane, &own.shift);
+            set(&mut side.velocity, lane, &own.velocity);
+            side.density.set(lane, own.density);
+            side.summed.set(lane, own.summed);
+            side.phase.set(lane, f64::from(own.phase));
+        }
+        side
+    }
+
+    #[inline(always)]
+    fn sums<L: Lane>(&self, sum: &Self::Sum) -> Self::Sums<L> {
+        (splat(&sum.0), L::splat(sum.1), L::splat(sum.2))
+    }
+
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Self::Sum {
+        (vector(&sums.0, lane), sums.1.at(lane), sums.2.at(lane))
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        own: &Side<D, L>,
+        j: usize,
+        there: &There<D>,
+        pair: &LanePair<D, L>,
+        sums: &mut Self::Sums<L>,
+    ) {
+        let volume = L::splat(there.volume);
+        let along = dot(&own.shift, &pair.separation);
+        let mut weight = volume * along * pair.factor;
+        let mut relative = own.velocity;
+        for k in 0..D {
+            relative[k] = L::splat(there.velocity[k]) - own.velocity[k];
+        }
+        sums.2 += volume * dot(&relative, &pair.separation).abs() * pair.factor.abs();
+        if let Some(phase) = self.phase {
+            let apart = own.phase - L::splat(f64::from(phase[j]));
+            weight = (apart * apart).where_positive(L::splat(0.0), weight);
+        }
+        add_scaled(&mut sums.0, &relative, weight);
+        sums.1 += (L::splat(there.density) - own.density) * weight;
+        let nearer = along - dot(&splat(&self.shift[j]), &pair.separation);
+        sums.1 -= own.summed * nearer * pair.factor;
     }
 }

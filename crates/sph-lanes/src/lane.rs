@@ -36,6 +36,8 @@ pub trait Lane:
     fn store(self, to: &mut [f64]);
     /// Square root.
     fn sqrt(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
     /// The larger of the two, as [`f64::max`].
     fn max(self, other: Self) -> Self;
     /// `yes` where `self` > 0, else `no`; of what is not a number, `no`.
@@ -69,6 +71,10 @@ impl Lane for f64 {
     #[inline(always)]
     fn sqrt(self) -> f64 {
         f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> f64 {
+        f64::abs(self)
     }
     #[inline(always)]
     fn max(self, other: f64) -> f64 {

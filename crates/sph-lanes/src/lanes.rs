@@ -97,6 +97,13 @@ impl<const N: usize> Lane for Lanes<N> {
         self
     }
     #[inline(always)]
+    fn abs(mut self) -> Self {
+        for k in 0..N {
+            self.0[k] = self.0[k].abs();
+        }
+        self
+    }
+    #[inline(always)]
     fn max(mut self, other: Self) -> Self {
         for k in 0..N {
             self.0[k] = self.0[k].max(other.0[k]);

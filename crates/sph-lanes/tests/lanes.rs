@@ -18,7 +18,7 @@ fn numbers(n: usize) -> Vec<f64> {
 #[inline(always)]
 fn formula<L: Lane>(a: L, b: L, c: L) -> L {
     let quotient = (a * b - c) / (b + c);
-    let root = (a * a + b * b).sqrt().max(c);
+    let root = (a * a + b.abs() * b.abs()).sqrt().max(c);
     let mut sum = [quotient, -root, a];
     add_scaled(&mut sum, &[a, b, c], root);
     sum[0] -= quotient;

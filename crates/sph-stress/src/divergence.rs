@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Symmetric, Vect, fields, register};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
+    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
+    Pair, Rates, There, World, dot, splat, vector,
 };
 
 use crate::{Blend, ElasticForce, ElasticForceEntry, Felt};
@@ -73,11 +74,11 @@ pub struct StressDivergence;
 impl StressDivergence {
     /// As a term of a sweep.
     pub fn boxed<const D: usize>() -> Box<dyn Interaction<D>> {
-        Box::new(Term(StressDivergence))
+        Box::new(Lanewise(StressDivergence))
     }
 }
 
-impl<const D: usize> PairTerm<D> for StressDivergence {
+impl<const D: usize> LanePairTerm<D> for StressDivergence {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -185,9 +186,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
 
     #[inline(always)]
     fn free(&self, here: &Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Sum<D>) {
-        let both = here.stress * (here.volume * here.volume)
-            + self.stress[j] * (there.volume * there.volume);
-        sum.force += both.apply(&pair.separation) * pair.factor;
+        self.add_one(here, j, there, pair, sum);
     }
 
     #[inline(always)]
@@ -216,5 +215,60 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     #[inline(always)]
     fn finish(&self, here: &Here, sum: &Sum<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
         rates.acceleration += sum.completed(inverse_gamma) / here.mass;
+    }
+}
+
+/// Where the components of a symmetric tensor stand.
+const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+
+impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
+    /// τ V².
+    type Side<L: Lane> = [L; 6];
+    /// Forces, and what they started from.
+    type Sums<L: Lane> = ([L; D], Sum<D>);
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Here]) -> [L; 6] {
+        let mut side = [L::splat(0.0); 6];
+        for (lane, own) in here.iter().enumerate() {
+            let weighted = own.stress * (own.volume * own.volume);
+            for (c, side) in side.iter_mut().enumerate() {
+                side.set(lane, weighted.0[c]);
+            }
+        }
+        side
+    }
+
+    #[inline(always)]
+    fn sums<L: Lane>(&self, sum: &Sum<D>) -> Self::Sums<L> {
+        (splat(&sum.force), *sum)
+    }
+
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Sum<D> {
+        Sum {
+            force: vector(&sums.0, lane),
+            ..sums.1
+        }
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        here: &[L; 6],
+        j: usize,
+        there: &There<D>,
+        pair: &LanePair<D, L>,
+        sums: &mut Self::Sums<L>,
+    ) {
+        let other = self.stress[j] * (there.volume * there.volume);
+        for i in 0..D {
+            let mut row = [L::splat(0.0); D];
+            for k in 0..D {
+                let place = PLACE[i][k];
+                row[k] = here[place] + L::splat(other.0[place]);
+            }
+            sums.0[i] += dot(&row, &pair.separation) * pair.factor;
+        }
     }
 }

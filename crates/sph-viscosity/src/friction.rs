@@ -114,11 +114,20 @@ impl<const D: usize, F: PairFriction<D>, S: ViscositySource> LanePairTerm<D> for
             wall_slip: &points.slip,
             elements: &world.walls.elements,
             contacts: &world.walls.contacts,
+            rubs: rubs(world),
             corrected: self.2.wall_term == WallTerm::Corrected,
             scale: self.2.on_lattice.scale(self.0, world),
             spacing: world.spacing,
         })
     }
+}
+
+/// Whether the fluid rubs any wall: all may be free-slip.
+fn rubs<const D: usize>(world: &World<D>) -> bool {
+    let grips = world.walls.points.grip.iter();
+    grips
+        .chain(&world.walls.elements.grip)
+        .any(|grip| *grip != 0.0)
 }
 
 /// [`ViscousTerm`] with its columns.
@@ -136,6 +145,8 @@ pub struct Bound<'a, const D: usize, F, S> {
     wall_slip: &'a [(f64, Vect<D>)],
     elements: &'a Elements<D>,
     contacts: &'a Contacts<D>,
+    /// Whether any wall does: else no wall is looked at.
+    rubs: bool,
     corrected: bool,
     scale: f64,
     spacing: f64,
@@ -183,7 +194,7 @@ impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
     /// Normal and distance of the element with the largest mean kernel, the nearest one.
     #[inline(always)]
     fn nearest(&self, i: usize) -> Option<&Contact<D>> {
-        if !self.corrected {
+        if !(self.rubs && self.corrected) {
             return None;
         }
         let mean = |c: &Contact<D>| {
@@ -314,6 +325,9 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
 
     #[inline(always)]
     fn wall(&self, here: &Self::Here, v: usize, pair: &Pair<D>, sum: &mut Sum<D>) {
+        if !self.rubs {
+            return;
+        }
         let (share, volume) = (self.wall_share[v], self.wall_volume[v]);
         let rubbing = self.rubbing(v, pair);
         let relative = here.velocity - self.wall_velocity[v];
@@ -325,6 +339,9 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
 
     #[inline(always)]
     fn element(&self, here: &Self::Here, contact: &Contact<D>, sum: &mut Sum<D>) {
+        if !self.rubs {
+            return;
+        }
         let s = contact.element as usize;
         let normal = &self.elements.normal[s];
         let relative = here.velocity - self.elements.velocity[s];
