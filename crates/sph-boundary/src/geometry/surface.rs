@@ -12,7 +12,6 @@ mod closest;
 mod crossing;
 mod drawn;
 mod edges;
-mod error;
 mod fill;
 mod grid;
 mod inside;
@@ -30,7 +29,6 @@ mod vector;
 use std::sync::OnceLock;
 
 pub use closest::{Closest, Feature};
-pub use error::SurfaceError;
 pub use grid::TriangleGrid;
 pub use signed::SeenTriangle;
 

@@ -3,18 +3,35 @@
 use std::f64::consts::TAU;
 
 use super::joints::{Continuation, Joints, SAME_PLACE, joints};
-use super::{FreeEnd, Segment, SegmentMesh, Vertex, WallEnd};
+use super::segment_mesh::{Segment, SegmentMesh, Vertex};
 use crate::error::BoundaryError;
 use crate::geometry::checks::{check_area, check_crossings, check_points, short_edges};
-use crate::geometry::inside::Sides;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::Polyline;
+use crate::geometry::sides::Sides;
+use crate::geometry::wall_end::{FreeEnd, WallEnd};
 use crate::rigid::pose::Pose;
 
 /// Two segments folded onto each other within this angle leave the fluid all around their vertex.
 const FOLD: f64 = 1e-9;
 
-pub(super) fn build(
+impl SegmentMesh {
+    /// Cuts the walls into segments of about `spacing` metres.
+    ///
+    /// # Errors
+    /// A wall that is degenerate, crosses itself or another one, or meets another end to end with
+    /// the fluid on the other side. A wall that ends freely is not refused here: see
+    /// [`SegmentMesh::check_free_ends`].
+    pub fn build(
+        polylines: &[Polyline],
+        spacing: f64,
+        domain: &PeriodicBox,
+    ) -> Result<Self, BoundaryError> {
+        build(polylines, spacing, domain)
+    }
+}
+
+fn build(
     polylines: &[Polyline],
     spacing: f64,
     domain: &PeriodicBox,

@@ -5,14 +5,13 @@ use rayon::prelude::*;
 use super::crossing::contacts;
 use super::drawn::{Drawn, check_extent, check_input, neighbours, weld};
 use super::edges::{Cuts, Nodes, free_pieces};
-use super::error::SurfaceError;
 use super::fill::{Corner, Filling, fill};
 use super::patches::{Patch, patches};
 use super::places::{Places, SAME_PLACE, Site};
 use super::removal::remove_contacts;
 use super::vector::{double_area, norm};
 use super::{Face, FaceEdge, MOST_ELEMENTS, Node, Surface, Triangle, TriangleMesh};
-use crate::error::{BoundaryError, WallWarning};
+use crate::error::{BoundaryError, SurfaceError, WallWarning};
 use crate::geometry::periodic::PeriodicBox;
 use crate::rigid::pose::Pose;
 

@@ -8,10 +8,10 @@ use sph_core::BoxTree;
 
 use super::Surface;
 use super::drawn::Drawn;
-use super::error::SurfaceError;
 use super::vector::{Point, add, along, bounds, cross, dot, norm, sub, unit};
-use crate::error::MOST_PAIRS;
+use crate::error::SurfaceError;
 use crate::geometry::periodic::PeriodicBox;
+use crate::limits::MOST_PAIRS;
 
 /// Two triangles of different walls of one group that cover each other face to face: `other`,
 /// moved by `image`, lies on `triangle`.

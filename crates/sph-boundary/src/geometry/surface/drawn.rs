@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::error::SurfaceError;
 use super::places::{EdgeKey, Places, Site, edge_key};
 use super::vector::{Point, bounds, dot, double_area, norm, sub};
 use super::{MOST_ELEMENTS, Surface};
+use crate::error::SurfaceError;
 
 /// Area over longest edge squared below which a triangle has none.
 const NO_AREA: f64 = 1e-9;
