@@ -6,8 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 use sph_core::BoxTree;
 
-use super::Surface;
-use super::drawn::Drawn;
+use super::drawn::{Drawn, Surface};
 use super::vector::{Point, add, along, bounds, cross, dot, norm, sub, unit};
 use crate::error::SurfaceError;
 use crate::geometry::periodic::PeriodicBox;

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::Surface;
+use super::drawn::Surface;
 use super::patches::Patch;
 use super::places::{EdgeKey, Places, SAME_PLACE, Site, edge_key};
 use super::vector::{Point, along, bounds, dot, norm, sub};

@@ -1,6 +1,6 @@
 //! Surfaces that move as rigid bodies.
 
-use super::TriangleMesh;
+use super::triangle_mesh::TriangleMesh;
 use super::vector::Point;
 use crate::error::{BoundaryError, SurfaceError};
 use crate::rigid::pose::Pose;

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
+use super::triangle_mesh::{FreeEdge, Opening, TriangleMesh};
 use super::vector::{Point, add, along, bounds, dot, norm, sub};
-use super::{FreeEdge, Opening, TriangleMesh};
 use crate::error::{BoundaryError, SurfaceError};
 
 impl TriangleMesh {
