@@ -57,7 +57,8 @@ impl Sphere {
 }
 
 impl TriangleGrid {
-    /// Of the centres of all images of triangles and the radius of every triangle about its centre; queries reach `reach` far, m.
+    /// Of the centres of all images of triangles and the radius of every triangle about its centre; queries
+    /// reach `reach` far, m.
     pub(super) fn of(images: &[(NearTriangle, Point)], radii: &[f64], reach: f64) -> Self {
         let [lower, upper] = bounds(images.iter().map(|(_, centre)| *centre));
         let extent: Point = std::array::from_fn(|k| (upper[k] - lower[k]).max(0.0));
