@@ -29,6 +29,7 @@ mod shares;
 mod sweep;
 mod term;
 mod walk;
+mod wall_force;
 mod walls;
 mod world;
 
@@ -43,14 +44,15 @@ pub use lattice::{lattice_sum, rows_sum};
 pub use list::{CHUNK, NeighbourList};
 pub use moment::trusted_inverse;
 pub use packed::{Packed, pack};
-pub use reaction::{WallForce, cross, wall_forces, wall_parts};
-pub use row::{Neighbourhood, Row, Scratch};
+pub use reaction::{cross, wall_forces, wall_parts};
+pub use row::{Neighbourhood, Row, Scratch, There};
 pub use shares::{TermShare, shares_at};
 pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,
-    TermEntry, There,
+    TermEntry,
 };
 pub use walk::{Around, Rows, Surroundings, Values, walk, walk_some};
+pub use wall_force::WallForce;
 pub use walls::{Coulomb, Elements, Frame, WallPoints, WallSet};
 pub use world::{Lists, World};

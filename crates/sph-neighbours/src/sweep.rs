@@ -6,8 +6,8 @@ use sph_kernels::Sampler;
 
 use crate::list::CHUNK;
 use crate::packed::{Packed, pack};
-use crate::term::{Interaction, Rates, RowTerm, TRANSPORTED, There};
-use crate::{Domain, NeighbourList, Neighbourhood, Scratch, World};
+use crate::term::{Interaction, Rates, RowTerm, TRANSPORTED};
+use crate::{Domain, NeighbourList, Neighbourhood, Scratch, There, World};
 
 /// Sums all terms of all particles.
 ///
