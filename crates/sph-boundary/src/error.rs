@@ -1,12 +1,11 @@
 //! What can be wrong with a wall or with the kernel that looks at it.
 
-use crate::geometry::mesh::WallEnd;
-use crate::geometry::surface::SurfaceError;
+mod surface;
 
-/// Most pairs of edges or triangles that are held against each other: a second or two of work.
-pub(crate) const MOST_PAIRS: usize = 200_000_000;
-/// Most periods that walls may reach across.
-pub(crate) const MOST_PERIODS: f64 = 1000.0;
+pub use surface::SurfaceError;
+
+use crate::geometry::wall_end::WallEnd;
+use crate::limits::{MOST_PAIRS, MOST_PERIODS};
 
 /// A refused wall, motion or kernel. Lengths are in metres, edges and points count from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,4 +1,5 @@
 //! γ and ∇γ in closed form.
 
 pub(crate) mod gamma;
+mod normalisation;
 pub(crate) mod spatial;

@@ -72,12 +72,13 @@
 mod error;
 mod geometry;
 mod integrals;
+mod limits;
 mod rigid;
 mod treatment;
 
-pub use error::{BoundaryError, WallWarning};
-pub use geometry::grid::{NearSegment, SegmentGrid};
-pub use geometry::mesh::{FreeEnd, SeenSegment, Segment, SegmentMesh, Vertex, WallEnd};
+pub use error::{BoundaryError, SurfaceError, WallWarning};
+pub use geometry::grid::SegmentGrid;
+pub use geometry::mesh::{NearSegment, SeenSegment, Segment, SegmentMesh, Vertex};
 pub use geometry::periodic::PeriodicBox;
 pub use geometry::planar::PlanarWalls;
 pub use geometry::plate::thin_plate;
@@ -85,16 +86,17 @@ pub use geometry::polyline::Polyline;
 pub use geometry::spatial_walls::SpatialWalls;
 pub use geometry::surface::{
     Closest, Face, FaceEdge, Feature, FreeEdge, NearTriangle, Node, Opening, SeenTriangle, Surface,
-    SurfaceError, Triangle, TriangleGrid, TriangleMesh,
+    Triangle, TriangleGrid, TriangleMesh,
 };
+pub use geometry::wall_end::{FreeEnd, WallEnd};
 pub use geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
 pub use integrals::gamma::{Contact, GammaSum, Renormalisation2d, SegmentIntegral};
 pub use integrals::spatial::{FacetIntegral, GammaSum3d, Renormalisation3d};
 pub use rigid::course::{Course, Stage};
-pub use rigid::motion::{Movement, RigidMotion, Rotation, Translation};
+pub use rigid::motion::{RigidMotion, Rotation, Translation};
 pub use rigid::mover::{Mover, MoverEntry};
 pub use rigid::pose::Pose;
-pub use rigid::rigid_state::{Load, RigidState};
+pub use rigid::rigid_state::{Load, Movement, RigidState};
 pub use rigid::spring::Spring;
 pub use treatment::contract::{
     Condition, Drawing, Wall, WallEntry, WallSetup, WallSpec, WallStates,

@@ -2,18 +2,7 @@
 
 use std::ops::Range;
 
-use crate::{FieldError, Store, fields};
-
-/// What came into a store after the start.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Born {
-    /// Identities that were given so far, those of the start included: nobody gets one of them again.
-    pub identities: u32,
-    /// Mass that came in after the start, kg (per metre of depth in two dimensions).
-    pub mass: f64,
-    /// Particles that came in after the start.
-    pub particles: u64,
-}
+use crate::{Born, FieldError, Store, fields};
 
 impl<const D: usize> Store<D> {
     /// What has been born so far.

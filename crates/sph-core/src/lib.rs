@@ -35,9 +35,9 @@ mod stage;
 mod store;
 mod symmetric;
 mod taken;
+mod turnover;
 mod watch;
 
-pub use births::Born;
 pub use boxes::{BoxTree, Corners};
 pub use error::{FieldError, PlanError, RegistryError, StepError};
 pub use evolve::{Evolved, Recall, System};
@@ -58,7 +58,7 @@ pub use slots::Slots;
 pub use stage::{Access, Declares, Stage};
 pub use store::{Plain, Role, Store};
 pub use symmetric::Symmetric;
-pub use taken::Taken;
+pub use turnover::{Born, Taken};
 
 /// Crates that the registration macros name; use them through the macros only.
 #[doc(hidden)]

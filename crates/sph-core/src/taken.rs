@@ -1,20 +1,8 @@
 //! Particles that are taken out of a store.
 
+use crate::Taken;
 use crate::field::Column;
 use crate::store::{Entry, Store};
-
-/// What has been taken out of a store by one outlet of one phase.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Taken {
-    /// Number of the outlet.
-    pub outlet: u32,
-    /// Number of the phase.
-    pub phase: u32,
-    /// Mass, kg (per metre of depth in 2D).
-    pub mass: f64,
-    /// Number of particles.
-    pub particles: u64,
-}
 
 /// Entries of a column that were taken out, or all behind a place.
 fn split<T: Copy>(items: &mut Vec<T>, leaves: &[bool]) -> Vec<T> {

@@ -4,7 +4,7 @@ use sph_core::Vect;
 use sph_kernels::Sampler;
 use sph_lanes::{MOST, Width, dispatch_at};
 
-use crate::clusters::Members;
+use crate::members::Members;
 use crate::separation::Distances;
 use crate::{Contacts, Domain, Neighbourhood, Scratch, There};
 

@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use sph_core::Vect;
-use sph_lanes::{Body, Lane, MOST, dispatch_at, width};
+use sph_lanes::{Body, Lane, dispatch_at, width};
 
+use crate::members::Members;
 use crate::separation::{distance2_at, places};
 use crate::{CHUNK, CellGrid, Domain};
 
@@ -24,19 +25,8 @@ struct Block {
     of: Vec<u8>,
 }
 
-/// Some particles that follow each other, and whom any of them may have within reach.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Members<'a> {
-    /// The first particle.
-    pub from: usize,
-    /// How many.
-    pub count: usize,
-    /// Candidates, the members themselves among them, in index order.
-    pub candidates: &'a [u32],
-}
-
 /// For every free particle the free particles that may be within reach: one list for a cluster of at most
-/// [`MOST`] particles that follow each other.
+/// [`MOST`](sph_lanes::MOST) particles that follow each other.
 #[derive(Clone, Debug, Default)]
 pub struct Clusters {
     blocks: Vec<Block>,
@@ -286,14 +276,4 @@ impl<const D: usize> Body for Near<'_, D> {
         }
         self.from + n
     }
-}
-
-/// Members of a cluster in groups of at most as many as there are lanes.
-pub(crate) fn groups(members: Members<'_>, lanes: usize) -> impl Iterator<Item = Members<'_>> {
-    let step = lanes.min(MOST);
-    (0..members.count).step_by(step).map(move |k| Members {
-        from: members.from + k,
-        count: step.min(members.count - k),
-        candidates: members.candidates,
-    })
 }

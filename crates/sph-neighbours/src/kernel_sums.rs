@@ -5,8 +5,8 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
 use sph_lanes::{Body, Lane, dispatch_at, width};
 
-use crate::clusters::{Members, groups};
 use crate::list::CHUNK;
+use crate::members::{Members, groups};
 use crate::separation::Distances;
 use crate::sweep::wrapping;
 use crate::{Domain, NeighbourList, World};

@@ -8,8 +8,8 @@ use sph_core::{Access, StepError};
 use sph_lanes::{Body, Lane, MOST, dispatch_at};
 
 use crate::cluster::Cluster;
-use crate::clusters::Members;
 use crate::lane_vector::minus;
+use crate::members::Members;
 use crate::separation::places;
 use crate::term::{each, free_then_walls};
 use crate::{BoundTerm, Interaction, Neighbourhood, Pair, Part, Rates, RowTerm, There, World};

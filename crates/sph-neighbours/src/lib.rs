@@ -25,6 +25,7 @@ mod lane_term;
 mod lane_vector;
 mod lattice;
 mod list;
+mod members;
 mod moment;
 mod packed;
 mod reaction;
@@ -34,6 +35,7 @@ mod shares;
 mod sweep;
 mod term;
 mod walk;
+mod wall_force;
 mod walls;
 mod world;
 
@@ -54,15 +56,16 @@ pub use lattice::{lattice_sum, rows_sum};
 pub use list::{CHUNK, NeighbourList};
 pub use moment::trusted_inverse;
 pub use packed::{Packed, pack};
-pub use reaction::{WallForce, cross, wall_forces, wall_parts};
-pub use row::{NOBODY, Neighbourhood, Row, Scratch};
+pub use reaction::{cross, wall_forces, wall_parts};
+pub use row::{NOBODY, Neighbourhood, Row, Scratch, There};
 pub use shares::{TermShare, shares_at};
 pub use sph_lanes::{Lane, MOST, add_scaled, dot};
 pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,
-    TermEntry, There,
+    TermEntry,
 };
 pub use walk::{Around, Rows, Surroundings, Values, walk, walk_some};
+pub use wall_force::WallForce;
 pub use walls::{Coulomb, Elements, Frame, WallPoints, WallSet};
 pub use world::{Lists, World};

@@ -3,8 +3,7 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
-use crate::World;
-use crate::term::{Interaction, There};
+use crate::{Interaction, There, World};
 
 /// Which columns of neighbours are packed: those that some term declares.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

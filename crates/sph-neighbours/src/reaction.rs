@@ -6,52 +6,8 @@ use sph_core::{StepError, Vect, fields};
 use crate::packed::{Packed, pack};
 use crate::row::Row;
 use crate::term::Rates;
-use crate::{Contact, Interaction, NOBODY, Neighbourhood, Scratch, World};
-
-/// Force and moment of the fluid on one wall.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WallForce<const D: usize> {
-    /// F = −Σ m a_w over the particles, a_w being the part of the acceleration that the wall
-    /// contributes, N (N/m in two dimensions). The momentum of the fluid changes by the weight
-    /// and −ΣF, to rounding.
-    pub force: Vect<D>,
-    /// −Σ r × m a_w about the origin, N m; only the last component in two dimensions.
-    pub moment: [f64; 3],
-    /// −Σ p_s S_s n_s over the wall's elements, N: the pressure integral; 0 without elements.
-    pub pressure_force: Vect<D>,
-    /// −Σ r_s × p_s S_s n_s over the wall's elements, N m.
-    pub pressure_moment: [f64; 3],
-}
-
-impl<const D: usize> WallForce<D> {
-    /// No force.
-    pub fn zero() -> Self {
-        WallForce {
-            force: Vect::zeros(),
-            moment: [0.0; 3],
-            pressure_force: Vect::zeros(),
-            pressure_moment: [0.0; 3],
-        }
-    }
-
-    /// A force that nobody measured.
-    fn unknown() -> Self {
-        WallForce {
-            force: Vect::repeat(f64::NAN),
-            moment: [f64::NAN; 3],
-            pressure_force: Vect::repeat(f64::NAN),
-            pressure_moment: [f64::NAN; 3],
-        }
-    }
-
-    /// Adds the force and the moment of something else on the same wall.
-    pub fn add(&mut self, other: &Self) {
-        self.force += other.force;
-        self.pressure_force += other.pressure_force;
-        add(&mut self.moment, other.moment);
-        add(&mut self.pressure_moment, other.pressure_moment);
-    }
-}
+use crate::wall_force::add_moment;
+use crate::{Contact, Interaction, NOBODY, Neighbourhood, Scratch, WallForce, World};
 
 /// r × f; the third component alone in two dimensions.
 pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
@@ -61,10 +17,6 @@ pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
         at(r, 2) * at(f, 0) - at(r, 0) * at(f, 2),
         at(r, 0) * at(f, 1) - at(r, 1) * at(f, 0),
     ]
-}
-
-fn add(sum: &mut [f64; 3], more: [f64; 3]) {
-    sum.iter_mut().zip(more).for_each(|(s, m)| *s += m);
 }
 
 /// Forces on the wanted ones of all walls, in the order of their names, at the state of the last sweep; NaN on the others.
@@ -100,7 +52,7 @@ pub fn wall_forces<const D: usize>(
         for (wall, force) in parts {
             let total = &mut forces[*wall as usize];
             total.force += force;
-            add(&mut total.moment, cross(&positions[i], force));
+            add_moment(&mut total.moment, cross(&positions[i], force));
         }
     }
     let elements = &world.walls.elements;
@@ -108,7 +60,7 @@ pub fn wall_forces<const D: usize>(
         let total = &mut forces[elements.wall[s] as usize];
         let force = elements.normal[s] * (-elements.pressure[s] * elements.measure[s]);
         total.pressure_force += force;
-        add(
+        add_moment(
             &mut total.pressure_moment,
             cross(&elements.centre[s], &force),
         );

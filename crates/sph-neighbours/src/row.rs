@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_kernels::Sampler;
 
-use crate::{Contact, Domain, There};
+use crate::{Contact, Domain};
 
 /// Pairs of one particle with one set of sources, inside the support only.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +16,21 @@ pub struct Row<'a, const D: usize> {
     pub distance2: &'a [f64],
     /// F = w'(r)/r, so that ∇w = F (r_i − r_j), m^−(d+2).
     pub factor: &'a [f64],
+}
+
+/// What most terms read of a neighbour, packed so that one load serves all of them.
+///
+/// What no term of the sweep declares to read at neighbours is not a number here.
+#[derive(Clone, Copy, Debug)]
+pub struct There<const D: usize> {
+    /// Velocity, m/s.
+    pub velocity: Vect<D>,
+    /// Volume, m^d.
+    pub volume: f64,
+    /// Pressure, Pa.
+    pub pressure: f64,
+    /// Density, kg/m³.
+    pub density: f64,
 }
 
 /// Everything a term may sum over for one particle.

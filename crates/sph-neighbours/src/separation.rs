@@ -4,8 +4,8 @@ use sph_core::Vect;
 use sph_lanes::{Body, Lane};
 
 use crate::Domain;
-use crate::clusters::Members;
 use crate::lane_vector::minus;
+use crate::members::Members;
 
 /// The places of some points, one in each lane; the last one fills what is left over.
 #[inline(always)]

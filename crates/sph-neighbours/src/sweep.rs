@@ -6,11 +6,11 @@ use sph_kernels::Sampler;
 use sph_lanes::{Width, width};
 
 use crate::cluster::{Buffers, Cluster};
-use crate::clusters::{Members, groups};
 use crate::list::CHUNK;
+use crate::members::{Members, groups};
 use crate::packed::{Packed, pack};
-use crate::term::{Interaction, Rates, RowTerm, TRANSPORTED, There};
-use crate::{Clusters, Domain, NOBODY, Neighbourhood, World};
+use crate::term::{Interaction, Rates, RowTerm, TRANSPORTED};
+use crate::{Clusters, Domain, NOBODY, Neighbourhood, There, World};
 
 /// Sums all terms of all particles.
 ///

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, contract};
 
-use crate::{Cluster, Contact, Neighbourhood, Row, World};
+use crate::{Cluster, Contact, Neighbourhood, Row, There, World};
 
 /// What the interaction sweep sums per particle.
 #[derive(Clone, Copy, Debug)]
@@ -43,21 +43,6 @@ pub struct Pair<const D: usize> {
     pub distance2: f64,
     /// F = w'(r)/r ≤ 0: ∇w = F · separation.
     pub factor: f64,
-}
-
-/// What most terms read of a neighbour, packed so that one load serves all of them.
-///
-/// What no term of the sweep declares to read at neighbours is not a number here.
-#[derive(Clone, Copy, Debug)]
-pub struct There<const D: usize> {
-    /// Velocity, m/s.
-    pub velocity: Vect<D>,
-    /// Volume, m^d.
-    pub volume: f64,
-    /// Pressure, Pa.
-    pub pressure: f64,
-    /// Density, kg/m³.
-    pub density: f64,
 }
 
 /// A term with its columns at hand.

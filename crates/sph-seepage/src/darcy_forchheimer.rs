@@ -8,8 +8,9 @@ use sph_implicit::{ConjugateGradient, Preconditioner};
 
 use crate::contract::{Seepage, SeepageEntry, SeepagePhases, SeepageProblem};
 use crate::exchange::Exchange;
+use crate::net::Phase;
 use crate::pore_resistance::PoreResistance;
-use crate::pore_water::{Phase, PoreWater, Seeps};
+use crate::pore_water::{PoreWater, Seeps};
 
 /// C q̇ + a q + b |q| q = −∇p + ρ_w (g − Du_s/Dt), div q = 0 in the soil.
 ///

@@ -3,7 +3,7 @@
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{Rows, Surroundings, World};
 
-use crate::pore_water::{Net, Phase};
+use crate::net::{Net, Phase};
 
 /// How particles give and take.
 #[derive(Clone, Copy, Debug)]

@@ -8,6 +8,7 @@ mod contract;
 mod contribution;
 mod darcy_forchheimer;
 mod exchange;
+mod net;
 mod pore_resistance;
 mod pore_water;
 

@@ -8,20 +8,8 @@ use sph_neighbours::{Around, Interaction, Neighbourhood, World, trusted_inverse,
 
 use crate::contract::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
 use crate::exchange::Exchange;
+use crate::net::{Link, Net, Phase};
 use crate::pore_resistance::PoreResistance;
-
-/// Who seeps through whom.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Phase {
-    /// Number of the phase with the pores.
-    pub soil: u32,
-    /// Number of the phase in them.
-    pub water: u32,
-    /// ρ_w, kg/m³.
-    pub density: f64,
-    /// c of the water, m/s.
-    pub sound_speed: f64,
-}
 
 /// The flow of one water through one soil.
 pub(crate) struct PoreWater {
@@ -29,33 +17,6 @@ pub(crate) struct PoreWater {
     pub phase: Phase,
     pub solver: ConjugateGradient,
     pub exchange: Exchange,
-}
-
-/// One way of the water, from a particle to a neighbour.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Link<const D: usize> {
-    /// The neighbour.
-    pub to: u32,
-    /// Flux per drop of the potential, m^d/(Pa s).
-    conductance: f64,
-    /// Drop of the pressure at which nothing flows, Pa: weight and acceleration of the water.
-    weight: f64,
-    /// The same with the flux that there is, Pa.
-    drop: f64,
-    /// V_b |F_ab|, 1/m².
-    share: f64,
-    /// r_ab, m.
-    separation: Vect<D>,
-    /// Share λ of the way that is in the soil.
-    within: f64,
-    /// Volume that goes from the particle to the neighbour, m^d/s.
-    pub flux: f64,
-}
-
-/// The particles that take part, in ascending order, and their links.
-pub(crate) struct Net<const D: usize> {
-    pub particles: Vec<u32>,
-    pub links: Vec<Vec<Link<D>>>,
 }
 
 /// The columns that links are made of.
@@ -386,14 +347,3 @@ const FAINT: f64 = 1e-9;
 
 /// Least depth behind the surface, as a share of the support: a particle on it has no way of its own.
 const LEAST_DEPTH: f64 = 0.02;
-
-impl<const D: usize> Net<D> {
-    /// Place of every particle in the net.
-    fn slots(&self, particles: usize) -> Vec<u32> {
-        let mut slot = vec![u32::MAX; particles];
-        for (k, &i) in self.particles.iter().enumerate() {
-            slot[i as usize] = k as u32;
-        }
-        slot
-    }
-}

@@ -17,6 +17,7 @@
 //! Nothing here runs in a scene whose laws do not ask for it.
 
 mod adjoint;
+mod blend;
 mod blended;
 mod carried;
 mod contribution;
@@ -42,6 +43,7 @@ mod wave_limit;
 mod yielded;
 
 pub use adjoint::{AdjointDivergence, StressCorrection};
+pub use blend::Blend;
 pub use blended::Blended;
 pub use carried::{CarriedAhead, CarriedStress};
 pub use contribution::{Elasticity, Friction, GrainPressure, Materials, Straining, WallFriction};
@@ -50,7 +52,7 @@ pub use displacement::{Displacement, DisplacementForce};
 pub use divergence::{Divergence, StressDivergence};
 pub use effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 pub use elastic::ElasticMotion;
-pub use elastic_force::{Blend, ElasticForce, ElasticForceEntry};
+pub use elastic_force::{ElasticForce, ElasticForceEntry};
 pub use elastic_sub_steps::ElasticSubSteps;
 pub use elastic_work::ElasticWork;
 pub use felt::Felt;

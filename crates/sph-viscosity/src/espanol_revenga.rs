@@ -5,8 +5,8 @@ use serde::Deserialize;
 use sph_core::register;
 use sph_neighbours::{Interaction, Lane};
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
-use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry};
+use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
+use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry, Within};
 use sph_contribution::Stages;
 
 /// L_a = 1/γ_a Σ_b θ_b V_b η̄_ab F_ab [(d + 2)(u_ab·e)e + u_ab] plus the wall's friction, as of

@@ -12,7 +12,7 @@ use sph_core::{Access, StepError, Vect, fields};
 use sph_implicit::{Entries, LinearSolver, TimeScheme};
 use sph_neighbours::{Interaction, World};
 
-use crate::system::start_between;
+use crate::system::{System, start_between};
 use crate::{Coupling, Solves};
 
 /// Residual of a solve within an outer iteration, over the tolerance of the latter.
@@ -33,9 +33,9 @@ pub struct Lagged<const D: usize> {
 
 /// The viscous operator, a scheme and a solver.
 pub struct ImplicitViscosity<const D: usize> {
-    pub(crate) coupling: Box<dyn Coupling<D>>,
+    coupling: Box<dyn Coupling<D>>,
     force: OutsideForce<D>,
-    pub(crate) scheme: Box<dyn TimeScheme>,
+    scheme: Box<dyn TimeScheme>,
     solver: Box<dyn LinearSolver<D>>,
     lagged: Lagged<D>,
     solves: Solves,
@@ -133,7 +133,7 @@ impl<const D: usize> ImplicitViscosity<D> {
     ) -> Result<(), StepError> {
         let share = self.scheme.implicit_share();
         let former = self.former.take();
-        let mut system = self.system_of(world, earlier, dt, former)?;
+        let mut system = self.system(world, earlier, dt, former)?;
         let rows = system.right.iter_mut().zip(ahead).zip(&system.mass);
         rows.for_each(|((b, u), m)| *b += u * *m);
         if share < 1.0 || !again {
@@ -167,6 +167,17 @@ impl<const D: usize> ImplicitViscosity<D> {
         self.solves.add(&report, seconds, matrix.bytes());
         self.former = Some(system.matrix.entries);
         Ok(())
+    }
+
+    fn system(
+        &self,
+        world: &World<D>,
+        earlier: &[Vect<D>],
+        dt: f64,
+        former: Option<Entries<D>>,
+    ) -> Result<System<D>, StepError> {
+        let part = [self.scheme.implicit_share(), dt];
+        System::of(&*self.coupling, world, earlier, part, former)
     }
 }
 
@@ -213,7 +224,7 @@ impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
             true => Some(stiffen(world)?),
             false => None,
         };
-        let system = self.system_of(world, world.free.get(fields::VELOCITY)?, dt, None);
+        let system = self.system(world, world.free.get(fields::VELOCITY)?, dt, None);
         if let Some(plain) = plain {
             world.free.put(fields::VISCOSITY, plain)?;
         }

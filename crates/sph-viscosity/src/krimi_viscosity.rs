@@ -5,9 +5,9 @@ use serde::Deserialize;
 use sph_core::register;
 use sph_neighbours::{Interaction, Lane};
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm, Within};
+use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
 use crate::viscosity_source::BoundViscosity;
-use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry};
+use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry, Within};
 use sph_contribution::Stages;
 
 /// L_a = c/γ_a Σ_b θ_b (V_a² + V_b²)/V_a η̃_ab F_ab [u_ab + (u_ab·e)e] plus the wall's friction, as

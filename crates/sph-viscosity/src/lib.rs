@@ -27,7 +27,7 @@ pub use contract::{Viscosity, ViscousOperator, ViscousOperatorEntry};
 pub use coupling::{BoundCoupling, Coupling, CouplingRow, Weak};
 pub use eddy_viscosity::{EddyViscosity, EddyViscosityEntry};
 pub use espanol_revenga::{EspanolRevenga, WithTransposed};
-pub use friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm, Within};
+pub use friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm};
 pub use held_back::HeldBack;
 pub use hu_adams_viscosity::HuAdamsViscosity;
 pub use implicit::{ImplicitViscosity, Lagged};
@@ -36,5 +36,7 @@ pub use krimi_viscosity::{KrimiViscosity, Strength};
 pub use monaghan_gingold::MonaghanGingold;
 pub use morris::{FirstDifferences, Morris, MorrisTerm};
 pub use solves::{OuterSolves, Solves};
-pub use viscosity_source::{BoundViscosity, InSeries, PerParticle, Uniform, ViscositySource};
+pub use viscosity_source::{
+    BoundViscosity, InSeries, PerParticle, Uniform, ViscositySource, Within,
+};
 pub use viscous_limit::ViscousLimit;

@@ -5,8 +5,8 @@ use serde::Deserialize;
 use sph_core::register;
 use sph_neighbours::{Interaction, Lane};
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm, Within};
-use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry};
+use crate::friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm};
+use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry, Within};
 use sph_contribution::Stages;
 
 /// L_a = 2/γ_a Σ_b θ_b V_b η̄_ab u_ab F_ab − 2κ_a/γ_a Σ_s η_a u_t,as/δr_as |∇γ_as|.

@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_implicit::{Block, Entries, Entry, Matrix, Row, Values, assemble, dot};
 use sph_neighbours::{Neighbourhood, World};
 
-use crate::{ImplicitViscosity, Weak};
+use crate::{Coupling, Weak};
 
 /// Coupling of a pair over its smaller mass up to which it is taken explicitly: hundreds of neighbours together are far from
 /// the bound of 1, and a step of water beside mud has a matrix of the mud alone.
@@ -19,58 +19,59 @@ pub(crate) struct System<const D: usize> {
     pub right: Vec<Vect<D>>,
 }
 
-impl<const D: usize> ImplicitViscosity<D> {
-    /// The system of a step; the memory of `former` entries is used again.
-    pub(crate) fn system_of(
-        &self,
+impl<const D: usize> System<D> {
+    /// The system of a step; `part` is the share of it for which friction acts from its end, and Δt. The memory of
+    /// `former` entries is used again.
+    pub fn of(
+        coupling: &dyn Coupling<D>,
         world: &World<D>,
         earlier: &[Vect<D>],
-        dt: f64,
+        part: [f64; 2],
         former: Option<Entries<D>>,
-    ) -> Result<System<D>, StepError> {
-        let part = [self.scheme.implicit_share(), dt];
-        match (self.coupling.mixes_components(), former) {
+    ) -> Result<Self, StepError> {
+        match (coupling.mixes_components(), former) {
             (false, Some(Entries::Scalar(former))) => {
-                self.scalar_system(world, earlier, part, former)
+                Self::scalar(coupling, world, earlier, part, former)
             }
-            (false, _) => self.scalar_system(world, earlier, part, Values::default()),
-            (true, Some(Entries::Block(former))) => self.block_system(world, earlier, part, former),
-            (true, _) => self.block_system(world, earlier, part, Values::default()),
+            (false, _) => Self::scalar(coupling, world, earlier, part, Values::default()),
+            (true, Some(Entries::Block(former))) => {
+                Self::block(coupling, world, earlier, part, former)
+            }
+            (true, _) => Self::block(coupling, world, earlier, part, Values::default()),
         }
     }
 
-    fn scalar_system(
-        &self,
+    fn scalar(
+        coupling: &dyn Coupling<D>,
         world: &World<D>,
         earlier: &[Vect<D>],
         part: [f64; 2],
         former: Values<f64>,
-    ) -> Result<System<D>, StepError> {
-        let bound = self.coupling.bind(world)?;
+    ) -> Result<Self, StepError> {
+        let bound = coupling.bind(world)?;
         let entries = (former, Entries::Scalar);
-        self.system(world, earlier, part, entries, |rows, weak, out| {
+        Self::with(world, earlier, part, entries, |rows, weak, out| {
             let row = bound.scalar_row(rows, weak, out);
             (row.wall, row.source)
         })
     }
 
-    fn block_system(
-        &self,
+    fn block(
+        coupling: &dyn Coupling<D>,
         world: &World<D>,
         earlier: &[Vect<D>],
         part: [f64; 2],
         former: Values<Block<D>>,
-    ) -> Result<System<D>, StepError> {
-        let bound = self.coupling.bind(world)?;
+    ) -> Result<Self, StepError> {
+        let bound = coupling.bind(world)?;
         let entries = (former, Entries::Block);
-        self.system(world, earlier, part, entries, |rows, weak, out| {
+        Self::with(world, earlier, part, entries, |rows, weak, out| {
             let row = bound.block_row(rows, weak, out);
             (row.wall, row.source)
         })
     }
 
-    fn system<E: Entry<D>>(
-        &self,
+    fn with<E: Entry<D>>(
         world: &World<D>,
         earlier: &[Vect<D>],
         [share, dt]: [f64; 2],
@@ -81,7 +82,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             &mut Vec<(u32, E)>,
         ) -> (E, Vect<D>)
         + Sync,
-    ) -> Result<System<D>, StepError> {
+    ) -> Result<Self, StepError> {
         let gamma = world.free.get(fields::RENORMALISATION).ok();
         let mass = world.free.get(fields::MASS)?.iter().enumerate();
         let mass: Vec<f64> = mass.map(|(i, m)| gamma.map_or(*m, |g| m * g[i])).collect();

@@ -1,9 +1,10 @@
 //! Where pair terms read the viscosity: one number, or a column with means of pairs.
 
+use schemars::JsonSchema;
+use serde::Deserialize;
 use sph_core::{Access, StepError, fields};
 use sph_neighbours::{Lane, World};
 
-use crate::friction::Within;
 use crate::interface_distance::INTERFACE_DISTANCE;
 
 /// A source of viscosities for a pair term.
@@ -81,6 +82,17 @@ impl BoundViscosity for Uniform {
     fn at(&self, _neighbour: usize) -> f64 {
         self.0
     }
+}
+
+/// Mean viscosity of pairs of one phase.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Within {
+    /// 2 η_a η_b/(η_a + η_b): continuous shear stress; scatter of the viscosities lowers it.
+    #[default]
+    Harmonic,
+    /// (η_a + η_b)/2: scatter does not change it; for laws whose stress matters at rest.
+    Arithmetic,
 }
 
 /// The viscosity column, with means of pairs: harmonic is Ghaïtanellis 2017, Eq. 3.30.

@@ -9,8 +9,8 @@ use sph_core::BoxTree;
 pub(crate) use crossing::{around, check_crossings, widened};
 
 use crate::error::{BoundaryError, WallWarning};
-use crate::geometry::grid::distance_squared;
 use crate::geometry::polyline::Polyline;
+use crate::geometry::segment_distance::distance_squared;
 
 /// Edges shorter than this part of the spacing are remarked upon.
 const SHORT: f64 = 0.25;

@@ -1,18 +1,10 @@
 //! Segments near a point.
 
-use crate::geometry::mesh::SegmentMesh;
+use crate::geometry::mesh::{NearSegment, SegmentMesh};
+use crate::geometry::segment_distance::distance_squared;
 
 /// Most cells per registered segment: a grid over a vast empty box is made coarser.
 const CELLS_PER_ENTRY: usize = 64;
-
-/// A segment and the whole periods to add to its position.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NearSegment {
-    /// Index of the segment.
-    pub segment: usize,
-    /// Whole periods.
-    pub image: [i32; 2],
-}
 
 #[derive(Clone, Copy, Debug)]
 struct Entry {
@@ -158,14 +150,4 @@ fn images(mesh: &SegmentMesh, reach: f64) -> Vec<(Entry, [[f64; 2]; 2])> {
         }
     }
     images
-}
-
-/// Squared distance from the origin to the segment between two points.
-pub(crate) fn distance_squared(start: [f64; 2], end: [f64; 2]) -> f64 {
-    let along = [end[0] - start[0], end[1] - start[1]];
-    let length2 = along[0] * along[0] + along[1] * along[1];
-    let foot = -(start[0] * along[0] + start[1] * along[1]);
-    let part = (foot / length2).clamp(0.0, 1.0);
-    let nearest = [start[0] + part * along[0], start[1] + part * along[1]];
-    nearest[0] * nearest[0] + nearest[1] * nearest[1]
 }

@@ -1,114 +1,10 @@
 //! On which side of the walls a point is.
 
-use std::sync::OnceLock;
-
-use crate::geometry::grid::NearSegment;
-use crate::geometry::mesh::SegmentMesh;
-use crate::geometry::periodic::PeriodicBox;
+use crate::geometry::mesh::{NearSegment, SegmentMesh};
+use crate::geometry::sides::Columns;
 
 /// Crossings of the ray closer to each other than this part of the wall's extent are one place.
 const SAME_HEIGHT: f64 = 1e-12;
-
-/// What the question on which side a point is needs of a mesh, for its present position: made when it is first asked.
-///
-/// Two meshes that are equal have equal sides, asked or not.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Sides(OnceLock<Columns>);
-
-impl PartialEq for Sides {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-
-/// Segments by the columns, along the ray, that they reach into.
-#[derive(Clone, Debug)]
-struct Columns {
-    lower: f64,
-    per_metre: f64,
-    /// Where the segments of a column begin in `segments`.
-    starts: Vec<u32>,
-    segments: Vec<u32>,
-    beyond: bool,
-}
-
-impl Columns {
-    fn new(mesh: &SegmentMesh, along: usize) -> Self {
-        let across = 1 - along;
-        let ends = |s: usize| {
-            let [a, b] = mesh.ends(s);
-            (a[across].min(b[across]), a[across].max(b[across]))
-        };
-        let all = || (0..mesh.segments().len()).map(ends);
-        let domain = mesh.domain();
-        let [lower, upper] = match domain.periodic[across] {
-            true => [domain.lower[across], domain.upper[across]],
-            false => [
-                all().fold(f64::INFINITY, |low, (a, _)| low.min(a)),
-                all().fold(f64::NEG_INFINITY, |high, (_, b)| high.max(b)),
-            ],
-        };
-        // As many as segments, and fewer if many lie over each other: a segment is in some four columns in the mean.
-        let segments = mesh.segments().len() as f64;
-        let width: f64 = all().map(|(a, b)| b - a).sum();
-        let share = ((upper - lower) / width).min(1.0);
-        let count = (segments * share).clamp(1.0, 1e6) as usize;
-        let per_metre = match upper > lower {
-            true => count as f64 / (upper - lower),
-            false => 0.0,
-        };
-        let mut columns = Columns {
-            lower,
-            per_metre,
-            starts: vec![0; count + 1],
-            segments: Vec::new(),
-            beyond: mesh.fluid_beyond(along),
-        };
-        // A column more on either side, for what rounding may do.
-        let wraps = domain.periodic[across];
-        let reached = |(a, b): (f64, f64)| {
-            let [first, last] = [a, b].map(|x| ((x - lower) * per_metre).floor() as i64);
-            let (first, last) = (first - 1, last + 1);
-            let most = count as i64 - 1;
-            let range = match wraps {
-                // At most all of them once.
-                true => first..=last.min(first + most),
-                false => first.max(0)..=last.min(most),
-            };
-            range.map(move |k| k.rem_euclid(count as i64) as usize)
-        };
-        for s in 0..mesh.segments().len() {
-            reached(ends(s)).for_each(|k| columns.starts[k + 1] += 1);
-        }
-        for k in 0..count {
-            columns.starts[k + 1] += columns.starts[k];
-        }
-        let mut next = columns.starts.clone();
-        columns.segments = vec![0; columns.starts[count] as usize];
-        for s in 0..mesh.segments().len() {
-            for k in reached(ends(s)) {
-                columns.segments[next[k] as usize] = s as u32;
-                next[k] += 1;
-            }
-        }
-        columns
-    }
-
-    /// Segments, in the order of their numbers, that a ray from a place across may meet.
-    fn column(&self, x: f64, domain: &PeriodicBox, across: usize) -> &[u32] {
-        let count = self.starts.len() - 1;
-        let x = match domain.periodic[across] {
-            true => self.lower + (x - self.lower).rem_euclid(domain.periods()[across]),
-            false => x,
-        };
-        let k = ((x - self.lower) * self.per_metre).floor();
-        if !(-1.0..=count as f64).contains(&k) {
-            return &[];
-        }
-        let k = (k.max(0.0) as usize).min(count - 1);
-        &self.segments[self.starts[k] as usize..self.starts[k + 1] as usize]
-    }
-}
 
 impl SegmentMesh {
     /// Whether a point is in the fluid, as the walls see it.
@@ -126,7 +22,7 @@ impl SegmentMesh {
     /// segments in one column.
     pub fn contains(&self, point: [f64; 2]) -> bool {
         let along = self.ray_axis();
-        let columns = self.sides.0.get_or_init(|| Columns::new(self, along));
+        let columns = self.sides.0.get_or_init(|| self.columns(along));
         let across = 1 - along;
         let column = columns.column(point[across], self.domain(), across);
         let mut crossings = self.crossings(column, point, along);
@@ -144,6 +40,16 @@ impl SegmentMesh {
             rest = &rest[count..];
         }
         columns.beyond
+    }
+
+    fn columns(&self, along: usize) -> Columns {
+        let across = 1 - along;
+        let ends = |s: usize| {
+            let [a, b] = self.ends(s);
+            (a[across].min(b[across]), a[across].max(b[across]))
+        };
+        let spans: Vec<_> = (0..self.segments().len()).map(ends).collect();
+        Columns::new(&spans, self.domain(), across, self.fluid_beyond(along))
     }
 
     fn ray_axis(&self) -> usize {

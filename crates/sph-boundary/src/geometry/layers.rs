@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 
-use crate::PlanarWalls;
+use crate::SegmentMesh;
 use crate::geometry::wall_mesh::WallMesh;
 
 /// Two particles nearer than this share of the spacing are one.
@@ -12,7 +12,14 @@ const TOO_CLOSE: f64 = 0.7;
 ///
 /// A place is kept if it is outside the fluid, not nearer to any wall than its own row, and not
 /// on top of a place already kept; so right angles are tiled exactly and others nearly so.
-pub(crate) fn layers(walls: &PlanarWalls, spacing: f64, support: f64) -> Vec<(usize, Vect<2>)> {
+///
+/// `mesh` is that of the walls, `wall_of` the wall of every polyline of the mesh.
+pub(crate) fn layers(
+    walls: &impl WallMesh<2>,
+    mesh: &SegmentMesh,
+    wall_of: &[usize],
+    [spacing, support]: [f64; 2],
+) -> Vec<(usize, Vect<2>)> {
     let rows = (support / spacing - 1e-9).ceil() as usize;
     let mut kept: Vec<(usize, Vect<2>)> = Vec::new();
     let mut cells = std::collections::HashMap::<(i64, i64), Vec<usize>>::new();
@@ -20,7 +27,7 @@ pub(crate) fn layers(walls: &PlanarWalls, spacing: f64, support: f64) -> Vec<(us
         let index = |x: f64| (x / spacing).floor() as i64;
         (index(p[0]), index(p[1]))
     };
-    let domain = walls.mesh.domain();
+    let domain = mesh.domain();
     let inside_period = |p: [f64; 2]| {
         (0..2).all(|k| {
             !domain.periodic[k]
@@ -30,8 +37,8 @@ pub(crate) fn layers(walls: &PlanarWalls, spacing: f64, support: f64) -> Vec<(us
     };
     for row in 0..rows {
         let depth = (row as f64 + 0.5) * spacing;
-        for (s, segment) in walls.mesh.segments().iter().enumerate() {
-            let [start, _] = walls.mesh.ends(s);
+        for (s, segment) in mesh.segments().iter().enumerate() {
+            let [start, _] = mesh.ends(s);
             let tangent = segment.tangent();
             // A segment is about one spacing long: its own place is in its middle, and both
             // ends reach on so that outer corners are filled.
@@ -64,7 +71,7 @@ pub(crate) fn layers(walls: &PlanarWalls, spacing: f64, support: f64) -> Vec<(us
                 });
                 if !taken {
                     cells.entry((cx, cy)).or_default().push(kept.len());
-                    kept.push((walls.wall_of[segment.wall], p.into()));
+                    kept.push((wall_of[segment.wall], p.into()));
                 }
             }
         }

@@ -7,7 +7,8 @@ use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::Contact;
 
 use crate::geometry::checks::check_points;
-use crate::geometry::grid::distance_squared;
+use crate::geometry::layers::layers;
+use crate::geometry::segment_distance::distance_squared;
 use crate::geometry::touching::without_shared;
 use crate::geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
 use crate::treatment::outline::groups;
@@ -287,7 +288,7 @@ impl WallMesh<2> for PlanarWalls {
     }
 
     fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<2>)> {
-        crate::geometry::layers::layers(self, spacing, support)
+        layers(self, &self.mesh, &self.wall_of, [spacing, support])
     }
 
     fn warnings(&self) -> Vec<String> {

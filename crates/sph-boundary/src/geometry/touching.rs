@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use sph_core::BoxTree;
 
-use crate::error::MOST_PAIRS;
 use crate::geometry::checks::{around, widened};
+use crate::limits::MOST_PAIRS;
 use crate::{BoundaryError, Polyline};
 
 /// Two lines nearer than this share of the spacing are one.

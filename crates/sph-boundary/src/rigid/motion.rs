@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 
-use crate::{Course, Pose, RigidState};
+use crate::{Course, Movement, Pose, RigidState};
 
 /// A translation along a direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,15 +46,6 @@ impl<const D: usize> Default for RigidMotion<D> {
             stop: f64::INFINITY,
         }
     }
-}
-
-/// Velocity and acceleration of a place of the wall.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Movement<const D: usize> {
-    /// Velocity, m/s.
-    pub velocity: Vect<D>,
-    /// Acceleration, m/s².
-    pub acceleration: Vect<D>,
 }
 
 impl<const D: usize> RigidMotion<D> {

@@ -2,8 +2,6 @@
 
 use sph_core::Vect;
 
-use crate::rigid::rigid_state::swept;
-
 /// x = c + R (X − c) + b, with X the reference position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<const D: usize = 2> {
@@ -119,6 +117,17 @@ impl Pose<3> {
             ..Self::default()
         }
     }
+}
+
+/// e × v.
+pub(crate) fn swept<const D: usize>(e: [f64; 3], v: &Vect<D>) -> Vect<D> {
+    let at = |k: usize| v.get(k).copied().unwrap_or(0.0);
+    let cross = [
+        e[1] * at(2) - e[2] * at(1),
+        e[2] * at(0) - e[0] * at(2),
+        e[0] * at(1) - e[1] * at(0),
+    ];
+    Vect::from_fn(|k, _| cross[k])
 }
 
 #[cfg(test)]

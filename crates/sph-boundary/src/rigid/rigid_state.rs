@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 
-use crate::{Movement, Pose};
+use crate::rigid::pose::{Pose, swept};
 
 /// Place, orientation, velocity and angular velocity of a rigid wall, with their rates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +21,15 @@ pub struct RigidState<const D: usize> {
     pub spin: f64,
     /// Its rate, rad/s².
     pub spin_rate: f64,
+}
+
+/// Velocity and acceleration of a place of the wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Movement<const D: usize> {
+    /// Velocity, m/s.
+    pub velocity: Vect<D>,
+    /// Acceleration, m/s².
+    pub acceleration: Vect<D>,
 }
 
 /// A force and a moment that act on a wall.
@@ -122,17 +131,6 @@ impl<const D: usize> RigidState<D> {
         state.spin_rate = next();
         Some(state)
     }
-}
-
-/// e × v.
-pub(crate) fn swept<const D: usize>(e: [f64; 3], v: &Vect<D>) -> Vect<D> {
-    let at = |k: usize| v.get(k).copied().unwrap_or(0.0);
-    let cross = [
-        e[1] * at(2) - e[2] * at(1),
-        e[2] * at(0) - e[0] * at(2),
-        e[0] * at(1) - e[1] * at(0),
-    ];
-    Vect::from_fn(|k, _| cross[k])
 }
 
 #[cfg(test)]

@@ -3,9 +3,9 @@
 use sph_core::Vect;
 use sph_neighbours::{Elements, Frame, WallPoints};
 
-use crate::error::MOST_PERIODS;
 use crate::geometry::cover::Cover;
 use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
+use crate::limits::MOST_PERIODS;
 use crate::{BoundaryError, Drawing, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
 
 /// The walls of a scene as a mesh, with what the scene says of each.

@@ -7,7 +7,7 @@ use sph_neighbours::{Interaction, Lanewise, Pair, World};
 
 use super::{PairFriction, ViscousTerm};
 use crate::interface_distance::InterfaceDistance;
-use crate::{Coupling, InSeries, PerParticle, Uniform, Viscosity};
+use crate::{Coupling, InSeries, PerParticle, Uniform, Viscosity, Within};
 use sph_contribution::Stages;
 use sph_neighbours::{lattice_sum, rows_sum};
 
@@ -31,17 +31,6 @@ pub enum Across {
     Series,
     /// The harmonic mean, as printed: first order.
     Harmonic,
-}
-
-/// Mean viscosity of pairs of one phase.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Within {
-    /// 2 η_a η_b/(η_a + η_b): continuous shear stress; scatter of the viscosities lowers it.
-    #[default]
-    Harmonic,
-    /// (η_a + η_b)/2: scatter does not change it; for laws whose stress matters at rest.
-    Arithmetic,
 }
 
 /// The response of an operator to a sheared layer along the axes of a lattice.

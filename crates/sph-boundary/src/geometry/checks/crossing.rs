@@ -4,9 +4,10 @@ use std::ops::ControlFlow;
 
 use sph_core::BoxTree;
 
-use crate::error::{BoundaryError, MOST_PAIRS};
+use crate::error::BoundaryError;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::Polyline;
+use crate::limits::MOST_PAIRS;
 
 struct Edge {
     wall: usize,

@@ -3,69 +3,78 @@
 use std::f64::consts::TAU;
 
 use super::joints::{Continuation, Joints, SAME_PLACE, joints};
-use super::{FreeEnd, Segment, SegmentMesh, Vertex, WallEnd};
+use super::segment_mesh::{Segment, SegmentMesh, Vertex};
 use crate::error::BoundaryError;
 use crate::geometry::checks::{check_area, check_crossings, check_points, short_edges};
-use crate::geometry::inside::Sides;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::Polyline;
+use crate::geometry::sides::Sides;
+use crate::geometry::wall_end::{FreeEnd, WallEnd};
 use crate::rigid::pose::Pose;
 
 /// Two segments folded onto each other within this angle leave the fluid all around their vertex.
 const FOLD: f64 = 1e-9;
 
-pub(super) fn build(
-    polylines: &[Polyline],
-    spacing: f64,
-    domain: &PeriodicBox,
-) -> Result<SegmentMesh, BoundaryError> {
-    if !(spacing > 0.0 && spacing.is_finite()) {
-        return Err(BoundaryError::NotPositive {
-            name: "wall spacing",
-            value: spacing,
-        });
-    }
-    domain.check()?;
-    let tolerance = SAME_PLACE * spacing;
-    for line in polylines {
-        check_points(line)?;
-    }
-    check_crossings(polylines, tolerance, domain)?;
-    for line in polylines {
-        check_area(line, tolerance)?;
-    }
-    let joints = joints(polylines, tolerance, domain)?;
-    let mut mesh = SegmentMesh {
-        walls: polylines.iter().map(|line| line.name.clone()).collect(),
-        vertices: Vec::new(),
-        segments: Vec::new(),
-        free_ends: Vec::new(),
-        warnings: polylines
-            .iter()
-            .flat_map(|line| short_edges(line, spacing))
-            .collect(),
-        domain: *domain,
-        reference: Vec::new(),
-        poses: vec![Pose::default(); polylines.len()],
-        sides: Sides::default(),
-    };
-    let first_vertices = first_vertices(polylines, &joints, spacing);
-    for (wall, line) in polylines.iter().enumerate() {
-        mesh.cut(wall, line, spacing, joints.after[wall], &first_vertices);
-        if joints.starts_free[wall] {
-            mesh.free_end(wall, WallEnd::First, first_vertices[wall]);
+impl SegmentMesh {
+    /// Cuts the walls into segments of about `spacing` metres.
+    ///
+    /// # Errors
+    /// A wall that is degenerate, crosses itself or another one, or meets another end to end with
+    /// the fluid on the other side. A wall that ends freely is not refused here: see
+    /// [`SegmentMesh::check_free_ends`].
+    pub fn build(
+        polylines: &[Polyline],
+        spacing: f64,
+        domain: &PeriodicBox,
+    ) -> Result<Self, BoundaryError> {
+        if !(spacing > 0.0 && spacing.is_finite()) {
+            return Err(BoundaryError::NotPositive {
+                name: "wall spacing",
+                value: spacing,
+            });
         }
-        if joints.after[wall] == Continuation::Free {
-            let last = mesh.vertices.len() - 1;
-            mesh.free_end(wall, WallEnd::Last, last);
+        domain.check()?;
+        let tolerance = SAME_PLACE * spacing;
+        for line in polylines {
+            check_points(line)?;
         }
+        check_crossings(polylines, tolerance, domain)?;
+        for line in polylines {
+            check_area(line, tolerance)?;
+        }
+        let joints = joints(polylines, tolerance, domain)?;
+        let mut mesh = SegmentMesh {
+            walls: polylines.iter().map(|line| line.name.clone()).collect(),
+            vertices: Vec::new(),
+            segments: Vec::new(),
+            free_ends: Vec::new(),
+            warnings: polylines
+                .iter()
+                .flat_map(|line| short_edges(line, spacing))
+                .collect(),
+            domain: *domain,
+            reference: Vec::new(),
+            poses: vec![Pose::default(); polylines.len()],
+            sides: Sides::default(),
+        };
+        let first_vertices = first_vertices(polylines, &joints, spacing);
+        for (wall, line) in polylines.iter().enumerate() {
+            mesh.cut(wall, line, spacing, joints.after[wall], &first_vertices);
+            if joints.starts_free[wall] {
+                mesh.free_end(wall, WallEnd::First, first_vertices[wall]);
+            }
+            if joints.after[wall] == Continuation::Free {
+                let last = mesh.vertices.len() - 1;
+                mesh.free_end(wall, WallEnd::Last, last);
+            }
+        }
+        mesh.reference = mesh.vertices.iter().map(|vertex| vertex.position).collect();
+        for segment in 0..mesh.segments.len() {
+            mesh.measure(segment);
+        }
+        mesh.connect();
+        Ok(mesh)
     }
-    mesh.reference = mesh.vertices.iter().map(|vertex| vertex.position).collect();
-    for segment in 0..mesh.segments.len() {
-        mesh.measure(segment);
-    }
-    mesh.connect();
-    Ok(mesh)
 }
 
 /// Number of equal parts of an edge.

@@ -1,38 +1,7 @@
 //! Free ends of open walls.
 
-use super::SegmentMesh;
+use super::segment_mesh::SegmentMesh;
 use crate::error::BoundaryError;
-
-/// Which end of an open wall.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WallEnd {
-    /// Where the direction of travel starts.
-    First,
-    /// Where it stops.
-    Last,
-}
-
-impl std::fmt::Display for WallEnd {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::First => "first",
-            Self::Last => "last",
-        })
-    }
-}
-
-/// The end of a wall that nothing continues.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FreeEnd {
-    /// Index of the wall.
-    pub wall: usize,
-    /// Which end of it.
-    pub end: WallEnd,
-    /// Index of the vertex.
-    pub vertex: usize,
-    /// Present position, m.
-    pub position: [f64; 2],
-}
 
 impl SegmentMesh {
     /// Refuses a free end within the kernel radius of any point, where γ is not defined.

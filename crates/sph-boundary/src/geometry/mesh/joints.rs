@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use sph_core::BoxTree;
 
-use super::WallEnd;
 use crate::error::BoundaryError;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::Polyline;
+use crate::geometry::wall_end::WallEnd;
 
 /// Ends closer than this part of the spacing are the same place.
 pub(super) const SAME_PLACE: f64 = 1e-6;

@@ -1,8 +1,8 @@
 //! Walls that move as rigid bodies.
 
-use super::SegmentMesh;
+use super::segment_mesh::SegmentMesh;
 use crate::error::BoundaryError;
-use crate::geometry::inside::Sides;
+use crate::geometry::sides::Sides;
 use crate::rigid::pose::Pose;
 
 impl SegmentMesh {

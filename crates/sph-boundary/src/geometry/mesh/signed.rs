@@ -1,7 +1,7 @@
 //! Distance and side of a place from a few segments.
 
-use super::SegmentMesh;
-use crate::geometry::grid::{NearSegment, distance_squared};
+use super::segment_mesh::{NearSegment, SegmentMesh};
+use crate::geometry::segment_distance::distance_squared;
 
 /// An image of a segment relative to a point.
 #[derive(Clone, Copy, Debug)]

@@ -3,28 +3,102 @@
 use rayon::prelude::*;
 
 use super::crossing::contacts;
-use super::drawn::{Drawn, check_extent, check_input, neighbours, weld};
+use super::drawn::{Drawn, MOST_ELEMENTS, Surface, check_extent, check_input, neighbours, weld};
 use super::edges::{Cuts, Nodes, free_pieces};
-use super::error::SurfaceError;
 use super::fill::{Corner, Filling, fill};
 use super::patches::{Patch, patches};
 use super::places::{Places, SAME_PLACE, Site};
 use super::removal::remove_contacts;
+use super::triangle_mesh::{Face, FaceEdge, Node, Triangle, TriangleMesh};
 use super::vector::{double_area, norm};
-use super::{Face, FaceEdge, MOST_ELEMENTS, Node, Surface, Triangle, TriangleMesh};
-use crate::error::{BoundaryError, WallWarning};
+use crate::error::{BoundaryError, SurfaceError, WallWarning};
 use crate::geometry::periodic::PeriodicBox;
 use crate::rigid::pose::Pose;
 
 /// Elements with shorter sides than this part of the spacing are fine.
 const FINE: f64 = 0.25;
 
-pub(super) fn build(
+impl TriangleMesh {
+    /// Cuts the walls into triangles of about `spacing` metres.
+    ///
+    /// Walls with the same number in `groups`, one number per wall, move together: only those are
+    /// joined with each other.
+    ///
+    /// # Errors
+    /// A surface that is degenerate, not a manifold or inconsistently oriented, that crosses itself
+    /// or another one, is drawn twice, has no thickness, or is far too small or too large. A wall
+    /// that ends freely is not refused here: see [`TriangleMesh::check_free_edges`].
+    pub fn build(
+        surfaces: &[Surface],
+        groups: &[usize],
+        spacing: f64,
+        domain: &PeriodicBox<3>,
+    ) -> Result<Self, BoundaryError> {
+        check_arguments(surfaces, groups, spacing, domain)?;
+        let tolerance = SAME_PLACE * spacing;
+        let mut places = Places::new(tolerance, domain);
+        let patches = planar_pieces(surfaces, groups, spacing, &mut places)?;
+        let cuts = Cuts::new(&patches, &places, spacing);
+        let free = free_pieces(surfaces, &patches, &cuts, &places)?;
+
+        let mut nodes = Nodes::default();
+        let mut sides = Vec::with_capacity(patches.len());
+        for patch in &patches {
+            let edges = patch.boundary.iter();
+            let nodes = edges.map(|e| cuts.nodes(*e, &places, &mut nodes, patch.wall, spacing));
+            sides.push(nodes.collect::<Vec<_>>());
+        }
+        let position = |node: u32| nodes.positions[node as usize];
+        let filled: Vec<Result<Filling, String>> = patches
+            .par_iter()
+            .zip(&sides)
+            .map(|(patch, sides)| fill(patch, sides, &position, domain, spacing))
+            .collect();
+
+        let mut mesh = TriangleMesh {
+            walls: surfaces.iter().map(|s| s.name.clone()).collect(),
+            groups: groups.to_vec(),
+            spacing,
+            domain: *domain,
+            nodes: Vec::new(),
+            triangles: Vec::new(),
+            faces: Vec::with_capacity(patches.len()),
+            free_edges: Vec::new(),
+            openings: Vec::new(),
+            warnings: Vec::new(),
+            reference: Vec::new(),
+            reference_normals: patches.iter().map(|p| p.normal).collect(),
+            poses: vec![Pose::default(); surfaces.len()],
+            sides: std::sync::OnceLock::new(),
+        };
+        for (patch, filling) in patches.iter().zip(filled) {
+            let filling = filling.map_err(|reason| SurfaceError::NotMeshed {
+                wall: surfaces[patch.wall].name.clone(),
+                at: places.at(patch.boundary[0][0]),
+                reason,
+            })?;
+            mesh.append(patch, filling, &mut nodes, &places);
+        }
+        mesh.check_count()?;
+        mesh.place_nodes(nodes.positions, nodes.walls);
+        for triangle in 0..mesh.triangles.len() {
+            mesh.measure(triangle);
+        }
+        mesh.free_edges = mesh.weigh();
+        let corner = |site: &[Site; 2]| nodes.at_corner.get(&site[0].id).map(|n| *n as usize);
+        mesh.find_openings(free.iter().filter_map(corner));
+        mesh.warnings = mesh.fine_walls();
+        Ok(mesh)
+    }
+}
+
+/// A spacing and a box that walls can be cut with, and a group for every wall.
+fn check_arguments(
     surfaces: &[Surface],
     groups: &[usize],
     spacing: f64,
     domain: &PeriodicBox<3>,
-) -> Result<TriangleMesh, BoundaryError> {
+) -> Result<(), BoundaryError> {
     if !(spacing > 0.0 && spacing.is_finite()) {
         return Err(BoundaryError::NotPositive {
             name: "wall spacing",
@@ -36,69 +110,7 @@ pub(super) fn build(
         let (given, walls) = (groups.len(), surfaces.len());
         return Err(SurfaceError::GroupCount { given, walls }.into());
     }
-    let tolerance = SAME_PLACE * spacing;
-    let mut places = Places::new(tolerance, domain);
-    let patches = planar_pieces(surfaces, groups, spacing, &mut places)?;
-    let cuts = Cuts::new(&patches, &places, spacing);
-    let free = free_pieces(surfaces, &patches, &cuts, &places)?;
-
-    let mut nodes = Nodes::default();
-    let mut sides = Vec::with_capacity(patches.len());
-    for patch in &patches {
-        let edges = patch.boundary.iter();
-        let nodes = edges.map(|e| cuts.nodes(*e, &places, &mut nodes, patch.wall, spacing));
-        sides.push(nodes.collect::<Vec<_>>());
-    }
-    let position = |node: u32| nodes.positions[node as usize];
-    let filled: Vec<Result<Filling, String>> = patches
-        .par_iter()
-        .zip(&sides)
-        .map(|(patch, sides)| fill(patch, sides, &position, domain, spacing))
-        .collect();
-
-    let mut mesh = TriangleMesh {
-        walls: surfaces.iter().map(|s| s.name.clone()).collect(),
-        groups: groups.to_vec(),
-        spacing,
-        domain: *domain,
-        nodes: Vec::new(),
-        triangles: Vec::new(),
-        faces: Vec::with_capacity(patches.len()),
-        free_edges: Vec::new(),
-        openings: Vec::new(),
-        warnings: Vec::new(),
-        reference: Vec::new(),
-        reference_normals: patches.iter().map(|p| p.normal).collect(),
-        poses: vec![Pose::default(); surfaces.len()],
-        sides: std::sync::OnceLock::new(),
-    };
-    for (patch, filling) in patches.iter().zip(filled) {
-        let filling = filling.map_err(|reason| SurfaceError::NotMeshed {
-            wall: surfaces[patch.wall].name.clone(),
-            at: places.at(patch.boundary[0][0]),
-            reason,
-        })?;
-        mesh.append(patch, filling, &mut nodes, &places);
-    }
-    mesh.check_count()?;
-    mesh.reference = nodes.positions;
-    let at = mesh.reference.iter().zip(nodes.walls);
-    mesh.nodes = at
-        .map(|(position, wall)| Node {
-            position: *position,
-            theta: 0.5,
-            size: 0.0,
-            wall,
-        })
-        .collect();
-    for triangle in 0..mesh.triangles.len() {
-        mesh.measure(triangle);
-    }
-    mesh.free_edges = mesh.weigh();
-    let corner = |site: &[Site; 2]| nodes.at_corner.get(&site[0].id).map(|n| *n as usize);
-    mesh.find_openings(free.iter().filter_map(corner));
-    mesh.warnings = mesh.fine_walls();
-    Ok(mesh)
+    Ok(())
 }
 
 /// Checks the surfaces; returns their planar pieces without the places where walls touch.
@@ -182,6 +194,20 @@ impl TriangleMesh {
                 normal: patch.normal,
             });
         }
+    }
+
+    /// Nodes with half the fluid around them and no size yet.
+    fn place_nodes(&mut self, positions: Vec<[f64; 3]>, walls: Vec<usize>) {
+        self.reference = positions;
+        let at = self.reference.iter().zip(walls);
+        self.nodes = at
+            .map(|(position, wall)| Node {
+                position: *position,
+                theta: 0.5,
+                size: 0.0,
+                wall,
+            })
+            .collect();
     }
 
     fn check_count(&self) -> Result<(), SurfaceError> {

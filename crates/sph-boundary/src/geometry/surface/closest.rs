@@ -1,7 +1,8 @@
 //! The place of a triangle nearest to a point.
 
+use super::grid::NearTriangle;
+use super::triangle_mesh::TriangleMesh;
 use super::vector::{Point, along, dot, norm, sub};
-use super::{NearTriangle, TriangleMesh};
 
 /// Which part of a triangle is nearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

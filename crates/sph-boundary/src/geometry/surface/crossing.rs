@@ -6,12 +6,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 use sph_core::BoxTree;
 
-use super::Surface;
-use super::drawn::Drawn;
-use super::error::SurfaceError;
+use super::drawn::{Drawn, Surface};
 use super::vector::{Point, add, along, bounds, cross, dot, norm, sub, unit};
-use crate::error::MOST_PAIRS;
+use crate::error::SurfaceError;
 use crate::geometry::periodic::PeriodicBox;
+use crate::limits::MOST_PAIRS;
 
 /// Two triangles of different walls of one group that cover each other face to face: `other`,
 /// moved by `image`, lies on `triangle`.

@@ -1,11 +1,10 @@
-//! Triangles as drawn, with their corners welded.
+//! Surfaces as drawn, and their triangles with the corners welded.
 
 use rayon::prelude::*;
 
-use super::error::SurfaceError;
 use super::places::{EdgeKey, Places, Site, edge_key};
 use super::vector::{Point, bounds, dot, double_area, norm, sub};
-use super::{MOST_ELEMENTS, Surface};
+use crate::error::SurfaceError;
 
 /// Area over longest edge squared below which a triangle has none.
 const NO_AREA: f64 = 1e-9;
@@ -15,6 +14,31 @@ const NEEDLE: f64 = 1e-6;
 
 /// Surfaces smaller than this many spacings are refused.
 const SMALLEST: f64 = 2.0;
+
+/// Most triangles of all walls together.
+pub(super) const MOST_ELEMENTS: u64 = 20_000_000;
+
+/// A wall as drawn in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// Name, used in messages.
+    pub name: String,
+    /// Points, m.
+    pub points: Vec<[f64; 3]>,
+    /// Corners of the triangles among the points; the normal by the right-hand rule points into
+    /// the fluid.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Surface {
+    /// The same surface with the fluid on the other side.
+    pub fn reversed(mut self) -> Self {
+        for corners in &mut self.triangles {
+            corners.swap(1, 2);
+        }
+        self
+    }
+}
 
 /// A triangle as drawn.
 pub(super) struct Drawn {

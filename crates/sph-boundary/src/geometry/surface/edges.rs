@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::Surface;
-use super::error::SurfaceError;
+use super::drawn::Surface;
 use super::patches::Patch;
 use super::places::{EdgeKey, Places, SAME_PLACE, Site, edge_key};
 use super::vector::{Point, along, bounds, dot, norm, sub};
+use crate::error::SurfaceError;
 
 /// Nodes of the mesh while it is built.
 #[derive(Default)]

@@ -1,8 +1,6 @@
-//! Triangles near a point.
+//! Triangles sorted by cells.
 
-use super::closest::nearest_to_origin;
-use super::vector::{Point, add, bounds, dot, norm, sub};
-use super::{NearTriangle, TriangleMesh};
+use super::vector::{Point, bounds, dot, sub};
 
 /// Most cells per registered triangle: a grid over a vast empty box is made coarser.
 const CELLS_PER_ENTRY: usize = 8;
@@ -12,6 +10,15 @@ const PART_OF_REACH: f64 = 0.5;
 
 /// What rounding may do to a squared distance, relatively.
 pub(super) const ROUNDING: f64 = 1e-9;
+
+/// A triangle and the whole periods to add to its position.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NearTriangle {
+    /// Index of the triangle.
+    pub triangle: u32,
+    /// Whole periods.
+    pub image: [i8; 3],
+}
 
 /// A uniform grid whose cells list the triangles with their centre in them.
 ///
@@ -50,23 +57,9 @@ impl Sphere {
 }
 
 impl TriangleGrid {
-    /// Lists for the present position of the walls and queries up to the radius `reach`, m.
-    ///
-    /// With periodic directions, points in the box or within `reach` of it are served.
-    pub fn build(mesh: &TriangleMesh, reach: f64) -> Self {
-        let mut margin = [0.0; 3];
-        let mut radii = Vec::with_capacity(mesh.triangles().len());
-        for (t, triangle) in mesh.triangles().iter().enumerate() {
-            let arms = mesh.corners(t).map(|corner| sub(corner, triangle.centre));
-            for arm in arms {
-                margin = std::array::from_fn(|k: usize| f64::max(margin[k], arm[k].abs()));
-            }
-            let radius = arms.into_iter().map(norm).fold(0.0, f64::max);
-            radii.push(radius * (1.0 + ROUNDING));
-        }
-        // Rounding loses nothing.
-        let margin = margin.map(|x: f64| x * (1.0 + ROUNDING));
-        let images = images(mesh, 2.0 * reach, margin);
+    /// Of the centres of all images of triangles and the radius of every triangle about its centre; queries
+    /// reach `reach` far, m.
+    pub(super) fn of(images: &[(NearTriangle, Point)], radii: &[f64], reach: f64) -> Self {
         let [lower, upper] = bounds(images.iter().map(|(_, centre)| *centre));
         let extent: Point = std::array::from_fn(|k| (upper[k] - lower[k]).max(0.0));
         let limit = (CELLS_PER_ENTRY * images.len()).max(1) as f64;
@@ -85,7 +78,7 @@ impl TriangleGrid {
             entries: vec![NearTriangle::default(); images.len()],
             spheres: vec![Sphere::default(); images.len()],
         };
-        grid.fill(&images, &radii);
+        grid.fill(images, radii);
         grid
     }
 
@@ -125,31 +118,6 @@ impl TriangleGrid {
     /// Largest radius of a query, m.
     pub(super) fn reach(&self) -> f64 {
         self.reach
-    }
-
-    /// Images of triangles nearer than `radius` to a point, ascending by triangle, then image;
-    /// `radius` at most the reach of the grid.
-    pub fn near<'a>(
-        &'a self,
-        mesh: &'a TriangleMesh,
-        point: [f64; 3],
-        radius: f64,
-    ) -> impl Iterator<Item = NearTriangle> + 'a {
-        debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
-        let mut found = Vec::new();
-        self.visit(point, radius, |place, distance2| {
-            let near = self.entries[place];
-            // The mean of the corners is in the triangle.
-            let surely = distance2 < radius * radius * (1.0 - ROUNDING);
-            if surely || {
-                let (offset, _) = nearest_to_origin(mesh.corners_from(point, near));
-                dot(offset, offset) < radius * radius
-            } {
-                found.push(near);
-            }
-        });
-        found.sort_unstable();
-        found.into_iter()
     }
 
     /// Calls `found` with the place of every image whose sphere is in reach and its centre's squared distance, m².
@@ -193,31 +161,4 @@ impl TriangleGrid {
             + size_of_val(self.entries.as_slice())
             + size_of_val(self.spheres.as_slice())
     }
-}
-
-/// Every image of every triangle that comes within `reach` of the box, with its centre.
-fn images(mesh: &TriangleMesh, reach: f64, margin: [f64; 3]) -> Vec<(NearTriangle, Point)> {
-    let domain = mesh.domain();
-    let mut images = Vec::with_capacity(mesh.triangles().len());
-    for (t, triangle) in mesh.triangles().iter().enumerate() {
-        let centre = triangle.centre;
-        let range = |k: usize| {
-            let images = domain.images(k, centre[k], centre[k], reach + margin[k]);
-            // More images than a byte counts would be of a wall drawn far outside the box.
-            (*images.start()).max(-127) as i8..=(*images.end()).min(127) as i8
-        };
-        for i in range(0) {
-            for j in range(1) {
-                for k in range(2) {
-                    let near = NearTriangle {
-                        triangle: t as u32,
-                        image: [i, j, k],
-                    };
-                    let shift = domain.shift([i, j, k].map(i32::from));
-                    images.push((near, add(centre, shift)));
-                }
-            }
-        }
-    }
-    images
 }

@@ -1,9 +1,10 @@
 //! On which side of the walls a point is.
 
 use super::closest::{Feature, nearest_to_origin};
-use super::grid::TriangleGrid;
+use super::grid::{NearTriangle, TriangleGrid};
+use super::sides::{Columns, Sides};
+use super::triangle_mesh::TriangleMesh;
 use super::vector::{Point, dot, norm, sub};
-use super::{NearTriangle, TriangleMesh};
 
 /// Crossings of the ray closer to each other than this part of the wall's extent are one place.
 const SAME_HEIGHT: f64 = 1e-12;
@@ -13,31 +14,6 @@ const SAME_DISTANCE: f64 = 1e-9;
 
 /// Spacings within which the nearest wall decides if there are free edges.
 const FRONT: f64 = 4.0;
-
-/// What the question on which side a point is needs of a mesh, for the present position.
-#[derive(Clone, Debug)]
-pub(super) struct Sides {
-    /// One set of columns; if all axes are periodic, one along each, and the last one's axis goes
-    /// through a triangle.
-    columns: Vec<Columns>,
-    /// The centre of that triangle, m.
-    target: Point,
-    beyond: bool,
-    front: Option<TriangleGrid>,
-}
-
-/// Triangles that a ray along an axis may meet, by columns.
-#[derive(Clone, Debug)]
-struct Columns {
-    along: usize,
-    /// The other two axes, in the order that makes them right-handed.
-    across: [usize; 2],
-    lower: [f64; 2],
-    per_cell: f64,
-    columns: [usize; 2],
-    starts: Vec<u32>,
-    entries: Vec<NearTriangle>,
-}
 
 impl TriangleMesh {
     /// Whether a point is in the fluid, as the walls see it.
@@ -55,7 +31,7 @@ impl TriangleMesh {
     /// The first call after a motion sorts the triangles into columns; then the cost is that of the
     /// triangles in one column.
     pub fn contains(&self, point: [f64; 3]) -> bool {
-        let sides = self.sides.get_or_init(|| Sides::new(self));
+        let sides = self.sides.get_or_init(|| sides(self));
         let (lower, periods) = (self.domain.lower, self.domain.periods());
         let point: Point = std::array::from_fn(|k| match self.domain.periodic[k] {
             true => lower[k] + (point[k] - lower[k]).rem_euclid(periods[k]),
@@ -165,138 +141,68 @@ fn angle(corners: [Point; 3], k: usize) -> f64 {
     (dot(a, b) / (norm(a) * norm(b))).clamp(-1.0, 1.0).acos()
 }
 
-impl Sides {
-    fn new(mesh: &TriangleMesh) -> Self {
-        let periodic = mesh.domain.periodic;
-        let open = [2, 1, 0].into_iter().find(|k| !periodic[*k]);
-        let first = mesh.triangles.first();
-        let axes = match (open, first) {
-            (Some(k), _) => vec![k],
-            (None, None) => Vec::new(),
-            (None, Some(triangle)) => {
-                let mut axes = vec![0, 1, 2];
-                let facing = |k: &usize| triangle.normal[*k].abs();
-                axes.sort_by(|a, b| facing(a).total_cmp(&facing(b)));
-                axes
-            }
-        };
-        Self {
-            target: first.map_or([0.0; 3], |triangle| triangle.centre),
-            columns: axes.iter().map(|k| Columns::new(mesh, *k)).collect(),
-            beyond: open.is_none_or(|k| mesh.fluid_beyond(k)),
-            front: (!mesh.free_edges.is_empty())
-                .then(|| TriangleGrid::build(mesh, FRONT * mesh.spacing)),
+/// Columns along the axes that a ray may take, and what decides where there are none.
+fn sides(mesh: &TriangleMesh) -> Sides {
+    let periodic = mesh.domain.periodic;
+    let open = [2, 1, 0].into_iter().find(|k| !periodic[*k]);
+    let first = mesh.triangles.first();
+    let axes = match (open, first) {
+        (Some(k), _) => vec![k],
+        (None, None) => Vec::new(),
+        (None, Some(triangle)) => {
+            let mut axes = vec![0, 1, 2];
+            let facing = |k: &usize| triangle.normal[*k].abs();
+            axes.sort_by(|a, b| facing(a).total_cmp(&facing(b)));
+            axes
         }
+    };
+    Sides {
+        target: first.map_or([0.0; 3], |triangle| triangle.centre),
+        columns: axes.iter().map(|k| columns(mesh, *k)).collect(),
+        beyond: open.is_none_or(|k| mesh.fluid_beyond(k)),
+        front: (!mesh.free_edges.is_empty())
+            .then(|| TriangleGrid::build(mesh, FRONT * mesh.spacing)),
     }
 }
 
-impl Columns {
-    fn new(mesh: &TriangleMesh, along: usize) -> Self {
-        let across = [(along + 1) % 3, (along + 2) % 3];
-        let images = Self::images(mesh, across);
-        let mut lower = [f64::INFINITY; 2];
-        let mut upper = [f64::NEG_INFINITY; 2];
-        for (_, [low, high]) in &images {
-            for k in 0..2 {
-                lower[k] = lower[k].min(low[k]);
-                upper[k] = upper[k].max(high[k]);
-            }
-        }
-        let extent = [0, 1].map(|k| (upper[k] - lower[k]).max(0.0));
-        // About two triangles to a column.
-        let size = (2.0 * extent[0] * extent[1] / images.len().max(1) as f64).sqrt();
-        let longest = extent[0].max(extent[1]);
-        let size = size.max(longest / images.len().max(1) as f64);
-        let per_cell = if size > 0.0 { 1.0 / size } else { 1.0 };
-        let columns = extent.map(|width| (width * per_cell) as usize + 1);
-        let mut all = Self {
-            along,
-            across,
-            lower,
-            per_cell,
-            columns,
-            starts: vec![0; columns[0] * columns[1] + 1],
-            entries: Vec::new(),
+/// The triangles by the columns along an axis.
+fn columns(mesh: &TriangleMesh, along: usize) -> Columns {
+    let across = [(along + 1) % 3, (along + 2) % 3];
+    Columns::new(along, across, &images(mesh, across))
+}
+
+/// Images of the triangles that lie over the box, with their bounds across the ray.
+fn images(mesh: &TriangleMesh, across: [usize; 2]) -> Vec<(NearTriangle, [[f64; 2]; 2])> {
+    let mut images = Vec::with_capacity(mesh.triangles.len());
+    for t in 0..mesh.triangles.len() {
+        let corners = mesh.corners(t);
+        let ends = across.map(|k| {
+            let x = corners.map(|c| c[k]);
+            [x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2])]
+        });
+        let range = |k: usize| {
+            let margin = 1e-9 * mesh.spacing;
+            let images = mesh
+                .domain
+                .images(across[k], ends[k][0], ends[k][1], margin);
+            (*images.start()).max(-127) as i8..=(*images.end()).min(127) as i8
         };
-        all.fill(&images);
-        all
-    }
-
-    /// Images of the triangles that lie over the box, with their bounds across the ray.
-    fn images(mesh: &TriangleMesh, across: [usize; 2]) -> Vec<(NearTriangle, [[f64; 2]; 2])> {
-        let mut images = Vec::with_capacity(mesh.triangles.len());
-        for t in 0..mesh.triangles.len() {
-            let corners = mesh.corners(t);
-            let ends = across.map(|k| {
-                let x = corners.map(|c| c[k]);
-                [x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2])]
-            });
-            let range = |k: usize| {
-                let margin = 1e-9 * mesh.spacing;
-                let images = mesh
-                    .domain
-                    .images(across[k], ends[k][0], ends[k][1], margin);
-                (*images.start()).max(-127) as i8..=(*images.end()).min(127) as i8
-            };
-            for i in range(0) {
-                for j in range(1) {
-                    let mut image = [0; 3];
-                    image[across[0]] = i;
-                    image[across[1]] = j;
-                    let near = NearTriangle {
-                        triangle: t as u32,
-                        image,
-                    };
-                    let shift = mesh.domain.shift(image.map(i32::from));
-                    let bound = |end: usize| [0, 1].map(|k| ends[k][end] + shift[across[k]]);
-                    images.push((near, [bound(0), bound(1)]));
-                }
-            }
-        }
-        images
-    }
-
-    fn fill(&mut self, images: &[(NearTriangle, [[f64; 2]; 2])]) {
-        let covered = |all: &Self, [low, high]: [[f64; 2]; 2]| {
-            // A little more, so that rounding loses no ray along the rim.
-            let index = |k: usize, x: f64, more: f64| {
-                let at = (x - all.lower[k]) * all.per_cell + more;
-                (at.max(0.0) as usize).min(all.columns[k] - 1)
-            };
-            let range = |k: usize| index(k, low[k], -1e-6)..=index(k, high[k], 1e-6);
-            let (rows, columns, width) = (range(1), range(0), all.columns[0]);
-            rows.flat_map(move |row| columns.clone().map(move |c| row * width + c))
-        };
-        for (_, bounds) in images {
-            for column in covered(self, *bounds) {
-                self.starts[column + 1] += 1;
-            }
-        }
-        for column in 1..self.starts.len() {
-            self.starts[column] += self.starts[column - 1];
-        }
-        let total = self.starts.last().map_or(0, |n| *n as usize);
-        self.entries = vec![NearTriangle::default(); total];
-        let mut next = self.starts.clone();
-        for (near, bounds) in images {
-            for column in covered(self, *bounds) {
-                self.entries[next[column] as usize] = *near;
-                next[column] += 1;
+        for i in range(0) {
+            for j in range(1) {
+                let mut image = [0; 3];
+                image[across[0]] = i;
+                image[across[1]] = j;
+                let near = NearTriangle {
+                    triangle: t as u32,
+                    image,
+                };
+                let shift = mesh.domain.shift(image.map(i32::from));
+                let bound = |end: usize| [0, 1].map(|k| ends[k][end] + shift[across[k]]);
+                images.push((near, [bound(0), bound(1)]));
             }
         }
     }
-
-    /// Triangles that a ray from the point may meet.
-    fn column(&self, point: Point) -> &[NearTriangle] {
-        let [x, y] = [0, 1].map(|k| (point[self.across[k]] - self.lower[k]) * self.per_cell);
-        let (i, j) = (x.max(0.0) as usize, y.max(0.0) as usize);
-        let within = x >= -1e-6 && y >= -1e-6 && i < self.columns[0] && j < self.columns[1];
-        if !within {
-            return &[];
-        }
-        let column = j * self.columns[0] + i;
-        &self.entries[self.starts[column] as usize..self.starts[column + 1] as usize]
-    }
+    images
 }
 
 impl TriangleMesh {

@@ -1,9 +1,8 @@
 //! Surfaces that move as rigid bodies.
 
-use super::TriangleMesh;
-use super::error::SurfaceError;
+use super::triangle_mesh::TriangleMesh;
 use super::vector::Point;
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, SurfaceError};
 use crate::rigid::pose::Pose;
 
 impl TriangleMesh {

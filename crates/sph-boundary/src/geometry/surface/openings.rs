@@ -2,10 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::error::SurfaceError;
+use super::triangle_mesh::{FreeEdge, Opening, TriangleMesh};
 use super::vector::{Point, add, along, bounds, dot, norm, sub};
-use super::{FreeEdge, Opening, TriangleMesh};
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, SurfaceError};
 
 impl TriangleMesh {
     /// Joins free edges that share a node; `pieces` are the first nodes of the straight pieces

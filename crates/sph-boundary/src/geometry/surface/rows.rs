@@ -1,8 +1,7 @@
 //! Triangles near many points that lie close together.
 
-use super::grid::{ROUNDING, Sphere};
+use super::grid::{NearTriangle, ROUNDING, Sphere, TriangleGrid};
 use super::vector::{Point, bounds, dot, norm, sub};
-use super::{NearTriangle, TriangleGrid};
 
 /// Diagonal of the box around points that are served together, over the radius.
 const TOGETHER: f64 = 0.75;

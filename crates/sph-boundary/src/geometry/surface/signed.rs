@@ -1,8 +1,9 @@
 //! Distance and side of a place from a few triangles.
 
 use super::closest::nearest_to_origin;
+use super::grid::NearTriangle;
+use super::triangle_mesh::TriangleMesh;
 use super::vector::{Point, dot, norm, sub};
-use super::{NearTriangle, TriangleMesh};
 
 /// An image of a triangle relative to a point.
 #[derive(Clone, Copy, Debug)]

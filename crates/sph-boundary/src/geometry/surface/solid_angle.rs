@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use rayon::prelude::*;
 
 use super::places::{EdgeKey, Site, edge_key};
+use super::triangle_mesh::{FreeEdge, TriangleMesh};
 use super::vector::{Point, cross, dot, norm, sub};
-use super::{FreeEdge, TriangleMesh};
 
 /// Two triangles folded onto each other within this angle leave the fluid all around their edge.
 const FOLD: f64 = 1e-9;

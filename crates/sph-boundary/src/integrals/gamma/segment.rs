@@ -1,7 +1,7 @@
 //! The integrals of one segment seen from one point.
 
-use super::Renormalisation2d;
 use super::primitives::End;
+use super::renormalisation::Renormalisation2d;
 
 /// Below this distance over h the logarithmic terms, of order a² ln a, are no longer counted.
 const NO_LOGARITHM: f64 = 1e-30;

@@ -1,6 +1,7 @@
 //! γ of a point from the segments around it, and the decision between inside and outside.
 
-use super::{Contact, Renormalisation2d, SegmentIntegral};
+use super::renormalisation::Renormalisation2d;
+use super::segment::{Contact, SegmentIntegral};
 use crate::geometry::grid::SegmentGrid;
 use crate::geometry::mesh::{Segment, SegmentMesh};
 

@@ -5,7 +5,7 @@ use sph_kernels::PiecewisePolynomial;
 use super::knot::{self, Knot};
 use super::table::Table;
 use crate::error::BoundaryError;
-use crate::integrals::gamma::normalisation;
+use crate::integrals::normalisation::normalisation;
 
 /// Exact wall integrals of one kernel in three dimensions.
 ///

@@ -89,7 +89,7 @@ pub enum SurfaceError {
     #[error(
         "from wall `{wall}` on, more than {} pairs of triangles are so near each other that they must be \
          compared: draw it with fewer long slanted triangles side by side",
-        crate::error::MOST_PAIRS
+        crate::limits::MOST_PAIRS
     )]
     Tangled {
         /// Name of the wall.

@@ -1,0 +1,6 @@
+//! How much work walls may ask for.
+
+/// Most pairs of edges or triangles that are held against each other: a second or two of work.
+pub(crate) const MOST_PAIRS: usize = 200_000_000;
+/// Most periods that walls may reach across.
+pub(crate) const MOST_PERIODS: f64 = 1000.0;

@@ -1,0 +1,25 @@
+//! What went out of a store and what came in while a flow ran.
+
+/// What has been taken out of a store by one outlet of one phase.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Taken {
+    /// Number of the outlet.
+    pub outlet: u32,
+    /// Number of the phase.
+    pub phase: u32,
+    /// Mass, kg (per metre of depth in 2D).
+    pub mass: f64,
+    /// Number of particles.
+    pub particles: u64,
+}
+
+/// What came into a store after the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Born {
+    /// Identities that were given so far, those of the start included: nobody gets one of them again.
+    pub identities: u32,
+    /// Mass that came in after the start, kg (per metre of depth in two dimensions).
+    pub mass: f64,
+    /// Particles that came in after the start.
+    pub particles: u64,
+}

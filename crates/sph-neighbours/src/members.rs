@@ -1,0 +1,24 @@
+//! Who is in a cluster, and whom it looks at.
+
+use sph_lanes::MOST;
+
+/// Some particles that follow each other, and whom any of them may have within reach.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Members<'a> {
+    /// The first particle.
+    pub from: usize,
+    /// How many.
+    pub count: usize,
+    /// Candidates, the members themselves among them, in index order.
+    pub candidates: &'a [u32],
+}
+
+/// Members of a cluster in groups of at most as many as there are lanes.
+pub(crate) fn groups(members: Members<'_>, lanes: usize) -> impl Iterator<Item = Members<'_>> {
+    let step = lanes.min(MOST);
+    (0..members.count).step_by(step).map(move |k| Members {
+        from: members.from + k,
+        count: step.min(members.count - k),
+        candidates: members.candidates,
+    })
+}

@@ -1,0 +1,16 @@
+//! What is blended where a soil yields.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What is blended where a soil yields from a solid to a liquid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Blend {
+    /// div(ζτ_l + (1 − ζ)τ_s): a stress, so that action is reaction.
+    #[default]
+    Stresses,
+    /// ζ_a f_l + (1 − ζ_a) f_s, as printed: action is not reaction where ζ < 1. What water rubs off the soil is left
+    /// out of the blend. Not with an implicit viscosity.
+    Forces,
+}
