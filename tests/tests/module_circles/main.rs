@@ -1,8 +1,8 @@
 //! The modules of a crate stand in an order: no two import from each other, not even by way of others.
 //! Only a module within another may take from that what it gives to it, and tests may import what they like.
 //!
-//! It is read from the text: names are followed through re-exports, but macros are not expanded, and a method that is called
-//! on a value does not tell which file it is in.
+//! It is read from the text: names are followed through re-exports, but macros are not expanded, and a method that is
+//! called on a value does not tell which file it is in.
 
 mod source;
 

@@ -111,7 +111,8 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Sets what the formulation integrates for those whose identities are not below `first`, so that they have their densities.
+    /// Sets what the formulation integrates for those whose identities are not below `first`, so that they have their
+    /// densities.
     fn begin_density(&mut self, nursery: &Nursery<D>, first: u32) -> Result<(), StepError> {
         let before: Vec<_> = {
             let free = &self.world.free;

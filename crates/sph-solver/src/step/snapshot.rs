@@ -63,8 +63,8 @@ impl<const D: usize> Snapshot<D> {
 
     /// Puts part of the state back, whatever order the particles are in now.
     ///
-    /// Of the columns those that are `integrated` are meant in any case. State that stages write (a shift, from what a solve
-    /// starts) is left as the last evaluation made it: only motion is undone.
+    /// Of the columns those that are `integrated` are meant in any case. State that stages write (a shift, from what a
+    /// solve starts) is left as the last evaluation made it: only motion is undone.
     pub(crate) fn recall(
         &self,
         world: &mut World<D>,
