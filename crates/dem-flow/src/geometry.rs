@@ -2,31 +2,11 @@
 
 use dem_triangulation::{Triangulation, Vertex};
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 
 use crate::facet::Facet;
-use crate::throat::Pores;
+use crate::throat::{Grip, Pores, SolidAngles, Throat};
 use crate::volume::solid_volume;
-use crate::{FlowError, Throat, cell_volumes};
-
-/// How fluid meets a wall.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Grip {
-    /// It sticks: the wall's area counts as wetted and takes its share of the viscous force.
-    NoSlip,
-    /// It slides, as on a plane of symmetry.
-    Slip,
-}
-
-/// How solid angles of throats are summed.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
-pub enum SolidAngles {
-    /// With their signs: void volume and wetted surface add up to those of the packing exactly.
-    #[default]
-    Signed,
-    /// By their absolute values, as YADE 2023.02a does: up to 1 % less permeable. For comparison.
-    Absolute,
-}
+use crate::{FlowError, cell_volumes};
 
 /// Deepest overlap, in terms of the smaller radius.
 const DEEPEST: f64 = 0.1;

@@ -55,11 +55,11 @@ pub use boundary::Boundary;
 pub use conductance::{Conductance, EffectiveRadius, HydraulicRadius};
 pub use error::FlowError;
 pub use forces::Forces;
-pub use geometry::{Grip, PoreGeometry, SolidAngles};
+pub use geometry::PoreGeometry;
 pub use registry::{ConductanceEntry, conductance, conductances};
 pub use solid_angle::solid_angle;
 pub use system::{FlowSystem, Solver, Storage};
-pub use throat::Throat;
+pub use throat::{Grip, SolidAngles, Throat};
 pub use volume::cell_volumes;
 
 /// Crates that the registration macro names; use them through the macro only.

@@ -2,10 +2,30 @@
 
 use dem_triangulation::{Triangulation, Vertex};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use crate::facet::{Facet, angle, edge};
 use crate::inscribed::inscribed_radius;
-use crate::{Grip, SolidAngles, solid_angle};
+use crate::solid_angle;
+
+/// How fluid meets a wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grip {
+    /// It sticks: the wall's area counts as wetted and takes its share of the viscous force.
+    NoSlip,
+    /// It slides, as on a plane of symmetry.
+    Slip,
+}
+
+/// How solid angles of throats are summed.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
+pub enum SolidAngles {
+    /// With their signs: void volume and wetted surface add up to those of the packing exactly.
+    #[default]
+    Signed,
+    /// By their absolute values, as YADE 2023.02a does: up to 1 % less permeable. For comparison.
+    Absolute,
+}
 
 /// Shorter than this times the root of its area, a throat has no length, and its cells are one pore.
 const NO_LENGTH: f64 = 1e-9;

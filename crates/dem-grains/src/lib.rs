@@ -49,6 +49,7 @@ mod setup;
 mod space;
 mod stability;
 mod state;
+mod step_limits;
 mod strain;
 mod system;
 mod table;

@@ -1,7 +1,7 @@
 //! The system: made, evaluated, integrated.
 
 use crate::setup::{Period, finite};
-use crate::stability::{CHECKED_EVERY, Limit};
+use crate::stability::{CHECKED_EVERY, Limit, critical};
 use crate::table::{Bodies, Table};
 use crate::touch::View;
 use crate::{ContactLaw, GrainError, Grains, MEMORY, Mesh, Setup, Vector, Wall, space};
@@ -286,7 +286,13 @@ impl GrainSystem {
             Some(limit) if self.steps < self.limit_due => limit,
             _ => {
                 self.limit_due = self.steps + CHECKED_EVERY;
-                self.find_limit()
+                critical(
+                    &self.grains,
+                    &self.table,
+                    &self.walls,
+                    &self.meshes,
+                    &self.laws,
+                )
             }
         };
         self.limit = Some(limit);

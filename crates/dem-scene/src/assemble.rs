@@ -1,7 +1,7 @@
 //! From a scene to the system at the start of its preparation, and from there to the start of the run.
 
 use dem_coupled::{Condition, CoupledError, CoupledSystem, FlowSetup, Remeshing, Side, Wave};
-use dem_grains::{Control, GrainError, GrainSystem, Mesh, Setup, Wall};
+use dem_grains::{GrainError, GrainSystem};
 
 use crate::error::DemError;
 use crate::laws::{Laws, throats};
@@ -11,6 +11,7 @@ use crate::origin::Origin;
 use crate::prepare;
 use crate::read::Loaded;
 use crate::tables::{self, Scene};
+use crate::walls::{FAR, control};
 
 /// A scene ready to run.
 pub struct Assembled {
@@ -79,71 +80,6 @@ pub fn loads(scene: &Scene) -> Vec<Load> {
     all.filter(Load::varies).collect()
 }
 
-/// The planes and surfaces of a scene, at rest; a top that comes down later is out of the way.
-pub(crate) fn setup(
-    loaded: &Loaded,
-    grains: Vec<dem_grains::Grain>,
-    laws: Laws,
-) -> Result<Setup, DemError> {
-    let scene = &loaded.scene;
-    let numbers: Vec<_> = scene.wall.keys().zip(&laws.of_walls).collect();
-    let law_of = |name: &str, otherwise: usize| {
-        let own = numbers.iter().find(|(n, _)| n.as_str() == name);
-        own.and_then(|(_, number)| **number).unwrap_or(otherwise)
-    };
-    let mut setup = Setup {
-        grains,
-        laws: laws.all,
-        gravity: scene.grains.gravity.unwrap_or_default().into(),
-        damping: scene.start.damping,
-        skin: scene.grains.skin,
-        ..Setup::default()
-    };
-    let cuboid = scene.r#box.as_ref().map(|b| Wall::cuboid(b.low, b.high));
-    for name in planes(scene) {
-        let boxed = BOX.iter().position(|b| *b == name).zip(cuboid);
-        let wall = match (boxed, scene.wall.get(&name)) {
-            (Some((number, cuboid)), _) => cuboid[number].with_law(law_of(&name, laws.of_box)),
-            (None, Some(table)) => {
-                let (point, normal) = (
-                    table.point.unwrap_or_default(),
-                    table.normal.unwrap_or_default(),
-                );
-                Wall::new(point, normal).with_law(law_of(&name, 0))
-            }
-            (None, None) => continue,
-        };
-        setup.walls.push(wall);
-    }
-    if let Some(given) = &scene.r#box {
-        for axis in given.periodic.iter().map(|a| a.number()) {
-            setup = setup.periodic(axis, given.low[axis], given.high[axis]);
-        }
-    }
-    for (name, table) in &scene.wall {
-        if let Some(file) = &table.file {
-            let mut mesh = surface(loaded, name, file)?;
-            mesh.centre = table.point.unwrap_or_default().into();
-            mesh.law = law_of(name, 0);
-            setup = setup.mesh(mesh);
-        }
-    }
-    Ok(setup)
-}
-
-/// The triangles of a file.
-fn surface(loaded: &Loaded, name: &str, file: &str) -> Result<Mesh, DemError> {
-    let key = format!("wall.{name}.file");
-    let path = loaded.source.resolve(&key, file);
-    let path = path.map_err(|e| DemError::at(&key, e))?;
-    let corners = surface_file::read(&path)
-        .map_err(|e| DemError::at(&key, e))?
-        .triangles;
-    let vertices: Vec<[f64; 3]> = corners.iter().flatten().copied().collect();
-    let triangles = (0..corners.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]);
-    Ok(Mesh::new(vertices, triangles.collect()))
-}
-
 /// What moves the walls in the run.
 fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
     let mass: f64 = grains.grains().masses().iter().sum();
@@ -167,33 +103,6 @@ fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
             // The numbers are finite: the schema saw them.
             let _ = grains.steer_mesh(number, velocity, spin);
         }
-    }
-}
-
-/// How far away a wall is that is not there, m.
-pub(crate) const FAR: f64 = 1e4;
-
-/// What moves a wall; pistons under the stress that is asked for, with their share of the grains' mass (kg).
-pub(crate) fn control(
-    table: &tables::Wall,
-    mass: f64,
-    stress: impl Fn(&tables::Piston) -> f64,
-) -> Control {
-    if let Some(piston) = &table.piston {
-        return Control::Piston {
-            stress: stress(piston),
-            mass: piston.mass_share * mass,
-        };
-    }
-    if let Some(servo) = &table.servo {
-        return Control::Stress {
-            stress: servo.stress,
-            largest_speed: servo.speed,
-        };
-    }
-    match table.strain_rate {
-        Some(rate) => Control::StrainRate { rate },
-        None => Control::Velocity,
     }
 }
 

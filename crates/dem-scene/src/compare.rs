@@ -116,21 +116,14 @@ fn one(
             geometry,
             quantity,
         } => {
-            let key = format!("reference.{name}.file");
-            let path = loaded.source.resolve(&key, file);
-            let path = path.map_err(|e| DemError::at(&key, e))?;
-            let law = scaling::read(&path, geometry, quantity);
-            let law = law.map_err(|why| DemError::at(&key, why))?;
-            let length = match loaded.probes.get(probe) {
-                Some(Probe::RunOut { length, .. }) => *length,
-                _ => f64::NAN,
-            };
-            let aspect = origin.top / length;
-            let wanted = law.at(aspect).unwrap_or(f64::NAN);
-            let rows = rows(table, probe, ALL);
-            let found = statistic(&rows, Statistic::Last);
-            let against = format!("{quantity} = {wanted:.3} at a = {aspect:.3}, {geometry}");
-            Ok(relative(found, wanted, against, rows.len().min(1)))
+            let probe = probe.as_str();
+            scaled(
+                loaded,
+                origin,
+                table,
+                name,
+                [probe, file, geometry, quantity],
+            )
         }
         Reference::Line {
             along,
@@ -138,26 +131,59 @@ fn one(
             from,
             to,
         } => {
-            let along = rows(table, along, window(*from, *to));
-            let values = rows(table, probe, window(*from, *to));
-            let pairs: Vec<_> = along
-                .iter()
-                .filter_map(|(t, x)| values.iter().find(|(u, _)| u == t).map(|(_, y)| (*x, *y)))
-                .collect();
-            Ok(Compared {
-                value: determination(&pairs).map(|r2| 1.0 - r2),
-                norm: "1 − R²".into(),
-                against: format!("{probe} in a straight line"),
-                samples: pairs.len(),
-                found: None,
-                wanted: None,
-            })
+            let window = window(*from, *to);
+            Ok(line(
+                &rows(table, along, window),
+                &rows(table, probe, window),
+                probe,
+            ))
         }
         Reference::Curve {
             probe,
             file,
             column,
         } => curve(loaded, origin, table, name, [probe, file, column]),
+    }
+}
+
+/// A run-out beside the scaling law of a file.
+fn scaled(
+    loaded: &Loaded,
+    origin: &Origin,
+    table: &Table,
+    name: &str,
+    [probe, file, geometry, quantity]: [&str; 4],
+) -> Result<Compared, DemError> {
+    let key = format!("reference.{name}.file");
+    let path = loaded.source.resolve(&key, file);
+    let path = path.map_err(|e| DemError::at(&key, e))?;
+    let law = scaling::read(&path, geometry, quantity);
+    let law = law.map_err(|why| DemError::at(&key, why))?;
+    let length = match loaded.probes.get(probe) {
+        Some(Probe::RunOut { length, .. }) => *length,
+        _ => f64::NAN,
+    };
+    let aspect = origin.top / length;
+    let wanted = law.at(aspect).unwrap_or(f64::NAN);
+    let rows = rows(table, probe, ALL);
+    let found = statistic(&rows, Statistic::Last);
+    let against = format!("{quantity} = {wanted:.3} at a = {aspect:.3}, {geometry}");
+    Ok(relative(found, wanted, against, rows.len().min(1)))
+}
+
+/// How well values of one probe over those of another lie on a straight line.
+fn line(along: &[(f64, f64)], values: &[(f64, f64)], probe: &str) -> Compared {
+    let pairs: Vec<_> = along
+        .iter()
+        .filter_map(|(t, x)| values.iter().find(|(u, _)| u == t).map(|(_, y)| (*x, *y)))
+        .collect();
+    Compared {
+        value: determination(&pairs).map(|r2| 1.0 - r2),
+        norm: "1 − R²".into(),
+        against: format!("{probe} in a straight line"),
+        samples: pairs.len(),
+        found: None,
+        wanted: None,
     }
 }
 

@@ -49,6 +49,7 @@ mod error;
 mod examine;
 mod fields;
 mod frames;
+mod highest_point;
 mod laws;
 mod measure;
 mod model;
@@ -61,6 +62,7 @@ mod scaling;
 mod schema;
 mod summary;
 mod tables;
+mod walls;
 mod written;
 
 pub use assemble::{Assembled, assemble};

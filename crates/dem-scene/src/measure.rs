@@ -5,10 +5,10 @@ use std::f64::consts::PI;
 use dem_grains::{GrainSystem, Wall};
 
 use crate::fields::displacements;
+use crate::highest_point::highest;
 use crate::model::Model;
 use crate::names::planes;
 use crate::origin::Origin;
-use crate::prepare::highest;
 use crate::tables::{Probe, Scene};
 
 /// Unit of what a probe measures.

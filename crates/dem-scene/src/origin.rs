@@ -3,7 +3,7 @@
 use dem_grains::GrainSystem;
 use serde::{Deserialize, Serialize};
 
-use crate::prepare::highest;
+use crate::highest_point::highest;
 use crate::tables::Scene;
 
 /// The state at the start of the run, and what was measured before it.

@@ -6,12 +6,13 @@ use dem_grains::{
     Cloud, Grain, GrainError, GrainSystem, Growth, Target, rain, settle, uniform_radii,
 };
 
-use crate::assemble::{FAR, control, setup};
 use crate::error::DemError;
+use crate::highest_point::highest;
 use crate::laws::Laws;
 use crate::names::planes;
 use crate::read::Loaded;
 use crate::tables::{Lattice, Oedometer, Scene};
+use crate::walls::{FAR, control, setup};
 
 /// Porosity at which a poured bed is expected to lie.
 const POURED: f64 = 0.4;
@@ -130,13 +131,6 @@ fn lower_the_top(
     }
     system.walls_mut()[top].point.z = at;
     Ok(())
-}
-
-/// The highest point of a grain, m.
-pub(crate) fn highest(system: &GrainSystem) -> f64 {
-    let grains = system.grains();
-    let tops = grains.positions().iter().zip(grains.radii());
-    tops.map(|(x, r)| x.z + r).fold(f64::NEG_INFINITY, f64::max)
 }
 
 fn volume(radii: &[f64]) -> f64 {

@@ -7,10 +7,8 @@ use serde_json::Value as Json;
 use toml::Value;
 
 use crate::plausible::{Quantity, Verdict};
-use crate::{SceneProblem, parse_quantity, suggestion};
-
-/// Most problems that are told: of a text that is wrong throughout nobody reads more, and each takes room.
-pub const MOST_PROBLEMS: usize = 200;
+use crate::problem::describe;
+use crate::{MOST_PROBLEMS, SceneProblem, parse_quantity, suggestion};
 
 /// Checks `value` against `schema` and converts quantities to SI in place; returns remarks on numbers outside
 /// what nature has ([`plausible`](crate::plausible)), at most [`MOST_PROBLEMS`].
@@ -29,16 +27,6 @@ pub fn conform(value: &mut Value, schema: &Json) -> Result<Vec<SceneProblem>, Ve
     } else {
         Err(walk.problems)
     }
-}
-
-/// The default of every property that has one, by name.
-pub fn defaults(schema: &Json) -> Vec<(String, Json)> {
-    let properties = schema.get("properties").and_then(Json::as_object);
-    properties
-        .into_iter()
-        .flatten()
-        .filter_map(|(name, p)| p.get("default").map(|d| (name.clone(), d.clone())))
-        .collect()
 }
 
 struct Walk<'s> {
@@ -336,18 +324,6 @@ impl<'s> Walk<'s> {
                 self.problem(path, format!("the key `{name}` is missing{meaning}"));
             }
         }
-    }
-}
-
-fn describe(value: &Value) -> String {
-    match value {
-        Value::String(s) => format!("the string \"{s}\""),
-        Value::Integer(i) => format!("{i}"),
-        Value::Float(x) => format!("{x}"),
-        Value::Boolean(b) => format!("{b}"),
-        Value::Datetime(_) => "a date".into(),
-        Value::Array(_) => "a list".into(),
-        Value::Table(_) => "a table".into(),
     }
 }
 

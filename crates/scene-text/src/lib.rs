@@ -18,6 +18,7 @@
 //! ```
 
 mod conform;
+mod defaults;
 mod diagnostic;
 mod locate;
 mod names;
@@ -28,14 +29,16 @@ pub mod plausible;
 mod problem;
 mod quantity;
 mod source;
+mod table;
 mod text;
 
-pub use conform::{MOST_PROBLEMS, conform, defaults};
+pub use conform::conform;
+pub use defaults::defaults;
 pub use diagnostic::{Diagnostic, Origin, line_and_column};
 pub use names::{nearest, suggestion};
 pub use overrides::{OnePlugin, Override};
 pub use paths::{PathProblem, within};
-pub use problem::SceneProblem;
+pub use problem::{MOST_PROBLEMS, SceneProblem};
 pub use quantity::{Dimensions, parse_quantity, parse_unit};
 pub use source::Source;
 pub use text::{FILE_BYTES, read_text};

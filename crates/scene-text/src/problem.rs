@@ -1,6 +1,10 @@
 //! Something wrong with a scene, by its key.
 
 use thiserror::Error;
+use toml::Value;
+
+/// Most problems that are told: of a text that is wrong throughout nobody reads more, and each takes room.
+pub const MOST_PROBLEMS: usize = 200;
 
 /// Something wrong with the text of a scene, addressed by its key.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -19,5 +23,18 @@ impl SceneProblem {
             path: path.into(),
             message: message.into(),
         }
+    }
+}
+
+/// A value as a message tells it.
+pub(crate) fn describe(value: &Value) -> String {
+    match value {
+        Value::String(s) => format!("the string \"{s}\""),
+        Value::Integer(i) => format!("{i}"),
+        Value::Float(x) => format!("{x}"),
+        Value::Boolean(b) => format!("{b}"),
+        Value::Datetime(_) => "a date".into(),
+        Value::Array(_) => "a list".into(),
+        Value::Table(_) => "a table".into(),
     }
 }

@@ -4,14 +4,12 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use toml::Table;
 use toml::de::DeTable;
 
 use crate::diagnostic::{Diagnostic, Origin, floor_char, line_and_column};
 use crate::locate::locate;
 use crate::overrides::Override;
 use crate::paths::{PathProblem, joined, within};
-use crate::text;
 use crate::{MOST_PROBLEMS, SceneProblem};
 
 /// The text of a scene file and the overrides on top of it.
@@ -53,14 +51,6 @@ impl Source {
     /// The overrides, in the order they were given.
     pub fn overrides(&self) -> &[Override] {
         &self.overrides
-    }
-
-    /// The table of the text with the overrides applied.
-    ///
-    /// # Errors
-    /// Errors of syntax, and overrides that do not fit the text.
-    pub fn table(&self) -> Result<Table, Vec<Diagnostic>> {
-        text::table(self)
     }
 
     /// The text that the span of a diagnostic is in.

@@ -5,7 +5,7 @@ use sph_solver::{Examination, PluginInForce, StageUse, examine};
 
 use crate::arguments::ExplainArguments;
 use crate::check::memory;
-use crate::layout::{columns, paragraph};
+use crate::layout::{columns, paragraph, parameters};
 use crate::scene_file::{AnyScene, open};
 use crate::trouble::Trouble;
 use crate::{console, grains};
@@ -67,16 +67,6 @@ fn plugins(plugins: &[PluginInForce]) -> Vec<Vec<String>> {
         ]
     }));
     rows
-}
-
-pub(crate) fn parameters(all: &Json) -> String {
-    let one = |(name, value): (&String, &Json)| format!("{name} = {value}");
-    let given = all.as_object().into_iter().flatten();
-    let list: Vec<String> = given.filter(|(_, v)| !v.is_null()).map(one).collect();
-    match list.is_empty() {
-        true => "–".to_string(),
-        false => list.join(", "),
-    }
 }
 
 fn fields(e: &Examination) -> Vec<Vec<String>> {

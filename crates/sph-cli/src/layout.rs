@@ -1,5 +1,7 @@
 //! Text in columns.
 
+use serde_json::Value as Json;
+
 /// Rows as columns with two spaces between; the last column is not padded.
 pub fn columns(indent: usize, rows: &[Vec<String>]) -> String {
     let width = |k: usize| {
@@ -55,6 +57,17 @@ pub fn remarks(remarks: &[String]) -> String {
         format!("  - {}", text.trim_start())
     };
     remarks.iter().map(item).collect()
+}
+
+/// Parameters of a plugin in one line.
+pub fn parameters(all: &Json) -> String {
+    let one = |(name, value): (&String, &Json)| format!("{name} = {value}");
+    let given = all.as_object().into_iter().flatten();
+    let list: Vec<String> = given.filter(|(_, v)| !v.is_null()).map(one).collect();
+    match list.is_empty() {
+        true => "–".to_string(),
+        false => list.join(", "),
+    }
 }
 
 #[cfg(test)]

@@ -21,6 +21,7 @@ mod failed;
 mod grains;
 mod interrupt;
 mod layout;
+mod left_behind;
 mod new;
 mod outcome;
 mod plugins;

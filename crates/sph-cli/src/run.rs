@@ -1,21 +1,18 @@
 //! `sph run`.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::Value as Json;
-use sph_io::IoError;
 use sph_scene::Source;
 use sph_solver::{Identity, RunOptions, SolverError, Start, Status, Summary, run};
 
 use crate::arguments::RunArguments;
+use crate::left_behind::{CHECKPOINT, failed_summary, going_on, remedy};
 use crate::progress::Watcher;
 use crate::scene_file::{AnyScene, open};
-use crate::shell::quoted;
 use crate::trouble::Trouble;
 use crate::{console, grains, interrupt, outcome};
 
-/// Name of the checkpoint in a run's folder.
-pub(crate) const CHECKPOINT: &str = "checkpoint.sph";
 /// Name of the summary in a run's folder.
 const SUMMARY: &str = "summary.json";
 
@@ -105,21 +102,6 @@ fn conclude(arguments: &RunArguments, summary: &Summary, out: &Path) -> Result<(
     }
 }
 
-/// The command that resumes the run.
-pub(crate) fn going_on(arguments: &RunArguments, out: &Path) -> String {
-    let mut words = vec!["sph".to_string(), "run".to_string()];
-    words.push(quoted(&arguments.scene.scene));
-    words.extend(["--out".to_string(), quoted(&out.display().to_string())]);
-    for set in &arguments.scene.set {
-        words.extend(["--set".to_string(), quoted(set)]);
-    }
-    for folder in &arguments.scene.allow_path {
-        words.extend(["--allow-path".into(), quoted(&folder.display().to_string())]);
-    }
-    words.push("--resume".to_string());
-    words.join(" ")
-}
-
 fn trouble(error: SolverError, arguments: &RunArguments, source: &Source, out: &Path) -> Trouble {
     let ran = matches!(error, SolverError::Failed(_));
     let advice = unwritten(&error)
@@ -149,20 +131,4 @@ fn unwritten(error: &SolverError) -> Option<&'static str> {
         SolverError::Io(io) => remedy(io),
         _ => None,
     }
-}
-
-/// What is to be done first where a file could not be written.
-pub(crate) fn remedy(error: &IoError) -> Option<&'static str> {
-    match error {
-        IoError::DiskFull { .. } => Some("make room"),
-        IoError::Write { .. } | IoError::NotWritable { .. } => Some("make the folder writable"),
-        _ => None,
-    }
-}
-
-/// The summary that a failed run left; not one of an earlier run.
-pub(crate) fn failed_summary(path: &PathBuf) -> Option<Json> {
-    let text = std::fs::read_to_string(path).ok()?;
-    let summary: Json = serde_json::from_str(&text).ok()?;
-    (summary["status"] == "failed").then_some(summary)
 }

@@ -154,3 +154,9 @@ fn ticks_within(room: f64) -> usize {
 pub(crate) fn crisp(x: f64) -> f64 {
     x.floor() + 0.5
 }
+
+/// Whether an axis can show `value`.
+pub(crate) fn shown(value: f64, log: bool) -> bool {
+    // Beyond these bounds a range may overflow.
+    value.is_finite() && value.abs() < 1e150 && (!log || value > 1e-150)
+}

@@ -2,8 +2,8 @@
 
 use crate::axes::Axes;
 use crate::colour::Colour;
+use crate::drawn_series::Style;
 use crate::mark::Mark;
-use crate::plot::Style;
 use crate::surface::{Anchor, Fill, Lettering, Pen, Rect, Spot, Surface};
 use crate::text;
 

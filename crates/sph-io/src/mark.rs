@@ -1,8 +1,8 @@
 //! How one series of a plot is drawn.
 
-use crate::axes::Axes;
+use crate::axes::{Axes, shown};
 use crate::colour::{Colour, SERIES};
-use crate::plot::{Series, Style, shown};
+use crate::drawn_series::{Series, Style};
 use crate::surface::{Fill, Pen, Spot, Surface};
 
 /// Points beyond which lines are thinned to what can be seen.

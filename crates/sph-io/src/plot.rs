@@ -5,8 +5,9 @@
 
 use std::path::Path;
 
-use crate::axes::{Axes, Axis, left_room};
+use crate::axes::{Axes, Axis, left_room, shown};
 use crate::canvas::Canvas;
+use crate::drawn_series::{Series, Style};
 use crate::error::{IoError, Result};
 use crate::legend::Legend;
 use crate::mark::Mark;
@@ -50,76 +51,6 @@ pub struct Plot {
     pub log_y: bool,
     /// Each in its own colour; drawn in this order, bands before all others.
     pub series: Vec<Series>,
-}
-
-/// One set of points of a [`Plot`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct Series {
-    /// Name in the legend; empty for none.
-    pub name: String,
-    /// Abscissa and ordinate. A line is broken at points that are not finite.
-    pub points: Vec<[f64; 2]>,
-    /// How the points are drawn.
-    pub style: Style,
-}
-
-/// How a [`Series`] is drawn.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub enum Style {
-    /// A line through the points.
-    #[default]
-    Line,
-    /// A dashed line through the points.
-    Dashes,
-    /// A marker at every point.
-    Markers,
-    /// Both line and markers.
-    LineAndMarkers,
-    /// Grey line and dots behind all others, not in the legend: what the others are seen against.
-    Background,
-    /// A broad pale line behind the others: which points stand out.
-    Highlight,
-    /// A shaded area between the points and as many upper ordinates.
-    Band(
-        /// The upper edge at the abscissae of the points.
-        Vec<f64>,
-    ),
-}
-
-impl Series {
-    /// A line.
-    pub fn line(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
-        Self::of(name, points, Style::Line)
-    }
-
-    /// Markers, for measurements and reference data.
-    pub fn markers(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
-        Self::of(name, points, Style::Markers)
-    }
-
-    /// A band between the points and the ordinates `upper`.
-    pub fn band(name: impl Into<String>, points: Vec<[f64; 2]>, upper: Vec<f64>) -> Self {
-        Self::of(name, points, Style::Band(upper))
-    }
-
-    /// Any style.
-    pub fn of(name: impl Into<String>, points: Vec<[f64; 2]>, style: Style) -> Self {
-        Self {
-            name: name.into(),
-            points,
-            style,
-        }
-    }
-
-    /// All points that must fit into the frame.
-    fn spots(&self) -> impl Iterator<Item = [f64; 2]> {
-        let upper: &[f64] = match &self.style {
-            Style::Band(upper) => upper,
-            _ => &[],
-        };
-        let above = self.points.iter().zip(upper).map(|(p, &y)| [p[0], y]);
-        self.points.iter().copied().chain(above)
-    }
 }
 
 impl Plot {
@@ -250,10 +181,4 @@ fn whole() -> Rect {
         right: f64::from(SIZE[0]),
         bottom: f64::from(SIZE[1]),
     }
-}
-
-/// Whether an axis can show `value`.
-pub(crate) fn shown(value: f64, log: bool) -> bool {
-    // Beyond these bounds a range may overflow.
-    value.is_finite() && value.abs() < 1e150 && (!log || value > 1e-150)
 }

@@ -1,10 +1,14 @@
 //! What a schema cannot say.
 
 pub(crate) mod bounds;
+pub(crate) mod corners;
+pub(crate) mod dimension;
 pub(crate) mod geometry;
 pub(crate) mod motion;
 pub(crate) mod names;
+pub(crate) mod outlets;
 pub(crate) mod overlap;
+pub(crate) mod problems;
 pub(crate) mod shapes;
 pub(crate) mod time;
 pub(crate) mod walls;

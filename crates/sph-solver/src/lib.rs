@@ -30,7 +30,7 @@ pub use setup::assemble::{Assembled, assemble};
 pub use setup::estimate::{Estimate, Size, size};
 pub use setup::examination::{Examination, FieldUse, StageUse, examine};
 pub use setup::memory::Memory;
-pub use setup::relax::Relaxation;
+pub use setup::relaxation::Relaxation;
 pub use sph_viscosity::Solves;
 pub use step::flow::Flow;
 pub use step::outlets::Left;

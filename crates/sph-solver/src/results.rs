@@ -2,6 +2,7 @@
 
 pub(crate) mod advice;
 pub(crate) mod balance;
+pub(crate) mod reference_plots;
 pub(crate) mod reference_table;
 pub(crate) mod references;
 pub(crate) mod report;

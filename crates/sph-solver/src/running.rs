@@ -1,8 +1,10 @@
 //! A run from start to end: clock, files, checkpoints.
 
+pub(crate) mod beginning;
 pub(crate) mod checkpoint;
 pub(crate) mod clock;
 pub(crate) mod counters;
+pub(crate) mod drawn_flow;
 pub(crate) mod driver;
 pub(crate) mod edges;
 pub(crate) mod identity;

@@ -17,6 +17,7 @@ pub(crate) mod placement;
 pub(crate) mod planning;
 pub(crate) mod probe_setup;
 pub(crate) mod relax;
+pub(crate) mod relaxation;
 pub(crate) mod room;
 pub(crate) mod shapes;
 pub(crate) mod soil_remarks;

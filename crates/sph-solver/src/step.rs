@@ -1,11 +1,14 @@
 //! What happens in a step: evaluation, kicks, drifts, and going back.
 
+pub(crate) mod births;
 pub(crate) mod clocks;
 pub(crate) mod drift;
 pub(crate) mod flow;
+pub(crate) mod going_back;
 pub(crate) mod guard;
 pub(crate) mod kept_rates;
 pub(crate) mod kick;
+pub(crate) mod leaving;
 pub(crate) mod nursery;
 pub(crate) mod outlets;
 pub(crate) mod snapshot;

@@ -1,68 +1,17 @@
 //! Runs what a study has not run yet, one by one or side by side.
 
-use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use sph_solver::{Progress, SolverError};
+use sph_solver::SolverError;
 
-use crate::machine::Origin;
-use crate::plan::{Study, Variant};
+use crate::options::Options;
+use crate::plan::Study;
 use crate::record::{Record, Status};
 use crate::repeat;
+use crate::variant::Variant;
 use crate::verdict::{Colour, verdict};
-
-/// How a study is run.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// Folder of all its files.
-    pub out: PathBuf,
-    /// Threads; `None` for all cores.
-    pub threads: Option<usize>,
-    /// Whether finished variants are run again.
-    pub fresh: bool,
-    /// On what and by what variants are run, for the records.
-    pub origin: Origin,
-}
-
-impl Options {
-    /// Folder of a variant.
-    pub fn folder(&self, variant: &Variant) -> PathBuf {
-        self.out.join("variants").join(&variant.name)
-    }
-
-    /// What is known of a variant from before.
-    pub fn known(&self, variant: &Variant) -> Option<Record> {
-        let record = Record::load(&self.folder(variant));
-        let forgotten = self.fresh && variant.wanted;
-        record.filter(|r| !forgotten && r.fingerprint == variant.fingerprint)
-    }
-
-    /// Threads in force.
-    pub fn threads(&self) -> usize {
-        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-        self.threads.unwrap_or_else(cores)
-    }
-}
-
-/// A watcher of a study; variants may call it from several threads.
-pub trait Watcher: Sync {
-    /// A repetition of a variant begins or goes on.
-    fn started(&self, _variant: &Variant, _repetition: usize) {}
-    /// After every step.
-    fn step(&self, _variant: &Variant, _progress: &Progress) {}
-    /// A line worth saying.
-    fn message(&self, _variant: &Variant, _text: &str) {}
-    /// A variant has come to an end, or had one.
-    fn finished(&self, _variant: &Variant, _record: &Record) {}
-    /// Whether to stop, with what is finished kept.
-    fn stop(&self) -> bool {
-        false
-    }
-}
-
-/// A watcher that says nothing.
-impl Watcher for () {}
+use crate::watcher::Watcher;
 
 /// What running a study gave.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde_json::Value as Json;
 use toml::{Table, Value};
 
-use crate::scaling::Scaling;
+use crate::cost::Scaling;
 
 /// A table whose keys are those of a scene.
 type SceneValues = serde_json::Map<String, Json>;

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::file::Bounds;
-use crate::ladder::Ladder;
 use crate::plan::Study;
-use crate::results::VariantResult;
+use crate::rung::Ladder;
+use crate::variant_result::VariantResult;
 use crate::verdict::Colour;
 
 /// One axis, gone along with one combination of plugins.

@@ -7,9 +7,11 @@ use sph_io::{IoError, escape};
 use sph_solver::Trouble;
 
 use crate::frontier::Frontier;
+use crate::grid::grid;
+use crate::matrix_plots;
 use crate::record::Status;
-use crate::results::{Results, VariantResult};
-use crate::{matrix_plots, report};
+use crate::results::Results;
+use crate::variant_result::VariantResult;
 
 /// How the table of colours looks.
 pub const STYLE: &str = "\
@@ -194,7 +196,7 @@ fn runs(results: &Results, lines: &[&Frontier]) -> String {
         }
     }
     let heads: Vec<String> = HEADS[1..].iter().map(|h| (*h).to_string()).collect();
-    report::grid(&heads, &rows, |k| classes[k].clone())
+    grid(&heads, &rows, |k| classes[k].clone())
 }
 
 /// What a terminal shows: one row per axis and combination.

@@ -3,7 +3,8 @@
 use sph_io::{Plot, Series, Style};
 
 use crate::frontier::Frontier;
-use crate::results::{Results, VariantResult};
+use crate::results::Results;
+use crate::variant_result::VariantResult;
 use crate::verdict::Colour;
 
 /// The plot of every axis with its name, combinations of plugins as lines.

@@ -1,34 +1,21 @@
 //! From a study file to variants that are known to be good, before any of them is run.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use sph_core::{RegistryError, SceneProblem, suggestion, typed};
-use sph_scene::{Loaded, Override, Source, read_text};
+use sph_scene::{Override, Source, read_text};
 use sph_solver::{SolverError, examine};
 use toml::Table;
 
 use crate::axis::{self, Axis};
 use crate::combine::{combinations, fits};
 use crate::file::StudyFile;
-use crate::ladder::{self, Ladder, Rung};
+use crate::ladder;
 use crate::mistake::{Blame, Refused};
 use crate::reader::{Reader, refinement};
-
-/// The text of a scene and the file name against which it names other files.
-#[derive(Clone, Debug)]
-pub struct SceneText {
-    /// Name without folder and extension.
-    pub name: String,
-    /// Its text.
-    pub text: String,
-    /// Its file.
-    pub file: String,
-    /// Folders besides its own whose files it may name.
-    pub allowed: Vec<PathBuf>,
-}
-
-/// Finds the scene that a study names, from the study's folder; the error is told as it is.
-pub type FindScene<'a> = dyn Fn(&Path, &str) -> Result<SceneText, String> + 'a;
+use crate::rung::Ladder;
+use crate::scene_text::{FindScene, SceneText};
+use crate::variant::Variant;
 
 /// A study whose variants are known to be good.
 #[derive(Clone, Debug)]
@@ -52,29 +39,6 @@ pub struct Study {
     /// The variants, in the order in which they run.
     pub variants: Vec<Variant>,
     source: Source,
-}
-
-/// One scene of a study.
-#[derive(Clone, Debug)]
-pub struct Variant {
-    /// Name, which is that of its folder too.
-    pub name: String,
-    /// Label on every axis.
-    pub labels: Vec<String>,
-    /// Value of the refinement's key.
-    pub refinement: Option<f64>,
-    /// Names of the references that are judged.
-    pub errors: Vec<String>,
-    /// Its place on an axis that is gone along until it breaks.
-    pub rung: Option<Rung>,
-    /// Whether it is to be run, or only shown if it has been.
-    pub wanted: bool,
-    /// The scene.
-    pub loaded: Loaded,
-    /// What its result depends on.
-    pub fingerprint: String,
-    /// For every override of the scene the path in the study file that gives it, if it does.
-    pub(crate) given_by: Vec<Option<String>>,
 }
 
 impl Study {

@@ -4,7 +4,8 @@ use sph_core::number;
 use sph_io::{Plot, Series, Style};
 
 use crate::order::Orders;
-use crate::results::{Results, SeriesResult};
+use crate::results::Results;
+use crate::variant_result::SeriesResult;
 
 /// Most series of which all are named.
 const MOST: usize = 12;

@@ -11,7 +11,8 @@ use crate::combine::{Combination, fits};
 use crate::file::StudyFile;
 use crate::fingerprint::fingerprint;
 use crate::mistake::{Blame, Mistake, Refused};
-use crate::plan::{SceneText, Variant};
+use crate::scene_text::SceneText;
+use crate::variant::Variant;
 
 /// The key over which the order of convergence is computed, where a study names none.
 const REFINEMENT: &str = "numerics.spacing";

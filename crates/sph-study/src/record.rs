@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use sph_io::IoError;
 use sph_solver::{ErrorEntry, Summary, Trouble};
 
+use crate::cost::{Cost, SolveCost};
 use crate::machine::Origin;
-use crate::scaling::{Cost, SolveCost};
 
 /// Name of the record in a variant's folder.
 const FILE: &str = "record.json";

@@ -6,9 +6,11 @@ use std::time::Instant;
 use sph_io::IoError;
 use sph_solver::{Command, Identity, Observer, Progress, RunOptions, SolverError, Start, run};
 
-use crate::execute::{Options, Watcher};
-use crate::plan::{Study, Variant};
+use crate::options::Options;
+use crate::plan::Study;
 use crate::record::{Record, Status};
+use crate::variant::Variant;
+use crate::watcher::Watcher;
 
 /// Files that only an interrupted variant needs, or one whose output is kept.
 const CHECKPOINT: &str = "checkpoint.sph";

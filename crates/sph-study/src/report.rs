@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use sph_core::number;
 use sph_io::{IoError, escape};
 
+use crate::grid::grid;
 use crate::machine::Origin;
 use crate::matrix;
 use crate::plots;
@@ -95,30 +96,6 @@ fn lines(text: &str) -> String {
         .lines()
         .map(|l| escape(&l.replace('\t', "    ")).into_owned());
     escaped.collect::<Vec<_>>().join("\n")
-}
-
-/// A table with its heads, if there are any; every row has a class.
-pub(crate) fn grid(
-    heads: &[String],
-    rows: &[Vec<String>],
-    class: impl Fn(usize) -> String,
-) -> String {
-    let mut text = String::from("<div class=\"wide\"><table>\n");
-    let cells = |row: &[String], tag: &str| -> String {
-        let cell = |c: &String| format!("<{tag}>{}</{tag}>", escape(c));
-        row.iter().map(cell).collect()
-    };
-    if !heads.is_empty() {
-        let _ = writeln!(text, "<tr>{}</tr>", cells(heads, "th"));
-    }
-    for (k, row) in rows.iter().enumerate() {
-        let _ = match class(k).as_str() {
-            "" => writeln!(text, "<tr>{}</tr>", cells(row, "td")),
-            class => writeln!(text, "<tr class=\"{class}\">{}</tr>", cells(row, "td")),
-        };
-    }
-    text.push_str("</table></div>\n");
-    text
 }
 
 fn facts(results: &Results) -> String {

@@ -2,78 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sph_core::number;
 use sph_io::{Plot, Series, Style};
 
+use crate::cost::{Cost, Scaling};
 use crate::order::slope;
-use crate::results::{SeriesResult, VariantResult};
-
-/// A cost that is told against the number of particles.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Scaling {
-    /// Of what.
-    pub cost: Cost,
-    /// Name of the axis whose entries compete: for each size the fastest is told, and where another takes over.
-    pub between: Option<String>,
-}
-
-/// What costs time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Cost {
-    /// A step, everything included.
-    #[default]
-    Step,
-    /// A solve of the implicit viscosity's system for all components.
-    Solve,
-}
-
-impl Cost {
-    /// As it stands in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Cost::Step => "time per step",
-            Cost::Solve => "time per solve",
-        }
-    }
-
-    /// Seconds of one, of a run that took `wall` seconds for `steps`; nothing if there was none.
-    pub fn seconds(self, wall: Option<f64>, steps: u64, solves: Option<&SolveCost>) -> Option<f64> {
-        let per = |seconds: f64, n: u64| (n > 0).then(|| seconds / n as f64);
-        match self {
-            Cost::Step => per(wall?, steps),
-            Cost::Solve => solves.and_then(|s| per(s.seconds, s.count)),
-        }
-    }
-}
-
-/// What the implicit solves of a variant took.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct SolveCost {
-    /// Systems solved.
-    pub count: u64,
-    /// Wall-clock seconds of all.
-    pub seconds: f64,
-    /// Mean number of iterations.
-    pub iterations: f64,
-    /// Most bytes of a matrix and of what the solver kept for it.
-    pub bytes: usize,
-}
-
-impl SolveCost {
-    pub(crate) fn of(solves: &sph_solver::Solves) -> Self {
-        SolveCost {
-            count: solves.by_method.values().sum(),
-            seconds: solves.wall_seconds,
-            iterations: solves.mean_iterations,
-            bytes: solves.most_bytes,
-        }
-    }
-}
+use crate::variant_result::{SeriesResult, VariantResult};
 
 /// A name with its particles and seconds, by size.
 type Competitor = (String, Vec<[f64; 2]>);

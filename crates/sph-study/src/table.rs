@@ -6,10 +6,11 @@ use std::path::Path;
 use sph_core::number;
 use sph_io::{Durability, IoError, clean, write_atomic};
 
+use crate::cost::Cost;
 use crate::matrix;
 use crate::record::Status;
-use crate::results::{Results, VariantResult};
-use crate::scaling::Cost;
+use crate::results::Results;
+use crate::variant_result::VariantResult;
 
 /// One row per variant, the first one being the heads of the columns.
 pub fn rows(results: &Results) -> Vec<Vec<String>> {

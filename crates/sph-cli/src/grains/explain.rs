@@ -3,8 +3,7 @@
 use dem_scene::{Examination, Loaded, examine};
 use serde_json::Value as Json;
 
-use crate::explain::parameters;
-use crate::layout::{columns, paragraph};
+use crate::layout::{columns, paragraph, parameters};
 use crate::trouble::Trouble;
 use crate::{console, number};
 

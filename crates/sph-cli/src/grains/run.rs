@@ -8,8 +8,8 @@ use sph_solver::{Command, Observer, Progress};
 
 use super::outcome;
 use crate::arguments::RunArguments;
+use crate::left_behind::{CHECKPOINT, failed_summary, going_on, remedy};
 use crate::progress::Watcher;
-use crate::run::{CHECKPOINT, failed_summary, going_on, remedy};
 use crate::trouble::Trouble;
 use crate::{console, interrupt};
 

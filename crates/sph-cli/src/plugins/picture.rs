@@ -5,7 +5,6 @@ use std::path::Path;
 use sph_core::{PluginInfo, number, parse_quantity};
 use sph_io::{Panels, Plot, Series};
 use sph_solver::rheometer::{self, Rheology};
-use toml::{Table, Value};
 
 use super::specimen::{self, Specimen};
 use crate::arguments::PluginArguments;
@@ -255,21 +254,4 @@ fn numbers(option: &str, given: &[String], unit: &str) -> Result<Vec<f64>, Troub
         value.map_err(|why| Trouble::usage(format!("--{option}: {why}")))
     };
     given.iter().map(read).collect()
-}
-
-/// How a value of `--vary` stands in a legend: `{a = {b = 1}}` as `a b = 1`.
-pub fn plainly(value: &Value) -> String {
-    let entry = |(key, value): (&String, &Value)| match value {
-        Value::Table(inner) => format!("{key} {}", table(inner)),
-        other => format!("{key} = {}", plainly(other)),
-    };
-    fn table(inner: &Table) -> String {
-        plainly(&Value::Table(inner.clone()))
-    }
-    match value {
-        Value::Table(keys) => keys.iter().map(entry).collect::<Vec<_>>().join(", "),
-        Value::String(text) => text.clone(),
-        Value::Float(x) => number::plain(*x),
-        other => other.to_string(),
-    }
 }

@@ -1,12 +1,11 @@
 //! Laws with the parameters of their examples, and what is put on top of them.
 
 use serde_json::Value as Json;
-use sph_core::{PluginInfo, RegistryError, suggestion};
+use sph_core::{PluginInfo, RegistryError, number, suggestion};
 use sph_scene::Override;
 use sph_solver::rheometer::{self, Rheology};
 use toml::{Table, Value};
 
-use super::picture::plainly;
 use crate::scene_file::overrides;
 use crate::trouble::Trouble;
 
@@ -121,4 +120,21 @@ fn example(plugin: &PluginInfo) -> Table {
     let phase = phases.and_then(|p| p.values().next());
     let table = phase.and_then(|p| p.get("rheology")?.get(plugin.name)?.as_table());
     table.cloned().unwrap_or_default()
+}
+
+/// How a value of `--vary` stands in a legend: `{a = {b = 1}}` as `a b = 1`.
+fn plainly(value: &Value) -> String {
+    let entry = |(key, value): (&String, &Value)| match value {
+        Value::Table(inner) => format!("{key} {}", table(inner)),
+        other => format!("{key} = {}", plainly(other)),
+    };
+    fn table(inner: &Table) -> String {
+        plainly(&Value::Table(inner.clone()))
+    }
+    match value {
+        Value::Table(keys) => keys.iter().map(entry).collect::<Vec<_>>().join(", "),
+        Value::String(text) => text.clone(),
+        Value::Float(x) => number::plain(*x),
+        other => other.to_string(),
+    }
 }

@@ -2,8 +2,8 @@
 
 use sph_core::plausible::Quantity;
 
+use crate::checks::problems::Problems;
 use crate::checks::wave;
-use crate::checks::whole::Problems;
 use crate::geometry::periodic_place::{ROUNDING, spans};
 use crate::{Region, Scene};
 

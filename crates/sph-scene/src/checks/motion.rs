@@ -1,8 +1,8 @@
 //! The motion of walls.
 
 use crate::Motion;
-use crate::checks::geometry::Dimension;
-use crate::checks::whole::Problems;
+use crate::checks::dimension::Dimension;
+use crate::checks::problems::Problems;
 
 /// Checks the vectors, the times and the courses of a motion.
 pub(crate) fn check(motion: &Motion, of: Dimension, path: &str, found: &mut Problems) {

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use sph_core::suggestion;
 use toml::{Table, Value};
 
-use crate::checks::whole::{Problems, inside};
+use crate::checks::problems::Problems;
 use crate::{Norm, Reference, Scene, Source};
 
 /// Kinds of tables with names that the user chooses.
@@ -246,4 +246,9 @@ fn measured(reference: &Reference, path: &str, found: &mut Problems) {
             found.add(format!("{path}.{key}"), message);
         }
     }
+}
+
+/// The named tables of a table.
+pub(crate) fn inside(value: Option<&Value>) -> impl Iterator<Item = (&String, &Value)> {
+    value.and_then(Value::as_table).into_iter().flatten()
 }

@@ -1,6 +1,6 @@
 //! Bodies that claim the same place.
 
-use crate::checks::whole::Problems;
+use crate::checks::problems::Problems;
 use crate::geometry::periodic_place::Placed;
 use crate::geometry::vector::point;
 use crate::{Region, Scene};

@@ -1,8 +1,9 @@
 //! Bodies: their shapes, and how they are filled.
 
-use crate::checks::geometry::{Dimension, polygon};
+use crate::checks::corners::polygon;
+use crate::checks::dimension::Dimension;
+use crate::checks::problems::Problems;
 use crate::checks::wave;
-use crate::checks::whole::Problems;
 use crate::tables::body::ShapeKeys;
 use crate::{Body, LevelSurface, Pressure, Scene};
 

@@ -1,6 +1,6 @@
 //! Times and intervals: inside the run, in order.
 
-use crate::checks::whole::Problems;
+use crate::checks::problems::Problems;
 use crate::{Numerics, Scene};
 
 /// Most outputs of fields in a run.

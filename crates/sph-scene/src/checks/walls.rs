@@ -2,10 +2,11 @@
 
 use sph_core::parse_unit;
 
-use crate::checks::geometry::{Dimension, chain, crossed, polygon};
+use crate::checks::corners::{chain, crossed, polygon};
+use crate::checks::dimension::Dimension;
 use crate::checks::motion;
+use crate::checks::problems::Problems;
 use crate::checks::shapes::extrusion;
-use crate::checks::whole::Problems;
 use crate::geometry::wall_geometry::has_ending;
 use crate::tables::wall_shapes::{Face, Wedge};
 use crate::{Condition, Side, Wall};

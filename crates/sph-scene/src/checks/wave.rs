@@ -1,6 +1,6 @@
 //! Waves that bodies carry at the start.
 
-use crate::checks::whole::Problems;
+use crate::checks::problems::Problems;
 use crate::geometry::periodic_place::ROUNDING;
 use crate::{Body, Pressure, Region, Scene, Wave};
 

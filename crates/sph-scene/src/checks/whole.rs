@@ -4,19 +4,11 @@ use sph_core::{Place, SceneProblem, kinds};
 use toml::{Table, Value};
 
 use crate::checks::geometry;
-use crate::checks::names;
+use crate::checks::names::{self, inside};
 use crate::checks::overlap;
+use crate::checks::problems::Problems;
 use crate::checks::time;
 use crate::{Scene, Source};
-
-/// Collects problems with their paths.
-pub(crate) struct Problems(pub Vec<SceneProblem>);
-
-impl Problems {
-    pub fn add(&mut self, path: impl Into<String>, message: impl Into<String>) {
-        self.0.push(SceneProblem::new(path, message));
-    }
-}
 
 /// Checks that need no types: names, and one plugin where there is to be one.
 pub(crate) fn tables(scene: &Table) -> Vec<SceneProblem> {
@@ -51,11 +43,6 @@ pub(crate) fn tables(scene: &Table) -> Vec<SceneProblem> {
     }
     names::spelling(scene, &mut found);
     found.0
-}
-
-/// The named tables of a table.
-pub(crate) fn inside(value: Option<&Value>) -> impl Iterator<Item = (&String, &Value)> {
-    value.and_then(Value::as_table).into_iter().flatten()
 }
 
 fn single(plugins: Option<&Value>, path: &str, found: &mut Problems) {

@@ -30,6 +30,24 @@ enum Handle {
     Cubic(Point),
 }
 
+impl Handle {
+    /// The first handle of a cubic curve that goes on smoothly from here.
+    fn cubic_mirrored(&self, from: Point) -> Point {
+        match *self {
+            Handle::Cubic(p) => from + (from - p),
+            _ => from,
+        }
+    }
+
+    /// The handle of a quadratic one.
+    fn quadratic_mirrored(&self, from: Point) -> Point {
+        match *self {
+            Handle::Quadratic(p) => from + (from - p),
+            _ => from,
+        }
+    }
+}
+
 struct Pen {
     path: BezPath,
     at: Point,
@@ -47,28 +65,21 @@ impl Pen {
             true => Ok(Point::new(base.x + x, base.y + y)),
             false => Err(format!("d: ({x}, {y}) is out of range for this spacing")),
         };
-        let mirrored = |p: Point| from + (from - p);
         let mut handle = Handle::None;
         if !matches!(segment, PathSegment::MoveTo { .. }) && !self.down {
-            self.path.move_to(from);
-            self.start = from;
-            self.down = true;
+            self.begin(from);
         }
         self.at = match segment {
             PathSegment::MoveTo { x, y, .. } => {
-                self.start = place(x, y)?;
-                self.path.move_to(self.start);
-                self.down = true;
+                self.begin(place(x, y)?);
                 self.start
             }
             PathSegment::LineTo { x, y, .. } => self.line(place(x, y)?),
             PathSegment::HorizontalLineTo { x, .. } => {
-                let to = Point::new(place(x, 0.0)?.x, from.y);
-                self.line(to)
+                self.line(Point::new(place(x, 0.0)?.x, from.y))
             }
             PathSegment::VerticalLineTo { y, .. } => {
-                let to = Point::new(from.x, place(0.0, y)?.y);
-                self.line(to)
+                self.line(Point::new(from.x, place(0.0, y)?.y))
             }
             PathSegment::CurveTo {
                 x1,
@@ -79,36 +90,19 @@ impl Pen {
                 y,
                 ..
             } => {
-                let (first, second, to) = (place(x1, y1)?, place(x2, y2)?, place(x, y)?);
-                handle = Handle::Cubic(second);
-                self.path.curve_to(first, second, to);
-                to
+                let corners = [place(x1, y1)?, place(x2, y2)?, place(x, y)?];
+                self.cubic(corners, &mut handle)
             }
             PathSegment::SmoothCurveTo { x2, y2, x, y, .. } => {
-                let first = match self.handle {
-                    Handle::Cubic(p) => mirrored(p),
-                    _ => from,
-                };
-                let (second, to) = (place(x2, y2)?, place(x, y)?);
-                handle = Handle::Cubic(second);
-                self.path.curve_to(first, second, to);
-                to
+                let first = self.handle.cubic_mirrored(from);
+                self.cubic([first, place(x2, y2)?, place(x, y)?], &mut handle)
             }
             PathSegment::Quadratic { x1, y1, x, y, .. } => {
-                let (control, to) = (place(x1, y1)?, place(x, y)?);
-                handle = Handle::Quadratic(control);
-                self.path.quad_to(control, to);
-                to
+                self.quadratic([place(x1, y1)?, place(x, y)?], &mut handle)
             }
             PathSegment::SmoothQuadratic { x, y, .. } => {
-                let control = match self.handle {
-                    Handle::Quadratic(p) => mirrored(p),
-                    _ => from,
-                };
-                let to = place(x, y)?;
-                handle = Handle::Quadratic(control);
-                self.path.quad_to(control, to);
-                to
+                let control = self.handle.quadratic_mirrored(from);
+                self.quadratic([control, place(x, y)?], &mut handle)
             }
             PathSegment::EllipticalArc {
                 rx,
@@ -121,12 +115,13 @@ impl Pen {
                 ..
             } => {
                 place(rx, ry)?;
-                let to = place(x, y)?;
+                let (to, radii) = (place(x, y)?, Vec2::new(rx, ry));
+                let x_rotation = x_axis_rotation.to_radians();
                 let arc = SvgArc {
                     from,
                     to,
-                    radii: Vec2::new(rx, ry),
-                    x_rotation: x_axis_rotation.to_radians(),
+                    radii,
+                    x_rotation,
                     large_arc,
                     sweep,
                 };
@@ -140,6 +135,27 @@ impl Pen {
         };
         self.handle = handle;
         Ok(())
+    }
+
+    /// A new line from here.
+    fn begin(&mut self, at: Point) {
+        self.path.move_to(at);
+        self.start = at;
+        self.down = true;
+    }
+
+    /// A curve by two handles; the second is mirrored by what goes on smoothly.
+    fn cubic(&mut self, [first, second, to]: [Point; 3], handle: &mut Handle) -> Point {
+        *handle = Handle::Cubic(second);
+        self.path.curve_to(first, second, to);
+        to
+    }
+
+    /// The same by one handle.
+    fn quadratic(&mut self, [control, to]: [Point; 2], handle: &mut Handle) -> Point {
+        *handle = Handle::Quadratic(control);
+        self.path.quad_to(control, to);
+        to
     }
 
     fn line(&mut self, to: Point) -> Point {

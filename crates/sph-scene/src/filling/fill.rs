@@ -3,30 +3,9 @@
 use std::collections::HashMap;
 
 use crate::Region;
-use crate::filling::nodes::Nodes;
+use crate::filling::nodes::{Nodes, Offset};
 use crate::geometry::periodic_place::{Placed, ROUNDING, wrapped};
 use crate::geometry::vector::distance;
-
-/// Where the lattice of a body starts, counted from the lower corner of the box around it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Offset {
-    /// Nodes at whole spacings: a row stands one spacing off the body's side. A node is kept if
-    /// it is at least half a spacing inside.
-    None,
-    /// Nodes at half spacings: a row stands half a spacing off the body's side. A node is kept
-    /// if it is inside.
-    Half,
-}
-
-impl Offset {
-    /// The offset as a fraction of the spacing.
-    pub fn shift(self) -> f64 {
-        match self {
-            Offset::None => 0.0,
-            Offset::Half => 0.5,
-        }
-    }
-}
 
 /// The particles of one body.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,27 @@
 //! The lattice of one body: how many nodes along each axis and where they are.
 
-use crate::filling::fill::Offset;
 use crate::geometry::periodic_place::{Placed, ROUNDING};
+
+/// Where the lattice of a body starts, counted from the lower corner of the box around it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Offset {
+    /// Nodes at whole spacings: a row stands one spacing off the body's side. A node is kept if
+    /// it is at least half a spacing inside.
+    None,
+    /// Nodes at half spacings: a row stands half a spacing off the body's side. A node is kept
+    /// if it is inside.
+    Half,
+}
+
+impl Offset {
+    /// The offset as a fraction of the spacing.
+    pub fn shift(self) -> f64 {
+        match self {
+            Offset::None => 0.0,
+            Offset::Half => 0.5,
+        }
+    }
+}
 
 /// Nodes lo + (k + shift)·δr for k below the count, along every axis.
 pub(crate) struct Nodes<const D: usize> {

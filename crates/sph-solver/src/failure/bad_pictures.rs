@@ -6,7 +6,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_io::{Picture, View};
 
 use crate::Flow;
-use crate::running::output::{column_of, drawn_walls, padded};
+use crate::running::drawn_flow::{column_of, drawn_walls, padded};
 
 /// The whole of it.
 pub const WHOLE: &str = "bad_state.png";

@@ -4,7 +4,11 @@ use rayon::prelude::*;
 use sph_core::{FieldError, Vect, fields};
 
 use crate::Flow;
-use crate::running::mach::{COMPRESSIBLE, SUPERSONIC};
+
+/// Mach number from which densities move by Ma² ≈ 10 % and more: the run is told of it.
+pub(crate) const COMPRESSIBLE: f64 = 0.3;
+/// Mach number from which pressure cannot reach the fluid ahead: a weakly compressible law has no meaning.
+pub(crate) const SUPERSONIC: f64 = 1.0;
 
 const BATCH: usize = 4096;
 

@@ -8,8 +8,8 @@ use sph_viscosity::ImplicitViscosity;
 use crate::failure::error::{Failure, SolverError};
 use crate::results::advice::{self, Costs};
 use crate::results::balance::Balance;
-use crate::results::references;
-use crate::results::summary::{Drift, SCHEMA_VERSION, Status, Summary};
+use crate::results::summary::{Drift, ErrorEntry, SCHEMA_VERSION, Status, Summary};
+use crate::results::{reference_plots, references};
 use crate::running::run::Running;
 use crate::setup::memory::Memory;
 
@@ -30,23 +30,10 @@ impl<const D: usize> Running<'_, D> {
             warnings.push(failure.to_string());
             warnings.extend(failure.findings.advice.iter().cloned());
         }
-        let series = self.options.out.join("series.csv");
         let errors = match status {
             Status::Failed => BTreeMap::new(),
-            _ => references::errors(
-                self.scene,
-                flow,
-                &self.parts.solutions,
-                &series,
-                &mut warnings,
-            )?,
+            _ => self.compare(&mut warnings)?,
         };
-        if status != Status::Failed
-            && let Err(error) = references::plots(self.scene, &self.options.out)
-        {
-            // A plot is a convenience: its failure must not cost the result.
-            warnings.push(format!("the plots were not written: {error}"));
-        }
         let balance = Balance::of(flow)?;
         let drift = self.drift(&balance);
         let over = |x: f64, scale: f64| if scale > 0.0 { x / scale } else { 0.0 };
@@ -58,20 +45,9 @@ impl<const D: usize> Running<'_, D> {
         let neighbours = world.mean_neighbours()?;
         let work = particles as f64 * steps as f64;
         let threads = rayon::current_num_threads();
-        let dt_limiters = self.counters.limited.iter();
-        let dt_limiters: BTreeMap<String, f64> = dt_limiters
-            .map(|(name, n)| (name.clone(), *n as f64 / steps.max(1) as f64))
-            .collect();
-        let dt_limits = advice::mean_limits(&self.counters.bounds, steps);
-        let costs = Costs {
-            steps,
-            wall_seconds,
-            dt_limiters: &dt_limiters,
-            remedies: &flow.remedies_of_bounds()?,
-            dt_limits: &dt_limits,
-            stages: &stage_seconds,
-        };
-        let mut advice = advice::advice(&costs);
+        let [dt_limiters, dt_limits] = self.bounds_of_steps();
+        let bounds = [&dt_limiters, &dt_limits];
+        let mut advice = self.advise(wall_seconds, bounds, &stage_seconds)?;
         let escaped = flow.escaped()?;
         let mach = self.say_what_is_odd(escaped, &mut warnings, &mut advice);
         let held: usize = flow.works.iter().map(|w| w.most_bytes()).sum();
@@ -121,6 +97,48 @@ impl<const D: usize> Running<'_, D> {
         };
         sph_io::write_json(self.options.out.join("summary.json"), &summary)?;
         Ok(summary)
+    }
+
+    /// Errors against references, whose pictures are drawn, too.
+    fn compare(
+        &self,
+        warnings: &mut Vec<String>,
+    ) -> Result<BTreeMap<String, ErrorEntry>, SolverError> {
+        let (scene, out) = (self.scene, &self.options.out);
+        let (flow, solutions) = (&self.parts.flow, &self.parts.solutions);
+        let series = out.join("series.csv");
+        let errors = references::errors(scene, flow, solutions, &series, warnings)?;
+        if let Err(error) = reference_plots::plots(scene, out) {
+            // A plot is a convenience: its failure must not cost the result.
+            warnings.push(format!("the plots were not written: {error}"));
+        }
+        Ok(errors)
+    }
+
+    /// By the names of bounds: the share of the steps that each limited, and its mean.
+    fn bounds_of_steps(&self) -> [BTreeMap<String, f64>; 2] {
+        let steps = self.counters.steps;
+        let limited = self.counters.limited.iter();
+        let share = |(name, n): (&String, &u64)| (name.clone(), *n as f64 / steps.max(1) as f64);
+        let means = advice::mean_limits(&self.counters.bounds, steps);
+        [limited.map(share).collect(), means]
+    }
+
+    /// What would make the run shorter.
+    fn advise(
+        &self,
+        wall_seconds: f64,
+        [dt_limiters, dt_limits]: [&BTreeMap<String, f64>; 2],
+        stages: &BTreeMap<String, f64>,
+    ) -> Result<Vec<String>, SolverError> {
+        Ok(advice::advice(&Costs {
+            steps: self.counters.steps,
+            wall_seconds,
+            dt_limiters,
+            remedies: &self.parts.flow.remedies_of_bounds()?,
+            dt_limits,
+            stages,
+        }))
     }
 
     /// Changes of conserved quantities since the start.

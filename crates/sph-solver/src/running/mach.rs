@@ -6,12 +6,8 @@
 use sph_core::StepError;
 use sph_scene::Scene;
 
-use crate::results::balance::Balance;
+use crate::results::balance::{Balance, COMPRESSIBLE, SUPERSONIC};
 
-/// Mach number from which densities move by Ma² ≈ 10 % and more: the run is told of it.
-pub(crate) const COMPRESSIBLE: f64 = 0.3;
-/// Mach number from which pressure cannot reach the fluid ahead: a weakly compressible law has no meaning.
-pub(crate) const SUPERSONIC: f64 = 1.0;
 /// Share of the mass that has to be as fast.
 const SHARE: f64 = 0.1;
 

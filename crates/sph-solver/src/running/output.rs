@@ -7,11 +7,10 @@ use sph_io::{
     Cells, ColourMap, FieldData, FieldValues, Frame, IoError, Location, Picture, Piece, PvdSeries,
     View,
 };
-use sph_neighbours::World;
 use sph_scene::Scene;
 
 use crate::failure::bad_pictures;
-use crate::running::edges::wall_lines;
+use crate::running::drawn_flow::{column_of, drawn_walls, padded};
 use crate::running::series::Probes;
 use crate::{Flow, SolverError};
 
@@ -171,10 +170,6 @@ pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<(
     Ok(())
 }
 
-pub fn padded<const D: usize>(x: &sph_core::Vect<D>) -> [f64; 3] {
-    std::array::from_fn(|k| if k < D { x[k] } else { 0.0 })
-}
-
 fn points<const D: usize>(flow: &Flow<D>) -> Result<Vec<[f64; 3]>, SolverError> {
     let position = flow.world.free.get(fields::POSITION)?;
     Ok(position.iter().map(padded).collect())
@@ -290,37 +285,6 @@ fn map<const D: usize>(
         ..Picture::of(&points, &values)
     };
     Ok(picture.save(path)?)
-}
-
-/// A column with its label, vectors by their lengths; `None` if the scene does not have it.
-pub fn column_of<const D: usize>(flow: &Flow<D>, name: &str) -> Option<(String, Vec<f64>)> {
-    let found = flow.world.free.columns().find(|(n, ..)| *n == name);
-    let (_, unit, _, components, values) = found?;
-    let values: Vec<f64> = match values {
-        Plain::Index(v) => v.iter().map(|x| f64::from(*x)).collect(),
-        Plain::Real(v) if components == 1 => v.into_owned(),
-        Plain::Real(v) => v
-            .chunks(components)
-            .map(|c| c.iter().map(|x| x * x).sum::<f64>().sqrt())
-            .collect(),
-    };
-    let label = match unit {
-        "1" => name.replace('_', " "),
-        unit => format!("{} [{unit}]", name.replace('_', " ")),
-    };
-    Some((label, values))
-}
-
-/// The walls as lines.
-pub fn drawn_walls<const D: usize>(world: &World<D>) -> Vec<[[f64; 3]; 2]> {
-    // A line whose ends are a period apart is drawn at neither side.
-    let longest = 3.0 * world.spacing;
-    let points = &world.walls.points.position;
-    wall_lines(world)
-        .into_iter()
-        .map(|ends| ends.map(|c| padded(&points[c as usize])))
-        .filter(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1]) < longest)
-        .collect()
 }
 
 fn picture<const D: usize>(

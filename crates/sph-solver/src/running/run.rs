@@ -4,14 +4,13 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use sph_core::{StepError, StepLimit, System};
-use sph_io::IoError;
 use sph_scene::Scene;
 
-use crate::Flow;
 use crate::failure::error::SolverError;
 use crate::results::balance::Balance;
 use crate::results::references;
 use crate::results::summary::{Status, Summary};
+use crate::running::beginning::begin;
 use crate::running::checkpoint;
 use crate::running::clock::standing_still;
 use crate::running::counters::Counters;
@@ -105,51 +104,6 @@ fn run_in<const D: usize>(
     };
     let status = running.go(observer)?;
     running.finish(status)
-}
-
-/// Puts the flow where the run begins, and gives what has been counted until there.
-fn begin<const D: usize>(
-    scene: &Scene,
-    options: &RunOptions,
-    flow: &mut Flow<D>,
-    observer: &mut (dyn Observer + Send),
-) -> Result<Counters, SolverError> {
-    let file = options.out.join(checkpoint::FILE);
-    let mut counters = Counters::begin();
-    if options.start.goes_on() {
-        let same = options.start == Start::Resumed;
-        let identity = same.then_some(&options.identity);
-        counters = checkpoint::load(flow, scene, &file, identity)?;
-        flow.recount(&counters.left);
-        for work in &mut flow.works {
-            if let Some(counts) = counters.works.remove(&work.name()) {
-                work.recount(counts);
-            }
-        }
-        let time = flow.world.time;
-        observer.message(&format!(
-            "resuming at t = {time:.6} s, step {}",
-            counters.steps
-        ));
-        return Ok(counters);
-    }
-    if let Start::From(other) = &options.start {
-        checkpoint::start_from(flow, scene, other)?;
-        let time = flow.world.time;
-        let from = other.display();
-        observer.message(&format!("starting at t = {time:.6} s from {from}"));
-        counters.started_at = Some(time.to_bits());
-    }
-    // An old checkpoint must not be resumed into the files of this run.
-    if file.exists() {
-        observer.message(&format!(
-            "note: the earlier run in {} is overwritten (--resume would have gone on with it)",
-            options.out.display()
-        ));
-        let path = file.clone();
-        std::fs::remove_file(&file).map_err(|source| IoError::Write { path, source })?;
-    }
-    Ok(counters)
 }
 
 /// The state before the last step, if any was kept.

@@ -1,13 +1,15 @@
 //! Builds plugins by their names, and collects what is wrong with all of them before giving up.
 
 use serde_json::{Value as Json, json};
-use sph_contribution::open_kinds;
+use sph_contribution::{Contribution, open_kinds};
 use sph_core::{Makes, PluginInfo, Registry, SceneProblem};
 use sph_scene::{PluginChoice, Scene};
 
 use crate::defaults;
 use crate::results::summary::PluginInForce;
-use crate::setup::parts::Part;
+
+/// A contribution with the kind of plugin that it comes from.
+pub type Part<const D: usize> = (&'static str, Box<dyn Contribution<D>>);
 
 /// Builds what a scene names.
 pub struct Builder<'a> {

@@ -23,8 +23,7 @@ use sph_viscosity::{EddyViscosity, EddyViscosityEntry, ViscousOperator, ViscousO
 
 use crate::defaults;
 use crate::results::summary::PluginInForce;
-use crate::setup::builder::Builder;
-use crate::setup::parts::Part;
+use crate::setup::builder::{Builder, Part};
 
 /// Everything the scene's names stand for.
 pub struct Choices<const D: usize> {

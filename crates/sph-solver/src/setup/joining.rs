@@ -7,7 +7,7 @@ use sph_neighbours::World;
 use sph_scene::Scene;
 use sph_state::Laws;
 
-use crate::setup::parts::Part;
+use crate::setup::builder::Part;
 use crate::setup::planning::Planned;
 use crate::step::flow::Flow;
 use crate::step::outlets::Outlets;

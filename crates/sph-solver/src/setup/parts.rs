@@ -11,10 +11,8 @@ use sph_scene::Scene;
 use sph_seepage::Seeping;
 use sph_stress::{Elasticity, Friction, GrainPressure, Materials, Straining, WallFriction};
 
+use crate::setup::builder::Part;
 use crate::setup::choices::Physics;
-
-/// A contribution with the kind of plugin that it comes from.
-pub type Part<const D: usize> = (&'static str, Box<dyn Contribution<D>>);
 
 /// Pair terms that a scene names itself; taken once.
 struct Given<const D: usize>(RefCell<Terms<D>>);

@@ -9,7 +9,7 @@ use sph_neighbours::{Interaction, Terms, fuse_all};
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
-use crate::setup::parts::Part;
+use crate::setup::builder::Part;
 use crate::setup::transported::transported_by;
 use crate::step::stages::{InteractionSweep, SharedWall, WallGeometry, WallState};
 

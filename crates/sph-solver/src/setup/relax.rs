@@ -1,12 +1,12 @@
 //! Relaxing the first particles, so that the density sum is even next to slanted and curved walls.
 
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use sph_boundary::Wall;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{CHUNK, Domain, NOBODY, Row, Scratch, World};
 use sph_scene::Scene;
 
+use crate::setup::relaxation::Relaxation;
 use crate::setup::shapes::Drawn;
 use crate::step::stages::{SharedWall, lock};
 
@@ -16,27 +16,6 @@ const MOBILITY: f64 = 0.4;
 const STRIDE: f64 = 0.1;
 /// No particle is moved nearer to a wall than this share of the spacing.
 const CLEARANCE: f64 = 0.4;
-
-/// What relaxing did; errors are |Σ θ V w / γ − 1| with the volume V that a particle ends up with.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub struct Relaxation {
-    /// Steps taken.
-    pub steps: usize,
-    /// Particles farther than a support from any free surface; the others stay where they are
-    /// and are not counted.
-    pub counted: usize,
-    /// Largest error before.
-    pub largest_before: f64,
-    /// Largest error after.
-    pub largest: f64,
-    /// Root mean square of the error before.
-    pub rms_before: f64,
-    /// Root mean square of the error after.
-    pub rms: f64,
-    /// Volume of a particle over that of a cell of the lattice: what the fluid has per particle,
-    /// from the mean of Σ V w over the particles that see neither a wall nor a surface.
-    pub volume: f64,
-}
 
 /// Density sum over γ, and its gradient by the renormalised operator, 1/m.
 struct Concentration<const D: usize> {

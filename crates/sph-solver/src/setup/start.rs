@@ -10,7 +10,8 @@ use sph_scene::Scene;
 use crate::failure::error::SolverError;
 use crate::setup::initial::InitialState;
 use crate::setup::layers::Layers;
-use crate::setup::relax::{Relaxation, relax};
+use crate::setup::relax::relax;
+use crate::setup::relaxation::Relaxation;
 use crate::setup::shapes::Drawn;
 use crate::step::flow::Flow;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
@@ -13,7 +13,8 @@ use sph_core::{
 use sph_neighbours::{Interaction, World, wall_forces};
 use sph_state::Laws;
 
-use crate::step::clocks::{LISTS, MOTION, Timing};
+use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, Timing};
+use crate::step::guard;
 use crate::step::kept_rates::Kept;
 use crate::step::nursery::Nursery;
 use crate::step::outlets::Outlets;
@@ -95,21 +96,28 @@ impl<const D: usize> System for Flow<D> {
     }
 
     fn keep(&mut self) -> Result<(), StepError> {
-        let mut kept = std::mem::take(&mut self.kept);
-        kept.take(self)?;
-        self.kept = kept;
-        self.keep_rates()
+        self.kept.save(&self.world, self.walls.as_ref())?;
+        self.kept_rates.keep(&self.world.free, &self.evolved)?;
+        Ok(())
     }
 
     fn recall(&mut self, what: Recall) -> Result<(), StepError> {
-        let kept = std::mem::take(&mut self.kept);
-        kept.recall(self, what)?;
-        self.kept = kept;
+        let by_stages = match what {
+            Recall::State => self.written_by_stages(),
+            Recall::Motion | Recall::Scalars => Vec::new(),
+        };
+        let named = (&self.integrated[..], &by_stages[..]);
+        self.kept
+            .recall(&mut self.world, self.walls.as_ref(), what, named)?;
         Ok(())
     }
 
     fn average_rates(&mut self) -> Result<(), StepError> {
-        self.average_with_kept()
+        let places = self.kept.places(&self.world.free)?;
+        let free = &mut self.world.free;
+        self.kept_rates
+            .average(free, &self.evolved, places.as_deref())?;
+        Ok(())
     }
 
     fn kick(&mut self, dt: f64) -> Result<(), StepError> {
@@ -162,7 +170,7 @@ impl<const D: usize> Flow<D> {
         wanted: impl Fn(&dyn Stage<World<D>>) -> bool,
     ) -> Result<(), StepError> {
         let start = Instant::now();
-        crate::step::guard::positions(&self.world)?;
+        guard::positions(&self.world)?;
         self.world.refresh_lists()?;
         self.timings[LISTS].spent += start.elapsed();
         self.moved = false;
@@ -275,5 +283,33 @@ impl<const D: usize> Flow<D> {
         let columns = self.world.free.columns();
         let state = columns.filter(|(_, _, role, ..)| *role == Role::State);
         state.map(|(name, ..)| name).collect()
+    }
+
+    /// All that is asked of a state, as in every evaluation of a run.
+    ///
+    /// # Errors
+    /// The first particle that is out of bounds.
+    pub fn guard(&self, density_bounds: [f64; 2]) -> Result<(), StepError> {
+        guard::positions(&self.world)?;
+        guard::rates(&self.world, &self.laws, density_bounds)
+    }
+
+    pub(crate) fn reset_timings(&mut self) {
+        let services = [LISTS_NAME, "kick and drift"].map(String::from);
+        let names = services
+            .into_iter()
+            .chain(self.stages.iter().map(|s| s.name()))
+            .chain(self.works.iter().map(|w| w.name()));
+        self.timings = names
+            .map(|name| Timing {
+                name,
+                spent: Duration::ZERO,
+            })
+            .collect();
+    }
+
+    /// Time spent per stage and service since the assembly.
+    pub fn timings(&self) -> &[Timing] {
+        &self.timings
     }
 }

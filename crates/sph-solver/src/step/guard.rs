@@ -9,8 +9,6 @@ use sph_core::{StepError, Vect, fields};
 use sph_neighbours::World;
 use sph_state::BoundState;
 
-use crate::Flow;
-
 const BATCH: usize = 4096;
 
 /// The first index, over batches in parallel, at which `bad` holds.
@@ -110,15 +108,4 @@ pub fn rates<const D: usize>(
         return Err(report(world, "acceleration", i, value, "not finite".into()));
     }
     Ok(())
-}
-
-impl<const D: usize> Flow<D> {
-    /// All that is asked of a state, as in every evaluation of a run.
-    ///
-    /// # Errors
-    /// The first particle that is out of bounds.
-    pub fn guard(&self, density_bounds: [f64; 2]) -> Result<(), StepError> {
-        positions(&self.world)?;
-        rates(&self.world, &self.laws, density_bounds)
-    }
 }

@@ -1,18 +1,16 @@
-//! Particles that leave the flow.
+//! Where particles leave the flow.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use sph_core::{SceneProblem, StepError, Store, Taken, fields};
+use sph_core::{SceneProblem, Store, Taken};
 use sph_scene::{Outlet, Scene};
 
-use crate::Flow;
 use crate::setup::placement::Placed;
 
 /// The outlets of a scene.
 pub struct Outlets {
-    all: Vec<Outlet>,
+    pub(crate) all: Vec<Outlet>,
     /// `outlet.NAME.PHASE`, as what has been taken out is counted.
-    labels: Vec<String>,
+    pub(crate) labels: Vec<String>,
 }
 
 /// What has left by an outlet of a phase.
@@ -75,123 +73,5 @@ impl Outlets {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.all.is_empty()
-    }
-}
-
-impl<const D: usize> Flow<D> {
-    /// Takes out the particles that are in an outlet, and counts them in their order.
-    ///
-    /// # Errors
-    /// If nobody is left.
-    pub(crate) fn let_out(&mut self) -> Result<(), StepError> {
-        if self.outlets.is_empty() {
-            return Ok(());
-        }
-        let all = &self.outlets.all;
-        let free = &mut self.world.free;
-        let by = |x: &sph_core::Vect<D>| all.iter().position(|o| o.contains(&(*x).into()));
-        let position = free.get(fields::POSITION)?;
-        let left: Vec<Option<usize>> = position.par_iter().with_min_len(2048).map(by).collect();
-        if left.iter().all(Option::is_none) {
-            return Ok(());
-        }
-        let mass = free.get(fields::MASS)?;
-        let phase = free.get(fields::PHASE).ok();
-        let mut taken = free.taken().to_vec();
-        let phases = taken.len() / all.len();
-        for (k, outlet) in left.iter().enumerate() {
-            let Some(outlet) = outlet else { continue };
-            let count = &mut taken[outlet * phases + phase.map_or(0, |p| p[k] as usize)];
-            count.mass += mass[k];
-            count.particles += 1;
-        }
-        let leaves: Vec<bool> = left.iter().map(Option::is_some).collect();
-        free.take_out(&leaves);
-        free.set_taken(taken);
-        match free.is_empty() {
-            false => Ok(()),
-            true => Err(StepError::Stage {
-                stage: "outlets".into(),
-                reason: "all particles have left: let the run end before".into(),
-            }),
-        }
-    }
-
-    /// What a resumed run has counted: mass as bits, and particles.
-    pub(crate) fn recount(&mut self, left: &[[u64; 2]]) {
-        let mut taken = self.world.free.taken().to_vec();
-        for (count, [mass, particles]) in taken.iter_mut().zip(left) {
-            (count.mass, count.particles) = (f64::from_bits(*mass), *particles);
-        }
-        self.world.free.set_taken(taken);
-    }
-
-    /// Mass that has left, kg.
-    pub(crate) fn mass_left(&self) -> f64 {
-        self.world.free.taken().iter().map(|t| t.mass).sum()
-    }
-
-    /// What has left, by the labels of the outlets and phases.
-    pub(crate) fn left(&self) -> impl Iterator<Item = (&String, Left)> {
-        let taken = self.world.free.taken().iter().map(|t| Left {
-            mass: t.mass,
-            particles: t.particles,
-        });
-        self.outlets.labels.iter().zip(taken)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::step::snapshot::Snapshot;
-
-    const SCENE: &str = "title = \"t\"\ndimension = 2\nrun.end = 1\nnumerics.spacing = 0.1\n\
-         phase.a = { density = 1, velocity_scale = 1, rheology.newtonian = { viscosity = 1 } }\n\
-         phase.b = { density = 1, velocity_scale = 1, rheology.newtonian = { viscosity = 1 } }\n\
-         body.a = { phase = \"a\", box = [[0, 0], [1, 1]] }\n\
-         body.b = { phase = \"b\", box = [[0, 1], [1, 2]] }\n\
-         outlet.right = { beyond = 2 }\n\
-         outlet.below = { box = [[0, -2], [1, -1]] }\n";
-
-    #[test]
-    fn a_step_that_fails_brings_back_who_left_by_it() {
-        let scene = sph_scene::parse(SCENE, "t.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-        let parts = crate::assemble::<2>(&scene.scene).unwrap_or_else(|e| panic!("{e}"));
-        let mut flow = parts.flow;
-        let state = |flow: &Flow<2>| {
-            let free = &flow.world.free;
-            let identity = free.get(fields::IDENTITY).unwrap().to_vec();
-            let mass = free.get(fields::MASS).unwrap().to_vec();
-            let phase = free.get(fields::PHASE).unwrap().to_vec();
-            let position = free.get(fields::POSITION).unwrap().to_vec();
-            (identity, mass, phase, position, free.taken().to_vec())
-        };
-        let sent = |flow: &mut Flow<2>, k: usize, to: [f64; 2]| {
-            flow.world.free.get_mut(fields::POSITION).unwrap()[k] = to.into();
-        };
-        // A first step takes one out for good.
-        sent(&mut flow, 7, [2.5, 0.0]);
-        flow.let_out().unwrap();
-        flow.world.rebuild_lists().unwrap();
-        let mut snapshot = Snapshot::default();
-        snapshot.take(&flow).unwrap();
-        let before = state(&flow);
-        sent(&mut flow, 3, [2.5, 0.0]);
-        sent(&mut flow, 150, [0.5, -1.5]);
-        flow.let_out().unwrap();
-        flow.world.rebuild_lists().unwrap();
-        assert_eq!(flow.world.free.len(), before.0.len() - 2);
-        let left: Vec<_> = flow.left().filter(|(_, l)| l.particles > 0).collect();
-        let sum: u64 = left.iter().map(|(_, l)| l.particles).sum();
-        assert_eq!(sum, 3, "{left:?}");
-        snapshot.restore(&mut flow).unwrap();
-        assert!(state(&flow) == before, "the state before the step is back");
-        let one = 0.01;
-        assert!(
-            (flow.mass_left() - one).abs() < 1e-12,
-            "{}",
-            flow.mass_left()
-        );
     }
 }

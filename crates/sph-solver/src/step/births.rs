@@ -1,0 +1,135 @@
+//! Particles that come into the flow.
+
+use sph_contribution::{Birth, Initial, Newborn};
+use sph_core::{FieldError, StepError, fields};
+
+use crate::step::flow::Flow;
+use crate::step::nursery::Nursery;
+use crate::step::stages::lock;
+
+impl<const D: usize> Flow<D> {
+    /// Lets in who is born at the end of a step of `dt` seconds.
+    ///
+    /// # Errors
+    /// If somebody is born impossible, or a column is missing.
+    pub(crate) fn let_in(&mut self, dt: f64) -> Result<(), StepError> {
+        let Some(nursery) = self.nursery.take() else {
+            return Ok(());
+        };
+        let done = self.bear(&nursery, dt);
+        self.nursery = Some(nursery);
+        done
+    }
+
+    fn bear(&mut self, nursery: &Nursery<D>, dt: f64) -> Result<(), StepError> {
+        let mut all: Vec<Newborn<D>> = Vec::new();
+        for work in &mut self.works {
+            self.world.free.watch(|| work.access());
+            let born = work.births(&mut self.world, dt);
+            let ended = self.world.free.unwatch(|| work.name());
+            ended?;
+            all.extend(born?);
+        }
+        if all.is_empty() {
+            return Ok(());
+        }
+        for newborn in &all {
+            self.refuse(newborn)?;
+        }
+        let first = self.world.free.born().identities;
+        self.fill(nursery, &all)?;
+        // Where they are follows from their places alone, whatever the order in which they were born.
+        self.refresh_lists_and_derived()?;
+        if let Some(walls) = &self.walls {
+            lock(walls).geometry(&mut self.world)?;
+        }
+        self.begin_density(nursery, first)
+    }
+
+    /// Refuses who cannot be.
+    fn refuse(&self, newborn: &Newborn<D>) -> Result<(), StepError> {
+        let sound = newborn.mass > 0.0
+            && newborn.mass.is_finite()
+            && newborn.density > 0.0
+            && newborn.density.is_finite()
+            && newborn.velocity.iter().all(|u| u.is_finite())
+            && self.world.domain.contains(&newborn.position)
+            && (newborn.phase as usize) < self.laws.len();
+        match sound {
+            true => Ok(()),
+            false => Err(StepError::Stage {
+                stage: "births".into(),
+                reason: format!(
+                    "a particle from `{}` is born at {:?} with {} kg, {} kg/m³ and the phase {}: one of them is impossible",
+                    newborn.body,
+                    newborn.position.as_slice(),
+                    newborn.mass,
+                    newborn.density,
+                    newborn.phase
+                ),
+            }),
+        }
+    }
+
+    /// Gives newborn particles their columns.
+    fn fill(&mut self, nursery: &Nursery<D>, all: &[Newborn<D>]) -> Result<(), FieldError> {
+        let free = &mut self.world.free;
+        let slots = free.give_birth(all.len())?;
+        let mut born = free.born();
+        for (slot, newborn) in slots.clone().zip(all) {
+            born.mass += newborn.mass;
+            free.get_mut(fields::POSITION)?[slot] = newborn.position;
+            free.get_mut(fields::VELOCITY)?[slot] = newborn.velocity;
+            free.get_mut(fields::MASS)?[slot] = newborn.mass;
+            free.get_mut(fields::DENSITY)?[slot] = newborn.density;
+            if free.has(fields::PHASE.name) {
+                free.get_mut(fields::PHASE)?[slot] = newborn.phase;
+            }
+        }
+        free.set_born(born);
+        for column in &nursery.columns {
+            for (slot, newborn) in slots.clone().zip(all) {
+                let birth = Birth {
+                    position: newborn.position,
+                    velocity: newborn.velocity,
+                    density: newborn.density,
+                    mass: newborn.mass,
+                    phase: &nursery.phases[newborn.phase as usize],
+                    body: &newborn.body,
+                };
+                match &column.initial {
+                    Initial::Zero => {}
+                    Initial::Scalar(formula) => {
+                        free.get_mut(column.field.scalar())?[slot] = formula(&birth);
+                    }
+                    Initial::Vector(formula) => {
+                        free.get_mut(column.field.vector())?[slot] = formula(&birth);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets what the formulation integrates for those whose identities are not below `first`, so that they have their
+    /// densities.
+    fn begin_density(&mut self, nursery: &Nursery<D>, first: u32) -> Result<(), StepError> {
+        let before: Vec<_> = {
+            let free = &self.world.free;
+            let columns = self.integrated.iter();
+            columns
+                .map(|f| Ok((*f, free.get(*f)?.to_vec())))
+                .collect::<Result<_, FieldError>>()?
+        };
+        nursery.formulation.rebase(&mut self.world)?;
+        let identity = self.world.free.get(fields::IDENTITY)?.to_vec();
+        for (field, values) in before {
+            let column = self.world.free.get_mut(field)?.iter_mut();
+            let all = column.zip(values).zip(&identity);
+            for ((now, before), _) in all.filter(|(_, id)| **id < first) {
+                *now = before;
+            }
+        }
+        Ok(())
+    }
+}
