@@ -144,11 +144,18 @@ impl<const D: usize> ElasticSubSteps<D> {
             return Ok(());
         }
         let phase = world.free.get(fields::PHASE)?;
+        let position = world.free.get(fields::POSITION)?;
+        let limit = world.kernel.support_radius().powi(2);
         let lists = world.lists.nearest();
         let carries = |i: usize| carries[phase[i] as usize];
         let all = touched.par_iter_mut().enumerate().with_min_len(2048);
         all.for_each(|(i, touched)| {
-            *touched = lists.candidates(i).iter().any(|&j| carries(j as usize));
+            let near = |j: usize| {
+                let apart = world.domain.nearest_image(position[i] - position[j]);
+                apart.norm_squared() < limit
+            };
+            let others = lists.candidates(i).iter().map(|&j| j as usize);
+            *touched = carries(i) || others.filter(|&j| carries(j)).any(near);
         });
         Ok(())
     }
