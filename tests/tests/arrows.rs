@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 26] = [
+const ALLOWED: [(&str, &[&str]); 27] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation"]),
     ("dem-grains", &[]),
@@ -99,6 +99,16 @@ const ALLOWED: [(&str, &[&str]); 26] = [
     ("sph-integrators", &["sph-core", "sph-implicit"]),
     ("sph-probes", &["sph-core", "sph-kernels", "sph-neighbours"]),
     ("sph-io", &[]),
+    (
+        "sph-turbulence",
+        &[
+            "sph-core",
+            "sph-neighbours",
+            "sph-contribution",
+            "sph-viscosity",
+            "sph-probes",
+        ],
+    ),
     ("sph-scene", &["scene-text", "surface-file", "sph-core"]),
     (
         "sph-study",
@@ -115,6 +125,7 @@ const ALLOWED: [(&str, &[&str]); 26] = [
             "sph-scene",
             "sph-solver",
             "sph-study",
+            "sph-turbulence",
         ],
     ),
 ];
