@@ -76,16 +76,30 @@ fn assembled<const D: usize>(text: &str, changes: &[&str]) -> Assembled<D> {
     assemble::<D>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn finished(text: &str, threads: usize) -> (Summary, tempfile::TempDir) {
-    let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let folder = tempfile::tempdir().expect("a folder");
+fn into(
+    folder: &std::path::Path,
+    text: &str,
+    changes: &[&str],
+    threads: usize,
+    start: Start,
+) -> Summary {
+    let changes = changes
+        .iter()
+        .map(|c| Override::parse(c).expect("a change"));
+    let changes: Vec<_> = changes.collect();
+    let loaded = parse(text, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
     let options = RunOptions {
-        out: folder.path().to_path_buf(),
-        start: Start::Afresh,
+        out: folder.to_path_buf(),
+        start,
         threads: Some(threads),
         identity: sph_solver::Identity::of_text(text),
     };
-    let summary = run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"));
+    run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn finished(text: &str, threads: usize) -> (Summary, tempfile::TempDir) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let summary = into(folder.path(), text, &[], threads, Start::Afresh);
     (summary, folder)
 }
 
@@ -315,7 +329,8 @@ fn homogeneous_turbulence_decays_as_the_model_says() {
     state(&folder).assert_same(&state(&other), "one and two threads");
 }
 
-/// Walls, closures, transported scalars and flow control together are the same bits on any number of threads, and positive.
+/// Walls, closures, transported scalars and flow control together are the same bits on any number of threads and after a
+/// resumption, and positive.
 #[test]
 fn a_channel_of_all_of_it_is_the_same_on_any_number_of_threads() {
     let rest = "[eddy-viscosity.k-epsilon.channel]\nfriction_velocity = 0.05\ndepth = 0.2\n\
@@ -324,11 +339,37 @@ fn a_channel_of_all_of_it_is_the_same_on_any_number_of_threads() {
     let folders = [1, 2].map(|threads| finished(&text, threads).1);
     let states = folders.each_ref().map(|f| FinalState::of(f.path()));
     states[0].assert_same(&states[1], "one and two threads");
+    let resumed = tempfile::tempdir().expect("a folder");
+    into(
+        resumed.path(),
+        &text,
+        &["run.max_steps=20"],
+        1,
+        Start::Afresh,
+    );
+    into(resumed.path(), &text, &[], 2, Start::Resumed);
+    states[0].assert_same(&FinalState::of(resumed.path()), "whole and resumed");
     for name in [TURBULENT_ENERGY.name, DISSIPATION.name] {
         let values = states[0].columns[name].iter().map(|b| f64::from_bits(*b));
         assert!(
             values.min_by(f64::total_cmp).expect("values") > 0.0,
             "{name}"
+        );
+    }
+    // With forces of a mean over a step, too, and solved for.
+    for change in [
+        "integrator.predictor-corrector={}",
+        "implicit-viscosity.backward-euler={}",
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        into(folder.path(), &text, &[change], 1, Start::Afresh);
+        let columns = FinalState::of(folder.path()).columns;
+        let energy = columns[TURBULENT_ENERGY.name]
+            .iter()
+            .map(|b| f64::from_bits(*b));
+        assert!(
+            energy.min_by(f64::total_cmp).expect("values") > 0.0,
+            "{change}"
         );
     }
     // 40 kg/m that go with 1 m/s.
