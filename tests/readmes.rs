@@ -26,5 +26,6 @@ readmes! {
     Solver "../crates/sph-solver/README.md"
     State "../crates/sph-state/README.md"
     Stress "../crates/sph-stress/README.md"
+    Turbulence "../crates/sph-turbulence/README.md"
     Study "../crates/sph-study/README.md"
 }

@@ -100,6 +100,16 @@ const ALLOWED: [(&str, &[&str]); 27] = [
     ("sph-integrators", &["sph-core", "sph-implicit"]),
     ("sph-probes", &["sph-core", "sph-kernels", "sph-neighbours"]),
     ("sph-io", &[]),
+    (
+        "sph-turbulence",
+        &[
+            "sph-core",
+            "sph-neighbours",
+            "sph-contribution",
+            "sph-viscosity",
+            "sph-probes",
+        ],
+    ),
     ("sph-scene", &["scene-text", "surface-file", "sph-core"]),
     (
         "sph-study",
@@ -116,6 +126,7 @@ const ALLOWED: [(&str, &[&str]); 27] = [
             "sph-scene",
             "sph-solver",
             "sph-study",
+            "sph-turbulence",
         ],
     ),
 ];

@@ -38,5 +38,7 @@ mod trouble;
 mod written;
 
 use sph_core::number;
+// Its plugins are in this binary.
+use sph_turbulence as _;
 
 pub use app::main;

@@ -35,6 +35,12 @@ pub const STRAIN_RATE: Field<Scalar> = Field::new(
 /// Viscosity of the eddies that particles do not resolve.
 pub const EDDY_VISCOSITY: Field<Scalar> =
     Field::new("eddy_viscosity", "Pa s", "viscosity of unresolved eddies");
+/// Shear stress of a wall function over the speed along the wall; 0 out of reach of its walls.
+pub const WALL_FRICTION: Field<Scalar> = Field::new(
+    "wall_friction",
+    "Pa s/m",
+    "shear stress of the wall function over the speed along the wall",
+);
 /// Pressure between the grains of a soil: what friction feels.
 pub const EFFECTIVE_PRESSURE: Field<Scalar> = Field::new(
     "effective_pressure",

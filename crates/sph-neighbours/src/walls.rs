@@ -63,6 +63,8 @@ pub struct Elements<const D: usize> {
     pub grip: Vec<f64>,
     /// Slip length, m; empty where no wall slips partly.
     pub slip: Vec<f64>,
+    /// Whether the friction is that of a wall function; empty where no wall has one.
+    pub wall_function: Vec<bool>,
     /// Friction of soils; empty where no wall has a coefficient.
     pub coulomb: Vec<Coulomb>,
     /// Which named wall the element belongs to.

@@ -1,5 +1,6 @@
 //! What gives the viscosity of eddies that particles do not resolve.
 
+use sph_contribution::Contribution;
 use sph_core::{Stage, contract};
 use sph_neighbours::World;
 
@@ -10,9 +11,13 @@ use sph_neighbours::World;
 pub trait EddyViscosity<const D: usize>: Send {
     /// The stage that writes [`EDDY_VISCOSITY`](sph_core::fields::EDDY_VISCOSITY), Pa s.
     fn stage(&self) -> Box<dyn Stage<World<D>>>;
+    /// What it brings besides: what it refuses, columns, transported scalars, stages, work within a step.
+    fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
+        None
+    }
 }
 
 contract!(
-    /// An eddy viscosity that a scene may name. None is built in yet.
+    /// An eddy viscosity that a scene may name. Those of this project are in `sph-turbulence`.
     pub EddyViscosityEntry, "eddy-viscosity", "viscosity of eddies that particles do not resolve", EddyViscosity<D>
 );

@@ -95,6 +95,7 @@ impl<const D: usize, F: PairFriction<D>, S: ViscositySource> LanePairTerm<D> for
             .both(fields::VOLUME)
             .both(fields::DENSITY)
             .here(fields::MASS)
+            .where_there(fields::WALL_FRICTION)
             .and(self.1.access())
     }
 
@@ -112,6 +113,10 @@ impl<const D: usize, F: PairFriction<D>, S: ViscositySource> LanePairTerm<D> for
             wall_share: &points.share,
             wall_grip: &points.grip,
             wall_slip: &points.slip,
+            wall_friction: match world.walls.elements.wall_function.is_empty() {
+                true => &[],
+                false => world.free.get(fields::WALL_FRICTION)?,
+            },
             elements: &world.walls.elements,
             contacts: &world.walls.contacts,
             rubs: rubs(world),
@@ -143,6 +148,8 @@ pub struct Bound<'a, const D: usize, F, S> {
     wall_share: &'a [f64],
     wall_grip: &'a [f64],
     wall_slip: &'a [(f64, Vect<D>)],
+    /// Of wall functions; empty where no wall has one.
+    wall_friction: &'a [f64],
     elements: &'a Elements<D>,
     contacts: &'a Contacts<D>,
     /// Whether any wall does: else no wall is looked at.
@@ -162,6 +169,8 @@ pub struct Here<const D: usize, V> {
     density: f64,
     /// V/m, which a formulation may keep apart from 1/ρ.
     specific_volume: f64,
+    /// Shear stress of a wall function over the speed along the wall.
+    wall_friction: f64,
     /// Unit vector along the slip past the nearest wall.
     along: Vect<D>,
     /// Normal and distance of the nearest element, where the wall term is to be corrected.
@@ -223,10 +232,13 @@ impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
         slip.try_normalize(0.0).unwrap_or_else(Vect::zeros)
     }
 
-    /// Friction per tangential velocity at an element, before κ: 2 η |∇γ_as|/δr.
+    /// Friction per tangential velocity at an element, before κ: 2 η |∇γ_as|/δr; 2 τ_w/u_t |∇γ_as| of a wall function.
     #[inline(always)]
     fn weight<V>(&self, here: &Here<D, V>, contact: &Contact<D>) -> f64 {
         let s = contact.element as usize;
+        if self.elements.wall_function.get(s) == Some(&true) {
+            return 2.0 * here.wall_friction * contact.gradient.norm();
+        }
         let slip = self.elements.slip.get(s).copied().unwrap_or(0.0);
         let distance = self.distance(here, contact, &self.elements.normal[s]) + slip;
         // κ holds whatever the pair formula makes of volumes and strength.
@@ -296,6 +308,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
             volume: self.volume[i],
             density: self.density[i],
             specific_volume: self.volume[i] / self.mass[i],
+            wall_friction: self.wall_friction.get(i).copied().unwrap_or(0.0),
             along,
             nearest: nearest.map(|c| (self.elements.normal[c.element as usize], c.distance)),
         }

@@ -3,7 +3,7 @@
 //! * [`ViscousOperator`] is a kind of plugin: [`Morris`], [`MonaghanGingold`], [`EspanolRevenga`], [`HuAdamsViscosity`],
 //!   [`KrimiViscosity`]. [`PairFriction`] is what most of them are made of, [`Coupling`] the same as rows of a matrix.
 //! * [`ImplicitViscosity`] takes friction from the end of the step, [`ViscousLimit`] bounds the step where it does not.
-//! * [`EddyViscosity`] is a kind of plugin, added to the viscosity of the laws. None is built in.
+//! * [`EddyViscosity`] is a kind of plugin, added to the viscosity of the laws; none is in this crate.
 #![doc = include_str!("../README.md")]
 
 mod contract;

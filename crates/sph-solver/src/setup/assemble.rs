@@ -81,6 +81,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
 
     let ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
+    let constant = constant_viscosities(scene, &choices.physics.rheologies);
     let formulation = choices.physics.formulation.clone();
     let mut parts = parts(scene, choices.physics);
     let mut free = state(scene, &*formulation, &parts, placed.positions.len())?;
@@ -93,6 +94,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         formulation: &*formulation,
         integrator: &*choices.integrator,
         laws: &laws,
+        viscosities: &constant,
         walls: walls.as_ref(),
         shown: &shown,
     };
@@ -161,6 +163,7 @@ struct About<'a, const D: usize> {
     formulation: &'a dyn Formulation<D>,
     integrator: &'a dyn Integrator,
     laws: &'a Laws,
+    viscosities: &'a [Option<f64>],
     walls: Option<&'a SharedWall<D>>,
     shown: &'a [String],
 }
@@ -177,6 +180,7 @@ impl<const D: usize> About<'_, D> {
         let setting = Setting {
             laws: self.laws,
             phases: &phases,
+            viscosities: self.viscosities,
             density: diffused.evolved,
             summed: self.formulation.compressed().is_none(),
             courant: coefficients.courant,
@@ -273,6 +277,14 @@ fn kinematic_viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Vec<f64> 
     let phases = scene.phase.values().zip(laws);
     phases
         .map(|(phase, law)| law.largest_viscosity() / phase.density)
+        .collect()
+}
+
+/// η/ρ₀ of every phase whose law has one viscosity, m²/s.
+fn constant_viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Vec<Option<f64>> {
+    let phases = scene.phase.values().zip(laws);
+    phases
+        .map(|(phase, law)| Some(law.uniform_viscosity()? / phase.density))
         .collect()
 }
 

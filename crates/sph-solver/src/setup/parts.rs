@@ -29,6 +29,8 @@ impl<const D: usize> Contribution<D> for Given<D> {
 /// All of them, in the order in which their terms are summed.
 pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>) -> Vec<Part<D>> {
     let share = |(scheme, _): &(Box<dyn sph_implicit::TimeScheme>, _)| scheme.implicit_share();
+    let eddies = physics.eddy_viscosity.as_ref();
+    let turbulence = eddies.and_then(|e| e.contribution());
     let materials = Rc::new(Materials {
         laws: physics.rheologies.clone(),
         gradient: physics.velocity_gradient,
@@ -51,6 +53,7 @@ pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>) -> Vec<Part<D>>
     let friction = Friction::new(materials.clone(), solve, scene.numerics.delayed_yield);
     all.push(("velocity-gradient", Box::new(Straining(materials.clone()))));
     all.push(("viscous-operator", Box::new(friction)));
+    all.extend(turbulence.map(|part| ("eddy-viscosity", part)));
     all.push(("elastic-force", Box::new(Elasticity(materials.clone()))));
     if let Some(smoother) = physics.smoother {
         all.push(("smoother", Box::new(Smoothed(smoother))));

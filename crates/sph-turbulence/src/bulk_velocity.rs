@@ -1,0 +1,101 @@
+//! A flow rate that is held.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_contribution::{Contribution, Refusal, Setting, StepWork, contribution_kind};
+use sph_core::{Access, AnyField, StepError, fields, register};
+use sph_neighbours::World;
+
+contribution_kind!(
+    /// A control of the flow rate that a scene may name.
+    pub FlowControlEntry, "flow-control", One, "what holds the flow rate of a periodic flow", "none if left out"
+);
+
+/// After every kick all particles are pushed by U₀ − Σ m u/Σ m along an axis, so that the mean velocity is U₀: a body
+/// force that answers the friction on the walls at once, and is the same everywhere.
+///
+/// The forces between particles sum to nothing, so that the mean of all particles has none of the noise that a slab's has,
+/// and there is no gain to choose. In a steady flow the push is what the walls take: measure it with `wall-force`.
+///
+/// Source: Issa 2004, §3.1.3, Eq. 3.14–3.16, with the whole of the fluid for his slab and without his integrator.
+///
+/// ```toml
+/// [flow-control.bulk-velocity]
+/// velocity = "1.35 m/s"
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BulkVelocity {
+    /// Mean velocity U₀ over mass.
+    #[schemars(extend("unit" = "m/s"))]
+    pub velocity: f64,
+    /// Along which axis.
+    #[serde(default)]
+    pub axis: Axis,
+}
+
+/// An axis of the box.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// The first.
+    #[default]
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
+}
+
+impl<const D: usize> Contribution<D> for BulkVelocity {
+    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+        let axis = self.axis as usize;
+        match axis < D && setting.world.domain.periodic[axis] {
+            true => Ok(()),
+            false => Err(Refusal::of(
+                "flow-control",
+                "axis",
+                "the flow rate is held along an axis in which the scene is periodic: name another, or give \
+                 `[numerics.periodic]` this one",
+            )),
+        }
+    }
+    fn works(
+        &mut self,
+        _: &Setting<'_, D>,
+        _: &[AnyField],
+    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
+        Ok(vec![Box::new(*self)])
+    }
+}
+
+impl<const D: usize> StepWork<D> for BulkVelocity {
+    fn name(&self) -> String {
+        "bulk velocity".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .here(fields::MASS)
+            .here(fields::VELOCITY)
+            .writes(fields::VELOCITY)
+    }
+    fn after_kick(&mut self, world: &mut World<D>, _: f64) -> Result<(), StepError> {
+        let axis = self.axis as usize;
+        let mut velocity = world.free.take(fields::VELOCITY)?;
+        let mass = world.free.get(fields::MASS)?;
+        let total: f64 = mass.iter().sum();
+        let both = velocity.iter().zip(mass);
+        let momentum: f64 = both.map(|(u, m)| m * u[axis]).sum();
+        let push = self.velocity - momentum / total;
+        velocity.iter_mut().for_each(|u| u[axis] += push);
+        Ok(world.free.put(fields::VELOCITY, velocity)?)
+    }
+}
+
+register!(
+    FlowControlEntry [2, 3],
+    BulkVelocity,
+    "bulk-velocity",
+    "holds the mean velocity over mass",
+    "Issa 2004, Eq. 3.14–3.16"
+);

@@ -1,0 +1,169 @@
+//! Prandtl's mixing length.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_contribution::Contribution;
+use sph_core::{Access, Declares, Stage, StepError, fields, register};
+use sph_neighbours::World;
+use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+
+use super::behind::{Behind, Distances};
+use super::length::Length;
+use crate::columns::{FRICTION_VELOCITY, WALL_DISTANCE};
+
+/// η_t = ρ L² √(2 D:D), with L = κz, at most `longest`, or L = κz√(1 − z/H) in an open channel of a `depth` H, and
+/// the true distance z from the nearest wall.
+///
+/// Production balances dissipation in it: it is for steady layers along walls. Next to a wall with a wall function, nearer
+/// than a spacing, the strain rate is that of its law in the logarithm, u*/(κz), since a sum over particles sees but a share of
+/// a gradient that grows like 1/z. With `imposed_friction_velocity` it is u*/(κz) everywhere, of a given u*: for tests of the
+/// viscosity by itself.
+///
+/// Sources: Issa 2004, Eq. 5.57 (L²S), 6.14 (κz), 6.19 (open channel), 6.39 (imposed).
+///
+/// ```toml
+/// [eddy-viscosity.mixing-length]
+/// depth = "0.4 m"
+/// walls = ["bed"]
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct MixingLength {
+    /// Von Kármán's κ.
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.14"))]
+    pub karman: f64,
+    /// Depth H of an open channel.
+    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.19"))]
+    pub depth: Option<f64>,
+    /// L is not larger; unbounded if left out.
+    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub longest: Option<f64>,
+    /// Names of the walls that z counts from; all if left out.
+    pub walls: Vec<String>,
+    /// u* of the strain rate u*/(κz) that takes the place of the flow's.
+    #[schemars(extend("unit" = "m/s", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.39"))]
+    pub imposed_friction_velocity: Option<f64>,
+}
+
+impl Default for MixingLength {
+    fn default() -> Self {
+        MixingLength {
+            karman: 0.41,
+            depth: None,
+            longest: None,
+            walls: Vec::new(),
+            imposed_friction_velocity: None,
+        }
+    }
+}
+
+impl MixingLength {
+    fn length(&self) -> Length {
+        Length {
+            karman: self.karman,
+            depth: self.depth,
+            longest: self.longest,
+        }
+    }
+
+    /// Strain rate, 1/s, that counts at a distance, m.
+    fn strain_rate(&self, rate: f64, distance: f64, friction: f64, spacing: f64) -> f64 {
+        let at = |friction: f64| friction / (self.karman * distance);
+        match self.imposed_friction_velocity {
+            Some(imposed) => at(imposed),
+            None if friction > 0.0 && distance < spacing => at(friction),
+            None => rate,
+        }
+    }
+}
+
+impl Declares for MixingLength {
+    fn name(&self) -> String {
+        "mixing length".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .here(fields::DENSITY)
+            .here(fields::STRAIN_RATE)
+            .here(WALL_DISTANCE)
+            .where_there(FRICTION_VELOCITY)
+            .writes(fields::EDDY_VISCOSITY)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for MixingLength {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
+        let density = world.free.get(fields::DENSITY)?;
+        let rates = world.free.get(fields::STRAIN_RATE)?;
+        let distance = world.free.get(WALL_DISTANCE)?;
+        let friction = match world.free.has(FRICTION_VELOCITY.name) {
+            true => world.free.get(FRICTION_VELOCITY)?,
+            false => &[],
+        };
+        let length = self.length();
+        for (i, eddy) in eddies.iter_mut().enumerate() {
+            // A particle on the wall has no length and no eddies.
+            let z = distance[i].max(f64::MIN_POSITIVE);
+            let friction = friction.get(i).copied().unwrap_or(0.0);
+            let rate = self.strain_rate(rates[i], z, friction, world.spacing);
+            *eddy = density[i] * length.at(z).powi(2) * rate;
+        }
+        Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
+    }
+}
+
+impl<const D: usize> EddyViscosity<D> for MixingLength {
+    fn stage(&self) -> Box<dyn Stage<World<D>>> {
+        Box::new(self.clone())
+    }
+    fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
+        Some(Box::new(Behind {
+            name: "mixing-length",
+            distances: Some(Distances {
+                walls: self.walls.clone(),
+                within: self.length().farthest(),
+            }),
+            eddies_in_space: false,
+        }))
+    }
+}
+
+register!(
+    EddyViscosityEntry [2, 3],
+    MixingLength,
+    "mixing-length",
+    "a length by the distance from walls, squared, times the strain rate",
+    "Prandtl 1925; Issa 2004, Eq. 5.57, 6.14, 6.19"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Page §3.7: with the log law's gradient it is κu*z(1 − z/H), κu*H/4 at mid-depth.
+    #[test]
+    fn an_open_channel_has_its_parabola() {
+        let closure = MixingLength {
+            depth: Some(0.4),
+            imposed_friction_velocity: Some(0.05),
+            ..MixingLength::default()
+        };
+        for z in [0.001, 0.1, 0.2, 0.3, 0.399] {
+            let rate = closure.strain_rate(123.0, z, 0.0, 0.01);
+            let found = closure.length().at(z).powi(2) * rate;
+            let exact = 0.41 * 0.05 * z * (1.0 - z / 0.4);
+            assert!((found - exact).abs() < 1e-16, "{z}: {found}, {exact}");
+        }
+        assert!((0.41f64 * 0.05 * 0.4 / 4.0 - 2.05e-3).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_law_of_the_wall_gives_the_strain_next_to_it_alone() {
+        let closure = MixingLength::default();
+        assert_eq!(closure.strain_rate(3.0, 0.02, 0.05, 0.01), 3.0);
+        assert_eq!(closure.strain_rate(3.0, 0.005, 0.0, 0.01), 3.0);
+        let found = closure.strain_rate(3.0, 0.005, 0.05, 0.01);
+        assert!((found - 0.05 / (0.41 * 0.005)).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,205 @@
+//! Smagorinsky's closure of large-eddy simulations.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork};
+use sph_core::{Access, AnyField, Declares, Stage, StepError, fields, register};
+use sph_neighbours::World;
+use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+
+use super::behind::{Behind, KIND};
+use super::filter::FilterLength;
+use super::wall_units::WallUnits;
+use crate::columns::DAMPING_UNITS;
+
+/// What lessens the eddies near walls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Damping {
+    /// Nothing.
+    #[default]
+    None,
+    /// C_S Δ times 1 − e^{−z⁺/26}, near walls that rub.
+    VanDriest,
+}
+
+/// η_t = ρ (C_S Δ f)² √(2 D:D), with the filter width Δ = `filter` · h (or δr) and f = 1, or with van Driest's damping
+/// f = 1 − e^{−z⁺/26}.
+///
+/// D is the deviator of the strain rate, so that η_t is zero in solid rotation. z⁺ = z u*/ν with the true distance from the
+/// nearest wall that rubs (`condition = "no-slip"`) and the u* that the law of the smooth wall finds there. For flows in
+/// space: in the plane it is allowed and warned of.
+///
+/// Sources: Smagorinsky 1963; Issa 2004, Eq. 5.53 and 5.72 (C_S = 0.1, Δ = 2h); van Driest 1956 (A⁺ = 26).
+///
+/// ```toml
+/// [eddy-viscosity.smagorinsky]
+/// coefficient = 0.1
+/// damping = "van-driest"
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Smagorinsky {
+    /// C_S.
+    #[schemars(range(min = 0.0), extend("unit" = "1", "source" = "Issa 2004, Eq. 5.53"))]
+    pub coefficient: f64,
+    /// Δ over the length that `filter_length` names.
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 5.53: 2h"))]
+    pub filter: f64,
+    /// What Δ is a multiple of.
+    pub filter_length: FilterLength,
+    /// What lessens the eddies near walls.
+    #[schemars(extend("source" = "van Driest 1956"))]
+    pub damping: Damping,
+}
+
+impl Default for Smagorinsky {
+    fn default() -> Self {
+        Smagorinsky {
+            coefficient: 0.1,
+            filter: 2.0,
+            filter_length: FilterLength::SmoothingLength,
+            damping: Damping::None,
+        }
+    }
+}
+
+/// A⁺ of van Driest 1956.
+const DAMPING_LENGTH: f64 = 26.0;
+
+impl Smagorinsky {
+    /// ν_t, m²/s, at a strain rate √(2 D:D), 1/s, with a filter of a width, m.
+    pub fn kinematic(&self, width: f64, strain_rate: f64) -> f64 {
+        (self.coefficient * width).powi(2) * strain_rate
+    }
+
+    /// f of van Driest's damping at z⁺.
+    pub fn damped(z_plus: f64) -> f64 {
+        -(-z_plus / DAMPING_LENGTH).exp_m1()
+    }
+
+    fn behind(&self) -> Behind {
+        Behind {
+            name: "smagorinsky",
+            distances: None,
+            eddies_in_space: true,
+        }
+    }
+}
+
+impl Declares for Smagorinsky {
+    fn name(&self) -> String {
+        "smagorinsky".into()
+    }
+    fn access(&self) -> Access {
+        let access = Access::none()
+            .here(fields::DENSITY)
+            .here(fields::STRAIN_RATE)
+            .writes(fields::EDDY_VISCOSITY);
+        match self.damping {
+            Damping::None => access,
+            Damping::VanDriest => access.here(DAMPING_UNITS),
+        }
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for Smagorinsky {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
+        let width = self.filter * self.filter_length.of(world);
+        let density = world.free.get(fields::DENSITY)?;
+        let rates = world.free.get(fields::STRAIN_RATE)?;
+        let inputs = density.iter().zip(rates);
+        for (eddy, (rho, rate)) in eddies.iter_mut().zip(inputs) {
+            *eddy = rho * self.kinematic(width, *rate);
+        }
+        if self.damping == Damping::VanDriest {
+            let units = world.free.get(DAMPING_UNITS)?;
+            let all = eddies.iter_mut().zip(units);
+            all.for_each(|(eddy, z)| *eddy *= Self::damped(*z).powi(2));
+        }
+        Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
+    }
+}
+
+impl<const D: usize> EddyViscosity<D> for Smagorinsky {
+    fn stage(&self) -> Box<dyn Stage<World<D>>> {
+        Box::new(*self)
+    }
+    fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
+        Some(Box::new(LargeEddies(*self)))
+    }
+}
+
+/// What stands behind it.
+struct LargeEddies(Smagorinsky);
+
+impl<const D: usize> Contribution<D> for LargeEddies {
+    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+        self.0.behind().check(setting)?;
+        let grips = &setting.world.walls.elements.grip;
+        let damps = self.0.damping == Damping::VanDriest;
+        match damps && !grips.iter().any(|grip| *grip > 0.0) {
+            false => Ok(()),
+            true => Err(Refusal::of(
+                KIND,
+                "damping",
+                "van Driest's damping is of walls of segments or triangles that rub, and there are none: it needs \
+                 `[walls.usaw]` and a wall with `condition = \"no-slip\"`",
+            )),
+        }
+    }
+    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+        match (self.0.damping, setting.viscosities) {
+            (Damping::VanDriest, [Some(viscosity)]) => vec![Box::new(WallUnits {
+                viscosity: *viscosity,
+                tree: None,
+            })],
+            _ => Vec::new(),
+        }
+    }
+    fn works(
+        &mut self,
+        _: &Setting<'_, D>,
+        _: &[AnyField],
+    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
+        Ok(self.0.behind().works())
+    }
+}
+
+register!(
+    EddyViscosityEntry [2, 3],
+    Smagorinsky,
+    "smagorinsky",
+    "large eddies: the filter width squared times the strain rate",
+    "Smagorinsky 1963; Issa 2004, Eq. 5.53"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Page §3.6: with h = δr it is a classical C_S = 0.2 on Δ = δr.
+    #[test]
+    fn twice_the_width_is_twice_the_coefficient() {
+        let ours = Smagorinsky::default();
+        let classical = Smagorinsky {
+            coefficient: 0.2,
+            filter: 1.0,
+            filter_length: FilterLength::Spacing,
+            ..ours
+        };
+        let [h, rate] = [0.01, 3.7];
+        let both = [ours.kinematic(2.0 * h, rate), classical.kinematic(h, rate)];
+        assert!((both[0] / both[1] - 1.0).abs() < 1e-15);
+        // (0.1 · 0.02)² · 3.7.
+        assert!((both[0] - 1.48e-5).abs() < 1e-19);
+    }
+
+    #[test]
+    fn damping_is_linear_at_the_wall_and_nothing_far_off() {
+        assert!((Smagorinsky::damped(1e-4) / (1e-4 / 26.0) - 1.0).abs() < 1e-5);
+        assert!((Smagorinsky::damped(26.0) - (1.0 - (-1.0f64).exp())).abs() < 1e-15);
+        assert_eq!(Smagorinsky::damped(f64::INFINITY), 1.0);
+    }
+}

@@ -1,0 +1,164 @@
+//! The wall-adapting closure of large-eddy simulations.
+
+use nalgebra::{Matrix3, SMatrix};
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_contribution::Contribution;
+use sph_core::{Access, Declares, Stage, StepError, fields, register};
+use sph_neighbours::World;
+use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+
+use super::behind::Behind;
+use super::filter::FilterLength;
+
+/// η_t = ρ (C_w Δ)² (S^d:S^d)^{3/2} / ((S:S)^{5/2} + (S^d:S^d)^{5/4}), with S the strain rate,
+/// S^d = ½(g² + g²ᵀ) − ⅓ tr(g²) 1 and the velocity gradient g.
+///
+/// It is zero in pure shear, in whose layer it falls with the third power of the distance from the wall, without a damping.
+/// In solid rotation at ω it is not: (C_w Δ)² ω √(2/3)^{1/2}, since S is zero there and S^d is not. For flows in
+/// space: in the plane it is allowed and warned of.
+///
+/// Source: Nicoud and Ducros 1999, Eq. 10 and 13 (C_w = 0.5 with Δ of a cell).
+///
+/// ```toml
+/// [eddy-viscosity.wale]
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Wale {
+    /// C_w.
+    #[schemars(range(min = 0.0), extend("unit" = "1", "source" = "Nicoud and Ducros 1999, §3"))]
+    pub coefficient: f64,
+    /// Δ over the length that `filter_length` names.
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "source" = "Nicoud and Ducros 1999, §3"))]
+    pub filter: f64,
+    /// What Δ is a multiple of.
+    pub filter_length: FilterLength,
+}
+
+impl Default for Wale {
+    fn default() -> Self {
+        Wale {
+            coefficient: 0.5,
+            filter: 1.0,
+            filter_length: FilterLength::Spacing,
+        }
+    }
+}
+
+impl Wale {
+    /// ν_t, m²/s, for a velocity gradient, 1/s, with a filter of a width, m.
+    pub fn kinematic<const D: usize>(&self, width: f64, gradient: &SMatrix<f64, D, D>) -> f64 {
+        let g = Matrix3::from_fn(|i, j| match i < D && j < D {
+            true => gradient[(i, j)],
+            false => 0.0,
+        });
+        let squared = g * g;
+        let third = squared.trace() / 3.0;
+        let shear = (squared + squared.transpose()) * 0.5 - Matrix3::identity() * third;
+        let strain = (g + g.transpose()) * 0.5;
+        let [s, d] = [strain.norm_squared(), shear.norm_squared()];
+        let below = s.powf(2.5) + d.powf(1.25);
+        match below > 0.0 {
+            true => (self.coefficient * width).powi(2) * d.powf(1.5) / below,
+            false => 0.0,
+        }
+    }
+}
+
+impl Declares for Wale {
+    fn name(&self) -> String {
+        "wale".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .here(fields::DENSITY)
+            .here(fields::VELOCITY_GRADIENT)
+            .writes(fields::EDDY_VISCOSITY)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for Wale {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
+        let width = self.filter * self.filter_length.of(world);
+        let density = world.free.get(fields::DENSITY)?;
+        let gradients = world.free.get(fields::VELOCITY_GRADIENT)?;
+        let all = eddies.par_iter_mut().zip(density).zip(gradients);
+        all.with_min_len(512)
+            .for_each(|((eddy, rho), g)| *eddy = rho * self.kinematic(width, g));
+        Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
+    }
+}
+
+impl<const D: usize> EddyViscosity<D> for Wale {
+    fn stage(&self) -> Box<dyn Stage<World<D>>> {
+        Box::new(*self)
+    }
+    fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
+        Some(Box::new(Behind {
+            name: "wale",
+            distances: None,
+            eddies_in_space: true,
+        }))
+    }
+}
+
+register!(
+    EddyViscosityEntry [2, 3],
+    Wale,
+    "wale",
+    "large eddies without those of pure shear: falls with the third power of the distance from a wall",
+    "Nicoud and Ducros 1999, Eq. 13"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(rows: [[f64; 3]; 3]) -> f64 {
+        let g = Matrix3::from_fn(|i, j| rows[i][j]);
+        Wale::default().kinematic(0.02, &g)
+    }
+
+    #[test]
+    fn there_is_none_in_pure_shear_and_at_rest() {
+        assert_eq!(of([[0.0, 7.0, 0.0], [0.0; 3], [0.0; 3]]), 0.0);
+        assert_eq!(of([[0.0; 3]; 3]), 0.0);
+        let flat = SMatrix::<f64, 2, 2>::new(0.0, 7.0, 0.0, 0.0);
+        assert_eq!(Wale::default().kinematic(0.02, &flat), 0.0);
+    }
+
+    /// g² = −ω²(1, 1, 0), S^d = −ω²(⅓, ⅓, −⅔), S^d:S^d = ⅔ω⁴: its power ¼ is left.
+    #[test]
+    fn solid_rotation_has_what_its_formula_gives() {
+        let omega = 3.0;
+        let found = of([[0.0, -omega, 0.0], [omega, 0.0, 0.0], [0.0; 3]]);
+        let exact = (0.5f64 * 0.02).powi(2) * omega * (2.0f64 / 3.0).powf(0.25);
+        assert!((found / exact - 1.0).abs() < 1e-14, "{found}, {exact}");
+    }
+
+    /// Irrotational strain in the plane of space: g² = s²(1, 1, 0), S:S = 2s², S^d:S^d = ⅔s⁴.
+    #[test]
+    fn irrotational_strain_has_what_its_formula_gives() {
+        let s = 2.0f64;
+        let found = of([[s, 0.0, 0.0], [0.0, -s, 0.0], [0.0; 3]]);
+        let d = 2.0 / 3.0 * s.powi(4);
+        let exact = 1e-4 * d.powf(1.5) / ((2.0 * s * s).powf(2.5) + d.powf(1.25));
+        assert!((found / exact - 1.0).abs() < 1e-14);
+    }
+
+    /// u = Ay + …, v of order y²: near a wall S^d:S^d is of order y², so that ν_t is of order y³.
+    #[test]
+    fn near_a_wall_it_falls_with_the_third_power_of_the_distance() {
+        let at = |y: f64| {
+            let along = [0.3 * y, 5.0, 0.7 * y];
+            let away = [0.2 * y * y, -0.4 * y, 0.1 * y * y];
+            of([along, away, [-0.2 * y, 2.0, 0.1 * y]])
+        };
+        let order = (at(1e-3) / at(5e-4)).log2();
+        // Its next term is of the next order: y is 1e-3.
+        assert!((order - 3.0).abs() < 0.01, "{order}");
+    }
+}

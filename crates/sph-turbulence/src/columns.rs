@@ -1,0 +1,49 @@
+//! Columns of turbulence.
+
+use sph_core::{Field, Scalar};
+
+/// Friction velocity u* = √(τ_w/ρ) that the wall function finds at a particle; 0 where it sees no such wall.
+pub const FRICTION_VELOCITY: Field<Scalar> = Field::new(
+    "friction_velocity",
+    "m/s",
+    "friction velocity of the wall function at the particle; 0 out of reach of its walls",
+);
+/// Distance from the nearest wall, as far as it is looked for.
+pub const WALL_DISTANCE: Field<Scalar> =
+    Field::new("wall_distance", "m", "distance from the nearest wall");
+/// Turbulent kinetic energy k over mass.
+pub const TURBULENT_ENERGY: Field<Scalar> = Field::new(
+    "turbulent_energy",
+    "m²/s²",
+    "turbulent kinetic energy over mass",
+);
+/// Rate of [`TURBULENT_ENERGY`] by diffusion.
+pub const TURBULENT_ENERGY_RATE: Field<Scalar> = Field::new(
+    "turbulent_energy_rate",
+    "m²/s³",
+    "rate of the turbulent kinetic energy by diffusion",
+);
+/// Dissipation rate ε of the turbulent energy.
+pub const DISSIPATION: Field<Scalar> = Field::new(
+    "dissipation",
+    "m²/s³",
+    "dissipation rate of the turbulent kinetic energy",
+);
+/// Rate of [`DISSIPATION`] by diffusion.
+pub const DISSIPATION_RATE: Field<Scalar> = Field::new(
+    "dissipation_rate",
+    "m²/s⁴",
+    "rate of the dissipation by diffusion",
+);
+/// Distance from the nearest wall in wall units, z⁺ = z u*/ν; infinite out of reach.
+pub const WALL_UNITS: Field<Scalar> = Field::new(
+    "wall_units",
+    "1",
+    "distance from the wall in wall units, z+ = z u*/nu; infinite out of reach",
+);
+/// The same of the walls that rub, as far as damping reaches.
+pub const DAMPING_UNITS: Field<Scalar> = Field::new(
+    "damping_units",
+    "1",
+    "distance from the nearest wall that rubs in wall units; infinite out of reach",
+);

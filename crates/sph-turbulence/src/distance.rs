@@ -1,0 +1,8 @@
+//! How far particles are from walls.
+
+mod simplex;
+mod stage;
+mod tree;
+
+pub use stage::WallDistance;
+pub use tree::ElementTree;

@@ -1,0 +1,254 @@
+//! One transported scalar, and a length by the distance from walls.
+
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_contribution::{Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork};
+use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, register};
+use sph_neighbours::{Term, Terms, World};
+use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+
+use super::diffusion::{Diffusion, DiffusionLimit};
+use super::model::KEpsilonModel;
+use super::work::refuse_negative;
+use crate::closures::behind::{Behind, Distances, KIND};
+use crate::closures::length::Length;
+use crate::columns::{FRICTION_VELOCITY, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE, WALL_DISTANCE};
+
+/// η_t = ρ C_μ^¼ √k L, with dk/dt = div((ν + ν_t/σ_k) grad k) + P − ε, ε = C_μ^¾ k^{3/2}/L and
+/// P = min(√C_μ, C_μ k S/ε) k S.
+///
+/// L is Prandtl's: κz, at most `longest`, or κz√(1 − z/H) in an open channel of a `depth` H; not less than a hundredth of
+/// the spacing, so that a surface has some. What is dissipated is that of the end of the step, and k is positive by
+/// construction. Within a spacing of walls with a wall function k = u*²/√C_μ.
+///
+/// Sources: Prandtl 1945; Issa 2004, Eq. 5.26–5.30, 5.60–5.64, 5.66; Guimet and Laurence 2002 (production).
+///
+/// ```toml
+/// [eddy-viscosity.k-length]
+/// energy = "1e-3 m²/s²"
+/// depth = "0.4 m"
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct KLength {
+    /// k at the start.
+    #[schemars(extend("unit" = "m²/s²", "exclusiveMinimum" = 0.0))]
+    pub energy: f64,
+    /// Von Kármán's κ.
+    #[serde(default = "crate::wall::karman")]
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.14"))]
+    pub karman: f64,
+    /// Depth H of an open channel.
+    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.19"))]
+    pub depth: Option<f64>,
+    /// L is not larger; unbounded if left out.
+    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub longest: Option<f64>,
+    /// Names of the walls that z counts from; all if left out.
+    #[serde(default)]
+    pub walls: Vec<String>,
+}
+
+/// L is not less than this share of the spacing.
+const LEAST_LENGTH: f64 = 0.01;
+
+impl KLength {
+    fn length(&self) -> Length {
+        Length {
+            karman: self.karman,
+            depth: self.depth,
+            longest: self.longest,
+        }
+    }
+
+    fn behind(&self) -> Behind {
+        Behind {
+            name: "k-length",
+            distances: Some(Distances {
+                walls: self.walls.clone(),
+                within: self.length().farthest(),
+            }),
+            eddies_in_space: false,
+        }
+    }
+}
+
+/// L of a column of distances.
+fn at(length: &Length, distance: f64, spacing: f64) -> f64 {
+    length.at(distance).max(LEAST_LENGTH * spacing)
+}
+
+/// ε = C_μ^¾ k^{3/2}/L, m²/s³.
+fn dissipation(model: &KEpsilonModel, energy: f64, length: f64) -> f64 {
+    model.c_mu.powf(0.75) * energy * energy.sqrt() / length
+}
+
+/// k after `dt` seconds of production and dissipation.
+fn after(model: &KEpsilonModel, energy: f64, length: f64, strain_rate: f64, dt: f64) -> f64 {
+    let dissipated = dissipation(model, energy, length);
+    let produced = model.production(energy, dissipated, strain_rate);
+    (energy + dt * produced) / (1.0 + dt * dissipated / energy)
+}
+
+impl Declares for KLength {
+    fn name(&self) -> String {
+        "k-length".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .here(fields::DENSITY)
+            .here(TURBULENT_ENERGY)
+            .here(WALL_DISTANCE)
+            .writes(fields::EDDY_VISCOSITY)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for KLength {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
+        let (model, length) = (KEpsilonModel::default(), self.length());
+        let density = world.free.get(fields::DENSITY)?;
+        let energy = world.free.get(TURBULENT_ENERGY)?;
+        let distance = world.free.get(WALL_DISTANCE)?;
+        for (i, eddy) in eddies.iter_mut().enumerate() {
+            let length = at(&length, distance[i], world.spacing);
+            *eddy = density[i] * model.c_mu.powf(0.25) * energy[i].sqrt() * length;
+        }
+        Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
+    }
+}
+
+impl<const D: usize> EddyViscosity<D> for KLength {
+    fn stage(&self) -> Box<dyn Stage<World<D>>> {
+        Box::new(self.clone())
+    }
+    fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
+        Some(Box::new(OneEquation(self.clone())))
+    }
+}
+
+/// What stands behind it.
+struct OneEquation(KLength);
+
+impl<const D: usize> Contribution<D> for OneEquation {
+    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+        self.0.behind().check(setting)?;
+        match setting.world.walls.elements.grip.iter().any(|g| *g > 0.0) {
+            false => Ok(()),
+            true => Err(Refusal::of(
+                KIND,
+                "",
+                "k has no value at walls that rub without a wall function: write `condition = \"free-slip\"` there and name \
+                 the walls in `[wall-function.log-law]`",
+            )),
+        }
+    }
+    fn columns(&self) -> Vec<OwnColumn<D>> {
+        let energy = self.0.energy;
+        vec![OwnColumn::scalar(TURBULENT_ENERGY, move |_| energy)]
+    }
+    fn transported(&self) -> Vec<Evolved> {
+        vec![Evolved {
+            value: TURBULENT_ENERGY,
+            rate: TURBULENT_ENERGY_RATE,
+        }]
+    }
+    fn stages(&self, _: &Setting<'_, D>) -> Stages<D> {
+        self.0.behind().stages()
+    }
+    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
+        let sigma = KEpsilonModel::default().sigma_k;
+        vec![Box::new(Term(Diffusion::<0>(sigma)))]
+    }
+    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
+        vec![Box::new(DiffusionLimit(setting.viscous))]
+    }
+    fn works(
+        &mut self,
+        _: &Setting<'_, D>,
+        _: &[AnyField],
+    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
+        Ok(vec![Box::new(Sources(self.0.length()))])
+    }
+    fn remedy(&self, _: &str) -> Option<String> {
+        Some("look at k at the start: the eddy viscosity is 0.55 √k L".into())
+    }
+}
+
+/// Production and dissipation after diffusion, and wall values.
+struct Sources(Length);
+
+impl<const D: usize> StepWork<D> for Sources {
+    fn name(&self) -> String {
+        "k-length".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .here(fields::STRAIN_RATE)
+            .here(fields::POSITION)
+            .here(fields::IDENTITY)
+            .here(WALL_DISTANCE)
+            .here(TURBULENT_ENERGY)
+            .where_there(FRICTION_VELOCITY)
+            .writes(TURBULENT_ENERGY)
+    }
+    fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        let mut energy = world.free.take(TURBULENT_ENERGY)?;
+        refuse_negative(world, TURBULENT_ENERGY.name, &energy)?;
+        let model = KEpsilonModel::default();
+        let (length, spacing) = (self.0, world.spacing);
+        let rates = world.free.get(fields::STRAIN_RATE)?;
+        let distance = world.free.get(WALL_DISTANCE)?;
+        let all = energy.par_iter_mut().zip(rates).zip(distance);
+        all.with_min_len(1024).for_each(|((k, rate), z)| {
+            *k = after(&model, *k, at(&length, *z, spacing), *rate, dt);
+        });
+        if world.free.has(FRICTION_VELOCITY.name) {
+            let friction = world.free.get(FRICTION_VELOCITY)?;
+            let near = friction.iter().zip(distance);
+            for (k, (u, _)) in
+                (energy.iter_mut().zip(near)).filter(|(_, (u, z))| **u > 0.0 && **z < spacing)
+            {
+                *k = u * u / model.c_mu.sqrt();
+            }
+        }
+        Ok(world.free.put(TURBULENT_ENERGY, energy)?)
+    }
+}
+
+register!(
+    EddyViscosityEntry [2, 3],
+    KLength,
+    "k-length",
+    "one transported scalar, the energy of eddies, and a length by the distance from walls",
+    "Prandtl 1945; Issa 2004, Eq. 5.60–5.64"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// P = ε with S = u*/(κz) and L = κz at k = u*²/√C_μ: it stays, and ν_t = κu*z.
+    #[test]
+    fn the_logarithmic_layer_is_in_balance() {
+        let model = KEpsilonModel::default();
+        let (u, length): (f64, f64) = (0.05, 0.41 * 0.013);
+        let k = u * u / model.c_mu.sqrt();
+        let next = after(&model, k, length, u / length, 1.0);
+        assert!((next / k - 1.0).abs() < 1e-12);
+        assert!((model.c_mu.powf(0.25) * k.sqrt() * length / (u * length) - 1.0).abs() < 1e-12);
+    }
+
+    /// dk/dt = −C_μ^¾ k^{3/2}/L: √k = √k₀/(1 + C_μ^¾ √k₀ t/(2L)).
+    #[test]
+    fn without_strain_it_decays() {
+        let (model, length, end) = (KEpsilonModel::default(), 0.1, 2.0);
+        let steps = 20_000;
+        let k = (0..steps).fold(0.04, |k, _| {
+            after(&model, k, length, 0.0, end / f64::from(steps))
+        });
+        let exact = 0.04 / (1.0 + 0.09f64.powf(0.75) * 0.2 * end / (2.0 * length)).powi(2);
+        assert!((k / exact - 1.0).abs() < 1e-3, "{k}, {exact}");
+    }
+}

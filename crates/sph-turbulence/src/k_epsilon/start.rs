@@ -1,0 +1,60 @@
+//! k and ε at the start.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::model::KEpsilonModel;
+
+/// k = u*²/√C_μ (1 − z/H) and ε = u*³/(κz) (1 − z/H): where production balances dissipation in a wide open channel.
+///
+/// Source: Issa 2004, Eq. 5.33 with 6.24.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ChannelStart {
+    /// u*.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m/s"))]
+    pub friction_velocity: f64,
+    /// Depth H.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    pub depth: f64,
+    /// Height of the bed.
+    #[serde(default)]
+    #[schemars(extend("unit" = "m"))]
+    pub bottom: f64,
+}
+
+/// Nearer to bed and surface than this share of the depth, k and ε are those there, so that both are positive.
+const LEAST_SHARE: f64 = 1e-3;
+
+impl ChannelStart {
+    /// k and ε at a height.
+    pub fn at(&self, model: &KEpsilonModel, karman: f64, height: f64) -> [f64; 2] {
+        let share = (height - self.bottom) / self.depth;
+        let share = share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
+        let at_wall = model.at_wall(self.friction_velocity, share * self.depth, karman);
+        at_wall.map(|value| value * (1.0 - share))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Page §3.7: ν_t = κu*z(1 − z/H).
+    #[test]
+    fn its_eddies_are_those_of_the_channel() {
+        let model = KEpsilonModel::default();
+        let start = ChannelStart {
+            friction_velocity: 0.05,
+            depth: 0.4,
+            bottom: -1.0,
+        };
+        for z in [0.01, 0.2, 0.39] {
+            let [k, e] = start.at(&model, 0.41, z - 1.0);
+            let exact = 0.41 * 0.05 * z * (1.0 - z / 0.4);
+            assert!((model.eddy_viscosity(k, e) / exact - 1.0).abs() < 1e-12);
+        }
+        let [k, e] = start.at(&model, 0.41, 5.0);
+        assert!(k > 0.0 && e > 0.0);
+    }
+}

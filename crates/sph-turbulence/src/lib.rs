@@ -1,0 +1,28 @@
+//! Turbulence: viscosities of eddies that particles do not resolve, and the shear of walls whose boundary layer they do
+//! not resolve either.
+//!
+//! * Closures are plugins of the kind `eddy-viscosity`: [`MixingLength`], [`Smagorinsky`], [`Wale`],
+//!   [`KLength`], [`KEpsilon`].
+//! * [`LogLaw`] gives walls the shear of [`WallLaw`], [`FrictionVelocityProbe`] measures it, [`LogLawFlow`] is the velocity
+//!   over a flat bed.
+//! * [`BulkVelocity`] holds the flow rate of a periodic channel.
+#![doc = include_str!("../README.md")]
+
+mod bulk_velocity;
+mod closures;
+mod columns;
+mod distance;
+mod k_epsilon;
+mod wall;
+
+pub use bulk_velocity::{BulkVelocity, FlowControlEntry};
+pub use closures::{Damping, FilterLength, MixingLength, Smagorinsky, Wale};
+pub use columns::{
+    DISSIPATION, DISSIPATION_RATE, FRICTION_VELOCITY, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE,
+    WALL_DISTANCE, WALL_UNITS,
+};
+pub use distance::{ElementTree, WallDistance};
+pub use k_epsilon::{ChannelStart, KEpsilon, KEpsilonModel, KLength};
+pub use wall::{
+    FrictionVelocityProbe, LogLaw, LogLawFlow, WallFunctionEntry, WallLaw, WallLawError,
+};

@@ -1,0 +1,15 @@
+//! Walls whose boundary layer is finer than the particles.
+
+mod function;
+mod law;
+mod nearest;
+mod probe;
+mod solution;
+mod stage;
+
+pub(crate) use function::karman;
+pub use function::{LogLaw, WallFunctionEntry};
+pub use law::{WallLaw, WallLawError};
+pub(crate) use nearest::nearest;
+pub use probe::FrictionVelocityProbe;
+pub use solution::LogLawFlow;

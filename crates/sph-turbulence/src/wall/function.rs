@@ -1,0 +1,201 @@
+//! Walls whose boundary layer is finer than the particles.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork, contribution_kind};
+use sph_core::{Access, AnyField, fields, register, suggestion};
+use sph_neighbours::World;
+
+use super::law::WallLaw;
+use super::stage::WallShear;
+use crate::columns::{FRICTION_VELOCITY, WALL_UNITS};
+
+contribution_kind!(
+    /// A wall function that a scene may name.
+    pub WallFunctionEntry, "wall-function", One, "the shear of walls whose boundary layer is finer than the particles",
+    "none if left out"
+);
+
+const KIND: &str = "wall-function";
+
+/// τ_w = ρu*², with u* from the law of the wall at the velocity u_t and the true distance z of every particle near it:
+/// u_t = u* u⁺(z u*/ν, k_s u*/ν).
+///
+/// The law is [`WallLaw`]: sublayer, buffer and logarithm over a smooth wall (z⁺ from 0 on), Nikuradse's over a fully
+/// rough one. The shear takes the place of η u_t/z in the wall term of the viscous operator, its factor κ included, so that
+/// the wall feels what the fluid does, explicitly or with implicit viscosity, in the plane and in space, on walls that move
+/// too. The walls are semi-analytical without vertices, and slip freely but for this shear. In the first half spacing the
+/// distance is not less than a quarter of one.
+///
+/// Sources: Issa 2004, §6.2.1, Eq. 6.32–6.36 (u* from a velocity near the wall); Ferrand et al. 2013 (shear on
+/// semi-analytical walls); the law's own.
+///
+/// ```toml
+/// [wall-function.log-law]
+/// walls = ["bed"]
+/// roughness = "10 mm"
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LogLaw {
+    /// Names of the walls.
+    #[schemars(length(min = 1))]
+    pub walls: Vec<String>,
+    /// Equivalent sand roughness k_s; 0 for smooth walls. At most the spacing.
+    #[serde(default)]
+    #[schemars(range(min = 0.0), extend("unit" = "m", "source" = "Nikuradse 1933"))]
+    pub roughness: f64,
+    /// Von Kármán's κ.
+    #[serde(default = "karman")]
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Issa 2004, Eq. 6.22"))]
+    pub karman: f64,
+    /// B of smooth walls.
+    #[serde(default = "smooth")]
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Issa 2004, Eq. 6.23"))]
+    pub smooth_constant: f64,
+    /// D of fully rough walls.
+    #[serde(default = "rough")]
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Issa 2004, Eq. 6.29"))]
+    pub rough_constant: f64,
+}
+
+pub(crate) fn karman() -> f64 {
+    WallLaw::default().karman
+}
+pub(crate) fn smooth() -> f64 {
+    WallLaw::default().smooth
+}
+pub(crate) fn rough() -> f64 {
+    WallLaw::default().rough
+}
+
+impl LogLaw {
+    fn law(&self) -> WallLaw {
+        WallLaw {
+            karman: self.karman,
+            smooth: self.smooth_constant,
+            rough: self.rough_constant,
+            roughness: self.roughness,
+        }
+    }
+
+    /// What is wrong with its walls.
+    fn check_walls<const D: usize>(&self, world: &World<D>) -> Result<(), String> {
+        let walls = &world.walls;
+        for name in &self.walls {
+            if !walls.names.contains(name) {
+                let near = suggestion(name, walls.names.iter().map(String::as_str));
+                return Err(format!("there is no wall `{name}`{near}"));
+            }
+        }
+        let elements = &walls.elements;
+        if elements.centre.is_empty() || walls.points.in_sums() {
+            return Err(
+                "it acts on semi-analytical walls without vertices, whose points would rub as well: write `[walls.usaw]` \
+                 with `vertices = false`"
+                    .into(),
+            );
+        }
+        for (s, wall) in elements.wall.iter().enumerate() {
+            let name = &walls.names[*wall as usize];
+            let rubs = elements.grip[s] > 0.0
+                || elements.coulomb.get(s).is_some_and(|c| c.coefficient > 0.0);
+            if rubs && self.walls.contains(name) {
+                return Err(format!(
+                    "wall `{name}` has a friction of its own, whose place the wall function takes: write `condition = \
+                     \"free-slip\"` in `[wall.{name}]`"
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<const D: usize> Contribution<D> for LogLaw {
+    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+        let refused = |key: &str, why: String| Refusal::of(KIND, key, why);
+        self.law().check().map_err(|e| refused("", e.to_string()))?;
+        self.check_walls(setting.world)
+            .map_err(|why| refused("walls", why))?;
+        if self.roughness > setting.world.spacing {
+            return Err(refused(
+                "roughness",
+                format!(
+                    "the roughness of {} m is larger than the spacing of {} m, so that particles would lie within it: at \
+                     most the spacing was expected; draw such a wall",
+                    self.roughness, setting.world.spacing
+                ),
+            ));
+        }
+        let viscous = |nu: &Option<f64>| nu.is_some_and(|nu| nu > 0.0);
+        match setting.viscosities.iter().any(viscous) {
+            true => Ok(()),
+            false => Err(refused(
+                "",
+                "no phase of this scene is a viscous fluid with one viscosity, which z⁺ = z u*/ν needs: give a phase \
+                 `rheology.newtonian` with a viscosity"
+                    .into(),
+            )),
+        }
+    }
+    fn goals(&self) -> Vec<AnyField> {
+        vec![fields::WALL_FRICTION.any()]
+    }
+    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+        let viscous = |nu: &Option<f64>| nu.filter(|nu| *nu > 0.0);
+        vec![Box::new(WallShear {
+            law: self.law(),
+            walls: self.walls.clone(),
+            viscosities: setting.viscosities.iter().map(viscous).collect(),
+        })]
+    }
+    fn works(
+        &mut self,
+        _: &Setting<'_, D>,
+        _: &[AnyField],
+    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
+        Ok(vec![Box::new(Range)])
+    }
+}
+
+/// No work, but a word about z⁺ at the end.
+struct Range;
+
+/// Where the logarithmic law of a boundary layer is taken to hold: Issa 2004, Table 6.1, and the issue's upper end.
+const VALID: [f64; 2] = [1.0, 1000.0];
+
+impl<const D: usize> StepWork<D> for Range {
+    fn name(&self) -> String {
+        KIND.into()
+    }
+    fn access(&self) -> Access {
+        Access::none().here(WALL_UNITS).here(FRICTION_VELOCITY)
+    }
+    fn advice(&self, world: &World<D>) -> Vec<String> {
+        let (Ok(units), Ok(friction)) = (
+            world.free.get(WALL_UNITS),
+            world.free.get(FRICTION_VELOCITY),
+        ) else {
+            return Vec::new();
+        };
+        // z⁺ of the particles within a spacing of the wall: those that the shear acts on most.
+        let near = (0..units.len()).filter(|i| friction[*i] > 0.0);
+        let least = near.map(|i| units[i]).fold(f64::INFINITY, f64::min);
+        match least.is_finite() && !(VALID[0]..=VALID[1]).contains(&least) {
+            true => vec![format!(
+                "the particles nearest to the walls with a wall function are at z+ = {least:.3}: the law of the wall is \
+                 meant for {} to {}, so change the spacing",
+                VALID[0], VALID[1]
+            )],
+            false => Vec::new(),
+        }
+    }
+}
+
+register!(
+    WallFunctionEntry [2, 3],
+    LogLaw,
+    "log-law",
+    "the law of the wall, from the sublayer to the logarithm, smooth or rough",
+    "Reichardt 1951; Nikuradse 1933; Issa 2004, Eq. 6.32–6.36"
+);

@@ -1,0 +1,95 @@
+//! The mean velocity over a wall as a solution.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Vect, register};
+use sph_probes::{Solution, SolutionEntry};
+
+use super::function::{karman, rough, smooth};
+use super::law::WallLaw;
+
+/// u = u* u⁺(z u*/ν, k_s u*/ν) along x: the law of the wall over a flat bed, which in a wide open channel holds up to the
+/// surface if the mixing length is κz√(1 − z/H).
+///
+/// Sources: Issa 2004, Eq. 6.21–6.23 and 6.29; the blend of [`WallLaw`] near the wall.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LogLawFlow {
+    /// Friction velocity u*.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m/s"))]
+    pub friction_velocity: f64,
+    /// Kinematic viscosity ν.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m²/s"))]
+    pub kinematic_viscosity: f64,
+    /// Equivalent sand roughness k_s of the bed; 0 if it is smooth.
+    #[serde(default)]
+    #[schemars(range(min = 0.0), extend("unit" = "m"))]
+    pub roughness: f64,
+    /// Height of the bed.
+    #[serde(default)]
+    #[schemars(extend("unit" = "m"))]
+    pub bottom: f64,
+    /// Von Kármán's κ.
+    #[serde(default = "karman")]
+    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1"))]
+    pub karman: f64,
+    /// B of a smooth bed.
+    #[serde(default = "smooth")]
+    #[schemars(extend("unit" = "1"))]
+    pub smooth_constant: f64,
+    /// D of a fully rough bed.
+    #[serde(default = "rough")]
+    #[schemars(extend("unit" = "1"))]
+    pub rough_constant: f64,
+}
+
+impl<const D: usize> Solution<D> for LogLawFlow {
+    fn velocity(&self, position: &Vect<D>, _time: f64) -> Option<Vect<D>> {
+        let law = WallLaw {
+            karman: self.karman,
+            smooth: self.smooth_constant,
+            rough: self.rough_constant,
+            roughness: self.roughness,
+        };
+        let height = position[D - 1] - self.bottom;
+        let mut velocity = Vect::zeros();
+        if height > law.least_distance() {
+            velocity[0] = law.speed(self.friction_velocity, height, self.kinematic_viscosity);
+        }
+        Some(velocity)
+    }
+}
+
+register!(
+    SolutionEntry [2, 3],
+    LogLawFlow,
+    "log-law",
+    "the law of the wall over a flat bed, smooth or rough",
+    "Issa 2004, Eq. 6.21–6.29; Reichardt 1951"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Page §4.5 and §4.7: 1.4677 and 0.8749 m/s at the surface of the smooth and the rough channel.
+    #[test]
+    fn surfaces_have_the_speeds_of_the_page() {
+        let at = |roughness: f64, height: f64| {
+            let flow = LogLawFlow {
+                friction_velocity: 0.05,
+                kinematic_viscosity: 1e-6,
+                roughness,
+                bottom: 0.1,
+                karman: karman(),
+                smooth_constant: smooth(),
+                rough_constant: rough(),
+            };
+            let place = Vect::from([3.0, 0.1 + height]);
+            Solution::<2>::velocity(&flow, &place, 0.0).expect("a velocity")
+        };
+        assert!((at(0.0, 0.4).x - 1.4677).abs() < 1e-4);
+        assert!((at(0.01, 0.4).x - 0.8749).abs() < 1e-4);
+        assert_eq!(at(0.01, 0.0).norm(), 0.0);
+    }
+}

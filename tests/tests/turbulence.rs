@@ -1,0 +1,464 @@
+//! Closures and wall functions in whole scenes.
+
+use sph_core::{System, Vect, fields};
+use sph_scene::{Override, parse};
+use sph_solver::{Assembled, RunOptions, Start, Summary, assemble, examine, run};
+use sph_tests::{Bench, FinalState, PERIODIC};
+use sph_turbulence::{
+    DISSIPATION, FRICTION_VELOCITY, Smagorinsky, TURBULENT_ENERGY, WALL_DISTANCE, WallLaw,
+};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+
+/// Water over a bed along x, without gravity.
+const CHANNEL: &str = r#"
+title = "Water over a bed"
+dimension = 2
+[run]
+end = 0.02
+[numerics]
+spacing = 0.01
+smoothing_ratio = 2.0
+periodic = { x = [0.0, 0.2] }
+[viscous-operator.morris]
+within = "arithmetic"
+[walls.usaw]
+vertices = false
+[wall.bed]
+polyline = [[0.0, 0.0], [0.2, 0.0]]
+condition = "free-slip"
+[phase.water]
+density = 1000.0
+speed_of_sound = 20.0
+rheology.newtonian = { viscosity = "1 mPa s" }
+[body.water]
+phase = "water"
+box = [[0.0, 0.0], [0.2, 0.2]]
+velocity = [1.0, 0.0]
+[probe.shear]
+kind = "wall-force"
+wall = "bed"
+[probe.bed]
+kind = "friction-velocity"
+wall = "bed"
+[wall-function.log-law]
+walls = ["bed"]
+[output]
+every = 0.02
+vtk = false
+"#;
+
+/// The same in space.
+fn in_space() -> String {
+    CHANNEL
+        .replace("dimension = 2", "dimension = 3")
+        .replace(
+            "periodic = { x = [0.0, 0.2] }",
+            "periodic = { x = [0.0, 0.1], y = [0.0, 0.1] }",
+        )
+        .replace(
+            "polyline = [[0.0, 0.0], [0.2, 0.0]]",
+            "box = [[0.0, 0.0, 0.0], [0.1, 0.1, 0.1]]\nopen = [\"x-\", \"x+\", \"y-\", \"y+\", \"z+\"]",
+        )
+        .replace(
+            "box = [[0.0, 0.0], [0.2, 0.2]]",
+            "box = [[0.0, 0.0, 0.0], [0.1, 0.1, 0.1]]",
+        )
+        .replace("velocity = [1.0, 0.0]", "velocity = [0.8, 0.6, 0.0]")
+}
+
+fn assembled<const D: usize>(text: &str, changes: &[&str]) -> Assembled<D> {
+    let changes = changes
+        .iter()
+        .map(|c| Override::parse(c).expect("a change"));
+    let changes: Vec<_> = changes.collect();
+    let loaded = parse(text, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
+    assemble::<D>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn into(
+    folder: &std::path::Path,
+    text: &str,
+    changes: &[&str],
+    threads: usize,
+    start: Start,
+) -> Summary {
+    let changes = changes
+        .iter()
+        .map(|c| Override::parse(c).expect("a change"));
+    let changes: Vec<_> = changes.collect();
+    let loaded = parse(text, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
+    let options = RunOptions {
+        out: folder.to_path_buf(),
+        start,
+        threads: Some(threads),
+        identity: sph_solver::Identity::of_text(text),
+    };
+    run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn finished(text: &str, threads: usize) -> (Summary, tempfile::TempDir) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let summary = into(folder.path(), text, &[], threads, Start::Afresh);
+    (summary, folder)
+}
+
+fn last(folder: &std::path::Path, column: &str) -> f64 {
+    let text = std::fs::read_to_string(folder.join("series.csv")).expect("a series");
+    let series = sph_io::Table::parse(&text, "series.csv").expect("a table");
+    let values = series.column(column);
+    *values.expect("a column").last().expect("a row")
+}
+
+/// η_t/ρ of the particles of a lattice that moves as given, away from its edges, m²/s; and h.
+fn eddies(closure: &str, velocity: impl Fn(&Vect<2>) -> Vect<2>) -> (Vec<f64>, f64) {
+    let open = PERIODIC.replace("periodic = { x = [0.0, 1.0], y = [0.0, 1.0] }", "");
+    let text = format!("{open}\n{closure}");
+    let mut flow = assembled::<2>(&text, &[]).flow;
+    let places = flow
+        .world
+        .free
+        .get(fields::POSITION)
+        .expect("places")
+        .to_vec();
+    let moving = places.iter().map(velocity).collect();
+    flow.world
+        .free
+        .put(fields::VELOCITY, moving)
+        .expect("a column");
+    flow.evaluate().expect("an evaluation");
+    let world = &flow.world;
+    let reach = world.kernel.support_radius();
+    let inside = |x: &Vect<2>| x.iter().all(|c| *c > reach && *c < 1.0 - reach);
+    let eddies = world.free.get(fields::EDDY_VISCOSITY).expect("eddies");
+    let density = world.free.get(fields::DENSITY).expect("densities");
+    // Sorting may have moved particles.
+    let places = world.free.get(fields::POSITION).expect("places");
+    let wanted = (0..places.len()).filter(|i| inside(&places[*i]));
+    let values: Vec<f64> = wanted.map(|i| eddies[i] / density[i]).collect();
+    assert!(!values.is_empty());
+    (values, world.kernel.smoothing_length())
+}
+
+const SMAGORINSKY: &str = "[eddy-viscosity.smagorinsky]";
+const WALE: &str = "[eddy-viscosity.wale]";
+/// Gradients that are exact for linear velocities leave rounding.
+const ROUNDING: f64 = 1e-10;
+
+#[test]
+fn a_sheared_box_has_smagorinskys_eddies_and_none_of_wale() {
+    let rate = 3.0;
+    let shear = |x: &Vect<2>| Vect::from([rate * x.y, 0.0]);
+    let (found, h) = eddies(SMAGORINSKY, shear);
+    let exact = (0.1 * 2.0 * h).powi(2) * rate;
+    for value in found {
+        assert!((value / exact - 1.0).abs() < ROUNDING, "{value}, {exact}");
+    }
+    let (found, _) = eddies(WALE, shear);
+    assert!(found.iter().all(|v| *v < ROUNDING * exact), "{found:?}");
+}
+
+#[test]
+fn solid_rotation_has_no_eddies_of_smagorinskys() {
+    let turn = |x: &Vect<2>| Vect::from([-3.0 * (x.y - 0.5), 3.0 * (x.x - 0.5)]);
+    let (found, h) = eddies(SMAGORINSKY, turn);
+    let scale = (0.1 * 2.0 * h).powi(2) * 3.0;
+    assert!(found.iter().all(|v| *v < ROUNDING * scale), "{found:?}");
+}
+
+#[test]
+fn large_eddies_in_the_plane_are_warned_of() {
+    let bench = Bench::with(PROGRAM, &format!("{PERIODIC}\n{WALE}\n"));
+    let outcome = bench.done("run scene.toml");
+    let told = outcome.out + &outcome.err;
+    assert!(told.contains("in two its results"), "{told}");
+}
+
+/// In the first evaluation the fluid slides as one, so that every particle has the u* of 1 m/s at its distance.
+#[test]
+fn particles_near_the_bed_have_the_friction_velocity_of_their_true_distance() {
+    for (text, roughness) in [(CHANNEL, 0.0), (CHANNEL, 0.005)] {
+        let change = format!("wall-function.log-law.roughness={roughness}");
+        let mut flow = assembled::<2>(text, &[&change]).flow;
+        flow.evaluate().expect("an evaluation");
+        let law = WallLaw {
+            roughness,
+            ..WallLaw::default()
+        };
+        check_friction_velocities(&flow.world, &law);
+    }
+    let mut flow = assembled::<3>(&in_space(), &[]).flow;
+    flow.evaluate().expect("an evaluation");
+    check_friction_velocities(&flow.world, &WallLaw::default());
+}
+
+fn check_friction_velocities<const D: usize>(world: &sph_neighbours::World<D>, law: &WallLaw) {
+    let places = world.free.get(fields::POSITION).expect("places");
+    let friction = world.free.get(FRICTION_VELOCITY).expect("u*");
+    let mut near = 0;
+    for (x, found) in places.iter().zip(friction) {
+        let z = x[D - 1];
+        if z < world.kernel.support_radius() * 0.99 {
+            let exact = law.friction_velocity(1.0, z, 1e-6).expect("u*");
+            assert!((found / exact - 1.0).abs() < 1e-9, "{z}: {found}, {exact}");
+            near += 1;
+        } else if z > world.kernel.support_radius() * 1.01 {
+            assert_eq!(*found, 0.0);
+        }
+    }
+    assert!(near > 0);
+}
+
+/// What the bed takes is what the fluid loses; a bed that goes along takes nothing.
+#[test]
+fn the_shear_is_a_force_and_its_reaction() {
+    let (_, folder) = finished(CHANNEL, 2);
+    assert!(last(folder.path(), "shear.x") > 0.0);
+    // 0.8 and 0.6 m/s along a floor in space: the lattice has both axes alike.
+    let (_, folder) = finished(&in_space(), 2);
+    let [x, y] = ["shear.x", "shear.y"].map(|c| last(folder.path(), c));
+    assert!(x > 0.0 && (y / x - 0.75).abs() < 1e-6, "{x}, {y}");
+    let along = CHANNEL.replace(
+        "condition = \"free-slip\"",
+        "condition = \"free-slip\"\nvelocity = [1.0, 0.0]",
+    );
+    assert_ne!(along, CHANNEL);
+    let (_, folder) = finished(&along, 1);
+    let [force, friction] = ["shear.x", "bed"].map(|c| last(folder.path(), c));
+    // Of the pressure noise of a lattice at rest in its own frame: none.
+    assert!(force.abs() < 1e-9 && friction < 1e-4, "{force}, {friction}");
+}
+
+/// d(Σmu)/dt = −F: over a run with the force at every step.
+#[test]
+fn momentum_goes_to_the_bed() {
+    let each = CHANNEL.replace("every = 0.02", "every = 0.02\nseries_every = 1e-9");
+    let (_, folder) = finished(&each, 1);
+    let text = std::fs::read_to_string(folder.path().join("series.csv")).expect("a series");
+    let series = sph_io::Table::parse(&text, "series.csv").expect("a table");
+    let column = |name: &str| series.column(name).expect("a column").to_vec();
+    let [time, momentum, force] = ["time", "momentum.x", "shear.x"].map(column);
+    let taken = (1..time.len()).map(|k| force[k - 1] * (time[k] - time[k - 1]));
+    let (taken, lost) = (taken.sum::<f64>(), momentum[0] - momentum[time.len() - 1]);
+    assert!(lost > 0.0 && time.len() > 10);
+    // Rounding of momenta of 40 kg m/s that lose some thousandths; forces of the beginning of every step.
+    assert!((taken / lost - 1.0).abs() < 1e-6, "{taken} of {lost} N s/m");
+}
+
+#[test]
+fn distances_are_true_ones() {
+    let closure = "[eddy-viscosity.mixing-length]\nlongest = \"1 m\"\n";
+    let mut flow = assembled::<2>(&format!("{CHANNEL}{closure}"), &[]).flow;
+    flow.evaluate().expect("an evaluation");
+    let world = &flow.world;
+    let places = world.free.get(fields::POSITION).expect("places");
+    let distance = world.free.get(WALL_DISTANCE).expect("distances");
+    for (x, z) in places.iter().zip(distance) {
+        assert!((x.y - z).abs() < 1e-12, "{z} at {x}");
+    }
+}
+
+/// η_t over the undamped one is f² with the mean u* of the particles near the bed, which lies between the least and the largest.
+#[test]
+fn van_driests_damping_has_the_friction_velocity_of_the_bed() {
+    let plain = CHANNEL
+        .replace("condition = \"free-slip\"", "")
+        .replace("[wall-function.log-law]\nwalls = [\"bed\"]\n", "")
+        .replace(
+            "[probe.bed]\nkind = \"friction-velocity\"\nwall = \"bed\"\n",
+            "",
+        )
+        .replace("1 mPa s", "0.1 Pa s");
+    let eddies = |damping: &str| {
+        let closure = format!("{SMAGORINSKY}\ndamping = \"{damping}\"\n");
+        let mut flow = assembled::<2>(&format!("{plain}{closure}"), &[]).flow;
+        flow.evaluate().expect("an evaluation");
+        let world = flow.world;
+        let eddies = world.free.get(fields::EDDY_VISCOSITY).expect("eddies");
+        (eddies.to_vec(), world)
+    };
+    let ((damped, world), (undamped, _)) = (eddies("van-driest"), eddies("none"));
+    let places = world.free.get(fields::POSITION).expect("places");
+    let near = places
+        .iter()
+        .filter(|x| x.y < world.kernel.support_radius());
+    let law = WallLaw::default();
+    let all = near.map(|x| law.friction_velocity(1.0, x.y, 1e-4).expect("u*"));
+    let all: Vec<f64> = all.collect();
+    let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+    let largest = all.iter().copied().fold(0.0, f64::max);
+    for (i, x) in places
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| undamped[*i] > 1e-9)
+    {
+        let share = damped[i] / undamped[i];
+        let [low, high] = [least, largest].map(|u| Smagorinsky::damped(x.y * u / 1e-4).powi(2));
+        assert!(
+            share >= low - 1e-12 && share <= high + 1e-12,
+            "{share} at {x}"
+        );
+    }
+}
+
+/// Page §4.10 `k-eps-decay`: k = k₀(1 + 0.92 ε₀t/k₀)^{−1/0.92}, to 1e-3, in a periodic box at rest.
+#[test]
+fn homogeneous_turbulence_decays_as_the_model_says() {
+    let decay = PERIODIC
+        .replace("velocity = [1.0, 0.5]", "")
+        .replace("end = 0.1", "end = 0.5\nsafety = 0.05")
+        .replace(
+            "fields = [\"velocity\"]",
+            "fields = [\"turbulent_energy\", \"dissipation\"]",
+        )
+        .replace("viscosity = 1.0", "viscosity = \"1 mPa s\"");
+    let closure = "[eddy-viscosity.k-epsilon]\nenergy = 0.02\ndissipation = 0.05\n[probe.k]\nkind = \"range\"\nfield = \
+                   \"turbulent_energy\"\n";
+    let text = format!("{decay}\n{closure}");
+    let (_, folder) = finished(&text, 1);
+    let exact = 0.02 * (1.0f64 + 0.92 * 0.05 * 0.5 / 0.02).powf(-1.0 / 0.92);
+    for end in ["k.min", "k.max"] {
+        let found = last(folder.path(), end);
+        assert!(
+            (found / exact - 1.0).abs() < 1e-3,
+            "{end}: {found}, {exact}"
+        );
+    }
+    let (_, other) = finished(&text, 2);
+    let state = |f: &tempfile::TempDir| FinalState::of(f.path());
+    state(&folder).assert_same(&state(&other), "one and two threads");
+}
+
+/// Walls, closures, transported scalars and flow control together are the same bits on any number of threads and after a
+/// resumption, and positive.
+#[test]
+fn a_channel_of_all_of_it_is_the_same_on_any_number_of_threads() {
+    let rest = "[eddy-viscosity.k-epsilon.channel]\nfriction_velocity = 0.05\ndepth = 0.2\n\
+                [flow-control.bulk-velocity]\nvelocity = 1.0\n";
+    let text = format!("{CHANNEL}{rest}");
+    let folders = [1, 2].map(|threads| finished(&text, threads).1);
+    let states = folders.each_ref().map(|f| FinalState::of(f.path()));
+    states[0].assert_same(&states[1], "one and two threads");
+    let resumed = tempfile::tempdir().expect("a folder");
+    into(
+        resumed.path(),
+        &text,
+        &["run.max_steps=20"],
+        1,
+        Start::Afresh,
+    );
+    into(resumed.path(), &text, &[], 2, Start::Resumed);
+    states[0].assert_same(&FinalState::of(resumed.path()), "whole and resumed");
+    for name in [TURBULENT_ENERGY.name, DISSIPATION.name] {
+        let values = states[0].columns[name].iter().map(|b| f64::from_bits(*b));
+        assert!(
+            values.min_by(f64::total_cmp).expect("values") > 0.0,
+            "{name}"
+        );
+    }
+    // With forces of a mean over a step, too, and solved for.
+    for change in [
+        "integrator.predictor-corrector={}",
+        "implicit-viscosity.backward-euler={}",
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        into(folder.path(), &text, &[change], 1, Start::Afresh);
+        let columns = FinalState::of(folder.path()).columns;
+        let energy = columns[TURBULENT_ENERGY.name]
+            .iter()
+            .map(|b| f64::from_bits(*b));
+        assert!(
+            energy.min_by(f64::total_cmp).expect("values") > 0.0,
+            "{change}"
+        );
+    }
+    // 40 kg/m that go with 1 m/s.
+    let momentum = last(folders[0].path(), "momentum.x");
+    assert!((momentum - 40.0).abs() < 1e-9, "{momentum}");
+}
+
+#[test]
+fn what_does_not_fit_is_refused_with_what_was_expected() {
+    let no_slip = CHANNEL.replace("condition = \"free-slip\"", "");
+    let vertices = CHANNEL.replace("vertices = false", "vertices = true");
+    let thin = CHANNEL.replace("1 mPa s", "0 Pa s");
+    let with = |closure: &str| format!("{CHANNEL}{closure}");
+    let cases = [
+        (
+            no_slip.clone(),
+            "write `condition = \"free-slip\"` in `[wall.bed]`",
+        ),
+        (vertices, "`vertices = false`"),
+        (thin, "`rheology.newtonian` with a viscosity"),
+        (
+            CHANNEL.replace("walls = [\"bed\"]", "walls = [\"bad\"]"),
+            "did you mean `bed`",
+        ),
+        (
+            CHANNEL.replace("walls = [\"bed\"]", "walls = [\"bed\"]\nroughness = 0.02"),
+            "at most the spacing",
+        ),
+        (
+            with("[eddy-viscosity.k-epsilon]\nenergy = 1.0\n"),
+            "both `energy` and `dissipation`",
+        ),
+        (
+            with("[eddy-viscosity.k-epsilon]\nenergy = -1.0\ndissipation = 1.0\n"),
+            "energy",
+        ),
+        (
+            with("[eddy-viscosity.smagorinsky]\ndamping = \"van-driest\"\n"),
+            "condition = \"no-slip\"",
+        ),
+        (
+            with("[eddy-viscosity.mixing-length]\nwalls = [\"bod\"]\n"),
+            "there is no wall `bod`",
+        ),
+        (
+            with("[flow-control.bulk-velocity]\nvelocity = 1.0\naxis = \"y\"\n"),
+            "[numerics.periodic]",
+        ),
+        (
+            with("[eddy-viscosity.k-epsilon]\nenergy = 1.0\ndissipation = 1.0\n")
+                .replace("[wall-function.log-law]\nwalls = [\"bed\"]\n", "")
+                .replace("condition = \"free-slip\"", ""),
+            "[wall-function.log-law]",
+        ),
+    ];
+    for (text, expected) in cases {
+        let refused = match parse(&text, "scene.toml", &[]) {
+            Err(error) => error.to_string(),
+            Ok(loaded) => match examine(&loaded.scene, 1) {
+                Err(error) => error.to_string(),
+                Ok(_) => panic!("accepted, where `{expected}` was expected:\n{text}"),
+            },
+        };
+        assert!(
+            refused.contains(expected),
+            "`{expected}` is not in: {refused}"
+        );
+    }
+}
+
+/// Without a closure there is no column of it, and the laminar part of the channel's scene is that of any other.
+#[test]
+fn a_laminar_scene_carries_nothing_of_turbulence() {
+    let plain = CHANNEL
+        .replace("[wall-function.log-law]\nwalls = [\"bed\"]\n", "")
+        .replace(
+            "[probe.bed]\nkind = \"friction-velocity\"\nwall = \"bed\"\n",
+            "",
+        );
+    let loaded = parse(&plain, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    let examined = examine(&loaded.scene, 1).unwrap_or_else(|e| panic!("{e}"));
+    for field in &examined.fields {
+        let name = field.name.as_str();
+        let of_turbulence = [
+            "eddy_viscosity",
+            "wall_friction",
+            "friction_velocity",
+            "strain_rate",
+        ];
+        assert!(!of_turbulence.contains(&name), "{name}");
+    }
+}
