@@ -129,10 +129,9 @@ impl<const D: usize, F: PairFriction<D>, S: ViscositySource> LanePairTerm<D> for
 
 /// Whether the fluid rubs any wall: all may be free-slip.
 fn rubs<const D: usize>(world: &World<D>) -> bool {
-    let grips = world.walls.points.grip.iter();
-    grips
-        .chain(&world.walls.elements.grip)
-        .any(|grip| *grip != 0.0)
+    let elements = &world.walls.elements;
+    let mut grips = world.walls.points.grip.iter().chain(&elements.grip);
+    grips.any(|grip| *grip != 0.0) || elements.wall_function.contains(&true)
 }
 
 /// [`ViscousTerm`] with its columns.
