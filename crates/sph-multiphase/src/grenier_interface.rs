@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::register;
-use sph_neighbours::Interaction;
+use sph_neighbours::{Interaction, Lane};
 
 use crate::repulsion::{Repelling, Repulsion};
 use crate::{InterfaceEntry, InterfaceModel};
@@ -45,7 +45,7 @@ struct BothVolumes;
 impl Repulsion for BothVolumes {
     const NAME: &'static str = "Grenier interface force";
     #[inline(always)]
-    fn weight(pressure: f64, volume: f64, there: f64, there_volume: f64) -> f64 {
+    fn weight<L: Lane>(pressure: L, volume: L, there: L, there_volume: L) -> L {
         volume * there_volume * (pressure.abs() + there.abs())
     }
 }

@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, StepLimit, Vect, fields, register};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, WallPoints,
-    World,
+    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
+    Pair, Rates, There, WallPoints, World, add_scaled, dot, minus, set, splat, vector,
 };
 
 use crate::{InterfaceEntry, InterfaceModel};
@@ -63,7 +63,7 @@ impl Default for InterfaceFriction {
 
 impl<const D: usize> InterfaceModel<D> for InterfaceFriction {
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Term(Damping::of(self, laws)))
+        Box::new(Lanewise(Damping::of(self, laws)))
     }
 
     fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
@@ -123,7 +123,7 @@ impl<const D: usize> Limiter<D> for DampingLimit {
     }
 }
 
-impl<const D: usize> PairTerm<D> for Damping {
+impl<const D: usize> LanePairTerm<D> for Damping {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -204,13 +204,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
 
     #[inline(always)]
     fn free(&self, own: &Own<D>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Vect<D>) {
-        let unlike = self.phase[j] != own.phase;
-        if !unlike && own.wall_density == 0.0 {
-            return;
-        }
-        let sound = 0.5 * (own.sound + self.sound[self.phase[j] as usize]);
-        let mass = self.mass[j] / (own.density + there.density);
-        *sum += self.along(unlike, sound, &(own.velocity - there.velocity), pair) * mass;
+        self.add_one(own, j, there, pair, sum);
     }
 
     #[inline(always)]
@@ -218,7 +212,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         let behind = own.wall_density * self.points.share[v] * self.points.volume[v];
         let relative = own.velocity - self.points.velocity[v];
         let mass = behind / (own.density + own.wall_density);
-        *sum += self.along(true, own.sound, &relative, pair) * mass;
+        *sum += self.along(own.sound, &relative, pair) * mass;
     }
 
     #[inline(always)]
@@ -228,7 +222,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         let leaving = (own.velocity - self.elements.velocity[s]).dot(&normal);
         let density = own.wall_density / (own.density + own.wall_density);
         let distance = contact.distance.max(0.5 * self.length);
-        let rate = self.signal(true, own.sound, leaving) * contact.gradient.norm() / distance;
+        let rate = self.signal(own.sound, leaving) * contact.gradient.norm() / distance;
         *sum -= normal * (density * rate * leaving);
     }
 
@@ -240,18 +234,93 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
 }
 
 impl<const D: usize> Bound<'_, D> {
-    /// v, for particles that part at a speed.
+    /// v, for a particle and a wall that part at a speed.
     #[inline(always)]
-    fn signal(&self, unlike: bool, sound: f64, parting: f64) -> f64 {
-        let steady = if unlike { self.strength * sound } else { 0.0 };
-        steady + self.shocks * (-parting).clamp(0.0, sound)
+    fn signal(&self, sound: f64, parting: f64) -> f64 {
+        self.strength * sound + self.shocks * (-parting).clamp(0.0, sound)
     }
 
-    /// v (u·r)/r² ∇w; nothing for two particles in one place.
+    /// v (u·r)/r² ∇w of a wall point; nothing for two in one place.
     #[inline(always)]
-    fn along(&self, unlike: bool, sound: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
+    fn along(&self, sound: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
         let rate = relative.dot(&pair.separation) / pair.distance2.max(f64::MIN_POSITIVE);
-        let signal = self.signal(unlike, sound, rate * self.length);
+        let signal = self.signal(sound, rate * self.length);
         pair.separation * (signal * rate * pair.factor)
+    }
+}
+
+/// [`Own`] of several particles; phases are small whole numbers, exact as any.
+#[derive(Clone, Copy)]
+struct Side<const D: usize, L> {
+    phase: L,
+    density: L,
+    sound: L,
+    wall_density: L,
+    velocity: [L; D],
+}
+
+impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
+    type Side<L: Lane> = Side<D, L>;
+    type Sums<L: Lane> = [L; D];
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Own<D>]) -> Side<D, L> {
+        let zero = L::splat(0.0);
+        let mut side = Side {
+            phase: zero,
+            density: zero,
+            sound: zero,
+            wall_density: zero,
+            velocity: [zero; D],
+        };
+        for (lane, own) in here.iter().enumerate() {
+            side.phase.set(lane, f64::from(own.phase));
+            side.density.set(lane, own.density);
+            side.sound.set(lane, own.sound);
+            side.wall_density.set(lane, own.wall_density);
+            set(&mut side.velocity, lane, &own.velocity);
+        }
+        side
+    }
+
+    #[inline(always)]
+    fn sums<L: Lane>(&self, sum: &Vect<D>) -> [L; D] {
+        splat(sum)
+    }
+
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &[L; D], lane: usize) -> Vect<D> {
+        vector(sums, lane)
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        own: &Side<D, L>,
+        j: usize,
+        there: &There<D>,
+        pair: &LanePair<D, L>,
+        sums: &mut [L; D],
+    ) {
+        let zero = L::splat(0.0);
+        let phase = self.phase[j];
+        let apart = own.phase - L::splat(f64::from(phase));
+        let unlike = apart * apart;
+        // Positive where a pair counts: unlike phases, and pairs of a light one.
+        let counts = unlike + own.wall_density;
+        if !zero.any_less(counts) {
+            return;
+        }
+        let sound = L::splat(0.5) * (own.sound + L::splat(self.sound[phase as usize]));
+        let mass = L::splat(self.mass[j]) / (own.density + L::splat(there.density));
+        let relative = dot(&minus(&own.velocity, &there.velocity), &pair.separation);
+        let rate = relative / pair.distance2.max(L::splat(f64::MIN_POSITIVE));
+        let steady = unlike.where_positive(L::splat(self.strength) * sound, zero);
+        let closing = -(rate * L::splat(self.length));
+        let closing = closing.where_positive(closing, zero);
+        let closing = (closing - sound).where_positive(sound, closing);
+        let signal = steady + L::splat(self.shocks) * closing;
+        let weight = counts.where_positive(signal * rate * pair.factor, zero);
+        add_scaled(sums, &pair.separation.map(|r| r * weight), mass);
     }
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::register;
-use sph_neighbours::Interaction;
+use sph_neighbours::{Interaction, Lane};
 
 use crate::repulsion::{Repelling, Repulsion};
 use crate::{InterfaceEntry, InterfaceModel};
@@ -46,7 +46,7 @@ struct OwnVolumes;
 impl Repulsion for OwnVolumes {
     const NAME: &'static str = "micro-mixing force";
     #[inline(always)]
-    fn weight(pressure: f64, volume: f64, there: f64, there_volume: f64) -> f64 {
+    fn weight<L: Lane>(pressure: L, volume: L, there: L, there_volume: L) -> L {
         pressure.abs() * volume * volume + there.abs() * there_volume * there_volume
     }
 }

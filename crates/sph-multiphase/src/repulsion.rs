@@ -1,14 +1,17 @@
 //! Forces that push phases apart: a weight per pair of particles of different phases.
 
 use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
+use sph_neighbours::{
+    BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There,
+    World, add_scaled, splat, vector,
+};
 
 /// The weight P_ab of m_a a = −ε Σ_{b of other phases} P_ab ∇w_ab.
 pub trait Repulsion: Copy + Send + Sync + 'static {
     /// Name in plans.
     const NAME: &'static str;
     /// P_ab = P_ba ≥ 0 from pressures and volumes here and there, Pa m^2d.
-    fn weight(pressure: f64, volume: f64, there: f64, there_volume: f64) -> f64;
+    fn weight<L: Lane>(pressure: L, volume: L, there: L, there_volume: L) -> L;
 }
 
 /// The term of a weight with its ε.
@@ -21,14 +24,14 @@ pub struct Repelling<R> {
 impl<R: Repulsion> Repelling<R> {
     /// As a term of a sweep.
     pub fn boxed<const D: usize>(strength: f64) -> Box<dyn Interaction<D>> {
-        Box::new(Term(Repelling::<R> {
+        Box::new(Lanewise(Repelling::<R> {
             strength,
             weight: std::marker::PhantomData,
         }))
     }
 }
 
-impl<const D: usize, R: Repulsion> PairTerm<D> for Repelling<R> {
+impl<const D: usize, R: Repulsion> LanePairTerm<D> for Repelling<R> {
     type Bound<'a> = Bound<'a, R>;
 
     fn name(&self) -> String {
@@ -93,15 +96,72 @@ impl<const D: usize, R: Repulsion> BoundTerm<D> for Bound<'_, R> {
 
     #[inline(always)]
     fn free(&self, own: &Own, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Vect<D>) {
-        if self.phase[j] != own.phase {
-            let weight = R::weight(own.pressure, own.volume, there.pressure, there.volume);
-            *sum += pair.separation * (weight * pair.factor);
-        }
+        self.add_one(own, j, there, pair, sum);
     }
 
     /// Without 1/γ: what one particle gets, another loses.
     #[inline(always)]
     fn finish(&self, own: &Own, sum: &Vect<D>, _inverse_gamma: f64, rates: &mut Rates<D>) {
         rates.acceleration -= sum * (self.term.strength * own.inverse_mass);
+    }
+}
+
+/// [`Own`] of several particles; phases are small whole numbers, exact as any.
+#[derive(Clone, Copy)]
+pub struct Side<L> {
+    pressure: L,
+    volume: L,
+    phase: L,
+}
+
+impl<const D: usize, R: Repulsion> LaneTerm<D> for Bound<'_, R> {
+    type Side<L: Lane> = Side<L>;
+    type Sums<L: Lane> = [L; D];
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Own]) -> Side<L> {
+        let zero = L::splat(0.0);
+        let mut side = Side {
+            pressure: zero,
+            volume: zero,
+            phase: zero,
+        };
+        for (lane, own) in here.iter().enumerate() {
+            side.pressure.set(lane, own.pressure);
+            side.volume.set(lane, own.volume);
+            side.phase.set(lane, f64::from(own.phase));
+        }
+        side
+    }
+
+    #[inline(always)]
+    fn sums<L: Lane>(&self, sum: &Vect<D>) -> [L; D] {
+        splat(sum)
+    }
+
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &[L; D], lane: usize) -> Vect<D> {
+        vector(sums, lane)
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        own: &Side<L>,
+        j: usize,
+        there: &There<D>,
+        pair: &LanePair<D, L>,
+        sums: &mut [L; D],
+    ) {
+        let apart = own.phase - L::splat(f64::from(self.phase[j]));
+        let unlike = apart * apart;
+        let zero = L::splat(0.0);
+        // Most pairs are of one phase.
+        if !zero.any_less(unlike) {
+            return;
+        }
+        let [pressure, volume] = [there.pressure, there.volume].map(L::splat);
+        let weight = R::weight(own.pressure, own.volume, pressure, volume) * pair.factor;
+        add_scaled(sums, &pair.separation, unlike.where_positive(weight, zero));
     }
 }

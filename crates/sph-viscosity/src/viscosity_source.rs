@@ -196,9 +196,14 @@ impl BoundViscosity for SeriesColumns<'_> {
     fn means<L: Lane>(&self, here: &(L, L, L), j: usize) -> L {
         let there = L::splat(self.viscosity[j]);
         let apart = here.1 - L::splat(f64::from(self.phase[j]));
+        let unlike = apart * apart;
+        let alike = within(self.within, here.0, there);
+        // Most pairs are of one phase.
+        if !L::splat(0.0).any_less(unlike) {
+            return alike;
+        }
         let mixed = in_series(here.2, here.0, L::splat(self.distance[j]), there);
-        // Positive where the phases differ.
-        (apart * apart).where_positive(mixed, within(self.within, here.0, there))
+        unlike.where_positive(mixed, alike)
     }
     #[inline(always)]
     fn here(&self, i: usize) -> Self::Here {
