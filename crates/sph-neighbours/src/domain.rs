@@ -1,6 +1,7 @@
 //! The box the flow lives in, and which of its directions are periodic.
 
 use sph_core::Vect;
+use sph_lanes::Lane;
 
 /// A box; along a periodic axis the upper face is the lower one.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +45,20 @@ impl<const D: usize> Domain<D> {
                 } else if d[axis] < -0.5 * length {
                     d[axis] += length;
                 }
+            }
+        }
+        d
+    }
+
+    /// [`Domain::nearest_image`] in all lanes.
+    #[inline(always)]
+    pub(crate) fn nearest_images<L: Lane>(&self, mut d: [L; D]) -> [L; D] {
+        for axis in 0..D {
+            if self.periodic[axis] {
+                let length = L::splat(self.length(axis));
+                let half = L::splat(0.5 * self.length(axis));
+                let near = (-half - d[axis]).where_positive(d[axis] + length, d[axis]);
+                d[axis] = (d[axis] - half).where_positive(d[axis] - length, near);
             }
         }
         d

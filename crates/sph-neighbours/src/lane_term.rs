@@ -138,10 +138,6 @@ impl<const D: usize, B: LaneTerm<D>> RowTerm<D> for FusedLanes<B> {
         free_then_walls(&self.0, n, rates);
     }
     fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
-        if cluster.domain.is_some() {
-            // Images are looked for one by one.
-            return cluster.rows(|k, n| free_then_walls(&self.0, n, &mut rates[k]));
-        }
         let body = SideBySide {
             term: &self.0,
             cluster,
@@ -183,8 +179,12 @@ impl<const D: usize, B: LaneTerm<D>> Body for SideBySide<'_, '_, D, B> {
         let factors = cluster.buffers.factor.chunks_exact(L::N);
         for (&j, (distance2, factor)) in candidates.iter().zip(distances.zip(factors)) {
             let j = j as usize;
+            let mut separation = minus(&x, &cluster.positions[j]);
+            if let Some(domain) = cluster.domain {
+                separation = domain.nearest_images(separation);
+            }
             let pair = LanePair {
-                separation: minus(&x, &cluster.positions[j]),
+                separation,
                 distance2: L::load(distance2),
                 factor: L::load(factor),
             };

@@ -1,7 +1,7 @@
 //! Separations of the members of a cluster from one neighbour after the other, in lanes.
 
 use sph_core::Vect;
-use sph_lanes::{Body, Lane};
+use sph_lanes::{Body, Lane, dot};
 
 use crate::Domain;
 use crate::lane_vector::minus;
@@ -25,7 +25,7 @@ pub(crate) fn places<const D: usize, L: Lane>(points: &[Vect<D>]) -> [L; D] {
 #[inline(always)]
 pub(crate) fn distance2_at<const D: usize, L: Lane>(x: &[L; D], there: &Vect<D>) -> L {
     let d = minus(x, there);
-    sph_lanes::dot(&d, &d)
+    dot(&d, &d)
 }
 
 /// Squared distances of the members of a cluster from all candidates, `N` numbers for each candidate.
@@ -57,16 +57,11 @@ impl<const D: usize> Body for Distances<'_, D> {
         let own = &self.positions[from..from + count];
         let x = places::<D, L>(own);
         for (&j, out) in candidates.iter().zip(out.chunks_exact_mut(L::N)) {
-            let there = &self.positions[j as usize];
-            match self.domain {
-                None => distance2_at(&x, there).store(out),
-                Some(domain) => {
-                    for (lane, out) in out.iter_mut().enumerate() {
-                        let x = &own[lane.min(count - 1)];
-                        *out = domain.nearest_image(x - there).norm_squared();
-                    }
-                }
+            let mut apart = minus(&x, &self.positions[j as usize]);
+            if let Some(domain) = self.domain {
+                apart = domain.nearest_images(apart);
             }
+            dot(&apart, &apart).store(out);
             let lane = (j as usize).wrapping_sub(from);
             if lane < count {
                 out[lane] = f64::INFINITY;
