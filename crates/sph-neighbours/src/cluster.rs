@@ -6,7 +6,7 @@ use sph_lanes::{MOST, Width, dispatch_at};
 
 use crate::members::Members;
 use crate::separation::Distances;
-use crate::{Contacts, Domain, Neighbourhood, Scratch, There};
+use crate::{Contacts, Domain, Neighbourhood, Row, Scratch, There};
 
 /// A few particles that follow each other, with distances and kernel gradients for all whom they may have as neighbours.
 pub struct Cluster<'a, const D: usize> {
@@ -95,6 +95,19 @@ impl<const D: usize> Cluster<'_, D> {
                 inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
             };
             visit(k, &neighbourhood);
+        }
+    }
+
+    /// The walls of a member; its row of free neighbours is empty.
+    pub(crate) fn walls(&self, member: usize) -> Neighbourhood<'_, D> {
+        let particle = self.members.from + member;
+        Neighbourhood {
+            particle,
+            free: Row::empty(),
+            states: self.states,
+            wall: self.buffers.walls[member].row(),
+            contacts: self.contacts.of(particle),
+            inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
         }
     }
 

@@ -33,6 +33,18 @@ pub struct There<const D: usize> {
     pub density: f64,
 }
 
+impl<const D: usize> Row<'_, D> {
+    /// Without anybody.
+    pub(crate) fn empty() -> Self {
+        Row {
+            index: &[],
+            separation: &[],
+            distance2: &[],
+            factor: &[],
+        }
+    }
+}
+
 /// Everything a term may sum over for one particle.
 #[derive(Clone, Copy, Debug)]
 pub struct Neighbourhood<'a, const D: usize> {

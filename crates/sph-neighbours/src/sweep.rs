@@ -197,7 +197,7 @@ pub fn accelerations_of<const D: usize>(
 type Room<const D: usize> = (Buffers<D>, Vec<Rates<D>>);
 
 /// What a walk over neighbourhoods looks at.
-struct Sweep<'a, const D: usize, K: ?Sized> {
+pub(crate) struct Sweep<'a, const D: usize, K: ?Sized> {
     world: &'a World<D>,
     states: &'a [There<D>],
     kernel: &'a K,
@@ -209,7 +209,11 @@ struct Sweep<'a, const D: usize, K: ?Sized> {
 }
 
 impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
-    fn new(world: &'a World<D>, states: &'a [There<D>], kernel: &'a K) -> Result<Self, StepError> {
+    pub fn new(
+        world: &'a World<D>,
+        states: &'a [There<D>],
+        kernel: &'a K,
+    ) -> Result<Self, StepError> {
         Ok(Sweep {
             world,
             states,
@@ -225,6 +229,16 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         })
     }
 
+    /// Number of particles.
+    pub fn particles(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// The clusters of a block.
+    pub fn clusters(&self, block: usize) -> impl Iterator<Item = Members<'a>> {
+        self.lists.of_block(block)
+    }
+
     /// Adds what a term gives the particles of a block, in clusters where anyone is `wanted`.
     fn block<T: RowTerm<D> + ?Sized>(
         &self,
@@ -234,7 +248,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         block: usize,
         rates: &mut [Rates<D>],
     ) {
-        for cluster in self.lists.of_block(block) {
+        for cluster in self.clusters(block) {
             for members in groups(cluster, self.width.lanes()) {
                 let own = members.from..members.from + members.count;
                 if !own.clone().any(&wanted) {
@@ -248,7 +262,11 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
     }
 
     /// A cluster with all that its terms look at.
-    fn measured<'b>(&'b self, buffers: &'b mut Buffers<D>, members: Members<'b>) -> Cluster<'b, D> {
+    pub fn measured<'b>(
+        &'b self,
+        buffers: &'b mut Buffers<D>,
+        members: Members<'b>,
+    ) -> Cluster<'b, D> {
         let world = self.world;
         let own = members.from..members.from + members.count;
         let mut domain = None;

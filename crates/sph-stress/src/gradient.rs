@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::SMatrix;
 use sph_core::{Access, Declares, Stage, StepError, Vect, contract, fields};
-use sph_neighbours::{Around, Values, World, walk_some};
+use sph_neighbours::{Lane, LanePair, LaneSum, World, set, walk_in_lanes};
 
 /// What a formula is made of: sums over neighbours, wall points and elements with the weights
 /// θ_b V_b ∇w_ab and −∇γ_as.
@@ -86,60 +86,114 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
             None => None,
         };
         let wanted = |i: usize| read.is_none_or(|(phases, of)| phases[of[i] as usize]);
-        let gradients = walk_some(world, Values::Gradient, wanted, |around: &Around<'_, D>| {
-            let rows = &around.rows;
-            let own = velocity[rows.particle];
-            let mut sums = NeighbourSums {
-                velocity: SMatrix::zeros(),
-                position: SMatrix::zeros(),
-                inverse_renormalisation: rows.inverse_renormalisation,
-            };
-            // What walls that slip add, and where they face.
-            let mut slipping = [SMatrix::<f64, D, D>::zeros(); 2];
-            let mut facing = Vect::<D>::zeros();
-            for (k, &j) in rows.free.index.iter().enumerate() {
-                let j = j as usize;
-                let apart = &rows.free.separation[k];
-                let weight = (apart * (volume[j] * rows.free.factor[k])).transpose();
-                sums.velocity += (velocity[j] - own) * weight;
-                sums.position -= apart * weight;
-            }
-            for (k, &v) in rows.wall.index.iter().enumerate() {
-                let v = v as usize;
-                let share = points.share[v] * points.volume[v];
-                let apart = &rows.wall.separation[k];
-                let weight = (apart * (share * rows.wall.factor[k])).transpose();
-                let [velocity, position] =
-                    [(points.viscous_velocity[v] - own) * weight, -apart * weight];
-                let grip = points.grip[v];
-                sums.velocity += velocity * grip;
-                sums.position += position * grip;
-                slipping[0] += velocity * (1.0 - grip);
-                slipping[1] += position * (1.0 - grip);
-            }
-            for contact in rows.contacts {
-                let s = contact.element as usize;
-                let weight = -contact.gradient.transpose();
-                let foot = elements.normal[s] * contact.distance;
-                let [velocity, position] = [(elements.velocity[s] - own) * weight, -foot * weight];
-                let grip = elements.grip[s];
-                sums.velocity += velocity * grip;
-                sums.position += position * grip;
-                slipping[0] += velocity * (1.0 - grip);
-                slipping[1] += position * (1.0 - grip);
-                facing += contact.gradient * (1.0 - grip);
-            }
-            let along = self.formula.gradient(&sums);
-            let Some(normal) = facing.try_normalize(0.0) else {
-                return along;
-            };
-            sums.velocity += slipping[0];
-            sums.position += slipping[1];
-            let across = self.formula.gradient(&sums);
-            along + normal * (normal.transpose() * (across - along))
-        })?;
+        let free = FreeSums { velocity, volume };
+        let gradients = walk_in_lanes(
+            world,
+            &free,
+            wanted,
+            |[velocity_sum, position_sum], rows| {
+                let own = velocity[rows.particle];
+                let mut sums = NeighbourSums {
+                    velocity: velocity_sum,
+                    position: position_sum,
+                    inverse_renormalisation: rows.inverse_renormalisation,
+                };
+                // What walls that slip add, and where they face.
+                let mut slipping = [SMatrix::<f64, D, D>::zeros(); 2];
+                let mut facing = Vect::<D>::zeros();
+                for (k, &v) in rows.wall.index.iter().enumerate() {
+                    let v = v as usize;
+                    let share = points.share[v] * points.volume[v];
+                    let apart = &rows.wall.separation[k];
+                    let weight = (apart * (share * rows.wall.factor[k])).transpose();
+                    let [velocity, position] =
+                        [(points.viscous_velocity[v] - own) * weight, -apart * weight];
+                    let grip = points.grip[v];
+                    sums.velocity += velocity * grip;
+                    sums.position += position * grip;
+                    slipping[0] += velocity * (1.0 - grip);
+                    slipping[1] += position * (1.0 - grip);
+                }
+                for contact in rows.contacts {
+                    let s = contact.element as usize;
+                    let weight = -contact.gradient.transpose();
+                    let foot = elements.normal[s] * contact.distance;
+                    let [velocity, position] =
+                        [(elements.velocity[s] - own) * weight, -foot * weight];
+                    let grip = elements.grip[s];
+                    sums.velocity += velocity * grip;
+                    sums.position += position * grip;
+                    slipping[0] += velocity * (1.0 - grip);
+                    slipping[1] += position * (1.0 - grip);
+                    facing += contact.gradient * (1.0 - grip);
+                }
+                let along = self.formula.gradient(&sums);
+                let Some(normal) = facing.try_normalize(0.0) else {
+                    return along;
+                };
+                sums.velocity += slipping[0];
+                sums.position += slipping[1];
+                let across = self.formula.gradient(&sums);
+                along + normal * (normal.transpose() * (across - along))
+            },
+        )?;
         let all = gradients.into_iter();
         let gradients = all.map(|g| g.unwrap_or_else(SMatrix::zeros)).collect();
         Ok(world.free.put(fields::VELOCITY_GRADIENT, gradients)?)
+    }
+}
+
+/// What free neighbours add to [`NeighbourSums`]: velocity, then position.
+struct FreeSums<'a, const D: usize> {
+    velocity: &'a [Vect<D>],
+    volume: &'a [f64],
+}
+
+impl<const D: usize> LaneSum<D> for FreeSums<'_, D> {
+    type Here = Vect<D>;
+    type Sum = [SMatrix<f64, D, D>; 2];
+    type Side<L: Lane> = [L; D];
+    type Sums<L: Lane> = [[[L; D]; D]; 2];
+
+    #[inline(always)]
+    fn here(&self, particle: usize) -> Vect<D> {
+        self.velocity[particle]
+    }
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Vect<D>]) -> [L; D] {
+        let mut side = [L::splat(0.0); D];
+        for (lane, own) in here.iter().enumerate() {
+            set(&mut side, lane, own);
+        }
+        side
+    }
+    #[inline(always)]
+    fn zero<L: Lane>(&self) -> Self::Sums<L> {
+        [[[L::splat(0.0); D]; D]; 2]
+    }
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Self::Sum {
+        sums.map(|rows| SMatrix::from_fn(|i, k| rows[i][k].at(lane)))
+    }
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        own: &[L; D],
+        j: usize,
+        pair: &LanePair<D, L>,
+        [velocity, position]: &mut Self::Sums<L>,
+    ) {
+        let share = L::splat(self.volume[j]) * pair.factor;
+        let mut weight = pair.separation;
+        for w in &mut weight {
+            *w = *w * share;
+        }
+        for i in 0..D {
+            let rise = L::splat(self.velocity[j][i]) - own[i];
+            for k in 0..D {
+                velocity[i][k] += rise * weight[k];
+                position[i][k] -= pair.separation[i] * weight[k];
+            }
+        }
     }
 }

@@ -1,0 +1,130 @@
+//! Walks whose sums over free neighbours are written for lanes.
+
+use rayon::prelude::*;
+use sph_core::StepError;
+use sph_lanes::{Body, Lane, MOST, dispatch_at, width};
+
+use crate::cluster::{Buffers, Cluster};
+use crate::lane_term::LanePair;
+use crate::lane_vector::minus;
+use crate::members::{Members, groups};
+use crate::separation::places;
+use crate::sweep::Sweep;
+use crate::{CHUNK, Neighbourhood, World};
+
+/// Sums over free neighbours of several particles at once, as [`LaneTerm`](crate::LaneTerm) has them for rates.
+///
+/// What it adds for a neighbour beyond the support, where F = 0, has to be exactly zero.
+pub trait LaneSum<const D: usize>: Sync {
+    /// What is read once per particle.
+    type Here: Copy;
+    /// What is summed for one.
+    type Sum;
+    /// What is read, of several particles.
+    type Side<L: Lane>: Copy;
+    /// What is summed, of several particles.
+    type Sums<L: Lane>: Copy;
+    /// Reads a particle's own values.
+    fn here(&self, particle: usize) -> Self::Here;
+    /// Puts the own values of `L::N` particles side by side.
+    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L>;
+    /// The empty sums.
+    fn zero<L: Lane>(&self) -> Self::Sums<L>;
+    /// The sum of one lane.
+    fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Self::Sum;
+    /// Adds a free neighbour to all lanes.
+    fn add<L: Lane>(
+        &self,
+        here: &Self::Side<L>,
+        neighbour: usize,
+        pair: &LanePair<D, L>,
+        sums: &mut Self::Sums<L>,
+    );
+}
+
+/// What `of` makes of the sum over free neighbours and of the walls near every particle that is wanted, in the order of
+/// the particles. The neighbourhood's free row is empty.
+///
+/// # Errors
+/// If the world has no positions.
+pub fn walk_in_lanes<const D: usize, S: LaneSum<D>, R: Send>(
+    world: &World<D>,
+    sum: &S,
+    wanted: impl Fn(usize) -> bool + Sync,
+    of: impl Fn(S::Sum, &Neighbourhood<'_, D>) -> R + Sync,
+) -> Result<Vec<Option<R>>, StepError> {
+    let sweep = Sweep::new(world, &[], &*world.kernel)?;
+    let mut all: Vec<Option<R>> = Vec::new();
+    all.resize_with(sweep.particles(), || None);
+    let blocks = all.par_chunks_mut(CHUNK).enumerate();
+    blocks.for_each_init(Buffers::default, |buffers, (block, out)| {
+        for cluster in sweep.clusters(block) {
+            for members in groups(cluster, width().lanes()) {
+                let own = members.from..members.from + members.count;
+                if !own.clone().any(&wanted) {
+                    continue;
+                }
+                let cluster = sweep.measured(buffers, members);
+                let mut sums: [Option<S::Sum>; MOST] = std::array::from_fn(|_| None);
+                let body = SideBySide {
+                    sum,
+                    cluster: &cluster,
+                    out: &mut sums,
+                };
+                dispatch_at(cluster.width, body);
+                for ((k, i), sum) in own.enumerate().zip(sums) {
+                    let Some(sum) = sum.filter(|_| wanted(i)) else {
+                        continue;
+                    };
+                    out[i - block * CHUNK] = Some(of(sum, &cluster.walls(k)));
+                }
+            }
+        }
+    });
+    Ok(all)
+}
+
+struct SideBySide<'a, 'c, const D: usize, S: LaneSum<D>> {
+    sum: &'a S,
+    cluster: &'a Cluster<'c, D>,
+    out: &'a mut [Option<S::Sum>; MOST],
+}
+
+impl<const D: usize, S: LaneSum<D>> Body for SideBySide<'_, '_, D, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<L: Lane>(self) {
+        let SideBySide { sum, cluster, out } = self;
+        let Members {
+            from,
+            count,
+            candidates,
+        } = cluster.members;
+        let mut heres = [sum.here(from); MOST];
+        for k in 1..L::N {
+            heres[k] = sum.here(from + k.min(count - 1));
+        }
+        let side = sum.side::<L>(&heres[..L::N]);
+        let x = places::<D, L>(&cluster.positions[from..from + count]);
+        let mut sums = sum.zero::<L>();
+        let distances = cluster.buffers.distance2.chunks_exact(L::N);
+        let factors = cluster.buffers.factor.chunks_exact(L::N);
+        for (&j, (distance2, factor)) in candidates.iter().zip(distances.zip(factors)) {
+            let j = j as usize;
+            let mut separation = minus(&x, &cluster.positions[j]);
+            if let Some(domain) = cluster.domain {
+                separation = domain.nearest_images(separation);
+            }
+            let pair = LanePair {
+                separation,
+                distance2: L::load(distance2),
+                factor: L::load(factor),
+            };
+            sum.add(&side, j, &pair, &mut sums);
+        }
+        for (k, out) in out.iter_mut().enumerate().take(count) {
+            *out = Some(sum.lane(&sums, k));
+        }
+    }
+}
