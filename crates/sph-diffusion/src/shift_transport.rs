@@ -214,8 +214,8 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         let along = dot(&own.shift, &pair.separation);
         let mut weight = volume * along * pair.factor;
         let mut relative = own.velocity;
-        for k in 0..D {
-            relative[k] = L::splat(there.velocity[k]) - own.velocity[k];
+        for (relative, other) in relative.iter_mut().zip(there.velocity.iter()) {
+            *relative = L::splat(*other) - *relative;
         }
         sums.2 += volume * dot(&relative, &pair.separation).abs() * pair.factor.abs();
         if let Some(phase) = self.phase {

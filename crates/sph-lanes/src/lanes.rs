@@ -26,7 +26,7 @@ macro_rules! binary {
             #[inline(always)]
             fn $f(mut self, other: Self) -> Self {
                 for k in 0..N {
-                    self.0[k] = self.0[k] $op other.0[k];
+                    self.0[k] $op other.0[k];
                 }
                 self
             }
@@ -34,10 +34,10 @@ macro_rules! binary {
     };
 }
 binary! {
-    Add add +;
-    Sub sub -;
-    Mul mul *;
-    Div div /;
+    Add add +=;
+    Sub sub -=;
+    Mul mul *=;
+    Div div /=;
 }
 
 impl<const N: usize> Neg for Lanes<N> {

@@ -53,12 +53,12 @@ impl<const D: usize> Domain<D> {
     /// [`Domain::nearest_image`] in all lanes.
     #[inline(always)]
     pub(crate) fn nearest_images<L: Lane>(&self, mut d: [L; D]) -> [L; D] {
-        for axis in 0..D {
+        for (axis, d) in d.iter_mut().enumerate() {
             if self.periodic[axis] {
                 let length = L::splat(self.length(axis));
                 let half = L::splat(0.5 * self.length(axis));
-                let near = (-half - d[axis]).where_positive(d[axis] + length, d[axis]);
-                d[axis] = (d[axis] - half).where_positive(d[axis] - length, near);
+                let near = (-half - *d).where_positive(*d + length, *d);
+                *d = (*d - half).where_positive(*d - length, near);
             }
         }
         d

@@ -169,8 +169,8 @@ impl<const D: usize, B: LaneTerm<D>> Body for SideBySide<'_, '_, D, B> {
             candidates,
         } = cluster.members;
         let mut heres = [term.here(from); MOST];
-        for k in 1..L::N {
-            heres[k] = term.here(from + k.min(count - 1));
+        for (k, here) in heres.iter_mut().enumerate().take(L::N).skip(1) {
+            *here = term.here(from + k.min(count - 1));
         }
         let side = term.side::<L>(&heres[..L::N]);
         let x = places::<D, L>(&cluster.positions[from..from + count]);

@@ -102,8 +102,8 @@ impl<const D: usize, S: LaneSum<D>> Body for SideBySide<'_, '_, D, S> {
             candidates,
         } = cluster.members;
         let mut heres = [sum.here(from); MOST];
-        for k in 1..L::N {
-            heres[k] = sum.here(from + k.min(count - 1));
+        for (k, here) in heres.iter_mut().enumerate().take(L::N).skip(1) {
+            *here = sum.here(from + k.min(count - 1));
         }
         let side = sum.side::<L>(&heres[..L::N]);
         let x = places::<D, L>(&cluster.positions[from..from + count]);

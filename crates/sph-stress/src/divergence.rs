@@ -262,13 +262,12 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         sums: &mut Self::Sums<L>,
     ) {
         let other = self.stress[j] * (there.volume * there.volume);
-        for i in 0..D {
+        for (force, places) in sums.0.iter_mut().zip(PLACE) {
             let mut row = [L::splat(0.0); D];
-            for k in 0..D {
-                let place = PLACE[i][k];
-                row[k] = here[place] + L::splat(other.0[place]);
+            for (entry, place) in row.iter_mut().zip(places) {
+                *entry = here[place] + L::splat(other.0[place]);
             }
-            sums.0[i] += dot(&row, &pair.separation) * pair.factor;
+            *force += dot(&row, &pair.separation) * pair.factor;
         }
     }
 }
