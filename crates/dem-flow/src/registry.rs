@@ -40,7 +40,7 @@ pub fn conductances() -> Vec<&'static ConductanceEntry> {
 ///
 /// assert!(dem_flow::conductance("hydraulic-radius", &json!({ "shape_factor": 0.5 })).is_ok());
 /// let refused = dem_flow::conductance("hydraulic-radius", &json!({ "shape_factor": -1.0 }));
-/// assert!(refused.unwrap_err().to_string().contains("shape factor"));
+/// assert!(refused.err().is_some_and(|e| e.to_string().contains("shape factor")));
 /// ```
 pub fn conductance(name: &str, parameters: &Json) -> Result<Box<dyn Conductance>, FlowError> {
     let all = conductances();
