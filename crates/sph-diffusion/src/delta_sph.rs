@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
 use sph_neighbours::{
     Around, BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates,
-    There, Values, World, dot, set, walk,
+    There, Values, World, dot, set, unlike, walk,
 };
 
 use crate::diffusion_limit::DiffusionLimit;
@@ -261,8 +261,7 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         let rise = here.0 - L::splat(there.density) - linear;
         let mut more = L::splat(there.volume) * rise * pair.factor;
         if let Some(phase) = self.phase {
-            let apart = here.2 - L::splat(f64::from(phase[j]));
-            more = (apart * apart).where_positive(zero, more);
+            more = unlike(here.2, phase[j]).where_positive(zero, more);
         }
         *sum += more;
     }

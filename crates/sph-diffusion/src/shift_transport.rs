@@ -3,7 +3,7 @@
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
     BoundTerm, Contact, Elements, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates, There,
-    World, add_scaled, dot, set, splat, vector,
+    World, add_scaled, dot, set, splat, unlike, vector,
 };
 
 /// du/dt += (s·∇)u and dρ/dt += s·∇ρ with the shift velocity s, the gradients from differences:
@@ -219,8 +219,7 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         }
         sums.2 += volume * dot(&relative, &pair.separation).abs() * pair.factor.abs();
         if let Some(phase) = self.phase {
-            let apart = own.phase - L::splat(f64::from(phase[j]));
-            weight = (apart * apart).where_positive(L::splat(0.0), weight);
+            weight = unlike(own.phase, phase[j]).where_positive(L::splat(0.0), weight);
         }
         add_scaled(&mut sums.0, &relative, weight);
         sums.1 += (L::splat(there.density) - own.density) * weight;

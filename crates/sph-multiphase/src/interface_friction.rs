@@ -7,7 +7,7 @@ use serde::Deserialize;
 use sph_core::{Access, StepError, StepLimit, Vect, fields, register};
 use sph_neighbours::{
     BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
-    Pair, Rates, There, WallPoints, World, add_scaled, dot, minus, set, splat, vector,
+    Pair, Rates, There, WallPoints, World, add_scaled, dot, minus, set, splat, unlike, vector,
 };
 
 use crate::{InterfaceEntry, InterfaceModel};
@@ -304,8 +304,7 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
     ) {
         let zero = L::splat(0.0);
         let phase = self.phase[j];
-        let apart = own.phase - L::splat(f64::from(phase));
-        let unlike = apart * apart;
+        let unlike = unlike(own.phase, phase);
         // Positive where a pair counts: unlike phases, and pairs of a light one.
         let counts = unlike + own.wall_density;
         if !zero.any_less(counts) {

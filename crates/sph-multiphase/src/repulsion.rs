@@ -3,7 +3,7 @@
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There,
-    World, add_scaled, splat, vector,
+    World, add_scaled, splat, unlike, vector,
 };
 
 /// The weight P_ab of m_a a = −ε Σ_{b of other phases} P_ab ∇w_ab.
@@ -153,8 +153,7 @@ impl<const D: usize, R: Repulsion> LaneTerm<D> for Bound<'_, R> {
         pair: &LanePair<D, L>,
         sums: &mut [L; D],
     ) {
-        let apart = own.phase - L::splat(f64::from(self.phase[j]));
-        let unlike = apart * apart;
+        let unlike = unlike(own.phase, self.phase[j]);
         let zero = L::splat(0.0);
         // Most pairs are of one phase.
         if !zero.any_less(unlike) {

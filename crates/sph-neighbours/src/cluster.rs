@@ -2,8 +2,10 @@
 
 use sph_core::Vect;
 use sph_kernels::Sampler;
-use sph_lanes::{MOST, Width, dispatch_at};
+use sph_lanes::{Lane, MOST, Width, dispatch_at};
 
+use crate::lane_pair::LanePair;
+use crate::lane_vector::minus;
 use crate::members::Members;
 use crate::separation::Distances;
 use crate::{Contacts, Domain, Neighbourhood, Row, Scratch, There};
@@ -95,6 +97,26 @@ impl<const D: usize> Cluster<'_, D> {
                 inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
             };
             visit(k, &neighbourhood);
+        }
+    }
+
+    /// One neighbour of all members, who stand at `x`; `distance2` and `factor` are the neighbour's in the buffers.
+    #[inline(always)]
+    pub(crate) fn pair<L: Lane>(
+        &self,
+        x: &[L; D],
+        neighbour: usize,
+        distance2: &[f64],
+        factor: &[f64],
+    ) -> LanePair<D, L> {
+        let mut separation = minus(x, &self.positions[neighbour]);
+        if let Some(domain) = self.domain {
+            separation = domain.nearest_images(separation);
+        }
+        LanePair {
+            separation,
+            distance2: L::load(distance2),
+            factor: L::load(factor),
         }
     }
 

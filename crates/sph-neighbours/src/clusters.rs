@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use sph_core::Vect;
 use sph_lanes::{Body, Lane, dispatch_at, width};
 
+use crate::list::{keep_all, make_room};
 use crate::members::Members;
 use crate::separation::{distance2_at, places};
 use crate::{CHUNK, CellGrid, Domain};
@@ -66,7 +67,7 @@ impl Clusters {
                 used = dispatch_at(width, near);
                 block.starts.push(used as u32);
             }
-            block.keep(&buffer[..used]);
+            keep_all(&mut block.candidates, &buffer[..used]);
         });
     }
 
@@ -107,7 +108,7 @@ impl Clusters {
                         used += cluster(scratch, members, room, &mut numbers[own]);
                         block.starts.push(used as u32);
                     }
-                    block.keep(&buffer[..used]);
+                    keep_all(&mut block.candidates, &buffer[..used]);
                 },
             );
     }
@@ -201,16 +202,6 @@ impl Block {
         self.starts.clear();
         self.starts.push(0);
     }
-
-    /// Takes the candidates over, in a buffer that is at most a quarter too large: lists are most of what a run needs.
-    fn keep(&mut self, candidates: &[u32]) {
-        let (needed, held) = (candidates.len(), self.candidates.capacity());
-        if needed > held || needed + needed / 4 < held {
-            self.candidates = Vec::with_capacity(needed + needed / 16);
-        }
-        self.candidates.clear();
-        self.candidates.extend_from_slice(candidates);
-    }
 }
 
 /// Looks for the candidates of one cluster.
@@ -244,9 +235,7 @@ impl<const D: usize> Body for Near<'_, D> {
         self.grid
             .ranges_around([&low, &high], self.reach, |range| ranges.push(range));
         let room = self.from + ranges.iter().map(Range::len).sum::<usize>();
-        if self.slots.len() < room {
-            self.slots.resize(room.next_power_of_two(), 0);
-        }
+        make_room(self.slots, room);
         let slots = &mut self.slots[self.from..room];
         let limit = self.reach * self.reach;
         let crosses = own

@@ -8,22 +8,11 @@ use sph_core::{Access, StepError};
 use sph_lanes::{Body, Lane, MOST, dispatch_at};
 
 use crate::cluster::Cluster;
-use crate::lane_vector::minus;
+use crate::lane_pair::LanePair;
 use crate::members::Members;
 use crate::separation::places;
 use crate::term::{each, free_then_walls};
 use crate::{BoundTerm, Interaction, Neighbourhood, Pair, Part, Rates, RowTerm, There, World};
-
-/// One neighbour as the particles of a cluster see it, a particle in each lane.
-#[derive(Clone, Copy, Debug)]
-pub struct LanePair<const D: usize, L> {
-    /// r_i − r_j, m.
-    pub separation: [L; D],
-    /// |r_i − r_j|², m²; infinite for a particle and itself.
-    pub distance2: L,
-    /// F = w'(r)/r ≤ 0, 1/m^(d+2); 0 for whom the neighbour is beyond the support, and for itself.
-    pub factor: L,
-}
 
 impl<const D: usize> From<&Pair<D>> for LanePair<D, f64> {
     #[inline(always)]
@@ -179,15 +168,7 @@ impl<const D: usize, B: LaneTerm<D>> Body for SideBySide<'_, '_, D, B> {
         let factors = cluster.buffers.factor.chunks_exact(L::N);
         for (&j, (distance2, factor)) in candidates.iter().zip(distances.zip(factors)) {
             let j = j as usize;
-            let mut separation = minus(&x, &cluster.positions[j]);
-            if let Some(domain) = cluster.domain {
-                separation = domain.nearest_images(separation);
-            }
-            let pair = LanePair {
-                separation,
-                distance2: L::load(distance2),
-                factor: L::load(factor),
-            };
+            let pair = cluster.pair(&x, j, distance2, factor);
             term.add(&side, j, &cluster.states[j], &pair, &mut sums);
         }
         for (k, rates) in rates.iter_mut().enumerate() {

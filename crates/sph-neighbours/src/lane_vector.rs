@@ -31,6 +31,13 @@ pub fn set<const D: usize, L: Lane>(lanes: &mut [L; D], lane: usize, v: &Vect<D>
     }
 }
 
+/// Positive where the phases are not `other`: they are small whole numbers, exact as any.
+#[inline(always)]
+pub fn unlike<L: Lane>(phases: L, other: u32) -> L {
+    let apart = phases - L::splat(f64::from(other));
+    apart * apart
+}
+
 /// a − b, b being the same in all lanes.
 #[inline(always)]
 pub fn minus<const D: usize, L: Lane>(a: &[L; D], b: &Vect<D>) -> [L; D] {

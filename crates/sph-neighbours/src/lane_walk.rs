@@ -5,8 +5,7 @@ use sph_core::StepError;
 use sph_lanes::{Body, Lane, MOST, dispatch_at, width};
 
 use crate::cluster::{Buffers, Cluster};
-use crate::lane_term::LanePair;
-use crate::lane_vector::minus;
+use crate::lane_pair::LanePair;
 use crate::members::{Members, groups};
 use crate::separation::places;
 use crate::sweep::Sweep;
@@ -112,15 +111,7 @@ impl<const D: usize, S: LaneSum<D>> Body for SideBySide<'_, '_, D, S> {
         let factors = cluster.buffers.factor.chunks_exact(L::N);
         for (&j, (distance2, factor)) in candidates.iter().zip(distances.zip(factors)) {
             let j = j as usize;
-            let mut separation = minus(&x, &cluster.positions[j]);
-            if let Some(domain) = cluster.domain {
-                separation = domain.nearest_images(separation);
-            }
-            let pair = LanePair {
-                separation,
-                distance2: L::load(distance2),
-                factor: L::load(factor),
-            };
+            let pair = cluster.pair(&x, j, distance2, factor);
             sum.add(&side, j, &pair, &mut sums);
         }
         for (k, out) in out.iter_mut().enumerate().take(count) {

@@ -23,21 +23,21 @@ impl Block {
         self.starts.reserve_exact(CHUNK + 1);
         self.starts.push(0);
     }
+}
 
-    /// Takes the candidates of all rows over, in a buffer that is at most a quarter too large: vectors that grow by doubling would be by half, in the mean,
-    /// and lists are most of what a run needs.
-    fn keep(&mut self, candidates: &[u32]) {
-        let (needed, held) = (candidates.len(), self.candidates.capacity());
-        if needed > held || needed + needed / 4 < held {
-            self.candidates = Vec::with_capacity(needed + needed / 16);
-        }
-        self.candidates.clear();
-        self.candidates.extend_from_slice(candidates);
+/// Puts candidates into a buffer that is at most a quarter too large: vectors that grow by doubling would be by half, in the
+/// mean, and lists are most of what a run needs.
+pub(crate) fn keep_all(held: &mut Vec<u32>, candidates: &[u32]) {
+    let (needed, room) = (candidates.len(), held.capacity());
+    if needed > room || needed + needed / 4 < room {
+        *held = Vec::with_capacity(needed + needed / 16);
     }
+    held.clear();
+    held.extend_from_slice(candidates);
 }
 
 /// Makes room for `room` candidates in a buffer that is used again and again.
-fn make_room(buffer: &mut Vec<u32>, room: usize) {
+pub(crate) fn make_room(buffer: &mut Vec<u32>, room: usize) {
     if buffer.len() < room {
         buffer.resize(room.next_power_of_two(), 0);
     }
@@ -91,7 +91,7 @@ impl NeighbourList {
                     };
                     block.starts.push(len as u32);
                 }
-                block.keep(&buffer[..len]);
+                keep_all(&mut block.candidates, &buffer[..len]);
             });
     }
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, fields};
-use sph_neighbours::{Lane, World};
+use sph_neighbours::{Lane, World, unlike};
 
 use crate::interface_distance::INTERFACE_DISTANCE;
 
@@ -195,8 +195,7 @@ impl BoundViscosity for SeriesColumns<'_> {
     #[inline(always)]
     fn means<L: Lane>(&self, here: &(L, L, L), j: usize) -> L {
         let there = L::splat(self.viscosity[j]);
-        let apart = here.1 - L::splat(f64::from(self.phase[j]));
-        let unlike = apart * apart;
+        let unlike = unlike(here.1, self.phase[j]);
         let alike = within(self.within, here.0, there);
         // Most pairs are of one phase.
         if !L::splat(0.0).any_less(unlike) {

@@ -1,8 +1,10 @@
 //! Closures and wall functions in whole scenes.
 
+mod refusals;
+
 use sph_core::{System, Vect, fields};
 use sph_scene::{Override, parse};
-use sph_solver::{Assembled, RunOptions, Start, Summary, assemble, examine, run};
+use sph_solver::{Assembled, RunOptions, Start, Summary, assemble, run};
 use sph_tests::{Bench, FinalState, PERIODIC};
 use sph_turbulence::{
     DISSIPATION, FRICTION_VELOCITY, Smagorinsky, TURBULENT_ENERGY, WALL_DISTANCE, WallLaw,
@@ -375,90 +377,4 @@ fn a_channel_of_all_of_it_is_the_same_on_any_number_of_threads() {
     // 40 kg/m that go with 1 m/s.
     let momentum = last(folders[0].path(), "momentum.x");
     assert!((momentum - 40.0).abs() < 1e-9, "{momentum}");
-}
-
-#[test]
-fn what_does_not_fit_is_refused_with_what_was_expected() {
-    let no_slip = CHANNEL.replace("condition = \"free-slip\"", "");
-    let vertices = CHANNEL.replace("vertices = false", "vertices = true");
-    let thin = CHANNEL.replace("1 mPa s", "0 Pa s");
-    let with = |closure: &str| format!("{CHANNEL}{closure}");
-    let cases = [
-        (
-            no_slip.clone(),
-            "write `condition = \"free-slip\"` in `[wall.bed]`",
-        ),
-        (vertices, "`vertices = false`"),
-        (thin, "`rheology.newtonian` with a viscosity"),
-        (
-            CHANNEL.replace("walls = [\"bed\"]", "walls = [\"bad\"]"),
-            "did you mean `bed`",
-        ),
-        (
-            CHANNEL.replace("walls = [\"bed\"]", "walls = [\"bed\"]\nroughness = 0.02"),
-            "at most the spacing",
-        ),
-        (
-            with("[eddy-viscosity.k-epsilon]\nenergy = 1.0\n"),
-            "both `energy` and `dissipation`",
-        ),
-        (
-            with("[eddy-viscosity.k-epsilon]\nenergy = -1.0\ndissipation = 1.0\n"),
-            "energy",
-        ),
-        (
-            with("[eddy-viscosity.smagorinsky]\ndamping = \"van-driest\"\n"),
-            "condition = \"no-slip\"",
-        ),
-        (
-            with("[eddy-viscosity.mixing-length]\nwalls = [\"bod\"]\n"),
-            "there is no wall `bod`",
-        ),
-        (
-            with("[flow-control.bulk-velocity]\nvelocity = 1.0\naxis = \"y\"\n"),
-            "[numerics.periodic]",
-        ),
-        (
-            with("[eddy-viscosity.k-epsilon]\nenergy = 1.0\ndissipation = 1.0\n")
-                .replace("[wall-function.log-law]\nwalls = [\"bed\"]\n", "")
-                .replace("condition = \"free-slip\"", ""),
-            "[wall-function.log-law]",
-        ),
-    ];
-    for (text, expected) in cases {
-        let refused = match parse(&text, "scene.toml", &[]) {
-            Err(error) => error.to_string(),
-            Ok(loaded) => match examine(&loaded.scene, 1) {
-                Err(error) => error.to_string(),
-                Ok(_) => panic!("accepted, where `{expected}` was expected:\n{text}"),
-            },
-        };
-        assert!(
-            refused.contains(expected),
-            "`{expected}` is not in: {refused}"
-        );
-    }
-}
-
-/// Without a closure there is no column of it, and the laminar part of the channel's scene is that of any other.
-#[test]
-fn a_laminar_scene_carries_nothing_of_turbulence() {
-    let plain = CHANNEL
-        .replace("[wall-function.log-law]\nwalls = [\"bed\"]\n", "")
-        .replace(
-            "[probe.bed]\nkind = \"friction-velocity\"\nwall = \"bed\"\n",
-            "",
-        );
-    let loaded = parse(&plain, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let examined = examine(&loaded.scene, 1).unwrap_or_else(|e| panic!("{e}"));
-    for field in &examined.fields {
-        let name = field.name.as_str();
-        let of_turbulence = [
-            "eddy_viscosity",
-            "wall_friction",
-            "friction_velocity",
-            "strain_rate",
-        ];
-        assert!(!of_turbulence.contains(&name), "{name}");
-    }
 }
