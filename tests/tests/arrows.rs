@@ -36,7 +36,7 @@ const ALLOWED: [(&str, &[&str]); 28] = [
     ("sph-neighbours", &["sph-core", "sph-kernels", "sph-lanes"]),
     (
         "sph-boundary",
-        &["sph-core", "sph-kernels", "sph-neighbours"],
+        &["sph-core", "sph-kernels", "sph-lanes", "sph-neighbours"],
     ),
     ("sph-rheology", &["sph-core"]),
     ("sph-state", &["sph-core", "sph-neighbours"]),

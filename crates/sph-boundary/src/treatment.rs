@@ -2,6 +2,7 @@
 
 pub(crate) mod contract;
 pub(crate) mod dummy;
+pub(crate) mod impact;
 pub(crate) mod moving;
 pub(crate) mod near;
 pub(crate) mod outline;

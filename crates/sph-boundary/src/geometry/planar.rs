@@ -105,6 +105,7 @@ impl WallMesh<2> for PlanarWalls {
     type Near = NearSegment;
     type Seen = SeenSegment;
     type Integrals = Renormalisation2d;
+    type Room = ();
 
     fn build(
         walls: &[WallSpec<2>],
@@ -206,6 +207,7 @@ impl WallMesh<2> for PlanarWalls {
         integrals: &Renormalisation2d,
         point: &Vect<2>,
         row: &[NearSegment],
+        _: &mut (),
         contacts: &mut Vec<Contact<2>>,
     ) -> f64 {
         let mut sum = GammaSum::default();

@@ -7,7 +7,7 @@ use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::Contact;
 
 use crate::geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
-use crate::integrals::spatial::{Foot, Patch, Plane};
+use crate::integrals::spatial::{Circle, Foot, Patch, Plane, Weights};
 use crate::treatment::outline::groups;
 use crate::{
     BoundaryError, Closest, Drawing, FaceEdge, Feature, GammaSum3d, NearTriangle, PeriodicBox,
@@ -37,6 +37,8 @@ struct Planes {
     faces: Vec<u32>,
     /// By triangle.
     patches: Vec<Patch>,
+    /// By triangle.
+    circles: Vec<Circle>,
 }
 
 /// A corner of a face.
@@ -74,7 +76,9 @@ impl Planes {
             }
             all.ends[triangle.face] = t as u32 + 1;
             let plane = &all.planes[triangle.face];
-            all.patches.push(Patch::new(plane, corners, triangle.area));
+            let (patch, circle) = Patch::new(plane, corners, triangle.area);
+            all.patches.push(patch);
+            all.circles.push(circle);
             all.faces.push(triangle.face as u32);
         }
         all
@@ -127,6 +131,7 @@ impl WallMesh<3> for SpatialWalls {
     type Near = NearTriangle;
     type Seen = SeenTriangle;
     type Integrals = Renormalisation3d;
+    type Room = Weights;
 
     fn build(
         walls: &[WallSpec<3>],
@@ -211,12 +216,14 @@ impl WallMesh<3> for SpatialWalls {
     }
 
     /// γ and the sum of ∇γ are exact over every planar face; the sum is shared out to the face's
-    /// triangles by quadrature.
+    /// triangles by quadrature. A face counts where the disc of its plane within the support meets one of its triangles,
+    /// whatever else stands in the row.
     fn gamma(
         &self,
         integrals: &Renormalisation3d,
         point: &Vect<3>,
         row: &[NearTriangle],
+        weights: &mut Weights,
         contacts: &mut Vec<Contact<3>>,
     ) -> f64 {
         let radius = integrals.kernel_radius();
@@ -230,15 +237,6 @@ impl WallMesh<3> for SpatialWalls {
             if height.abs() >= radius {
                 continue;
             }
-            let edges = self.planes.edges[first.face].iter().map(|[start, end]| {
-                let start = self.seen(start, image, point).into();
-                [start, self.seen(end, image, point).into()]
-            });
-            let whole = integrals.polygon(height, first.normal, edges);
-            sum.add(&whole, first.normal);
-            if whole.kernel == 0.0 {
-                continue;
-            }
             let unshifted = match image {
                 [0, 0, 0] => *point,
                 _ => point - Vect::from(self.domain.shift(image.map(i32::from))),
@@ -248,23 +246,29 @@ impl WallMesh<3> for SpatialWalls {
                 height,
                 reach: (radius * radius - height * height).sqrt(),
             };
-            let patch = |n: &NearTriangle| &self.planes.patches[n.triangle as usize];
-            let from = contacts.len();
-            let mut total = 0.0;
-            for near in part {
-                let weight = integrals.weight_of(patch(near), &foot);
-                if weight > 0.0 {
-                    total += weight;
-                    contacts.push(Contact {
-                        element: near.triangle,
-                        gradient: normal * weight,
-                        distance: height,
-                    });
-                }
+            let triangles = part.iter().map(|near| near.triangle);
+            if !weights.find(triangles, &self.planes.circles, &foot) {
+                continue;
             }
+            let edges = self.planes.edges[first.face].iter().map(|[start, end]| {
+                let start = self.seen(start, image, point).into();
+                [start, self.seen(end, image, point).into()]
+            });
+            let whole = integrals.polygon(height, first.normal, edges);
+            sum.add(&whole, first.normal);
+            if whole.kernel == 0.0 {
+                continue;
+            }
+            weights.weigh(integrals, &self.planes.patches, &foot);
+            let total: f64 = weights.all().map(|(_, weight)| weight).sum();
             let scale = whole.kernel / total;
-            let shares = contacts[from..].iter_mut();
-            shares.for_each(|c| c.gradient *= scale);
+            for (element, weight) in weights.all().filter(|(_, weight)| *weight > 0.0) {
+                contacts.push(Contact {
+                    element,
+                    gradient: normal * (weight * scale),
+                    distance: height,
+                });
+            }
         }
         sum.gamma()
     }

@@ -59,6 +59,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     type Seen: Send + Sync;
     /// The wall integrals of a kernel.
     type Integrals: Send + Sync + std::fmt::Debug;
+    /// Buffers of a thread that finds γ.
+    type Room: Default;
 
     /// Meshes the walls; queries look up to `reach` metres far.
     ///
@@ -116,12 +118,13 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     }
 
     /// γ at a point from all elements that may be within the support; those that are become
-    /// contacts.
+    /// contacts. What else is in the row changes nothing.
     fn gamma(
         &self,
         integrals: &Self::Integrals,
         point: &Vect<D>,
         near: &[Self::Near],
+        room: &mut Self::Room,
         contacts: &mut Vec<Contact<D>>,
     ) -> f64;
 

@@ -6,12 +6,13 @@ mod knot;
 mod plane;
 mod renormalisation;
 mod sum;
-mod table;
 mod vector;
 mod weight;
+mod weights;
 mod winding;
 
 pub use facet::FacetIntegral;
-pub(crate) use plane::{Foot, Patch, Plane};
+pub(crate) use plane::{Circle, Foot, Patch, Plane};
 pub use renormalisation::Renormalisation3d;
 pub use sum::GammaSum3d;
+pub use weights::Weights;

@@ -40,7 +40,7 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     drawn: Vec<(usize, Vect<D>)>,
     /// λ/(λ + δ), empty unless a wall slips partly.
     slip: Vec<f64>,
-    near: NearLists<M::Near>,
+    near: NearLists<D, M::Near>,
 }
 
 register!(

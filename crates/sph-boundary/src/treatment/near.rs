@@ -1,53 +1,94 @@
-//! Which elements may be near which particle, kept while the neighbour lists stand.
+//! Which elements may be near which particle, kept until particle and walls have moved.
 
 use rayon::prelude::*;
-use sph_core::{StepError, Vect, fields};
+use sph_core::{Slots, StepError, Vect, fields};
 use sph_neighbours::World;
 
 use crate::error::stage_error;
-use crate::geometry::wall_mesh::{Hindrance, WallMesh};
+use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
 
-/// A particle is not let nearer to a wall than this share of the spacing.
+/// How far beyond the reach of the neighbour lists elements are looked for, over the support: a row stands until particle
+/// and walls have come this much nearer, while the lists come and go.
 ///
-/// The pressure keeps particles of a filled fluid at about half a spacing or more, so that the
-/// constraint acts on lone particles only.
-const LEAST_CLEARANCE: f64 = 0.25;
+/// Instructions of the walls of a thin layer in space fall until 0.3 and rise slowly from there: what is beyond the
+/// support has to be left out by every γ.
+const SKIN: f64 = 0.3;
 
 /// Particles whose elements one task looks for.
 const BATCH: usize = 256;
 
-/// Rounds over the elements near a particle before a corner simply stops it.
-const TURNS: usize = 4;
-
-/// Elements that may be within the support of a particle until the lists are rebuilt.
+/// Elements that may be within the support of a particle until the neighbour lists are rebuilt.
+///
+/// Each particle has a row of its own, found for the place where it was then: after every build of the lists only those
+/// that moved farther than the skin since are looked up anew. What a row holds beyond the support depends on this history,
+/// and nothing that is made of it does.
 #[derive(Debug)]
-pub(crate) struct NearLists<N> {
+pub(crate) struct NearLists<const D: usize, N> {
     built_for: u64,
     /// Builds so far.
     pub version: u64,
     /// Particles with an element near, ascending.
     pub particles: Vec<u32>,
-    starts: Vec<u32>,
+    /// Of every particle.
+    rows: Vec<Row<D>>,
+    /// Whose rows these are.
+    identities: Vec<u32>,
     elements: Vec<N>,
+    /// How far walls have moved at most, m: the sum over all builds.
+    travelled: f64,
+    /// Places of the nodes at the last build, m; empty where no wall ever moves.
+    nodes: Vec<Vect<D>>,
 }
 
-impl<N> Default for NearLists<N> {
+/// Where a particle's elements are, and where it was when they were found.
+#[derive(Clone, Copy, Debug)]
+struct Row<const D: usize> {
+    place: Vect<D>,
+    /// [`NearLists::travelled`] then, m.
+    travelled: f64,
+    from: u32,
+    count: u32,
+}
+
+impl<const D: usize> Row<D> {
+    /// That nobody has found yet.
+    fn none() -> Self {
+        Row {
+            place: Vect::repeat(f64::NAN),
+            travelled: 0.0,
+            from: 0,
+            count: 0,
+        }
+    }
+
+    /// Whether particle and walls may have come nearer by more than `skin` since it was found.
+    fn is_stale(&self, place: &Vect<D>, travelled: f64, skin: f64) -> bool {
+        let moved = (place - self.place).norm() + (travelled - self.travelled);
+        // Not ">": what was never found is no number.
+        !(moved <= skin)
+    }
+}
+
+impl<const D: usize, N> Default for NearLists<D, N> {
     fn default() -> Self {
         NearLists {
             built_for: 0,
             version: 0,
             particles: Vec::new(),
-            starts: Vec::new(),
+            rows: Vec::new(),
+            identities: Vec::new(),
             elements: Vec::new(),
+            travelled: 0.0,
+            nodes: Vec::new(),
         }
     }
 }
 
-impl<N: Copy + Send + Sync> NearLists<N> {
-    /// Builds the lists anew if the neighbour lists were, for particles and walls where these found them: they stand
-    /// as long, wherever the walls move meanwhile.
-    pub fn refresh<const D: usize, M: WallMesh<D, Near = N>>(
+impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
+    /// Finds what the lists that were built since lack, for particles and walls where the neighbour lists found them: rows
+    /// stand as long as these, wherever the walls move meanwhile.
+    pub fn refresh<M: WallMesh<D, Near = N>>(
         &mut self,
         outline: &mut Outline<D, M>,
         world: &World<D>,
@@ -57,10 +98,18 @@ impl<N: Copy + Send + Sync> NearLists<N> {
         }
         self.built_for = world.lists.builds;
         self.version += 1;
-        let (reach, support) = (world.reach(), outline.support);
+        let (support, farthest) = (outline.support, outline.farthest());
+        let radius = (world.reach() + SKIN * support).min(farthest);
+        let skin = (radius - world.reach()).max(0.0);
         let positions = &world.lists.reference;
+        let identities = world.free.get(fields::IDENTITY).ok();
+        let moves = outline.moves();
         let search = |mesh: &M| {
-            self.search(mesh, positions, reach);
+            if moves {
+                self.travel(mesh.points().map(|p| p.position).collect());
+            }
+            self.follow(identities.map(|ids| &ids[..]), positions.len());
+            self.search(mesh, positions, radius, skin);
             let close = self.particles.iter().map(|&p| positions[p as usize]);
             mesh.check_free_ends(&close.collect::<Vec<_>>(), support)
         };
@@ -68,149 +117,97 @@ impl<N: Copy + Send + Sync> NearLists<N> {
         searched.and_then(|checked| checked).map_err(stage_error)
     }
 
-    fn search<const D: usize, M: WallMesh<D, Near = N>>(
+    /// Adds how far the nodes have moved since the last build.
+    fn travel(&mut self, nodes: Vec<Vect<D>>) {
+        let steps = nodes.iter().zip(&self.nodes);
+        let farthest = steps.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        self.travelled += farthest;
+        self.nodes = nodes;
+    }
+
+    /// Gives every particle the row that it had, wherever it was sorted to; those that were not there before have none.
+    fn follow(&mut self, identities: Option<&[u32]>, particles: usize) {
+        let Some(identities) = identities else {
+            self.rows.clear();
+            self.rows.resize(particles, Row::none());
+            return;
+        };
+        if *identities == self.identities[..] {
+            return;
+        }
+        let slots = Slots::of(&self.identities);
+        let row = |&id: &u32| {
+            let slot = slots.slot(id);
+            slot.map_or(Row::none(), |slot| self.rows[slot as usize])
+        };
+        self.rows = identities.par_iter().with_min_len(1024).map(row).collect();
+        self.identities.clear();
+        self.identities.extend_from_slice(identities);
+    }
+
+    /// Looks up what is missing.
+    fn search<M: WallMesh<D, Near = N>>(
         &mut self,
         mesh: &M,
         positions: &[Vect<D>],
-        reach: f64,
+        radius: f64,
+        skin: f64,
     ) {
-        let batches: Vec<(Vec<u32>, Vec<N>)> = positions
+        let travelled = self.travelled;
+        let rows = self.rows.iter().zip(positions).enumerate();
+        let stale = rows.filter(|(_, (row, x))| row.is_stale(x, travelled, skin));
+        let stale: Vec<u32> = stale.map(|(i, _)| i as u32).collect();
+        stale.iter().for_each(|&i| self.rows[i as usize].count = 0);
+        let found: Vec<(Vec<u32>, Vec<N>)> = stale
             .par_chunks(BATCH)
             .map(|batch| {
+                let places: Vec<_> = batch.iter().map(|&i| positions[i as usize]).collect();
                 let (mut counts, mut elements) = (Vec::with_capacity(batch.len()), Vec::new());
-                mesh.near_all(batch, reach, &mut counts, &mut elements);
+                mesh.near_all(&places, radius, &mut counts, &mut elements);
                 (counts, elements)
             })
             .collect();
-        self.particles.clear();
-        self.elements.clear();
-        self.starts.clear();
-        self.starts.push(0);
-        let (mut particle, mut end) = (0, 0);
-        for (counts, elements) in &batches {
+        self.make_room(found.iter().map(|(_, elements)| elements.len()).sum());
+        let mut from = self.elements.len() as u32;
+        for (batch, (counts, elements)) in stale.chunks(BATCH).zip(&found) {
             self.elements.extend_from_slice(elements);
-            for count in counts {
-                if *count > 0 {
-                    end += count;
-                    self.particles.push(particle);
-                    self.starts.push(end);
-                }
-                particle += 1;
+            for (&i, &count) in batch.iter().zip(counts) {
+                self.rows[i as usize] = Row {
+                    place: positions[i as usize],
+                    travelled,
+                    from,
+                    count,
+                };
+                from += count;
             }
         }
+        self.particles.clear();
+        let near = self
+            .rows
+            .iter()
+            .zip(0u32..)
+            .filter(|(row, _)| row.count > 0);
+        self.particles.extend(near.map(|(_, i)| i));
+    }
+
+    /// Throws away what no row holds any more, where that is more than what the rows hold.
+    fn make_room(&mut self, more: usize) {
+        let held: usize = self.rows.iter().map(|row| row.count as usize).sum();
+        if self.elements.len() <= 2 * held {
+            return;
+        }
+        let mut kept = Vec::with_capacity(held + more);
+        for row in &mut self.rows {
+            let from = row.from as usize;
+            row.from = kept.len() as u32;
+            kept.extend_from_slice(&self.elements[from..from + row.count as usize]);
+        }
+        self.elements = kept;
     }
 
     /// The elements near the particle at a place of `particles`.
     pub fn row(&self, place: usize) -> &[N] {
-        &self.elements[self.starts[place] as usize..self.starts[place + 1] as usize]
-    }
-
-    /// Takes from the velocities what would carry a particle into a wall within `dt`.
-    ///
-    /// With c the nearest point of an element, e = (r − c)/|r − c| and d = |r − c|: if
-    /// d + Δt (u − u_w)·e falls below a quarter of a spacing, the velocity along e is raised to
-    /// what ends there, at most to that of the wall. A plastic impact: the pressure of a lone
-    /// particle, whose density sum is far below ρ₀, would not stop it. What several elements
-    /// ask is met in turns; a particle that a sharp corner still holds then goes with the wall.
-    ///
-    /// `height` gives a lower bound of the distance of the particle at a place of `particles`
-    /// from any element in front of it, m; those out of danger are not looked at.
-    pub fn constrain<const D: usize, M: WallMesh<D, Near = N>>(
-        &self,
-        outline: &Outline<D, M>,
-        world: &mut World<D>,
-        dt: f64,
-        height: impl Fn(usize) -> f64 + Sync,
-    ) -> Result<(), StepError> {
-        let mut velocity = world.free.take(fields::VELOCITY)?;
-        let position = world.free.get(fields::POSITION)?;
-        let walls = &world.walls;
-        let moving = walls.points.velocity.iter().chain(&walls.elements.velocity);
-        let fastest = moving.map(|u| u.norm_squared()).fold(0.0, f64::max).sqrt();
-        let impact = Impact {
-            outline,
-            spacing: world.spacing,
-            dt,
-        };
-        let changed: Vec<(usize, Vect<D>)> = self
-            .particles
-            .par_iter()
-            .enumerate()
-            .with_min_len(256)
-            .filter_map(|(place, &p)| {
-                let (p, u) = (p as usize, velocity[p as usize]);
-                let danger = LEAST_CLEARANCE * world.spacing + dt * (u.norm() + fastest);
-                // Not ">=": a height that is not a number is no safety.
-                if height(place) > 1.000_001 * danger {
-                    return None;
-                }
-                let u = impact.corrected(&position[p], u, self.row(place));
-                u.map(|u| (p, u))
-            })
-            .collect();
-        for (p, u) in changed {
-            velocity[p] = u;
-        }
-        Ok(world.free.put(fields::VELOCITY, velocity)?)
-    }
-}
-
-/// What a step would do to a particle next to a wall.
-struct Impact<'a, const D: usize, M: WallMesh<D>> {
-    outline: &'a Outline<D, M>,
-    spacing: f64,
-    dt: f64,
-}
-
-impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
-    /// The velocity that no element objects to; none if that is the present one.
-    fn corrected(&self, x: &Vect<D>, u: Vect<D>, row: &[M::Near]) -> Option<Vect<D>> {
-        let mesh = &self.outline.mesh;
-        let mut hindrances = Vec::new();
-        mesh.hindrances(x, row, 4.0 * self.spacing, &mut hindrances);
-        if hindrances.is_empty() {
-            return None;
-        }
-        let walls: Vec<Vect<D>> = hindrances.iter().map(|h| self.wall_velocity(h)).collect();
-        let mut new = u;
-        for turn in 0..=TURNS {
-            let mut held = None;
-            for (hindrance, wall) in hindrances.iter().zip(&walls) {
-                if let Some(push) = self.push(&new, hindrance, wall) {
-                    new += push;
-                    held = Some(*wall);
-                }
-            }
-            match held {
-                None => return (turn > 0).then_some(new),
-                Some(wall) if turn == TURNS => return Some(wall),
-                Some(_) => {}
-            }
-        }
-        None
-    }
-
-    fn wall_velocity(&self, hindrance: &Hindrance<D>) -> Vect<D> {
-        let wall = hindrance.wall;
-        let movement = self.outline.movement(wall, &hindrance.place);
-        // Its mean over the step: where a wall turns, what follows its velocity leaves it by ½ a Δt².
-        movement.velocity + movement.acceleration * (0.5 * self.dt)
-    }
-
-    /// The change of velocity that a hindrance asks for.
-    fn push(&self, u: &Vect<D>, hindrance: &Hindrance<D>, wall: &Vect<D>) -> Option<Vect<D>> {
-        let least = LEAST_CLEARANCE * self.spacing;
-        // What is missing of the velocity along e to end at the least clearance.
-        let missing = |e: &Vect<D>, distance: f64| {
-            let allowed = ((least - distance) / self.dt).min(0.0);
-            let missing = allowed - (u - wall).dot(e);
-            // Rounding of what was corrected already is no impact.
-            (missing > 1e-12 * (u - wall).norm()).then_some(missing)
-        };
-        if let Some((e, distance)) = &hindrance.only_if {
-            missing(e, *distance)?;
-        }
-        let m = missing(&hindrance.away, hindrance.distance)?;
-        Some(hindrance.away * m)
+        let row = &self.rows[self.particles[place] as usize];
+        &self.elements[row.from as usize..(row.from + row.count) as usize]
     }
 }

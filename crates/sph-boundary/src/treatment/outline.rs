@@ -8,6 +8,9 @@ use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
 use crate::limits::MOST_PERIODS;
 use crate::{BoundaryError, Drawing, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
 
+/// How far queries look, over the support: also those of filling and of a generous skin.
+const FARTHEST: f64 = 2.0;
+
 /// The walls of a scene as a mesh, with what the scene says of each.
 #[derive(Debug)]
 pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
@@ -42,8 +45,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 return Err(BoundaryError::NotPositive { name, value: slip });
             }
         }
-        // Twice the support also serves the queries of filling and of a generous skin.
-        let reach = 2.0 * support;
+        let reach = FARTHEST * support;
         let domain = PeriodicBox::of(setup.domain);
         check_reach(setup.walls, &domain)?;
         let mesh = M::build(setup.walls, setup.spacing, reach, &domain)?;
@@ -76,6 +78,11 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// From where a place of a wall was drawn to where it is.
     pub fn maps(&self) -> Vec<impl Fn([f64; D]) -> [f64; D] + use<D, M>> {
         self.states.iter().map(|s| s.pose.map()).collect()
+    }
+
+    /// How far queries of the mesh may look, m.
+    pub fn farthest(&self) -> f64 {
+        FARTHEST * self.support
     }
 
     /// Whether any wall ever moves.

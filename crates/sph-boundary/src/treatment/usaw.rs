@@ -57,7 +57,7 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     outline: Outline<D, M>,
     integrals: M::Integrals,
     spacing: f64,
-    near: NearLists<M::Near>,
+    near: NearLists<D, M::Near>,
     /// Moves of walls so far.
     moves: u64,
     /// Version of the near lists, moves and positions for which the contacts were found.
@@ -180,20 +180,21 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         self.found.resize_with(batches.len(), Found::default);
         blocks.resize_with(batches.len(), Vec::new);
         let all = self.found.par_iter_mut().zip(blocks).zip(batches);
-        all.enumerate().for_each(|(b, ((found, contacts), batch))| {
-            found.clear();
-            contacts.clear();
-            for (k, &particle) in batch.iter().enumerate() {
-                let (x, row) = (&positions[particle as usize], near.row(b * BATCH + k));
-                let from = contacts.len();
-                let gamma = mesh.gamma(integrals, x, row, contacts);
-                let heights = contacts[from..].iter().map(|c| c.distance);
-                let least = heights.filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
-                found.gamma.push(gamma);
-                found.ends.push(contacts.len() as u32);
-                found.clearance.push(least);
-            }
-        });
+        all.enumerate()
+            .for_each_init(M::Room::default, |room, (b, ((found, contacts), batch))| {
+                found.clear();
+                contacts.clear();
+                for (k, &particle) in batch.iter().enumerate() {
+                    let (x, row) = (&positions[particle as usize], near.row(b * BATCH + k));
+                    let from = contacts.len();
+                    let gamma = mesh.gamma(integrals, x, row, room, contacts);
+                    let heights = contacts[from..].iter().map(|c| c.distance);
+                    let least = heights.filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
+                    found.gamma.push(gamma);
+                    found.ends.push(contacts.len() as u32);
+                    found.clearance.push(least);
+                }
+            });
         self.clearance.clear();
         let least = self.found.iter().flat_map(|f| &f.clearance);
         self.clearance.extend(least);

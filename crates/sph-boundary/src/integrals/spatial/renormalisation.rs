@@ -1,9 +1,10 @@
 //! The kernel's tables for wall integrals in space.
 
-use sph_kernels::PiecewisePolynomial;
+use std::sync::Arc;
+
+use sph_kernels::{PiecewisePolynomial, Sampler, polynomial_sampler};
 
 use super::knot::{self, Knot};
-use super::table::Table;
 use crate::error::BoundaryError;
 use crate::integrals::normalisation::normalisation;
 
@@ -66,7 +67,7 @@ pub struct Renormalisation3d {
     /// From the outermost inwards.
     pub(super) knots: Vec<Knot>,
     /// w itself, for quadrature.
-    pub(super) table: Table,
+    pub(super) kernel: Arc<dyn Sampler>,
 }
 
 impl Renormalisation3d {
@@ -82,7 +83,7 @@ impl Renormalisation3d {
             per_h: 1.0 / smoothing_length,
             support: shape.support(),
             knots: knot::tables(shape, sigma),
-            table: Table::new(shape, smoothing_length),
+            kernel: polynomial_sampler(shape, 3, smoothing_length).into(),
         })
     }
 

@@ -1,7 +1,6 @@
 //! ∫ w dS over small triangles by quadrature.
 
 use super::Renormalisation3d;
-use super::plane::{Foot, Patch};
 use super::vector::{dot, plus};
 
 /// Squared distance of the centre over the area from which on a rule is used, and the largest
@@ -50,13 +49,13 @@ const TWELVE_MIXED_WEIGHT: f64 = 0.082_851_075_618_374;
 /// |c + Σ λ_i ξ_i|² = c² + Σ λ_i t_i + |Σ λ_i ξ_i|²,   t_i = 2 c·ξ_i
 /// ```
 #[derive(Clone, Copy)]
-struct Seen {
+pub(super) struct Seen {
     /// c².
-    centre: f64,
+    pub centre: f64,
     /// t_i.
-    slopes: [f64; 3],
+    pub slopes: [f64; 3],
     /// ξ_i².
-    arms: [f64; 3],
+    pub arms: [f64; 3],
 }
 
 impl Renormalisation3d {
@@ -83,75 +82,88 @@ impl Renormalisation3d {
         by_rule.unwrap_or_else(|| self.triangle(corners, normal).kernel)
     }
 
-    /// [`weight`](Self::weight) of a triangle of a plane, 1/m, for a point over it.
-    #[inline]
-    pub(crate) fn weight_of(&self, patch: &Patch, foot: &Foot) -> f64 {
-        if !patch.meets(foot) {
-            return 0.0;
-        }
-        let [x, y] = patch.from(foot);
-        let slope = |arm: [f64; 2]| 2.0 * (x * arm[0] + y * arm[1]);
-        let [first, second] = patch.arms.map(slope);
-        let seen = Seen {
-            centre: x * x + y * y + foot.height * foot.height,
-            slopes: [first, second, -(first + second)],
-            arms: patch.squares,
-        };
-        let by_rule = self.by_rule(&seen, patch.area);
-        by_rule.unwrap_or_else(|| self.exact_weight(patch, foot))
-    }
-
-    #[inline(never)]
-    fn exact_weight(&self, patch: &Patch, foot: &Foot) -> f64 {
-        let [a, b] = patch.arms;
-        let [x, y] = patch.from(foot);
-        let corners = [a, b, [-(a[0] + b[0]), -(a[1] + b[1])]]
-            .map(|arm| [x + arm[0], y + arm[1], -foot.height]);
-        self.triangle(corners, [0.0, 0.0, 1.0]).kernel
-    }
-
     /// None where only the closed form is accurate.
     #[inline(always)]
     fn by_rule(&self, seen: &Seen, area: f64) -> Option<f64> {
-        let over_h2 = area * (self.per_h * self.per_h);
-        if seen.centre >= SIX.distance * area && over_h2 <= SIX.area {
-            Some(area * self.mean_of_six(seen))
-        } else if seen.centre >= TWELVE.distance * area && over_h2 <= TWELVE.area {
-            Some(area * self.mean_of_twelve(seen))
-        } else {
-            None
+        match self.rule(seen.centre, area) {
+            Rule::Six => {
+                let mut squares = [0.0; AHEAD];
+                seen.six(&mut squares);
+                let mut w = [0.0; 6];
+                self.kernel.value(&squares[..6], &mut w);
+                Some(area * mean_of_six(&w))
+            }
+            Rule::Twelve => Some(area * self.mean_of_twelve(seen)),
+            Rule::Exact => None,
         }
     }
 
+    /// What is accurate for a squared distance of the centre and an area, m².
     #[inline(always)]
-    fn mean_of_six(&self, seen: &Seen) -> f64 {
-        let mut sums = [0.0; 2];
-        for i in 0..3 {
-            let w = self
-                .table
-                .pair(SIX_ORBITS.map(|orbit| seen.orbit(orbit[0], i)));
-            sums = [sums[0] + w[0], sums[1] + w[1]];
+    pub(super) fn rule(&self, centre: f64, area: f64) -> Rule {
+        let over_h2 = area * (self.per_h * self.per_h);
+        if centre >= SIX.distance * area && over_h2 <= SIX.area {
+            Rule::Six
+        } else if centre >= TWELVE.distance * area && over_h2 <= TWELVE.area {
+            Rule::Twelve
+        } else {
+            Rule::Exact
         }
-        SIX_ORBITS[0][1] * sums[0] + SIX_ORBITS[1][1] * sums[1]
     }
 
     #[inline(never)]
-    fn mean_of_twelve(&self, seen: &Seen) -> f64 {
-        let mut sums = [0.0; 2];
+    pub(super) fn mean_of_twelve(&self, seen: &Seen) -> f64 {
+        let mut squares = [0.0; 12];
         for i in 0..3 {
-            let w = self
-                .table
-                .pair(TWELVE_ORBITS.map(|orbit| seen.orbit(orbit[0], i)));
-            sums = [sums[0] + w[0], sums[1] + w[1]];
+            squares[i] = seen.orbit(TWELVE_ORBITS[0][0], i);
+            squares[3 + i] = seen.orbit(TWELVE_ORBITS[1][0], i);
         }
-        let [a, b, c, d, e, f] = seen.mixed_orbit(TWELVE_MIXED);
-        let mixed = [[a, b], [c, d], [e, f]].map(|r2| self.table.pair(r2));
-        let mixed: f64 = mixed.as_flattened().iter().sum();
-        TWELVE_ORBITS[0][1] * sums[0] + TWELVE_ORBITS[1][1] * sums[1] + TWELVE_MIXED_WEIGHT * mixed
+        squares[6..].copy_from_slice(&seen.mixed_orbit(TWELVE_MIXED));
+        let mut w = [0.0; 12];
+        self.kernel.value(&squares, &mut w);
+        let sum = |w: &[f64]| w.iter().sum::<f64>();
+        TWELVE_ORBITS[0][1] * sum(&w[..3])
+            + TWELVE_ORBITS[1][1] * sum(&w[3..6])
+            + TWELVE_MIXED_WEIGHT * sum(&w[6..])
     }
 }
 
+/// How a triangle is weighed.
+pub(super) enum Rule {
+    /// By six points.
+    Six,
+    /// By twelve.
+    Twelve,
+    /// In closed form.
+    Exact,
+}
+
+/// Mean of the kernel from its values at six points.
+#[inline(always)]
+pub(super) fn mean_of_six(w: &[f64]) -> f64 {
+    SIX_ORBITS[0][1] * (w[0] + w[1] + w[2]) + SIX_ORBITS[1][1] * (w[3] + w[4] + w[5])
+}
+
+/// Room that six squares are written into: whole registers, of which the last two numbers are the next triangle's.
+pub(super) const AHEAD: usize = 8;
+
+/// λ (3/2) − 1/2 of the points of [`Seen::six`].
+const SIX_PARTS: [f64; AHEAD] = {
+    let (a, b) = (1.5 * SIX_ORBITS[0][0] - 0.5, 1.5 * SIX_ORBITS[1][0] - 0.5);
+    [a, a, a, b, b, b, 0.0, 0.0]
+};
+
 impl Seen {
+    /// Squared distances of the six points, the two orbits one behind the other; what follows is no number of a point.
+    #[inline(always)]
+    pub fn six(&self, squares: &mut [f64; AHEAD]) {
+        let ([a, b, c], [d, e, f]) = (self.slopes, self.arms);
+        let (slopes, arms) = ([a, b, c, a, b, c, a, b], [d, e, f, d, e, f, d, e]);
+        for k in 0..AHEAD {
+            squares[k] = self.centre + SIX_PARTS[k] * (slopes[k] + SIX_PARTS[k] * arms[k]);
+        }
+    }
+
     /// With λ in the place i and (1 − λ)/2 in the others: Σ λ_i ξ_i = ξ_i (3λ − 1)/2.
     #[inline(always)]
     fn orbit(&self, single: f64, i: usize) -> f64 {
@@ -182,8 +194,6 @@ impl Seen {
 
 #[cfg(test)]
 mod tests {
-    use super::super::plane::Plane;
-    use super::super::vector::cross;
     use super::*;
 
     #[test]
@@ -243,40 +253,5 @@ mod tests {
         close(six[1], square([0.1, 0.7, 0.2]));
         close(six[2], square([0.7, 0.1, 0.2]));
         close(six[5], square([0.7, 0.2, 0.1]));
-    }
-
-    #[test]
-    fn a_triangle_of_a_plane_weighs_the_same_however_it_is_seen() {
-        let kernel = sph_kernels::wendland_c2();
-        let of =
-            Renormalisation3d::new(sph_kernels::Kernel::polynomial(&kernel).expect("one"), 1.0);
-        let of = of.expect("a kernel");
-        let corners = [[0.1, 0.2, 0.3], [0.7, 0.1, 0.4], [0.2, 0.7, 0.0]];
-        let twice = cross(
-            plus(corners[1], -1.0, corners[0]),
-            plus(corners[2], -1.0, corners[0]),
-        );
-        let area = 0.5 * dot(twice, twice).sqrt();
-        let normal = twice.map(|x| 0.5 * x / area);
-        let plane = Plane::new(corners[2], normal);
-        let patch = Patch::new(&plane, corners, area);
-        for i in 0..400 {
-            let at = |n: i32| 2.5 * (f64::from(i * n % 101) / 50.0 - 1.0);
-            let point = [at(1), at(37), at(59)];
-            let place = plane.foot(point);
-            let height = dot(plus(point, -1.0, corners[2]), normal);
-            let reach = (4.0 - height * height).max(0.0).sqrt();
-            let foot = Foot {
-                place,
-                height,
-                reach,
-            };
-            let relative = corners.map(|c| plus(c, -1.0, point));
-            let (a, b) = (
-                of.weight(relative, normal, area),
-                of.weight_of(&patch, &foot),
-            );
-            assert!((a - b).abs() < 1e-9, "{a} {b}");
-        }
     }
 }

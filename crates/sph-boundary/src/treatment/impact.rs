@@ -1,0 +1,129 @@
+//! What keeps particles from flying through walls within a step.
+
+use rayon::prelude::*;
+use sph_core::{StepError, Vect, fields};
+use sph_neighbours::World;
+
+use crate::geometry::wall_mesh::{Hindrance, WallMesh};
+use crate::treatment::near::NearLists;
+use crate::treatment::outline::Outline;
+
+/// A particle is not let nearer to a wall than this share of the spacing.
+///
+/// The pressure keeps particles of a filled fluid at about half a spacing or more, so that the
+/// constraint acts on lone particles only.
+const LEAST_CLEARANCE: f64 = 0.25;
+
+/// Rounds over the elements near a particle before a corner simply stops it.
+const TURNS: usize = 4;
+
+impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
+    /// Takes from the velocities what would carry a particle into a wall within `dt`.
+    ///
+    /// With c the nearest point of an element, e = (r − c)/|r − c| and d = |r − c|: if
+    /// d + Δt (u − u_w)·e falls below a quarter of a spacing, the velocity along e is raised to
+    /// what ends there, at most to that of the wall. A plastic impact: the pressure of a lone
+    /// particle, whose density sum is far below ρ₀, would not stop it. What several elements
+    /// ask is met in turns; a particle that a sharp corner still holds then goes with the wall.
+    ///
+    /// `height` gives a lower bound of the distance of the particle at a place of `particles`
+    /// from any element in front of it, m; those out of danger are not looked at.
+    pub fn constrain<M: WallMesh<D, Near = N>>(
+        &self,
+        outline: &Outline<D, M>,
+        world: &mut World<D>,
+        dt: f64,
+        height: impl Fn(usize) -> f64 + Sync,
+    ) -> Result<(), StepError> {
+        let mut velocity = world.free.take(fields::VELOCITY)?;
+        let position = world.free.get(fields::POSITION)?;
+        let walls = &world.walls;
+        let moving = walls.points.velocity.iter().chain(&walls.elements.velocity);
+        let fastest = moving.map(|u| u.norm_squared()).fold(0.0, f64::max).sqrt();
+        let impact = Impact {
+            outline,
+            spacing: world.spacing,
+            dt,
+        };
+        let changed: Vec<(usize, Vect<D>)> = self
+            .particles
+            .par_iter()
+            .enumerate()
+            .with_min_len(256)
+            .filter_map(|(place, &p)| {
+                let (p, u) = (p as usize, velocity[p as usize]);
+                let danger = LEAST_CLEARANCE * world.spacing + dt * (u.norm() + fastest);
+                // Not ">=": a height that is not a number is no safety.
+                if height(place) > 1.000_001 * danger {
+                    return None;
+                }
+                let u = impact.corrected(&position[p], u, self.row(place));
+                u.map(|u| (p, u))
+            })
+            .collect();
+        for (p, u) in changed {
+            velocity[p] = u;
+        }
+        Ok(world.free.put(fields::VELOCITY, velocity)?)
+    }
+}
+
+/// What a step would do to a particle next to a wall.
+struct Impact<'a, const D: usize, M: WallMesh<D>> {
+    outline: &'a Outline<D, M>,
+    spacing: f64,
+    dt: f64,
+}
+
+impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
+    /// The velocity that no element objects to; none if that is the present one.
+    fn corrected(&self, x: &Vect<D>, u: Vect<D>, row: &[M::Near]) -> Option<Vect<D>> {
+        let mesh = &self.outline.mesh;
+        let mut hindrances = Vec::new();
+        mesh.hindrances(x, row, 4.0 * self.spacing, &mut hindrances);
+        if hindrances.is_empty() {
+            return None;
+        }
+        let walls: Vec<Vect<D>> = hindrances.iter().map(|h| self.wall_velocity(h)).collect();
+        let mut new = u;
+        for turn in 0..=TURNS {
+            let mut held = None;
+            for (hindrance, wall) in hindrances.iter().zip(&walls) {
+                if let Some(push) = self.push(&new, hindrance, wall) {
+                    new += push;
+                    held = Some(*wall);
+                }
+            }
+            match held {
+                None => return (turn > 0).then_some(new),
+                Some(wall) if turn == TURNS => return Some(wall),
+                Some(_) => {}
+            }
+        }
+        None
+    }
+
+    fn wall_velocity(&self, hindrance: &Hindrance<D>) -> Vect<D> {
+        let wall = hindrance.wall;
+        let movement = self.outline.movement(wall, &hindrance.place);
+        // Its mean over the step: where a wall turns, what follows its velocity leaves it by ½ a Δt².
+        movement.velocity + movement.acceleration * (0.5 * self.dt)
+    }
+
+    /// The change of velocity that a hindrance asks for.
+    fn push(&self, u: &Vect<D>, hindrance: &Hindrance<D>, wall: &Vect<D>) -> Option<Vect<D>> {
+        let least = LEAST_CLEARANCE * self.spacing;
+        // What is missing of the velocity along e to end at the least clearance.
+        let missing = |e: &Vect<D>, distance: f64| {
+            let allowed = ((least - distance) / self.dt).min(0.0);
+            let missing = allowed - (u - wall).dot(e);
+            // Rounding of what was corrected already is no impact.
+            (missing > 1e-12 * (u - wall).norm()).then_some(missing)
+        };
+        if let Some((e, distance)) = &hindrance.only_if {
+            missing(e, *distance)?;
+        }
+        let m = missing(&hindrance.away, hindrance.distance)?;
+        Some(hindrance.away * m)
+    }
+}
