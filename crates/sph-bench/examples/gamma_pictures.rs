@@ -173,7 +173,13 @@ impl<const D: usize, M: WallMesh<D>> Field<D, M> {
                 }
                 contacts.clear();
                 let near = self.mesh.near(&x, self.support);
-                let gamma = self.mesh.gamma(&self.integrals, &x, &near, &mut Default::default(), &mut contacts);
+                let gamma = self.mesh.gamma(
+                    &self.integrals,
+                    &x,
+                    &near,
+                    &mut Default::default(),
+                    &mut contacts,
+                );
                 values.push((gamma / BAND).round() * BAND);
                 points.push(if D == 2 { [u, v, 0.0] } else { [u, x[1], v] });
             }

@@ -66,6 +66,8 @@ impl<const D: usize> Bench<D> {
             free.add(field, Role::State);
         }
         free.add(fields::RENORMALISATION, Role::Derived);
+        free.add(fields::IDENTITY, Role::State);
+        *free.get_mut(fields::IDENTITY).unwrap() = (0..positions.len() as u32).collect();
         *free.get_mut(fields::POSITION).unwrap() = positions;
         free.get_mut(fields::DENSITY).unwrap().fill(1.0);
         let whole = spacing.powi(D as i32);
