@@ -31,7 +31,7 @@ impl<const D: usize> Declares for WallGeometry<D> {
         "wall geometry".into()
     }
     fn access(&self) -> Access {
-        let access = Access::none().here(fields::POSITION);
+        let access = Access::none().here(fields::POSITION).here(fields::IDENTITY);
         match lock(&self.0).renormalises() {
             true => access.writes(fields::RENORMALISATION),
             false => access,
