@@ -5,7 +5,7 @@ use serde::Deserialize;
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
 use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There,
-    World, dot, set,
+    World, dot, scaled, set,
 };
 
 use crate::diffusion_limit::{DiffusionLimit, fastest};
@@ -227,15 +227,15 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         pair: &LanePair<D, L>,
         sum: &mut L,
     ) {
-        let [pressure, density, volume] =
-            [there.pressure, there.density, there.volume].map(L::splat);
+        let (pressure, density) = (L::splat(there.pressure), L::splat(there.density));
+        let volume = L::splat(there.volume);
         let narrow = L::splat(2.0) * (own.0 - pressure) / (own.1 + density);
         let mut slopes = own.2;
         for (slope, other) in slopes.iter_mut().zip(self.slope[j].iter()) {
             *slope += L::splat(*other);
         }
         let half = L::splat(0.5);
-        let wide = dot(&slopes.map(|s| half * s), &pair.separation);
+        let wide = dot(&scaled(slopes, half), &pair.separation);
         *sum += volume * (narrow - wide) * pair.factor;
     }
 }

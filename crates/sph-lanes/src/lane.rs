@@ -100,6 +100,15 @@ pub fn dot<const D: usize, L: Lane>(a: &[L; D], b: &[L; D]) -> L {
     sum
 }
 
+/// v s.
+#[inline(always)]
+pub fn scaled<const D: usize, L: Lane>(mut v: [L; D], s: L) -> [L; D] {
+    for component in &mut v {
+        *component = *component * s;
+    }
+    v
+}
+
 /// sum + v s.
 #[inline(always)]
 pub fn add_scaled<const D: usize, L: Lane>(sum: &mut [L; D], v: &[L; D], s: L) {

@@ -82,12 +82,19 @@ impl<const N: usize> Lane for Lanes<N> {
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
         let mut numbers = [0.0; N];
-        numbers.copy_from_slice(&from[..N]);
+        // Slices of one length, and no call that might not be inlined.
+        let from = &from[..N];
+        for k in 0..N {
+            numbers[k] = from[k];
+        }
         Lanes(numbers)
     }
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
-        to[..N].copy_from_slice(&self.0);
+        let to = &mut to[..N];
+        for k in 0..N {
+            to[k] = self.0[k];
+        }
     }
     #[inline(always)]
     fn sqrt(mut self) -> Self {

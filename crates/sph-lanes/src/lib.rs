@@ -12,5 +12,5 @@ mod lane;
 mod lanes;
 
 pub use dispatch::{Body, Width, dispatch, dispatch_at, force_width, width};
-pub use lane::{Lane, add_scaled, dot};
+pub use lane::{Lane, add_scaled, dot, scaled};
 pub use lanes::{Lanes, MOST};

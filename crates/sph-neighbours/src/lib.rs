@@ -63,7 +63,7 @@ pub use packed::{Packed, pack};
 pub use reaction::{cross, wall_forces, wall_parts};
 pub use row::{NOBODY, Neighbourhood, Row, Scratch, There};
 pub use shares::{TermShare, shares_at};
-pub use sph_lanes::{Lane, MOST, add_scaled, dot};
+pub use sph_lanes::{Lane, MOST, add_scaled, dot, scaled};
 pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,

@@ -3,7 +3,7 @@
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
     BoundTerm, Contact, Contacts, Elements, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates,
-    There, World, add_scaled, dot, splat, vector,
+    There, World, add_scaled, dot, scaled, splat, vector,
 };
 
 use crate::ViscositySource;
@@ -34,7 +34,7 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
         pair: &LanePair<D, L>,
     ) -> [L; D] {
         let [even, along] = self.strengths(volume, there, pair.distance2, pair.factor);
-        let mut force = relative.map(|u| u * even);
+        let mut force = scaled(*relative, even);
         if Self::DIRECTIONAL {
             let along = along * dot(relative, &pair.separation);
             add_scaled(&mut force, &pair.separation, along);
