@@ -148,5 +148,6 @@ fn the_crest_before_a_slide_from_the_air_runs_between_two_speeds_of_theory_at_1_
 /// Friction that grows with the strain rate in a viscous fluid: the closed form, between the speeds that were measured.
 #[test]
 fn an_avalanche_under_a_viscous_fluid_has_its_steady_speed() {
-    finished("submarine-avalanche", &[]).error("speed", 0.08, 0.0407);
+    // Half a row of 10.5 holds to the plane, and is not sheared.
+    finished("submarine-avalanche", &[]).error("speed", 0.5 / 10.5, 0.0407);
 }
