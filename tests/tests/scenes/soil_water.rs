@@ -34,8 +34,9 @@ fn a_dam_break_digs_its_bed_and_keeps_the_sand() {
         ],
     );
     let front = last(&run, "front");
+    // 16 and 8 mm have 0.91 and 1.00 m: of first order, 0.81 m with 25 mm and 1.09 m at last.
     assert!(
-        (0.6..1.2).contains(&front),
+        (0.81..1.09).contains(&front),
         "the water is at {front} m, 0.88 was measured"
     );
     let risen = last(&run, "erosion.risen");
