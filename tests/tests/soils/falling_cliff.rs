@@ -71,6 +71,7 @@ fn two_cliffs_of_one_yield_viscosity_fall_alike_to_5_per_cent_with_sub_steps() {
     let [stiff, soft] = [grains, soft].map(|change| end_of(CLIFF, &[SUB_STEPS, change]));
     let ratio = stiff.kinetic_energy / soft.kinetic_energy;
     println!("{} J and {} J", stiff.kinetic_energy, soft.kinetic_energy);
+    // A tenth, where the grains alone make a half: 49.1 J for 24.3 J.
     assert!((ratio - 1.0).abs() < 0.1, "{ratio}: 1.047 was measured");
     let viscous = end_of(CLIFF, &[SUB_STEPS]).kinetic_energy;
     assert!(viscous < 0.6 * soft.kinetic_energy, "{viscous} J");
