@@ -78,7 +78,7 @@ pub use tables::outlet::Outlet;
 pub use tables::output::Output;
 pub use tables::phase::Phase;
 pub use tables::reference::{Norm, Reference};
-pub use tables::scene::Scene;
+pub use tables::scene::{OFF_LATTICE, Scene};
 pub use tables::wall::{Condition, FrictionForm, Side, Wall};
 pub use tables::wall_shapes::{
     Axis, ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,

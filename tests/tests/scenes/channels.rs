@@ -16,7 +16,9 @@ fn poiseuille_converges_from_0_18_to_0_048_per_cent() {
 
 #[test]
 fn couette_is_met_to_0_0074_per_cent() {
-    whole("couette-2d").error("profile", 0.0001, 0.0000738);
+    // A linear velocity is exact at rest; rows that slide past each other feel 0.009 % more than a lattice does.
+    let rows_that_slide = 0.9e-4;
+    whole("couette-2d").error("profile", rows_that_slide, 0.0000738);
 }
 
 /// Two fluids, 25 rows, by an operator of the whole stress: what rows that slide feel is 1.3 % beyond a lattice at rest,

@@ -11,6 +11,7 @@ mod readme_table;
 mod rheology;
 mod seepage;
 mod shipped;
+mod slides_and_scour;
 mod soil_water;
 mod tanks;
 mod towed;

@@ -34,8 +34,9 @@ fn a_dam_break_digs_its_bed_and_keeps_the_sand() {
         ],
     );
     let front = last(&run, "front");
+    // 16 and 8 mm have 0.91 and 1.00 m: of first order, 0.81 m with 25 mm and 1.09 m at last.
     assert!(
-        (0.6..1.2).contains(&front),
+        (0.81..1.09).contains(&front),
         "the water is at {front} m, 0.88 was measured"
     );
     let risen = last(&run, "erosion.risen");
@@ -148,5 +149,6 @@ fn the_crest_before_a_slide_from_the_air_runs_between_two_speeds_of_theory_at_1_
 /// Friction that grows with the strain rate in a viscous fluid: the closed form, between the speeds that were measured.
 #[test]
 fn an_avalanche_under_a_viscous_fluid_has_its_steady_speed() {
-    finished("submarine-avalanche", &[]).error("speed", 0.08, 0.0407);
+    // Half a row of 10.5 holds to the plane, and is not sheared.
+    finished("submarine-avalanche", &[]).error("speed", 0.5 / 10.5, 0.0407);
 }

@@ -31,7 +31,12 @@ fn a_standing_wave_keeps_its_frequency_and_its_height() {
         worst = worst.max((crest(&parts) / first - exact).abs());
     }
     println!("dt {dt:e} s, off by {worst:.4} in four periods");
-    assert!(worst < 0.1, "off by {worst}, 0.0965 was measured");
+    // Velocities are known half a sub-step beside displacements: a phase of ωΔt/2.
+    let phase = 0.5 * omega * dt / 3.0;
+    assert!(
+        worst < phase,
+        "off by {worst} for {phase}, 0.0965 was measured"
+    );
 }
 
 /// 𝒢 = 1 GPa, 30 sub-steps: shaken at random and undamped, a block neither gains energy nor comes to rest.

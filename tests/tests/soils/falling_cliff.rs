@@ -48,7 +48,8 @@ fn a_stiff_cliff_that_stands_with_stresses_of_the_end_of_the_step_is_refused_wit
     let stands = end_of(CLIFF, &[&IMPLICIT[..], &[allowed]].concat());
     let (energy, share) = (stands.kinetic_energy, held(&stands));
     println!("{energy:.3} J, {share:.3} of the weight held");
-    assert!(share > 0.2, "{share}: 0.261 was measured, with {energy} J");
+    // A twentieth is what the program allows.
+    assert!(share > 0.05, "{share}: 0.261 was measured, with {energy} J");
     let told = |s: &Summary| s.warnings.iter().any(|w| w.contains("sub_steps = true"));
     assert!(told(&stands), "{:?}", stands.warnings);
     let rest = [
@@ -58,7 +59,7 @@ fn a_stiff_cliff_that_stands_with_stresses_of_the_end_of_the_step_is_refused_wit
     ];
     let rests = end_of(SLOPE, &[&IMPLICIT[..], &rest[..]].concat());
     println!("at rest {:.3}", held(&rests));
-    assert!(held(&rests) < 0.03 && !told(&rests), "0.022 was measured");
+    assert!(held(&rests) < 0.05 && !told(&rests), "0.022 was measured");
 }
 
 /// E acts on a soil that flows mainly through the yield viscosity η_y ∝ d√𝒢: a hundredth of E with ten times the grains has the same. Kinetic energies
@@ -70,6 +71,7 @@ fn two_cliffs_of_one_yield_viscosity_fall_alike_to_5_per_cent_with_sub_steps() {
     let [stiff, soft] = [grains, soft].map(|change| end_of(CLIFF, &[SUB_STEPS, change]));
     let ratio = stiff.kinetic_energy / soft.kinetic_energy;
     println!("{} J and {} J", stiff.kinetic_energy, soft.kinetic_energy);
+    // A tenth, where the grains alone make a half: 49.1 J for 24.3 J.
     assert!((ratio - 1.0).abs() < 0.1, "{ratio}: 1.047 was measured");
     let viscous = end_of(CLIFF, &[SUB_STEPS]).kinetic_energy;
     assert!(viscous < 0.6 * soft.kinetic_energy, "{viscous} J");

@@ -12,6 +12,13 @@ use crate::geometry::vector::array;
 use crate::reading::plugins::{PluginChoice, Plugins, Probe, several, single};
 use crate::{Body, Numerics, Outlet, Output, Phase, Reference, Region, Run, Wall};
 
+/// Displacement at the start, over the spacing, where particles are shifted and the scene says nothing.
+///
+/// Shifts follow the symmetry of the particles: those of a perfect lattice cancel however it is stretched, until
+/// rounding has grown. From 0.001 on, the errors of vortices at 50² are those of a full disorder (L1 0.0023, from 0.01
+/// on 0.0021, from 0 0.0042).
+pub const OFF_LATTICE: f64 = 0.01;
+
 /// A scene: what flows where, under which laws, for how long, and what is written.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -73,6 +80,14 @@ impl Scene {
     /// Driving force per mass, m/s²; zero if the scene gives none.
     pub fn driving<const D: usize>(&self) -> Vect<D> {
         array::<D>(self.numerics.driving.as_deref().unwrap_or(&[])).into()
+    }
+
+    /// Largest displacement of a particle at the start along each axis over the spacing: that of the scene, or
+    /// [`OFF_LATTICE`] where it shifts.
+    pub fn disorder(&self) -> f64 {
+        let shifted = self.choice("shifting").is_some();
+        let unless_given = if shifted { OFF_LATTICE } else { 0.0 };
+        self.numerics.disorder.unwrap_or(unless_given)
     }
 
     /// The bodies' shapes, in the order of `body`.

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use sph_core::fields;
-use sph_scene::Scene;
+use sph_scene::{OFF_LATTICE, Scene};
 
 use crate::step::stages::lock;
 use crate::{Flow, SolverError};
@@ -56,8 +56,8 @@ pub fn remarks<const D: usize>(
     flow: &Flow<D>,
     body_of: &[u32],
 ) -> Result<Vec<String>, SolverError> {
-    // Settled or displaced particles stand on no lattice.
-    if scene.numerics.relax.is_some() || scene.numerics.disorder > 0.0 {
+    // Settled or far displaced particles stand on no lattice.
+    if scene.numerics.relax.is_some() || scene.disorder() > OFF_LATTICE {
         return Ok(Vec::new());
     }
     let world = &flow.world;

@@ -32,9 +32,9 @@ pub fn place<const D: usize>(
     };
     let periodic = scene.numerics.periodic.bounds::<D>();
     let mut filled = fill(regions, spacing, offset, &periodic);
-    let n = &scene.numerics;
-    if n.disorder > 0.0 {
-        disturb(&mut filled, spacing, n.disorder, n.seed, &periodic);
+    let (disorder, seed) = (scene.disorder(), scene.numerics.seed);
+    if disorder > 0.0 {
+        disturb(&mut filled, spacing, disorder, seed, &periodic);
     }
     let bodies: Vec<(&String, &Body)> = scene.body.iter().collect();
     let mut placed = Placed {
