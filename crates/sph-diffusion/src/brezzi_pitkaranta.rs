@@ -167,8 +167,11 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         pair: &LanePair<D, L>,
         sum: &mut L,
     ) {
-        let [pressure, density, volume] =
-            [there.pressure, there.density, there.volume].map(L::splat);
+        let [pressure, density, volume] = [
+            L::splat(there.pressure),
+            L::splat(there.density),
+            L::splat(there.volume),
+        ];
         let gravity = splat::<D, L>(&self.gravity);
         let bracket = L::splat(2.0) * (here.0 - pressure) / (here.1 + density)
             - dot(&gravity, &pair.separation);

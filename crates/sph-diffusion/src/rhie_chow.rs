@@ -12,7 +12,7 @@ use crate::diffusion_limit::{DiffusionLimit, fastest};
 use crate::linear_exact::linear_exact;
 use crate::{Smoother, SmootherEntry};
 use sph_contribution::{Limiter, Stages};
-use sph_neighbours::{Around, Values, walk};
+use sph_neighbours::{Around, Values, walk_into};
 use sph_state::Laws;
 
 /// dρ_a/dt += δ (h/c) 2ρ_a/γ_a Σ_b V_b [2/(ρ_a + ρ_b) (p_a − p_b) − ½(s_a + s_b)·r_ab] F_ab over free neighbours of all
@@ -101,15 +101,17 @@ impl Declares for PressureSlope {
 
 impl<const D: usize> Stage<World<D>> for PressureSlope {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut slopes = world.free.take(PRESSURE_SLOPE)?;
         let pressure = world.free.get(fields::PRESSURE)?;
         let volume = world.free.get(fields::VOLUME)?;
         let density = world.free.get(fields::DENSITY)?;
-        let slopes = walk(world, Values::Gradient, |around: &Around<'_, D>| {
+        let slope = |around: &Around<'_, D>| {
             let i = around.rows.particle;
             linear_exact(&around.rows.free, volume, |j| {
                 Some(2.0 * (pressure[j] - pressure[i]) / (density[i] + density[j]))
             })
-        })?;
+        };
+        walk_into(world, Values::Gradient, |_| true, &mut slopes, slope)?;
         Ok(world.free.put(PRESSURE_SLOPE, slopes)?)
     }
 }
@@ -227,15 +229,17 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         pair: &LanePair<D, L>,
         sum: &mut L,
     ) {
-        let [pressure, density, volume] =
-            [there.pressure, there.density, there.volume].map(L::splat);
+        let [pressure, density, volume] = [
+            L::splat(there.pressure),
+            L::splat(there.density),
+            L::splat(there.volume),
+        ];
         let narrow = L::splat(2.0) * (own.0 - pressure) / (own.1 + density);
         let mut slopes = own.2;
         for (slope, other) in slopes.iter_mut().zip(self.slope[j].iter()) {
-            *slope += L::splat(*other);
+            *slope = L::splat(0.5) * (*slope + L::splat(*other));
         }
-        let half = L::splat(0.5);
-        let wide = dot(&slopes.map(|s| half * s), &pair.separation);
+        let wide = dot(&slopes, &pair.separation);
         *sum += volume * (narrow - wide) * pair.factor;
     }
 }

@@ -181,7 +181,7 @@ impl<const D: usize, W: DivergenceWeight> LaneTerm<D> for Bound<'_, D, W> {
         pair: &LanePair<D, L>,
         sum: &mut L,
     ) {
-        let [volume, density] = [there.volume, there.density].map(L::splat);
+        let [volume, density] = [L::splat(there.volume), L::splat(there.density)];
         let weight = self.weight.weight(here.1, here.2, volume, density);
         let apart = dot(&minus(&here.0, &there.velocity), &pair.separation);
         *sum -= weight * apart * pair.factor;

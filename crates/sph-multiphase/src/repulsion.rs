@@ -159,7 +159,7 @@ impl<const D: usize, R: Repulsion> LaneTerm<D> for Bound<'_, R> {
         if !zero.any_less(unlike) {
             return;
         }
-        let [pressure, volume] = [there.pressure, there.volume].map(L::splat);
+        let [pressure, volume] = [L::splat(there.pressure), L::splat(there.volume)];
         let weight = R::weight(own.pressure, own.volume, pressure, volume) * pair.factor;
         add_scaled(sums, &pair.separation, unlike.where_positive(weight, zero));
     }
