@@ -34,7 +34,10 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
         pair: &LanePair<D, L>,
     ) -> [L; D] {
         let [even, along] = self.strengths(volume, there, pair.distance2, pair.factor);
-        let mut force = relative.map(|u| u * even);
+        let mut force = *relative;
+        for part in &mut force {
+            *part = *part * even;
+        }
         if Self::DIRECTIONAL {
             let along = along * dot(relative, &pair.separation);
             add_scaled(&mut force, &pair.separation, along);

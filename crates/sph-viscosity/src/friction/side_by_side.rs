@@ -82,7 +82,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> LaneTerm<D> for Boun
         pair: &LanePair<D, L>,
         sums: &mut Sums<D, L>,
     ) {
-        let [volume, density] = [there.volume, there.density].map(L::splat);
+        let [volume, density] = [L::splat(there.volume), L::splat(there.density)];
         let densities = [here.density, density];
         let mean = self
             .friction
