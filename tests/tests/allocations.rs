@@ -125,7 +125,7 @@ const SCENES: [Bounds; 7] = [
     (
         "turb-channel-k-epsilon",
         &["numerics.spacing=0.01"],
-        [200.0, 60.0],
+        [370.0, 70.0],
     ),
 ];
 
