@@ -18,7 +18,7 @@ fn told_and_taken(name: &str, overrides: &[&str]) -> (Memory, f64) {
     let overrides = overrides.iter().map(|text| Override::parse(text));
     let overrides: Vec<_> = overrides.map(|o| o.expect("an override")).collect();
     let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
-    let told = examine(&loaded.scene, 1).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let told = examine(&loaded.scene).unwrap_or_else(|e| panic!("{name}: {e}"));
     let memory = told.memory;
     let folder = tempfile::tempdir().expect("a temporary folder");
     let options = RunOptions {

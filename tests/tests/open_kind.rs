@@ -62,7 +62,7 @@ fn examined(changes: &[&str]) -> Examination {
         .map(|c| Override::parse(c).unwrap())
         .collect();
     let loaded = parse(SCENE, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
-    examine(&loaded.scene, 1).unwrap_or_else(|e| panic!("{e}"))
+    examine(&loaded.scene).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Rate at which a wave of length 1 dies on the lattice, over κ: 2 Σ_b V F_ab (1 − cos k x_b), the operator's own.
@@ -214,9 +214,7 @@ fn one_and_two_threads_and_a_resumed_run_have_the_same_bits() {
 fn scenes_are_told_what_is_wrong_with_it() {
     let told = |scene: &str| match parse(scene, "scene.toml", &[]) {
         Err(refused) => refused.to_string(),
-        Ok(loaded) => examine(&loaded.scene, 1)
-            .expect_err("a refusal")
-            .to_string(),
+        Ok(loaded) => examine(&loaded.scene).expect_err("a refusal").to_string(),
     };
     let unknown = told(&SCENE.replace("tracer.heat-and-salt", "tracer.heat-and-sald"));
     assert!(unknown.contains("heat-and-salt"), "{unknown}");

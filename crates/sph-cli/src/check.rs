@@ -1,9 +1,10 @@
 //! `sph check`.
 
 use serde_json::{Value as Json, json};
-use sph_solver::{Examination, Memory, examine};
+use sph_solver::{Examination, Load, Memory, examine};
 
 use crate::arguments::CheckArguments;
+use crate::calibration::calibration;
 use crate::layout::{columns, remarks};
 use crate::scene_file::{AnyScene, open};
 use crate::trouble::Trouble;
@@ -21,18 +22,47 @@ pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
         AnyScene::Particles(loaded) => loaded,
         AnyScene::Grains(loaded) => return grains::check::scene(arguments.json, loaded),
     };
-    let examined = examine(&loaded.scene, threads);
+    let examined = examine(&loaded.scene);
     let mut examined = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
     let too_fast = too_fast(&examined);
     examined.warnings.extend(too_fast);
+    // Without it all else is as good.
+    let told = calibration();
+    let hours = told.as_ref().ok().map(|told| {
+        let step = told.calibration.step(&examined.load, threads);
+        examined.estimate.steps * step / 3600.0
+    });
     if arguments.json {
         let mut all = serde_json::to_value(&examined).unwrap_or(Json::Null);
         all["threads"] = json!(threads);
+        all["estimate"]["hours"] = json!(hours);
+        all["estimate"]["origin"] = json!(told.map_or_else(|why| why, |told| told.origin));
         console::json(&all);
     } else {
-        console::out(&text(&examined, loaded.source.file(), threads));
+        let time = match (told, hours) {
+            (Ok(told), Some(hours)) => {
+                let on = match threads {
+                    1 => "1 thread".to_string(),
+                    n => format!("{n} threads"),
+                };
+                let time = number::duration(3600.0 * hours);
+                let doubt = doubt(&examined.load);
+                format!("about {time} on {on}{doubt}, by {}", told.origin)
+            }
+            (told, _) => format!("not known: {}", told.err().unwrap_or_default()),
+        };
+        console::out(&text(&examined, loaded.source.file(), &time));
     }
     Ok(())
+}
+
+/// What the time of a run hangs on that its start does not tell.
+fn doubt(load: &Load) -> &'static str {
+    let solves = load.pieces.iter().any(|p| p.name.starts_with("implicit"));
+    match solves {
+        true => " (if solves are as short as those of a bed at rest)",
+        false => "",
+    }
 }
 
 /// A remark for every phase whose speed comes too near to that of sound.
@@ -63,7 +93,7 @@ pub fn memory(memory: &Memory) -> String {
     format!("{}: {}", number::bytes(all), parts.join(", "))
 }
 
-fn text(e: &Examination, file: &str, threads: usize) -> String {
+fn text(e: &Examination, file: &str, time: &str) -> String {
     let mut text = format!(
         "{}\n{file} is a good scene in {} dimensions\n",
         e.scene, e.dimension
@@ -93,17 +123,9 @@ fn text(e: &Examination, file: &str, threads: usize) -> String {
         .iter()
         .map(|(name, dt)| row(name, seconds(*dt)));
     let cost = &e.estimate;
-    let on = if threads == 1 {
-        "1 thread".to_string()
-    } else {
-        format!("{threads} threads")
-    };
     let estimate = [
         row("steps", number::count(cost.steps)),
-        row(
-            "wall time",
-            format!("about {} on {on}", number::duration(3600.0 * cost.hours)),
-        ),
+        row("wall time", time.to_string()),
         row("memory", format!("about {}", memory(&e.memory))),
         row("disk", format!("about {}", number::bytes(cost.disk_bytes))),
     ];

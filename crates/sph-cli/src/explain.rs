@@ -17,7 +17,7 @@ pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
         AnyScene::Particles(loaded) => loaded,
         AnyScene::Grains(loaded) => return grains::explain::scene(arguments.json, loaded),
     };
-    let examined = examine(&loaded.scene, 1);
+    let examined = examine(&loaded.scene);
     let examined = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
     match arguments.json {
         true => console::json(&serde_json::to_value(&examined).unwrap_or(Json::Null)),

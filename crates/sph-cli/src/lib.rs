@@ -13,6 +13,7 @@
 
 mod app;
 mod arguments;
+mod calibration;
 mod check;
 mod console;
 mod diagnostics;

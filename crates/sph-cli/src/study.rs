@@ -39,7 +39,7 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
         origin: Origin::new(env!("SPH_BUILT_WITH")),
     };
     let watcher = Watcher::new(arguments.quiet, &study, &options, interrupt::flag());
-    assemble(&study, &options, &watcher)?;
+    assemble(&study, &watcher)?;
     let failed = |error| Trouble::Failed {
         error,
         summary: None,
@@ -132,11 +132,10 @@ fn read(
 }
 
 /// Puts together what is to be run, so that every mistake is known before the first run.
-fn assemble(study: &Study, options: &Options, watcher: &Watcher) -> Result<(), Trouble> {
+fn assemble(study: &Study, watcher: &Watcher) -> Result<(), Trouble> {
     for (k, variant) in study.variants.iter().enumerate() {
         if watcher.has_to_run(k) {
-            let seconds = study.assemble(variant, options.threads())?;
-            watcher.assembled(k, seconds);
+            watcher.assembled(k, study.assemble(variant)?);
         }
     }
     Ok(())

@@ -84,7 +84,7 @@ struct State {
     told: Instant,
     /// Settled variants.
     settled: usize,
-    /// Estimated seconds of every variant that has to run, by name.
+    /// Work of every variant that has to run, by name.
     cost: BTreeMap<String, f64>,
     /// Share of every variant that has begun, by name.
     share: BTreeMap<String, f64>,
@@ -138,10 +138,10 @@ impl Watcher {
     }
 
     /// A variant is good and will take about so long.
-    pub fn assembled(&self, k: usize, seconds: f64) {
+    pub fn assembled(&self, k: usize, work: f64) {
         let mut state = self.state();
         if let Some(name) = self.names.get(k) {
-            state.cost.insert(name.clone(), seconds.max(1e-3));
+            state.cost.insert(name.clone(), work.max(1e-3));
             if let Display::Bar(bar) = &self.display {
                 bar.set_message(clean(&format!("checked {name}")).into_owned());
             }

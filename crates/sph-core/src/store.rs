@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::field::{AnyField, Column};
 use crate::watch::Watch;
-use crate::{Access, Born, Field, FieldError, Kind, StepError, Taken, Vect};
+use crate::{Access, Born, Field, FieldError, Kind, StepError, Symmetric, Taken, Vect};
 
 /// What happens to a column over a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +31,17 @@ pub struct Store<const D: usize> {
     /// What has been born.
     pub(crate) born: Born,
     pub(crate) watch: Watch,
+    pub(crate) spare: Spare<D>,
+}
+
+/// A column of each kind to sort into: asked for when particles of such a column are first sorted.
+#[derive(Default)]
+pub(crate) struct Spare<const D: usize> {
+    scalar: Vec<f64>,
+    vector: Vec<Vect<D>>,
+    index: Vec<u32>,
+    tensor: Vec<nalgebra::SMatrix<f64, D, D>>,
+    symmetric: Vec<Symmetric>,
 }
 
 /// A column as plain numbers, for files.
@@ -51,6 +62,7 @@ impl<const D: usize> Store<D> {
             taken: Vec::new(),
             born: Born::default(),
             watch: Watch::default(),
+            spare: Spare::default(),
         }
     }
 
@@ -196,16 +208,19 @@ impl<const D: usize> Store<D> {
     }
 
     fn permute_role(&mut self, role: Role, order: &[u32]) {
-        fn gather<T: Copy>(items: &mut Vec<T>, order: &[u32]) {
-            *items = order.iter().map(|&o| items[o as usize]).collect();
+        fn gather<T: Copy>(items: &mut Vec<T>, order: &[u32], spare: &mut Vec<T>) {
+            spare.clear();
+            spare.extend(order.iter().map(|&o| items[o as usize]));
+            std::mem::swap(items, spare);
         }
+        let spare = &mut self.spare;
         for entry in self.entries.iter_mut().filter(|e| e.role == role) {
             match &mut entry.column {
-                Column::Scalar(items) => gather(items, order),
-                Column::Vector(items) => gather(items, order),
-                Column::Index(items) => gather(items, order),
-                Column::Tensor(items) => gather(items, order),
-                Column::SymmetricTensor(items) => gather(items, order),
+                Column::Scalar(items) => gather(items, order, &mut spare.scalar),
+                Column::Vector(items) => gather(items, order, &mut spare.vector),
+                Column::Index(items) => gather(items, order, &mut spare.index),
+                Column::Tensor(items) => gather(items, order, &mut spare.tensor),
+                Column::SymmetricTensor(items) => gather(items, order, &mut spare.symmetric),
             }
         }
     }

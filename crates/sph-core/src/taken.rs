@@ -47,6 +47,7 @@ impl<const D: usize> Store<D> {
             entries: out,
             taken: Vec::new(),
             born: Default::default(),
+            spare: Default::default(),
         }
     }
 

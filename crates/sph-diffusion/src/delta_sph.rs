@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
 use sph_neighbours::{
     Around, BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates,
-    There, Values, World, dot, set, unlike, walk,
+    There, Values, World, dot, set, unlike, walk_into,
 };
 
 use crate::diffusion_limit::DiffusionLimit;
@@ -119,16 +119,18 @@ impl Declares for DensityGradient {
 
 impl<const D: usize> Stage<World<D>> for DensityGradient {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut gradients = world.free.take(DENSITY_GRADIENT)?;
         let density = world.free.get(fields::DENSITY)?;
         let volume = world.free.get(fields::VOLUME)?;
         let phase = world.free.get(fields::PHASE).ok();
-        let gradients = walk(world, Values::Gradient, |around: &Around<'_, D>| {
+        let gradient = |around: &Around<'_, D>| {
             let i = around.rows.particle;
             linear_exact(&around.rows.free, volume, |j| {
                 let same = phase.is_none_or(|p| p[i] == p[j]);
                 same.then(|| density[j] - density[i])
             })
-        })?;
+        };
+        walk_into(world, Values::Gradient, |_| true, &mut gradients, gradient)?;
         Ok(world.free.put(DENSITY_GRADIENT, gradients)?)
     }
 }

@@ -5,14 +5,14 @@ use serde::Deserialize;
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
 use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There,
-    World, dot, scaled, set,
+    World, dot, set,
 };
 
 use crate::diffusion_limit::{DiffusionLimit, fastest};
 use crate::linear_exact::linear_exact;
 use crate::{Smoother, SmootherEntry};
 use sph_contribution::{Limiter, Stages};
-use sph_neighbours::{Around, Values, walk};
+use sph_neighbours::{Around, Values, walk_into};
 use sph_state::Laws;
 
 /// dρ_a/dt += δ (h/c) 2ρ_a/γ_a Σ_b V_b [2/(ρ_a + ρ_b) (p_a − p_b) − ½(s_a + s_b)·r_ab] F_ab over free neighbours of all
@@ -101,15 +101,17 @@ impl Declares for PressureSlope {
 
 impl<const D: usize> Stage<World<D>> for PressureSlope {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut slopes = world.free.take(PRESSURE_SLOPE)?;
         let pressure = world.free.get(fields::PRESSURE)?;
         let volume = world.free.get(fields::VOLUME)?;
         let density = world.free.get(fields::DENSITY)?;
-        let slopes = walk(world, Values::Gradient, |around: &Around<'_, D>| {
+        let slope = |around: &Around<'_, D>| {
             let i = around.rows.particle;
             linear_exact(&around.rows.free, volume, |j| {
                 Some(2.0 * (pressure[j] - pressure[i]) / (density[i] + density[j]))
             })
-        })?;
+        };
+        walk_into(world, Values::Gradient, |_| true, &mut slopes, slope)?;
         Ok(world.free.put(PRESSURE_SLOPE, slopes)?)
     }
 }
@@ -232,10 +234,9 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         let narrow = L::splat(2.0) * (own.0 - pressure) / (own.1 + density);
         let mut slopes = own.2;
         for (slope, other) in slopes.iter_mut().zip(self.slope[j].iter()) {
-            *slope += L::splat(*other);
+            *slope = L::splat(0.5) * (*slope + L::splat(*other));
         }
-        let half = L::splat(0.5);
-        let wide = dot(&scaled(slopes, half), &pair.separation);
+        let wide = dot(&slopes, &pair.separation);
         *sum += volume * (narrow - wide) * pair.factor;
     }
 }

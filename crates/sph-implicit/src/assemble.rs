@@ -1,148 +1,226 @@
-//! From the neighbour lists to a matrix.
+//! From the clusters of the neighbour lists to a matrix.
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect};
-use sph_neighbours::{CHUNK, Neighbourhood, Rows, Surroundings, World};
+use sph_neighbours::{CHUNK, Cluster, ClusterWalk, World};
 
 use crate::{Entry, Pattern, Values};
 
-/// What a row has besides its neighbours, in a system of C components: the dimensions of space for velocities, one for a
-/// pressure.
-#[derive(Clone, Copy, Debug)]
-pub struct Row<E, const C: usize> {
-    /// What stands on the diagonal besides the sum of the couplings: mass, walls.
-    pub own: E,
-    /// Part of the right-hand side.
-    pub source: Vect<C>,
+/// A matrix of a system of C components, the dimensions of space for velocities, one for a pressure; with its sources, and
+/// what it is put together from.
+///
+/// It is kept from step to step for its memory: to ask for tens of megabytes anew in every step costs a tenth of it.
+#[derive(Clone, Debug)]
+pub struct Assembly<E, const C: usize> {
+    /// Where entries are.
+    pub pattern: Pattern,
+    /// What they are.
+    pub values: Values<E>,
+    /// Parts of the right-hand side, one per row.
+    pub sources: Vec<Vect<C>>,
+    parts: Vec<Rows<E, C>>,
 }
 
-/// Rows of one chunk of particles.
-struct Part<E, const C: usize> {
+impl<E, const C: usize> Default for Assembly<E, C> {
+    /// No rows.
+    fn default() -> Self {
+        Assembly {
+            pattern: Pattern::default(),
+            values: Values::default(),
+            sources: Vec::new(),
+            parts: Vec::new(),
+        }
+    }
+}
+
+/// The rows of a block of particles, one after the other.
+#[derive(Clone, Debug)]
+pub struct Rows<E, const C: usize> {
+    /// Entries of each row that is finished.
     counts: Vec<u32>,
+    /// Room for columns; of the rows so far `used` are taken.
     columns: Vec<u32>,
+    /// Room for −c in the same order.
     others: Vec<E>,
+    used: usize,
+    /// First entry of the row at hand.
+    begin: usize,
     diagonal: Vec<E>,
     sources: Vec<Vect<C>>,
+    /// For whoever fills the rows: numbers of pairs.
+    pub numbers: Vec<f64>,
 }
 
-/// Buffers of one thread.
-struct Buffers<E, const D: usize> {
-    rows: Rows<D>,
-    couplings: Vec<(u32, E)>,
-    /// Columns in the upper half, places in `couplings` in the lower.
-    order: Vec<u64>,
-}
-
-/// The matrix with −c_ij beside and own_i + Σ_j c_ij on the diagonal, and the sources.
-///
-/// `row` gets a neighbourhood (without packed states) and writes j and the coupling c_ij for each of its free
-/// neighbours that is coupled. The memory of `former` values is used again: to ask for tens of megabytes anew in every step costs
-/// a tenth of it.
-///
-/// # Errors
-/// If the world has no positions.
-pub fn assemble<const D: usize, const C: usize, E: Entry<C>>(
-    world: &World<D>,
-    former: Values<E>,
-    row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<(u32, E)>) -> Row<E, C> + Sync,
-) -> Result<(Pattern, Values<E>, Vec<Vect<C>>), StepError> {
-    assemble_some(world, former, |_| None, row)
-}
-
-/// The same with some rows that are `known` without their neighbours, to which they are not coupled.
-///
-/// # Errors
-/// If the world has no positions.
-pub fn assemble_some<const D: usize, const C: usize, E: Entry<C>>(
-    world: &World<D>,
-    former: Values<E>,
-    known: impl Fn(usize) -> Option<Row<E, C>> + Sync,
-    row: impl Fn(&Neighbourhood<'_, D>, &mut Vec<(u32, E)>) -> Row<E, C> + Sync,
-) -> Result<(Pattern, Values<E>, Vec<Vect<C>>), StepError> {
-    let surroundings = Surroundings::new(world)?;
-    let particles = surroundings.particles();
-    let one = |buffers: &mut Buffers<E, D>, part: &mut Part<E, C>, i: usize| {
-        let couplings = &mut buffers.couplings;
-        couplings.clear();
-        let row = match known(i) {
-            Some(row) => row,
-            None => row(&surroundings.of(i, &mut buffers.rows), couplings),
-        };
-        let mut diagonal = row.own;
-        let order = &mut buffers.order;
-        order.clear();
-        for (k, (j, c)) in couplings.iter().enumerate() {
-            diagonal = diagonal.plus(c);
-            order.push(u64::from(*j) << 32 | k as u64);
+impl<E: Entry<C>, const C: usize> Rows<E, C> {
+    fn new() -> Self {
+        Rows {
+            counts: Vec::with_capacity(CHUNK),
+            columns: Vec::new(),
+            others: Vec::new(),
+            used: 0,
+            begin: 0,
+            diagonal: Vec::with_capacity(CHUNK),
+            sources: Vec::with_capacity(CHUNK),
+            numbers: Vec::new(),
         }
-        order.sort_unstable();
-        let place = |key: &u64| *key as u32 as usize;
-        part.counts.push(order.len() as u32);
-        part.columns
-            .extend(order.iter().map(|key| (key >> 32) as u32));
-        part.others
-            .extend(order.iter().map(|key| couplings[place(key)].1.times(-1.0)));
-        part.diagonal.push(diagonal);
-        part.sources.push(row.source);
-    };
-    let new = || Buffers {
-        rows: Rows::default(),
-        couplings: Vec::new(),
-        order: Vec::new(),
-    };
-    let chunks = particles.div_ceil(CHUNK);
-    let parts: Vec<Part<E, C>> = (0..chunks)
-        .into_par_iter()
-        .map_init(new, |buffers, c| {
-            let mut part = Part {
-                counts: Vec::with_capacity(CHUNK),
-                columns: Vec::new(),
-                others: Vec::new(),
-                diagonal: Vec::with_capacity(CHUNK),
-                sources: Vec::with_capacity(CHUNK),
-            };
-            for i in c * CHUNK..((c + 1) * CHUNK).min(particles) {
-                one(buffers, &mut part, i);
+    }
+
+    fn clear(&mut self) {
+        self.counts.clear();
+        self.diagonal.clear();
+        self.sources.clear();
+        (self.used, self.begin) = (0, 0);
+    }
+
+    /// Begins a row of at most `most` couplings.
+    #[inline]
+    pub fn begin(&mut self, most: usize) {
+        self.begin = self.used;
+        let needed = self.used + most + 1;
+        if self.columns.len() < needed {
+            let room = needed.next_power_of_two();
+            self.columns.resize(room, 0);
+            self.others.resize(room, E::ZERO);
+        }
+    }
+
+    /// Couples the row to that of `j` by c, if it `counts`; there must be room for one more in any case.
+    #[inline(always)]
+    pub fn couple(&mut self, j: u32, c: &E, counts: bool) {
+        self.columns[self.used] = j;
+        self.others[self.used] = c.times(-1.0);
+        self.used += usize::from(counts);
+    }
+
+    /// The couplings of the row at hand, with their sign turned.
+    #[inline(always)]
+    fn own(&self) -> &[E] {
+        &self.others[self.begin..self.used]
+    }
+
+    /// Σ c of the row at hand, in the order in which they came.
+    #[inline]
+    pub fn sum(&self) -> E {
+        let own = self.own().iter();
+        own.fold(E::ZERO, |sum, c| sum.plus(&c.times(-1.0)))
+    }
+
+    /// Ends the row at hand: `own` stands on the diagonal besides the sum of the couplings, `source` on the right-hand side.
+    #[inline]
+    pub fn end(&mut self, own: E, source: Vect<C>) {
+        let couplings = self.own().iter();
+        let diagonal = couplings.fold(own, |sum, c| sum.plus(&c.times(-1.0)));
+        self.diagonal.push(diagonal);
+        self.sources.push(source);
+        self.counts.push((self.used - self.begin) as u32);
+        let columns = &self.columns[self.begin..self.used];
+        if !columns.is_sorted() {
+            self.sort();
+        }
+        self.begin = self.used;
+    }
+
+    /// Sorts the row at hand: lists of particles that are not sorted.
+    #[cold]
+    fn sort(&mut self) {
+        let row = self.begin..self.used;
+        let columns = self.columns[row.clone()].iter().copied();
+        let mut both: Vec<(u32, E)> = columns.zip(self.own().iter().copied()).collect();
+        both.sort_by_key(|(j, _)| *j);
+        for (k, (j, c)) in row.zip(both) {
+            (self.columns[k], self.others[k]) = (j, c);
+        }
+    }
+}
+
+impl<E: Entry<C>, const C: usize> Assembly<E, C> {
+    /// Fills it with −c_ij beside and own_i + Σ_j c_ij on the diagonal, and the sources.
+    ///
+    /// `cluster` adds a row for each member of a cluster, in their order.
+    ///
+    /// # Errors
+    /// If the world has no positions.
+    pub fn fill<const D: usize>(
+        &mut self,
+        world: &World<D>,
+        cluster: impl Fn(&mut Cluster<'_, D>, &mut Rows<E, C>) + Sync,
+    ) -> Result<(), StepError> {
+        let walk = ClusterWalk::new(world)?;
+        self.parts.resize_with(walk.blocks(), Rows::new);
+        let blocks = self.parts.par_iter_mut().enumerate();
+        blocks.for_each(|(block, rows)| {
+            rows.clear();
+            walk.each(block, |members| cluster(members, rows));
+        });
+        self.join(walk.particles());
+        Ok(())
+    }
+
+    /// Moves the rows of all parts to where a matrix has them.
+    fn join(&mut self, rows: usize) {
+        let Assembly {
+            pattern,
+            values,
+            sources,
+            parts,
+        } = self;
+        let entries = parts.iter().map(|p| p.used).sum();
+        pattern.starts.clear();
+        pattern.starts.reserve(rows + 1);
+        pattern.starts.push(0);
+        values.diagonal.clear();
+        values.diagonal.reserve(rows);
+        sources.clear();
+        sources.reserve(rows);
+        let mut start = 0;
+        for part in parts.iter() {
+            for count in &part.counts {
+                start += count;
+                pattern.starts.push(start);
             }
-            part
-        })
-        .collect();
-    Ok(joined(parts, particles, former))
+            values.diagonal.extend_from_slice(&part.diagonal);
+            sources.extend_from_slice(&part.sources);
+        }
+        make_room(&mut pattern.columns, entries, 0);
+        make_room(&mut values.others, entries, E::ZERO);
+        copy(parts, &mut pattern.columns, &mut values.others);
+    }
 }
 
-fn joined<const C: usize, E: Entry<C>>(
-    parts: Vec<Part<E, C>>,
-    rows: usize,
-    mut values: Values<E>,
-) -> (Pattern, Values<E>, Vec<Vect<C>>) {
-    let entries = parts.iter().map(|p| p.columns.len()).sum();
-    let mut pattern = Pattern {
-        starts: Vec::with_capacity(rows + 1),
-        columns: Vec::with_capacity(entries),
-    };
-    values.diagonal.clear();
-    values.diagonal.reserve(rows);
-    values.others.resize(entries, E::ZERO);
-    let mut rest = &mut values.others[..];
-    let mut places = Vec::with_capacity(parts.len());
-    for part in &parts {
-        let (place, after) = rest.split_at_mut(part.others.len());
-        places.push(place);
-        rest = after;
+/// Blocks that one task copies.
+const TOGETHER: usize = 32;
+
+/// Copies the entries of parts one after the other.
+fn copy<E: Copy + Send + Sync, const C: usize>(
+    parts: &[Rows<E, C>],
+    columns: &mut [u32],
+    others: &mut [E],
+) {
+    if parts.len() > TOGETHER {
+        let (left, right) = parts.split_at(parts.len() / 2);
+        let entries = left.iter().map(|p| p.used).sum();
+        let (left_columns, right_columns) = columns.split_at_mut(entries);
+        let (left_others, right_others) = others.split_at_mut(entries);
+        rayon::join(
+            || copy(left, left_columns, left_others),
+            || copy(right, right_columns, right_others),
+        );
+        return;
     }
-    let copied = places.into_par_iter().zip(&parts);
-    copied.for_each(|(place, part)| place.copy_from_slice(&part.others));
-    let mut sources = Vec::with_capacity(rows);
-    let mut start = 0;
-    pattern.starts.push(0);
+    let mut from = 0;
     for part in parts {
-        for count in part.counts {
-            start += count;
-            pattern.starts.push(start);
-        }
-        pattern.columns.extend(part.columns);
-        values.diagonal.extend(part.diagonal);
-        sources.extend(part.sources);
+        let own = from..from + part.used;
+        columns[own.clone()].copy_from_slice(&part.columns[..part.used]);
+        others[own].copy_from_slice(&part.others[..part.used]);
+        from += part.used;
     }
-    (pattern, values, sources)
+}
+
+/// As many entries as are needed, in a buffer that is at most a quarter too large.
+fn make_room<T: Clone>(held: &mut Vec<T>, needed: usize, nothing: T) {
+    if needed > held.capacity() {
+        held.clear();
+        held.reserve_exact(needed + needed / 16);
+    }
+    held.resize(needed, nothing);
 }

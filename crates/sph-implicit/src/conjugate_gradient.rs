@@ -45,6 +45,8 @@ impl Default for ConjugateGradient {
 }
 
 const METHOD: &str = "conjugate gradients";
+/// Iterations after which the matrix is put into a form that is read faster: to do so takes as long as two products.
+const PREPARE: usize = 3;
 
 impl<const D: usize> LinearSolver<D> for ConjugateGradient {
     fn solve(
@@ -80,8 +82,15 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
         direction.resize(operator.columns(), Vect::zeros());
         let mut image = vec![Vect::zeros(); r.len()];
         let mut slope = operator.dot(&r, &z);
+        let mut prepared = None;
         loop {
-            operator.apply(&mut direction, &mut image);
+            if watch.iterations() == PREPARE {
+                prepared = operator.prepared();
+            }
+            match &prepared {
+                Some(prepared) => prepared.multiply(&direction, &mut image),
+                None => operator.apply(&mut direction, &mut image),
+            }
             let curvature = operator.dot(&direction, &image);
             if curvature <= 0.0 || slope <= 0.0 {
                 return Err(watch.not_positive());

@@ -10,6 +10,12 @@ pub type Block<const D: usize> = SMatrix<f64, D, D>;
 pub trait Entry<const D: usize>: Copy + Send + Sync + PartialEq + 'static {
     /// Nothing.
     const ZERO: Self;
+    /// The same in half the memory, to seven digits.
+    type Short: Copy + Send + Sync + std::fmt::Debug;
+    /// s a, shortened.
+    fn short(&self, factor: f64) -> Self::Short;
+    /// What is left of a shortened entry.
+    fn long(short: &Self::Short) -> Self;
     /// a v.
     fn apply(&self, v: &Vect<D>) -> Vect<D>;
     /// aᵀ v.
@@ -34,10 +40,21 @@ pub trait Entry<const D: usize>: Copy + Send + Sync + PartialEq + 'static {
     fn unit(factor: f64) -> Self;
     /// The nearest entry to a block: itself, or the mean of its diagonal.
     fn from_block(block: &Block<D>) -> Self;
+    /// α 1 + β r rᵀ; a number is α.
+    fn central(even: f64, along: f64, r: &Vect<D>) -> Self;
 }
 
 impl<const D: usize> Entry<D> for f64 {
     const ZERO: f64 = 0.0;
+    type Short = f32;
+    #[inline(always)]
+    fn short(&self, factor: f64) -> f32 {
+        (self * factor) as f32
+    }
+    #[inline(always)]
+    fn long(short: &f32) -> f64 {
+        f64::from(*short)
+    }
     #[inline(always)]
     fn apply(&self, v: &Vect<D>) -> Vect<D> {
         v * *self
@@ -86,17 +103,55 @@ impl<const D: usize> Entry<D> for f64 {
     fn from_block(block: &Block<D>) -> f64 {
         block.trace() / D as f64
     }
+    #[inline(always)]
+    fn central(even: f64, _along: f64, _r: &Vect<D>) -> f64 {
+        even
+    }
 }
 
 impl<const D: usize> Entry<D> for Block<D> {
     const ZERO: Self = SMatrix::from_array_storage(nalgebra::ArrayStorage([[0.0; D]; D]));
+    type Short = [[f32; D]; D];
+    #[inline(always)]
+    fn short(&self, factor: f64) -> [[f32; D]; D] {
+        let mut short = [[0.0; D]; D];
+        for c in 0..D {
+            for r in 0..D {
+                short[c][r] = (self[(r, c)] * factor) as f32;
+            }
+        }
+        short
+    }
+    #[inline(always)]
+    fn long(short: &[[f32; D]; D]) -> Self {
+        let mut block = Block::zeros();
+        for c in 0..D {
+            for r in 0..D {
+                block[(r, c)] = f64::from(short[c][r]);
+            }
+        }
+        block
+    }
     #[inline(always)]
     fn apply(&self, v: &Vect<D>) -> Vect<D> {
-        self * v
+        // Loops: products of matrices of the library are calls where no `lto` opens them.
+        let mut product = Vect::zeros();
+        for c in 0..D {
+            for r in 0..D {
+                product[r] += self[(r, c)] * v[c];
+            }
+        }
+        product
     }
     #[inline(always)]
     fn apply_transposed(&self, v: &Vect<D>) -> Vect<D> {
-        self.tr_mul(v)
+        let mut product = Vect::zeros();
+        for c in 0..D {
+            for r in 0..D {
+                product[c] += self[(r, c)] * v[r];
+            }
+        }
+        product
     }
     #[inline(always)]
     fn plus(&self, other: &Self) -> Self {
@@ -132,5 +187,15 @@ impl<const D: usize> Entry<D> for Block<D> {
     }
     fn from_block(block: &Block<D>) -> Self {
         *block
+    }
+    #[inline(always)]
+    fn central(even: f64, along: f64, r: &Vect<D>) -> Self {
+        let mut block = Block::zeros();
+        for k in 0..D {
+            for i in 0..D {
+                block[(i, k)] = (r[i] * along) * r[k] + if i == k { even } else { 0.0 };
+            }
+        }
+        block
     }
 }

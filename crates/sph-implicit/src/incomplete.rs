@@ -13,28 +13,33 @@ use crate::{Entry, Pattern};
 /// of L, so that they are factorised and solved side by side. For M-matrices all pivots are positive
 /// (Meijerink & van der Vorst 1977). Where one is not, the diagonal of the matrix is raised and the
 /// factorisation begun anew.
+///
+/// L is kept to seven digits, in units of the largest pivot: the factors stay symmetric and positive definite whatever L
+/// is, an approximation need not be better, and a solve is the time that it takes to read them.
 #[derive(Clone, Debug)]
-pub struct Incomplete<E> {
-    parts: Vec<Part<E>>,
+pub struct Incomplete<E, S> {
+    parts: Vec<Part<E, S>>,
 }
 
 /// The factor of some rows that follow each other; columns count from the first of them.
 #[derive(Clone, Debug)]
-struct Part<E> {
+struct Part<E, S> {
     starts: Vec<u32>,
-    columns: Vec<u32>,
-    lower: Vec<E>,
+    columns: Vec<u16>,
+    /// l in units of `largest`.
+    lower: Vec<S>,
     inverse_pivots: Vec<E>,
+    largest: f64,
 }
 
-/// Rows of a part.
-const PART: usize = 2048;
+/// Rows of a part; their number fits into 16 bits.
+pub(crate) const PART: usize = 2048;
 /// By what share the diagonal is raised at the first failure; tenfold at every further one.
 const RAISE: f64 = 1e-3;
 /// Failures after which the matrix is called indefinite.
 const ATTEMPTS: usize = 5;
 
-impl<E: Copy + Send + Sync> Incomplete<E> {
+impl<E: Copy + Send + Sync, S: Copy + Send + Sync> Incomplete<E, S> {
     /// Factorises; with `pivots_only` l_ij = a_ij, which leaves out the search for common columns: less work for more iterations.
     ///
     /// # Errors
@@ -45,7 +50,7 @@ impl<E: Copy + Send + Sync> Incomplete<E> {
         pivots_only: bool,
     ) -> Result<Self, usize>
     where
-        E: Entry<D>,
+        E: Entry<D, Short = S>,
     {
         let mut raise = 0.0;
         let mut row = 0;
@@ -64,7 +69,7 @@ impl<E: Copy + Send + Sync> Incomplete<E> {
 
     /// Memory of the factor.
     pub fn bytes(&self) -> usize {
-        let part = |p: &Part<E>| {
+        let part = |p: &Part<E, S>| {
             size_of_val(&p.starts[..])
                 + size_of_val(&p.columns[..])
                 + size_of_val(&p.lower[..])
@@ -76,7 +81,7 @@ impl<E: Copy + Send + Sync> Incomplete<E> {
     /// z = (P + Lᵀ)⁻¹ P (P + L)⁻¹ r.
     pub fn solve<const D: usize>(&self, r: &[Vect<D>], z: &mut [Vect<D>])
     where
-        E: Entry<D>,
+        E: Entry<D, Short = S>,
     {
         let parts = z.par_chunks_mut(PART).zip(r.par_chunks(PART));
         let parts = parts.zip(&self.parts);
@@ -84,7 +89,7 @@ impl<E: Copy + Send + Sync> Incomplete<E> {
     }
 }
 
-impl<E: Copy> Part<E> {
+impl<E: Copy, S: Copy> Part<E, S> {
     fn new<const D: usize>(
         pattern: &Pattern,
         values: &Values<E>,
@@ -93,15 +98,16 @@ impl<E: Copy> Part<E> {
         part: usize,
     ) -> Result<Self, usize>
     where
-        E: Entry<D>,
+        E: Entry<D, Short = S>,
     {
         let from = part * PART;
         let rows = from..(from + PART).min(pattern.len());
         let mut starts: Vec<u32> = Vec::with_capacity(rows.len() + 1);
         starts.push(0);
         let room = pattern.row(rows.end - 1).end - pattern.row(from).start;
-        let mut columns = Vec::with_capacity(room / 2);
-        let mut lower = Vec::with_capacity(room / 2);
+        let mut columns: Vec<u16> = Vec::with_capacity(room / 2);
+        let mut lower: Vec<E> = Vec::with_capacity(room / 2);
+        let mut largest = f64::MIN_POSITIVE;
         let mut inverse_pivots: Vec<E> = Vec::with_capacity(rows.len());
         for i in rows {
             let begin = columns.len();
@@ -109,8 +115,9 @@ impl<E: Copy> Part<E> {
             let all = &pattern.columns[row.clone()];
             let first = all.partition_point(|j| (*j as usize) < from);
             let last = all.partition_point(|j| (*j as usize) < i);
-            columns.extend(all[first..last].iter().map(|j| j - from as u32));
+            columns.extend(all[first..last].iter().map(|j| (j - from as u32) as u16));
             lower.extend(&values.others[row.start + first..row.start + last]);
+            largest = largest.max(values.diagonal[i].largest());
             let mut pivot = values.diagonal[i].times(raise);
             for k in begin..columns.len() {
                 let j = columns[k] as usize;
@@ -133,32 +140,34 @@ impl<E: Copy> Part<E> {
             inverse_pivots.push(pivot.inverted().ok_or(i)?);
             starts.push(columns.len() as u32);
         }
+        let factor = 1.0 / largest;
         Ok(Part {
             starts,
             columns,
-            lower,
+            lower: lower.iter().map(|l| l.short(factor)).collect(),
             inverse_pivots,
+            largest,
         })
     }
 
     fn solve<const D: usize>(&self, r: &[Vect<D>], z: &mut [Vect<D>])
     where
-        E: Entry<D>,
+        E: Entry<D, Short = S>,
     {
         let row = |i: usize| self.starts[i] as usize..self.starts[i + 1] as usize;
         for i in 0..r.len() {
-            let mut sum = r[i];
+            let mut sum = Vect::zeros();
             for (l, &j) in self.lower[row(i)].iter().zip(&self.columns[row(i)]) {
-                sum -= l.apply(&z[j as usize]);
+                sum += E::long(l).apply(&z[j as usize]);
             }
-            z[i] = self.inverse_pivots[i].apply(&sum);
+            z[i] = self.inverse_pivots[i].apply(&(r[i] - sum * self.largest));
         }
         // Column by column from the end: z_j −= P_j⁻¹ l_ijᵀ z_i.
         for i in (0..r.len()).rev() {
-            let own = z[i];
+            let own = z[i] * self.largest;
             for (l, &j) in self.lower[row(i)].iter().zip(&self.columns[row(i)]) {
                 let j = j as usize;
-                z[j] -= self.inverse_pivots[j].apply(&l.apply_transposed(&own));
+                z[j] -= self.inverse_pivots[j].apply(&E::long(l).apply_transposed(&own));
             }
         }
     }

@@ -28,6 +28,7 @@ mod cholesky;
 mod conjugate_gradient;
 mod entry;
 mod error;
+mod halved;
 mod incomplete;
 mod jacobi;
 mod krylov;
@@ -38,7 +39,7 @@ mod scheme;
 mod solver;
 mod vector;
 
-pub use assemble::{Row, assemble, assemble_some};
+pub use assemble::{Assembly, Rows};
 pub use automatic::Automatic;
 pub use bicgstab::Bicgstab;
 pub use cholesky::Cholesky;

@@ -90,8 +90,15 @@ impl<const D: usize> Entries<D> {
     }
 }
 
+impl<const D: usize> Default for Entries<D> {
+    /// No rows.
+    fn default() -> Self {
+        Entries::Scalar(Values::default())
+    }
+}
+
 /// A symmetric matrix; both triangles are stored.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Matrix<const D: usize> {
     /// Where entries are.
     pub pattern: Arc<Pattern>,

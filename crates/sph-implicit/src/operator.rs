@@ -2,6 +2,7 @@
 
 use sph_core::Vect;
 
+use crate::halved::Halved;
 use crate::vector::dot;
 use crate::{Matrix, SolveError};
 
@@ -30,6 +31,11 @@ pub trait Operator<const D: usize>: Sync {
     /// y = A x; x has a value for every column, y for every row.
     fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]);
 
+    /// The same operator in a form that is worth its making where many products are asked for; none where there is no such form.
+    fn prepared(&self) -> Option<Box<dyn Operator<D> + '_>> {
+        None
+    }
+
     /// The entries between rows of one's own, for preconditioners and factorisations; none where nobody wrote them
     /// down.
     fn assembled(&self) -> Option<&Matrix<D>> {
@@ -44,6 +50,10 @@ impl<const D: usize> Operator<D> for Matrix<D> {
 
     fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
         Matrix::multiply(self, x, y);
+    }
+
+    fn prepared(&self) -> Option<Box<dyn Operator<D> + '_>> {
+        Some(Box::new(Halved::of(self)))
     }
 
     fn assembled(&self) -> Option<&Matrix<D>> {

@@ -32,8 +32,8 @@ pub(crate) enum Bound<const D: usize> {
     Nothing,
     Scalar(Vec<f64>),
     Block(Vec<Block<D>>),
-    IncompleteScalar(Incomplete<f64>),
-    IncompleteBlock(Incomplete<Block<D>>),
+    IncompleteScalar(Incomplete<f64, f32>),
+    IncompleteBlock(Incomplete<Block<D>, [[f32; D]; D]>),
 }
 
 impl Preconditioner {
@@ -82,7 +82,7 @@ fn incomplete<const D: usize, E: Entry<D>>(
     values: &Values<E>,
     pivots_only: bool,
     failed: impl Fn(usize) -> SolveError,
-) -> Result<Incomplete<E>, SolveError> {
+) -> Result<Incomplete<E, E::Short>, SolveError> {
     Incomplete::new::<D>(pattern, values, pivots_only).map_err(failed)
 }
 

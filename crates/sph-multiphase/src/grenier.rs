@@ -13,7 +13,7 @@ use sph_neighbours::{
 use crate::{Compressed, Diffused, Formulation, FormulationEntry};
 
 use sph_contribution::Stages;
-use sph_neighbours::{Values, walk};
+use sph_neighbours::{Around, Values, walk_into};
 
 /// d_a = 1/γ_a Σ_b θ_b V_b w_ab: how full the support is.
 pub const FILLING: Field<Scalar> = Field::new("filling", "1", "Σ θ V w / γ");
@@ -49,7 +49,7 @@ impl<const D: usize> Formulation<D> for Grenier {
         })
     }
     fn stages(&self) -> Stages<D> {
-        vec![Box::new(PhaseDensity)]
+        vec![Box::new(PhaseDensity::default())]
     }
     fn pressure_term(&self) -> Box<dyn Interaction<D>> {
         Box::new(Term(FilledPressure))
@@ -79,7 +79,11 @@ register!(
 );
 
 /// Densities by phase, and how full the supports are.
-struct PhaseDensity;
+#[derive(Default)]
+struct PhaseDensity {
+    /// Density and filling of every particle, on the way to their columns.
+    sums: Vec<[f64; 2]>,
+}
 
 impl Declares for PhaseDensity {
     fn name(&self) -> String {
@@ -106,7 +110,7 @@ impl<const D: usize> Stage<World<D>> for PhaseDensity {
         let phase = free.get(fields::PHASE).ok();
         let points = &world.walls.points;
         let own = world.kernel.value_at_zero();
-        let sums = walk(world, Values::Both, |around| {
+        let sums = |around: &Around<'_, D>| {
             let (rows, i) = (&around.rows, around.rows.particle);
             let mut sums = [mass[i] * own, volume[i] * own, volume[i] * own];
             for (&j, w) in rows.free.index.iter().zip(around.free) {
@@ -121,11 +125,13 @@ impl<const D: usize> Stage<World<D>> for PhaseDensity {
                 sums[2] += points.share[v as usize] * points.volume[v as usize] * w;
             }
             [sums[0] / sums[1], sums[2] * rows.inverse_renormalisation]
-        })?;
+        };
+        self.sums.resize(density.len(), [0.0; 2]);
+        walk_into(world, Values::Both, |_| true, &mut self.sums, sums)?;
         let results = density
             .par_iter_mut()
             .zip(filling.par_iter_mut())
-            .zip(&sums);
+            .zip(&self.sums);
         results
             .with_min_len(1024)
             .for_each(|((rho, d), sums)| [*rho, *d] = *sums);

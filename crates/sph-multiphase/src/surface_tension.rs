@@ -11,7 +11,7 @@ use crate::{InterfaceEntry, InterfaceModel};
 
 use sph_contribution::{Limiter, Stages};
 
-use sph_neighbours::{Around, Values, walk};
+use sph_neighbours::{Around, Values, walk_into};
 use sph_state::Laws;
 
 /// m_a a = Σ_b (V_a² Π_a + V_b² Π_b)·∇w_ab with the surface stress
@@ -108,9 +108,10 @@ impl Declares for ColourGradient {
 
 impl<const D: usize> Stage<World<D>> for ColourGradient {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut gradients = world.free.take(COLOUR_GRADIENT)?;
         let phase = world.free.get(fields::PHASE)?;
         let volume = world.free.get(fields::VOLUME)?;
-        let gradients = walk(world, Values::Gradient, |around: &Around<'_, D>| {
+        let gradient = |around: &Around<'_, D>| {
             let (row, i) = (&around.rows.free, around.rows.particle);
             let mut sum = Vect::<D>::zeros();
             for (k, &j) in row.index.iter().enumerate() {
@@ -120,7 +121,8 @@ impl<const D: usize> Stage<World<D>> for ColourGradient {
                 }
             }
             sum * (around.rows.inverse_renormalisation / volume[i])
-        })?;
+        };
+        walk_into(world, Values::Gradient, |_| true, &mut gradients, gradient)?;
         Ok(world.free.put(COLOUR_GRADIENT, gradients)?)
     }
 }

@@ -1,5 +1,7 @@
 //! The neighbourhood of a few particles at once.
 
+use std::ops::Range;
+
 use sph_core::Vect;
 use sph_kernels::Sampler;
 use sph_lanes::{Lane, MOST, Width, dispatch_at};
@@ -81,6 +83,46 @@ impl<const D: usize> Buffers<D> {
 }
 
 impl<const D: usize> Cluster<'_, D> {
+    /// Its particles, which follow each other.
+    #[inline(always)]
+    pub fn members(&self) -> Range<usize> {
+        self.members.from..self.members.from + self.members.count
+    }
+
+    /// Whom any of them may have as a neighbour, in index order, the particles themselves among them.
+    #[inline(always)]
+    pub fn candidates(&self) -> &[u32] {
+        self.members.candidates
+    }
+
+    /// Number of lanes, at least as many as there are members.
+    #[inline(always)]
+    pub fn lanes(&self) -> usize {
+        self.width.lanes()
+    }
+
+    /// Squared distances, m², one number per lane for each candidate; infinite for a particle and itself.
+    #[inline(always)]
+    pub fn distance2(&self) -> &[f64] {
+        &self.buffers.distance2[..self.members.candidates.len() * self.lanes()]
+    }
+
+    /// F, 1/m^(d+2), in the same order; 0 beyond the support.
+    #[inline(always)]
+    pub fn factor(&self) -> &[f64] {
+        &self.buffers.factor[..self.members.candidates.len() * self.lanes()]
+    }
+
+    /// r_i − r_j, m.
+    #[inline(always)]
+    pub fn separation(&self, particle: usize, neighbour: usize) -> Vect<D> {
+        let apart = self.positions[particle] - self.positions[neighbour];
+        match self.domain {
+            Some(domain) => domain.nearest_image(apart),
+            None => apart,
+        }
+    }
+
     /// Calls `visit` with the number and the neighbourhood of every member, one after the other.
     pub fn rows(&mut self, mut visit: impl FnMut(usize, &Neighbourhood<'_, D>)) {
         if !self.buffers.rows {
@@ -121,7 +163,7 @@ impl<const D: usize> Cluster<'_, D> {
     }
 
     /// The walls of a member; its row of free neighbours is empty.
-    pub(crate) fn walls(&self, member: usize) -> Neighbourhood<'_, D> {
+    pub fn walls(&self, member: usize) -> Neighbourhood<'_, D> {
         let particle = self.members.from + member;
         Neighbourhood {
             particle,

@@ -8,6 +8,7 @@ use sph_lanes::{Body, Lane, dispatch_at, width};
 use crate::list::CHUNK;
 use crate::members::{Members, groups};
 use crate::separation::Distances;
+use crate::shelf::Lent;
 use crate::sweep::wrapping;
 use crate::{Domain, NeighbourList, World};
 
@@ -29,68 +30,72 @@ pub fn kernel_sums<const D: usize>(
     let own = kernel.value_at_zero();
     let limit = kernel.support_radius().powi(2);
     let width = width();
-    let cluster = |room: &mut Room, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
-        let domain = |i: usize| wrapping(&world.domain, &positions[i], world.reach());
-        let mut inside = std::mem::take(&mut room.inside);
-        inside.clear();
-        inside.resize(all.candidates.len(), false);
-        for members in groups(all, width.lanes()) {
-            let first = members.from - all.from;
-            let near = (members.from..members.from + members.count).find_map(domain);
-            let out = &mut room.lanes.distance2;
-            dispatch_at(
-                width,
-                Distances {
-                    members,
-                    positions,
-                    domain: near,
-                    out,
-                },
-            );
-            let values = &mut room.lanes;
-            let needed = members.candidates.len() * width.lanes();
-            values.reserve(needed);
-            let distance2 = &values.distance2[..needed];
-            let value = &mut values.value[..needed];
-            kernel.value(distance2, value);
-            let sums = &mut sums[first..first + members.count];
-            dispatch_at(
-                width,
-                Total {
-                    distance2,
-                    value,
-                    limit,
-                    inside: &mut inside,
-                    sums,
-                },
-            );
-        }
-        for (k, sum) in sums.iter_mut().enumerate() {
-            *sum += own;
-            if points.in_sums() {
-                let i = all.from + k;
-                let row = world.lists.wall.row(i);
-                if !row.is_empty() {
-                    let values = &mut room.row;
-                    let w = values.fill(&positions[i], &points.position, row, domain(i), kernel);
-                    let shares = row.iter().map(|&v| points.share[v as usize]);
-                    *sum += w
-                        .iter()
-                        .zip(shares)
-                        .map(|(w, share)| w * share)
-                        .sum::<f64>();
+    let cluster =
+        |room: &mut Lent<'_, Room>, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
+            let room = &mut **room;
+            let domain = |i: usize| wrapping(&world.domain, &positions[i], world.reach());
+            let mut inside = std::mem::take(&mut room.inside);
+            inside.clear();
+            inside.resize(all.candidates.len(), false);
+            for members in groups(all, width.lanes()) {
+                let first = members.from - all.from;
+                let near = (members.from..members.from + members.count).find_map(domain);
+                let out = &mut room.lanes.distance2;
+                dispatch_at(
+                    width,
+                    Distances {
+                        members,
+                        positions,
+                        domain: near,
+                        out,
+                    },
+                );
+                let values = &mut room.lanes;
+                let needed = members.candidates.len() * width.lanes();
+                values.reserve(needed);
+                let distance2 = &values.distance2[..needed];
+                let value = &mut values.value[..needed];
+                kernel.value(distance2, value);
+                let sums = &mut sums[first..first + members.count];
+                dispatch_at(
+                    width,
+                    Total {
+                        distance2,
+                        value,
+                        limit,
+                        inside: &mut inside,
+                        sums,
+                    },
+                );
+            }
+            for (k, sum) in sums.iter_mut().enumerate() {
+                *sum += own;
+                if points.in_sums() {
+                    let i = all.from + k;
+                    let row = world.lists.wall.row(i);
+                    if !row.is_empty() {
+                        let values = &mut room.row;
+                        let w =
+                            values.fill(&positions[i], &points.position, row, domain(i), kernel);
+                        let shares = row.iter().map(|&v| points.share[v as usize]);
+                        *sum += w
+                            .iter()
+                            .zip(shares)
+                            .map(|(w, share)| w * share)
+                            .sum::<f64>();
+                    }
                 }
             }
-        }
-        let mut n = 0;
-        for (&j, &near) in all.candidates.iter().zip(&inside) {
-            slots[n] = j;
-            n += usize::from(near);
-        }
-        room.inside = inside;
-        n
-    };
-    pruned.fill(&world.lists.free, sums, Room::default, cluster);
+            let mut n = 0;
+            for (&j, &near) in all.candidates.iter().zip(&inside) {
+                slots[n] = j;
+                n += usize::from(near);
+            }
+            room.inside = inside;
+            n
+        };
+    let shelf = &world.lists.shelf;
+    pruned.fill(&world.lists.free, sums, || shelf.lend(), cluster);
     world.lists.pruned = Some(pruned);
     Ok(())
 }
@@ -158,14 +163,17 @@ pub fn shepard_some<const D: usize, R: Send>(
         .par_iter()
         .enumerate()
         .with_min_len(CHUNK)
-        .map_init(Values::default, |values, (t, x)| {
-            let row = list.row(t);
-            wanted(t, row).then(|| {
-                let domain = world.domain.any_periodic().then_some(&world.domain);
-                let w = values.fill(x, positions, row, domain, kernel);
-                use_row(t, row, w)
-            })
-        })
+        .map_init(
+            || world.lists.shelf.lend::<Values>(),
+            |values, (t, x)| {
+                let row = list.row(t);
+                wanted(t, row).then(|| {
+                    let domain = world.domain.any_periodic().then_some(&world.domain);
+                    let w = values.fill(x, positions, row, domain, kernel);
+                    use_row(t, row, w)
+                })
+            },
+        )
         .collect())
 }
 

@@ -4,11 +4,11 @@ use rayon::prelude::*;
 use sph_core::StepError;
 use sph_lanes::{Body, Lane, MOST, dispatch_at, width};
 
-use crate::cluster::{Buffers, Cluster};
+use crate::cluster::Cluster;
 use crate::lane_pair::LanePair;
 use crate::members::{Members, groups};
 use crate::separation::places;
-use crate::sweep::Sweep;
+use crate::sweep::{Room, Sweep};
 use crate::{CHUNK, Neighbourhood, World};
 
 /// Sums over free neighbours of several particles at once, as [`LaneTerm`](crate::LaneTerm) has them for rates.
@@ -41,8 +41,8 @@ pub trait LaneSum<const D: usize>: Sync {
     );
 }
 
-/// What `of` makes of the sum over free neighbours and of the walls near every particle that is wanted, in the order of
-/// the particles. The neighbourhood's free row is empty.
+/// What `of` makes of the sum over free neighbours and of the walls near every particle that is wanted, into a place per
+/// particle; those of others stay as they are. The neighbourhood's free row is empty.
 ///
 /// # Errors
 /// If the world has no positions.
@@ -50,37 +50,40 @@ pub fn walk_in_lanes<const D: usize, S: LaneSum<D>, R: Send>(
     world: &World<D>,
     sum: &S,
     wanted: impl Fn(usize) -> bool + Sync,
+    out: &mut [R],
     of: impl Fn(S::Sum, &Neighbourhood<'_, D>) -> R + Sync,
-) -> Result<Vec<Option<R>>, StepError> {
+) -> Result<(), StepError> {
     let sweep = Sweep::new(world, &[], &*world.kernel)?;
-    let mut all: Vec<Option<R>> = Vec::new();
-    all.resize_with(sweep.particles(), || None);
-    let blocks = all.par_chunks_mut(CHUNK).enumerate();
-    blocks.for_each_init(Buffers::default, |buffers, (block, out)| {
-        for cluster in sweep.clusters(block) {
-            for members in groups(cluster, width().lanes()) {
-                let own = members.from..members.from + members.count;
-                if !own.clone().any(&wanted) {
-                    continue;
-                }
-                let cluster = sweep.measured(buffers, members);
-                let mut sums: [Option<S::Sum>; MOST] = std::array::from_fn(|_| None);
-                let body = SideBySide {
-                    sum,
-                    cluster: &cluster,
-                    out: &mut sums,
-                };
-                dispatch_at(cluster.width, body);
-                for ((k, i), sum) in own.enumerate().zip(sums) {
-                    let Some(sum) = sum.filter(|_| wanted(i)) else {
+    let shelf = &world.lists.shelf;
+    let blocks = out.par_chunks_mut(CHUNK).enumerate();
+    blocks.for_each_init(
+        || shelf.lend::<Room<D>>(),
+        |room, (block, out)| {
+            for cluster in sweep.clusters(block) {
+                for members in groups(cluster, width().lanes()) {
+                    let own = members.from..members.from + members.count;
+                    if !own.clone().any(&wanted) {
                         continue;
+                    }
+                    let cluster = sweep.measured(&mut room.0, members);
+                    let mut sums: [Option<S::Sum>; MOST] = std::array::from_fn(|_| None);
+                    let body = SideBySide {
+                        sum,
+                        cluster: &cluster,
+                        out: &mut sums,
                     };
-                    out[i - block * CHUNK] = Some(of(sum, &cluster.walls(k)));
+                    dispatch_at(cluster.width, body);
+                    for ((k, i), sum) in own.enumerate().zip(sums) {
+                        let Some(sum) = sum.filter(|_| wanted(i)) else {
+                            continue;
+                        };
+                        out[i - block * CHUNK] = of(sum, &cluster.walls(k));
+                    }
                 }
             }
-        }
-    });
-    Ok(all)
+        },
+    );
+    Ok(())
 }
 
 struct SideBySide<'a, 'c, const D: usize, S: LaneSum<D>> {

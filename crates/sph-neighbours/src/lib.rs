@@ -14,6 +14,7 @@
 
 mod batches;
 mod cluster;
+mod cluster_walk;
 mod clusters;
 mod contacts;
 mod domain;
@@ -34,6 +35,7 @@ mod reaction;
 mod row;
 mod separation;
 mod shares;
+mod shelf;
 mod sweep;
 mod term;
 mod walk;
@@ -43,6 +45,7 @@ mod world;
 
 pub use batches::by_phase;
 pub use cluster::Cluster;
+pub use cluster_walk::{ClusterWalk, LanePairs};
 pub use clusters::Clusters;
 pub use contacts::{Contact, Contacts};
 pub use domain::Domain;
@@ -69,7 +72,7 @@ pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,
     TermEntry,
 };
-pub use walk::{Around, Rows, Surroundings, Values, walk, walk_some};
+pub use walk::{Around, Rows, Surroundings, Values, walk, walk_into, walk_some};
 pub use wall_force::WallForce;
 pub use walls::{Coulomb, Elements, Frame, WallPoints, WallSet};
 pub use world::{Lists, World};

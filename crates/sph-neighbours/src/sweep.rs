@@ -110,7 +110,9 @@ where
 {
     let sweep = Sweep::new(world, states, kernel)?;
     let start = Rates::of(world.gravity + world.driving);
-    let work = |(buffers, rates): &mut Room<D>, block: usize, particles: usize| {
+    let shelf = || world.lists.shelf.lend::<Room<D>>();
+    let work = |room: &mut Room<D>, block: usize, particles: usize| {
+        let (buffers, rates) = room;
         rates.clear();
         rates.resize(particles, start);
         sweep.block(term, |_| true, buffers, block, rates);
@@ -123,17 +125,15 @@ where
     let all = acceleration.par_chunks_mut(CHUNK).enumerate();
     match (scalar, more) {
         (Some(scalar), []) => {
-            all.zip(scalar.par_chunks_mut(CHUNK)).for_each_init(
-                Room::default,
-                |room, ((c, a), s)| {
+            all.zip(scalar.par_chunks_mut(CHUNK))
+                .for_each_init(shelf, |room, ((c, a), s)| {
                     work(room, c, a.len());
                     for ((a, s), rates) in a.iter_mut().zip(s).zip(&room.1) {
                         (*a, *s) = (rates.acceleration, rates.scalar);
                     }
-                },
-            );
+                });
         }
-        (None, []) => all.for_each_init(Room::default, |room, (c, a)| {
+        (None, []) => all.for_each_init(shelf, |room, (c, a)| {
             work(room, c, a.len());
             for (a, rates) in a.iter_mut().zip(&room.1) {
                 *a = rates.acceleration;
@@ -142,7 +142,7 @@ where
         (Some(scalar), more) => {
             let scalars = scalar.par_chunks_mut(CHUNK).zip(more.par_chunks_mut(CHUNK));
             all.zip(scalars)
-                .for_each_init(Room::default, |room, ((c, a), (s, m))| {
+                .for_each_init(shelf, |room, ((c, a), (s, m))| {
                     work(room, c, a.len());
                     for (((a, s), m), rates) in a.iter_mut().zip(s).zip(m).zip(&room.1) {
                         (*a, *s, *m) = (rates.acceleration, rates.scalar, rates.more);
@@ -150,15 +150,13 @@ where
                 });
         }
         (None, more) => {
-            all.zip(more.par_chunks_mut(CHUNK)).for_each_init(
-                Room::default,
-                |room, ((c, a), m)| {
+            all.zip(more.par_chunks_mut(CHUNK))
+                .for_each_init(shelf, |room, ((c, a), m)| {
                     work(room, c, a.len());
                     for ((a, m), rates) in a.iter_mut().zip(m).zip(&room.1) {
                         (*a, *m) = (rates.acceleration, rates.more);
                     }
-                },
-            );
+                });
         }
     }
     Ok(())
@@ -179,22 +177,26 @@ pub fn accelerations_of<const D: usize>(
     let sweep = Sweep::new(world, states, &*world.kernel)?;
     let start = Rates::of(Vect::zeros());
     let all = acceleration.par_chunks_mut(CHUNK).enumerate();
-    all.for_each_init(Room::default, |(buffers, rates), (c, a)| {
-        rates.clear();
-        rates.resize(a.len(), start);
-        sweep.block(&*bound, &wanted, buffers, c, rates);
-        for (k, (a, rates)) in a.iter_mut().zip(rates.iter()).enumerate() {
-            *a = match wanted(c * CHUNK + k) {
-                true => rates.acceleration,
-                false => Vect::zeros(),
-            };
-        }
-    });
+    all.for_each_init(
+        || world.lists.shelf.lend::<Room<D>>(),
+        |room, (c, a)| {
+            let (buffers, rates) = &mut **room;
+            rates.clear();
+            rates.resize(a.len(), start);
+            sweep.block(&*bound, &wanted, buffers, c, rates);
+            for (k, (a, rates)) in a.iter_mut().zip(rates.iter()).enumerate() {
+                *a = match wanted(c * CHUNK + k) {
+                    true => rates.acceleration,
+                    false => Vect::zeros(),
+                };
+            }
+        },
+    );
     Ok(())
 }
 
 /// Buffers of a thread, and the rates of its block.
-type Room<const D: usize> = (Buffers<D>, Vec<Rates<D>>);
+pub(crate) type Room<const D: usize> = (Buffers<D>, Vec<Rates<D>>);
 
 /// What a walk over neighbourhoods looks at.
 pub(crate) struct Sweep<'a, const D: usize, K: ?Sized> {

@@ -119,13 +119,26 @@ pub fn walk_some<const D: usize, R: Send>(
     wanted: impl Fn(usize) -> bool + Sync,
     of: impl Fn(&Around<'_, D>) -> R + Sync,
 ) -> Result<Vec<Option<R>>, StepError> {
+    let mut all: Vec<Option<R>> = Vec::new();
+    all.resize_with(world.free.len(), || None);
+    walk_into(world, values, wanted, &mut all, |around| Some(of(around)))?;
+    Ok(all)
+}
+
+/// The same, into a place per particle; those of particles that are not wanted stay as they are.
+///
+/// # Errors
+/// If the world has no positions.
+pub fn walk_into<const D: usize, R: Send>(
+    world: &World<D>,
+    values: Values,
+    wanted: impl Fn(usize) -> bool + Sync,
+    out: &mut [R],
+    of: impl Fn(&Around<'_, D>) -> R + Sync,
+) -> Result<(), StepError> {
     let surroundings = Surroundings::new(world)?;
     let kernel = &*world.kernel;
-    type Buffers<const D: usize> = (Rows<D>, [Vec<f64>; 2]);
-    let one = |(rows, w): &mut Buffers<D>, i: usize| {
-        if !wanted(i) {
-            return None;
-        }
+    let one = |(rows, w): &mut Room<D>, i: usize| {
         let rows = surroundings.of(i, rows);
         if values == Values::Both {
             for (w, row) in w.iter_mut().zip([rows.free, rows.wall]) {
@@ -133,15 +146,23 @@ pub fn walk_some<const D: usize, R: Send>(
                 kernel.value(row.distance2, w);
             }
         }
-        Some(of(&Around {
-            rows,
-            free: &w[0],
-            wall: &w[1],
-        }))
+        let [free, wall] = match values {
+            Values::Both => [&w[0][..], &w[1][..]],
+            Values::Gradient => [&[][..]; 2],
+        };
+        of(&Around { rows, free, wall })
     };
-    let new = || (Rows::default(), [Vec::new(), Vec::new()]);
-    let all = (0..surroundings.particles())
-        .into_par_iter()
-        .with_min_len(CHUNK);
-    Ok(all.map_init(new, one).collect())
+    let all = out.par_iter_mut().enumerate().with_min_len(CHUNK);
+    all.for_each_init(
+        || world.lists.shelf.lend::<Room<D>>(),
+        |room, (i, out)| {
+            if wanted(i) {
+                *out = one(room, i);
+            }
+        },
+    );
+    Ok(())
 }
+
+/// Buffers of a task: rows, and kernel values of free particles and wall points.
+type Room<const D: usize> = (Rows<D>, [Vec<f64>; 2]);

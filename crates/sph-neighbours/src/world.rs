@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use sph_core::{AnyField, Field, FieldError, Scalar, Store, Vect, fields};
 use sph_kernels::Sampler;
 
+use crate::shelf::Shelf;
 use crate::{CellGrid, Clusters, Domain, NeighbourList, WallSet};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
@@ -15,6 +16,8 @@ pub struct Lists<const D: usize> {
     /// distances anyway ([`kernel_sums`](crate::kernel_sums)), `None` once somebody moved.
     pub pruned: Option<Clusters>,
     pub(crate) spare: Clusters,
+    /// Buffers of the walks over the lists.
+    pub(crate) shelf: Shelf,
     /// Wall points around free particles.
     pub wall: NeighbourList,
     /// Free particles around wall points.

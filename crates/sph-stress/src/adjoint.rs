@@ -7,7 +7,7 @@ use nalgebra::SMatrix;
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
 use sph_neighbours::{
     Around, BoundTerm, Contact, Fused, Interaction, Pair, Rates, RowTerm, There, Values, World,
-    walk,
+    walk_into,
 };
 
 use crate::strain_rate::in_space;
@@ -30,10 +30,11 @@ impl<const D: usize> Declares for StressCorrection<D> {
 
 impl<const D: usize> Stage<World<D>> for StressCorrection<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut corrections = world.free.take(fields::STRESS_CORRECTION)?;
         let volume = world.free.get(fields::VOLUME)?;
         let points = &world.walls.points;
         let elements = &world.walls.elements;
-        let corrections = walk(world, Values::Gradient, |around: &Around<'_, D>| {
+        let correction = |around: &Around<'_, D>| {
             let rows = &around.rows;
             let mut position = SMatrix::<f64, D, D>::zeros();
             for (k, &j) in rows.free.index.iter().enumerate() {
@@ -56,7 +57,14 @@ impl<const D: usize> Stage<World<D>> for StressCorrection<D> {
                 position,
                 inverse_renormalisation: rows.inverse_renormalisation,
             })
-        })?;
+        };
+        walk_into(
+            world,
+            Values::Gradient,
+            |_| true,
+            &mut corrections,
+            correction,
+        )?;
         Ok(world.free.put(fields::STRESS_CORRECTION, corrections)?)
     }
 }

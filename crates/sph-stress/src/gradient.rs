@@ -77,6 +77,7 @@ impl<const D: usize> Declares for GradientStage<D> {
 
 impl<const D: usize> Stage<World<D>> for GradientStage<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut gradients = world.free.take(fields::VELOCITY_GRADIENT)?;
         let velocity = world.free.get(fields::VELOCITY)?;
         let volume = world.free.get(fields::VOLUME)?;
         let points = &world.walls.points;
@@ -85,12 +86,16 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
             Some(phases) => Some((phases, world.free.get(fields::PHASE)?)),
             None => None,
         };
+        if read.is_some() {
+            gradients.fill(SMatrix::zeros());
+        }
         let wanted = |i: usize| read.is_none_or(|(phases, of)| phases[of[i] as usize]);
         let free = FreeSums { velocity, volume };
-        let gradients = walk_in_lanes(
+        walk_in_lanes(
             world,
             &free,
             wanted,
+            &mut gradients,
             |[velocity_sum, position_sum], rows| {
                 let own = velocity[rows.particle];
                 let mut sums = NeighbourSums {
@@ -137,8 +142,6 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
                 along + normal * (normal.transpose() * (across - along))
             },
         )?;
-        let all = gradients.into_iter();
-        let gradients = all.map(|g| g.unwrap_or_else(SMatrix::zeros)).collect();
         Ok(world.free.put(fields::VELOCITY_GRADIENT, gradients)?)
     }
 }

@@ -1,13 +1,15 @@
 //! The effective pressure as a harmonic function of place.
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, register};
 use sph_implicit::{
-    ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, Preconditioner, Report, Row,
-    Values as MatrixValues, assemble_some,
+    Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, Preconditioner, Report,
+    Rows,
 };
-use sph_neighbours::{Neighbourhood, Values, World, walk_some};
+use sph_neighbours::{Cluster, Values, World, walk_into};
 
 use crate::effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 use crate::soil_surface::at_surface;
@@ -125,6 +127,7 @@ impl Laplace {
                     sweeps: self.iterations.unwrap_or(100_000),
                 }),
             },
+            room: Room::default(),
         }
     }
 }
@@ -158,6 +161,16 @@ struct Solve<const D: usize> {
     interval: f64,
     /// Of systems with one component.
     solver: Box<dyn LinearSolver<1>>,
+    /// The memory of former solves.
+    room: Room,
+}
+
+/// What a solve fills anew, kept for its memory.
+#[derive(Default)]
+struct Room {
+    parts: Vec<Part>,
+    assembly: Assembly<f64, 1>,
+    pressure: Vec<Vect<1>>,
 }
 
 /// What a particle is to the problem.
@@ -208,23 +221,82 @@ impl<const D: usize> Stage<World<D>> for Solve<D> {
 
 impl<const D: usize> Solve<D> {
     fn solve(&mut self, world: &mut World<D>) -> Result<Report, StepError> {
-        let parts = self.parts(world)?;
-        let volume = world.free.get(fields::VOLUME)?;
-        let gravity = world.gravity;
-        let row = |rows: &Neighbourhood<'_, D>, out: &mut Vec<(u32, f64)>| {
-            let own = volume[rows.particle];
-            let Part::Inside(buoyant) = parts[rows.particle] else {
-                return known_row(parts[rows.particle].known());
+        let mut room = std::mem::take(&mut self.room);
+        let solved = self.solve_in(world, &mut room);
+        self.room = room;
+        solved
+    }
+
+    fn solve_in(&mut self, world: &mut World<D>, room: &mut Room) -> Result<Report, StepError> {
+        let Room {
+            parts,
+            assembly,
+            pressure: x,
+        } = room;
+        self.parts(world, parts)?;
+        let system = Couplings {
+            parts,
+            volume: world.free.get(fields::VOLUME)?,
+            gravity: world.gravity,
+        };
+        assembly.fill(world, |cluster, rows| system.add(cluster, rows))?;
+        let pattern = std::mem::take(&mut assembly.pattern);
+        let values = std::mem::take(&mut assembly.values);
+        let matrix = Matrix::new(pattern, Entries::Scalar(values));
+        let mut pressure = world.free.take(fields::EFFECTIVE_PRESSURE)?;
+        x.clear();
+        x.extend(
+            pressure
+                .iter()
+                .zip(&*parts)
+                .map(|(p, part)| start(*p, part)),
+        );
+        let solved = self.solver.solve(&matrix, &assembly.sources, x);
+        pressure
+            .iter_mut()
+            .zip(&*x)
+            .for_each(|(p, x)| *p = x[0].max(0.0));
+        world.free.put(fields::EFFECTIVE_PRESSURE, pressure)?;
+        if let Entries::Scalar(values) = matrix.entries {
+            assembly.values = values;
+        }
+        assembly.pattern = Arc::try_unwrap(matrix.pattern).unwrap_or_default();
+        solved.map_err(|e| StepError::Stage {
+            stage: "effective pressure".into(),
+            reason: e.to_string(),
+        })
+    }
+}
+
+/// What couples the pressures.
+struct Couplings<'a, const D: usize> {
+    parts: &'a [Part],
+    volume: &'a [f64],
+    gravity: Vect<D>,
+}
+
+impl<const D: usize> Couplings<'_, D> {
+    /// Adds the rows of a cluster.
+    fn add(&self, cluster: &mut Cluster<'_, D>, rows: &mut Rows<f64, 1>) {
+        let all = cluster.candidates();
+        for (lane, i) in cluster.members().enumerate() {
+            let Part::Inside(buoyant) = self.parts[i] else {
+                rows.begin(0);
+                rows.end(1.0, Vect::from([self.parts[i].known()]));
+                continue;
             };
+            rows.begin(all.len());
             let (mut held, mut source) = (0.0, 0.0);
-            for (k, &j) in rows.free.index.iter().enumerate() {
-                let coupling = -own * volume[j as usize] * rows.free.factor[k];
+            let factors = cluster.factor().iter().skip(lane).step_by(cluster.lanes());
+            for (&column, factor) in all.iter().zip(factors) {
+                let j = column as usize;
+                let coupling = -self.volume[i] * self.volume[j] * factor;
                 if coupling == 0.0 {
                     continue;
                 }
-                let density = match parts[j as usize] {
+                let density = match self.parts[j] {
                     Part::Inside(density) => {
-                        out.push((j, coupling));
+                        rows.couple(column, &coupling, true);
                         density
                     }
                     Part::Surface(density, pressure) => {
@@ -235,49 +307,17 @@ impl<const D: usize> Solve<D> {
                     Part::Outside => continue,
                 };
                 let mean = 0.5 * (buoyant + density);
-                source += coupling * mean * gravity.dot(&rows.free.separation[k]);
+                source += coupling * mean * self.gravity.dot(&cluster.separation(i, j));
             }
             // Soil that fills a closed box has no surface: the level is then that of zero.
-            let all: f64 = out.iter().map(|(_, c)| c).sum();
-            Row {
-                own: held + FAINT * all + f64::MIN_POSITIVE,
-                source: Vect::from([source]),
-            }
-        };
-        let known = |i: usize| match parts[i] {
-            Part::Inside(_) => None,
-            part => Some(known_row(part.known())),
-        };
-        let (pattern, values, right) = assemble_some(world, MatrixValues::default(), known, row)?;
-        let matrix = Matrix::new(pattern, Entries::Scalar(values));
-        let mut pressure = world.free.take(fields::EFFECTIVE_PRESSURE)?;
-        let mut x: Vec<Vect<1>> = pressure
-            .iter()
-            .zip(&parts)
-            .map(|(p, part)| start(*p, part))
-            .collect();
-        let solved = self.solver.solve(&matrix, &right, &mut x);
-        pressure
-            .iter_mut()
-            .zip(&x)
-            .for_each(|(p, x)| *p = x[0].max(0.0));
-        world.free.put(fields::EFFECTIVE_PRESSURE, pressure)?;
-        solved.map_err(|e| StepError::Stage {
-            stage: "effective pressure".into(),
-            reason: e.to_string(),
-        })
+            let own = held + FAINT * rows.sum() + f64::MIN_POSITIVE;
+            rows.end(own, Vect::from([source]));
+        }
     }
 }
 
 /// Share of a row's couplings that keeps a system without a surface regular.
 const FAINT: f64 = 1e-9;
-
-fn known_row(pressure: f64) -> Row<f64, 1> {
-    Row {
-        own: 1.0,
-        source: Vect::from([pressure]),
-    }
-}
 
 fn start(pressure: f64, part: &Part) -> Vect<1> {
     Vect::from([match part {
@@ -296,7 +336,7 @@ impl<const D: usize> Solve<D> {
         passed || world.time <= 0.0 || !(interval > 0.0 && interval.is_finite())
     }
 
-    fn parts(&self, world: &World<D>) -> Result<Vec<Part>, StepError> {
+    fn parts(&self, world: &World<D>, parts: &mut Vec<Part>) -> Result<(), StepError> {
         let volume = world.free.get(fields::VOLUME)?;
         let phase = match self.buoyant.len() {
             1 => None,
@@ -309,14 +349,14 @@ impl<const D: usize> Solve<D> {
         let length = world.kernel.smoothing_length();
         let points = &world.walls.points;
         let soil = |j: usize| buoyant(j).is_some();
-        let parts = walk_some(world, Values::Gradient, soil, |around| {
+        parts.clear();
+        parts.resize(volume.len(), Part::Outside);
+        walk_into(world, Values::Gradient, soil, parts, |around| {
             let density = buoyant(around.rows.particle).unwrap_or(0.0);
             match at_surface(around, points, volume, length, soil) {
                 true => Part::Surface(density, top * density),
                 false => Part::Inside(density),
             }
-        })?;
-        let parts = parts.into_iter().map(|p| p.unwrap_or(Part::Outside));
-        Ok(parts.collect())
+        })
     }
 }

@@ -107,14 +107,13 @@ impl Study {
         self.source.text()
     }
 
-    /// Assembles a variant as a run would; returns the estimated seconds of a run.
+    /// Assembles a variant as a run would; returns the work of a run, pairs in the sweeps of all steps.
     ///
     /// # Errors
     /// Everything its plugins refuse, in the study file where that is to blame.
-    pub fn assemble(&self, variant: &Variant, threads: usize) -> Result<f64, Refused> {
-        let examined = examine(&variant.loaded.scene, threads);
-        let problems = match examined {
-            Ok(examined) => return Ok(3600.0 * examined.estimate.hours),
+    pub fn assemble(&self, variant: &Variant) -> Result<f64, Refused> {
+        let problems = match examine(&variant.loaded.scene) {
+            Ok(examined) => return Ok(examined.estimate.steps * examined.load.pairs()),
             Err(SolverError::Scene(problems)) => problems,
             Err(other) => vec![SceneProblem::new("", other.to_string())],
         };

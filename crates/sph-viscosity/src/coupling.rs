@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use sph_core::{Access, StepError, Vect};
-use sph_neighbours::{Neighbourhood, World};
+use sph_neighbours::{Cluster, Neighbourhood, World};
 
 /// A friction that is linear in the velocities:
 /// m_a γ_a a_a = −Σ_b C_ab (u_a − u_b) − W_a u_a + s_a with C_ab = C_baᵀ.
@@ -19,12 +19,12 @@ pub trait Coupling<const D: usize>: Send + Sync {
     -> Result<Box<dyn BoundCoupling<D> + 'a>, StepError>;
 }
 
-/// What a particle gets from walls and weak pairs.
+/// What a particle gets from walls.
 #[derive(Clone, Copy, Debug)]
 pub struct CouplingRow<W, const D: usize> {
     /// W_a, N s/m.
     pub wall: W,
-    /// s_a, N: from the velocities of walls and of weak pairs.
+    /// s_a, N: from the velocities of walls.
     pub source: Vect<D>,
 }
 
@@ -37,23 +37,20 @@ pub struct Weak<'a, const D: usize> {
     pub limit: &'a [f64],
 }
 
-/// A [`Coupling`] with its columns.
+/// A [`Coupling`] with its columns. Since nothing but the separation tells directions apart, C_ab = α 1 + β r rᵀ.
 pub trait BoundCoupling<const D: usize>: Sync {
-    /// Appends b and C_ab (N s/m) for every free neighbour that is not `weak`; for couplings that do not mix components.
+    /// α (N s/m), β (N s/m³) and their norm |α| + |β| r² for every candidate of a cluster, one number per lane each;
+    /// exactly zero beyond the support.
+    fn strengths(&self, cluster: &Cluster<'_, D>, out: &mut Vec<f64>);
+
+    /// Whether [`walls`](Self::scalar_walls) looks at the free neighbours of a particle.
+    fn walls_need_neighbours(&self, particle: usize) -> bool;
+
+    /// W and s of walls, for couplings that do not mix components.
     ///
     /// At a wall the normal part of the velocity is that of the present state.
-    fn scalar_row(
-        &self,
-        rows: &Neighbourhood<'_, D>,
-        weak: Option<Weak<'_, D>>,
-        out: &mut Vec<(u32, f64)>,
-    ) -> CouplingRow<f64, D>;
+    fn scalar_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<f64, D>;
 
-    /// Appends b and C_ab (N s/m) for every free neighbour that is not `weak`.
-    fn block_row(
-        &self,
-        rows: &Neighbourhood<'_, D>,
-        weak: Option<Weak<'_, D>>,
-        out: &mut Vec<(u32, SMatrix<f64, D, D>)>,
-    ) -> CouplingRow<SMatrix<f64, D, D>, D>;
+    /// W and s of walls.
+    fn block_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<SMatrix<f64, D, D>, D>;
 }

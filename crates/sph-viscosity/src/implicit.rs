@@ -9,10 +9,10 @@ use std::time::Instant;
 use serde_json::Value as Json;
 use sph_contribution::{OutsideForce, Stages, StepWork};
 use sph_core::{Access, StepError, Vect, fields};
-use sph_implicit::{Entries, LinearSolver, TimeScheme};
+use sph_implicit::{LinearSolver, TimeScheme};
 use sph_neighbours::{Interaction, World};
 
-use crate::system::{System, start_between};
+use crate::system::{Start, System, put};
 use crate::{Coupling, Solves};
 
 /// Residual of a solve within an outer iteration, over the tolerance of the latter.
@@ -39,10 +39,17 @@ pub struct ImplicitViscosity<const D: usize> {
     solver: Box<dyn LinearSolver<D>>,
     lagged: Lagged<D>,
     solves: Solves,
-    /// The entries of the last matrix, for their memory.
-    former: Option<Entries<D>>,
+    /// The system of the last solve, for its memory.
+    system: System<D>,
+    start: Start<D>,
     /// uⁿ.
     earlier: Vec<Vect<D>>,
+    /// u*.
+    ahead: Vec<Vect<D>>,
+    /// uⁿ⁺¹ on its way.
+    velocity: Vec<Vect<D>>,
+    /// Viscosities without what makes them stiff.
+    plain: Vec<f64>,
 }
 
 impl<const D: usize> ImplicitViscosity<D> {
@@ -62,8 +69,12 @@ impl<const D: usize> ImplicitViscosity<D> {
             solver,
             lagged,
             solves: Solves::default(),
-            former: None,
+            system: System::default(),
+            start: Start::default(),
             earlier: Vec::new(),
+            ahead: Vec::new(),
+            velocity: Vec::new(),
+            plain: Vec::new(),
         }
     }
 
@@ -82,7 +93,11 @@ impl<const D: usize> ImplicitViscosity<D> {
             true => 1,
             false => outer.iterations.max(1),
         };
-        let ahead = world.free.get(fields::VELOCITY)?.to_vec();
+        let mut ahead = std::mem::take(&mut self.ahead);
+        put(
+            &mut ahead,
+            world.free.get(fields::VELOCITY)?.iter().copied(),
+        );
         let (mut iterations, mut change) = (0, f64::INFINITY);
         while iterations < most && change > outer.tolerance {
             let again = iterations > 0;
@@ -91,20 +106,24 @@ impl<const D: usize> ImplicitViscosity<D> {
                     stage.run(world)?;
                 }
             }
-            let mut velocity = world.free.get(fields::VELOCITY)?.to_vec();
-            let plain = match self.lagged.stiffens {
-                true => Some(stiffen(world)?),
-                false => None,
-            };
+            let mut velocity = std::mem::take(&mut self.velocity);
+            put(
+                &mut velocity,
+                world.free.get(fields::VELOCITY)?.iter().copied(),
+            );
+            if self.lagged.stiffens {
+                stiffen(world, &mut self.plain)?;
+            }
             let solved = self.solve(world, [earlier, &ahead], again, &mut velocity, dt);
-            if let Some(plain) = plain {
-                world.free.put(fields::VISCOSITY, plain)?;
+            if self.lagged.stiffens {
+                unstiffen(world, &mut self.plain)?;
             }
             solved?;
             if again {
                 change = relative_change(world, &velocity, dt)?;
             }
-            world.free.put(fields::VELOCITY, velocity)?;
+            std::mem::swap(world.free.get_mut(fields::VELOCITY)?, &mut velocity);
+            self.velocity = velocity;
             iterations += 1;
         }
         if self.lagged.stiffens && !self.lagged.stages.is_empty() {
@@ -117,6 +136,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             let outer = self.solves.outer.get_or_insert_default();
             outer.add(iterations, change, converged);
         }
+        self.ahead = ahead;
         Ok(())
     }
 
@@ -132,13 +152,14 @@ impl<const D: usize> ImplicitViscosity<D> {
         dt: f64,
     ) -> Result<(), StepError> {
         let share = self.scheme.implicit_share();
-        let former = self.former.take();
-        let mut system = self.system(world, earlier, dt, former)?;
+        let system = &mut self.system;
+        system.fill(&*self.coupling, world, earlier, [share, dt])?;
         let rows = system.right.iter_mut().zip(ahead).zip(&system.mass);
         rows.for_each(|((b, u), m)| *b += u * *m);
         if share < 1.0 || !again {
-            let mut before = vec![Vect::zeros(); earlier.len()];
-            system.matrix.multiply(earlier, &mut before);
+            self.start.image.resize(earlier.len(), Vect::zeros());
+            let before = &mut self.start.image;
+            system.matrix.multiply(earlier, before);
             if share < 1.0 {
                 let rest = (1.0 - share) / share;
                 for (k, b) in system.right.iter_mut().enumerate() {
@@ -146,7 +167,7 @@ impl<const D: usize> ImplicitViscosity<D> {
                 }
             }
             if !again {
-                start_between(&system, &before, earlier, velocity);
+                self.start.between(system, earlier, velocity);
             }
         }
         let (matrix, right) = (&system.matrix, &system.right);
@@ -165,19 +186,7 @@ impl<const D: usize> ImplicitViscosity<D> {
         })?;
         let seconds = start.elapsed().as_secs_f64();
         self.solves.add(&report, seconds, matrix.bytes());
-        self.former = Some(system.matrix.entries);
         Ok(())
-    }
-
-    fn system(
-        &self,
-        world: &World<D>,
-        earlier: &[Vect<D>],
-        dt: f64,
-        former: Option<Entries<D>>,
-    ) -> Result<System<D>, StepError> {
-        let part = [self.scheme.implicit_share(), dt];
-        System::of(&*self.coupling, world, earlier, part, former)
     }
 }
 
@@ -220,16 +229,20 @@ impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
         done
     }
     fn bytes(&self, world: &mut World<D>, dt: f64) -> Result<usize, StepError> {
-        let plain = match self.lagged.stiffens {
-            true => Some(stiffen(world)?),
-            false => None,
-        };
-        let system = self.system(world, world.free.get(fields::VELOCITY)?, dt, None);
-        if let Some(plain) = plain {
-            world.free.put(fields::VISCOSITY, plain)?;
+        let mut plain = Vec::new();
+        if self.lagged.stiffens {
+            stiffen(world, &mut plain)?;
         }
+        let mut system = System::default();
+        let part = [self.scheme.implicit_share(), dt];
+        let earlier = world.free.get(fields::VELOCITY)?;
+        let filled = system.fill(&*self.coupling, world, earlier, part);
+        if self.lagged.stiffens {
+            unstiffen(world, &mut plain)?;
+        }
+        filled?;
         let vectors = VECTORS * world.free.len() * size_of::<Vect<D>>();
-        Ok(system?.matrix.bytes() + vectors)
+        Ok(system.matrix.bytes() + vectors)
     }
     fn counts(&self) -> Option<Json> {
         serde_json::to_value(&self.solves).ok()
@@ -250,17 +263,23 @@ impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
     }
 }
 
-/// Adds what the strain of the step does to an elastic material, s𝒢Δt, to the viscosities, and gives those without it.
+/// Adds what the strain of the step does to an elastic material, s𝒢Δt, to the viscosities; `plain` keeps those without it.
 ///
 /// Δt is the whole step, over which stresses follow the velocity, also in a kick over a part of it.
-fn stiffen<const D: usize>(world: &mut World<D>) -> Result<Vec<f64>, StepError> {
+fn stiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Result<(), StepError> {
     let dt = world.dt;
-    let plain = world.free.take(fields::VISCOSITY)?;
+    std::mem::swap(plain, world.free.get_mut(fields::VISCOSITY)?);
+    let mut stiff = std::mem::take(world.free.get_mut(fields::VISCOSITY)?);
     let stiffness = world.free.get(fields::ELASTIC_STIFFNESS)?;
     let both = plain.iter().zip(stiffness);
-    let stiff = both.map(|(eta, g)| eta + g * dt).collect();
-    world.free.put(fields::VISCOSITY, stiff)?;
-    Ok(plain)
+    put(&mut stiff, both.map(|(eta, g)| eta + g * dt));
+    Ok(world.free.put(fields::VISCOSITY, stiff)?)
+}
+
+/// Puts the viscosities back that [`stiffen`] has kept.
+fn unstiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Result<(), StepError> {
+    std::mem::swap(plain, world.free.get_mut(fields::VISCOSITY)?);
+    Ok(())
 }
 
 /// √(Σm|u − u'|²/Σm(|u|² + Δt²|g|²)) of a velocity against the world's, with what drives the flow:

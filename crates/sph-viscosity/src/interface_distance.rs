@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields};
 use sph_kernels::Sampler;
-use sph_neighbours::{Around, Values, World, walk_some};
+use sph_neighbours::{Around, Values, World, walk_into};
 
 /// Distance of a particle from the interface of its phase; the support's radius where there is
 /// none in reach.
@@ -74,7 +74,9 @@ impl<const D: usize> Stage<World<D>> for InterfaceDistance {
         let mixed = &self.mixed.near;
         let unlike = |i: usize, j: &u32| phase[*j as usize] != phase[i];
         let near = |i: usize| mixed[i] && lists.candidates(i).iter().any(|j| unlike(i, j));
-        let shares = walk_some(world, Values::Both, near, |around: &Around<'_, D>| {
+        // First the shares, where they differ from 0.
+        distance.fill(0.0);
+        let share = |around: &Around<'_, D>| {
             let i = around.rows.particle;
             let (mut other, mut all) = (0.0, volume[i] * own);
             for (&j, w) in around.rows.free.index.iter().zip(around.free) {
@@ -84,9 +86,10 @@ impl<const D: usize> Stage<World<D>> for InterfaceDistance {
                 other += if phase[j] == phase[i] { 0.0 } else { part };
             }
             other / all
-        })?;
-        let pairs = distance.par_iter_mut().zip(&shares).with_min_len(1024);
-        pairs.for_each(|(d, share)| *d = beyond.distance(share.unwrap_or(0.0)));
+        };
+        walk_into(world, Values::Both, near, &mut distance, share)?;
+        let all = distance.par_iter_mut().with_min_len(1024);
+        all.for_each(|d| *d = beyond.distance(*d));
         Ok(world.free.put(INTERFACE_DISTANCE, distance)?)
     }
 }

@@ -120,7 +120,7 @@ fn checked(path: &Path) -> bool {
                 if let Some(relax) = &mut scene.numerics.relax {
                     relax.steps = 1;
                 }
-                if let Err(e) = sph_solver::examine(&scene, 1) {
+                if let Err(e) = sph_solver::examine(&scene) {
                     assert!(!e.to_string().is_empty());
                 }
                 true
@@ -198,7 +198,7 @@ proptest! {
         // What is wrong is wrong in the walls or the references, and says so.
         let read = sph_solver::size(&scene).and_then(|size| {
             let small = size.particles + size.wall_points <= SMALL;
-            small.then(|| sph_solver::examine(&scene, 1)).transpose()
+            small.then(|| sph_solver::examine(&scene)).transpose()
         });
         if let Err(e) = read {
             let told = e.to_string();
@@ -351,7 +351,7 @@ fn what_is_mutated_is_good() {
         std::fs::write(&path, &scene).expect("a file");
         assert!(checked(&path), "{scene}");
         let loaded = load(&path, &[]).expect("a scene");
-        sph_solver::examine(&loaded.scene, 1).unwrap_or_else(|e| panic!("{e}"));
+        sph_solver::examine(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
     }
     assert_eq!(
         Facets::from_stl(BINARY.to_vec(), "s")

@@ -1,15 +1,13 @@
 //! The matrix is the explicit term's: the same accelerations, symmetric, positive definite.
 
 use sph_core::{System, Vect, fields};
-use sph_implicit::{
-    Cholesky, Entries, Entry, LinearSolver, Matrix, Row, Values, assemble as matrix_of,
-};
+use sph_implicit::{Assembly, Cholesky, Entries, Entry, LinearSolver, Matrix, Values};
 use sph_neighbours::{World, interactions};
 use sph_scene::parse;
 use sph_solver::assemble;
 use sph_viscosity::{
-    EspanolRevenga, HuAdamsViscosity, KrimiViscosity, MonaghanGingold, Morris, OnLattice,
-    Viscosity, ViscousOperator, WallTerm, Weak,
+    EspanolRevenga, FrictionEntry, FrictionRows, HuAdamsViscosity, KrimiViscosity, MonaghanGingold,
+    Morris, OnLattice, Viscosity, ViscousOperator, WallTerm, Weak,
 };
 
 const ETA: f64 = 3.0;
@@ -145,30 +143,29 @@ fn friction<const D: usize>(
 ) -> (Matrix<D>, Vec<Vect<D>>) {
     let coupling = operator.coupling(viscosity);
     let bound = coupling.bind(world).unwrap();
+    let rows = FrictionRows {
+        coupling: &*bound,
+        weak,
+        mass: &vec![0.0; world.free.len()],
+        ahead: 1.0,
+        dt: 1.0,
+    };
     match coupling.mixes_components() {
-        false => {
-            let (pattern, values, source) = matrix_of(world, Values::default(), |rows, out| {
-                let row = bound.scalar_row(rows, weak, out);
-                Row {
-                    own: row.wall,
-                    source: row.source,
-                }
-            })
-            .unwrap();
-            (Matrix::new(pattern, Entries::Scalar(values)), source)
-        }
-        true => {
-            let (pattern, values, source) = matrix_of(world, Values::default(), |rows, out| {
-                let row = bound.block_row(rows, weak, out);
-                Row {
-                    own: row.wall,
-                    source: row.source,
-                }
-            })
-            .unwrap();
-            (Matrix::new(pattern, Entries::Block(values)), source)
-        }
+        false => matrix_of(world, &rows, Entries::Scalar),
+        true => matrix_of(world, &rows, Entries::Block),
     }
+}
+
+fn matrix_of<const D: usize, E: FrictionEntry<D>>(
+    world: &World<D>,
+    rows: &FrictionRows<'_, D>,
+    entries: impl FnOnce(Values<E>) -> Entries<D>,
+) -> (Matrix<D>, Vec<Vect<D>>) {
+    let mut assembly = Assembly::<E, D>::default();
+    let filled = assembly.fill(world, |cluster, all| rows.add(cluster, all));
+    filled.unwrap();
+    let matrix = Matrix::new(assembly.pattern, entries(assembly.values));
+    (matrix, assembly.sources)
 }
 
 fn largest<const D: usize>(all: &[Vect<D>]) -> f64 {

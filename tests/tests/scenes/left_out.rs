@@ -10,7 +10,7 @@ fn examined(name: &str, overrides: &[&str]) -> Examination {
     let overrides = overrides.iter().map(|text| Override::parse(text));
     let overrides: Vec<_> = overrides.map(|o| o.expect("an override")).collect();
     let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
-    examine(&loaded.scene, 1).unwrap_or_else(|e| panic!("{name}: {e}"))
+    examine(&loaded.scene).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
 fn columns(examined: &Examination) -> Vec<&str> {

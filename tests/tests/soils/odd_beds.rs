@@ -80,7 +80,7 @@ fn a_skeleton_so_stiff_that_steps_are_tiny() {
     let scene = with(&[["young_modulus = \"0.8 MPa\"", "young_modulus = 1e21"]]);
     let text = checked(&scene);
     says(&text, "`elastic wave` bounds the first step to");
-    says(&text, "hours to t = 0.2 s");
+    says(&text, "steps to t = 0.2 s");
 }
 
 #[test]

@@ -95,7 +95,7 @@ fn shipped_studies_are_good() {
                 continue;
             }
             if variant.refinement.is_none_or(|h| h == coarsest) {
-                let good = study.assemble(variant, 1);
+                let good = study.assemble(variant);
                 good.unwrap_or_else(|e| panic!("{path:?}: {}: {e}", variant.name));
             }
         }

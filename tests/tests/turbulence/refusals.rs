@@ -56,7 +56,7 @@ fn what_does_not_fit_is_refused_with_what_was_expected() {
     for (text, expected) in cases {
         let refused = match parse(&text, "scene.toml", &[]) {
             Err(error) => error.to_string(),
-            Ok(loaded) => match examine(&loaded.scene, 1) {
+            Ok(loaded) => match examine(&loaded.scene) {
                 Err(error) => error.to_string(),
                 Ok(_) => panic!("accepted, where `{expected}` was expected:\n{text}"),
             },
@@ -78,7 +78,7 @@ fn a_laminar_scene_carries_nothing_of_turbulence() {
             "",
         );
     let loaded = parse(&plain, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let examined = examine(&loaded.scene, 1).unwrap_or_else(|e| panic!("{e}"));
+    let examined = examine(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
     for field in &examined.fields {
         let name = field.name.as_str();
         let of_turbulence = [

@@ -1,6 +1,7 @@
 //! The run: evaluate, write what is due, step; roll back what fails.
 
 use std::collections::BTreeMap;
+use std::ops::AddAssign;
 use std::time::Instant;
 
 use sph_core::{StepError, StepLimit, System};
@@ -66,7 +67,7 @@ fn run_in<const D: usize>(
     let mut parts = assemble::<D>(scene)?;
     crate::running::series::rehearse(scene, &mut parts.flow, &parts.probes)?;
     references::readable(scene)?;
-    let tiny = tiny_steps(scene, &parts.flow, rayon::current_num_threads())?;
+    let tiny = tiny_steps(scene, &parts.flow)?;
     parts.warnings.extend(tiny);
     let _lock = crate::running::lock::take(&options.out, observer)?;
     sph_io::writable(&options.out)?;
@@ -121,6 +122,14 @@ impl<const D: usize> LastGood<D> {
 
 /// Factor by which a rolled-back step recovers per good step.
 const RECOVERY: f64 = 1.05;
+
+/// Adds to what is counted under a name, which is written down when it first comes.
+fn count<T: AddAssign + Default>(all: &mut BTreeMap<String, T>, name: &str, more: T) {
+    match all.get_mut(name) {
+        Some(sum) => *sum += more,
+        None => *all.entry(name.to_string()).or_default() += more,
+    }
+}
 
 impl<const D: usize> Running<'_, D> {
     fn go(&mut self, observer: &mut (dyn Observer + Send)) -> Result<Status, SolverError> {
@@ -217,8 +226,7 @@ impl<const D: usize> Running<'_, D> {
             self.parts.flow.world.time = target;
         }
         self.counters.steps += 1;
-        let limited = self.counters.limited.entry(limiter.to_string());
-        *limited.or_default() += 1;
+        count(&mut self.counters.limited, limiter, 1);
         let scale = f64::from_bits(self.counters.step_scale);
         self.counters.step_scale = (scale * RECOVERY).min(1.0).to_bits();
         Ok(Ok(()))
@@ -258,8 +266,7 @@ impl<const D: usize> Running<'_, D> {
 
     fn note_bounds(&mut self, limits: &[StepLimit]) {
         for limit in limits.iter().filter(|l| l.dt > 0.0) {
-            let sum = self.counters.bounds.entry(limit.name.to_string());
-            *sum.or_default() += 1.0 / limit.dt;
+            count(&mut self.counters.bounds, limit.name, 1.0 / limit.dt);
         }
     }
 

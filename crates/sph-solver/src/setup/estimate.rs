@@ -14,20 +14,16 @@ use crate::setup::shapes::Drawn;
 const BYTES_PER_PARTICLE: [f64; 2] = [1000.0, 3500.0];
 /// Bytes per neighbour, where lists outweigh the columns: four with the skin, four without, and a sixteenth to spare.
 const BYTES_PER_NEIGHBOUR: f64 = 8.5;
-/// Nanoseconds of one core per particle and step, from `docs/performance.md`.
-const NANOSECONDS: [f64; 2] = [550.0, 1800.0];
 /// Bytes per particle in one compressed output.
 const BYTES_PER_OUTPUT: f64 = 60.0;
 
-/// Size and duration of a run.
+/// Size of a run and number of its steps.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Estimate {
     /// Free particles.
     pub particles: f64,
     /// Steps at the initial time step.
     pub steps: f64,
-    /// Hours on the given number of threads.
-    pub hours: f64,
     /// Memory, bytes.
     pub memory_bytes: f64,
     /// Disk, bytes.
@@ -36,8 +32,7 @@ pub struct Estimate {
 
 impl Estimate {
     /// From the particle count, the first step, s, and what the run holds, bytes.
-    pub fn new(scene: &Scene, particles: f64, dt: f64, threads: usize, memory: f64) -> Self {
-        let k = usize::from(scene.dimension == 3);
+    pub fn new(scene: &Scene, particles: f64, dt: f64, memory: f64) -> Self {
         let steps = (scene.run.end / dt).ceil();
         let outputs = match (&scene.output.times, scene.output.every) {
             (Some(times), _) => times.len() as f64,
@@ -54,7 +49,6 @@ impl Estimate {
         Estimate {
             particles,
             steps,
-            hours: particles * steps * NANOSECONDS[k] * 1e-9 / (3600.0 * threads.max(1) as f64),
             memory_bytes: memory,
             disk_bytes: outputs * (vtk + pictures) + 2.0 * checkpoint,
         }
@@ -71,7 +65,6 @@ const TINY: f64 = 1e-8;
 pub fn tiny_steps<const D: usize>(
     scene: &Scene,
     flow: &Flow<D>,
-    threads: usize,
 ) -> Result<Option<String>, SolverError> {
     let limits = flow.step_limits()?;
     let Some(least) = StepLimit::least(&limits) else {
@@ -88,12 +81,12 @@ pub fn tiny_steps<const D: usize>(
             ),
         ));
     }
-    let cost = Estimate::new(scene, flow.world.free.len() as f64, dt, threads, 0.0);
     Ok((dt < TINY).then(|| {
         format!(
-            "`{}` bounds the first step to {dt:.1e} s: {:.1e} steps and about {:.0} hours to t = {} s; lower the stiffness \
-             or the speed behind it",
-            least.name, cost.steps, cost.hours, scene.run.end
+            "`{}` bounds the first step to {dt:.1e} s: {:.1e} steps to t = {} s; lower the stiffness or the speed behind it",
+            least.name,
+            scene.run.end / dt,
+            scene.run.end
         )
     }))
 }

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use sph_core::{Role, StepLimit, System};
+use sph_core::{Role, StepError, StepLimit, System, fields};
 use sph_scene::Scene;
 
 use crate::results::summary::PluginInForce;
 use crate::setup::assemble::assemble;
 use crate::setup::estimate::tiny_steps;
-use crate::{Estimate, Flow, Memory, Relaxation, SolverError};
+use crate::{Estimate, Flow, Load, Memory, Relaxation, SolverError};
 
 /// A column with its cost.
 #[derive(Clone, Debug, Serialize)]
@@ -76,6 +76,8 @@ pub struct Examination {
     pub neighbours: f64,
     /// What it will cost.
     pub estimate: Estimate,
+    /// What a step has to do, with lists that last as long as they do at the expected speed.
+    pub load: Load,
     /// What its memory goes to.
     pub memory: Memory,
     /// What relaxing the first particles did, if the scene asks for it.
@@ -88,18 +90,18 @@ pub struct Examination {
 ///
 /// # Errors
 /// Every problem of the scene, with its path.
-pub fn examine(scene: &Scene, threads: usize) -> Result<Examination, SolverError> {
+pub fn examine(scene: &Scene) -> Result<Examination, SolverError> {
     match scene.dimension {
-        3 => examine_in::<3>(scene, threads),
-        _ => examine_in::<2>(scene, threads),
+        3 => examine_in::<3>(scene),
+        _ => examine_in::<2>(scene),
     }
 }
 
-fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examination, SolverError> {
+fn examine_in<const D: usize>(scene: &Scene) -> Result<Examination, SolverError> {
     let mut assembled = assemble::<D>(scene)?;
     crate::running::series::rehearse(scene, &mut assembled.flow, &assembled.probes)?;
     crate::results::references::readable(scene)?;
-    let tiny = tiny_steps(scene, &assembled.flow, threads)?;
+    let tiny = tiny_steps(scene, &assembled.flow)?;
     assembled.warnings.extend(tiny);
     let limits = assembled.flow.step_limits()?;
     let dt = StepLimit::least(&limits).map_or(scene.run.end, |l| l.dt) * scene.run.safety;
@@ -159,7 +161,8 @@ fn examine_in<const D: usize>(scene: &Scene, threads: usize) -> Result<Examinati
         wall_points: world.walls.points.position.len(),
         wall_elements: world.walls.elements.centre.len(),
         neighbours: world.mean_neighbours()?,
-        estimate: Estimate::new(scene, particles as f64, dt, threads, memory.total()),
+        estimate: Estimate::new(scene, particles as f64, dt, memory.total()),
+        load: Load::of(flow, life(scene, flow, assembled.height, dt)?)?,
         memory,
         relaxation: assembled.relaxation,
         warnings: assembled.warnings,
@@ -180,6 +183,28 @@ fn memory<const D: usize>(
         system += work.bytes(&mut flow.world, dt)?;
     }
     Ok(Memory::of(scene, flow, system as f64)?)
+}
+
+/// Steps of `dt` seconds for which lists last where the fastest particle has the speed that the scene expects.
+fn life<const D: usize>(
+    scene: &Scene,
+    flow: &Flow<D>,
+    height: f64,
+    dt: f64,
+) -> Result<f64, StepError> {
+    let world = &flow.world;
+    let fall = 2.0 * (world.gravity.norm() * height).sqrt();
+    let expected = scene
+        .phase
+        .values()
+        .map(|p| p.velocity_scale.unwrap_or(fall));
+    let velocity = world.free.get(fields::VELOCITY)?;
+    let fastest = velocity
+        .iter()
+        .map(|u| u.norm())
+        .chain(expected)
+        .fold(0.0, f64::max);
+    Ok(world.skin * world.kernel.support_radius() / (2.0 * fastest * dt))
 }
 
 /// Smoothing length, speeds and dimensionless numbers.

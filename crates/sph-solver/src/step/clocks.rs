@@ -17,3 +17,7 @@ pub(crate) const LISTS: usize = 0;
 pub(crate) const LISTS_NAME: &str = "neighbour lists";
 /// Place of kicks and drifts among the timings; the stages follow, and then the work within a step.
 pub(crate) const MOTION: usize = 1;
+/// Name of the time spent on kicks and drifts.
+pub(crate) const MOTION_NAME: &str = "kick and drift";
+/// Name of what a step takes besides: limits, the guard, the copy to fall back on.
+pub(crate) const REST_NAME: &str = "rest of a step";

@@ -13,7 +13,7 @@ use sph_core::{
 use sph_neighbours::{Interaction, World, wall_forces};
 use sph_state::Laws;
 
-use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, Timing};
+use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::guard;
 use crate::step::kept_rates::Kept;
 use crate::step::nursery::Nursery;
@@ -181,8 +181,10 @@ impl<const D: usize> Flow<D> {
         };
         // What only writes state has been done: a solve would start from its own result.
         let done = |stage: &dyn Stage<World<D>>| {
-            let writes = stage.access().writes;
-            restored && !writes.is_empty() && writes.iter().all(|f| state.contains(&f.name))
+            restored && {
+                let writes = stage.access().writes;
+                !writes.is_empty() && writes.iter().all(|f| state.contains(&f.name))
+            }
         };
         for (k, stage) in self.stages.iter_mut().enumerate() {
             if !wanted(&**stage) || done(&**stage) {
@@ -295,7 +297,7 @@ impl<const D: usize> Flow<D> {
     }
 
     pub(crate) fn reset_timings(&mut self) {
-        let services = [LISTS_NAME, "kick and drift"].map(String::from);
+        let services = [LISTS_NAME, MOTION_NAME].map(String::from);
         let names = services
             .into_iter()
             .chain(self.stages.iter().map(|s| s.name()))

@@ -19,10 +19,11 @@ impl<const D: usize> Flow<D> {
         let free = &mut self.world.free;
         let by = |x: &sph_core::Vect<D>| all.iter().position(|o| o.contains(&(*x).into()));
         let position = free.get(fields::POSITION)?;
-        let left: Vec<Option<usize>> = position.par_iter().with_min_len(2048).map(by).collect();
-        if left.iter().all(Option::is_none) {
+        let places = || position.par_iter().with_min_len(2048).map(by);
+        if places().all(|outlet| outlet.is_none()) {
             return Ok(());
         }
+        let left: Vec<Option<usize>> = places().collect();
         let mass = free.get(fields::MASS)?;
         let phase = free.get(fields::PHASE).ok();
         let mut taken = free.taken().to_vec();

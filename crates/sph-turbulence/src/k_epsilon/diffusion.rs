@@ -3,7 +3,10 @@
 use sph_contribution::Limiter;
 use sph_core::reexport::inventory;
 use sph_core::{Access, Field, Scalar, StepError, StepLimit, fields};
-use sph_neighbours::{BoundTerm, FusionEntry, Pair, PairTerm, Rates, There, World, fuse_two};
+use sph_neighbours::{
+    BoundTerm, FusionEntry, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates, There, World,
+    fuse_two_lanes,
+};
 
 use crate::columns::{DISSIPATION, DISSIPATION_RATE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE};
 
@@ -46,7 +49,7 @@ pub(crate) struct Here {
     specific_volume: f64,
 }
 
-impl<const D: usize, const K: usize> PairTerm<D> for Diffusion<K> {
+impl<const D: usize, const K: usize> LanePairTerm<D> for Diffusion<K> {
     type Bound<'a> = BoundDiffusion<'a>;
     fn name(&self) -> String {
         format!("diffusion of {}", VALUE[K].name)
@@ -89,8 +92,7 @@ impl<const D: usize> BoundTerm<D> for BoundDiffusion<'_> {
     }
     #[inline(always)]
     fn free(&self, here: &Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
-        let both = here.diffusivity + self.diffusivity(j);
-        *sum += there.volume * both * (here.value - self.value[j]) * pair.factor;
+        self.add_one(here, j, there, pair, sum);
     }
     #[inline(always)]
     fn finish(&self, here: &Here, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
@@ -98,11 +100,48 @@ impl<const D: usize> BoundTerm<D> for BoundDiffusion<'_> {
     }
 }
 
+impl<const D: usize> LaneTerm<D> for BoundDiffusion<'_> {
+    /// Value and diffusivity.
+    type Side<L: Lane> = [L; 2];
+    type Sums<L: Lane> = L;
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Here]) -> [L; 2] {
+        let mut side = [L::splat(0.0); 2];
+        for (lane, own) in here.iter().enumerate() {
+            side[0].set(lane, own.value);
+            side[1].set(lane, own.diffusivity);
+        }
+        side
+    }
+    #[inline(always)]
+    fn sums<L: Lane>(&self, sum: &f64) -> L {
+        L::splat(*sum)
+    }
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &L, lane: usize) -> f64 {
+        sums.at(lane)
+    }
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        [value, diffusivity]: &[L; 2],
+        j: usize,
+        there: &There<D>,
+        pair: &LanePair<D, L>,
+        sums: &mut L,
+    ) {
+        let both = *diffusivity + L::splat(self.diffusivity(j));
+        let apart = *value - L::splat(self.value[j]);
+        *sums += L::splat(there.volume) * both * apart * pair.factor;
+    }
+}
+
 inventory::submit! {
     FusionEntry {
         terms: 2,
-        fuse_2d: fuse_two::<2, Diffusion<0>, Diffusion<1>>,
-        fuse_3d: fuse_two::<3, Diffusion<0>, Diffusion<1>>,
+        fuse_2d: fuse_two_lanes::<2, Diffusion<0>, Diffusion<1>>,
+        fuse_3d: fuse_two_lanes::<3, Diffusion<0>, Diffusion<1>>,
     }
 }
 

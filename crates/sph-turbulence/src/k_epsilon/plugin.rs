@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_contribution::{Contribution, Limiter, OwnColumn, Refusal, Setting, StepWork};
 use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, register};
-use sph_neighbours::{Term, Terms, World};
+use sph_neighbours::{Lanewise, Terms, World};
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
 use super::diffusion::{Diffusion, DiffusionLimit};
@@ -157,8 +157,8 @@ impl<const D: usize> Contribution<D> for KEpsilon {
     fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
         let model = KEpsilonModel::default();
         vec![
-            Box::new(Term(Diffusion::<0>(model.sigma_k))),
-            Box::new(Term(Diffusion::<1>(model.sigma_epsilon))),
+            Box::new(Lanewise(Diffusion::<0>(model.sigma_k))),
+            Box::new(Lanewise(Diffusion::<1>(model.sigma_epsilon))),
         ]
     }
     fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {

@@ -1,12 +1,15 @@
 //! The rows of a friction's matrix.
 
-use nalgebra::SMatrix;
 use sph_core::{Access, StepError, Vect};
-use sph_neighbours::{BoundTerm, LanePairTerm, Neighbourhood, Pair, Row, World};
+use sph_implicit::{Block, Entry};
+use sph_neighbours::{
+    BoundTerm, Cluster, Lane, LanePair, LanePairTerm, LanePairs, MOST, Neighbourhood, Pair, Row,
+    World,
+};
 
 use super::{Bound, Here, PairFriction, Sum, ViscousTerm};
 use crate::viscosity_source::BoundViscosity;
-use crate::{BoundCoupling, Coupling, CouplingRow, ViscositySource, Weak};
+use crate::{BoundCoupling, Coupling, CouplingRow, ViscositySource};
 
 impl<const D: usize, F: PairFriction<D>, S: ViscositySource> Coupling<D> for ViscousTerm<F, S> {
     fn access(&self) -> Access {
@@ -23,16 +26,6 @@ impl<const D: usize, F: PairFriction<D>, S: ViscositySource> Coupling<D> for Vis
     }
 }
 
-type Block<const D: usize> = SMatrix<f64, D, D>;
-
-/// α 1 + β r rᵀ.
-#[inline(always)]
-fn block<const D: usize>([even, along]: [f64; 2], pair: &Pair<D>) -> Block<D> {
-    let r = &pair.separation;
-    let scaled = r * along;
-    Block::from_fn(|i, k| scaled[i] * r[k] + if i == k { even } else { 0.0 })
-}
-
 fn pairs<'a, const D: usize>(row: &'a Row<'_, D>) -> impl Iterator<Item = (usize, Pair<D>)> + 'a {
     (0..row.index.len()).map(|k| {
         let pair = Pair {
@@ -45,46 +38,14 @@ fn pairs<'a, const D: usize>(row: &'a Row<'_, D>) -> impl Iterator<Item = (usize
 }
 
 impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
-    /// −α and −β of a pair times its viscosity.
+    /// −α and −β of a wall point times its viscosity.
     #[inline(always)]
-    fn strengths(&self, here: &Here<D, S::Here>, there: f64, pair: &Pair<D>, eta: f64) -> [f64; 2] {
+    fn at_point(&self, here: &Here<D, S::Here>, there: f64, pair: &Pair<D>, eta: f64) -> [f64; 2] {
         let (distance2, factor) = (pair.distance2, pair.factor);
         let strengths = self
             .friction
             .strengths(here.volume, there, distance2, factor);
         strengths.map(|s| -(s * eta))
-    }
-
-    /// Appends what couples `here` to free neighbours as `entry` writes it; the force of the weak pairs.
-    #[inline(always)]
-    fn couple<E>(
-        &self,
-        here: &Here<D, S::Here>,
-        rows: &Neighbourhood<'_, D>,
-        weak: Option<Weak<'_, D>>,
-        out: &mut Vec<(u32, E)>,
-        entry: impl Fn([f64; 2], &Pair<D>) -> E,
-    ) -> Vect<D> {
-        let scale = self.scale * here.volume;
-        let mut source = Vect::zeros();
-        let i = rows.particle;
-        for (j, pair) in pairs(&rows.free) {
-            let eta = scale * self.mean_with(here, j);
-            let [even, along] = self.strengths(here, self.volume[j], &pair, eta);
-            let norm = even.abs() + along.abs() * pair.distance2;
-            if norm == 0.0 {
-                continue;
-            }
-            if let Some(weak) = weak
-                && norm <= weak.limit[i].min(weak.limit[j])
-            {
-                let u = weak.velocity[i] - weak.velocity[j];
-                source -= u * even + pair.separation * (along * u.dot(&pair.separation));
-                continue;
-            }
-            out.push((j as u32, entry([even, along], &pair)));
-        }
-        source
     }
 
     /// κ from what the explicit term sums.
@@ -109,33 +70,91 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
         }
         self.correction(here, &sum)
     }
+}
+
+/// α, β and their norm of pairs.
+struct Strengths<'a, 'b, const D: usize, F, S>(&'a Bound<'b, D, F, S>);
+
+/// What a particle has of a pair: volume, viscosity, density, and what all its couplings are multiplied with.
+#[derive(Clone, Copy)]
+struct Own<V, L> {
+    volume: L,
+    density: L,
+    scale: L,
+    viscosity: V,
+}
+
+impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> LanePairs<D, 3>
+    for Strengths<'_, '_, D, F, S>
+{
+    type Here = Own<S::Here, f64>;
+    type Side<L: Lane> = Own<S::Side<L>, L>;
 
     #[inline(always)]
-    fn mean_with(&self, here: &Here<D, S::Here>, j: usize) -> f64 {
-        let densities = [here.density, self.density[j]];
-        let own = self
-            .viscosity
-            .side::<f64>(std::slice::from_ref(&here.viscosity));
-        self.friction.means(&self.viscosity, &own, j, densities)
+    fn here(&self, i: usize) -> Self::Here {
+        let bound = self.0;
+        Own {
+            volume: bound.volume[i],
+            density: bound.density[i],
+            scale: bound.scale * bound.volume[i],
+            viscosity: bound.viscosity.here(i),
+        }
+    }
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L> {
+        let zero = L::splat(0.0);
+        let viscosities: [S::Here; MOST] =
+            std::array::from_fn(|lane| here[lane.min(here.len() - 1)].viscosity);
+        let mut side = Own {
+            volume: zero,
+            density: zero,
+            scale: zero,
+            viscosity: self.0.viscosity.side::<L>(&viscosities[..L::N]),
+        };
+        for (lane, own) in here.iter().enumerate() {
+            side.volume.set(lane, own.volume);
+            side.density.set(lane, own.density);
+            side.scale.set(lane, own.scale);
+        }
+        side
+    }
+
+    #[inline(always)]
+    fn numbers<L: Lane>(&self, here: &Self::Side<L>, j: usize, pair: &LanePair<D, L>) -> [L; 3] {
+        let bound = self.0;
+        let densities = [here.density, L::splat(bound.density[j])];
+        let friction = bound.friction;
+        let mean = friction.means(&bound.viscosity, &here.viscosity, j, densities);
+        let eta = here.scale * mean;
+        let there = L::splat(bound.volume[j]);
+        let [even, along] = friction.strengths(here.volume, there, pair.distance2, pair.factor);
+        let [even, along] = [-(even * eta), -(along * eta)];
+        // A particle is infinitely far from itself, and the norm would not be a number.
+        let norm = even.abs() + along.abs() * pair.distance2;
+        let zero = L::splat(0.0);
+        [even, along, (-pair.factor).where_positive(norm, zero)]
     }
 }
 
 impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundCoupling<D>
     for Bound<'_, D, F, S>
 {
-    fn scalar_row(
-        &self,
-        rows: &Neighbourhood<'_, D>,
-        weak: Option<Weak<'_, D>>,
-        out: &mut Vec<(u32, f64)>,
-    ) -> CouplingRow<f64, D> {
+    fn strengths(&self, cluster: &Cluster<'_, D>, out: &mut Vec<f64>) {
+        cluster.numbers(&Strengths(self), out);
+    }
+
+    fn walls_need_neighbours(&self, particle: usize) -> bool {
+        self.nearest(particle).is_some()
+    }
+
+    fn scalar_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<f64, D> {
         let here = self.here(rows.particle);
         let scale = self.scale * here.volume;
-        let of_weak = self.couple(&here, rows, weak, out, |[even, _], _| even);
         let (mut wall, mut source) = (0.0, Vect::zeros());
         for (v, pair) in pairs(&rows.wall) {
             let rubbing = self.rubbing(v, &pair) * here.own_viscosity;
-            let [friction, _] = self.strengths(&here, self.wall_volume[v], &pair, rubbing);
+            let [friction, _] = self.at_point(&here, self.wall_volume[v], &pair, rubbing);
             wall += friction;
             source += self.wall_velocity[v] * friction;
         }
@@ -151,24 +170,18 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundCoupling<D>
         }
         CouplingRow {
             wall: scale * wall,
-            source: source * scale + of_weak,
+            source: source * scale,
         }
     }
 
-    fn block_row(
-        &self,
-        rows: &Neighbourhood<'_, D>,
-        weak: Option<Weak<'_, D>>,
-        out: &mut Vec<(u32, Block<D>)>,
-    ) -> CouplingRow<Block<D>, D> {
+    fn block_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<Block<D>, D> {
         let here = self.here(rows.particle);
         let scale = self.scale * here.volume;
-        let of_weak = self.couple(&here, rows, weak, out, block);
         let (mut wall, mut source) = (Block::zeros(), Vect::zeros());
         for (v, pair) in pairs(&rows.wall) {
             let rubbing = self.rubbing(v, &pair) * here.own_viscosity;
-            let strengths = self.strengths(&here, self.wall_volume[v], &pair, rubbing);
-            let friction = block(strengths, &pair);
+            let [even, along] = self.at_point(&here, self.wall_volume[v], &pair, rubbing);
+            let friction = Block::central(even, along, &pair.separation);
             wall += friction;
             source += friction * self.wall_velocity[v];
         }
@@ -183,7 +196,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundCoupling<D>
         }
         CouplingRow {
             wall: wall * scale,
-            source: source * scale + of_weak,
+            source: source * scale,
         }
     }
 }

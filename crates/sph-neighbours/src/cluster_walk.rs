@@ -1,0 +1,130 @@
+//! Walks over clusters that make rows of matrices, and what else is no sum.
+
+use sph_core::StepError;
+use sph_kernels::Sampler;
+use sph_lanes::{Body, Lane, MOST, dispatch_at};
+
+use crate::cluster::Cluster;
+use crate::lane_pair::LanePair;
+use crate::members::{Members, groups};
+use crate::separation::places;
+use crate::shelf::Shelf;
+use crate::sweep::{Room, Sweep};
+use crate::{CHUNK, World};
+
+/// Goes over the clusters of a world at the present places, block by block.
+pub struct ClusterWalk<'w, const D: usize> {
+    sweep: Sweep<'w, D, dyn Sampler>,
+    shelf: &'w Shelf,
+    lanes: usize,
+}
+
+impl<'w, const D: usize> ClusterWalk<'w, D> {
+    /// Of the particles of a world.
+    ///
+    /// # Errors
+    /// If the world has no positions.
+    pub fn new(world: &'w World<D>) -> Result<Self, StepError> {
+        Ok(ClusterWalk {
+            sweep: Sweep::new(world, &[], &*world.kernel)?,
+            shelf: &world.lists.shelf,
+            lanes: sph_lanes::width().lanes(),
+        })
+    }
+
+    /// Number of particles.
+    pub fn particles(&self) -> usize {
+        self.sweep.particles()
+    }
+
+    /// Number of blocks of [`CHUNK`] particles.
+    pub fn blocks(&self) -> usize {
+        self.particles().div_ceil(CHUNK)
+    }
+
+    /// Calls `visit` with the clusters of a block in the order of their particles, without packed states.
+    pub fn each(&self, block: usize, mut visit: impl FnMut(&mut Cluster<'_, D>)) {
+        let mut room = self.shelf.lend::<Room<D>>();
+        for cluster in self.sweep.clusters(block) {
+            for members in groups(cluster, self.lanes) {
+                visit(&mut self.sweep.measured(&mut room.0, members));
+            }
+        }
+    }
+}
+
+/// Numbers that a pair has, for several particles at once; exactly zero for a neighbour beyond the support, where F = 0.
+pub trait LanePairs<const D: usize, const M: usize>: Sync {
+    /// What is read once per particle.
+    type Here: Copy;
+    /// What is read, of several particles.
+    type Side<L: Lane>: Copy;
+    /// Reads a particle's own values.
+    fn here(&self, particle: usize) -> Self::Here;
+    /// Puts the own values of `L::N` particles side by side.
+    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L>;
+    /// The numbers.
+    fn numbers<L: Lane>(
+        &self,
+        here: &Self::Side<L>,
+        neighbour: usize,
+        pair: &LanePair<D, L>,
+    ) -> [L; M];
+}
+
+impl<const D: usize> Cluster<'_, D> {
+    /// The numbers of all pairs: for each candidate, for each of the `M` numbers, one per lane.
+    pub fn numbers<const M: usize, P: LanePairs<D, M>>(&self, pairs: &P, out: &mut Vec<f64>) {
+        let needed = self.candidates().len() * M * self.lanes();
+        if out.len() < needed {
+            out.resize(needed.next_power_of_two(), 0.0);
+        }
+        let body = SideBySide {
+            pairs,
+            cluster: self,
+            out: &mut out[..needed],
+        };
+        dispatch_at(self.width, body);
+    }
+}
+
+struct SideBySide<'a, 'c, const D: usize, const M: usize, P> {
+    pairs: &'a P,
+    cluster: &'a Cluster<'c, D>,
+    out: &'a mut [f64],
+}
+
+impl<const D: usize, const M: usize, P: LanePairs<D, M>> Body for SideBySide<'_, '_, D, M, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<L: Lane>(self) {
+        let SideBySide {
+            pairs,
+            cluster,
+            out,
+        } = self;
+        let Members {
+            from,
+            count,
+            candidates,
+        } = cluster.members;
+        let mut heres = [pairs.here(from); MOST];
+        for (k, here) in heres.iter_mut().enumerate().take(L::N).skip(1) {
+            *here = pairs.here(from + k.min(count - 1));
+        }
+        let side = pairs.side::<L>(&heres[..L::N]);
+        let x = places::<D, L>(&cluster.positions[from..from + count]);
+        let distances = cluster.distance2().chunks_exact(L::N);
+        let factors = cluster.factor().chunks_exact(L::N);
+        let all = distances.zip(factors).zip(out.chunks_exact_mut(M * L::N));
+        for (&j, ((distance2, factor), out)) in candidates.iter().zip(all) {
+            let j = j as usize;
+            let pair = cluster.pair(&x, j, distance2, factor);
+            let numbers = pairs.numbers(&side, j, &pair);
+            for (number, out) in numbers.into_iter().zip(out.chunks_exact_mut(L::N)) {
+                number.store(out);
+            }
+        }
+    }
+}
