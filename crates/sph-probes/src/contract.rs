@@ -66,6 +66,19 @@ pub trait Probe<const D: usize>: Send {
     fn drawn_column(&self) -> Option<usize> {
         None
     }
+    /// Takes the flow at a row of the series into what it gathers over time.
+    ///
+    /// # Errors
+    /// If a column of the flow is missing.
+    fn gather(&self, _world: &World<D>) -> Result<(), StepError> {
+        Ok(())
+    }
+    /// What it has gathered, bit by bit, for checkpoints; empty if it gathers nothing.
+    fn gathered(&self) -> Vec<u64> {
+        Vec::new()
+    }
+    /// Goes on with what a run that is resumed had gathered.
+    fn recall(&self, _gathered: &[u64]) {}
     /// The file that its key `file` names, if it compares with one.
     fn file(&self) -> Option<&str> {
         None

@@ -1,7 +1,7 @@
 //! What a run measures and what it is compared with.
 //!
 //! * [`Probe`]: columns of the time series, from the state of the flow ([`Front`],
-//!   [`PressureProbe`], [`VelocityProbe`], [`DisplacementProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`StreamFunction`], [`Profile`]), and of
+//!   [`PressureProbe`], [`VelocityProbe`], [`DisplacementProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`StreamFunction`], [`Profile`], [`MeanProfile`], [`EnergySpectrum`]), and of
 //!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
 //!   [`SurfaceSlope`], [`Line`]), and of a bed under water ([`BedLines`], [`ErodedMass`],
 //!   [`PorePressureProbe`]).
@@ -26,9 +26,11 @@ pub use flow::displacement::DisplacementProbe;
 pub use flow::energy::KineticEnergy;
 pub use flow::front::Front;
 pub use flow::level::Level;
+pub use flow::mean_profile::MeanProfile;
 pub use flow::point::{PressureProbe, VelocityProbe};
 pub use flow::profile::{Component, Profile};
 pub use flow::range::FieldRange;
+pub use flow::spectrum::EnergySpectrum;
 pub use flow::stream_function::StreamFunction;
 pub use flow::wall_force::WallForceProbe;
 pub use phases::extent::Extent;
@@ -51,3 +53,4 @@ pub use solutions::poiseuille::Poiseuille;
 pub use solutions::rigid_rotation::RigidRotation;
 pub use solutions::rotating_square::RotatingSquare;
 pub use solutions::taylor_green::TaylorGreen;
+pub use solutions::taylor_green_3d::TaylorGreen3d;

@@ -4,6 +4,7 @@ pub(crate) mod behind;
 mod filter;
 pub(crate) mod length;
 mod mixing_length;
+pub(crate) mod phases;
 mod smagorinsky;
 mod wale;
 mod wall_units;

@@ -41,6 +41,24 @@ pub const WALL_UNITS: Field<Scalar> = Field::new(
     "1",
     "distance from the wall in wall units, z+ = z u*/nu; infinite out of reach",
 );
+/// Friction velocity at a particle on a bed that is a rough wall; 0 elsewhere.
+pub const BED_FRICTION_VELOCITY: Field<Scalar> = Field::new(
+    "bed_friction_velocity",
+    "m/s",
+    "friction velocity of the bed of another phase at the particle; 0 beyond a spacing",
+);
+/// Distance of such a particle from the bed.
+pub const BED_DISTANCE: Field<Scalar> = Field::new(
+    "bed_distance",
+    "m",
+    "distance from the bed of another phase; infinite beyond a spacing",
+);
+/// Share of the turbulent production that counts: less at free surfaces.
+pub const SURFACE_SHARE: Field<Scalar> = Field::new(
+    "surface_share",
+    "1",
+    "share of the turbulent production that counts: 1 inside, 0 at a free surface",
+);
 /// The same of the walls that rub, as far as damping reaches.
 pub const DAMPING_UNITS: Field<Scalar> = Field::new(
     "damping_units",

@@ -1,13 +1,19 @@
 //! Closures with transported scalars: k with a length, k–ε.
 
 mod diffusion;
+mod earsm;
 mod k_length;
 mod model;
+mod near;
 mod plugin;
+mod realisable;
 mod start;
 mod work;
 
+pub use earsm::{AlgebraicStress, Anisotropy};
 pub use k_length::KLength;
-pub use model::KEpsilonModel;
+pub use model::{KEpsilonModel, Variant};
 pub use plugin::KEpsilon;
+pub use realisable::RealisableModel;
 pub use start::ChannelStart;
+pub use work::AtWall;

@@ -8,21 +8,27 @@
 //! * [`BulkVelocity`] holds the flow rate of a periodic channel.
 #![doc = include_str!("../README.md")]
 
+mod bed;
 mod bulk_velocity;
 mod closures;
 mod columns;
 mod distance;
 mod k_epsilon;
+mod kind;
 mod wall;
 
+pub use bed::RoughBed;
 pub use bulk_velocity::{BulkVelocity, FlowControlEntry};
 pub use closures::{Damping, FilterLength, MixingLength, Smagorinsky, Wale};
 pub use columns::{
-    DISSIPATION, DISSIPATION_RATE, FRICTION_VELOCITY, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE,
-    WALL_DISTANCE, WALL_UNITS,
+    BED_DISTANCE, BED_FRICTION_VELOCITY, DISSIPATION, DISSIPATION_RATE, FRICTION_VELOCITY,
+    SURFACE_SHARE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE, WALL_DISTANCE, WALL_UNITS,
 };
 pub use distance::{ElementTree, WallDistance};
-pub use k_epsilon::{ChannelStart, KEpsilon, KEpsilonModel, KLength};
+pub use k_epsilon::{
+    AlgebraicStress, Anisotropy, AtWall, ChannelStart, KEpsilon, KEpsilonModel, KLength,
+    RealisableModel, Variant,
+};
 pub use wall::{
     FrictionVelocityProbe, LogLaw, LogLawFlow, WallFunctionEntry, WallLaw, WallLawError,
 };

@@ -10,6 +10,6 @@ mod stage;
 pub(crate) use function::karman;
 pub use function::{LogLaw, WallFunctionEntry};
 pub use law::{WallLaw, WallLawError};
-pub(crate) use nearest::nearest;
+pub(crate) use nearest::{LEAST_DISTANCE, nearest};
 pub use probe::FrictionVelocityProbe;
 pub use solution::LogLawFlow;

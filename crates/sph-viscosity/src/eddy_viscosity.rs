@@ -1,6 +1,6 @@
 //! What gives the viscosity of eddies that particles do not resolve.
 
-use sph_contribution::Contribution;
+use sph_contribution::{Contribution, Setting};
 use sph_core::{Stage, contract};
 use sph_neighbours::World;
 
@@ -11,6 +11,10 @@ use sph_neighbours::World;
 pub trait EddyViscosity<const D: usize>: Send {
     /// The stage that writes [`EDDY_VISCOSITY`](sph_core::fields::EDDY_VISCOSITY), Pa s.
     fn stage(&self) -> Box<dyn Stage<World<D>>>;
+    /// The same stage, where it depends on the scene: on which phases it acts. [`stage`](Self::stage) if left out.
+    fn stage_in(&self, _setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
+        self.stage()
+    }
     /// What it brings besides: what it refuses, columns, transported scalars, stages, work within a step.
     fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
         None

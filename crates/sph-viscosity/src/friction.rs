@@ -236,7 +236,8 @@ impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
     #[inline(always)]
     fn weight<V>(&self, here: &Here<D, V>, contact: &Contact<D>) -> f64 {
         let s = contact.element as usize;
-        if self.elements.wall_function.get(s) == Some(&true) {
+        // A phase that the wall function is not for has none, and the condition of the wall.
+        if self.elements.wall_function.get(s) == Some(&true) && here.wall_friction > 0.0 {
             return 2.0 * here.wall_friction * contact.gradient.norm();
         }
         let slip = self.elements.slip.get(s).copied().unwrap_or(0.0);

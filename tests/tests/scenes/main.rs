@@ -15,5 +15,6 @@ mod slides_and_scour;
 mod soil_water;
 mod tanks;
 mod towed;
+mod turbulence;
 mod vortices;
 mod waves;

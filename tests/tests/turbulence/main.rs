@@ -1,5 +1,7 @@
 //! Closures and wall functions in whole scenes.
 
+mod phases;
+mod probes;
 mod refusals;
 
 use sph_core::{System, Vect, fields};

@@ -4,6 +4,7 @@ use sph_scene::parse;
 use sph_solver::examine;
 
 use crate::CHANNEL;
+use crate::phases::OVER_A_BED;
 
 #[test]
 fn what_does_not_fit_is_refused_with_what_was_expected() {
@@ -53,8 +54,54 @@ fn what_does_not_fit_is_refused_with_what_was_expected() {
             "[wall-function.log-law]",
         ),
     ];
+    assert_refused(&cases);
+}
+
+#[test]
+fn what_does_not_fit_in_several_phases_is_refused_with_what_was_expected() {
+    let with = |closure: &str| format!("{OVER_A_BED}[eddy-viscosity.smagorinsky]\n{closure}\n");
+    let water = "phases = [\"water\"]\n";
+    let soil = OVER_A_BED.replace(
+        "rheology.newtonian = { viscosity = \"1e5 Pa s\" }",
+        "rheology.bingham = { viscosity = \"1 Pa s\", yield_stress = \"10 Pa\", regularisation.ratio.ratio = 1000 }",
+    );
+    let cases = [
+        (with(""), "phases = [\"syrup\", \"water\"]"),
+        (with("phases = [\"watr\"]"), "did you mean `water`"),
+        (
+            format!("{soil}[eddy-viscosity.smagorinsky]\nphases = [\"syrup\"]\n"),
+            "phase `syrup` has none",
+        ),
+        (
+            with(&format!("{water}bed = {{ phase = \"sirup\" }}")),
+            "did you mean `syrup`",
+        ),
+        (
+            with(&format!("{water}bed = {{ phase = \"water\" }}")),
+            "cannot be its own bed",
+        ),
+        (
+            with(&format!(
+                "{water}bed = {{ phase = \"syrup\", roughness = 0.02 }}"
+            )),
+            "0 to the spacing",
+        ),
+        (
+            OVER_A_BED.to_owned() + "[eddy-viscosity.k-epsilon]\nphases = [\"water\"]\n",
+            "k and ε at the start are missing",
+        ),
+        (
+            OVER_A_BED.to_owned()
+                + "[eddy-viscosity.k-epsilon]\nphases = [\"water\"]\nenergy = 1.0\ndissipation = -1.0\n",
+            "dissipation",
+        ),
+    ];
+    assert_refused(&cases);
+}
+
+fn assert_refused(cases: &[(String, &str)]) {
     for (text, expected) in cases {
-        let refused = match parse(&text, "scene.toml", &[]) {
+        let refused = match parse(text, "scene.toml", &[]) {
             Err(error) => error.to_string(),
             Ok(loaded) => match examine(&loaded.scene) {
                 Err(error) => error.to_string(),

@@ -48,6 +48,9 @@ pub(crate) struct Counters {
     /// What the work within steps has counted so far, by its name.
     #[serde(default)]
     pub(crate) works: BTreeMap<String, Json>,
+    /// What probes have gathered so far, bit by bit, by their names.
+    #[serde(default)]
+    pub(crate) probes: BTreeMap<String, Vec<u64>>,
 }
 
 /// Largest count that is believed: a million steps a second for three centuries. Far below 2⁶⁴, so that

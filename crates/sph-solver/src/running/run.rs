@@ -19,7 +19,7 @@ use crate::running::driver::{Command, Observer, Progress};
 use crate::running::mach::MachWatch;
 use crate::running::options::{RunOptions, Start};
 use crate::running::output::Outputs;
-use crate::running::series::Series;
+use crate::running::series::{Probes, Series};
 use crate::setup::assemble::{Assembled, assemble};
 use crate::setup::estimate::tiny_steps;
 use crate::step::guard;
@@ -72,7 +72,12 @@ fn run_in<const D: usize>(
     let _lock = crate::running::lock::take(&options.out, observer)?;
     sph_io::writable(&options.out)?;
     sph_io::sweep_temporaries(&options.out)?;
-    let counters = begin(scene, options, &mut parts.flow, observer)?;
+    let mut counters = begin(scene, options, &mut parts.flow, observer)?;
+    for (name, probe) in &parts.probes {
+        if let Some(gathered) = counters.probes.remove(name) {
+            probe.recall(&gathered);
+        }
+    }
     let resumed = options.start.goes_on().then_some(&counters);
     let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
     // First what may be refused: a changed scene may measure other columns.
@@ -105,6 +110,12 @@ fn run_in<const D: usize>(
     };
     let status = running.go(observer)?;
     running.finish(status)
+}
+
+/// What probes have gathered, by their names.
+fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {
+    let all = probes.iter().map(|(name, p)| (name.clone(), p.gathered()));
+    all.filter(|(_, gathered)| !gathered.is_empty()).collect()
 }
 
 /// The state before the last step, if any was kept.
@@ -349,6 +360,7 @@ impl<const D: usize> Running<'_, D> {
             wall_seconds: self.wall_seconds(),
             stage_seconds: self.stage_seconds(),
             works: self.parts.flow.counts(),
+            probes: gathered(&self.parts.probes),
             ..self.counters.clone()
         };
         let path = self.options.out.join(checkpoint::FILE);

@@ -116,6 +116,7 @@ impl Series {
             row.extend([left.mass, left.particles as f64]);
         }
         for (_, probe) in probes {
+            probe.gather(&flow.world)?;
             row.extend(probe.measure(&flow.world)?);
         }
         self.writer.row(&row)?;

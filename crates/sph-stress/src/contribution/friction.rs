@@ -84,9 +84,9 @@ impl<const D: usize> Contribution<D> for Friction<D> {
             Blend::Stresses => vec![term],
         }
     }
-    fn stages_for(&self, _: &Setting<'_, D>, _: &[AnyField]) -> Stages<D> {
+    fn stages_for(&self, setting: &Setting<'_, D>, _: &[AnyField]) -> Stages<D> {
         let eddies = self.materials.eddies.iter();
-        let mut stages: Stages<D> = eddies.map(|e| e.stage()).collect();
+        let mut stages: Stages<D> = eddies.map(|e| e.stage_in(setting)).collect();
         stages.push(Box::new(self.viscosity_stage()));
         stages
     }

@@ -1,13 +1,13 @@
 //! What all closures refuse, need and say.
 
 use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork};
-use sph_core::{Access, AnyField, suggestion};
+use sph_core::{Access, AnyField, Stage, suggestion};
 use sph_neighbours::World;
 
+use super::phases::{BedEddies, Only, acting, check, viscosities};
+use crate::bed::{BedShear, RoughBed};
 use crate::distance::WallDistance;
-
-/// The kind of all closures.
-pub(crate) const KIND: &str = "eddy-viscosity";
+use crate::kind::KIND;
 
 /// Distances from walls that a closure reads.
 #[derive(Clone, Debug)]
@@ -23,6 +23,10 @@ pub(crate) struct Distances {
 pub(crate) struct Behind {
     /// Name of the plugin.
     pub name: &'static str,
+    /// Names of the phases that it acts on; empty in a scene of one.
+    pub phases: Vec<String>,
+    /// A bed that is a rough wall.
+    pub bed: Option<RoughBed>,
     /// Distances that it reads.
     pub distances: Option<Distances>,
     /// Whether it resolves eddies, which are of three dimensions.
@@ -33,26 +37,9 @@ impl Behind {
     /// Refuses what no closure is for.
     pub fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Err(Refusal::of(KIND, key, why));
-        if setting.phases.len() > 1 {
-            return refused(
-                "",
-                format!(
-                    "`{}` acts in scenes of one phase, and this one has {}: between phases the production of turbulence is \
-                     another one, which is not built in",
-                    self.name,
-                    setting.phases.len()
-                ),
-            );
-        }
-        if !matches!(setting.viscosities, [Some(nu)] if *nu > 0.0) {
-            return refused(
-                "",
-                format!(
-                    "`{}` acts in a fluid with one viscosity, and phase `{}` has none: give it `rheology.newtonian` with a \
-                     viscosity",
-                    self.name, setting.phases[0]
-                ),
-            );
+        check(self.name, &self.phases, setting)?;
+        if let Some(bed) = &self.bed {
+            bed.check(&self.phases, setting)?;
         }
         if let Some(distances) = &self.distances {
             let walls = &setting.world.walls;
@@ -73,12 +60,37 @@ impl Behind {
         Ok(())
     }
 
-    /// The distance stage, if it reads one.
-    pub fn stages<const D: usize>(&self) -> Stages<D> {
-        let stage = |d: &Distances| -> Box<dyn sph_core::Stage<World<D>>> {
+    /// The stage of the closure, where there are several phases only in its own.
+    pub fn stage<const D: usize>(
+        &self,
+        setting: &Setting<'_, D>,
+        stage: impl Stage<World<D>> + 'static,
+    ) -> Box<dyn Stage<World<D>>> {
+        match acting(&self.phases, setting) {
+            Some(acts) => {
+                let bed = self.bed.as_ref().map(|bed| BedEddies {
+                    law: bed.law(),
+                    viscosities: viscosities(&self.phases, setting),
+                });
+                Box::new(Only { stage, acts, bed })
+            }
+            None => Box::new(stage),
+        }
+    }
+
+    /// The stages of distances and of the bed, if it reads them.
+    pub fn stages<const D: usize>(&self, setting: &Setting<'_, D>) -> Stages<D> {
+        let stage = |d: &Distances| -> Box<dyn Stage<World<D>>> {
             Box::new(WallDistance::new(&d.walls, d.within))
         };
-        self.distances.iter().map(stage).collect()
+        let mut all: Stages<D> = self.distances.iter().map(stage).collect();
+        if let Some(bed) = &self.bed {
+            let number = setting.phases.iter().position(|p| *p == bed.phase);
+            let own = viscosities(&self.phases, setting);
+            let stage = BedShear::new(number.unwrap_or_default() as u32, own, bed.law());
+            all.push(Box::new(stage));
+        }
+        all
     }
 
     /// A word at the end, if it has one.
@@ -94,8 +106,8 @@ impl<const D: usize> Contribution<D> for Behind {
     fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         Behind::check(self, setting)
     }
-    fn stages(&self, _: &Setting<'_, D>) -> Stages<D> {
-        Behind::stages(self)
+    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+        Behind::stages(self, setting)
     }
     fn works(
         &mut self,

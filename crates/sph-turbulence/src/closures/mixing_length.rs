@@ -2,13 +2,14 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_contribution::Contribution;
+use sph_contribution::{Contribution, Setting};
 use sph_core::{Access, Declares, Stage, StepError, fields, register};
 use sph_neighbours::World;
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
 use super::behind::{Behind, Distances};
 use super::length::Length;
+use crate::bed::RoughBed;
 use crate::columns::{FRICTION_VELOCITY, WALL_DISTANCE};
 
 /// η_t = ρ L² √(2 D:D), with L = κz, at most `longest`, or L = κz√(1 − z/H) in an open channel of a `depth` H, and
@@ -40,6 +41,10 @@ pub struct MixingLength {
     pub longest: Option<f64>,
     /// Names of the walls that z counts from; all if left out.
     pub walls: Vec<String>,
+    /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
+    pub phases: Vec<String>,
+    /// The bed of another phase as a rough wall.
+    pub bed: Option<RoughBed>,
     /// u* of the strain rate u*/(κz) that takes the place of the flow's.
     #[schemars(extend("unit" = "m/s", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.39"))]
     pub imposed_friction_velocity: Option<f64>,
@@ -52,6 +57,8 @@ impl Default for MixingLength {
             depth: None,
             longest: None,
             walls: Vec::new(),
+            phases: Vec::new(),
+            bed: None,
             imposed_friction_velocity: None,
         }
     }
@@ -63,6 +70,19 @@ impl MixingLength {
             karman: self.karman,
             depth: self.depth,
             longest: self.longest,
+        }
+    }
+
+    fn behind(&self) -> Behind {
+        Behind {
+            name: "mixing-length",
+            phases: self.phases.clone(),
+            bed: self.bed.clone(),
+            distances: Some(Distances {
+                walls: self.walls.clone(),
+                within: self.length().farthest(),
+            }),
+            eddies_in_space: false,
         }
     }
 
@@ -117,15 +137,11 @@ impl<const D: usize> EddyViscosity<D> for MixingLength {
     fn stage(&self) -> Box<dyn Stage<World<D>>> {
         Box::new(self.clone())
     }
+    fn stage_in(&self, setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
+        self.behind().stage(setting, self.clone())
+    }
     fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
-        Some(Box::new(Behind {
-            name: "mixing-length",
-            distances: Some(Distances {
-                walls: self.walls.clone(),
-                within: self.length().farthest(),
-            }),
-            eddies_in_space: false,
-        }))
+        Some(Box::new(self.behind()))
     }
 }
 

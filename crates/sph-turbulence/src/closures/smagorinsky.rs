@@ -7,10 +7,13 @@ use sph_core::{Access, AnyField, Declares, Stage, StepError, fields, register};
 use sph_neighbours::World;
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
-use super::behind::{Behind, KIND};
+use super::behind::Behind;
 use super::filter::FilterLength;
+use super::phases::viscosities;
 use super::wall_units::WallUnits;
+use crate::bed::RoughBed;
 use crate::columns::DAMPING_UNITS;
+use crate::kind::KIND;
 
 /// What lessens the eddies near walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
@@ -37,7 +40,7 @@ pub enum Damping {
 /// coefficient = 0.1
 /// damping = "van-driest"
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Smagorinsky {
     /// C_S.
@@ -51,6 +54,10 @@ pub struct Smagorinsky {
     /// What lessens the eddies near walls.
     #[schemars(extend("source" = "van Driest 1956"))]
     pub damping: Damping,
+    /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
+    pub phases: Vec<String>,
+    /// The bed of another phase as a rough wall.
+    pub bed: Option<RoughBed>,
 }
 
 impl Default for Smagorinsky {
@@ -60,6 +67,8 @@ impl Default for Smagorinsky {
             filter: 2.0,
             filter_length: FilterLength::SmoothingLength,
             damping: Damping::None,
+            phases: Vec::new(),
+            bed: None,
         }
     }
 }
@@ -81,6 +90,8 @@ impl Smagorinsky {
     fn behind(&self) -> Behind {
         Behind {
             name: "smagorinsky",
+            phases: self.phases.clone(),
+            bed: self.bed.clone(),
             distances: None,
             eddies_in_space: true,
         }
@@ -124,10 +135,13 @@ impl<const D: usize> Stage<World<D>> for Smagorinsky {
 
 impl<const D: usize> EddyViscosity<D> for Smagorinsky {
     fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(*self)
+        Box::new(self.clone())
+    }
+    fn stage_in(&self, setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
+        self.behind().stage(setting, self.clone())
     }
     fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
-        Some(Box::new(LargeEddies(*self)))
+        Some(Box::new(LargeEddies(self.clone())))
     }
 }
 
@@ -150,13 +164,14 @@ impl<const D: usize> Contribution<D> for LargeEddies {
         }
     }
     fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        match (self.0.damping, setting.viscosities) {
-            (Damping::VanDriest, [Some(viscosity)]) => vec![Box::new(WallUnits {
-                viscosity: *viscosity,
+        let mut stages = self.0.behind().stages(setting);
+        if self.0.damping == Damping::VanDriest {
+            stages.push(Box::new(WallUnits {
+                viscosities: viscosities(&self.0.phases, setting),
                 tree: None,
-            })],
-            _ => Vec::new(),
+            }));
         }
+        stages
     }
     fn works(
         &mut self,
@@ -187,7 +202,7 @@ mod tests {
             coefficient: 0.2,
             filter: 1.0,
             filter_length: FilterLength::Spacing,
-            ..ours
+            ..ours.clone()
         };
         let [h, rate] = [0.01, 3.7];
         let both = [ours.kinematic(2.0 * h, rate), classical.kinematic(h, rate)];

@@ -4,13 +4,14 @@ use nalgebra::{Matrix3, SMatrix};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_contribution::Contribution;
+use sph_contribution::{Contribution, Setting};
 use sph_core::{Access, Declares, Stage, StepError, fields, register};
 use sph_neighbours::World;
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
 use super::behind::Behind;
 use super::filter::FilterLength;
+use crate::bed::RoughBed;
 
 /// η_t = ρ (C_w Δ)² (S^d:S^d)^{3/2} / ((S:S)^{5/2} + (S^d:S^d)^{5/4}), with S the strain rate,
 /// S^d = ½(g² + g²ᵀ) − ⅓ tr(g²) 1 and the velocity gradient g.
@@ -24,7 +25,7 @@ use super::filter::FilterLength;
 /// ```toml
 /// [eddy-viscosity.wale]
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Wale {
     /// C_w.
@@ -35,6 +36,10 @@ pub struct Wale {
     pub filter: f64,
     /// What Δ is a multiple of.
     pub filter_length: FilterLength,
+    /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
+    pub phases: Vec<String>,
+    /// The bed of another phase as a rough wall.
+    pub bed: Option<RoughBed>,
 }
 
 impl Default for Wale {
@@ -43,11 +48,23 @@ impl Default for Wale {
             coefficient: 0.5,
             filter: 1.0,
             filter_length: FilterLength::Spacing,
+            phases: Vec::new(),
+            bed: None,
         }
     }
 }
 
 impl Wale {
+    fn behind(&self) -> Behind {
+        Behind {
+            name: "wale",
+            phases: self.phases.clone(),
+            bed: self.bed.clone(),
+            distances: None,
+            eddies_in_space: true,
+        }
+    }
+
     /// ν_t, m²/s, for a velocity gradient, 1/s, with a filter of a width, m.
     pub fn kinematic<const D: usize>(&self, width: f64, gradient: &SMatrix<f64, D, D>) -> f64 {
         let g = Matrix3::from_fn(|i, j| match i < D && j < D {
@@ -94,14 +111,13 @@ impl<const D: usize> Stage<World<D>> for Wale {
 
 impl<const D: usize> EddyViscosity<D> for Wale {
     fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(*self)
+        Box::new(self.clone())
+    }
+    fn stage_in(&self, setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
+        self.behind().stage(setting, self.clone())
     }
     fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
-        Some(Box::new(Behind {
-            name: "wale",
-            distances: None,
-            eddies_in_space: true,
-        }))
+        Some(Box::new(self.behind()))
     }
 }
 

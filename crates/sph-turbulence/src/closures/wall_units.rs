@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
 use sph_neighbours::World;
 
+use super::phases::Kinematic;
 use crate::columns::DAMPING_UNITS;
 use crate::distance::ElementTree;
 use crate::wall::{WallLaw, nearest};
@@ -11,8 +12,8 @@ use crate::wall::{WallLaw, nearest};
 /// z⁺ = z u*/ν with the true distance z from the nearest element and its u*, the mean of what the law of the smooth wall
 /// makes of the particles that touch it, weighted with their shares |∇γ_as|. It is infinite where no particle does.
 pub(crate) struct WallUnits<const D: usize> {
-    /// ν, m²/s.
-    pub viscosity: f64,
+    /// ν of every phase, m²/s; none of those whose eddies are not damped.
+    pub viscosities: Vec<Option<f64>>,
     /// The elements, and the places of the wall points for which they were sorted.
     pub tree: Option<(ElementTree<D>, Vec<Vect<D>>)>,
 }
@@ -25,11 +26,15 @@ impl<const D: usize> Declares for WallUnits<D> {
         "damping units".into()
     }
     fn access(&self) -> Access {
-        Access::none()
+        let access = Access::none()
             .here(fields::POSITION)
             .here(fields::VELOCITY)
             .here(fields::RENORMALISATION)
-            .writes(DAMPING_UNITS)
+            .writes(DAMPING_UNITS);
+        match self.viscosities.len() {
+            1 => access,
+            _ => access.here(fields::PHASE),
+        }
     }
 }
 
@@ -37,16 +42,18 @@ impl<const D: usize> WallUnits<D> {
     /// u* of every element that rubs, m/s; none where no particle is near.
     fn friction_velocities(&self, world: &World<D>) -> Result<Vec<Option<f64>>, StepError> {
         let (walls, law) = (&world.walls, WallLaw::default());
+        let viscosity = Kinematic::of(&self.viscosities, world)?;
         let velocity = world.free.get(fields::VELOCITY)?;
         let mut sums = vec![[0.0; 2]; walls.elements.centre.len()];
         let rubs = |s: usize| walls.elements.grip[s] > 0.0;
         for &particle in &walls.contacts.particles {
             let i = particle as usize;
-            let Some(seen) = nearest(walls, i, &velocity[i], world.spacing, rubs) else {
+            let seen = nearest(walls, i, &velocity[i], world.spacing, rubs);
+            let (Some(seen), Some(nu)) = (seen, viscosity.at(i)) else {
                 continue;
             };
             let found = law
-                .friction_velocity(seen.speed, seen.distance, self.viscosity)
+                .friction_velocity(seen.speed, seen.distance, nu)
                 .map_err(|error| StepError::Stage {
                     stage: "damping units".into(),
                     reason: error.to_string(),
@@ -77,12 +84,15 @@ impl<const D: usize> Stage<World<D>> for WallUnits<D> {
         if let Some((tree, _)) = &self.tree {
             let within = REACH * world.kernel.smoothing_length();
             let positions = world.free.get(fields::POSITION)?;
-            let all = units.par_iter_mut().zip(positions).with_min_len(256);
-            all.for_each(|(z, x)| {
-                let found = tree.nearest(x, within);
+            let viscosity = Kinematic::of(&self.viscosities, world)?;
+            let all = units.par_iter_mut().zip(positions).enumerate();
+            all.with_min_len(256).for_each(|(i, (z, x))| {
+                let nu = viscosity.at(i);
+                let found = tree.nearest(x, within).filter(|_| nu.is_some());
                 let friction = |(d, s): (f64, u32)| Some(d * friction[s as usize]?);
                 let found = found.and_then(friction);
-                *z = found.map_or(f64::INFINITY, |d| d / self.viscosity);
+                let plus = found.zip(nu).map(|(d, nu)| d / nu);
+                *z = plus.unwrap_or(f64::INFINITY);
             });
         }
         Ok(world.free.put(DAMPING_UNITS, units)?)

@@ -14,7 +14,7 @@ const VALUE: [Field<Scalar>; 2] = [TURBULENT_ENERGY, DISSIPATION];
 const RATE: [Field<Scalar>; 2] = [TURBULENT_ENERGY_RATE, DISSIPATION_RATE];
 
 /// dA_a/dt = 1/(γ_a ρ_a) Σ_b V_b (D_a + D_b)(A_a − A_b) F_ab with D = η + η_t/σ, for A = k (K = 0) and A = ε (K = 1); nothing
-/// passes through walls and surfaces.
+/// passes through walls and surfaces, nor into phases without eddies.
 ///
 /// Source: Issa 2004, Eq. 5.61 and 5.65, with the viscosity of the fluid.
 pub(crate) struct Diffusion<const K: usize>(
@@ -34,10 +34,14 @@ pub(crate) struct BoundDiffusion<'a> {
 }
 
 impl BoundDiffusion<'_> {
-    /// η + η_t/σ, where the viscosity is that of fluid and eddies.
+    /// η + η_t/σ, where the viscosity is that of fluid and eddies; nothing where a closure does not act: where it does,
+    /// there are eddies.
     #[inline(always)]
     fn diffusivity(&self, i: usize) -> f64 {
-        self.viscosity[i] - self.held * self.eddies[i]
+        match self.eddies[i] > 0.0 {
+            true => self.viscosity[i] - self.held * self.eddies[i],
+            false => 0.0,
+        }
     }
 }
 
@@ -131,7 +135,10 @@ impl<const D: usize> LaneTerm<D> for BoundDiffusion<'_> {
         pair: &LanePair<D, L>,
         sums: &mut L,
     ) {
-        let both = *diffusivity + L::splat(self.diffusivity(j));
+        // Nothing passes to or from those on whom the closure does not act.
+        let (zero, there_too) = (L::splat(0.0), L::splat(self.diffusivity(j)));
+        let both = there_too.where_positive(*diffusivity + there_too, zero);
+        let both = diffusivity.where_positive(both, zero);
         let apart = *value - L::splat(self.value[j]);
         *sums += L::splat(there.volume) * both * apart * pair.factor;
     }
@@ -155,7 +162,10 @@ impl<const D: usize> Limiter<D> for DiffusionLimit {
     fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
         let viscosity = world.free.get(fields::VISCOSITY)?.iter();
         let density = world.free.get(fields::DENSITY)?;
-        let both = viscosity.zip(density).map(|(eta, rho)| eta / rho);
+        let eddies = world.free.get(fields::EDDY_VISCOSITY)?;
+        let all = viscosity.zip(density).zip(eddies);
+        let acting = all.filter(|(_, eddies)| **eddies > 0.0);
+        let both = acting.map(|((eta, rho), _)| eta / rho);
         let largest = both.fold(0.0, f64::max);
         let h = world.kernel.smoothing_length();
         Ok(StepLimit::new("turbulence", self.0 * h * h / largest))

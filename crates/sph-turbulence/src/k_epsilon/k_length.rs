@@ -10,10 +10,16 @@ use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
 use super::diffusion::{Diffusion, DiffusionLimit};
 use super::model::KEpsilonModel;
-use super::work::refuse_negative;
-use crate::closures::behind::{Behind, Distances, KIND};
+use super::near::{BedSide, refuse_negative};
+use crate::bed::RoughBed;
+use crate::bed::SurfaceShare;
+use crate::closures::behind::{Behind, Distances};
 use crate::closures::length::Length;
-use crate::columns::{FRICTION_VELOCITY, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE, WALL_DISTANCE};
+use crate::closures::phases::{Kinematic, acts_on, viscosities};
+use crate::columns::{
+    FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE, WALL_DISTANCE,
+};
+use crate::kind::KIND;
 
 /// η_t = ρ C_μ^¼ √k L, with dk/dt = div((ν + ν_t/σ_k) grad k) + P − ε, ε = C_μ^¾ k^{3/2}/L and
 /// P = min(√C_μ, C_μ k S/ε) k S.
@@ -48,6 +54,14 @@ pub struct KLength {
     /// Names of the walls that z counts from; all if left out.
     #[serde(default)]
     pub walls: Vec<String>,
+    /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
+    #[serde(default)]
+    pub phases: Vec<String>,
+    /// The bed of another phase as a rough wall.
+    pub bed: Option<RoughBed>,
+    /// Whether production is damped where a free surface cuts the support: P (2C − 1), C = Σ V w/γ.
+    #[serde(default)]
+    pub damped_at_surfaces: bool,
 }
 
 /// L is not less than this share of the spacing.
@@ -65,6 +79,8 @@ impl KLength {
     fn behind(&self) -> Behind {
         Behind {
             name: "k-length",
+            phases: self.phases.clone(),
+            bed: self.bed.clone(),
             distances: Some(Distances {
                 walls: self.walls.clone(),
                 within: self.length().farthest(),
@@ -84,10 +100,16 @@ fn dissipation(model: &KEpsilonModel, energy: f64, length: f64) -> f64 {
     model.c_mu.powf(0.75) * energy * energy.sqrt() / length
 }
 
-/// k after `dt` seconds of production and dissipation.
-fn after(model: &KEpsilonModel, energy: f64, length: f64, strain_rate: f64, dt: f64) -> f64 {
+/// k after `dt` seconds of a share of the production at a strain rate, and dissipation.
+fn after(
+    model: &KEpsilonModel,
+    energy: f64,
+    length: f64,
+    [strain_rate, share]: [f64; 2],
+    dt: f64,
+) -> f64 {
     let dissipated = dissipation(model, energy, length);
-    let produced = model.production(energy, dissipated, strain_rate);
+    let produced = share * model.production(energy, dissipated, strain_rate);
     (energy + dt * produced) / (1.0 + dt * dissipated / energy)
 }
 
@@ -123,6 +145,9 @@ impl<const D: usize> EddyViscosity<D> for KLength {
     fn stage(&self) -> Box<dyn Stage<World<D>>> {
         Box::new(self.clone())
     }
+    fn stage_in(&self, setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
+        self.behind().stage(setting, self.clone())
+    }
     fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
         Some(Box::new(OneEquation(self.clone())))
     }
@@ -134,7 +159,8 @@ struct OneEquation(KLength);
 impl<const D: usize> Contribution<D> for OneEquation {
     fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         self.0.behind().check(setting)?;
-        match setting.world.walls.elements.grip.iter().any(|g| *g > 0.0) {
+        let rubs = setting.world.walls.elements.grip.iter().any(|g| *g > 0.0);
+        match rubs && setting.phases.len() == 1 {
             false => Ok(()),
             true => Err(Refusal::of(
                 KIND,
@@ -145,8 +171,9 @@ impl<const D: usize> Contribution<D> for OneEquation {
         }
     }
     fn columns(&self) -> Vec<OwnColumn<D>> {
-        let energy = self.0.energy;
-        vec![OwnColumn::scalar(TURBULENT_ENERGY, move |_| energy)]
+        let (energy, phases) = (self.0.energy, self.0.phases.clone());
+        let start = move |phase: &str| if acts_on(&phases, phase) { energy } else { 0.0 };
+        vec![OwnColumn::scalar(TURBULENT_ENERGY, move |b| start(b.phase))]
     }
     fn transported(&self) -> Vec<Evolved> {
         vec![Evolved {
@@ -154,8 +181,12 @@ impl<const D: usize> Contribution<D> for OneEquation {
             rate: TURBULENT_ENERGY_RATE,
         }]
     }
-    fn stages(&self, _: &Setting<'_, D>) -> Stages<D> {
-        self.0.behind().stages()
+    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+        let mut stages = self.0.behind().stages(setting);
+        if self.0.damped_at_surfaces {
+            stages.push(Box::new(SurfaceShare));
+        }
+        stages
     }
     fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
         let sigma = KEpsilonModel::default().sigma_k;
@@ -166,10 +197,15 @@ impl<const D: usize> Contribution<D> for OneEquation {
     }
     fn works(
         &mut self,
-        _: &Setting<'_, D>,
+        setting: &Setting<'_, D>,
         _: &[AnyField],
     ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        Ok(vec![Box::new(Sources(self.0.length()))])
+        Ok(vec![Box::new(Sources {
+            length: self.0.length(),
+            viscosities: viscosities(&self.0.phases, setting),
+            damped: self.0.damped_at_surfaces,
+            bed: self.0.bed.is_some(),
+        })])
     }
     fn remedy(&self, _: &str) -> Option<String> {
         Some("look at k at the start: the eddy viscosity is 0.55 √k L".into())
@@ -177,32 +213,62 @@ impl<const D: usize> Contribution<D> for OneEquation {
 }
 
 /// Production and dissipation after diffusion, and wall values.
-struct Sources(Length);
+struct Sources {
+    length: Length,
+    /// ν of every phase, m²/s; none of those that it does not act on.
+    viscosities: Vec<Option<f64>>,
+    /// Whether production is damped at surfaces.
+    damped: bool,
+    /// Whether there is a bed that is a rough wall.
+    bed: bool,
+}
 
 impl<const D: usize> StepWork<D> for Sources {
     fn name(&self) -> String {
         "k-length".into()
     }
     fn access(&self) -> Access {
-        Access::none()
+        let access = Access::none()
             .here(fields::STRAIN_RATE)
             .here(fields::POSITION)
             .here(fields::IDENTITY)
             .here(WALL_DISTANCE)
             .here(TURBULENT_ENERGY)
             .where_there(FRICTION_VELOCITY)
-            .writes(TURBULENT_ENERGY)
+            .writes(TURBULENT_ENERGY);
+        let access = match self.damped {
+            true => access.here(SURFACE_SHARE),
+            false => access,
+        };
+        let access = match self.viscosities.len() {
+            1 => access,
+            _ => access.here(fields::PHASE),
+        };
+        BedSide::access(self.bed, access)
     }
     fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mut energy = world.free.take(TURBULENT_ENERGY)?;
-        refuse_negative(world, TURBULENT_ENERGY.name, &energy)?;
+        let viscosity = Kinematic::of(&self.viscosities, world)?;
+        let acts = |i: usize| viscosity.at(i).is_some();
+        refuse_negative(world, TURBULENT_ENERGY.name, &energy, acts)?;
         let model = KEpsilonModel::default();
-        let (length, spacing) = (self.0, world.spacing);
+        let (length, spacing) = (self.length, world.spacing);
+        let share = match self.damped {
+            true => world.free.get(SURFACE_SHARE)?,
+            false => &[],
+        };
+        let bed = BedSide::of(self.bed, world)?;
         let rates = world.free.get(fields::STRAIN_RATE)?;
         let distance = world.free.get(WALL_DISTANCE)?;
-        let all = energy.par_iter_mut().zip(rates).zip(distance);
-        all.with_min_len(1024).for_each(|((k, rate), z)| {
-            *k = after(&model, *k, at(&length, *z, spacing), *rate, dt);
+        let all = energy.par_iter_mut().zip(rates).zip(distance).enumerate();
+        all.with_min_len(1024).for_each(|(i, ((k, rate), z))| {
+            if acts(i) {
+                let share = share.get(i).copied().unwrap_or(1.0);
+                *k = after(&model, *k, at(&length, *z, spacing), [*rate, share], dt);
+                if let Some([u, _]) = bed.at(i) {
+                    *k = u * u / model.c_mu.sqrt();
+                }
+            }
         });
         if world.free.has(FRICTION_VELOCITY.name) {
             let friction = world.free.get(FRICTION_VELOCITY)?;
@@ -235,7 +301,7 @@ mod tests {
         let model = KEpsilonModel::default();
         let (u, length): (f64, f64) = (0.05, 0.41 * 0.013);
         let k = u * u / model.c_mu.sqrt();
-        let next = after(&model, k, length, u / length, 1.0);
+        let next = after(&model, k, length, [u / length, 1.0], 1.0);
         assert!((next / k - 1.0).abs() < 1e-12);
         assert!((model.c_mu.powf(0.25) * k.sqrt() * length / (u * length) - 1.0).abs() < 1e-12);
     }
@@ -246,7 +312,7 @@ mod tests {
         let (model, length, end) = (KEpsilonModel::default(), 0.1, 2.0);
         let steps = 20_000;
         let k = (0..steps).fold(0.04, |k, _| {
-            after(&model, k, length, 0.0, end / f64::from(steps))
+            after(&model, k, length, [0.0, 1.0], end / f64::from(steps))
         });
         let exact = 0.04 / (1.0 + 0.09f64.powf(0.75) * 0.2 * end / (2.0 * length)).powi(2);
         assert!((k / exact - 1.0).abs() < 1e-3, "{k}, {exact}");

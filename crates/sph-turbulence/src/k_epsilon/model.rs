@@ -1,5 +1,38 @@
 //! The equations of the k–ε model at one place.
 
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::realisable::RealisableModel;
+
+/// Which equations k and ε follow.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Variant {
+    /// Launder and Spalding 1974, with the production of Guimet and Laurence 2002: [`KEpsilonModel`].
+    #[default]
+    Standard,
+    /// Shih et al. 1995: [`RealisableModel`].
+    Realisable,
+    /// The standard equations, with P = −R_ij ∂u_i/∂x_j and the part of the stresses of Wallin and Johansson 2000 that is along the
+    /// strain, η_t = −½ρβ_1 k²/ε: [`AlgebraicStress`](super::AlgebraicStress). The rest of them, which does no work, is left out:
+    /// in layers it is balanced by the pressure.
+    ExplicitAlgebraic,
+}
+
+impl Variant {
+    /// σ_k and σ_ε.
+    pub(crate) fn sigmas(self) -> [f64; 2] {
+        let (standard, realisable) = (KEpsilonModel::default(), RealisableModel::default());
+        match self {
+            Variant::Standard | Variant::ExplicitAlgebraic => {
+                [standard.sigma_k, standard.sigma_epsilon]
+            }
+            Variant::Realisable => [realisable.sigma_k, realisable.sigma_epsilon],
+        }
+    }
+}
+
 /// Constants of the standard k–ε model. Source: Launder and Spalding 1974; Issa 2004, Eq. 5.32.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KEpsilonModel {
@@ -47,11 +80,39 @@ impl KEpsilonModel {
     /// which are positive whatever Δt.
     pub fn after(&self, energy: f64, dissipation: f64, strain_rate: f64, dt: f64) -> [f64; 2] {
         let production = self.production(energy, dissipation, strain_rate);
+        self.produced(energy, dissipation, production, dt)
+    }
+
+    /// The same for a production that is given, m²/s³.
+    pub fn produced(&self, energy: f64, dissipation: f64, production: f64, dt: f64) -> [f64; 2] {
         let rate = dissipation / energy;
         [
             (energy + dt * production) / (1.0 + dt * rate),
             (dissipation + dt * self.c_1 * production * rate) / (1.0 + dt * self.c_2 * rate),
         ]
+    }
+
+    /// k and ε after `dt` seconds next to a wall that no flux of k passes, with u_k = C_μ^¼ √k: P = u*² u_k/(κz) and
+    /// ε = u_k³/(κz), which balance where u_k = u*. Source: Launder and Spalding 1974, §4; Ferrand et al. 2013 (no flux of k).
+    pub fn with_flux(
+        &self,
+        energy: f64,
+        friction_velocity: f64,
+        distance: f64,
+        karman: f64,
+        dt: f64,
+    ) -> [f64; 2] {
+        let speed = |k: f64| self.c_mu.powf(0.25) * k.sqrt();
+        let dissipation = |k: f64| speed(k).powi(3) / (karman * distance);
+        let produced = friction_velocity.powi(2) * speed(energy) / (karman * distance);
+        let next = (energy + dt * produced) / (1.0 + dt * dissipation(energy) / energy);
+        [next, dissipation(next)]
+    }
+
+    /// ε = k^{3/2}/(0.18 H) at the surface of a channel of a depth H, m: eddies are no longer there than a share of the depth.
+    /// Source: Celik and Rodi 1984 (Naot and Rodi 1982: C_μ^¾ k^{3/2}/(κ 0.07 H)).
+    pub fn at_surface(&self, energy: f64, depth: f64) -> f64 {
+        energy.powf(1.5) / (0.18 * depth)
     }
 
     /// k = u*²/√C_μ and ε = u*³/(κz) where production balances dissipation in the logarithm. Issa 2004, Eq. 5.33.
@@ -106,6 +167,23 @@ mod tests {
         let strain_rate = u / (kappa * z);
         assert!((model.production(k, e, strain_rate) / e - 1.0).abs() < 1e-12);
         assert!((model.eddy_viscosity(k, e) / (kappa * u * z) - 1.0).abs() < 1e-12);
+    }
+
+    /// Left to itself k next to a wall tends to u*²/√C_μ, from above and from below.
+    #[test]
+    fn without_a_flux_of_k_the_wall_layer_finds_its_balance() {
+        let model = KEpsilonModel::default();
+        let (u, z, kappa) = (0.05, 0.013, 0.41);
+        let values = model.at_wall(u, z, kappa);
+        for start in [1e-6, 1.0] {
+            let mut both = [start, 0.0];
+            for _ in 0..10_000 {
+                both = model.with_flux(both[0], u, z, kappa, 0.1);
+            }
+            for (found, exact) in both.iter().zip(values) {
+                assert!((found / exact - 1.0).abs() < 1e-9, "{found}, {exact}");
+            }
+        }
     }
 
     /// Homogeneous shear at P = ε needs S k/ε = 1/√C_μ: stronger strain produces linearly, not with its square.

@@ -1,18 +1,26 @@
 //! The k–ε closure as a plugin.
 
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_contribution::{Contribution, Limiter, OwnColumn, Refusal, Setting, StepWork};
+use sph_contribution::{
+    Birth, Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork,
+};
 use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, register};
 use sph_neighbours::{Lanewise, Terms, World};
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
 use super::diffusion::{Diffusion, DiffusionLimit};
-use super::model::KEpsilonModel;
+use super::earsm::AlgebraicStress;
+use super::model::{KEpsilonModel, Variant};
+use super::realisable::RealisableModel;
 use super::start::ChannelStart;
-use super::work::Sources;
-use crate::closures::behind::{Behind, KIND};
+use super::work::{AtWall, Sources};
+use crate::bed::{RoughBed, SurfaceShare};
+use crate::closures::behind::Behind;
+use crate::closures::phases::{acts_on, viscosities};
 use crate::columns::{DISSIPATION, DISSIPATION_RATE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE};
+use crate::kind::KIND;
 
 /// η_t = ρ C_μ k²/ε, with
 ///
@@ -21,7 +29,8 @@ use crate::columns::{DISSIPATION, DISSIPATION_RATE, TURBULENT_ENERGY, TURBULENT_
 ///
 /// the standard model, with P = min(√C_μ, C_μ k S/ε) k S. Diffusion is explicit, and what is dissipated is that of the end
 /// of the step, so that both are positive by construction; nothing is clipped. Within a spacing of walls with a wall
-/// function k = u*²/√C_μ and ε = u*³/(κz). Nothing passes through other walls and the surface.
+/// function k = u*²/√C_μ and ε = u*³/(κz), or what `at_wall` says. Nothing passes through other walls and the surface.
+/// `variant` takes other equations, "realisable" those of [`RealisableModel`], "explicit-algebraic" C_μ of [`AlgebraicStress`].
 ///
 /// The constants imply κ = √((C_ε2 − C_ε1) σ_ε √C_μ) = 0.433 in a logarithmic layer.
 ///
@@ -32,7 +41,7 @@ use crate::columns::{DISSIPATION, DISSIPATION_RATE, TURBULENT_ENERGY, TURBULENT_
 /// energy = "1e-3 m²/s²"
 /// dissipation = "1e-4 m²/s³"
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct KEpsilon {
     /// k at the start, everywhere; with `dissipation`.
@@ -46,6 +55,21 @@ pub struct KEpsilon {
     /// κ of the wall values.
     #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.22"))]
     pub karman: f64,
+    /// Which equations.
+    pub variant: Variant,
+    /// What k and ε are next to walls with a wall function.
+    #[schemars(extend("source" = "Issa 2004, Eq. 5.33; Launder and Spalding 1974; Ferrand et al. 2013"))]
+    pub at_wall: AtWall,
+    /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
+    pub phases: Vec<String>,
+    /// The bed of another phase as a rough wall.
+    pub bed: Option<RoughBed>,
+    /// Whether production is damped where a free surface cuts the support: P (2C − 1), C = Σ V w/γ.
+    pub damped_at_surfaces: bool,
+    /// Depth H of a channel at whose surface ε = k^{3/2}/(0.18 H), in the particles whose support the surface cuts by a quarter
+    /// and more; nothing passes through the surface if left out.
+    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0, "source" = "Celik and Rodi 1984"))]
+    pub surface_depth: Option<f64>,
 }
 
 impl Default for KEpsilon {
@@ -55,11 +79,26 @@ impl Default for KEpsilon {
             dissipation: None,
             channel: None,
             karman: 0.41,
+            variant: Variant::default(),
+            at_wall: AtWall::default(),
+            phases: Vec::new(),
+            bed: None,
+            damped_at_surfaces: false,
+            surface_depth: None,
         }
     }
 }
 
 impl KEpsilon {
+    fn behind(&self) -> Behind {
+        Behind {
+            name: "k-epsilon",
+            phases: self.phases.clone(),
+            bed: self.bed.clone(),
+            ..Behind::default()
+        }
+    }
+
     /// k and ε at the start, at a height; none if the scene does not say.
     fn start(&self, height: f64) -> Option<[f64; 2]> {
         let model = KEpsilonModel::default();
@@ -72,18 +111,24 @@ impl KEpsilon {
 }
 
 /// [`fields::EDDY_VISCOSITY`] of k and ε.
-struct EddyStage;
+struct EddyStage(Variant);
 
 impl Declares for EddyStage {
     fn name(&self) -> String {
         "k-epsilon".into()
     }
     fn access(&self) -> Access {
-        Access::none()
+        let access = Access::none()
             .here(fields::DENSITY)
             .here(TURBULENT_ENERGY)
             .here(DISSIPATION)
-            .writes(fields::EDDY_VISCOSITY)
+            .writes(fields::EDDY_VISCOSITY);
+        match self.0 {
+            Variant::Standard => access,
+            Variant::Realisable | Variant::ExplicitAlgebraic => {
+                access.here(fields::VELOCITY_GRADIENT)
+            }
+        }
     }
 }
 
@@ -94,29 +139,40 @@ impl<const D: usize> Stage<World<D>> for EddyStage {
         let density = world.free.get(fields::DENSITY)?;
         let energy = world.free.get(TURBULENT_ENERGY)?;
         let dissipation = world.free.get(DISSIPATION)?;
-        for (i, eddy) in eddies.iter_mut().enumerate() {
-            *eddy = density[i] * model.eddy_viscosity(energy[i], dissipation[i]);
-        }
+        let gradients = match self.0 {
+            Variant::Standard => &[],
+            _ => world.free.get(fields::VELOCITY_GRADIENT)?,
+        };
+        let (realisable, algebraic) = (RealisableModel::default(), AlgebraicStress::default());
+        let c_mu = |i: usize, time: f64| match self.0 {
+            Variant::Standard => model.c_mu,
+            Variant::Realisable => realisable.c_mu(&gradients[i], time),
+            Variant::ExplicitAlgebraic => algebraic.of(&gradients[i], time).c_mu(),
+        };
+        let all = eddies.par_iter_mut().enumerate();
+        all.with_min_len(512).for_each(|(i, eddy)| {
+            let time = energy[i] / dissipation[i];
+            *eddy = density[i] * c_mu(i, time) * energy[i] * time;
+        });
         Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
     }
 }
 
 impl<const D: usize> EddyViscosity<D> for KEpsilon {
     fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(EddyStage)
+        Box::new(EddyStage(self.variant))
+    }
+    fn stage_in(&self, setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
+        self.behind().stage(setting, EddyStage(self.variant))
     }
     fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
-        Some(Box::new(*self))
+        Some(Box::new(self.clone()))
     }
 }
 
 impl<const D: usize> Contribution<D> for KEpsilon {
     fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
-        let behind = Behind {
-            name: "k-epsilon",
-            ..Behind::default()
-        };
-        behind.check(setting)?;
+        self.behind().check(setting)?;
         if self.start(0.0).is_none() {
             return Err(Refusal::of(
                 KIND,
@@ -124,7 +180,8 @@ impl<const D: usize> Contribution<D> for KEpsilon {
                 "k and ε at the start are missing: either both `energy` and `dissipation` were expected, or `channel` alone",
             ));
         }
-        match setting.world.walls.elements.grip.iter().any(|g| *g > 0.0) {
+        let rubs = setting.world.walls.elements.grip.iter().any(|g| *g > 0.0);
+        match rubs && setting.phases.len() == 1 {
             false => Ok(()),
             true => Err(Refusal::of(
                 KIND,
@@ -135,11 +192,17 @@ impl<const D: usize> Contribution<D> for KEpsilon {
         }
     }
     fn columns(&self) -> Vec<OwnColumn<D>> {
-        let own = *self;
-        let at = move |k: usize, height: f64| own.start(height).map_or(0.0, |start| start[k]);
+        let at = |own: KEpsilon, k: usize| {
+            move |birth: &Birth<'_, D>| match acts_on(&own.phases, birth.phase) {
+                true => own
+                    .start(birth.position[D - 1])
+                    .map_or(0.0, |start| start[k]),
+                false => 0.0,
+            }
+        };
         vec![
-            OwnColumn::scalar(TURBULENT_ENERGY, move |b| at(0, b.position[D - 1])),
-            OwnColumn::scalar(DISSIPATION, move |b| at(1, b.position[D - 1])),
+            OwnColumn::scalar(TURBULENT_ENERGY, at(self.clone(), 0)),
+            OwnColumn::scalar(DISSIPATION, at(self.clone(), 1)),
         ]
     }
     fn transported(&self) -> Vec<Evolved> {
@@ -154,11 +217,18 @@ impl<const D: usize> Contribution<D> for KEpsilon {
             },
         ]
     }
+    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+        let mut stages = self.behind().stages(setting);
+        if self.damped_at_surfaces || self.surface_depth.is_some() {
+            stages.push(Box::new(SurfaceShare));
+        }
+        stages
+    }
     fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
-        let model = KEpsilonModel::default();
+        let [sigma_k, sigma_epsilon] = self.variant.sigmas();
         vec![
-            Box::new(Lanewise(Diffusion::<0>(model.sigma_k))),
-            Box::new(Lanewise(Diffusion::<1>(model.sigma_epsilon))),
+            Box::new(Lanewise(Diffusion::<0>(sigma_k))),
+            Box::new(Lanewise(Diffusion::<1>(sigma_epsilon))),
         ]
     }
     fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
@@ -169,11 +239,14 @@ impl<const D: usize> Contribution<D> for KEpsilon {
         setting: &Setting<'_, D>,
         _: &[AnyField],
     ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        let viscosity = setting.viscosities.iter().flatten().next();
         Ok(vec![Box::new(Sources {
-            model: KEpsilonModel::default(),
+            variant: self.variant,
+            at_wall: self.at_wall,
             karman: self.karman,
-            viscosity: viscosity.copied().unwrap_or_default(),
+            viscosities: viscosities(&self.phases, setting),
+            damped: self.damped_at_surfaces,
+            surface_depth: self.surface_depth,
+            bed: self.bed.is_some(),
         })])
     }
     fn remedy(&self, _: &str) -> Option<String> {

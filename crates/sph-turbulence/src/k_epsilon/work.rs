@@ -1,21 +1,113 @@
 //! Production and dissipation within a step, and what walls set.
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Deserialize;
 use sph_contribution::StepWork;
 use sph_core::{Access, StepError, fields};
 use sph_neighbours::World;
 
-use super::model::KEpsilonModel;
-use crate::columns::{DISSIPATION, FRICTION_VELOCITY, TURBULENT_ENERGY, WALL_UNITS};
+use super::model::{KEpsilonModel, Variant};
+use super::near::{BedSide, refuse_negative, rubbed};
+use super::realisable::RealisableModel;
+use crate::closures::phases::Kinematic;
+use crate::columns::{DISSIPATION, FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, WALL_UNITS};
 
-/// After diffusion: k and ε are produced and dissipated, and next to walls with a wall function they are its values.
+/// What k and ε are within a spacing of walls with a wall function.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum AtWall {
+    /// Both those of the logarithm: k = u*²/√C_μ, ε = u*³/(κz).
+    #[default]
+    Values,
+    /// No flux of k passes, P = u*² u_k/(κz), and ε = u_k³/(κz), with u_k = C_μ^¼ √k.
+    Flux,
+}
+
+/// After diffusion: k and ε are produced and dissipated, and next to walls with a wall function they are its own.
 pub(crate) struct Sources {
-    /// The model.
-    pub model: KEpsilonModel,
+    /// The equations.
+    pub variant: Variant,
+    /// Next to walls.
+    pub at_wall: AtWall,
     /// κ.
     pub karman: f64,
-    /// ν, m²/s.
-    pub viscosity: f64,
+    /// ν of every phase, m²/s; none of those that it does not act on.
+    pub viscosities: Vec<Option<f64>>,
+    /// Whether production is damped at surfaces.
+    pub damped: bool,
+    /// Depth of a channel at whose surface ε is a value, m.
+    pub surface_depth: Option<f64>,
+    /// Whether there is a bed that is a rough wall.
+    pub bed: bool,
+}
+
+/// What a particle meets next to a wall with a wall function.
+#[derive(Clone, Copy)]
+struct Near {
+    friction_velocity: f64,
+    distance: f64,
+}
+
+/// What a particle is strained by.
+#[derive(Clone, Copy)]
+struct Strained {
+    rate: f64,
+    /// ν_t, m²/s, of the beginning of the step.
+    eddies: f64,
+    viscosity: f64,
+    /// 2C − 1 with the concentration C: 1 inside, 0 at a surface.
+    share: f64,
+}
+
+/// Of particles whose support a surface cuts by a quarter, [`SURFACE_SHARE`].
+const AT_SURFACE: f64 = 0.5;
+
+impl Sources {
+    /// Whether the share of the support that is filled matters.
+    fn sees_surfaces(&self) -> bool {
+        self.damped || self.surface_depth.is_some()
+    }
+
+    /// k and ε after a step within the flow.
+    fn inside(&self, [k, e]: [f64; 2], strained: Strained, dt: f64) -> [f64; 2] {
+        let model = KEpsilonModel::default();
+        let share = if self.damped { strained.share } else { 1.0 };
+        let of_eddies = || share * strained.eddies * strained.rate.powi(2);
+        match self.variant {
+            Variant::Standard => {
+                let produced = share * model.production(k, e, strained.rate);
+                model.produced(k, e, produced, dt)
+            }
+            Variant::ExplicitAlgebraic => model.produced(k, e, of_eddies(), dt),
+            Variant::Realisable => RealisableModel::default().after(
+                [k, e],
+                of_eddies(),
+                strained.rate,
+                strained.viscosity,
+                dt,
+            ),
+        }
+    }
+
+    /// k and ε after a step.
+    fn after(&self, both: [f64; 2], strained: Strained, near: Option<Near>, dt: f64) -> [f64; 2] {
+        let model = KEpsilonModel::default();
+        let Some(near) = near else {
+            let [k, e] = self.inside(both, strained, dt);
+            return match self.surface_depth {
+                Some(depth) if strained.share < AT_SURFACE => [k, model.at_surface(k, depth)],
+                _ => [k, e],
+            };
+        };
+        match self.at_wall {
+            AtWall::Values => model.at_wall(near.friction_velocity, near.distance, self.karman),
+            AtWall::Flux => {
+                let [k, _] = both;
+                model.with_flux(k, near.friction_velocity, near.distance, self.karman, dt)
+            }
+        }
+    }
 }
 
 impl<const D: usize> StepWork<D> for Sources {
@@ -23,8 +115,10 @@ impl<const D: usize> StepWork<D> for Sources {
         "k-epsilon".into()
     }
     fn access(&self) -> Access {
-        Access::none()
+        let access = Access::none()
             .here(fields::STRAIN_RATE)
+            .here(fields::EDDY_VISCOSITY)
+            .here(fields::DENSITY)
             .here(fields::POSITION)
             .here(fields::IDENTITY)
             .here(TURBULENT_ENERGY)
@@ -32,52 +126,67 @@ impl<const D: usize> StepWork<D> for Sources {
             .where_there(FRICTION_VELOCITY)
             .where_there(WALL_UNITS)
             .writes(TURBULENT_ENERGY)
-            .writes(DISSIPATION)
+            .writes(DISSIPATION);
+        let access = match self.sees_surfaces() {
+            true => access.here(SURFACE_SHARE),
+            false => access,
+        };
+        let access = BedSide::access(self.bed, access);
+        match self.viscosities.len() {
+            1 => access,
+            _ => access.here(fields::PHASE),
+        }
     }
     fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mut energy = world.free.take(TURBULENT_ENERGY)?;
         let mut dissipation = world.free.take(DISSIPATION)?;
-        refuse_negative(world, TURBULENT_ENERGY.name, &energy)?;
-        refuse_negative(world, DISSIPATION.name, &dissipation)?;
+        let viscosity = Kinematic::of(&self.viscosities, world)?;
+        let acts = |i: usize| viscosity.at(i).is_some();
+        refuse_negative(world, TURBULENT_ENERGY.name, &energy, acts)?;
+        refuse_negative(world, DISSIPATION.name, &dissipation, acts)?;
         let rates = world.free.get(fields::STRAIN_RATE)?;
-        let model = self.model;
-        let both = energy.par_iter_mut().zip(&mut dissipation).zip(rates);
-        both.with_min_len(1024).for_each(|((k, e), rate)| {
-            [*k, *e] = model.after(*k, *e, *rate, dt);
+        let eddies = world.free.get(fields::EDDY_VISCOSITY)?;
+        let density = world.free.get(fields::DENSITY)?;
+        let share = match self.sees_surfaces() {
+            true => world.free.get(SURFACE_SHARE)?,
+            false => &[],
+        };
+        let walls = match world.free.has(FRICTION_VELOCITY.name) {
+            true => Some((
+                world.free.get(FRICTION_VELOCITY)?,
+                world.free.get(WALL_UNITS)?,
+            )),
+            false => None,
+        };
+        let bed = BedSide::of(self.bed, world)?;
+        let near = |i: usize, nu: f64| {
+            let of_wall = walls.as_ref().and_then(|(friction, units)| {
+                let distance = units[i] * nu / friction[i];
+                (friction[i] > 0.0 && distance < world.spacing).then_some([friction[i], distance])
+            });
+            let [friction_velocity, distance] = of_wall.or_else(|| bed.at(i))?;
+            Some(Near {
+                friction_velocity,
+                distance,
+            })
+        };
+        let both = energy.par_iter_mut().zip(&mut dissipation).enumerate();
+        both.with_min_len(1024).for_each(|(i, (k, e))| {
+            let Some(nu) = viscosity.at(i) else {
+                return;
+            };
+            let strained = Strained {
+                rate: rates[i],
+                eddies: eddies[i] / density[i],
+                viscosity: nu,
+                share: share.get(i).copied().unwrap_or(1.0),
+            };
+            [*k, *e] = self.after([*k, *e], strained, near(i, nu), dt);
         });
-        if world.free.has(FRICTION_VELOCITY.name) {
-            let friction = world.free.get(FRICTION_VELOCITY)?;
-            let units = world.free.get(WALL_UNITS)?;
-            for (i, u) in friction.iter().enumerate().filter(|(_, u)| **u > 0.0) {
-                let distance = units[i] * self.viscosity / u;
-                if distance < world.spacing {
-                    let [k, e] = model.at_wall(*u, distance, self.karman);
-                    (energy[i], dissipation[i]) = (k, e);
-                }
-            }
-        }
         world.free.put(TURBULENT_ENERGY, energy)?;
         Ok(world.free.put(DISSIPATION, dissipation)?)
     }
-}
-
-/// Nothing is cut off: a step whose diffusion takes more than there is fails, and is taken again in shorter ones.
-pub(crate) fn refuse_negative<const D: usize>(
-    world: &World<D>,
-    quantity: &'static str,
-    values: &[f64],
-) -> Result<(), StepError> {
-    let found = values.iter().position(|v| !(*v > 0.0 && v.is_finite()));
-    let Some(i) = found else {
-        return Ok(());
-    };
-    let position = world.free.get(fields::POSITION)?[i];
-    Err(StepError::Bad {
-        quantity,
-        particle: world.free.get(fields::IDENTITY)?[i],
-        position: position.iter().copied().collect(),
-        value: values[i],
-        reason: "where a positive number was expected: the step is too long for its diffusion"
-            .into(),
-    })
+    fn advice(&self, world: &World<D>) -> Vec<String> {
+        rubbed(world, &self.viscosities)
+    }
 }

@@ -24,8 +24,9 @@ const KIND: &str = "wall-function";
 /// The law is [`WallLaw`]: sublayer, buffer and logarithm over a smooth wall (z⁺ from 0 on), Nikuradse's over a fully
 /// rough one. The shear takes the place of η u_t/z in the wall term of the viscous operator, its factor κ included, so that
 /// the wall feels what the fluid does, explicitly or with implicit viscosity, in the plane and in space, on walls that move
-/// too. The walls are semi-analytical without vertices, and slip freely but for this shear. In the first half spacing the
-/// distance is not less than a quarter of one.
+/// too. The walls are semi-analytical without vertices, and slip freely but for this shear; beside a phase without one
+/// viscosity, as a soil, they may have a condition that is that phase's alone. In the first half spacing the distance is not
+/// less than a quarter of one.
 ///
 /// Sources: Issa 2004, §6.2.1, Eq. 6.32–6.36 (u* from a velocity near the wall); Ferrand et al. 2013 (shear on
 /// semi-analytical walls); the law's own.
@@ -80,8 +81,11 @@ impl LogLaw {
     }
 
     /// What is wrong with its walls.
-    fn check_walls<const D: usize>(&self, world: &World<D>) -> Result<(), String> {
-        let walls = &world.walls;
+    ///
+    /// A friction of their own is that of phases that the law is not for, where there are such.
+    fn check_walls<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), String> {
+        let walls = &setting.world.walls;
+        let shared = setting.viscosities.iter().any(|nu| !is_viscous(nu));
         for name in &self.walls {
             if !walls.names.contains(name) {
                 let near = suggestion(name, walls.names.iter().map(String::as_str));
@@ -100,7 +104,7 @@ impl LogLaw {
             let name = &walls.names[*wall as usize];
             let rubs = elements.grip[s] > 0.0
                 || elements.coulomb.get(s).is_some_and(|c| c.coefficient > 0.0);
-            if rubs && self.walls.contains(name) {
+            if rubs && !shared && self.walls.contains(name) {
                 return Err(format!(
                     "wall `{name}` has a friction of its own, whose place the wall function takes: write `condition = \
                      \"free-slip\"` in `[wall.{name}]`"
@@ -115,7 +119,7 @@ impl<const D: usize> Contribution<D> for LogLaw {
     fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Refusal::of(KIND, key, why);
         self.law().check().map_err(|e| refused("", e.to_string()))?;
-        self.check_walls(setting.world)
+        self.check_walls(setting)
             .map_err(|why| refused("walls", why))?;
         if self.roughness > setting.world.spacing {
             return Err(refused(
@@ -127,8 +131,7 @@ impl<const D: usize> Contribution<D> for LogLaw {
                 ),
             ));
         }
-        let viscous = |nu: &Option<f64>| nu.is_some_and(|nu| nu > 0.0);
-        match setting.viscosities.iter().any(viscous) {
+        match setting.viscosities.iter().any(is_viscous) {
             true => Ok(()),
             false => Err(refused(
                 "",
@@ -156,6 +159,11 @@ impl<const D: usize> Contribution<D> for LogLaw {
     ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
         Ok(vec![Box::new(Range)])
     }
+}
+
+/// Whether a phase has a viscosity that the law can take.
+fn is_viscous(viscosity: &Option<f64>) -> bool {
+    viscosity.is_some_and(|nu| nu > 0.0)
 }
 
 /// No work, but a word about z⁺ at the end.

@@ -1,0 +1,342 @@
+//! Profiles averaged along homogeneous directions and in time.
+
+use std::sync::Mutex;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Plain, StepError, Vect, fields, register};
+use sph_neighbours::World;
+
+use crate::flow::profile::Component;
+use crate::norm::at;
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// Means and root mean squares of the fluctuations in layers across an axis, over all particles of a layer and all rows of the
+/// series from a time on: ⟨f⟩ = Σ V f/Σ V and √(⟨f²⟩ − ⟨f⟩²), f being a component of the velocity or a scalar field.
+///
+/// Its curve has every component's, and −⟨u'w'⟩, u along the first axis and w along the axis of the profile. Where the flow is the
+/// same along an axis, as along a periodic one, nothing else need be said; `within` is for the others. With a `file` of distances
+/// and values the means are compared with it, at the middle of the layers. What was gathered goes on in a run that is resumed.
+///
+/// Source: Issa 2004, Eq. 6.46–6.50, with layers in the place of points.
+///
+/// ```toml
+/// [probe.means]
+/// kind = "mean-profile"
+/// axis = "y"
+/// from = 0.0
+/// to = "0.4 m"
+/// layers = 40
+/// after = "20 s"
+/// ```
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MeanProfile {
+    /// The axis that layers are cut across.
+    pub axis: Component,
+    /// Where the first layer begins.
+    #[schemars(extend("unit" = "m"))]
+    pub from: f64,
+    /// Where the last layer ends.
+    #[schemars(extend("unit" = "m"))]
+    pub to: f64,
+    /// How many there are.
+    #[schemars(range(min = 1, max = 10000))]
+    pub layers: usize,
+    /// The time from which rows of the series count.
+    #[serde(default)]
+    #[schemars(extend("unit" = "s"))]
+    pub after: f64,
+    /// Two corners of a box outside of which particles do not count.
+    pub within: Option<[Vec<f64>; 2]>,
+    /// A scalar field in the place of the velocity.
+    pub field: Option<String>,
+    /// Which component of the velocity is compared.
+    #[serde(default = "first")]
+    pub component: Component,
+    /// CSV file of the reference, relative to the scene's folder: distance from `from` in m, value in SI.
+    pub file: Option<String>,
+    /// The distances from `from` between which it is compared; all if left out.
+    #[schemars(extend("unit" = "m"))]
+    pub compared: Option<[f64; 2]>,
+    #[serde(skip)]
+    reference: Vec<[f64; 2]>,
+    /// Σ V, Σ V f and Σ V f² of every component, and Σ V u w, layer by layer.
+    #[serde(skip)]
+    #[schemars(skip)]
+    sums: Mutex<Vec<f64>>,
+}
+
+fn first() -> Component {
+    Component::X
+}
+
+/// Adds the values of a particle to a list.
+type Reader<'a> = Box<dyn Fn(usize, &mut Vec<f64>) + 'a>;
+
+impl MeanProfile {
+    /// Numbers of a layer.
+    fn components<const D: usize>(&self) -> usize {
+        if self.field.is_some() { 1 } else { D }
+    }
+
+    fn stride<const D: usize>(&self) -> usize {
+        2 + 2 * self.components::<D>()
+    }
+
+    /// The middle of a layer, from `from`, m.
+    fn middle(&self, layer: usize) -> f64 {
+        (self.to - self.from) * (layer as f64 + 0.5) / self.layers as f64
+    }
+
+    /// The layer of a place, if it is in one.
+    fn layer<const D: usize>(&self, x: &Vect<D>) -> Option<usize> {
+        if let Some([low, high]) = &self.within {
+            let out = |k: usize| x[k] < low[k] || x[k] >= high[k];
+            if (0..D.min(low.len()).min(high.len())).any(out) {
+                return None;
+            }
+        }
+        let share = (x[self.axis as usize] - self.from) / (self.to - self.from);
+        (0.0..1.0)
+            .contains(&share)
+            .then(|| ((share * self.layers as f64) as usize).min(self.layers - 1))
+    }
+
+    /// Reads the values of a particle into `into`.
+    fn reader<'a, const D: usize>(&self, world: &'a World<D>) -> Result<Reader<'a>, StepError> {
+        let Some(name) = &self.field else {
+            let velocity = world.free.get(fields::VELOCITY)?;
+            return Ok(Box::new(move |i, into| into.extend(velocity[i].iter())));
+        };
+        let mut columns = world.free.columns();
+        match columns.find(|(found, ..)| found == name) {
+            Some((_, _, _, 1, Plain::Real(values))) => {
+                Ok(Box::new(move |i, into| into.push(values[i])))
+            }
+            _ => Err(refused(format!(
+                "there is no scalar field `{name}` in this scene"
+            ))),
+        }
+    }
+
+    fn check<const D: usize>(&self) -> Result<(), StepError> {
+        let axis = self.axis as usize;
+        if axis >= D {
+            return Err(refused("this scene has no such `axis`".into()));
+        }
+        if !(self.to > self.from && self.to.is_finite() && self.from.is_finite()) {
+            return Err(refused("`to` is to be larger than `from`".into()));
+        }
+        match self.layers {
+            0 => Err(refused("one layer at least was expected".into())),
+            _ => Ok(()),
+        }
+    }
+
+    /// Means and root mean squares of all components, and −⟨u'w'⟩, of a layer; NaN where nothing was.
+    fn of_layer(&self, sums: &[f64], components: usize) -> [Vec<f64>; 3] {
+        let weight = sums[0];
+        let mean = |k: usize| sums[1 + k] / weight;
+        let square = |k: usize| sums[1 + components + k] / weight;
+        let means: Vec<f64> = (0..components).map(mean).collect();
+        let fluctuation = |k: usize| (square(k) - means[k] * means[k]).max(0.0).sqrt();
+        let fluctuations = (0..components).map(fluctuation).collect();
+        let axis = (self.axis as usize).min(components - 1);
+        let stress = means[0] * means[axis] - sums[1 + 2 * components] / weight;
+        match weight > 0.0 {
+            true => [means, fluctuations, vec![stress]],
+            false => [
+                vec![f64::NAN; components],
+                vec![f64::NAN; components],
+                vec![f64::NAN],
+            ],
+        }
+    }
+
+    /// The reference at a distance.
+    fn expected(&self, distance: f64) -> Option<f64> {
+        let [places, values]: [Vec<f64>; 2] = [0, 1].map(|k| {
+            let all = self.reference.iter().map(|row| row[k]);
+            all.collect()
+        });
+        at(&places, &values, distance)
+    }
+
+    /// Mean and reference of the layers that are compared.
+    fn compared(&self, sums: &[f64], components: usize) -> Vec<[f64; 2]> {
+        let [low, high] = self.compared.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let stride = 2 + 2 * components;
+        let component = (self.component as usize).min(components - 1);
+        let layers = sums.chunks(stride).enumerate();
+        let inside = layers.filter(|(k, _)| (low..=high).contains(&self.middle(*k)));
+        let both = inside.filter_map(|(k, sums)| {
+            let [means, ..] = self.of_layer(sums, components);
+            Some([means[component], self.expected(self.middle(k))?])
+        });
+        both.filter(|[u, _]| u.is_finite()).collect()
+    }
+}
+
+fn refused(reason: String) -> StepError {
+    StepError::Stage {
+        stage: "probe `mean-profile`".into(),
+        reason,
+    }
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+impl<const D: usize> Probe<D> for MeanProfile {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        match self.file {
+            Some(_) => vec![
+                ProbeColumn::named(".rms", "SI"),
+                ProbeColumn::named(".largest", "SI"),
+                ProbeColumn::named(".relative", "1"),
+            ],
+            None => vec![ProbeColumn::named(".layers", "1")],
+        }
+    }
+
+    fn fields(&self) -> Vec<&str> {
+        self.field.iter().map(String::as_str).collect()
+    }
+
+    fn curve_columns(&self) -> Vec<ProbeColumn> {
+        let mut all = vec![ProbeColumn::named("distance", "m")];
+        let of = |what: &str, k: usize| match self.field {
+            Some(_) => ProbeColumn::named(what, "SI"),
+            None => ProbeColumn::named(&format!("{what}.{}", AXES[k]), "m/s"),
+        };
+        let components = self.components::<D>();
+        all.extend((0..components).map(|k| of("mean", k)));
+        all.extend((0..components).map(|k| of("rms", k)));
+        if self.field.is_none() {
+            all.push(ProbeColumn::named("stress", "m²/s²"));
+        }
+        if self.file.is_some() {
+            all.push(ProbeColumn::named("reference", "SI"));
+        }
+        all
+    }
+
+    fn curves(&self, _: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
+        let sums = self
+            .sums
+            .lock()
+            .map_err(|_| refused("a thread failed".into()))?;
+        let components = self.components::<D>();
+        let empty = vec![0.0; self.stride::<D>()];
+        let row = |k: usize| {
+            let stride = self.stride::<D>();
+            let sums = sums.get(k * stride..(k + 1) * stride).unwrap_or(&empty);
+            let [means, fluctuations, stress] = self.of_layer(sums, components);
+            let mut row = vec![self.middle(k)];
+            row.extend(means);
+            row.extend(fluctuations);
+            if self.field.is_none() {
+                row.extend(stress);
+            }
+            if self.file.is_some() {
+                row.push(self.expected(self.middle(k)).unwrap_or(f64::NAN));
+            }
+            row
+        };
+        Ok((0..self.layers).map(row).collect())
+    }
+
+    fn gather(&self, world: &World<D>) -> Result<(), StepError> {
+        if world.time < self.after {
+            return Ok(());
+        }
+        let mut sums = self
+            .sums
+            .lock()
+            .map_err(|_| refused("a thread failed".into()))?;
+        let (stride, components) = (self.stride::<D>(), self.components::<D>());
+        sums.resize(self.layers * stride, 0.0);
+        let positions = world.free.get(fields::POSITION)?;
+        let volumes = world.free.get(fields::VOLUME)?;
+        let read = self.reader(world)?;
+        let mut values = Vec::new();
+        for (i, x) in positions.iter().enumerate() {
+            let Some(layer) = self.layer(x) else {
+                continue;
+            };
+            values.clear();
+            read(i, &mut values);
+            let sums = &mut sums[layer * stride..(layer + 1) * stride];
+            sums[0] += volumes[i];
+            for (k, value) in values.iter().enumerate() {
+                sums[1 + k] += volumes[i] * value;
+                sums[1 + components + k] += volumes[i] * value * value;
+            }
+            let axis = (self.axis as usize).min(components - 1);
+            sums[1 + 2 * components] += volumes[i] * values[0] * values[axis];
+        }
+        Ok(())
+    }
+
+    fn gathered(&self) -> Vec<u64> {
+        let sums = self.sums.lock();
+        sums.map_or(Vec::new(), |s| s.iter().map(|v| v.to_bits()).collect())
+    }
+
+    fn recall(&self, gathered: &[u64]) {
+        // What another scene gathered is of other layers.
+        let fits = gathered.len() == self.layers * self.stride::<D>();
+        if let (true, Ok(mut sums)) = (fits, self.sums.lock()) {
+            *sums = gathered.iter().map(|v| f64::from_bits(*v)).collect();
+        }
+    }
+
+    fn file(&self) -> Option<&str> {
+        self.file.as_deref()
+    }
+
+    fn learn(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
+        let finite = rows.iter().flatten().all(|v| v.is_finite());
+        let grows = rows.windows(2).all(|w| w[0][0] < w[1][0]);
+        if rows.len() < 2 || !finite || !grows {
+            return Err("is no profile: expected rows of a growing distance and a value".into());
+        }
+        self.reference = rows;
+        Ok(())
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        self.check::<D>()?;
+        drop(self.reader(world)?);
+        let sums = self
+            .sums
+            .lock()
+            .map_err(|_| refused("a thread failed".into()))?;
+        let components = self.components::<D>();
+        if self.file.is_none() {
+            let filled = sums.chunks(self.stride::<D>()).filter(|s| s[0] > 0.0);
+            return Ok(vec![filled.count() as f64]);
+        }
+        let rows = self.compared(&sums, components);
+        if rows.is_empty() {
+            return Ok(vec![f64::NAN; 3]);
+        }
+        let squares: f64 = rows.iter().map(|[u, e]| (u - e).powi(2)).sum();
+        let largest = rows.iter().map(|[u, e]| (u - e).abs()).fold(0.0, f64::max);
+        let shares = rows.iter().map(|[u, e]| ((u - e) / e).abs());
+        let relative = shares.fold(0.0, f64::max);
+        Ok(vec![
+            (squares / rows.len() as f64).sqrt(),
+            largest,
+            relative,
+        ])
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    MeanProfile,
+    "mean-profile",
+    "means and root mean squares over time and along homogeneous directions",
+    "Issa 2004, Eq. 6.46–6.50"
+);

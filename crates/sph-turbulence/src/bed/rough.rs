@@ -1,0 +1,69 @@
+//! A bed as a rough wall: what a scene says of it.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_contribution::{Refusal, Setting};
+use sph_core::suggestion;
+
+use crate::kind::KIND;
+use crate::wall::WallLaw;
+
+/// The bed of another phase as a rough wall: within a spacing of it η + η_t = ρu*² z/u_t, so that the friction between the two
+/// phases, which acts on both, is the shear ρu*² of the law of the wall at the velocity u_t past the bed.
+///
+/// u_t is along the bed, relative to the mean velocity of the bed's particles around; the distance z is that at which a flat bed
+/// would take the share of the kernel that this one does, not less than a quarter of the spacing.
+///
+/// Sources: Nikuradse 1933 (law); the viscosity of the first row is that of wall functions on grids. The distance is ours.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RoughBed {
+    /// Name of the phase that the bed is of.
+    pub phase: String,
+    /// Equivalent sand roughness k_s: about 2.5 d50 of a flat bed. At most the spacing.
+    #[serde(default)]
+    #[schemars(range(min = 0.0), extend("unit" = "m", "source" = "Nikuradse 1933"))]
+    pub roughness: f64,
+}
+
+impl RoughBed {
+    /// The law of the wall over it.
+    pub(crate) fn law(&self) -> WallLaw {
+        WallLaw {
+            roughness: self.roughness,
+            ..WallLaw::default()
+        }
+    }
+
+    /// Refuses beds that are none.
+    pub(crate) fn check<const D: usize>(
+        &self,
+        acts_on: &[String],
+        setting: &Setting<'_, D>,
+    ) -> Result<(), Refusal> {
+        let refused = |key: &str, why: String| Err(Refusal::of(KIND, key, why));
+        if !setting.phases.contains(&self.phase) {
+            let near = suggestion(&self.phase, setting.phases.iter().map(String::as_str));
+            let why = format!("there is no phase `{}`{near}", self.phase);
+            return refused("bed.phase", why);
+        }
+        if acts_on.is_empty() || acts_on.contains(&self.phase) {
+            let why = format!(
+                "the closure acts on phase `{}`, which cannot be its own bed: name the fluid alone in `phases`",
+                self.phase
+            );
+            return refused("bed.phase", why);
+        }
+        let spacing = setting.world.spacing;
+        match self.roughness >= 0.0 && self.roughness <= spacing {
+            true => Ok(()),
+            false => refused(
+                "bed.roughness",
+                format!(
+                    "a roughness from 0 to the spacing of {spacing} m was expected, found {} m",
+                    self.roughness
+                ),
+            ),
+        }
+    }
+}

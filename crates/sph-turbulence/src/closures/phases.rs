@@ -1,0 +1,176 @@
+//! Which phases a closure acts on.
+
+use sph_contribution::{Refusal, Setting};
+use sph_core::{Access, Declares, Stage, StepError, fields, suggestion};
+use sph_neighbours::World;
+
+use crate::columns::{BED_DISTANCE, BED_FRICTION_VELOCITY};
+use crate::kind::KIND;
+use crate::wall::WallLaw;
+
+/// Refuses phases that a closure is not for.
+pub(crate) fn check<const D: usize>(
+    closure: &str,
+    named: &[String],
+    setting: &Setting<'_, D>,
+) -> Result<(), Refusal> {
+    let refused = |key: &str, why: String| Err(Refusal::of(KIND, key, why));
+    let viscous = |k: usize| setting.viscosities[k].is_some_and(|nu| nu > 0.0);
+    let all = setting.phases;
+    if named.is_empty() && all.len() > 1 {
+        let fluids: Vec<_> = (0..all.len()).filter(|k| viscous(*k)).collect();
+        let fluids: Vec<_> = fluids.iter().map(|k| format!("\"{}\"", all[*k])).collect();
+        return refused(
+            "phases",
+            format!(
+                "this scene has {} phases: say on which of them `{closure}` acts, `phases = [{}]`",
+                all.len(),
+                fluids.join(", ")
+            ),
+        );
+    }
+    for name in named {
+        let Some(k) = all.iter().position(|phase| phase == name) else {
+            let near = suggestion(name, all.iter().map(String::as_str));
+            return refused("phases", format!("there is no phase `{name}`{near}"));
+        };
+        if !viscous(k) && all.len() > 1 {
+            let why = format!(
+                "`{closure}` acts in fluids with one viscosity, and phase `{name}` has none: take it out of the list, \
+                 or give it `rheology.newtonian` with a viscosity"
+            );
+            return refused("phases", why);
+        }
+    }
+    match all.len() > 1 || viscous(0) {
+        true => Ok(()),
+        false => refused(
+            "",
+            format!(
+                "`{closure}` acts in a fluid with one viscosity, and phase `{}` has none: give it `rheology.newtonian` \
+                 with a viscosity",
+                all[0]
+            ),
+        ),
+    }
+}
+
+/// Whether it acts, phase by phase; none where there is but one.
+pub(crate) fn acting<const D: usize>(
+    named: &[String],
+    setting: &Setting<'_, D>,
+) -> Option<Vec<bool>> {
+    let all = setting.phases;
+    (all.len() > 1).then(|| all.iter().map(|phase| named.contains(phase)).collect())
+}
+
+/// ν of the phases that it acts on, m²/s, in the order of the phase numbers.
+pub(crate) fn viscosities<const D: usize>(
+    named: &[String],
+    setting: &Setting<'_, D>,
+) -> Vec<Option<f64>> {
+    let both = setting.viscosities.iter().zip(setting.phases);
+    let acts = |(nu, phase): (&Option<f64>, &String)| nu.filter(|_| acts_on(named, phase));
+    both.map(acts).collect()
+}
+
+/// ν of every particle, m²/s; none of those of phases that a closure does not act on.
+#[derive(Clone, Copy)]
+pub(crate) struct Kinematic<'a> {
+    of_phase: &'a [Option<f64>],
+    phase: Option<&'a [u32]>,
+}
+
+impl<'a> Kinematic<'a> {
+    /// Of the phases of a world.
+    pub fn of<const D: usize>(
+        of_phase: &'a [Option<f64>],
+        world: &'a World<D>,
+    ) -> Result<Self, StepError> {
+        let phase = match of_phase.len() {
+            1 => None,
+            _ => Some(world.free.get(fields::PHASE)?),
+        };
+        Ok(Kinematic { of_phase, phase })
+    }
+
+    /// That of a particle.
+    pub fn at(&self, i: usize) -> Option<f64> {
+        self.of_phase[self.phase.map_or(0, |p| p[i] as usize)]
+    }
+}
+
+/// Whether it acts on a phase of a name.
+pub(crate) fn acts_on(named: &[String], phase: &str) -> bool {
+    named.is_empty() || named.iter().any(|name| name == phase)
+}
+
+/// The stage of a closure, and no eddies in other phases: neither in soils nor in fluids that are not named.
+pub(crate) struct Only<S> {
+    /// The closure's.
+    pub stage: S,
+    /// Whether it acts, phase by phase.
+    pub acts: Vec<bool>,
+    /// A bed that is a rough wall.
+    pub bed: Option<BedEddies>,
+}
+
+/// Eddies that make the shear of a rough bed.
+pub(crate) struct BedEddies {
+    /// The law of the wall over it.
+    pub law: WallLaw,
+    /// ν of every phase, m²/s; none of those that do not feel the bed.
+    pub viscosities: Vec<Option<f64>>,
+}
+
+impl BedEddies {
+    /// η_t of (η + η_t) u_t/z = ρu*², where the laminar share is less than that.
+    fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
+        let friction = world.free.get(BED_FRICTION_VELOCITY)?;
+        let distance = world.free.get(BED_DISTANCE)?;
+        let density = world.free.get(fields::DENSITY)?;
+        let phase = world.free.get(fields::PHASE)?;
+        for i in (0..eddies.len()).filter(|i| friction[*i] > 0.0) {
+            let Some(nu) = self.viscosities[phase[i] as usize] else {
+                continue;
+            };
+            let speed = self.law.speed(friction[i], distance[i], nu);
+            let both = friction[i] * friction[i] * distance[i] / speed;
+            eddies[i] = density[i] * (both - nu).max(0.0);
+        }
+        Ok(())
+    }
+}
+
+impl<S: Declares> Declares for Only<S> {
+    fn name(&self) -> String {
+        self.stage.name()
+    }
+    fn access(&self) -> Access {
+        let access = self.stage.access().here(fields::PHASE);
+        match self.bed {
+            Some(_) => access
+                .here(fields::DENSITY)
+                .here(BED_FRICTION_VELOCITY)
+                .here(BED_DISTANCE),
+            None => access,
+        }
+    }
+}
+
+impl<const D: usize, S: Stage<World<D>>> Stage<World<D>> for Only<S> {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        self.stage.run(world)?;
+        let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
+        let phase = world.free.get(fields::PHASE)?;
+        for (eddy, phase) in eddies.iter_mut().zip(phase) {
+            if !self.acts[*phase as usize] {
+                *eddy = 0.0;
+            }
+        }
+        if let Some(bed) = &self.bed {
+            bed.set(world, &mut eddies)?;
+        }
+        Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
+    }
+}

@@ -1,0 +1,94 @@
+//! What transported scalars know of walls and beds, and what they refuse.
+
+use sph_core::{Access, StepError, fields};
+use sph_neighbours::World;
+
+use crate::closures::phases::Kinematic;
+use crate::columns::{BED_DISTANCE, BED_FRICTION_VELOCITY};
+
+/// u* and the distance of particles on a bed that is a rough wall.
+pub(crate) struct BedSide<'a> {
+    columns: Option<[&'a [f64]; 2]>,
+}
+
+impl<'a> BedSide<'a> {
+    /// The columns it reads, if there is such a bed.
+    pub fn access(bed: bool, access: Access) -> Access {
+        match bed {
+            true => access.here(BED_FRICTION_VELOCITY).here(BED_DISTANCE),
+            false => access,
+        }
+    }
+
+    /// Of a world.
+    pub fn of<const D: usize>(bed: bool, world: &'a World<D>) -> Result<Self, StepError> {
+        let columns = match bed {
+            true => Some([
+                world.free.get(BED_FRICTION_VELOCITY)?,
+                world.free.get(BED_DISTANCE)?,
+            ]),
+            false => None,
+        };
+        Ok(BedSide { columns })
+    }
+
+    /// u*, m/s, and the distance, m, of a particle next to the bed.
+    pub fn at(&self, i: usize) -> Option<[f64; 2]> {
+        let both = self
+            .columns
+            .map(|[friction, distance]| [friction[i], distance[i]]);
+        both.filter(|[friction, _]| *friction > 0.0)
+    }
+}
+
+/// Nothing is cut off: a step whose diffusion takes more than there is fails, and is taken again in shorter ones.
+pub(crate) fn refuse_negative<const D: usize>(
+    world: &World<D>,
+    quantity: &'static str,
+    values: &[f64],
+    acts: impl Fn(usize) -> bool,
+) -> Result<(), StepError> {
+    let bad = |i: usize, v: f64| acts(i) && !(v > 0.0 && v.is_finite());
+    let found = values.iter().enumerate().position(|(i, v)| bad(i, *v));
+    let Some(i) = found else {
+        return Ok(());
+    };
+    let position = world.free.get(fields::POSITION)?[i];
+    Err(StepError::Bad {
+        quantity,
+        particle: world.free.get(fields::IDENTITY)?[i],
+        position: position.iter().copied().collect(),
+        value: values[i],
+        reason: "where a positive number was expected: the step is too long for its diffusion"
+            .into(),
+    })
+}
+
+/// A word about walls that rub a turbulent fluid without a wall function, as they may where a soil needs them to.
+pub(crate) fn rubbed<const D: usize>(world: &World<D>, viscosities: &[Option<f64>]) -> Vec<String> {
+    let Ok(viscosity) = Kinematic::of(viscosities, world) else {
+        return Vec::new();
+    };
+    let walls = &world.walls;
+    let elements = &walls.elements;
+    let rubs = |s: usize| elements.grip[s] > 0.0 && elements.wall_function.get(s) != Some(&true);
+    let of = |i: usize| {
+        walls
+            .contacts
+            .of(i)
+            .iter()
+            .find(|c| rubs(c.element as usize))
+    };
+    let particles = walls.contacts.particles.iter().map(|p| *p as usize);
+    let met = particles
+        .filter(|i| viscosity.at(*i).is_some())
+        .find_map(of);
+    let Some(met) = met else {
+        return Vec::new();
+    };
+    let name = &walls.names[elements.wall[met.element as usize] as usize];
+    vec![format!(
+        "k has no value at the wall `{name}`, which rubs the turbulent fluid without a wall function: its shear is that of \
+         the eddies of the first row; name it in `[wall-function.log-law]`"
+    )]
+}
