@@ -10,3 +10,4 @@ pub(crate) mod profile;
 pub(crate) mod range;
 pub(crate) mod stream_function;
 pub(crate) mod wall_force;
+pub(crate) mod wall_motion;

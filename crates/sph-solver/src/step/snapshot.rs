@@ -2,7 +2,7 @@
 
 use sph_boundary::WallStates;
 use sph_core::{Field, FieldError, Recall, Saved, Scalar, Slots, Store, Vect, fields};
-use sph_neighbours::World;
+use sph_neighbours::{WallForce, World};
 
 use crate::step::stages::{SharedWall, lock};
 
@@ -13,8 +13,9 @@ pub struct Snapshot<const D: usize> {
     time: f64,
     /// The step before, s.
     dt: f64,
-    /// Walls that movers move.
+    /// Walls that movers move, and the forces that they were told.
     walls: WallStates,
+    forces: Vec<WallForce<D>>,
 }
 
 impl<const D: usize> Snapshot<D> {
@@ -34,6 +35,7 @@ impl<const D: usize> Snapshot<D> {
                 listed,
                 ..lock(walls).states()
             };
+            self.forces.clone_from(&world.walls.forces);
         }
         Ok(())
     }
@@ -95,6 +97,7 @@ impl<const D: usize> Snapshot<D> {
         if let Some(walls) = walls {
             // The walls accepted this time before, so they accept it again.
             let _ = lock(walls).put_back(&mut world.walls, &self.walls, self.time);
+            world.walls.forces.clone_from(&self.forces);
         }
     }
 
