@@ -67,7 +67,8 @@ pub struct RigidBody {
     /// Elastic lines to places that stay.
     #[serde(default)]
     pub line: Vec<Line>,
-    /// Share of the normal velocity that is left after it meets a wall or a body.
+    /// Share of the normal velocity that is left after it meets a wall or a body; 0.135 is the least, which is critical
+    /// damping.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1"))]
     pub restitution: f64,

@@ -5,6 +5,7 @@ mod contact;
 mod layer;
 mod light;
 mod refused;
+mod rest;
 mod resumed;
 
 use std::path::Path;

@@ -43,7 +43,7 @@ pub struct Touch {
     pub mass: f64,
     /// Stiffness k, Pa/m; of two bodies the smaller one counts.
     pub stiffness: f64,
-    /// Share of the velocity that is left after an impact; it gives ζ. Of two bodies the smaller one counts.
+    /// Share of the velocity that is left after an impact; it gives ζ ≤ 1, so that e⁻² is the least. Of two bodies the smaller one counts.
     pub restitution: f64,
     /// Coefficient of friction μ; of two bodies √(μ₁μ₂) counts.
     pub friction: f64,

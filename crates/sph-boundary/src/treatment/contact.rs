@@ -211,6 +211,26 @@ fn nearest_place<const D: usize>(corners: &[Vect<D>; D]) -> Vect<D> {
     }
 }
 
+/// Share of the velocity that is left of an impact on a spring and a damper that never pull, with the damping ratio ζ ≤ 1
+/// (Schwager & Pöschel 2007): exp(−ζ/s · atan2(2 ζ s, 2 ζ² − 1)), s = √(1 − ζ²).
+fn left_over(ratio: f64) -> f64 {
+    let s = (1.0 - ratio * ratio).sqrt();
+    (-ratio / s * (2.0 * ratio * s).atan2(2.0 * ratio * ratio - 1.0)).exp()
+}
+
+/// The damping ratio that leaves a share of the velocity; 1, which leaves e⁻², for shares below.
+fn damping_ratio(restitution: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        match left_over(middle) > restitution {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    low
+}
+
 /// What counts between two walls.
 struct Law {
     stiffness: f64,
@@ -226,9 +246,7 @@ impl Law {
         let mut all = pair.into_iter().flatten();
         let law = |t: Touch| {
             let critical = 2.0 * (t.stiffness * t.mass / area).sqrt();
-            // Of a damped oscillator that is left after half a swing: e = exp(−πζ/√(1 − ζ²)).
-            let decay = -t.restitution.max(1e-12).ln();
-            let ratio = decay / decay.hypot(std::f64::consts::PI);
+            let ratio = damping_ratio(t.restitution);
             Law {
                 stiffness: t.stiffness,
                 damping: ratio * critical,
@@ -263,5 +281,40 @@ impl Law {
         }
         let rub = (self.friction * push).min(self.grip * area * speed);
         near.away * push - along * (rub / speed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_place_of_a_triangle_is_in_it_or_on_its_edge() {
+        let corners =
+            |z: f64| [[-1.0, -1.0, z], [2.0, -1.0, z], [-1.0, 2.0, z]].map(Vect::<3>::from);
+        assert!((nearest_place(&corners(0.3)) - Vect::<3>::new(0.0, 0.0, 0.3)).norm() < 1e-15);
+        let beside = corners(0.0).map(|c| c + Vect::<3>::new(0.0, 3.0, 0.0));
+        assert!((nearest_place(&beside) - Vect::<3>::new(0.0, 2.0, 0.0)).norm() < 1e-15);
+        let segment = [[1.0, 1.0], [1.0, 3.0]].map(Vect::<2>::from);
+        assert_eq!(nearest_place(&segment), Vect::<2>::new(1.0, 1.0));
+    }
+
+    /// By small steps: the share that is left is the one that was asked for.
+    #[test]
+    fn a_damped_impact_leaves_the_share_that_was_asked_for() {
+        for restitution in [1.0, 0.8, 0.5, 0.2] {
+            let ratio = damping_ratio(restitution);
+            let (mut x, mut v, dt) = (0.0, 1.0, 1e-5);
+            loop {
+                let push = x + 2.0 * ratio * v;
+                if push < 0.0 || x < 0.0 {
+                    break;
+                }
+                v -= dt * push;
+                x += dt * v;
+            }
+            assert!((v + restitution).abs() < 1e-3, "{restitution}: {v}");
+        }
+        assert!(damping_ratio(0.0) > 0.999_999);
     }
 }

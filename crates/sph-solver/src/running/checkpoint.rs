@@ -20,7 +20,7 @@ const REFERENCE: &str = "list_reference";
 const WALL_REFERENCE: &str = "wall_list_reference";
 const WALL_STATES: &str = "wall_states";
 const WALL_LIST_STATES: &str = "wall_list_states";
-const WALL_FORCES: &str = "wall_forces";
+const WALL_LOADS: &str = "wall_loads";
 
 /// The clock, as bits, so that nothing is lost on the way through JSON.
 #[derive(Serialize, Deserialize)]
@@ -78,16 +78,11 @@ pub fn save<const D: usize, T: Serialize>(
         let states = lock(walls).states();
         let listed = states.listed.unwrap_or_default();
         // Steps that drift first drift with the forces of the step before.
-        let forces = match states.now.is_empty() {
-            true => Vec::new(),
-            false => (world.walls.forces.iter())
-                .flat_map(WallForce::numbers)
-                .collect(),
-        };
+        let loads = flow.loads.iter().flat_map(WallForce::numbers).collect();
         let all = [
             (WALL_STATES, states.now),
             (WALL_LIST_STATES, listed),
-            (WALL_FORCES, forces),
+            (WALL_LOADS, loads),
         ];
         for (name, numbers) in all.into_iter().filter(|(_, n)| !n.is_empty()) {
             columns.push(Column {
@@ -316,10 +311,10 @@ fn set_clock<const D: usize>(
         };
         let moved = lock(walls).put_back(&mut flow.world.walls, &states, now);
         moved.map_err(|e| refused(path, e.to_string()))?;
-        let forces = numbers(WALL_FORCES);
-        if forces.len() == flow.world.walls.names.len() * WallForce::<D>::NUMBERS {
-            let forces = forces.chunks_exact(WallForce::<D>::NUMBERS);
-            flow.world.walls.forces = forces.map(WallForce::from_numbers).collect();
+        let loads = numbers(WALL_LOADS);
+        if loads.len() == flow.world.walls.names.len() * WallForce::<D>::NUMBERS {
+            let loads = loads.chunks_exact(WallForce::<D>::NUMBERS);
+            flow.loads = loads.map(WallForce::from_numbers).collect();
         }
     }
     Ok(())

@@ -64,8 +64,7 @@ impl<const D: usize> Flow<D> {
             return Ok(());
         }
         let terms: Vec<_> = self.terms.iter().map(|t| &**t).collect();
-        let forces = wall_forces(&self.world, &terms, felt)?;
-        self.world.walls.forces = forces;
+        self.loads = wall_forces(&self.world, &terms, felt)?;
         Ok(())
     }
 
@@ -74,21 +73,19 @@ impl<const D: usize> Flow<D> {
         if felt.is_empty() || self.world.lists.builds == 0 {
             return Ok(());
         }
-        let mut forces = std::mem::take(&mut self.world.walls.forces);
         if !self.outside.is_empty() {
             let outside: Vec<_> = self.outside.iter().map(|f| &**f).collect();
             let more = wall_forces(&self.world, &outside, felt)?;
-            let walls = forces.iter_mut().zip(more);
+            let walls = self.loads.iter_mut().zip(more);
             walls.for_each(|(whole, more)| {
                 whole.force += more.force;
                 (0..3).for_each(|k| whole.moment[k] += more.moment[k]);
             });
         }
         for work in &self.works {
-            let walls = forces.iter_mut().zip(work.wall_forces());
+            let walls = self.loads.iter_mut().zip(work.wall_forces());
             walls.for_each(|(whole, own)| whole.add(own));
         }
-        self.world.walls.forces = forces;
         Ok(())
     }
 

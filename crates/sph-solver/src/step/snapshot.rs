@@ -6,6 +6,10 @@ use sph_neighbours::{WallForce, World};
 
 use crate::step::stages::{SharedWall, lock};
 
+/// The walls, and what their movers are told.
+pub(crate) type MovedWalls<'a, const D: usize> =
+    (Option<&'a SharedWall<D>>, &'a mut Vec<WallForce<D>>);
+
 /// All columns that carry history, whoever declared them, in the order the particles had, and the clock.
 #[derive(Default)]
 pub struct Snapshot<const D: usize> {
@@ -13,9 +17,9 @@ pub struct Snapshot<const D: usize> {
     time: f64,
     /// The step before, s.
     dt: f64,
-    /// Walls that movers move, and the forces that they were told.
+    /// Walls that movers move, and what these are told.
     walls: WallStates,
-    forces: Vec<WallForce<D>>,
+    loads: Vec<WallForce<D>>,
 }
 
 impl<const D: usize> Snapshot<D> {
@@ -24,6 +28,7 @@ impl<const D: usize> Snapshot<D> {
         &mut self,
         world: &World<D>,
         walls: Option<&SharedWall<D>>,
+        loads: &[WallForce<D>],
     ) -> Result<(), FieldError> {
         world.free.save_state(&mut self.columns)?;
         self.time = world.time;
@@ -35,7 +40,8 @@ impl<const D: usize> Snapshot<D> {
                 listed,
                 ..lock(walls).states()
             };
-            self.forces.clone_from(&world.walls.forces);
+            self.loads.clear();
+            self.loads.extend_from_slice(loads);
         }
         Ok(())
     }
@@ -70,7 +76,7 @@ impl<const D: usize> Snapshot<D> {
     pub(crate) fn recall(
         &self,
         world: &mut World<D>,
-        walls: Option<&SharedWall<D>>,
+        walls: MovedWalls<'_, D>,
         what: Recall,
         (integrated, by_stages): (&[Field<Scalar>], &[&str]),
     ) -> Result<(), FieldError> {
@@ -93,11 +99,11 @@ impl<const D: usize> Snapshot<D> {
         Ok(())
     }
 
-    fn walls_back(&self, world: &mut World<D>, walls: Option<&SharedWall<D>>) {
+    fn walls_back(&self, world: &mut World<D>, (walls, loads): MovedWalls<'_, D>) {
         if let Some(walls) = walls {
             // The walls accepted this time before, so they accept it again.
             let _ = lock(walls).put_back(&mut world.walls, &self.walls, self.time);
-            world.walls.forces.clone_from(&self.forces);
+            loads.clone_from(&self.loads);
         }
     }
 
@@ -105,7 +111,7 @@ impl<const D: usize> Snapshot<D> {
     pub(crate) fn put_back(
         &self,
         world: &mut World<D>,
-        walls: Option<&SharedWall<D>>,
+        walls: MovedWalls<'_, D>,
     ) -> Result<(), FieldError> {
         world.free.restore_state(&self.columns)?;
         world.time = self.time;
