@@ -100,7 +100,7 @@ fn numbers(key: &str, found: usize, expected: &str) -> MoverRefusal {
 impl RigidBody {
     /// Mass, centre and inertia.
     fn weighed<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Settled<Weighed> {
-        let solid = Solid::of(setting.pieces().map(|p| &p.drawing));
+        let solid = Solid::of(setting.pieces());
         let solid = solid.map_err(|e| MoverRefusal::of("", e.to_string()))?;
         let mass = match (self.mass, self.density) {
             (Some(mass), None) => mass,
@@ -202,8 +202,8 @@ impl RigidBody {
                     "the line has no length: both ends are one place",
                 ));
             }
-            if let Some(wall) = setting.others().find(|w| line.crosses(&w.drawing)) {
-                let why = format!("the line goes through the wall `{}`", wall.drawing.name());
+            if let Some(wall) = setting.others().find(|w| line.crosses(w)) {
+                let why = format!("the line goes through the wall `{}`", wall.name());
                 return Err(MoverRefusal::of(at("to"), why));
             }
         }
@@ -238,14 +238,12 @@ fn apart<const D: usize>(setting: &MoverSetting<'_, D>) -> Settled<()> {
             Drawing::Surface(surface) => surface.points.iter().map(|p| padded(p)).collect(),
         }
     };
-    let own = || setting.pieces().map(|p| &p.drawing);
+    let own = || setting.pieces();
     for other in setting.others() {
-        let holds = corners(&other.drawing)
-            .into_iter()
-            .any(|x| winding(own(), x) > 0.75);
+        let holds = corners(other).into_iter().any(|x| winding(own(), x) > 0.75);
         let mut within = own().flat_map(corners);
-        if holds || within.any(|x| winding([&other.drawing], x) > 0.75) {
-            let name = other.drawing.name();
+        if holds || within.any(|x| winding([other], x) > 0.75) {
+            let name = other.name();
             let why = format!(
                 "the body `{}` overlaps the wall `{name}` at the start",
                 setting.wall
@@ -306,7 +304,7 @@ impl<const D: usize> Mover<D> for RigidBody {
             return Err(numbers("angular_velocity", given.len(), &turns.to_string()));
         }
         let [_, heaviest] = setting.densities;
-        let pieces = || setting.pieces().map(|p| &p.drawing);
+        let pieces = || setting.pieces();
         let layer = layer(pieces(), weighed.centre, heaviest, setting.smoothing_length);
         // The trace of Σ S n nᵀ is the surface.
         let surface =

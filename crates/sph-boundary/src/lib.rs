@@ -77,6 +77,7 @@ mod rigid;
 mod treatment;
 
 pub use error::{BoundaryError, SurfaceError, WallWarning};
+pub use geometry::drawing::Drawing;
 pub use geometry::grid::SegmentGrid;
 pub use geometry::mesh::{NearSegment, SeenSegment, Segment, SegmentMesh, Vertex};
 pub use geometry::periodic::PeriodicBox;
@@ -99,8 +100,6 @@ pub use rigid::mover::{Mover, MoverEntry};
 pub use rigid::pose::Pose;
 pub use rigid::rigid_state::{Movement, RigidState};
 pub use rigid::spring::Spring;
-pub use treatment::contract::{
-    Condition, Drawing, Wall, WallEntry, WallSetup, WallSpec, WallStates,
-};
+pub use treatment::contract::{Condition, Wall, WallEntry, WallSetup, WallSpec, WallStates};
 pub use treatment::dummy::DummyParticles;
 pub use treatment::usaw::Usaw;

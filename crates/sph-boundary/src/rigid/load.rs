@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 
-use crate::WallSpec;
+use crate::Drawing;
 
 /// Forces and moments that act on a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +55,7 @@ pub struct MoverSetting<'a, const D: usize> {
     /// Name of its wall.
     pub wall: &'a str,
     /// All walls as they are drawn; several pieces of a wall have one name.
-    pub walls: &'a [WallSpec<D>],
+    pub walls: &'a [&'a Drawing],
     /// Particle spacing δr, m.
     pub spacing: f64,
     /// Smoothing length h, m.
@@ -71,15 +71,15 @@ pub struct MoverSetting<'a, const D: usize> {
 
 impl<'a, const D: usize> MoverSetting<'a, D> {
     /// The pieces of its wall.
-    pub fn pieces(&self) -> impl Iterator<Item = &'a WallSpec<D>> {
+    pub fn pieces(&self) -> impl Iterator<Item = &'a Drawing> {
         let (walls, wall) = (self.walls, self.wall);
-        walls.iter().filter(move |w| w.drawing.name() == wall)
+        walls.iter().copied().filter(move |w| w.name() == wall)
     }
 
     /// The pieces of all other walls.
-    pub fn others(&self) -> impl Iterator<Item = &'a WallSpec<D>> {
+    pub fn others(&self) -> impl Iterator<Item = &'a Drawing> {
         let (walls, wall) = (self.walls, self.wall);
-        walls.iter().filter(move |w| w.drawing.name() != wall)
+        walls.iter().copied().filter(move |w| w.name() != wall)
     }
 }
 

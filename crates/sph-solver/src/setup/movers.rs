@@ -24,12 +24,13 @@ pub(crate) fn settle<const D: usize>(
     let references = || laws.iter().map(|law| law.reference());
     let densities = || references().map(|r| r.density);
     let flush = |walls: &Box<dyn sph_boundary::Wall<D>>| walls.lattice_offset() > 0.0;
+    let walls: Vec<_> = drawn.walls.iter().map(|w| &w.drawing).collect();
     let mut problems = Vec::new();
     let mut settled = Vec::<(String, Arc<dyn Mover<D>>)>::new();
     for (wall, mut mover) in std::mem::take(&mut choices.movers) {
         let setting = MoverSetting {
             wall: &wall,
-            walls: &drawn.walls,
+            walls: &walls,
             spacing: scene.numerics.spacing,
             smoothing_length: scene.numerics.smoothing_ratio * scene.numerics.spacing,
             densities: [
