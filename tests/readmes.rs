@@ -14,6 +14,7 @@ readmes! {
     SurfaceFile "../crates/surface-file/README.md"
     Flow "../crates/dem-flow/README.md"
     Triangulation "../crates/dem-triangulation/README.md"
+    Bodies "../crates/sph-bodies/README.md"
     Boundary "../crates/sph-boundary/README.md"
     Core "../crates/sph-core/README.md"
     Integrators "../crates/sph-integrators/README.md"

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 28] = [
+const ALLOWED: [(&str, &[&str]); 29] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation"]),
     ("dem-grains", &[]),
@@ -38,6 +38,7 @@ const ALLOWED: [(&str, &[&str]); 28] = [
         "sph-boundary",
         &["sph-core", "sph-kernels", "sph-lanes", "sph-neighbours"],
     ),
+    ("sph-bodies", &["sph-core", "sph-boundary"]),
     ("sph-rheology", &["sph-core"]),
     ("sph-state", &["sph-core", "sph-neighbours"]),
     (
@@ -121,6 +122,7 @@ const ALLOWED: [(&str, &[&str]); 28] = [
             "dem-flow",
             "dem-grains",
             "dem-scene",
+            "sph-bodies",
             "sph-core",
             "sph-io",
             "sph-scene",

@@ -2,6 +2,7 @@
 
 pub(crate) mod checks;
 pub(crate) mod cover;
+pub(crate) mod drawing;
 pub(crate) mod grid;
 pub(crate) mod inside;
 pub(crate) mod lattice_layers;

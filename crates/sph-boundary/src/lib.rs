@@ -77,6 +77,7 @@ mod rigid;
 mod treatment;
 
 pub use error::{BoundaryError, SurfaceError, WallWarning};
+pub use geometry::drawing::Drawing;
 pub use geometry::grid::SegmentGrid;
 pub use geometry::mesh::{NearSegment, SeenSegment, Segment, SegmentMesh, Vertex};
 pub use geometry::periodic::PeriodicBox;
@@ -93,13 +94,12 @@ pub use geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
 pub use integrals::gamma::{Contact, GammaSum, Renormalisation2d, SegmentIntegral};
 pub use integrals::spatial::{FacetIntegral, GammaSum3d, Renormalisation3d, Weights};
 pub use rigid::course::{Course, Stage};
+pub use rigid::load::{Load, MoverRefusal, MoverSetting, Touch};
 pub use rigid::motion::{RigidMotion, Rotation, Translation};
 pub use rigid::mover::{Mover, MoverEntry};
 pub use rigid::pose::Pose;
-pub use rigid::rigid_state::{Load, Movement, RigidState};
+pub use rigid::rigid_state::{Movement, RigidState};
 pub use rigid::spring::Spring;
-pub use treatment::contract::{
-    Condition, Drawing, Wall, WallEntry, WallSetup, WallSpec, WallStates,
-};
+pub use treatment::contract::{Condition, Wall, WallEntry, WallSetup, WallSpec, WallStates};
 pub use treatment::dummy::DummyParticles;
 pub use treatment::usaw::Usaw;

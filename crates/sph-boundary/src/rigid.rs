@@ -1,6 +1,7 @@
 //! How walls move: courses over time, movers, and the state of a rigid wall.
 
 pub(crate) mod course;
+pub(crate) mod load;
 pub(crate) mod motion;
 pub(crate) mod mover;
 pub(crate) mod pose;

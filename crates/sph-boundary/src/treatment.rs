@@ -1,5 +1,6 @@
 //! How the fluid meets the walls: the contract of a treatment, and the two that there are.
 
+pub(crate) mod contact;
 pub(crate) mod contract;
 pub(crate) mod dummy;
 pub(crate) mod impact;

@@ -39,7 +39,8 @@ mod trouble;
 mod written;
 
 use sph_core::number;
-// Its plugins are in this binary.
+// Their plugins are in this binary.
+use sph_bodies as _;
 use sph_turbulence as _;
 
 pub use app::main;

@@ -38,6 +38,27 @@ impl<const D: usize> WallForce<D> {
         }
     }
 
+    /// All its numbers, for files.
+    pub fn numbers(&self) -> Vec<f64> {
+        let (force, pressure) = (self.force.iter(), self.pressure_force.iter());
+        let both = force.chain(&self.moment).chain(pressure);
+        both.chain(&self.pressure_moment).copied().collect()
+    }
+
+    /// How many [`numbers`](Self::numbers) a force has.
+    pub const NUMBERS: usize = 2 * D + 6;
+
+    /// From its numbers, of which there are [`NUMBERS`](Self::NUMBERS); zero where some are missing.
+    pub fn from_numbers(numbers: &[f64]) -> Self {
+        let at = |k: usize| numbers.get(k).copied().unwrap_or(0.0);
+        WallForce {
+            force: Vect::from_fn(|k, _| at(k)),
+            moment: std::array::from_fn(|k| at(D + k)),
+            pressure_force: Vect::from_fn(|k, _| at(D + 3 + k)),
+            pressure_moment: std::array::from_fn(|k| at(2 * D + 3 + k)),
+        }
+    }
+
     /// Adds the force and the moment of something else on the same wall.
     pub fn add(&mut self, other: &Self) {
         self.force += other.force;
@@ -50,4 +71,22 @@ impl<const D: usize> WallForce<D> {
 /// Adds a moment, component by component.
 pub(crate) fn add_moment(sum: &mut [f64; 3], more: [f64; 3]) {
     sum.iter_mut().zip(more).for_each(|(s, m)| *s += m);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_give_the_force_back() {
+        let force = WallForce::<3> {
+            force: Vect::<3>::new(1.0, 2.0, 3.0),
+            moment: [4.0, 5.0, 6.0],
+            pressure_force: Vect::<3>::new(7.0, 8.0, 9.0),
+            pressure_moment: [10.0, 11.0, 12.0],
+        };
+        let numbers = force.numbers();
+        assert_eq!(numbers.len(), WallForce::<3>::NUMBERS);
+        assert_eq!(WallForce::from_numbers(&numbers), force);
+    }
 }

@@ -12,3 +12,4 @@ pub(crate) mod range;
 pub(crate) mod spectrum;
 pub(crate) mod stream_function;
 pub(crate) mod wall_force;
+pub(crate) mod wall_motion;

@@ -116,7 +116,6 @@ impl<const D: usize> RigidMotion<D> {
         };
         if let Some(rotation) = &self.rotation {
             state.centre = rotation.centre;
-            state.axis = unit_axis(rotation);
         }
         if time < self.start || time >= self.stop {
             return state;
@@ -128,7 +127,9 @@ impl<const D: usize> RigidMotion<D> {
         }
         if let Some(rotation) = &self.rotation {
             let stage = rotation.course.at(t);
-            (state.spin, state.spin_rate) = (stage.rate, stage.acceleration);
+            let axis = unit_axis(rotation);
+            state.angular_velocity = axis.map(|e| e * stage.rate);
+            state.angular_acceleration = axis.map(|e| e * stage.acceleration);
         }
         state
     }

@@ -2,11 +2,22 @@
 
 use sph_core::contract;
 
-use crate::{Load, RigidMotion, RigidState};
+use crate::{Load, MoverRefusal, MoverSetting, RigidMotion, RigidState, Touch};
 
 /// Moves one wall. What it remembers is the wall's state alone: that is rolled back with the particles, and in
 /// checkpoints.
 pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
+    /// Learns how its wall is drawn and what is around it; asked once, before anything else.
+    ///
+    /// # Errors
+    /// The key of its table that does not fit the scene.
+    fn settle(&mut self, _setting: &MoverSetting<'_, D>) -> Result<(), MoverRefusal> {
+        Ok(())
+    }
+    /// How the wall meets others; none if nothing stops it. Its place among walls that touch is then in [`Load`].
+    fn touch(&self) -> Option<Touch> {
+        None
+    }
     /// The state at time 0.
     fn start(&self) -> RigidState<D>;
     /// Whether it asks what the fluid does to the wall; the force is then measured before every kick.

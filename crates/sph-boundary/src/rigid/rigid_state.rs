@@ -13,14 +13,12 @@ pub struct RigidState<const D: usize> {
     pub centre: [f64; D],
     /// Velocity of that point, m/s.
     pub velocity: Vect<D>,
-    /// Its acceleration, m/s².
+    /// Its acceleration as the pressure at the wall feels it, m/s².
     pub acceleration: Vect<D>,
-    /// Unit vector of the axis, right-handed; (0, 0, 1) in the plane, zero for a wall that does not turn.
-    pub axis: [f64; 3],
-    /// Angular velocity about the axis, rad/s.
-    pub spin: f64,
-    /// Its rate, rad/s².
-    pub spin_rate: f64,
+    /// Angular velocity ω, right-handed, rad/s; (0, 0, ω) in the plane.
+    pub angular_velocity: [f64; 3],
+    /// Its rate ω̇, rad/s².
+    pub angular_acceleration: [f64; 3],
 }
 
 /// Velocity and acceleration of a place of the wall.
@@ -32,17 +30,6 @@ pub struct Movement<const D: usize> {
     pub acceleration: Vect<D>,
 }
 
-/// A force and a moment that act on a wall.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Load<const D: usize> {
-    /// Force, N (N/m in two dimensions).
-    pub force: Vect<D>,
-    /// Moment about the origin, N m; only the last component in two dimensions.
-    pub moment: [f64; 3],
-    /// Gravity, m/s²; what it does to the wall is the mover's business.
-    pub gravity: Vect<D>,
-}
-
 impl<const D: usize> Default for RigidState<D> {
     fn default() -> Self {
         RigidState {
@@ -50,9 +37,8 @@ impl<const D: usize> Default for RigidState<D> {
             centre: [0.0; D],
             velocity: Vect::zeros(),
             acceleration: Vect::zeros(),
-            axis: [0.0; 3],
-            spin: 0.0,
-            spin_rate: 0.0,
+            angular_velocity: [0.0; 3],
+            angular_acceleration: [0.0; 3],
         }
     }
 }
@@ -65,13 +51,13 @@ impl<const D: usize> RigidState<D> {
             velocity: self.velocity,
             acceleration: self.acceleration,
         };
-        if self.spin != 0.0 || self.spin_rate != 0.0 {
+        let (omega, rate) = (self.angular_velocity, self.angular_acceleration);
+        if omega != [0.0; 3] || rate != [0.0; 3] {
             let arm =
                 Vect::from(point) - Vect::from(self.centre) - Vect::from(self.pose.translation);
-            let swept = |v: &Vect<D>| swept(self.axis, v);
-            movement.velocity += swept(&arm) * self.spin;
-            movement.acceleration +=
-                swept(&arm) * self.spin_rate + swept(&swept(&arm)) * (self.spin * self.spin);
+            let velocity = swept(omega, &arm);
+            movement.velocity += velocity;
+            movement.acceleration += swept(rate, &arm) + swept(omega, &velocity);
         }
         movement
     }
@@ -81,11 +67,12 @@ impl<const D: usize> RigidState<D> {
         Vect::from(self.centre) + Vect::from(self.pose.translation)
     }
 
-    /// Turned further by a small angle about the axis through the centre, rad.
+    /// Turned further by |φ| about the axis φ/|φ| through the centre, rad.
     #[must_use]
-    pub fn turned_by(mut self, angle: f64) -> Self {
-        if angle != 0.0 {
-            let turn = Pose::turned_about(self.axis, angle, self.centre);
+    pub fn turned_by(mut self, turn: [f64; 3]) -> Self {
+        let angle = turn.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if angle > 0.0 {
+            let turn = Pose::turned_about(turn.map(|x| x / angle), angle, self.centre);
             let rows = turn.rotation;
             let before = self.pose.rotation;
             self.pose.rotation = std::array::from_fn(|i| {
@@ -96,7 +83,8 @@ impl<const D: usize> RigidState<D> {
         self
     }
 
-    /// All its numbers, for files: translation, rotation row by row, centres, velocity, acceleration, axis and spins.
+    /// All its numbers, for files: translation, rotation row by row, centres, velocity, acceleration, angular velocity and
+    /// acceleration.
     pub fn numbers(&self) -> Vec<f64> {
         let mut all = self.pose.translation.to_vec();
         all.extend(self.pose.rotation.iter().flatten());
@@ -104,13 +92,13 @@ impl<const D: usize> RigidState<D> {
         all.extend(self.centre);
         all.extend(self.velocity.iter());
         all.extend(self.acceleration.iter());
-        all.extend(self.axis);
-        all.extend([self.spin, self.spin_rate]);
+        all.extend(self.angular_velocity);
+        all.extend(self.angular_acceleration);
         all
     }
 
     /// How many [`numbers`](Self::numbers) a state has.
-    pub const NUMBERS: usize = 5 * D + D * D + 5;
+    pub const NUMBERS: usize = 5 * D + D * D + 6;
 
     /// From its numbers; none if there are not as many, or not finite ones.
     pub fn from_numbers(numbers: &[f64]) -> Option<Self> {
@@ -126,9 +114,8 @@ impl<const D: usize> RigidState<D> {
         state.centre = std::array::from_fn(|_| next());
         state.velocity = Vect::from_fn(|_, _| next());
         state.acceleration = Vect::from_fn(|_, _| next());
-        state.axis = std::array::from_fn(|_| next());
-        state.spin = next();
-        state.spin_rate = next();
+        state.angular_velocity = std::array::from_fn(|_| next());
+        state.angular_acceleration = std::array::from_fn(|_| next());
         Some(state)
     }
 }
@@ -144,9 +131,8 @@ mod tests {
             centre: [0.1, 0.2, 0.3],
             velocity: Vect::<3>::new(1.0, -2.0, 3.0),
             acceleration: Vect::<3>::new(0.5, 0.25, 0.125),
-            axis: [0.0, 0.6, 0.8],
-            spin: 4.0,
-            spin_rate: -5.0,
+            angular_velocity: [0.0, 0.6, 0.8],
+            angular_acceleration: [4.0, 0.5, -5.0],
         };
         let numbers = state.numbers();
         assert_eq!(numbers.len(), RigidState::<3>::NUMBERS);
@@ -159,11 +145,10 @@ mod tests {
     #[test]
     fn two_turns_are_the_turn_by_both_angles() {
         let start = RigidState::<2> {
-            axis: [0.0, 0.0, 1.0],
             centre: [0.3, -0.2],
             ..RigidState::default()
         };
-        let twice = start.turned_by(0.4).turned_by(0.7);
+        let twice = start.turned_by([0.0, 0.0, 0.4]).turned_by([0.0, 0.0, 0.7]);
         let once = Pose::rotated(1.1, [0.3, -0.2]);
         let [a, b] = [twice.pose.map(), once.map()].map(|map| map([1.0, 2.0]));
         assert!((a[0] - b[0]).abs() < 1e-15 && (a[1] - b[1]).abs() < 1e-15);

@@ -96,11 +96,7 @@ mod tests {
             stiffness: 8.0,
             damping: 0.0,
         };
-        let none = Load {
-            force: Vect::zeros(),
-            moment: [0.0; 3],
-            gravity: Vect::zeros(),
-        };
+        let none = Load::of_gravity(Vect::zeros());
         let period = std::f64::consts::TAU * (2.0_f64 / 8.0).sqrt();
         let dt = period / 400.0;
         let mut state = Mover::<2>::start(&spring);

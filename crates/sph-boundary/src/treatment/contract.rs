@@ -6,7 +6,7 @@ use sph_core::{StepError, Vect, contract};
 use sph_kernels::Kernel;
 use sph_neighbours::{Coulomb, Domain, WallSet, World};
 
-use crate::{BoundaryError, Mover, Polyline, RigidMotion, Surface};
+use crate::{BoundaryError, Drawing, Mover, RigidMotion};
 
 /// How the fluid meets a wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,25 +48,6 @@ impl Condition {
         match self {
             Self::Coulomb(coulomb) => *coulomb,
             _ => Coulomb::default(),
-        }
-    }
-}
-
-/// How a wall is drawn.
-#[derive(Clone, Debug)]
-pub enum Drawing {
-    /// In two dimensions.
-    Line(Polyline),
-    /// In three dimensions.
-    Surface(Surface),
-}
-
-impl Drawing {
-    /// Name of the wall.
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Line(line) => &line.name,
-            Self::Surface(surface) => &surface.name,
         }
     }
 }

@@ -161,13 +161,12 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
     }
 
     fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
-        match &self.set_up {
+        if let Some(set_up) = &mut self.set_up {
+            let (near, outline) = (&set_up.near, &set_up.outline);
             // Nobody measured the heights here: all near particles are looked at.
-            Some(set_up) => set_up
-                .near
-                .constrain(&set_up.outline, world, dt, |_| f64::NAN),
-            None => Ok(()),
+            set_up.outline.struck = near.constrain(outline, world, dt, |_| f64::NAN)?;
         }
+        Ok(())
     }
 
     fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {

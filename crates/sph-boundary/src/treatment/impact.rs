@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::World;
+use sph_neighbours::{WallForce, World, cross};
 
 use crate::geometry::wall_mesh::{Hindrance, WallMesh};
 use crate::treatment::near::NearLists;
@@ -28,13 +28,15 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
     ///
     /// `height` gives a lower bound of the distance of the particle at a place of `particles`
     /// from any element in front of it, m; those out of danger are not looked at.
+    ///
+    /// Returns the mean forces on the walls over `dt`, by their numbers; none where nobody asks for forces.
     pub fn constrain<M: WallMesh<D, Near = N>>(
         &self,
         outline: &Outline<D, M>,
         world: &mut World<D>,
         dt: f64,
         height: impl Fn(usize) -> f64 + Sync,
-    ) -> Result<(), StepError> {
+    ) -> Result<Vec<WallForce<D>>, StepError> {
         let mut velocity = world.free.take(fields::VELOCITY)?;
         let position = world.free.get(fields::POSITION)?;
         let walls = &world.walls;
@@ -45,7 +47,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             spacing: world.spacing,
             dt,
         };
-        let changed: Vec<(usize, Vect<D>)> = self
+        let changed: Vec<(usize, Corrected<D>)> = self
             .particles
             .par_iter()
             .enumerate()
@@ -61,11 +63,33 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
                 u.map(|u| (p, u))
             })
             .collect();
-        for (p, u) in changed {
-            velocity[p] = u;
+        let mut forces = Vec::new();
+        if outline.any_feels() {
+            forces.resize(outline.specs.len(), WallForce::zero());
+            let mass = world.free.get(fields::MASS)?;
+            for (p, corrected) in &changed {
+                for (wall, push) in &corrected.pushes {
+                    let force = push * (-mass[*p] / dt);
+                    forces[*wall].add(&WallForce {
+                        force,
+                        moment: cross(&position[*p], &force),
+                        ..WallForce::zero()
+                    });
+                }
+            }
         }
-        Ok(world.free.put(fields::VELOCITY, velocity)?)
+        for (p, corrected) in changed {
+            velocity[p] = corrected.velocity;
+        }
+        world.free.put(fields::VELOCITY, velocity)?;
+        Ok(forces)
     }
+}
+
+/// The velocity of a particle that walls have stopped, and what each of them did to it, m/s.
+struct Corrected<const D: usize> {
+    velocity: Vect<D>,
+    pushes: Vec<(usize, Vect<D>)>,
 }
 
 /// What a step would do to a particle next to a wall.
@@ -77,7 +101,7 @@ struct Impact<'a, const D: usize, M: WallMesh<D>> {
 
 impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
     /// The velocity that no element objects to; none if that is the present one.
-    fn corrected(&self, x: &Vect<D>, u: Vect<D>, row: &[M::Near]) -> Option<Vect<D>> {
+    fn corrected(&self, x: &Vect<D>, u: Vect<D>, row: &[M::Near]) -> Option<Corrected<D>> {
         let mesh = &self.outline.mesh;
         let mut hindrances = Vec::new();
         mesh.hindrances(x, row, 4.0 * self.spacing, &mut hindrances);
@@ -85,18 +109,26 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
             return None;
         }
         let walls: Vec<Vect<D>> = hindrances.iter().map(|h| self.wall_velocity(h)).collect();
-        let mut new = u;
+        let mut new = Corrected {
+            velocity: u,
+            pushes: Vec::new(),
+        };
         for turn in 0..=TURNS {
             let mut held = None;
             for (hindrance, wall) in hindrances.iter().zip(&walls) {
-                if let Some(push) = self.push(&new, hindrance, wall) {
-                    new += push;
-                    held = Some(*wall);
+                if let Some(push) = self.push(&new.velocity, hindrance, wall) {
+                    new.velocity += push;
+                    new.pushes.push((hindrance.wall, push));
+                    held = Some((hindrance.wall, *wall));
                 }
             }
             match held {
                 None => return (turn > 0).then_some(new),
-                Some(wall) if turn == TURNS => return Some(wall),
+                Some((wall, velocity)) if turn == TURNS => {
+                    new.pushes.push((wall, velocity - new.velocity));
+                    new.velocity = velocity;
+                    return Some(new);
+                }
                 Some(_) => {}
             }
         }

@@ -33,11 +33,12 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         dt: f64,
     ) -> Result<bool, BoundaryError> {
         let mut states = self.states_at(time + dt, &self.states);
+        let contacts = self.contacts();
         for k in 0..states.len() {
             if is_piece(&self.specs, k) {
                 states[k] = states[k - 1];
             } else if let Some(mover) = &self.specs[k].mover {
-                let load = self.load(k, forces, gravity);
+                let load = self.load(k, forces, contacts.get(k), gravity);
                 states[k] = mover.next(&self.states[k], &load, time, dt);
                 let name = || self.specs[k].drawing.name().to_string();
                 if RigidState::<D>::from_numbers(&states[k].numbers()).is_none() {
@@ -49,16 +50,26 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// What acts on a wall with all its pieces.
-    fn load(&self, wall: usize, forces: &[WallForce<D>], gravity: Vect<D>) -> Load<D> {
+    fn load(
+        &self,
+        wall: usize,
+        forces: &[WallForce<D>],
+        contact: Option<&WallForce<D>>,
+        gravity: Vect<D>,
+    ) -> Load<D> {
         let mut whole = WallForce::zero();
         let pieces =
             (wall..self.specs.len()).take_while(|k| *k == wall || is_piece(&self.specs, *k));
-        for force in pieces.filter_map(|k| forces.get(k)) {
-            whole.add(force);
+        for k in pieces {
+            let parts = [forces.get(k), self.struck.get(k)];
+            parts.into_iter().flatten().for_each(|f| whole.add(f));
         }
+        let contact = contact.copied().unwrap_or_else(WallForce::zero);
         Load {
             force: whole.force,
             moment: whole.moment,
+            contact_force: contact.force,
+            contact_moment: contact.moment,
             gravity,
         }
     }
@@ -67,6 +78,11 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     pub fn feels(&self, wall: usize) -> bool {
         let mover = self.specs.get(wall).and_then(|spec| spec.mover.as_ref());
         mover.is_some_and(|mover| mover.feels())
+    }
+
+    /// Whether any mover asks for forces.
+    pub fn any_feels(&self) -> bool {
+        (0..self.specs.len()).any(|wall| self.feels(wall))
     }
 
     /// The walls with movers, each by its first piece.

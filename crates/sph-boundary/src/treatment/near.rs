@@ -11,8 +11,7 @@ use crate::treatment::outline::Outline;
 /// How far beyond the reach of the neighbour lists elements are looked for, over the support: a row stands until particle
 /// and walls have come this much nearer, while the lists come and go.
 ///
-/// Instructions of the walls of a thin layer in space fall until 0.3 and rise slowly from there: what is beyond the
-/// support has to be left out by every γ.
+/// Longer rows cost every γ, which has to leave out what is beyond the support; shorter ones are looked for more often.
 const SKIN: f64 = 0.3;
 
 /// Particles whose elements one task looks for.

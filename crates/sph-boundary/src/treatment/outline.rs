@@ -1,7 +1,7 @@
 //! What all wall treatments share: the mesh, the conditions, the motion, the checks.
 
 use sph_core::Vect;
-use sph_neighbours::{Elements, Frame, WallPoints};
+use sph_neighbours::{Domain, Elements, Frame, WallForce, WallPoints};
 
 use crate::geometry::cover::Cover;
 use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
@@ -22,8 +22,11 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     /// Whether `listed` are those of a build in an earlier process, which nobody looked at yet.
     pub put_back: bool,
     /// Walls with the same number move together.
-    groups: Vec<usize>,
-    spacing: f64,
+    pub groups: Vec<usize>,
+    pub spacing: f64,
+    pub domain: Domain<D>,
+    /// What stopping particles in front of walls did to these in the last drift.
+    pub struck: Vec<WallForce<D>>,
     cover: Cover<M::Near>,
     pub specs: Vec<WallSpec<D>>,
 }
@@ -57,6 +60,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             put_back: false,
             groups: groups(setup.walls),
             spacing: setup.spacing,
+            domain: setup.domain.clone(),
+            struck: Vec::new(),
             cover: Cover::default(),
             specs: setup.walls.to_vec(),
         };

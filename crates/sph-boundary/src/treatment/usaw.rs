@@ -279,10 +279,12 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
     }
 
     fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
-        let set_up = self.ready()?;
+        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
         // Heights over the planes of all elements in reach bound the distances from below.
         let clearance = |place: usize| set_up.clearance.get(place).copied().unwrap_or(0.0);
-        set_up.near.constrain(&set_up.outline, world, dt, clearance)
+        let (near, outline) = (&set_up.near, &set_up.outline);
+        set_up.outline.struck = near.constrain(outline, world, dt, clearance)?;
+        Ok(())
     }
 
     fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {

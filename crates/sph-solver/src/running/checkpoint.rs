@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use sph_boundary::WallStates;
 use sph_core::{Born, Plain, Role, Vect, fields};
 use sph_io::{Checkpoint, Column, ColumnData};
+use sph_neighbours::WallForce;
 use sph_scene::Scene;
 
 use crate::running::counters::{Counters, MOST};
@@ -19,6 +20,7 @@ const REFERENCE: &str = "list_reference";
 const WALL_REFERENCE: &str = "wall_list_reference";
 const WALL_STATES: &str = "wall_states";
 const WALL_LIST_STATES: &str = "wall_list_states";
+const WALL_LOADS: &str = "wall_loads";
 
 /// The clock, as bits, so that nothing is lost on the way through JSON.
 #[derive(Serialize, Deserialize)]
@@ -75,8 +77,14 @@ pub fn save<const D: usize, T: Serialize>(
     if let Some(walls) = &flow.walls {
         let states = lock(walls).states();
         let listed = states.listed.unwrap_or_default();
-        let both = [(WALL_STATES, states.now), (WALL_LIST_STATES, listed)];
-        for (name, numbers) in both.into_iter().filter(|(_, n)| !n.is_empty()) {
+        // Steps that drift first drift with the forces of the step before.
+        let loads = flow.loads.iter().flat_map(WallForce::numbers).collect();
+        let all = [
+            (WALL_STATES, states.now),
+            (WALL_LIST_STATES, listed),
+            (WALL_LOADS, loads),
+        ];
+        for (name, numbers) in all.into_iter().filter(|(_, n)| !n.is_empty()) {
             columns.push(Column {
                 name: name.into(),
                 components: 1,
@@ -303,6 +311,11 @@ fn set_clock<const D: usize>(
         };
         let moved = lock(walls).put_back(&mut flow.world.walls, &states, now);
         moved.map_err(|e| refused(path, e.to_string()))?;
+        let loads = numbers(WALL_LOADS);
+        if loads.len() == flow.world.walls.names.len() * WallForce::<D>::NUMBERS {
+            let loads = loads.chunks_exact(WallForce::<D>::NUMBERS);
+            flow.loads = loads.map(WallForce::from_numbers).collect();
+        }
     }
     Ok(())
 }

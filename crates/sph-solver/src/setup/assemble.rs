@@ -18,6 +18,7 @@ use crate::setup::domain::height;
 use crate::setup::field_error;
 use crate::setup::joining::{Given, evolved, joined, remedies};
 use crate::setup::lattices;
+use crate::setup::movers;
 use crate::setup::parts::parts;
 use crate::setup::placement::Placed;
 use crate::setup::planning::{Planned, Planning};
@@ -66,8 +67,8 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     let mut choices = Choices::<D>::of(scene).map_err(SolverError::Scene)?;
     choices.probes.extend(field_error::probes(scene)?);
     probe_setup::prepare(scene, &mut choices.probes)?;
-    give_movers(&mut drawn, &choices);
     let laws = bind_laws::<D>(scene, &drawn, &choices)?;
+    movers::settle(scene, &mut drawn, &mut choices, &laws)?;
     refuse_fast_walls(scene, &drawn, &laws)?;
     let Room {
         world: room,
@@ -137,14 +138,6 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         height: height(scene, &drawn.regions),
         body_of: placed.body,
     })
-}
-
-/// Tells every wall what moves it, if anything does.
-fn give_movers<const D: usize>(drawn: &mut Drawn<D>, choices: &Choices<D>) {
-    for spec in &mut drawn.walls {
-        let of_it = |(name, _): &&(String, _)| name == spec.drawing.name();
-        spec.mover = choices.movers.iter().find(of_it).map(|(_, m)| m.clone());
-    }
 }
 
 /// Refuses walls that are faster than sound in the slowest phase.

@@ -31,7 +31,7 @@ pub struct Choices<const D: usize> {
     pub integrator: Box<dyn Integrator>,
     pub walls: Option<Box<dyn Wall<D>>>,
     /// What moves walls, by the wall's name.
-    pub movers: Vec<(String, Arc<dyn Mover<D>>)>,
+    pub movers: Vec<(String, Box<dyn Mover<D>>)>,
     pub physics: Physics<D>,
     /// In the order of the phase numbers.
     pub equations_of_state: Vec<Box<dyn EquationOfState>>,
@@ -85,10 +85,7 @@ impl<const D: usize> Choices<D> {
         };
         let movers = scene.wall.keys().cloned();
         let movers = movers.filter_map(|n| Some((n.clone(), scene.mover(&n)?)));
-        let movers = b.named::<D, MoverEntry>(movers).into_iter();
-        let movers = movers
-            .map(|(name, mover)| (name, Arc::from(mover)))
-            .collect();
+        let movers = b.named::<D, MoverEntry>(movers);
         let physics = b.physics::<D>();
         let equations_of_state = b.equations_of_state::<D>();
         let probes = b.named::<D, ProbeEntry>(scene.probes());

@@ -76,6 +76,7 @@ pub(crate) fn joined<const D: usize>(
         remedies: given.remedies,
         limiters: planned.limiters,
         walls: given.walls,
+        loads: Vec::new(),
         evolved: given.evolved,
         integrated,
         outside,

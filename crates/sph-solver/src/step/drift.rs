@@ -75,7 +75,11 @@ impl<const D: usize> Flow<D> {
         self.world.time += dt;
         if let Some(walls) = &self.walls {
             let gravity = self.world.gravity;
-            let moved = lock(walls).advance(&mut self.world.walls, gravity, time, dt);
+            let set = &mut self.world.walls;
+            // Probes may have measured other walls since the kick.
+            std::mem::swap(&mut set.forces, &mut self.loads);
+            let moved = lock(walls).advance(set, gravity, time, dt);
+            std::mem::swap(&mut set.forces, &mut self.loads);
             moved.map_err(|e| StepError::Stage {
                 stage: "wall motion".into(),
                 reason: e.to_string(),

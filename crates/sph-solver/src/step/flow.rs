@@ -10,7 +10,7 @@ use sph_contribution::{Limiter, OutsideForce, StepWork};
 use sph_core::{
     Access, Evolved, Field, Recall, Role, Scalar, Stage, StepError, StepLimit, System, fields,
 };
-use sph_neighbours::{Interaction, World, wall_forces};
+use sph_neighbours::{Interaction, WallForce, World, wall_forces};
 use sph_state::Laws;
 
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
@@ -31,6 +31,8 @@ pub struct Flow<const D: usize> {
     pub(crate) pruned: Vec<String>,
     pub(crate) limiters: Vec<Box<dyn Limiter<D>>>,
     pub(crate) walls: Option<SharedWall<D>>,
+    /// What movers are told, in the order of the walls' names, from the last kick; empty if none asks.
+    pub(crate) loads: Vec<WallForce<D>>,
     pub(crate) evolved: Vec<Evolved>,
     /// All scalars that are advanced in time.
     pub(crate) integrated: Vec<Field<Scalar>>,
@@ -96,7 +98,8 @@ impl<const D: usize> System for Flow<D> {
     }
 
     fn keep(&mut self) -> Result<(), StepError> {
-        self.kept.save(&self.world, self.walls.as_ref())?;
+        self.kept
+            .save(&self.world, self.walls.as_ref(), &self.loads)?;
         self.kept_rates.keep(&self.world.free, &self.evolved)?;
         Ok(())
     }
@@ -107,8 +110,8 @@ impl<const D: usize> System for Flow<D> {
             Recall::Motion | Recall::Scalars => Vec::new(),
         };
         let named = (&self.integrated[..], &by_stages[..]);
-        self.kept
-            .recall(&mut self.world, self.walls.as_ref(), what, named)?;
+        let walls = (self.walls.as_ref(), &mut self.loads);
+        self.kept.recall(&mut self.world, walls, what, named)?;
         Ok(())
     }
 

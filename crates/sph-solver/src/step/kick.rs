@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 use sph_core::{StepError, fields};
+use sph_neighbours::wall_forces;
 
 use crate::step::clocks::MOTION;
 use crate::step::flow::Flow;
@@ -15,7 +16,8 @@ const BATCH: usize = 2048;
 impl<const D: usize> Flow<D> {
     /// Velocities and evolved scalars: value += Δt rate, and all that works besides.
     pub(crate) fn kick_over(&mut self, dt: f64) -> Result<(), StepError> {
-        self.load_walls()?;
+        let felt = self.felt();
+        self.load_walls(&felt)?;
         self.before_kick()?;
         let start = Instant::now();
         if !self.works.iter().any(|w| w.kicks()) {
@@ -37,26 +39,54 @@ impl<const D: usize> Flow<D> {
             true => work.kick(world, dt),
             false => Ok(()),
         })?;
-        self.each_work(|work, world| work.after_kick(world, dt))
+        self.each_work(|work, world| work.after_kick(world, dt))?;
+        self.load_walls_more(&felt)
     }
 
-    /// Measures what the fluid does to walls whose movers ask for it.
-    fn load_walls(&mut self) -> Result<(), StepError> {
+    /// Whether the mover of each wall asks for forces; empty if none does.
+    fn felt(&self) -> Vec<bool> {
         let Some(walls) = &self.walls else {
-            return Ok(());
+            return Vec::new();
         };
+        let walls = lock(walls);
         let names = &self.world.walls.names;
-        let felt: Vec<String> = {
-            let walls = lock(walls);
-            let all = names.iter().enumerate();
-            all.filter(|(k, _)| walls.feels(*k))
-                .map(|(_, n)| n.clone())
-                .collect()
-        };
-        match felt.is_empty() {
-            true => Ok(()),
-            false => self.measure_wall_forces(|name| felt.iter().any(|n| n == name)),
+        let movers: Vec<bool> = (0..names.len()).map(|k| walls.feels(k)).collect();
+        let all_of_it = |name: &String| (names.iter().zip(&movers)).any(|(n, f)| *f && n == name);
+        match movers.contains(&true) {
+            true => names.iter().map(all_of_it).collect(),
+            false => Vec::new(),
         }
+    }
+
+    /// Measures what the terms of the sweep do to walls whose movers ask for it, with the velocities of the sweep.
+    fn load_walls(&mut self, felt: &[bool]) -> Result<(), StepError> {
+        if felt.is_empty() || self.world.lists.builds == 0 {
+            return Ok(());
+        }
+        let terms: Vec<_> = self.terms.iter().map(|t| &**t).collect();
+        self.loads = wall_forces(&self.world, &terms, felt)?;
+        Ok(())
+    }
+
+    /// Adds what acts outside of the sweep: it has taken the velocities that it left.
+    fn load_walls_more(&mut self, felt: &[bool]) -> Result<(), StepError> {
+        if felt.is_empty() || self.world.lists.builds == 0 {
+            return Ok(());
+        }
+        if !self.outside.is_empty() {
+            let outside: Vec<_> = self.outside.iter().map(|f| &**f).collect();
+            let more = wall_forces(&self.world, &outside, felt)?;
+            let walls = self.loads.iter_mut().zip(more);
+            walls.for_each(|(whole, more)| {
+                whole.force += more.force;
+                (0..3).for_each(|k| whole.moment[k] += more.moment[k]);
+            });
+        }
+        for work in &self.works {
+            let walls = self.loads.iter_mut().zip(work.wall_forces());
+            walls.for_each(|(whole, own)| whole.add(own));
+        }
+        Ok(())
     }
 
     /// What is asked before a kick; it may bind all terms, so that it reads their columns, too.

@@ -2,9 +2,13 @@
 
 use sph_boundary::WallStates;
 use sph_core::{Field, FieldError, Recall, Saved, Scalar, Slots, Store, Vect, fields};
-use sph_neighbours::World;
+use sph_neighbours::{WallForce, World};
 
 use crate::step::stages::{SharedWall, lock};
+
+/// The walls, and what their movers are told.
+pub(crate) type MovedWalls<'a, const D: usize> =
+    (Option<&'a SharedWall<D>>, &'a mut Vec<WallForce<D>>);
 
 /// All columns that carry history, whoever declared them, in the order the particles had, and the clock.
 #[derive(Default)]
@@ -13,8 +17,9 @@ pub struct Snapshot<const D: usize> {
     time: f64,
     /// The step before, s.
     dt: f64,
-    /// Walls that movers move.
+    /// Walls that movers move, and what these are told.
     walls: WallStates,
+    loads: Vec<WallForce<D>>,
 }
 
 impl<const D: usize> Snapshot<D> {
@@ -23,6 +28,7 @@ impl<const D: usize> Snapshot<D> {
         &mut self,
         world: &World<D>,
         walls: Option<&SharedWall<D>>,
+        loads: &[WallForce<D>],
     ) -> Result<(), FieldError> {
         world.free.save_state(&mut self.columns)?;
         self.time = world.time;
@@ -34,6 +40,8 @@ impl<const D: usize> Snapshot<D> {
                 listed,
                 ..lock(walls).states()
             };
+            self.loads.clear();
+            self.loads.extend_from_slice(loads);
         }
         Ok(())
     }
@@ -68,7 +76,7 @@ impl<const D: usize> Snapshot<D> {
     pub(crate) fn recall(
         &self,
         world: &mut World<D>,
-        walls: Option<&SharedWall<D>>,
+        walls: MovedWalls<'_, D>,
         what: Recall,
         (integrated, by_stages): (&[Field<Scalar>], &[&str]),
     ) -> Result<(), FieldError> {
@@ -91,10 +99,11 @@ impl<const D: usize> Snapshot<D> {
         Ok(())
     }
 
-    fn walls_back(&self, world: &mut World<D>, walls: Option<&SharedWall<D>>) {
+    fn walls_back(&self, world: &mut World<D>, (walls, loads): MovedWalls<'_, D>) {
         if let Some(walls) = walls {
             // The walls accepted this time before, so they accept it again.
             let _ = lock(walls).put_back(&mut world.walls, &self.walls, self.time);
+            loads.clone_from(&self.loads);
         }
     }
 
@@ -102,7 +111,7 @@ impl<const D: usize> Snapshot<D> {
     pub(crate) fn put_back(
         &self,
         world: &mut World<D>,
-        walls: Option<&SharedWall<D>>,
+        walls: MovedWalls<'_, D>,
     ) -> Result<(), FieldError> {
         world.free.restore_state(&self.columns)?;
         world.time = self.time;

@@ -1,0 +1,361 @@
+//! The mover `rigid-body`.
+
+use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_boundary::{
+    Drawing, Load, Mover, MoverEntry, MoverRefusal, MoverSetting, RigidState, Touch,
+};
+use sph_core::{Vect, register};
+
+use crate::dynamics::Dynamics;
+use crate::freedom::{Freedom, Holds};
+use crate::layer::layer;
+use crate::line::Line;
+use crate::shape::{Solid, winding};
+use crate::six::padded;
+
+/// Least density of a body over that of the lightest fluid: that of air over water's.
+const LIGHTEST: f64 = 1.2e-3;
+
+/// A rigid body that floats, sinks and turns: Newton's and Euler's equations with the force of the fluid.
+///
+/// The force is the reaction to what the wall does to the particles, so that momentum is conserved to rounding. Mass and
+/// inertia follow from the shape where a `density` is given.
+///
+/// The pressure at a wall feels its acceleration, and an acceleration that follows the force at once would make light
+/// bodies swing from step to step. It is let follow: (M + A*) (ã' − ã) = M (a − ã), with a the acceleration of the body, ã
+/// the one that the pressure feels, A* the inertia of a layer of fluid as thick as the smoothing length. The change of ã per
+/// step is that of a body heavier by A*: no body is too light for it, and the body's own motion stays M a = F.
+///
+/// ```toml
+/// [wall.float.mover.rigid-body]
+/// density = 500
+/// free = ["y", "rz"]
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RigidBody {
+    /// Density of the body, kg/m³; it or the `mass` has to be given.
+    #[schemars(extend("unit" = "kg/m³", "exclusiveMinimum" = 0.0))]
+    pub density: Option<f64>,
+    /// Mass, kg (per metre of depth in two dimensions).
+    #[schemars(extend("unit" = "kg", "exclusiveMinimum" = 0.0))]
+    pub mass: Option<f64>,
+    /// Centre of mass where the body is drawn, m; that of the shape if left out.
+    #[schemars(extend("unit" = "m"))]
+    pub centre: Option<Vec<f64>>,
+    /// Inertia about the centre of mass, kg m²: one number in two dimensions; in three the principal ones about x, y and z
+    /// as the body is drawn, or xx, yy, zz, xy, yz, zx of the tensor. That of a uniform body of this mass if left out.
+    #[schemars(extend("unit" = "kg m²"))]
+    pub inertia: Option<Vec<f64>>,
+    /// What it is free to do; everything if left out. The rest is locked.
+    pub free: Option<Vec<Freedom>>,
+    /// Velocity of the centre at the start, m/s.
+    #[schemars(extend("unit" = "m/s"))]
+    pub velocity: Option<Vec<f64>>,
+    /// Angular velocity at the start, rad/s: one number in two dimensions, three in three.
+    #[schemars(extend("unit" = "rad/s"))]
+    pub angular_velocity: Option<Vec<f64>>,
+    /// The time until which it goes on with the velocity that it has at the start, s: at rest if none is given.
+    #[serde(default)]
+    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    pub start: f64,
+    /// Springs and dampers on its degrees of freedom.
+    #[serde(default)]
+    pub hold: Holds,
+    /// Elastic lines to places that stay.
+    #[serde(default)]
+    pub line: Vec<Line>,
+    /// Share of the normal velocity that is left after it meets a wall or a body; 0.135 is the least, which is critical
+    /// damping.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1"))]
+    pub restitution: f64,
+    /// Coefficient of its friction on walls and bodies.
+    #[serde(default)]
+    #[schemars(extend("unit" = "1", "minimum" = 0.0))]
+    pub friction: f64,
+    #[serde(skip)]
+    settled: Option<(Dynamics, Touch)>,
+}
+
+type Settled<T> = Result<T, MoverRefusal>;
+
+/// A vector of as many numbers as there are dimensions.
+fn vector<const D: usize>(key: &str, given: &Option<Vec<f64>>) -> Settled<Option<Vector3<f64>>> {
+    let Some(given) = given else {
+        return Ok(None);
+    };
+    match given.len() == D {
+        true => Ok(Some(padded(given))),
+        false => Err(numbers(key, given.len(), &D.to_string())),
+    }
+}
+
+fn numbers(key: &str, found: usize, expected: &str) -> MoverRefusal {
+    MoverRefusal::of(key, format!("{found} numbers, {expected} are expected"))
+}
+
+impl RigidBody {
+    /// Mass, centre and inertia.
+    fn weighed<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Settled<Weighed> {
+        let solid = Solid::of(setting.pieces());
+        let solid = solid.map_err(|e| MoverRefusal::of("", e.to_string()))?;
+        let mass = match (self.mass, self.density) {
+            (Some(mass), None) => mass,
+            (None, Some(density)) => density * solid.volume,
+            (None, None) => {
+                let why = "a body needs a `density` or a `mass`";
+                return Err(MoverRefusal::of("", why));
+            }
+            (Some(_), Some(_)) => {
+                let why = "a body has a `density` or a `mass`, not both";
+                return Err(MoverRefusal::of("mass", why));
+            }
+        };
+        let density = mass / solid.volume;
+        let [lightest, _] = setting.densities;
+        if density < LIGHTEST * lightest {
+            let key = if self.mass.is_some() {
+                "mass"
+            } else {
+                "density"
+            };
+            return Err(MoverRefusal::of(
+                key,
+                format!(
+                    "the body is lighter than air: {density:.3} kg/m³ in a fluid of {lightest:.3} kg/m³; it has a volume of \
+                 {:.3e} {}",
+                    solid.volume,
+                    if D == 2 {
+                        "m² per metre of depth"
+                    } else {
+                        "m³"
+                    },
+                ),
+            ));
+        }
+        let centre = vector::<D>("centre", &self.centre)?;
+        let inertia = match (&self.inertia, centre) {
+            (Some(given), _) => tensor::<D>(given)?,
+            (None, Some(_)) => {
+                let why = "a body with a `centre` of its own needs its `inertia` about it";
+                return Err(MoverRefusal::of("centre", why));
+            }
+            (None, None) => solid.inertia * density,
+        };
+        Ok(Weighed {
+            mass,
+            centre: centre.unwrap_or(solid.centre),
+            inertia,
+        })
+    }
+
+    fn freedoms<const D: usize>(&self) -> Settled<[bool; 6]> {
+        let there = Freedom::in_dimension(D);
+        let names = || {
+            there
+                .iter()
+                .map(|f| f.name())
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        let mut free = [false; 6];
+        for (k, freedom) in self.free.as_deref().unwrap_or(there).iter().enumerate() {
+            if !there.contains(freedom) {
+                let why = format!("there is no `{}` in {D}D: {}", freedom.name(), names());
+                return Err(MoverRefusal::of(format!("free[{k}]"), why));
+            }
+            free[freedom.index()] = true;
+        }
+        if free == [false; 6] {
+            let why = format!(
+                "nothing is free: leave the mover out, or free some of {}",
+                names()
+            );
+            return Err(MoverRefusal::of("free", why));
+        }
+        for (freedom, ..) in self.hold.all() {
+            if !free[freedom.index()] {
+                let why = format!(
+                    "`{}` is not free, so that nothing has to hold it",
+                    freedom.name()
+                );
+                return Err(MoverRefusal::of(format!("hold.{}", freedom.name()), why));
+            }
+        }
+        Ok(free)
+    }
+
+    fn check_lines<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Settled<()> {
+        for (k, line) in self.line.iter().enumerate() {
+            let at = |key: &str| format!("line[{k}].{key}");
+            for (key, place) in [("from", &line.from), ("to", &line.to)] {
+                if place.len() != D {
+                    return Err(numbers(&at(key), place.len(), &D.to_string()));
+                }
+            }
+            if line.drawn_length() <= 0.0 {
+                return Err(MoverRefusal::of(
+                    at("to"),
+                    "the line has no length: both ends are one place",
+                ));
+            }
+            if let Some(wall) = setting.others().find(|w| line.crosses(w)) {
+                let why = format!("the line goes through the wall `{}`", wall.name());
+                return Err(MoverRefusal::of(at("to"), why));
+            }
+        }
+        Ok(())
+    }
+
+    /// Penalty of contact: as stiff as the fluid in the gap, but never so stiff that an explicit step is too long for it.
+    fn touch_of<const D: usize>(
+        &self,
+        setting: &MoverSetting<'_, D>,
+        mass: f64,
+        surface: f64,
+    ) -> Touch {
+        let [_, heaviest] = setting.densities;
+        let (sound, spacing) = (setting.sound_speed, setting.spacing);
+        let fluid = heaviest * sound * sound / (0.5 * spacing);
+        let slowest = mass * (0.6 * sound / spacing).powi(2) / (0.5 * surface);
+        Touch {
+            mass,
+            stiffness: fluid.min(slowest),
+            restitution: self.restitution,
+            friction: self.friction,
+        }
+    }
+}
+
+/// Refuses a body that holds a corner of another wall, or has one in it.
+fn apart<const D: usize>(setting: &MoverSetting<'_, D>) -> Settled<()> {
+    let corners = |drawing: &Drawing| -> Vec<Vector3<f64>> {
+        match drawing {
+            Drawing::Line(line) => line.points.iter().map(|p| padded(p)).collect(),
+            Drawing::Surface(surface) => surface.points.iter().map(|p| padded(p)).collect(),
+        }
+    };
+    let own = || setting.pieces();
+    for other in setting.others() {
+        let holds = corners(other).into_iter().any(|x| winding(own(), x) > 0.75);
+        let mut within = own().flat_map(corners);
+        if holds || within.any(|x| winding([other], x) > 0.75) {
+            let name = other.name();
+            let why = format!(
+                "the body `{}` overlaps the wall `{name}` at the start",
+                setting.wall
+            );
+            return Err(MoverRefusal::of("", why));
+        }
+    }
+    Ok(())
+}
+
+/// Mass, centre and inertia of a body.
+struct Weighed {
+    mass: f64,
+    centre: Vector3<f64>,
+    inertia: Matrix3<f64>,
+}
+
+/// The inertia that a scene gives.
+fn tensor<const D: usize>(given: &[f64]) -> Settled<Matrix3<f64>> {
+    let tensor = match (D, given) {
+        (2, [about]) => Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, *about)),
+        (3, [x, y, z]) => Matrix3::from_diagonal(&Vector3::new(*x, *y, *z)),
+        (3, [xx, yy, zz, xy, yz, zx]) => Matrix3::new(*xx, *xy, *zx, *xy, *yy, *yz, *zx, *yz, *zz),
+        (2, _) => return Err(numbers("inertia", given.len(), "1")),
+        _ => return Err(numbers("inertia", given.len(), "3 or 6")),
+    };
+    let sound = match D {
+        2 => tensor[(2, 2)] > 0.0,
+        // No moment is more than the sum of the other two.
+        _ => {
+            let moments = tensor.symmetric_eigenvalues();
+            moments.min() > 0.0 && 2.0 * moments.max() <= moments.sum() * (1.0 + 1e-12)
+        }
+    };
+    match sound {
+        true => Ok(tensor),
+        false => Err(MoverRefusal::of(
+            "inertia",
+            "no body has it: principal moments are positive, and none is more than the sum of the others",
+        )),
+    }
+}
+
+impl<const D: usize> Mover<D> for RigidBody {
+    fn settle(&mut self, setting: &MoverSetting<'_, D>) -> Settled<()> {
+        if !setting.flush {
+            let why = "half a row of fluid clings to these walls and would be carried along: give `[walls.usaw]` the key \
+                       `vertices = false`";
+            return Err(MoverRefusal::of("", why));
+        }
+        let weighed = self.weighed(setting)?;
+        apart(setting)?;
+        let free = self.freedoms::<D>()?;
+        self.check_lines(setting)?;
+        vector::<D>("velocity", &self.velocity)?;
+        let turns = if D == 2 { 1 } else { 3 };
+        if let Some(given) = self.angular_velocity.as_ref().filter(|g| g.len() != turns) {
+            return Err(numbers("angular_velocity", given.len(), &turns.to_string()));
+        }
+        let [_, heaviest] = setting.densities;
+        let pieces = || setting.pieces();
+        let layer = layer(pieces(), weighed.centre, heaviest, setting.smoothing_length);
+        // The trace of Σ S n nᵀ is the surface.
+        let surface =
+            (layer[(0, 0)] + layer[(1, 1)] + layer[(2, 2)]) / (heaviest * setting.smoothing_length);
+        let dynamics = Dynamics {
+            mass: weighed.mass,
+            centre: weighed.centre,
+            inertia: weighed.inertia,
+            layer,
+            free,
+            holds: self.hold.all().collect(),
+            lines: self.line.clone(),
+            start: self.start,
+        };
+        self.settled = Some((dynamics, self.touch_of(setting, weighed.mass, surface)));
+        Ok(())
+    }
+
+    fn touch(&self) -> Option<Touch> {
+        self.settled.as_ref().map(|(_, touch)| *touch)
+    }
+
+    fn start(&self) -> RigidState<D> {
+        let mut state = RigidState::default();
+        let Some((dynamics, _)) = &self.settled else {
+            return state;
+        };
+        state.centre = std::array::from_fn(|k| dynamics.centre[k]);
+        if let Some(velocity) = &self.velocity {
+            state.velocity = Vect::from_fn(|k, _| velocity[k]);
+        }
+        match self.angular_velocity.as_deref() {
+            Some([about]) => state.angular_velocity[2] = *about,
+            Some(about) => state.angular_velocity = padded(about).into(),
+            None => {}
+        }
+        state
+    }
+
+    fn next(&self, now: &RigidState<D>, load: &Load<D>, time: f64, dt: f64) -> RigidState<D> {
+        match &self.settled {
+            Some((dynamics, _)) => dynamics.next(now, load, time, dt),
+            None => *now,
+        }
+    }
+}
+
+register!(
+    MoverEntry [2, 3],
+    RigidBody,
+    "rigid-body",
+    "a body that floats, sinks, turns and meets others",
+    "Newton's second law, Euler's equations; Canelas et al. 2015"
+);

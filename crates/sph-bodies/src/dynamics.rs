@@ -1,0 +1,289 @@
+//! Newton's and Euler's equations over a step.
+
+use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
+use sph_boundary::{Load, RigidState};
+use sph_core::Vect;
+
+use crate::freedom::Freedom;
+use crate::line::Line;
+use crate::six::{blocks, padded, parts, six, solve};
+
+/// A body as the equations of motion know it; matrices as it is drawn.
+#[derive(Clone, Debug)]
+pub(crate) struct Dynamics {
+    pub mass: f64,
+    /// Centre of mass, m.
+    pub centre: Vector3<f64>,
+    /// Inertia about the centre, kg m².
+    pub inertia: Matrix3<f64>,
+    /// Inertia A* of the layer of fluid at the surface.
+    pub layer: Matrix6<f64>,
+    pub free: [bool; 6],
+    /// Stiffness and damping on degrees of freedom.
+    pub holds: Vec<(Freedom, f64, f64)>,
+    pub lines: Vec<Line>,
+    /// The time from which on it is free, s.
+    pub start: f64,
+}
+
+/// The rotation of a state; about z in two dimensions.
+pub(crate) fn rotation<const D: usize>(state: &RigidState<D>) -> Matrix3<f64> {
+    let mut whole = Matrix3::identity();
+    for i in 0..D {
+        for k in 0..D {
+            whole[(i, k)] = state.pose.rotation[i][k];
+        }
+    }
+    whole
+}
+
+impl Dynamics {
+    /// The state after a step of `dt` seconds.
+    ///
+    /// (M + Δt C + Δt² K) a = F − K s − C v − Δt K v over the free ones of the six, with F the force of the fluid and its
+    /// moment about the centre, weight and contact; v' = v + Δt a, x' = x + Δt v'.
+    pub fn next<const D: usize>(
+        &self,
+        now: &RigidState<D>,
+        load: &Load<D>,
+        time: f64,
+        dt: f64,
+    ) -> RigidState<D> {
+        if time < self.start {
+            let mut state = *now;
+            let place = Vect::from(now.pose.translation) + now.velocity * dt;
+            state.pose.translation = place.into();
+            return state.turned_by(now.angular_velocity.map(|w| w * dt));
+        }
+        let turn = rotation(now);
+        let inertia = turn * self.inertia * turn.transpose();
+        let mass = blocks(Matrix3::identity() * self.mass, inertia);
+        let omega = Vector3::from(now.angular_velocity);
+        let velocity = six(padded(now.velocity.as_slice()), omega);
+        let gyroscopic = omega.cross(&(inertia * omega));
+        let mut force = self.force(now, load) - six(Vector3::zeros(), gyroscopic);
+        let mut matrix = mass;
+        self.hold(now, &velocity, dt, &mut matrix, &mut force);
+        let acceleration = solve(matrix, force, self.free);
+        let (along, about) = parts(&acceleration);
+
+        let mut state = *now;
+        let moved = padded(now.velocity.as_slice()) + along * dt;
+        state.velocity = Vect::from_fn(|k, _| moved[k]);
+        let place = Vect::from(now.pose.translation) + state.velocity * dt;
+        state.pose.translation = place.into();
+        let (turned, omega_next) = match self.free[3..] {
+            [true, true, true] if D == 3 => {
+                let moment = inertia * about + gyroscopic;
+                self.tumbled(&turn, inertia * omega + moment * dt, dt)
+            }
+            _ => (omega + about * dt, omega + about * dt),
+        };
+        state = state.turned_by((turned * dt).into());
+        state.angular_velocity = omega_next.into();
+
+        // What the pressure at the wall feels follows what the body does.
+        let felt = six(
+            padded(now.acceleration.as_slice()),
+            now.angular_acceleration.into(),
+        );
+        let whole = six(along, (omega_next - omega) / dt);
+        let frame = blocks(turn, turn);
+        let layer = frame * self.layer * frame.transpose();
+        let change = solve(mass + layer, mass * (whole - felt), self.free);
+        let (along, about) = parts(&(felt + change));
+        state.acceleration = Vect::from_fn(|k, _| along[k]);
+        state.angular_acceleration = about.into();
+        state
+    }
+
+    /// Force and moment about the centre.
+    fn force<const D: usize>(&self, now: &RigidState<D>, load: &Load<D>) -> Vector6<f64> {
+        let place = padded(now.place().as_slice());
+        let [fluid, contact] = [&load.force, &load.contact_force].map(|f| padded(f.as_slice()));
+        let moment = Vector3::from(load.moment) + Vector3::from(load.contact_moment);
+        let weight = padded(load.gravity.as_slice()) * self.mass;
+        let surface = fluid + contact;
+        six(surface + weight, moment - place.cross(&surface))
+    }
+
+    /// Springs, dampers and lines, taken at the end of the step.
+    fn hold<const D: usize>(
+        &self,
+        now: &RigidState<D>,
+        velocity: &Vector6<f64>,
+        dt: f64,
+        matrix: &mut Matrix6<f64>,
+        force: &mut Vector6<f64>,
+    ) {
+        let turn = rotation(now);
+        let shift = padded(&now.pose.translation);
+        let mut add = |j: &Vector6<f64>, pull: f64, stiffness: f64, damping: f64, rate: f64| {
+            *matrix += j * j.transpose() * (dt * damping + dt * dt * stiffness);
+            *force -= j * (pull + dt * stiffness * rate);
+        };
+        if !self.holds.is_empty() {
+            let angle = Rotation3::from_matrix_unchecked(turn).scaled_axis();
+            let way = six(shift, angle);
+            for (freedom, stiffness, damping) in &self.holds {
+                let k = freedom.index();
+                let mut j = Vector6::zeros();
+                j[k] = 1.0;
+                let pull = stiffness * way[k] + damping * velocity[k];
+                add(&j, pull, *stiffness, *damping, velocity[k]);
+            }
+        }
+        for line in &self.lines {
+            let arm = turn * (padded(&line.to) - self.centre);
+            if let Some(pull) = line.pull(self.centre + shift + arm, arm, velocity) {
+                let (tension, rate) = (pull.tension, pull.rate);
+                add(&pull.along, tension, line.stiffness, line.damping, rate);
+            }
+        }
+    }
+
+    /// The mean angular velocity over a step at whose end the angular momentum is L, and that at its end: the inertia
+    /// turns with the body, and without a moment L stays to rounding.
+    fn tumbled(
+        &self,
+        turn: &Matrix3<f64>,
+        momentum: Vector3<f64>,
+        dt: f64,
+    ) -> (Vector3<f64>, Vector3<f64>) {
+        let spin = |turn: Matrix3<f64>| {
+            let inertia = turn * self.inertia * turn.transpose();
+            let factors = inertia.cholesky();
+            factors.map_or_else(|| Vector3::repeat(f64::NAN), |c| c.solve(&momentum))
+        };
+        let turned = |omega: Vector3<f64>, dt: f64| Rotation3::new(omega * dt).into_inner() * turn;
+        let middle = spin(turned(spin(*turn), 0.5 * dt));
+        (middle, spin(turned(middle, dt)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn body(free: [bool; 6]) -> Dynamics {
+        Dynamics {
+            mass: 2.0,
+            centre: Vector3::new(0.1, 0.2, 0.3),
+            inertia: Matrix3::from_diagonal(&Vector3::new(1.0, 2.0, 2.5)),
+            layer: Matrix6::zeros(),
+            free,
+            holds: Vec::new(),
+            lines: Vec::new(),
+            start: 0.0,
+        }
+    }
+
+    fn at_rest<const D: usize>(body: &Dynamics) -> RigidState<D> {
+        RigidState {
+            centre: std::array::from_fn(|k| body.centre[k]),
+            ..RigidState::default()
+        }
+    }
+
+    /// About the middle axis the turn is unstable, so that the body tumbles over and over: ten times here.
+    #[test]
+    fn a_body_that_tumbles_keeps_its_angular_momentum_and_its_energy() {
+        let body = body([true; 6]);
+        let mut state = at_rest::<3>(&body);
+        state.angular_velocity = [0.01, 5.0, 0.02];
+        let of = |state: &RigidState<3>| {
+            let (turn, omega) = (rotation(state), Vector3::from(state.angular_velocity));
+            let momentum = turn * body.inertia * turn.transpose() * omega;
+            (momentum, 0.5 * momentum.dot(&omega), turn)
+        };
+        let (momentum, energy, _) = of(&state);
+        let (mut over, mut before) = (0, 1.0);
+        for _ in 0..60_000 {
+            state = body.next(&state, &Load::of_gravity(Vect::zeros()), 0.0, 1e-3);
+            let up = of(&state).2.column(1).y;
+            over += u32::from(up * before < 0.0);
+            before = up;
+        }
+        let (now, left, turn) = of(&state);
+        assert!(over >= 5, "{over} times");
+        let lost = (now - momentum).norm() / momentum.norm();
+        assert!(lost < 1e-11, "angular momentum: {lost:e}");
+        let drift = (left / energy - 1.0).abs();
+        assert!(drift < 1e-5, "energy: {drift:e}");
+        let skew = (turn.transpose() * turn - Matrix3::identity()).norm();
+        assert!(skew < 1e-10, "R is a rotation to {skew:e}");
+    }
+
+    #[test]
+    fn what_is_locked_stays_and_what_is_free_follows_newton_and_euler() {
+        let body = body([true, false, false, false, false, true]);
+        let load = Load::<2> {
+            force: Vect::<2>::new(3.0, 4.0),
+            moment: [0.0, 0.0, 7.0],
+            ..Load::of_gravity(Vect::<2>::new(1.0, -9.81))
+        };
+        let state = body.next(&at_rest(&body), &load, 0.0, 0.1);
+        assert!((state.velocity[0] - 0.1 * (1.5 + 1.0)).abs() < 1e-15);
+        assert_eq!(state.velocity[1], 0.0);
+        // 7 − (0.1·4 − 0.2·3) about the centre.
+        let about = 0.1 * (7.0 - 0.1 * 4.0 + 0.2 * 3.0) / 2.5;
+        assert!((state.angular_velocity[2] - about).abs() < 1e-15);
+        let early = Dynamics {
+            start: 0.05,
+            ..body.clone()
+        };
+        assert_eq!(early.next(&at_rest(&body), &load, 0.0, 0.1), at_rest(&body));
+    }
+
+    /// m = 2, k = 8: a period of π s; with steps of a tenth of it, and with steps of ten of it, it stays bounded.
+    #[test]
+    fn springs_have_their_period_and_never_bound_the_step() {
+        let held = Dynamics {
+            holds: vec![(Freedom::X, 8.0, 0.0)],
+            ..body([true; 6])
+        };
+        let none = Load::<2>::of_gravity(Vect::zeros());
+        let mut state = at_rest(&held);
+        state.pose.translation[0] = 0.1;
+        let steps = 20_000;
+        let dt = std::f64::consts::PI / f64::from(steps);
+        for _ in 0..steps {
+            state = held.next(&state, &none, 0.0, dt);
+        }
+        let [x, _] = state.pose.translation;
+        assert!((x / 0.1 - 1.0).abs() < 1e-3, "after a period at {x}");
+        for _ in 0..100 {
+            state = held.next(&state, &none, 0.0, 30.0);
+        }
+        assert!(state.pose.translation[0].abs() < 0.1);
+    }
+
+    /// F = F₀ − A ã, as a fluid at rest answers the acceleration that its wall pressures feel. With the layer A* ≥ A the
+    /// body comes to F₀/(M + A) whatever its mass; without, every body lighter than A is thrown about.
+    #[test]
+    fn no_body_is_too_light_for_the_layer_and_without_it_those_below_the_added_mass_are() {
+        let swings = |mass: f64, added: f64, layer: f64| {
+            let body = Dynamics {
+                mass,
+                layer: Matrix6::identity() * layer,
+                ..body([true, true, false, false, false, false])
+            };
+            let mut state = at_rest::<2>(&body);
+            for _ in 0..20_000 {
+                let felt = state.acceleration[0];
+                let mut load = Load::of_gravity(Vect::zeros());
+                load.force[0] = 1.0 - added * felt;
+                state = body.next(&state, &load, 0.0, 1e-4);
+            }
+            state.acceleration[0] * (mass + added)
+        };
+        for mass in [100.0, 1.0, 0.1, 0.01] {
+            for added in [0.0, 0.3, 1.0] {
+                let end = swings(mass, added, 1.0);
+                assert!((end - 1.0).abs() < 1e-3, "M = {mass}, A = {added}: {end}");
+            }
+        }
+        assert!((swings(1.1, 1.0, 0.0) - 1.0).abs() < 1e-3);
+        assert!(!swings(0.9, 1.0, 0.0).is_finite() || swings(0.9, 1.0, 0.0).abs() > 10.0);
+    }
+}

@@ -1,0 +1,115 @@
+//! What a body is free to do, and what holds it there.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A degree of freedom: along an axis, or about one through the centre.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Freedom {
+    /// Along x.
+    X,
+    /// Along y.
+    Y,
+    /// Along z; three dimensions only.
+    Z,
+    /// About x; three dimensions only.
+    Rx,
+    /// About y; three dimensions only.
+    Ry,
+    /// About z: the only turn in two dimensions.
+    Rz,
+}
+
+impl Freedom {
+    /// Its place among the six.
+    pub fn index(self) -> usize {
+        match self {
+            Self::X => 0,
+            Self::Y => 1,
+            Self::Z => 2,
+            Self::Rx => 3,
+            Self::Ry => 4,
+            Self::Rz => 5,
+        }
+    }
+
+    /// Those that there are in D dimensions.
+    pub fn in_dimension(dimension: usize) -> &'static [Freedom] {
+        match dimension {
+            2 => &[Self::X, Self::Y, Self::Rz],
+            _ => &[Self::X, Self::Y, Self::Z, Self::Rx, Self::Ry, Self::Rz],
+        }
+    }
+
+    /// Name in scene files.
+    pub fn name(self) -> &'static str {
+        ["x", "y", "z", "rx", "ry", "rz"][self.index()]
+    }
+}
+
+/// A spring and a damper on a displacement from where the body is drawn.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Hold {
+    /// Stiffness, N/m (per metre of depth in two dimensions).
+    #[schemars(extend("unit" = "N/m", "minimum" = 0.0))]
+    pub stiffness: f64,
+    /// Damping, N s/m (per metre of depth in two dimensions).
+    #[schemars(extend("unit" = "N s/m", "minimum" = 0.0))]
+    pub damping: f64,
+}
+
+/// A spring and a damper on an angle from how the body is drawn.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct HoldTurn {
+    /// Stiffness, N m/rad (per metre of depth in two dimensions).
+    #[schemars(extend("unit" = "N m", "minimum" = 0.0))]
+    pub stiffness: f64,
+    /// Damping, N m s/rad (per metre of depth in two dimensions).
+    #[schemars(extend("unit" = "N m s", "minimum" = 0.0))]
+    pub damping: f64,
+}
+
+/// Springs and dampers on degrees of freedom.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Holds {
+    /// Along x.
+    pub x: Option<Hold>,
+    /// Along y.
+    pub y: Option<Hold>,
+    /// Along z; three dimensions only.
+    pub z: Option<Hold>,
+    /// About x; three dimensions only.
+    pub rx: Option<HoldTurn>,
+    /// About y; three dimensions only.
+    pub ry: Option<HoldTurn>,
+    /// About z.
+    pub rz: Option<HoldTurn>,
+}
+
+impl Holds {
+    /// Stiffness and damping of those that are given, by their degree of freedom.
+    pub fn all(&self) -> impl Iterator<Item = (Freedom, f64, f64)> {
+        let along = [
+            (Freedom::X, self.x),
+            (Freedom::Y, self.y),
+            (Freedom::Z, self.z),
+        ];
+        let about = [
+            (Freedom::Rx, self.rx),
+            (Freedom::Ry, self.ry),
+            (Freedom::Rz, self.rz),
+        ];
+        let along = along
+            .into_iter()
+            .filter_map(|(f, h)| Some((f, h?.stiffness, h?.damping)));
+        along.chain(
+            about
+                .into_iter()
+                .filter_map(|(f, h)| Some((f, h?.stiffness, h?.damping))),
+        )
+    }
+}

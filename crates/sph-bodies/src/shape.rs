@@ -1,0 +1,233 @@
+//! Volume, centre and inertia of what walls enclose.
+
+use std::collections::BTreeSet;
+use std::f64::consts::TAU;
+
+use nalgebra::{Matrix3, Vector3};
+use sph_boundary::{Drawing, Polyline, Surface};
+
+use crate::six::padded;
+
+/// A solid of density 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solid {
+    /// Volume, m³ (area, m², in two dimensions).
+    pub volume: f64,
+    /// Centre, m.
+    pub centre: Vector3<f64>,
+    /// ∫ (r² I − r rᵀ) dV about the centre, m⁵; in two dimensions only the last entry, ∫ r² dA, m⁴.
+    pub inertia: Matrix3<f64>,
+}
+
+/// Why a wall is no solid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoSolid {
+    /// An open line or surface.
+    #[error("the wall is open: it encloses no volume")]
+    Open,
+    /// A plate of no thickness.
+    #[error("the wall encloses no volume")]
+    Flat,
+    /// Fluid is inside.
+    #[error("the fluid is inside of it, which makes it a vessel: a body has `fluid = \"outside\"`")]
+    Vessel,
+}
+
+/// Moments of pieces: volume, first and second moments about the origin.
+#[derive(Clone, Copy, Debug, Default)]
+struct Moments {
+    volume: f64,
+    size: f64,
+    first: Vector3<f64>,
+    second: Matrix3<f64>,
+}
+
+impl Solid {
+    /// Of the pieces of one wall; the fluid is outside of it.
+    ///
+    /// By the divergence theorem: sums over triangles (origin, edge) and tetrahedra (origin, facet).
+    ///
+    /// # Errors
+    /// If they enclose nothing.
+    pub fn of<'a>(pieces: impl IntoIterator<Item = &'a Drawing>) -> Result<Self, NoSolid> {
+        let mut sum = Moments::default();
+        let mut flat = true;
+        for piece in pieces {
+            match piece {
+                Drawing::Line(line) => add_line(&mut sum, line)?,
+                Drawing::Surface(surface) => {
+                    flat = false;
+                    add_surface(&mut sum, surface)?;
+                }
+            }
+        }
+        if sum.volume.abs() <= 1e-12 * sum.size {
+            return Err(NoSolid::Flat);
+        }
+        if sum.volume < 0.0 {
+            return Err(NoSolid::Vessel);
+        }
+        let centre = sum.first / sum.volume;
+        let about = sum.second - centre * centre.transpose() * sum.volume;
+        let mut inertia = Matrix3::identity() * about.trace() - about;
+        if flat {
+            inertia = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, inertia[(2, 2)]));
+        }
+        Ok(Solid {
+            volume: sum.volume,
+            centre,
+            inertia,
+        })
+    }
+}
+
+/// How often the pieces of one wall go round a place: 1 inside of a body, −1 inside of a vessel, 0 outside of both.
+pub(crate) fn winding<'a>(pieces: impl IntoIterator<Item = &'a Drawing>, x: Vector3<f64>) -> f64 {
+    let from = |p: &[f64]| padded(p) - x;
+    let around = |piece: &Drawing| match piece {
+        Drawing::Line(line) => {
+            let turn = |[a, b]: [[f64; 2]; 2]| {
+                let [a, b] = [b, a].map(|p| from(&p));
+                a.cross(&b).z.atan2(a.dot(&b)) / TAU
+            };
+            line.edges().map(turn).sum::<f64>()
+        }
+        Drawing::Surface(surface) => {
+            // Half of a solid angle, van Oosterom & Strackee 1983.
+            let angle = |triangle: &[u32; 3]| {
+                let [a, b, c] = triangle.map(|k| from(&surface.points[k as usize]));
+                let [p, q, r] = [a, b, c].map(|v| v.norm());
+                let below = p * q * r + a.dot(&b) * r + b.dot(&c) * p + c.dot(&a) * q;
+                a.dot(&b.cross(&c)).atan2(below) / TAU
+            };
+            surface.triangles.iter().map(angle).sum()
+        }
+    };
+    pieces.into_iter().map(around).sum()
+}
+
+fn add_line(sum: &mut Moments, line: &Polyline) -> Result<(), NoSolid> {
+    if !line.closed {
+        return Err(NoSolid::Open);
+    }
+    for [a, b] in line.edges() {
+        // The fluid is on the left of travel, so the body is gone round clockwise.
+        let [a, b] = [b, a].map(|p| Vector3::new(p[0], p[1], 0.0));
+        let area = 0.5 * (a.x * b.y - a.y * b.x);
+        sum.volume += area;
+        sum.size += area.abs();
+        sum.first += (a + b) * (area / 3.0);
+        let whole = a + b;
+        let products = a * a.transpose() + b * b.transpose() + whole * whole.transpose();
+        sum.second += products * (area / 12.0);
+    }
+    Ok(())
+}
+
+fn add_surface(sum: &mut Moments, surface: &Surface) -> Result<(), NoSolid> {
+    let edges = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
+    let bits = |c: u32| surface.points[c as usize].map(|x| (x + 0.0).to_bits());
+    let directed: BTreeSet<_> = surface
+        .triangles
+        .iter()
+        .flat_map(edges)
+        .map(|e| e.map(bits))
+        .collect();
+    if directed.iter().any(|[a, b]| !directed.contains(&[*b, *a])) {
+        return Err(NoSolid::Open);
+    }
+    for triangle in &surface.triangles {
+        // Anticlockwise seen from the fluid: outwards.
+        let [a, b, c] = triangle.map(|k| Vector3::from(surface.points[k as usize]));
+        let volume = a.dot(&b.cross(&c)) / 6.0;
+        sum.volume += volume;
+        sum.size += volume.abs();
+        let whole = a + b + c;
+        sum.first += whole * (volume / 4.0);
+        let own = a * a.transpose() + b * b.transpose() + c * c.transpose();
+        sum.second += (own + whole * whole.transpose()) * (volume / 20.0);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn boxed(low: [f64; 3], high: [f64; 3]) -> Surface {
+        let corner =
+            |k: usize| std::array::from_fn(|i| if k >> i & 1 == 0 { low[i] } else { high[i] });
+        let faces = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        let halves = |f: [u32; 4]| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]];
+        Surface {
+            name: "box".into(),
+            points: (0..8).map(corner).collect(),
+            triangles: faces.into_iter().flat_map(halves).collect(),
+        }
+    }
+
+    fn rectangle(reversed: bool, closed: bool) -> Drawing {
+        let mut points = vec![[1.0, 2.0], [1.0, 3.0], [3.0, 3.0], [3.0, 2.0]];
+        if reversed {
+            points.reverse();
+        }
+        Drawing::Line(Polyline {
+            name: "r".into(),
+            points,
+            closed,
+        })
+    }
+
+    #[test]
+    fn a_rectangle_and_a_box_have_their_moments_to_rounding() {
+        let solid = Solid::of([&rectangle(false, true)]).unwrap();
+        assert!((solid.volume - 2.0).abs() < 1e-14);
+        assert!((solid.centre - Vector3::new(2.0, 2.5, 0.0)).norm() < 1e-14);
+        // A (a² + b²)/12
+        assert!((solid.inertia[(2, 2)] - 2.0 * 5.0 / 12.0).abs() < 1e-13);
+        let solid =
+            Solid::of([&Drawing::Surface(boxed([1.0, 2.0, -1.0], [3.0, 5.0, 3.0]))]).unwrap();
+        assert!((solid.volume - 24.0).abs() < 1e-12);
+        assert!((solid.centre - Vector3::new(2.0, 3.5, 1.0)).norm() < 1e-13);
+        let expected = Vector3::new(9.0 + 16.0, 4.0 + 16.0, 4.0 + 9.0) * 2.0;
+        let off = solid.inertia - Matrix3::from_diagonal(&expected);
+        assert!(off.norm() < 1e-11, "{off}");
+    }
+
+    #[test]
+    fn windings_tell_bodies_from_vessels() {
+        let at = |reversed: bool, x: f64| {
+            winding([&rectangle(reversed, true)], Vector3::new(x, 2.5, 0.0))
+        };
+        for (reversed, x, expected) in [(false, 2.0, 1.0), (true, 2.0, -1.0), (false, 0.5, 0.0)] {
+            assert!((at(reversed, x) - expected).abs() < 1e-12);
+        }
+        let solid = [&Drawing::Surface(boxed([0.0; 3], [1.0, 2.0, 3.0]))];
+        for (x, expected) in [(0.2, 1.0), (-0.2, 0.0)] {
+            let around = winding(solid, Vector3::new(x, 0.7, 1.9));
+            assert!((around - expected).abs() < 1e-12, "{around}");
+        }
+    }
+
+    #[test]
+    fn vessels_lines_and_lids_are_no_solids() {
+        assert_eq!(Solid::of([&rectangle(true, true)]), Err(NoSolid::Vessel));
+        assert_eq!(Solid::of([&rectangle(false, false)]), Err(NoSolid::Open));
+        let mut open = boxed([0.0; 3], [1.0; 3]);
+        open.triangles.truncate(10);
+        assert_eq!(Solid::of([&Drawing::Surface(open)]), Err(NoSolid::Open));
+        let plate = Polyline {
+            name: "p".into(),
+            points: vec![[0.0, 0.0], [1.0, 0.0]],
+            closed: true,
+        };
+        assert_eq!(Solid::of([&Drawing::Line(plate)]), Err(NoSolid::Flat));
+    }
+}

@@ -1,0 +1,44 @@
+//! Six numbers: three along the axes, three about them.
+
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+
+/// A vector of three and one of three.
+pub(crate) fn six(along: Vector3<f64>, about: Vector3<f64>) -> Vector6<f64> {
+    Vector6::new(along.x, along.y, along.z, about.x, about.y, about.z)
+}
+
+/// The part along the axes, and that about them.
+pub(crate) fn parts(v: &Vector6<f64>) -> (Vector3<f64>, Vector3<f64>) {
+    (
+        Vector3::new(v[0], v[1], v[2]),
+        Vector3::new(v[3], v[4], v[5]),
+    )
+}
+
+/// Two matrices along the diagonal.
+pub(crate) fn blocks(along: Matrix3<f64>, about: Matrix3<f64>) -> Matrix6<f64> {
+    let mut whole = Matrix6::zeros();
+    whole.fixed_view_mut::<3, 3>(0, 0).copy_from(&along);
+    whole.fixed_view_mut::<3, 3>(3, 3).copy_from(&about);
+    whole
+}
+
+/// The solution of A x = b among those x whose components are zero where they are not free; A is symmetric and positive.
+pub(crate) fn solve(mut a: Matrix6<f64>, mut b: Vector6<f64>, free: [bool; 6]) -> Vector6<f64> {
+    for k in (0..6).filter(|k| !free[*k]) {
+        a.row_mut(k).fill(0.0);
+        a.column_mut(k).fill(0.0);
+        a[(k, k)] = 1.0;
+        b[k] = 0.0;
+    }
+    match a.cholesky() {
+        Some(factors) => factors.solve(&b),
+        None => Vector6::repeat(f64::NAN),
+    }
+}
+
+/// D numbers, padded by zeros.
+pub(crate) fn padded(v: &[f64]) -> Vector3<f64> {
+    let at = |k: usize| v.get(k).copied().unwrap_or(0.0);
+    Vector3::new(at(0), at(1), at(2))
+}

@@ -1,0 +1,103 @@
+//! What acts on a wall, and what its mover is told of the scene.
+
+use sph_core::Vect;
+
+use crate::Drawing;
+
+/// Forces and moments that act on a wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load<const D: usize> {
+    /// Force of the fluid, N (N/m in two dimensions): the reaction to what the wall does to the particles.
+    pub force: Vect<D>,
+    /// Its moment about the origin, N m; only the last component in two dimensions.
+    pub moment: [f64; 3],
+    /// Force of walls that it touches, N; zero unless its mover tells a [`Touch`].
+    pub contact_force: Vect<D>,
+    /// Its moment about the origin, N m.
+    pub contact_moment: [f64; 3],
+    /// Gravity, m/s²; what it does to the wall is the mover's business.
+    pub gravity: Vect<D>,
+}
+
+impl<const D: usize> Load<D> {
+    /// Gravity alone.
+    pub fn of_gravity(gravity: Vect<D>) -> Self {
+        Load {
+            force: Vect::zeros(),
+            moment: [0.0; 3],
+            contact_force: Vect::zeros(),
+            contact_moment: [0.0; 3],
+            gravity,
+        }
+    }
+}
+
+/// How a wall that its mover moves freely meets other walls.
+///
+/// Where two surfaces are nearer than half a spacing, each area S of one pushes the other with
+/// N = S (k δ − c u_n) ≥ 0, δ the missing distance, u_n the velocity with which they part,
+/// c = 2 ζ √(k m / ΣS), and rubs with at most μ N.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Mass m, kg (per metre of depth in two dimensions); of two bodies m₁m₂/(m₁ + m₂) counts.
+    pub mass: f64,
+    /// Stiffness k, Pa/m; of two bodies the smaller one counts.
+    pub stiffness: f64,
+    /// Share of the velocity that is left after an impact; it gives ζ ≤ 1, so that e⁻² is the least. Of two bodies the smaller one counts.
+    pub restitution: f64,
+    /// Coefficient of friction μ; of two bodies √(μ₁μ₂) counts.
+    pub friction: f64,
+}
+
+/// What a mover is told before the start.
+#[derive(Clone, Copy, Debug)]
+pub struct MoverSetting<'a, const D: usize> {
+    /// Name of its wall.
+    pub wall: &'a str,
+    /// All walls as they are drawn; several pieces of a wall have one name.
+    pub walls: &'a [&'a Drawing],
+    /// Particle spacing δr, m.
+    pub spacing: f64,
+    /// Smoothing length h, m.
+    pub smoothing_length: f64,
+    /// Densities of the lightest and the heaviest phase, kg/m³.
+    pub densities: [f64; 2],
+    /// The largest speed of sound c, m/s.
+    pub sound_speed: f64,
+    /// Whether the particles begin at the wall, so that the reaction to the particles is the force on the wall; without
+    /// it half a row of fluid clings to the wall.
+    pub flush: bool,
+}
+
+impl<'a, const D: usize> MoverSetting<'a, D> {
+    /// The pieces of its wall.
+    pub fn pieces(&self) -> impl Iterator<Item = &'a Drawing> {
+        let (walls, wall) = (self.walls, self.wall);
+        walls.iter().copied().filter(move |w| w.name() == wall)
+    }
+
+    /// The pieces of all other walls.
+    pub fn others(&self) -> impl Iterator<Item = &'a Drawing> {
+        let (walls, wall) = (self.walls, self.wall);
+        walls.iter().copied().filter(move |w| w.name() != wall)
+    }
+}
+
+/// Why a mover cannot move its wall: a key of its table, and what is wrong with it there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MoverRefusal {
+    /// The key in its table; the table itself, if empty.
+    pub key: String,
+    /// What is wrong, and what to do.
+    pub why: String,
+}
+
+impl MoverRefusal {
+    /// Of a key.
+    pub fn of(key: impl Into<String>, why: impl Into<String>) -> Self {
+        MoverRefusal {
+            key: key.into(),
+            why: why.into(),
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Movers learn of the scene and get their walls.
+
+use std::sync::Arc;
+
+use sph_boundary::{Mover, MoverSetting};
+use sph_core::SceneProblem;
+use sph_scene::Scene;
+use sph_state::Laws;
+
+use crate::failure::error::SolverError;
+use crate::setup::choices::Choices;
+use crate::setup::shapes::Drawn;
+
+/// Tells every mover of the scene, and every wall what moves it; takes the movers out of the choices.
+///
+/// # Errors
+/// The keys that do not fit.
+pub(crate) fn settle<const D: usize>(
+    scene: &Scene,
+    drawn: &mut Drawn<D>,
+    choices: &mut Choices<D>,
+    laws: &Laws,
+) -> Result<(), SolverError> {
+    let references = || laws.iter().map(|law| law.reference());
+    let densities = || references().map(|r| r.density);
+    let flush = |walls: &Box<dyn sph_boundary::Wall<D>>| walls.lattice_offset() > 0.0;
+    let walls: Vec<_> = drawn.walls.iter().map(|w| &w.drawing).collect();
+    let mut problems = Vec::new();
+    let mut settled = Vec::<(String, Arc<dyn Mover<D>>)>::new();
+    for (wall, mut mover) in std::mem::take(&mut choices.movers) {
+        let setting = MoverSetting {
+            wall: &wall,
+            walls: &walls,
+            spacing: scene.numerics.spacing,
+            smoothing_length: scene.numerics.smoothing_ratio * scene.numerics.spacing,
+            densities: [
+                densities().fold(f64::INFINITY, f64::min),
+                densities().fold(0.0, f64::max),
+            ],
+            sound_speed: references().map(|r| r.sound_speed).fold(0.0, f64::max),
+            flush: choices.walls.as_ref().is_some_and(flush),
+        };
+        if let Err(refusal) = mover.settle(&setting) {
+            let path = scene.mover(&wall).map(|c| c.inside(&refusal.key));
+            problems.push(SceneProblem::new(path.unwrap_or_default(), refusal.why));
+        }
+        settled.push((wall, Arc::from(mover)));
+    }
+    if !problems.is_empty() {
+        return Err(SolverError::Scene(problems));
+    }
+    for spec in &mut drawn.walls {
+        let of_it = |(name, _): &&(String, _)| name == spec.drawing.name();
+        spec.mover = settled.iter().find(of_it).map(|(_, m)| m.clone());
+    }
+    Ok(())
+}

@@ -1,0 +1,103 @@
+//! How the force on a wall answers the acceleration that its pressures feel.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_boundary::{Load, Mover, MoverEntry, RigidState};
+use sph_core::{System, register};
+use sph_scene::{Override, parse};
+use sph_solver::assemble;
+
+/// A wall that stays, whose pressures feel an acceleration along y all the same.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Still {
+    /// The acceleration.
+    acceleration: f64,
+}
+
+impl Mover<2> for Still {
+    fn start(&self) -> RigidState<2> {
+        let mut state = RigidState::default();
+        state.acceleration[1] = self.acceleration;
+        state
+    }
+    fn next(&self, now: &RigidState<2>, _: &Load<2>, _: f64, _: f64) -> RigidState<2> {
+        *now
+    }
+}
+
+register!(
+    MoverEntry[2],
+    Still,
+    "still",
+    "stays and feels an acceleration",
+    "the tests"
+);
+
+/// A block of 10 by 5 spacings under water.
+const BLOCK: &str = r#"
+title = "A block under water"
+dimension = 2
+[run]
+end = 1.0
+[numerics]
+spacing = 0.02
+[walls.usaw]
+vertices = false
+[wall.tank]
+box = [[0.0, 0.0], [0.6, 0.6]]
+[wall.block]
+box = [[0.2, 0.2], [0.4, 0.3]]
+fluid = "outside"
+[wall.block.mover.still]
+acceleration = 0.0
+[phase.water]
+density = 1000.0
+speed_of_sound = 20.0
+rheology.newtonian = { viscosity = "1 mPa s" }
+[body.water]
+phase = "water"
+fill = "walls"
+"#;
+
+/// Force on the block along y, N.
+fn force(acceleration: f64, walls: &str) -> f64 {
+    let changes = [
+        format!("wall.block.mover.still.acceleration={acceleration}"),
+        format!("walls={walls}"),
+    ];
+    let changes: Vec<_> = (changes.iter())
+        .map(|c| Override::parse(c).unwrap())
+        .collect();
+    let loaded = parse(BLOCK, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
+    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    parts.flow.evaluate().expect("forces");
+    parts
+        .flow
+        .measure_wall_forces(|name| name == "block")
+        .expect("a force");
+    let names = &parts.flow.world.walls.names;
+    let block = names.iter().position(|n| n == "block").expect("a block");
+    parts.flow.world.walls.forces[block].force[1]
+}
+
+/// F = F₀ − A a: what the scheme of light bodies rests on is 0 < A ≤ A*, A* = ρ h times twice the width.
+/// Measured: 0.27 of it, with both treatments of walls.
+#[test]
+fn the_force_answers_with_less_than_the_inertia_of_the_layer() {
+    let layer = 1000.0 * 0.04 * 2.0 * 0.2;
+    for walls in ["{usaw={vertices=false}}", "{dummy-particles={}}"] {
+        let answer = force(0.0, walls) - force(1.0, walls);
+        let share = answer / layer;
+        println!("{walls}: {share:.3}");
+        assert!(
+            share > 0.05 && share < 1.0,
+            "{walls}: A is {share:.3} of A*"
+        );
+        let twice = force(0.0, walls) - force(2.0, walls);
+        assert!(
+            (twice / answer - 2.0).abs() < 1e-9,
+            "{walls}: it is not linear"
+        );
+    }
+}
