@@ -5,9 +5,10 @@ use sph_solver::{Examination, Memory, examine};
 
 use crate::arguments::CheckArguments;
 use crate::layout::{columns, remarks};
-use crate::scene_file::{AnyScene, open};
+use crate::scene_file::{AnyScene, Opened, open};
+use crate::told::Told;
 use crate::trouble::Trouble;
-use crate::{console, grains, number};
+use crate::{grains, number};
 
 /// Above this Mach number the fluid is not nearly incompressible.
 const MACH: f64 = 0.1;
@@ -15,24 +16,28 @@ const MACH: f64 = 0.1;
 /// Tells what follows from a scene, without running it.
 pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
+    told(&opened, arguments.threads.map(usize::from))?.print(arguments.json);
+    Ok(())
+}
+
+/// What follows from a scene, for a number of threads.
+pub fn told(opened: &Opened, threads: Option<usize>) -> Result<Told, Trouble> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = arguments.threads.map_or(cores, usize::from);
+    let threads = threads.unwrap_or(cores);
     let loaded = match &opened.scene {
         AnyScene::Particles(loaded) => loaded,
-        AnyScene::Grains(loaded) => return grains::check::scene(arguments.json, loaded),
+        AnyScene::Grains(loaded) => return grains::check::told(loaded),
     };
     let examined = examine(&loaded.scene, threads);
     let mut examined = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
     let too_fast = too_fast(&examined);
     examined.warnings.extend(too_fast);
-    if arguments.json {
-        let mut all = serde_json::to_value(&examined).unwrap_or(Json::Null);
-        all["threads"] = json!(threads);
-        console::json(&all);
-    } else {
-        console::out(&text(&examined, loaded.source.file(), threads));
-    }
-    Ok(())
+    let mut all = serde_json::to_value(&examined).unwrap_or(Json::Null);
+    all["threads"] = json!(threads);
+    Ok(Told {
+        json: all,
+        text: text(&examined, loaded.source.file(), threads),
+    })
 }
 
 /// A remark for every phase whose speed comes too near to that of sound.
