@@ -42,6 +42,9 @@ pub struct Simulation {
     dimension: usize,
 }
 
+/// Name, unit, whether it is state, and lengths of the axes after the first, of a column.
+type Described = (&'static str, &'static str, bool, Vec<usize>);
+
 fn assembled(scene: &sph_cli::library::ParticleScene) -> Result<Flow, SolverError> {
     Ok(match scene.dimension {
         3 => Flow::Spatial(Box::new(Stepper::new(scene)?)),
@@ -162,7 +165,7 @@ impl Simulation {
     }
 
     /// Name, unit, whether it is state, and lengths of the axes after the first, of every column.
-    fn describe(&self) -> PyResult<Vec<(&'static str, &'static str, bool, Vec<usize>)>> {
+    fn describe(&self) -> PyResult<Vec<Described>> {
         let flow = self.flow()?;
         let dimension = self.dimension;
         Ok(each!(&*flow, s => {

@@ -80,7 +80,7 @@ pub fn watched<T: Send>(
             wait = (2 * wait).min(LOOK);
             let looked = py
                 .check_signals()
-                .and_then(|()| shared.look(py, progress, message));
+                .and_then(|()| shared.look(progress, message));
             if let Err(error) = looked {
                 shared.stop.store(true, Ordering::SeqCst);
                 raised.get_or_insert(error);
@@ -103,7 +103,6 @@ pub fn watched<T: Send>(
 impl Shared {
     fn look(
         &self,
-        py: Python<'_>,
         progress: Option<&Bound<'_, PyAny>>,
         message: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
@@ -131,7 +130,6 @@ impl Shared {
         if !wanted.is_none() && !wanted.is_truthy()? {
             self.stop.store(true, Ordering::SeqCst);
         }
-        let _ = py;
         Ok(())
     }
 }
