@@ -27,6 +27,7 @@ pub fn error(n: usize) -> Result<f64, SolveError> {
     for (i, x) in points.iter().enumerate() {
         let mut row = list.row(i).to_vec();
         row.retain(|j| *j as usize != i);
+        row.sort_unstable();
         let away = |j: &u32| (x - points[*j as usize]).map(|d| d - d.round());
         let squares: Vec<f64> = row.iter().map(|j| away(j).norm_squared()).collect();
         let (mut w, mut factor) = (vec![0.0; row.len()], vec![0.0; row.len()]);
