@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 29] = [
+const ALLOWED: [(&str, &[&str]); 30] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation"]),
     ("dem-grains", &[]),
@@ -131,11 +131,25 @@ const ALLOWED: [(&str, &[&str]); 29] = [
             "sph-turbulence",
         ],
     ),
+    (
+        "sph-python",
+        &[
+            "sph-cli",
+            "sph-contribution",
+            "sph-core",
+            "sph-io",
+            "sph-neighbours",
+            "sph-probes",
+            "sph-solver",
+        ],
+    ),
 ];
 
 /// Heavy crates, each with the crates that may name it: one for particles, and one for grains, which
 /// know nothing of each other.
-const KEPT_IN: [(&str, &[&str]); 5] = [
+const KEPT_IN: [(&str, &[&str]); 7] = [
+    ("pyo3", &["sph-python"]),
+    ("numpy", &["sph-python"]),
     ("clap", &["sph-cli"]),
     ("ariadne", &["sph-cli"]),
     ("indicatif", &["sph-cli"]),
@@ -197,6 +211,7 @@ fn every_dependency_within_the_workspace_is_an_arrow_of_the_design() {
                 ("sph-tests", _) => true,
                 // Examples stand for crates of strangers.
                 ("syrup" | "tracer" | "winch", _) => target != "sph-solver",
+                ("embedding", _) => true,
                 ("sph-solver", _) => {
                     !["sph-study", "sph-cli", "sph-tests"].contains(&target.as_str())
                 }
@@ -209,10 +224,18 @@ fn every_dependency_within_the_workspace_is_an_arrow_of_the_design() {
 }
 
 #[test]
-fn nothing_but_studies_the_command_line_tests_and_benches_knows_the_solver() {
+fn nothing_but_studies_the_command_line_python_tests_examples_and_benches_knows_the_solver() {
     for (name, room) in rooms() {
         let knows = room.uses.contains("sph-solver") || room.tests_use.contains("sph-solver");
-        let may = ["sph-study", "sph-cli", "sph-tests", "sph-bench"].contains(&name.as_str());
+        let may = [
+            "sph-study",
+            "sph-cli",
+            "sph-python",
+            "sph-tests",
+            "sph-bench",
+            "embedding",
+        ];
+        let may = may.contains(&name.as_str());
         assert!(
             !knows || may,
             "{name} depends on sph-solver, if only for its tests"

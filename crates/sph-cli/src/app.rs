@@ -1,22 +1,30 @@
 //! From the arguments to the subcommand, and from its result to the exit code.
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::Parser;
 
 use crate::arguments::{Arguments, Command};
-use crate::{check, console, explain, new, plugins, run, scenes, schema, study};
+use crate::{
+    check, compare, console, explain, manual, new, plugins, run, scenes, schema, study, view,
+};
 
 /// Runs the command that the process was called with.
 ///
 /// Exit codes: 0 done, 1 the run failed or was interrupted, 2 bad usage or a bad scene.
 pub fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+    ExitCode::from(command_line(std::env::args_os()))
+}
+
+/// Runs the command with these arguments, of which the first is the name of the program; its exit code.
+pub fn command_line<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) -> u8 {
+    let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(refused) => {
             // Help and version are no errors; a closed pipe is none of ours.
             let _ = refused.print();
-            return ExitCode::from(u8::try_from(refused.exit_code()).unwrap_or(2));
+            return u8::try_from(refused.exit_code()).unwrap_or(2);
         }
     };
     let json = arguments.command.json();
@@ -29,12 +37,16 @@ pub fn main() -> ExitCode {
         Command::Schema(a) => schema::command(a),
         Command::Scenes(a) => scenes::command(a),
         Command::New(a) => new::command(a),
+        Command::Compare(a) => compare::command(a),
+        Command::View(a) => view::command(a),
+        Command::Completions(a) => manual::completions(a),
+        Command::Man(a) => manual::man(a),
     };
     match done {
-        Ok(()) => ExitCode::from(u8::from(!console::complete())),
+        Ok(()) => u8::from(!console::complete()),
         Err(trouble) => {
             trouble.report(json);
-            ExitCode::from(trouble.exit_code())
+            trouble.exit_code()
         }
     }
 }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::tool_arguments::{CompareArguments, CompletionArguments, ManArguments, ViewArguments};
+
 /// Smoothed particle hydrodynamics, and grains one by one, from scene files.
 #[derive(Debug, Parser)]
 #[command(
@@ -133,6 +135,35 @@ Examples:
 
 Never overwrites a scene.")]
     New(NewArguments),
+    /// Tell whether two runs have the same bits, and if not where they differ most
+    #[command(after_help = "\
+Example:
+  sph compare results/before results/after
+
+Compares series.csv, all frames of fields.pvd and the checkpoints, particle by particle. Of every column
+that differs it tells the largest difference with time, particle and place. Writes nothing.
+
+Exit codes: 0 the same bits, 1 they differ, 2 there is nothing to compare.")]
+    Compare(CompareArguments),
+    /// Show the results of a run in a browser, also while it goes on
+    #[command(after_help = "\
+Example:
+  sph view results/dam-break-koshizuka
+
+Serves a page on 127.0.0.1, for this machine alone, until Ctrl-C: pictures over time, plots, columns of the
+series, errors and remarks. Writes nothing.")]
+    View(ViewArguments),
+    /// Print completions for a shell
+    #[command(after_help = "\
+Example:
+  sph completions bash > ~/.local/share/bash-completion/completions/sph")]
+    Completions(CompletionArguments),
+    /// Print a manual page, or write those of all commands
+    #[command(after_help = "\
+Examples:
+  sph man run | man -l -
+  sph man --out ~/.local/share/man/man1")]
+    Man(ManArguments),
 }
 
 impl Command {
@@ -145,7 +176,12 @@ impl Command {
             Command::Explain(a) => a.json,
             Command::Plugins(a) => a.json,
             Command::Scenes(a) => a.json,
-            Command::Schema(_) | Command::New(_) => false,
+            Command::Compare(a) => a.json,
+            Command::Schema(_)
+            | Command::New(_)
+            | Command::View(_)
+            | Command::Completions(_)
+            | Command::Man(_) => false,
         }
     }
 }
@@ -290,6 +326,9 @@ pub struct PluginArguments {
     /// yields, 2 at most]
     #[arg(long, requires = "picture", allow_hyphen_values = true)]
     pub strain: Option<f64>,
+    /// Print all plugins as a page of Markdown
+    #[arg(long, conflicts_with_all = ["kind", "json"])]
+    pub markdown: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

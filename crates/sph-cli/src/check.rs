@@ -6,9 +6,10 @@ use sph_solver::{Examination, Load, Memory, examine};
 use crate::arguments::CheckArguments;
 use crate::calibration::calibration;
 use crate::layout::{columns, remarks};
-use crate::scene_file::{AnyScene, open};
+use crate::scene_file::{AnyScene, Opened, open};
+use crate::told::Told;
 use crate::trouble::Trouble;
-use crate::{console, grains, number};
+use crate::{grains, number};
 
 /// Above this Mach number the fluid is not nearly incompressible.
 const MACH: f64 = 0.1;
@@ -16,11 +17,17 @@ const MACH: f64 = 0.1;
 /// Tells what follows from a scene, without running it.
 pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
+    told(&opened, arguments.threads.map(usize::from))?.print(arguments.json);
+    Ok(())
+}
+
+/// What follows from a scene, for a number of threads.
+pub fn told(opened: &Opened, threads: Option<usize>) -> Result<Told, Trouble> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = arguments.threads.map_or(cores, usize::from);
+    let threads = threads.unwrap_or(cores);
     let loaded = match &opened.scene {
         AnyScene::Particles(loaded) => loaded,
-        AnyScene::Grains(loaded) => return grains::check::scene(arguments.json, loaded),
+        AnyScene::Grains(loaded) => return grains::check::told(loaded),
     };
     let examined = examine(&loaded.scene);
     let mut examined = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
@@ -32,28 +39,29 @@ pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
         let step = told.calibration.step(&examined.load, threads);
         examined.estimate.steps * step / 3600.0
     });
-    if arguments.json {
-        let mut all = serde_json::to_value(&examined).unwrap_or(Json::Null);
-        all["threads"] = json!(threads);
-        all["estimate"]["hours"] = json!(hours);
-        all["estimate"]["origin"] = json!(told.map_or_else(|why| why, |told| told.origin));
-        console::json(&all);
-    } else {
-        let time = match (told, hours) {
-            (Ok(told), Some(hours)) => {
-                let on = match threads {
-                    1 => "1 thread".to_string(),
-                    n => format!("{n} threads"),
-                };
-                let time = number::duration(3600.0 * hours);
-                let doubt = doubt(&examined.load);
-                format!("about {time} on {on}{doubt}, by {}", told.origin)
-            }
-            (told, _) => format!("not known: {}", told.err().unwrap_or_default()),
-        };
-        console::out(&text(&examined, loaded.source.file(), &time));
-    }
-    Ok(())
+    let time = match (&told, hours) {
+        (Ok(told), Some(hours)) => {
+            let on = match threads {
+                1 => "1 thread".to_string(),
+                n => format!("{n} threads"),
+            };
+            let time = number::duration(3600.0 * hours);
+            let doubt = doubt(&examined.load);
+            format!("about {time} on {on}{doubt}, by {}", told.origin)
+        }
+        (told, _) => format!(
+            "not known: {}",
+            told.as_ref().err().cloned().unwrap_or_default()
+        ),
+    };
+    let mut all = serde_json::to_value(&examined).unwrap_or(Json::Null);
+    all["threads"] = json!(threads);
+    all["estimate"]["hours"] = json!(hours);
+    all["estimate"]["origin"] = json!(told.map_or_else(|why| why, |told| told.origin));
+    Ok(Told {
+        json: all,
+        text: text(&examined, loaded.source.file(), &time),
+    })
 }
 
 /// What the time of a run hangs on that its start does not tell.

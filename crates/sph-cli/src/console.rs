@@ -10,6 +10,18 @@ pub fn out(text: &str) {
     let mut stdout = std::io::stdout().lock();
     let written = writeln!(stdout, "{}", clean(text).trim_end_matches('\n'));
     let written = written.and_then(|()| stdout.flush());
+    note(written);
+}
+
+/// Bytes on stdout as they are, made by this program alone.
+pub fn raw(bytes: &[u8]) {
+    let mut stdout = std::io::stdout().lock();
+    let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
+    note(written);
+}
+
+/// Complains of what could not be written, once.
+fn note(written: std::io::Result<()>) {
     // `sph schema | head` closes the pipe: no reason to complain.
     if let Err(error) = written
         && error.kind() != ErrorKind::BrokenPipe

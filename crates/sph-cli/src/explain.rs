@@ -5,25 +5,30 @@ use sph_solver::{Examination, PluginInForce, StageUse, examine};
 
 use crate::arguments::ExplainArguments;
 use crate::check::memory;
+use crate::grains;
 use crate::layout::{columns, paragraph, parameters};
-use crate::scene_file::{AnyScene, open};
+use crate::scene_file::{AnyScene, Opened, open};
+use crate::told::Told;
 use crate::trouble::Trouble;
-use crate::{console, grains};
 
 /// Shows what a scene is made of.
 pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
-    let opened = open(&arguments.scene)?;
+    told(&open(&arguments.scene)?)?.print(arguments.json);
+    Ok(())
+}
+
+/// What a scene is made of.
+pub fn told(opened: &Opened) -> Result<Told, Trouble> {
     let loaded = match &opened.scene {
         AnyScene::Particles(loaded) => loaded,
-        AnyScene::Grains(loaded) => return grains::explain::scene(arguments.json, loaded),
+        AnyScene::Grains(loaded) => return grains::explain::told(loaded),
     };
     let examined = examine(&loaded.scene);
     let examined = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
-    match arguments.json {
-        true => console::json(&serde_json::to_value(&examined).unwrap_or(Json::Null)),
-        false => console::out(&text(&examined)),
-    }
-    Ok(())
+    Ok(Told {
+        json: serde_json::to_value(&examined).unwrap_or(Json::Null),
+        text: text(&examined),
+    })
 }
 
 fn text(e: &Examination) -> String {

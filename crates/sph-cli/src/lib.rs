@@ -7,6 +7,8 @@
 //! }
 //! ```
 //!
+//! [`library`] has the commands as functions, for whoever has no terminal.
+//!
 //! Every subcommand is one file; none of them knows a plugin by name. Exit codes: 0 done,
 //! 1 the run failed or was interrupted, 2 bad usage or a bad scene. With code 2 nothing has been
 //! written.
@@ -15,6 +17,7 @@ mod app;
 mod arguments;
 mod calibration;
 mod check;
+mod compare;
 mod console;
 mod diagnostics;
 mod explain;
@@ -23,6 +26,8 @@ mod grains;
 mod interrupt;
 mod layout;
 mod left_behind;
+pub mod library;
+mod manual;
 mod new;
 mod outcome;
 mod plugins;
@@ -35,7 +40,10 @@ mod shell;
 mod shipped;
 mod study;
 mod study_progress;
+mod told;
+mod tool_arguments;
 mod trouble;
+mod view;
 mod written;
 
 use sph_core::number;

@@ -1,5 +1,6 @@
 //! `sph plugins`.
 
+mod page;
 mod picture;
 mod snippet;
 mod specimen;
@@ -22,8 +23,12 @@ pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
     kinds.extend(&own);
     kinds.sort_by_key(|kind| kind.kind);
     let Some(kind) = &arguments.kind else {
-        let json = kinds.iter().map(|k| kind_json(k)).collect();
-        return shown(arguments, &overview(&kinds), &json);
+        let all: Vec<Json> = kinds.iter().map(|k| kind_json(k)).collect();
+        let text = match arguments.markdown {
+            true => page::of(&all),
+            false => overview(&kinds),
+        };
+        return shown(arguments, &text, &Json::Array(all));
     };
     let kind = find_kind(&kinds, kind)?;
     let names = arguments.names.iter();

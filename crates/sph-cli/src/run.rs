@@ -1,15 +1,16 @@
 //! `sph run`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
-use sph_scene::Source;
-use sph_solver::{Identity, RunOptions, SolverError, Start, Status, Summary, run};
+use sph_scene::{Loaded, Source};
+use sph_solver::{Identity, Observer, RunOptions, SolverError, Start, Status, Summary, run};
 
 use crate::arguments::RunArguments;
 use crate::left_behind::{CHECKPOINT, failed_summary, going_on, remedy};
 use crate::progress::Watcher;
-use crate::scene_file::{AnyScene, open};
+use crate::scene_file::{AnyScene, Opened, open};
+use crate::told::{Ended, Told};
 use crate::trouble::Trouble;
 use crate::{console, grains, interrupt, outcome};
 
@@ -19,27 +20,67 @@ const SUMMARY: &str = "summary.json";
 /// Runs a scene.
 pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
-    let out = arguments.out.clone();
-    let out = out.unwrap_or_else(|| Path::new("results").join(&opened.stem));
+    let out = folder(arguments, &opened);
     look_before_writing(arguments, &out)?;
-    let loaded = match &opened.scene {
-        AnyScene::Particles(loaded) => loaded,
-        AnyScene::Grains(loaded) => return grains::run::scene(arguments, loaded, &out),
+    let start = format!("{}: running into {}", opened.scene.card().0, out.display());
+    let noun = match opened.scene {
+        AnyScene::Particles(_) => "particle",
+        AnyScene::Grains(_) => "grain",
     };
-    let told = |error| Trouble::of(error, &loaded.source);
-    let options = RunOptions {
-        out: out.clone(),
-        start: start(arguments, &out)?,
-        threads: arguments.threads.map(usize::from),
-        identity: Identity::of(loaded).map_err(told)?,
-    };
-    let title = &loaded.scene.title;
-    let start = format!("{title}: running into {}", out.display());
-    let mut watcher = Watcher::new(arguments.quiet, start, interrupt::flag());
-    let result = run(&loaded.scene, &options, &mut watcher);
+    let watcher = Watcher::new(arguments.quiet, start, interrupt::flag());
+    let mut watcher = watcher.counting(noun);
+    let ended = execute(arguments, &opened, &mut watcher);
     watcher.finish();
-    let summary = result.map_err(|error| trouble(error, arguments, &loaded.source, &out))?;
-    conclude(arguments, &summary, &out)
+    conclude(arguments, &ended?, &out)
+}
+
+/// The folder of the results.
+pub fn folder(arguments: &RunArguments, opened: &Opened) -> PathBuf {
+    let out = arguments.out.clone();
+    out.unwrap_or_else(|| Path::new("results").join(&opened.stem))
+}
+
+/// Runs an opened scene, of particles or of grains, and says nothing itself.
+pub fn execute(
+    arguments: &RunArguments,
+    opened: &Opened,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Ended, Trouble> {
+    let out = folder(arguments, opened);
+    look_before_writing(arguments, &out)?;
+    match &opened.scene {
+        AnyScene::Particles(loaded) => particles(arguments, loaded, &out, observer),
+        AnyScene::Grains(loaded) => grains::run::execute(arguments, loaded, &out, observer),
+    }
+}
+
+fn particles(
+    arguments: &RunArguments,
+    loaded: &Loaded,
+    out: &Path,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Ended, Trouble> {
+    let located = |error| Trouble::of(error, &loaded.source);
+    let options = RunOptions {
+        out: out.to_path_buf(),
+        start: start(arguments, out)?,
+        threads: arguments.threads.map(usize::from),
+        identity: Identity::of(loaded).map_err(located)?,
+    };
+    let result = run(&loaded.scene, &options, observer);
+    let summary = result.map_err(|error| trouble(error, arguments, &loaded.source, out))?;
+    let stopped = summary.status != Status::Done;
+    Ok(Ended {
+        interrupted: stopped.then_some((summary.simulated_seconds, summary.steps)),
+        told: told(&summary, out),
+    })
+}
+
+fn told(summary: &Summary, out: &Path) -> Told {
+    Told {
+        json: serde_json::to_value(summary).unwrap_or(Json::Null),
+        text: outcome::text(summary, out),
+    }
 }
 
 /// Where the run begins.
@@ -82,24 +123,18 @@ fn look_before_writing(arguments: &RunArguments, out: &Path) -> Result<(), Troub
     Ok(())
 }
 
-fn conclude(arguments: &RunArguments, summary: &Summary, out: &Path) -> Result<(), Trouble> {
-    if arguments.json {
-        console::json(&serde_json::to_value(summary).unwrap_or(Json::Null));
-    } else if !arguments.quiet {
-        console::out(&outcome::text(summary, out));
+fn conclude(arguments: &RunArguments, ended: &Ended, out: &Path) -> Result<(), Trouble> {
+    if arguments.json || !arguments.quiet {
+        ended.told.print(arguments.json);
     }
-    match summary.status {
-        Status::Done => Ok(()),
-        _ => {
-            console::err(&format!(
-                "interrupted at t = {:.6} s, step {}; go on with\n  {}",
-                summary.simulated_seconds,
-                summary.steps,
-                going_on(arguments, out)
-            ));
-            Err(Trouble::Interrupted)
-        }
-    }
+    let Some((time, steps)) = ended.interrupted else {
+        return Ok(());
+    };
+    console::err(&format!(
+        "interrupted at t = {time:.6} s, step {steps}; go on with\n  {}",
+        going_on(arguments, out)
+    ));
+    Err(Trouble::Interrupted)
 }
 
 fn trouble(error: SolverError, arguments: &RunArguments, source: &Source, out: &Path) -> Trouble {

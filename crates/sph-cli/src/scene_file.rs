@@ -107,6 +107,17 @@ pub fn open(arguments: &SceneArguments) -> Result<Opened, Trouble> {
     }
 }
 
+/// Reads a scene from a text; the files that it names are looked for in the folder of `file`.
+pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<Opened, Trouble> {
+    let overrides = overrides(&arguments.set)?;
+    let allowed = allowed(&arguments.allow_path)?;
+    Ok(Opened {
+        scene: read(Source::new(text, file, &overrides).allowing(allowed))?,
+        stem: stem(Path::new(file)).to_string(),
+        _unpacked: None,
+    })
+}
+
 /// A scene's text, found but not yet read as one; its data disappear with it.
 pub struct Found {
     /// Name, text and file.

@@ -2,12 +2,12 @@
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use serde_json::Value as Json;
 use sph_core::suggestion;
-use sph_study::{
-    Options, Origin, Outcome, Results, SceneText, Status, Study, compare, execute, rows,
-};
+use sph_study::{Options, Origin, Results, SceneText, Status, Study, compare, execute, rows};
 
 use crate::arguments::StudyArguments;
 use crate::layout::columns;
@@ -15,6 +15,7 @@ use crate::scene_file::{Found, allowed, find, overrides};
 use crate::shell::quoted;
 use crate::shipped;
 use crate::study_progress::Watcher;
+use crate::told::Told;
 use crate::trouble::Trouble;
 use crate::{console, interrupt};
 
@@ -26,6 +27,29 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
     if let [first, second] = arguments.compare.as_slice() {
         return compared(arguments, first, second);
     }
+    let studied = conduct(arguments, interrupt::flag())?;
+    if arguments.json || !arguments.quiet {
+        studied.told.print(arguments.json);
+    }
+    match studied.going_on {
+        None => Ok(()),
+        Some(kept) => {
+            console::err(&kept);
+            Err(Trouble::Interrupted)
+        }
+    }
+}
+
+/// The end of a study.
+pub struct Studied {
+    /// Its results.
+    pub told: Told,
+    /// What is kept and how to go on, if it stopped before its end.
+    pub going_on: Option<String>,
+}
+
+/// Runs a study until it is done or the flag is raised.
+pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Studied, Trouble> {
     let name = arguments.study.as_deref().unwrap_or_default();
     // The data of compiled-in scenes are needed until the last variant has run.
     let scenes: RefCell<Vec<Found>> = RefCell::default();
@@ -38,7 +62,7 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
         fresh: arguments.fresh,
         origin: Origin::new(env!("SPH_BUILT_WITH")),
     };
-    let watcher = Watcher::new(arguments.quiet, &study, &options, interrupt::flag());
+    let watcher = Watcher::new(arguments.quiet, &study, &options, stop);
     assemble(&study, &watcher)?;
     let failed = |error| Trouble::Failed {
         error,
@@ -57,12 +81,14 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
         return Err(failed(error));
     }
     published.map_err(|e| failed(e.into()))?;
-    if arguments.json {
-        console::json(&serde_json::to_value(&results).unwrap_or(Json::Null));
-    } else if !arguments.quiet {
-        console::out(&text(&results, &out));
-    }
-    conclude(arguments, name, &outcome)
+    let records = &outcome.records;
+    Ok(Studied {
+        told: Told {
+            json: serde_json::to_value(&results).unwrap_or(Json::Null),
+            text: text(&results, &out),
+        },
+        going_on: outcome.stopped.then(|| kept(arguments, name, records)),
+    })
 }
 
 fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(), Trouble> {
@@ -179,14 +205,6 @@ fn text(results: &Results, out: &Path) -> String {
         out.display()
     ));
     text
-}
-
-fn conclude(arguments: &StudyArguments, name: &str, outcome: &Outcome) -> Result<(), Trouble> {
-    if !outcome.stopped {
-        return Ok(());
-    }
-    console::err(&kept(arguments, name, &outcome.records));
-    Err(Trouble::Interrupted)
 }
 
 /// What has been done, and how to go on.

@@ -37,6 +37,8 @@ pub enum Trouble {
     },
     /// The run stopped with a checkpoint; everything has been said.
     Interrupted,
+    /// What was compared differs; everything has been said.
+    Different,
 }
 
 impl From<LoadError> for Trouble {
@@ -105,56 +107,56 @@ impl Trouble {
     pub fn exit_code(&self) -> u8 {
         match self {
             Trouble::Usage(_) | Trouble::Scene(_) => 2,
-            Trouble::Failed { .. } | Trouble::Interrupted => 1,
+            Trouble::Failed { .. } | Trouble::Interrupted | Trouble::Different => 1,
             Trouble::Grains { error, .. } => error.exit_code(),
+        }
+    }
+
+    /// What a person is told.
+    pub fn text(&self, colour: bool) -> String {
+        let with = |text: String, advice: &Option<String>| match advice {
+            Some(advice) => format!("{text}{advice}\n"),
+            None => text,
+        };
+        match self {
+            Trouble::Usage(message) => format!("error: {message}\n"),
+            Trouble::Scene(all) => diagnostics::render(all, colour),
+            Trouble::Failed { error, advice, .. } => with(failed(error), advice),
+            Trouble::Grains { error, advice, .. } => with(grains::failed::text(error), advice),
+            Trouble::Interrupted | Trouble::Different => String::new(),
+        }
+    }
+
+    /// What a program is told: diagnostics as an array, or the summary that a failed run left.
+    pub fn json(&self) -> Json {
+        match self {
+            Trouble::Usage(message) => json!([{ "message": message }]),
+            Trouble::Scene(all) => diagnostics::json(all),
+            Trouble::Failed { error, summary, .. } => left(summary, error),
+            Trouble::Grains { error, summary, .. } => left(summary, error),
+            Trouble::Interrupted | Trouble::Different => Json::Null,
         }
     }
 
     /// Tells a person on stderr, and with `json` a program on stdout.
     pub fn report(&self, json: bool) {
+        let text = self.text(console::terminal());
         match self {
-            Trouble::Usage(message) => {
-                console::err(&format!("error: {message}"));
-                if json {
-                    console::json(&json!([{ "message": message }]));
-                }
-            }
-            Trouble::Scene(all) => {
-                console::coloured(&diagnostics::render(all, console::terminal()));
-                if json {
-                    console::json(&diagnostics::json(all));
-                }
-            }
-            Trouble::Failed {
-                error,
-                summary,
-                advice,
-            } => {
-                console::err(&failed(error));
-                if let Some(advice) = advice {
-                    console::err(advice);
-                }
-                if json {
-                    let told = json!([{ "message": error.to_string() }]);
-                    console::json(summary.as_deref().unwrap_or(&told));
-                }
-            }
-            Trouble::Grains {
-                error,
-                summary,
-                advice,
-            } => {
-                console::err(&grains::failed::text(error));
-                if let Some(advice) = advice {
-                    console::err(advice);
-                }
-                if json {
-                    let told = json!([{ "message": error.to_string() }]);
-                    console::json(summary.as_deref().unwrap_or(&told));
-                }
-            }
-            Trouble::Interrupted => {}
+            Trouble::Interrupted | Trouble::Different => return,
+            Trouble::Scene(_) => console::coloured(&text),
+            _ => console::err(&text),
         }
+        if json {
+            console::json(&self.json());
+        }
+    }
+}
+
+/// The summary that was left, or else the error alone.
+fn left(summary: &Option<Box<Json>>, error: &impl std::fmt::Display) -> Json {
+    match summary {
+        Some(summary) => (**summary).clone(),
+        None => json!([{ "message": error.to_string() }]),
     }
 }
 

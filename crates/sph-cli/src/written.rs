@@ -14,15 +14,22 @@ const KNOWN: [(&str, &str); 4] = [
 pub fn listing(folder: &Path) -> Vec<Vec<String>> {
     let row = |name: String, what: &str| vec![name, what.to_string()];
     let mut rows = Vec::new();
-    for (sub, one, many) in [
-        ("pictures", "a picture", "pictures"),
+    for (sub, extension, one, many) in [
+        ("pictures", "png", "a picture", "pictures"),
+        (
+            "animations",
+            "gif",
+            "the pictures one after the other",
+            "animations",
+        ),
         (
             "plots",
+            "png",
             "a probe beside its reference",
             "probes beside their references",
         ),
     ] {
-        let files = names(&folder.join(sub), "png");
+        let files = names(&folder.join(sub), extension);
         match files.as_slice() {
             [] => {}
             [only] => rows.push(row(format!("{sub}/{only}"), one)),

@@ -6,11 +6,12 @@
 //!
 //! | subject | write | read |
 //! |---|---|---|
-//! | fields for ParaView | [`PvdSeries`], [`write_vtu`] from a [`Frame`] of [`Piece`]s | ParaView, VTK |
+//! | fields for ParaView | [`PvdSeries`], [`write_vtu`] from a [`Frame`] of [`Piece`]s | [`read_vtu`], [`list_pvd`]; ParaView, VTK |
 //! | tables | [`write_table`] | [`read_table`], [`read_columns`] |
 //! | time series | [`SeriesWriter`] | [`read_table`], [`read_columns`] |
 //! | restart | [`Checkpoint::save`] | [`Checkpoint::load`] |
 //! | pictures of particles | [`Picture`] | your eyes |
+//! | animations | [`write_gif`] from pictures | your eyes |
 //! | plots | [`Plot`], or [`Panels`] of them, as PNG or SVG | your eyes |
 //! | summaries | [`write_json`] | anything |
 //!
@@ -39,6 +40,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod animation;
 mod atomic;
 mod axes;
 mod canvas;
@@ -68,8 +70,10 @@ mod table;
 mod text;
 mod ticks;
 mod vtu;
+mod vtu_read;
 mod xml;
 
+pub use animation::write_gif;
 pub use atomic::{AtomicFile, Durability, sweep_temporaries, write_atomic};
 pub use checkpoint::{Checkpoint, CheckpointFault, Column, ColumnData};
 pub use clean::{clean, escaped};
@@ -82,11 +86,12 @@ pub use lock::{FolderLock, Holder};
 pub use panels::Panels;
 pub use picture::{Picture, View};
 pub use plot::Plot;
-pub use pvd::PvdSeries;
+pub use pvd::{Listed, PvdSeries, list_pvd};
 pub use rows::write_table;
 pub use scratch::Scratch;
 pub use series::SeriesWriter;
 pub use summary::write_json;
 pub use table::{Table, TableColumn, read_columns, read_table};
 pub use vtu::write_vtu;
+pub use vtu_read::read_vtu;
 pub use xml::escape;

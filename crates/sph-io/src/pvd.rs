@@ -23,6 +23,35 @@ pub struct PvdSeries {
     entries: Vec<Entry>,
 }
 
+/// A file of a series that has been written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Listed {
+    /// Simulated time, s.
+    pub time: f64,
+    /// Name of the piece: `fluid`, `walls`.
+    pub name: String,
+    /// Its file.
+    pub path: PathBuf,
+}
+
+/// The files that a `.pvd` lists, in the order of their times.
+///
+/// # Errors
+/// If it cannot be read, or is not one of [`PvdSeries`].
+pub fn list_pvd(path: impl AsRef<Path>) -> Result<Vec<Listed>> {
+    let series = PvdSeries {
+        path: path.as_ref().to_path_buf(),
+        entries: Vec::new(),
+    };
+    let listed = |entry: Entry| Listed {
+        time: entry.time,
+        name: entry.name,
+        path: series.path.with_file_name(entry.file),
+    };
+    // A list that is not there is none, not an empty one.
+    Ok(series.load(1)?.into_iter().map(listed).collect())
+}
+
 /// One file of the series.
 #[derive(Clone, Debug, PartialEq)]
 struct Entry {

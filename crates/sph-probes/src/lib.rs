@@ -6,11 +6,13 @@
 //!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
 //!   [`SurfaceSlope`], [`Line`]), and of a bed under water ([`BedLines`], [`ErodedMass`],
 //!   [`PorePressureProbe`]).
+//! * [`derived_stages`]: vorticity and other fields that outputs and probes ask for by name.
 //! * [`Solution`]: analytical flows, as references and as initial states.
 //! * [`norm`]: the norms in which errors are reported.
 
 mod beds;
 mod contract;
+mod derived;
 mod flow;
 pub mod norm;
 mod phases;
@@ -22,6 +24,10 @@ pub use beds::eroded_mass::ErodedMass;
 pub use beds::pore_pressure::PorePressureProbe;
 pub use beds::scour_map::ScourMap;
 pub use contract::{Probe, ProbeColumn, ProbeEntry, Solution, SolutionEntry};
+pub use derived::{
+    Q_CRITERION, SHEAR_STRESS, SPEED, VORTICITY, VORTICITY_IN_SPACE, derived_fields,
+    derived_stages, needs_gradient,
+};
 pub use flow::angular_momentum::AngularMomentum;
 pub use flow::displacement::DisplacementProbe;
 pub use flow::energy::KineticEnergy;

@@ -7,6 +7,7 @@
 //! * [`assemble()`]: scene → [`Flow`]: columns, stages in order, step limits.
 //! * [`Flow`]: one evaluation, one step; a [`sph_core::System`] for the integrator.
 //! * [`run()`]: steps, outputs, checkpoints, roll-back, references, summary.
+//! * [`Stepper`]: the same in memory, step by step, with columns that may be changed in between.
 //! * [`examine()`]: the numbers that follow from a scene, without running it.
 //! * [`rheometer`]: a law by its name, sheared alone.
 
@@ -26,6 +27,7 @@ pub use running::driver::{Command, Observer, Progress};
 pub use running::identity::{FileMark, Identity, marks};
 pub use running::options::{RunOptions, Start};
 pub use running::run::run;
+pub use running::stepper::Stepper;
 pub use setup::assemble::{Assembled, assemble};
 pub use setup::calibration::Calibration;
 pub use setup::estimate::{Estimate, Size, size};

@@ -51,7 +51,7 @@ fn used() -> BTreeMap<String, Users> {
     let mut folders: Vec<_> = folders
         .map(|f| format!("crates/{}", f.to_str().expect("a name")))
         .collect();
-    folders.push("tests".to_owned());
+    folders.extend(["python", "tests"].map(str::to_owned));
     for folder in folders {
         let manifest = table(&format!("{folder}/Cargo.toml"));
         let name = entries(&manifest, "package")["name"]

@@ -4,17 +4,17 @@ use dem_scene::{Examination, Loaded, examine};
 use serde_json::Value as Json;
 
 use crate::layout::columns;
+use crate::number;
+use crate::told::Told;
 use crate::trouble::Trouble;
-use crate::{console, number};
 
 /// Tells what follows from a scene, without preparing its grains.
-pub fn scene(json: bool, loaded: &Loaded) -> Result<(), Trouble> {
+pub fn told(loaded: &Loaded) -> Result<Told, Trouble> {
     let examined = examine(loaded).map_err(|e| Trouble::of_grains(e, &loaded.source))?;
-    match json {
-        true => console::json(&serde_json::to_value(&examined).unwrap_or(Json::Null)),
-        false => console::out(&text(&examined, loaded.source.file())),
-    }
-    Ok(())
+    Ok(Told {
+        json: serde_json::to_value(&examined).unwrap_or(Json::Null),
+        text: text(&examined, loaded.source.file()),
+    })
 }
 
 fn text(e: &Examination, file: &str) -> String {

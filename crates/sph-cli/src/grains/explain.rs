@@ -4,17 +4,17 @@ use dem_scene::{Examination, Loaded, examine};
 use serde_json::Value as Json;
 
 use crate::layout::{columns, paragraph, parameters};
+use crate::number;
+use crate::told::Told;
 use crate::trouble::Trouble;
-use crate::{console, number};
 
 /// Shows what a scene is made of.
-pub fn scene(json: bool, loaded: &Loaded) -> Result<(), Trouble> {
+pub fn told(loaded: &Loaded) -> Result<Told, Trouble> {
     let examined = examine(loaded).map_err(|e| Trouble::of_grains(e, &loaded.source))?;
-    match json {
-        true => console::json(&serde_json::to_value(&examined).unwrap_or(Json::Null)),
-        false => console::out(&text(&examined)),
-    }
-    Ok(())
+    Ok(Told {
+        json: serde_json::to_value(&examined).unwrap_or(Json::Null),
+        text: text(&examined),
+    })
 }
 
 fn text(e: &Examination) -> String {

@@ -9,12 +9,11 @@ use sph_solver::{Command, Observer, Progress};
 use super::outcome;
 use crate::arguments::RunArguments;
 use crate::left_behind::{CHECKPOINT, failed_summary, going_on, remedy};
-use crate::progress::Watcher;
+use crate::told::{Ended, Told};
 use crate::trouble::Trouble;
-use crate::{console, interrupt};
 
 /// A watcher of particles that watches grains.
-struct Watching<'a>(&'a mut Watcher);
+struct Watching<'a>(&'a mut (dyn Observer + Send));
 
 impl dem_scene::Observer for Watching<'_> {
     fn step(&mut self, step: &Step) -> bool {
@@ -26,16 +25,21 @@ impl dem_scene::Observer for Watching<'_> {
             limiter: step.limiter,
             particles: step.grains,
         };
-        matches!(Observer::step(self.0, &progress), Command::Continue)
+        matches!(self.0.step(&progress), Command::Continue)
     }
 
     fn message(&mut self, text: &str) {
-        Observer::message(self.0, text);
+        self.0.message(text);
     }
 }
 
 /// Runs a scene of grains into a folder.
-pub fn scene(arguments: &RunArguments, loaded: &Loaded, out: &Path) -> Result<(), Trouble> {
+pub fn execute(
+    arguments: &RunArguments,
+    loaded: &Loaded,
+    out: &Path,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Ended, Trouble> {
     if arguments.from.is_some() {
         return Err(Trouble::usage(
             "--from takes particles of another run; grains go on with --resume, and --changed if the scene has changed",
@@ -51,27 +55,16 @@ pub fn scene(arguments: &RunArguments, loaded: &Loaded, out: &Path) -> Result<()
         start,
         threads: arguments.threads.map(usize::from),
     };
-    let title = &loaded.scene.title;
-    let begin = format!("{title}: running into {}", out.display());
-    let mut watcher = Watcher::new(arguments.quiet, begin, interrupt::flag()).counting("grain");
-    let result = run(loaded, &options, &mut Watching(&mut watcher));
-    watcher.finish();
+    let result = run(loaded, &options, &mut Watching(observer));
     let summary = result.map_err(|error| trouble(error, arguments, loaded, out))?;
-    if arguments.json {
-        console::json(&serde_json::to_value(&summary).unwrap_or(Json::Null));
-    } else if !arguments.quiet {
-        console::out(&outcome::text(&summary, out));
-    }
-    if summary.status == Status::Done {
-        return Ok(());
-    }
-    console::err(&format!(
-        "interrupted at t = {:.6} s, step {}; go on with\n  {}",
-        summary.simulated_seconds,
-        summary.steps,
-        going_on(arguments, out)
-    ));
-    Err(Trouble::Interrupted)
+    let stopped = summary.status != Status::Done;
+    Ok(Ended {
+        interrupted: stopped.then_some((summary.simulated_seconds, summary.steps)),
+        told: Told {
+            json: serde_json::to_value(&summary).unwrap_or(Json::Null),
+            text: outcome::text(&summary, out),
+        },
+    })
 }
 
 fn trouble(error: DemError, arguments: &RunArguments, loaded: &Loaded, out: &Path) -> Trouble {

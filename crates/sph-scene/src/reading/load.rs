@@ -12,6 +12,7 @@ use toml::{Table, Value};
 use crate::Scene;
 use crate::checks::whole;
 use crate::reading::columns;
+use crate::reading::kinematic;
 use crate::reading::limits;
 use crate::reading::plugins::Plugins;
 use crate::reading::remarks;
@@ -131,6 +132,7 @@ fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     let plugins = take_plugins(&mut table).map_err(unread)?;
     let mut scene: Scene = table.try_into().map_err(unread)?;
     scene.plugins = plugins;
+    kinematic::to_dynamic(&mut scene);
     let problems = whole::scene(&mut scene, source);
     if !problems.is_empty() {
         return Err(diagnosed(problems));

@@ -25,6 +25,9 @@ pub struct Output {
     /// Values at the ends of the picture's colours, SI; least and largest value if left out.
     #[schemars(extend("unit" = "1"))]
     pub picture_range: Option<[f64; 2]>,
+    /// Pictures per second of an animation of every picture, `animations/NAME.gif`; none if left out.
+    #[schemars(extend("unit" = "1/s"), range(min = 0.02, max = 50.0))]
+    pub animation: Option<f64>,
     /// Whether files for ParaView are written.
     pub vtk: bool,
 }
@@ -40,6 +43,7 @@ impl Default for Output {
                 .to_vec(),
             picture: Vec::new(),
             picture_range: None,
+            animation: None,
             vtk: true,
         }
     }

@@ -28,6 +28,8 @@ pub struct Outputs {
     pictures: Vec<String>,
     range: Option<[f64; 2]>,
     title: String,
+    /// Pictures per second of animations.
+    animation: Option<f64>,
     /// Outputs written so far, for the names of pictures.
     pub written: usize,
 }
@@ -76,6 +78,7 @@ impl Outputs {
             pictures: scene.output.picture.clone(),
             range: scene.output.picture_range,
             title: scene.title.clone(),
+            animation: scene.output.animation,
             written: written.unwrap_or(0),
         })
     }
@@ -130,6 +133,26 @@ impl Outputs {
             }
         }
         self.written += 1;
+        Ok(())
+    }
+
+    /// Joins the pictures of every field to an animation, if the scene asks for it.
+    pub fn animate(&self) -> Result<(), IoError> {
+        let Some(speed) = self.animation else {
+            return Ok(());
+        };
+        for name in &self.pictures {
+            let file = |k| self.folder.join(format!("pictures/{name}_{k:04}.png"));
+            // A scene that was changed on the way may have drawn other fields before.
+            let pictures = (0..self.written).map(file).filter(|p| p.is_file());
+            let pictures: Vec<PathBuf> = pictures.collect();
+            if pictures.is_empty() {
+                continue;
+            }
+            sph_io::writable(self.folder.join("animations"))?;
+            let path = self.folder.join(format!("animations/{name}.gif"));
+            sph_io::write_gif(path, &pictures, speed)?;
+        }
         Ok(())
     }
 }

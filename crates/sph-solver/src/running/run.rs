@@ -17,6 +17,7 @@ use crate::running::clock::standing_still;
 use crate::running::counters::Counters;
 use crate::running::driver::{Command, Observer, Progress};
 use crate::running::mach::MachWatch;
+use crate::running::next_step::next_step;
 use crate::running::options::{RunOptions, Start};
 use crate::running::output::Outputs;
 use crate::running::series::{Probes, Series};
@@ -132,7 +133,7 @@ impl<const D: usize> LastGood<D> {
 }
 
 /// Factor by which a rolled-back step recovers per good step.
-const RECOVERY: f64 = 1.05;
+pub(crate) const RECOVERY: f64 = 1.05;
 
 /// Adds to what is counted under a name, which is written down when it first comes.
 fn count<T: AddAssign + Default>(all: &mut BTreeMap<String, T>, name: &str, more: T) {
@@ -289,16 +290,8 @@ impl<const D: usize> Running<'_, D> {
 
     /// The least limit, cut so that output times and the end are hit exactly.
     fn choose_step(&self, limits: &[StepLimit], time: f64, end: f64) -> (f64, &'static str) {
-        let least = StepLimit::least(limits);
-        let scale = self.scene.run.safety * f64::from_bits(self.counters.step_scale);
-        let (dt, name) = least.map_or((end, "none"), |l| (l.dt * scale, l.name));
-        let left = self.target(end) - time;
-        match left {
-            left if left <= dt => (left, name),
-            // Two even steps instead of a full one and a sliver.
-            left if left < 2.0 * dt => (0.5 * left, name),
-            _ => (dt, name),
-        }
+        let factor = self.scene.run.safety * f64::from_bits(self.counters.step_scale);
+        next_step(limits, factor, [time, self.target(end)], end)
     }
 
     fn write_what_is_due(
@@ -377,6 +370,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     fn finish(&mut self, status: Status) -> Result<Summary, SolverError> {
+        self.outputs.animate()?;
         self.write_summary(status, None)
     }
 }

@@ -81,12 +81,12 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
     let constant = constant_viscosities(scene, &choices.physics.rheologies);
     let formulation = choices.physics.formulation.clone();
-    let mut parts = parts(scene, choices.physics);
+    let shown = shown(scene, &choices.probes);
+    let mut parts = parts(scene, choices.physics, &shown);
     let mut free = state(scene, &*formulation, &parts, placed.positions.len())?;
     let outlets = Outlets::of(scene, &placed, &mut free).map_err(SolverError::Scene)?;
     give_places(&mut free, &placed)?;
     let mut world = World { free, ..room };
-    let shown = shown(scene, &choices.probes);
     let about = About {
         scene,
         formulation: &*formulation,
@@ -287,14 +287,18 @@ fn constant_viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Vec<Option
 }
 
 fn check_output_fields<const D: usize>(scene: &Scene, flow: &Flow<D>) -> Result<(), SolverError> {
-    let names: Vec<&str> = flow.world.free.columns().map(|c| c.0).collect();
+    let free = &flow.world.free;
     let lists = [
         ("output.fields", &scene.output.fields),
         ("output.picture", &scene.output.picture),
     ];
+    // What can be asked for is told with what there is.
+    let more = sph_probes::derived_fields().chain([fields::STRAIN_RATE.name]);
+    let more = more.filter(|name| !free.has(name));
+    let names: Vec<&str> = free.fields().map(|f| f.name).chain(more).collect();
     let mut problems = Vec::new();
     for (path, wanted) in lists {
-        for name in wanted.iter().filter(|n| !names.contains(&n.as_str())) {
+        for name in wanted.iter().filter(|n| !free.has(n)) {
             let near = sph_core::suggestion(name, names.iter().copied());
             let known = names.join(", ");
             problems.push(SceneProblem::new(

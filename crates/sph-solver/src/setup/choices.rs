@@ -136,11 +136,11 @@ impl Builder<'_> {
         let eddy_viscosity = self.one::<D, EddyViscosityEntry>();
         let elastic = rheologies.iter().any(|law| law.elastic().is_some());
         let felt = rheologies.iter().any(|law| law.needs().strain_rate);
-        let strained = eddy_viscosity.is_some() || felt || elastic;
+        let strained = eddy_viscosity.is_some() || felt || elastic || shows_gradients(scene);
         let pressed = rheologies.iter().any(|law| law.needs().pressure);
         let velocity_gradient = self.where_needed::<D, VelocityGradientEntry>(
             strained,
-            "no law of this scene feels a strain rate: take this table out",
+            "no law of this scene feels a strain rate, and no output shows one: take this table out",
         );
         let elastic_force = self.where_needed::<D, ElasticForceEntry>(
             elastic,
@@ -189,4 +189,20 @@ impl Builder<'_> {
         }
         None
     }
+}
+
+/// Whether an output or a probe asks for a field that is made from the velocity gradient.
+fn shows_gradients(scene: &Scene) -> bool {
+    let shown = scene.output.fields.iter().chain(&scene.output.picture);
+    let named = |value: &toml::Value| match value {
+        toml::Value::String(name) => sph_probes::needs_gradient(name),
+        toml::Value::Array(all) => all
+            .iter()
+            .filter_map(toml::Value::as_str)
+            .any(sph_probes::needs_gradient),
+        _ => false,
+    };
+    let probes = scene.probes();
+    let mut values = probes.iter().flat_map(|(_, probe)| probe.table.values());
+    shown.clone().any(|name| sph_probes::needs_gradient(name)) || values.any(named)
 }

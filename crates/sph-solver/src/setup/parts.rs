@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use sph_contribution::{Contribution, Setting};
+use sph_contribution::{Contribution, Setting, Stages};
 use sph_diffusion::{Shifted, Smoothed};
 use sph_multiphase::{Compressible, Meeting};
 use sph_neighbours::Terms;
@@ -26,8 +26,17 @@ impl<const D: usize> Contribution<D> for Given<D> {
     }
 }
 
-/// All of them, in the order in which their terms are summed.
-pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>) -> Vec<Part<D>> {
+/// Fields that outputs and probes ask for by name; the stages are made when they are asked for.
+struct Shown(Vec<String>);
+
+impl<const D: usize> Contribution<D> for Shown {
+    fn stages(&self, _: &Setting<'_, D>) -> Stages<D> {
+        sph_probes::derived_stages(&self.0)
+    }
+}
+
+/// All of them, in the order in which their terms are summed; `shown` are the names of what is written and measured.
+pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>, shown: &[String]) -> Vec<Part<D>> {
     let share = |(scheme, _): &(Box<dyn sph_implicit::TimeScheme>, _)| scheme.implicit_share();
     let eddies = physics.eddy_viscosity.as_ref();
     let turbulence = eddies.and_then(|e| e.contribution());
@@ -70,6 +79,7 @@ pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>) -> Vec<Part<D>>
     if let Some(seepage) = physics.seepage {
         all.push(("seepage", Box::new(Seeping(seepage))));
     }
+    all.push(("output", Box::new(Shown(shown.to_vec()))));
     all.extend(physics.contributions);
     all
 }

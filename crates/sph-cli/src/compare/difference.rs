@@ -1,0 +1,233 @@
+//! How two tables differ.
+
+use std::collections::HashMap;
+
+use serde_json::{Value as Json, json};
+
+use super::tables::{Column, Table};
+use crate::number;
+
+/// How a column differs.
+pub struct Difference {
+    file: String,
+    column: String,
+    unit: String,
+    /// Whether all its bits are the same.
+    pub same: bool,
+    /// The largest |a − b|; infinite where one of them is no number.
+    largest: f64,
+    /// The same over the largest |a| of the column.
+    relative: f64,
+    /// The numbers that differ most.
+    pair: [f64; 2],
+    place: Place,
+}
+
+/// Where a difference is.
+#[derive(Clone, Default)]
+struct Place {
+    time: Option<f64>,
+    /// Identity of the particle, or number of the row.
+    particle: Option<u64>,
+    component: Option<usize>,
+    position: Vec<f64>,
+}
+
+/// Of every column that both tables have how it differs; what only one has, and how many rows.
+pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<String>) {
+    let mut remarks = Vec::new();
+    let rows: HashMap<u64, usize> = b
+        .keys
+        .iter()
+        .enumerate()
+        .map(|(k, key)| (*key, k))
+        .collect();
+    let pairs: Vec<(usize, usize)> = (a.keys.iter().enumerate())
+        .filter_map(|(k, key)| Some((k, *rows.get(key)?)))
+        .collect();
+    let lone = a.keys.len() + b.keys.len() - 2 * pairs.len();
+    if lone > 0 {
+        remarks.push(format!(
+            "{file}: {lone} of {} rows have no twin",
+            a.keys.len() + b.keys.len()
+        ));
+    }
+    let twin = |name: &str, of: &Table| of.columns.iter().position(|c| c.name == name);
+    for (one, other, which) in [(a, b, "first"), (b, a, "second")] {
+        let alone = one
+            .columns
+            .iter()
+            .filter(|c| twin(&c.name, other).is_none());
+        let alone: Vec<&str> = alone.map(|c| c.name.as_str()).collect();
+        if !alone.is_empty() {
+            let alone = alone.join(", ");
+            remarks.push(format!("{file}: the {which} alone has {alone}"));
+        }
+    }
+    let mut found = Vec::new();
+    for column in &a.columns {
+        let Some(other) = twin(&column.name, b).map(|k| &b.columns[k]) else {
+            continue;
+        };
+        let per = column.components.max(1);
+        let by_rows = column.values.len() == per * a.keys.len()
+            && other.values.len() == per * b.keys.len()
+            && other.components == column.components;
+        match by_rows {
+            true => found.push(difference(file, column, other, &pairs, a)),
+            // Walls and lists: number by number, or not at all.
+            false if column.values.len() == other.values.len() => {
+                let rows: Vec<_> = (0..column.values.len() / per).map(|k| (k, k)).collect();
+                let alone = Table::default();
+                found.push(difference(file, column, other, &rows, &alone));
+            }
+            false => remarks.push(format!(
+                "{file}: `{}` has {} numbers and {}",
+                column.name,
+                column.values.len(),
+                other.values.len()
+            )),
+        }
+    }
+    (found, remarks)
+}
+
+fn difference(
+    file: &str,
+    a: &Column,
+    b: &Column,
+    pairs: &[(usize, usize)],
+    table: &Table,
+) -> Difference {
+    let per = a.components.max(1);
+    let mut found = Difference {
+        file: file.to_string(),
+        column: a.name.clone(),
+        unit: a.unit.clone(),
+        same: true,
+        largest: -1.0,
+        relative: 0.0,
+        pair: [0.0; 2],
+        place: Place::default(),
+    };
+    let mut range: f64 = 0.0;
+    for &(row, twin) in pairs {
+        for k in 0..per {
+            let (x, y) = (a.values[per * row + k], b.values[per * twin + k]);
+            if x.is_finite() {
+                range = range.max(x.abs());
+            }
+            if x.to_bits() == y.to_bits() {
+                continue;
+            }
+            found.same = false;
+            let apart = match (x - y).abs() {
+                nan if nan.is_nan() => f64::INFINITY,
+                apart => apart,
+            };
+            if apart > found.largest {
+                found.largest = apart;
+                found.pair = [x, y];
+                let over_time = table.over_time;
+                let key = table.keys.get(row).copied();
+                found.place = Place {
+                    time: match over_time {
+                        true => key.map(f64::from_bits),
+                        false => table.time,
+                    },
+                    particle: key
+                        .filter(|_| !over_time)
+                        .or(Some(row as u64).filter(|_| !over_time)),
+                    component: (per > 1).then_some(k),
+                    position: table.places.get(row).cloned().unwrap_or_default(),
+                };
+            }
+        }
+    }
+    found.largest = found.largest.max(0.0);
+    found.relative = if range > 0.0 {
+        found.largest / range
+    } else {
+        found.largest
+    };
+    found
+}
+
+impl Difference {
+    /// Whether it is of the same column of the same file.
+    pub fn is_of(&self, other: &Difference) -> bool {
+        self.file == other.file && self.column == other.column
+    }
+
+    /// Takes the place of another one of the column if that is larger.
+    pub fn keep_larger(&mut self, other: Difference) {
+        let same = self.same && other.same;
+        if !other.same && (self.same || other.largest > self.largest) {
+            *self = other;
+        }
+        self.same = same;
+    }
+
+    /// A row of the table for people.
+    pub fn row(&self) -> Vec<String> {
+        let unit = match self.unit.as_str() {
+            "" | "1" => String::new(),
+            unit => format!(" {unit}"),
+        };
+        vec![
+            self.file.clone(),
+            self.column.clone(),
+            format!("{}{unit}", short(self.largest)),
+            short(self.relative),
+            format!("{:?}", self.pair[0]),
+            format!("{:?}", self.pair[1]),
+            self.place.told(),
+        ]
+    }
+
+    /// The same for programs; numbers that are not finite are null.
+    pub fn json(&self) -> Json {
+        json!({
+            "file": self.file,
+            "column": self.column,
+            "unit": self.unit,
+            "same": self.same,
+            "largest": self.largest,
+            "relative": self.relative,
+            "first": self.pair[0],
+            "second": self.pair[1],
+            "time": self.place.time,
+            "particle": self.place.particle,
+            "component": self.place.component,
+            "position": self.place.position,
+        })
+    }
+}
+
+fn short(x: f64) -> String {
+    match x.is_finite() {
+        true => format!("{x:.2e}"),
+        false => "no number".into(),
+    }
+}
+
+impl Place {
+    fn told(&self) -> String {
+        let mut parts = Vec::new();
+        if let Some(time) = self.time {
+            parts.push(format!("t = {} s", number::plain(time)));
+        }
+        if let Some(particle) = self.particle {
+            parts.push(format!("particle {particle}"));
+        }
+        if let Some(component) = self.component {
+            let axis = ["x", "y", "z"].get(component);
+            parts.push(axis.map_or(format!("component {component}"), |a| (*a).to_string()));
+        }
+        if !self.position.is_empty() {
+            let at: Vec<_> = self.position.iter().map(|x| number::plain(*x)).collect();
+            parts.push(format!("at ({}) m", at.join(", ")));
+        }
+        parts.join(", ")
+    }
+}

@@ -1,0 +1,151 @@
+//! The commands as functions: they write the files that the commands write, print nothing, and return what is printed.
+//!
+//! ```no_run
+//! use sph_cli::library::{Request, check, open};
+//!
+//! let scene = open("dam-break-koshizuka", &Request::default()).map_err(|t| t.text(false))?;
+//! let told = check(&scene, Some(4)).map_err(|t| t.text(false))?;
+//! println!("{}: {} particles", told.text, told.json["particles"]);
+//! # Ok::<(), String>(())
+//! ```
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use sph_solver::Observer;
+
+use crate::arguments::{RunArguments, SceneArguments, StudyArguments};
+use crate::{run as runs, scene_file, study as studies};
+
+pub use crate::app::command_line;
+pub use crate::check::told as check;
+pub use crate::compare::told as compare;
+pub use crate::explain::told as explain;
+pub use crate::scene_file::{AnyScene, Opened};
+pub use crate::study::Studied;
+pub use crate::told::{Ended, Told};
+pub use crate::trouble::Trouble;
+/// A scene of particles.
+pub use sph_scene::Scene as ParticleScene;
+
+/// What goes with a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Request {
+    /// Values put on top of the scene: `numerics.spacing=0.01`.
+    pub set: Vec<String>,
+    /// Folders beside its own in which the scene may name files.
+    pub allow_path: Vec<PathBuf>,
+}
+
+impl Request {
+    fn of(&self, scene: &str) -> SceneArguments {
+        SceneArguments {
+            scene: scene.to_string(),
+            set: self.set.clone(),
+            allow_path: self.allow_path.clone(),
+        }
+    }
+}
+
+/// Where a run begins.
+#[derive(Clone, Debug, Default)]
+pub enum Begin {
+    /// With the bodies of the scene.
+    #[default]
+    Afresh,
+    /// At the checkpoint in its folder.
+    Resume,
+    /// At the checkpoint in its folder, although the scene has changed.
+    ResumeChanged,
+    /// With the particles of another run: its folder or its checkpoint.
+    From(PathBuf),
+}
+
+/// Reads a scene, by its path or by the name of a shipped one.
+///
+/// # Errors
+/// Mistakes of the scene with their places, or that there is none.
+pub fn open(scene: &str, request: &Request) -> Result<Opened, Trouble> {
+    scene_file::open(&request.of(scene))
+}
+
+/// Reads a scene from a text; the files that it names are looked for in the folder of `file`.
+///
+/// # Errors
+/// Mistakes of the scene with their places.
+pub fn open_text(text: &str, file: &str, request: &Request) -> Result<Opened, Trouble> {
+    scene_file::open_text(text, file, &request.of(file))
+}
+
+/// Runs a scene into a folder; `None` is `results/NAME`. The folder is returned as well.
+///
+/// # Errors
+/// A folder that cannot be used, a scene that cannot be assembled, a run that failed.
+pub fn run(
+    opened: &Opened,
+    request: &Request,
+    (out, threads, begin): (Option<PathBuf>, Option<u16>, Begin),
+    observer: &mut (dyn Observer + Send),
+) -> Result<(Ended, PathBuf), Trouble> {
+    let file = match &opened.scene {
+        AnyScene::Particles(loaded) => loaded.source.file(),
+        AnyScene::Grains(loaded) => loaded.source.file(),
+    };
+    let arguments = RunArguments {
+        scene: request.of(file),
+        out,
+        threads,
+        resume: matches!(begin, Begin::Resume | Begin::ResumeChanged),
+        changed: matches!(begin, Begin::ResumeChanged),
+        from: match begin {
+            Begin::From(other) => Some(other),
+            _ => None,
+        },
+        json: false,
+        quiet: true,
+    };
+    let folder = runs::folder(&arguments, opened);
+    Ok((runs::execute(&arguments, opened, observer)?, folder))
+}
+
+/// Runs a study, by its path or by the name of a shipped one, until it is done or the flag is raised. Unless it is
+/// `quiet`, it tells on stderr where it is.
+///
+/// # Errors
+/// Mistakes of the study or its scenes with their places, files that cannot be written.
+pub fn study(
+    study: &str,
+    request: &Request,
+    options: &StudyOptions,
+    stop: Arc<AtomicBool>,
+) -> Result<Studied, Trouble> {
+    let arguments = StudyArguments {
+        study: Some(study.to_string()),
+        out: options.out.clone(),
+        threads: options.threads,
+        only: options.only.clone(),
+        set: request.set.clone(),
+        allow_path: request.allow_path.clone(),
+        fresh: options.fresh,
+        compare: Vec::new(),
+        json: false,
+        quiet: options.quiet,
+    };
+    studies::conduct(&arguments, stop)
+}
+
+/// How a study is run.
+#[derive(Clone, Debug, Default)]
+pub struct StudyOptions {
+    /// Folder of the results; `None` is `results/studies/NAME`.
+    pub out: Option<PathBuf>,
+    /// Threads; `None` for all cores.
+    pub threads: Option<u16>,
+    /// Patterns of the names of the variants that are wanted; none for all.
+    pub only: Vec<String>,
+    /// Whether finished variants run again.
+    pub fresh: bool,
+    /// Whether it says nothing.
+    pub quiet: bool,
+}

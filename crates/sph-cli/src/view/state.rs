@@ -1,0 +1,46 @@
+//! What there is of a run at the moment.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde_json::{Value as Json, json};
+
+/// Pictures by field, plots, columns of the series, the summary if there is one.
+pub fn of(folder: &Path) -> Json {
+    let summary = std::fs::read_to_string(folder.join("summary.json")).ok();
+    let summary: Option<Json> = summary.and_then(|text| serde_json::from_str(&text).ok());
+    let name = folder.file_name().map(|n| n.to_string_lossy().into_owned());
+    json!({
+        "name": name,
+        "pictures": numbered(&folder.join("pictures")),
+        "plots": names(&folder.join("plots"), &["png"]),
+        "animations": names(&folder.join("animations"), &["gif"]),
+        "bad": names(folder, &["png"]),
+        "series": folder.join("series.csv").is_file(),
+        "running": folder.join(".lock").exists(),
+        "summary": summary,
+    })
+}
+
+/// `pressure_0003.png` as the numbers of `pressure`.
+fn numbered(folder: &Path) -> BTreeMap<String, Vec<String>> {
+    let mut all: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for name in names(folder, &["png"]) {
+        if let Some((field, _)) = name.rsplit_once('_') {
+            all.entry(field.to_string()).or_default().push(name);
+        }
+    }
+    all
+}
+
+fn names(folder: &Path, extensions: &[&str]) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let of_kind = |name: &String| {
+        let extension = name.rsplit_once('.').map(|(_, e)| e);
+        extension.is_some_and(|e| extensions.contains(&e))
+    };
+    let names = entries.filter_map(|e| e.file_name().into_string().ok());
+    let mut names: Vec<String> = names.filter(of_kind).collect();
+    names.sort_by_key(|n| (n.len(), n.clone()));
+    names
+}

@@ -1,0 +1,57 @@
+//! Viscosities that are given as kinematic ones: η = ρν with the density of the phase.
+
+use sph_core::{contracts, parameters, parse_quantity};
+use toml::Value;
+
+use crate::Scene;
+
+const DYNAMIC: &str = "Pa s";
+const KINEMATIC: &str = "m²/s";
+
+/// Turns every text of a law that is in m²/s, where its parameter is in Pa s, into pascal seconds.
+///
+/// A number without a unit is left in Pa s, as all other texts are left to whoever builds the law.
+pub(crate) fn to_dynamic(scene: &mut Scene) {
+    let laws = contracts().into_iter().find(|c| c.kind == "rheology");
+    let laws = laws.map_or(Vec::new(), |c| (c.plugins)());
+    for phase in scene.phase.values_mut() {
+        for (name, table) in &mut phase.rheology {
+            let Some(law) = laws.iter().find(|law| law.name == name) else {
+                continue;
+            };
+            let dynamic = parameters(&(law.schema)()).into_iter();
+            for parameter in dynamic.filter(|p| p.unit == DYNAMIC) {
+                if let Some(value) = table.get_mut(&parameter.name)
+                    && let Some(kinematic) = kinematic(value)
+                {
+                    *value = Value::Float(phase.density * kinematic);
+                }
+            }
+        }
+    }
+}
+
+/// The value of a text in m²/s.
+fn kinematic(value: &Value) -> Option<f64> {
+    let text = value.as_str()?;
+    match parse_quantity(text, DYNAMIC) {
+        Ok(_) => None,
+        Err(_) => parse_quantity(text, KINEMATIC).ok(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_in_square_metres_per_second_is_kinematic() {
+        let of = |text: &str| kinematic(&Value::String(text.into()));
+        assert_eq!(of("1 mm^2/s"), Some(1e-6));
+        assert_eq!(of("2 m²/s"), Some(2.0));
+        for other in ["1 mPa s", "1e-3", "1 m/s", "thick"] {
+            assert_eq!(of(other), None, "{other}");
+        }
+        assert_eq!(kinematic(&Value::Float(1.0)), None);
+    }
+}

@@ -1,0 +1,40 @@
+//! What went wrong, as the exceptions of `sph._errors`.
+
+use pyo3::prelude::*;
+use sph_cli::library::Trouble;
+
+/// An exception of a class of `sph._errors`, with a text and what a program is told.
+fn exception(py: Python<'_>, class: &str, text: &str, json: &str) -> PyErr {
+    let made = py
+        .import("sph._errors")
+        .and_then(|module| module.getattr(class))
+        .and_then(|class| class.call1((text, json)));
+    match made {
+        Ok(error) => PyErr::from_value(error),
+        Err(error) => error,
+    }
+}
+
+/// The exception for what keeps a command from its end.
+pub fn of(py: Python<'_>, trouble: &Trouble) -> PyErr {
+    let class = match trouble {
+        Trouble::Usage(_) => "UsageError",
+        Trouble::Scene(_) => "SceneError",
+        Trouble::Failed { .. }
+        | Trouble::Grains { .. }
+        | Trouble::Interrupted
+        | Trouble::Different => "RunError",
+    };
+    let text = trouble.text(false);
+    exception(py, class, text.trim_end(), &trouble.json().to_string())
+}
+
+/// An exception for a step that failed, or anything else without a place in a scene.
+pub fn step(py: Python<'_>, error: &impl std::fmt::Display) -> PyErr {
+    exception(py, "RunError", &format!("error: {error}"), "null")
+}
+
+/// An exception for a file.
+pub fn file(py: Python<'_>, error: &impl std::fmt::Display) -> PyErr {
+    exception(py, "FileError", &error.to_string(), "null")
+}

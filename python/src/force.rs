@@ -1,0 +1,150 @@
+//! A body force by functions of Python: `[body-force.python]`.
+
+use std::any::Any;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_contribution::{Contribution, Refusal, Setting, Stages, contribution_kind};
+use sph_core::{
+    Access, AnyField, Declares, Field, Stage, StepError, Vect, Vector, register, suggestion,
+};
+use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, Terms, World};
+
+use crate::columns::field_of;
+use crate::functions::{call, known};
+
+contribution_kind!(
+    /// What pushes particles from outside.
+    pub BodyForceEntry, "body-force", Any, "accelerations that come from outside", "none if left out"
+);
+
+const PUSH: Field<Vector> = Field::new(
+    "python_acceleration",
+    "m/s²",
+    "sum of the accelerations by functions of Python",
+);
+
+/// du/dt = … + Σ f(t, columns) with functions of Python on whole columns.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct PythonForce {
+    /// Names of the functions; each returns accelerations, one row per particle.
+    functions: Vec<String>,
+    /// Columns that they are given.
+    #[serde(default = "place_and_velocity")]
+    columns: Vec<String>,
+}
+
+fn place_and_velocity() -> Vec<String> {
+    ["position", "velocity"].map(String::from).to_vec()
+}
+
+impl PythonForce {
+    fn fields<const D: usize>(&self, world: &World<D>) -> Vec<AnyField> {
+        let found = self.columns.iter().map(|name| field_of(&world.free, name));
+        found.flatten().collect()
+    }
+}
+
+impl<const D: usize> Contribution<D> for PythonForce {
+    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+        let refuse = |key: &str, why: String| {
+            Err(Refusal {
+                kind: "body-force",
+                key: key.into(),
+                why,
+            })
+        };
+        if let Some(name) = self.functions.iter().find(|name| !known(name)) {
+            let why = format!("there is no function `{name}`: give it to sph.run(…, forces=…)");
+            return refuse("functions", why);
+        }
+        let store = &setting.world.free;
+        let missing = |name: &&String| field_of(store, name).is_none();
+        if let Some(name) = self.columns.iter().find(missing) {
+            let near = suggestion(name, store.fields().map(|f| f.name));
+            return refuse("columns", format!("there is no column `{name}`{near}"));
+        }
+        Ok(())
+    }
+
+    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+        vec![Box::new(Pushing {
+            functions: self.functions.clone(),
+            fields: self.fields(setting.world),
+        })]
+    }
+
+    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
+        vec![Box::new(Push)]
+    }
+}
+
+/// Calls the functions and adds up what they return.
+struct Pushing {
+    functions: Vec<String>,
+    fields: Vec<AnyField>,
+}
+
+impl Declares for Pushing {
+    fn name(&self) -> String {
+        format!("python force: {}", self.functions.join(", "))
+    }
+    fn access(&self) -> Access {
+        let access = Access {
+            here: self.fields.clone(),
+            ..Access::none()
+        };
+        access.writes(PUSH)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for Pushing {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let count = world.free.len();
+        let mut sum = vec![Vect::<D>::zeros(); count];
+        for name in &self.functions {
+            let pushed = call(name, world, &self.fields, &[count, D], true)?;
+            let rows = sum.iter_mut().zip(pushed.chunks_exact(D));
+            rows.for_each(|(sum, row)| *sum += Vect::<D>::from_column_slice(row));
+        }
+        Ok(world.free.put(PUSH, sum)?)
+    }
+}
+
+/// The sum in the sweep.
+struct Push;
+
+struct BoundPush<'a, const D: usize>(&'a [Vect<D>]);
+
+impl<const D: usize> RowTerm<D> for BoundPush<'_, D> {
+    fn row(&self, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        rates.acceleration += self.0[at.particle];
+    }
+}
+
+impl<const D: usize> Interaction<D> for Push {
+    fn name(&self) -> String {
+        "python force".into()
+    }
+    fn access(&self) -> Access {
+        Access::none().here(PUSH)
+    }
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
+        Ok(Box::new(BoundPush(world.free.get(PUSH)?)))
+    }
+    fn as_any_ref(&self) -> &dyn Any {
+        self
+    }
+    fn into_any(self: Box<Self>) -> Box<dyn Any> {
+        self
+    }
+}
+
+register!(
+    BodyForceEntry [2, 3],
+    PythonForce,
+    "python",
+    "functions of Python on whole columns",
+    "given by the caller"
+);
