@@ -34,30 +34,30 @@ pub fn told(opened: &Opened, threads: Option<usize>) -> Result<Told, Trouble> {
     let too_fast = too_fast(&examined);
     examined.warnings.extend(too_fast);
     // Without it all else is as good.
-    let told = calibration();
-    let hours = told.as_ref().ok().map(|told| {
-        let step = told.calibration.step(&examined.load, threads);
+    let machine = calibration();
+    let hours = machine.as_ref().ok().map(|machine| {
+        let step = machine.calibration.step(&examined.load, threads);
         examined.estimate.steps * step / 3600.0
     });
-    let time = match (&told, hours) {
-        (Ok(told), Some(hours)) => {
+    let time = match (&machine, hours) {
+        (Ok(machine), Some(hours)) => {
             let on = match threads {
                 1 => "1 thread".to_string(),
                 n => format!("{n} threads"),
             };
             let time = number::duration(3600.0 * hours);
             let doubt = doubt(&examined.load);
-            format!("about {time} on {on}{doubt}, by {}", told.origin)
+            format!("about {time} on {on}{doubt}, by {}", machine.origin)
         }
-        (told, _) => format!(
+        (machine, _) => format!(
             "not known: {}",
-            told.as_ref().err().cloned().unwrap_or_default()
+            machine.as_ref().err().map_or("", String::as_str)
         ),
     };
     let mut all = serde_json::to_value(&examined).unwrap_or(Json::Null);
     all["threads"] = json!(threads);
     all["estimate"]["hours"] = json!(hours);
-    all["estimate"]["origin"] = json!(told.map_or_else(|why| why, |told| told.origin));
+    all["estimate"]["origin"] = json!(machine.map_or_else(|why| why, |machine| machine.origin));
     Ok(Told {
         json: all,
         text: text(&examined, loaded.source.file(), &time),

@@ -81,20 +81,12 @@ impl<const N: usize> Lane for Lanes<N> {
     }
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
-        let mut numbers = [0.0; N];
-        // Slices of one length, and no call that might not be inlined.
-        let from = &from[..N];
-        for k in 0..N {
-            numbers[k] = from[k];
-        }
-        Lanes(numbers)
+        // A copy of the slice would be a call where nothing is optimised across units.
+        Lanes(*from.first_chunk().expect("as many numbers as lanes"))
     }
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
-        let to = &mut to[..N];
-        for k in 0..N {
-            to[k] = self.0[k];
-        }
+        *to.first_chunk_mut().expect("as many places as lanes") = self.0;
     }
     #[inline(always)]
     fn sqrt(mut self) -> Self {

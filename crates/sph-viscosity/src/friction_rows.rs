@@ -60,7 +60,7 @@ impl<const D: usize> FrictionRows<'_, D> {
                 let norm = numbers[2 * lanes + lane];
                 let limit = self.weak.map_or(0.0, |w| w.limit[i].min(w.limit[j]));
                 // Not ">": what is not a number has to be seen by the solver.
-                let strong = !(norm <= limit);
+                let strong = norm.is_nan() || norm > limit;
                 let apart = cluster.separation(i, j);
                 let entry = E::central(even, along, &apart).times(self.ahead);
                 rows.couple(column, &entry, strong);

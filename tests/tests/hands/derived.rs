@@ -4,6 +4,9 @@ use sph_tests::DAM_BREAK;
 
 use crate::with;
 
+/// A function of the plane.
+type Plane = fn(f64, f64) -> f64;
+
 /// Vortices in a periodic box, with the fields that are written.
 fn vortices(fields: &str) -> String {
     format!(
@@ -70,11 +73,7 @@ fn vorticity_and_shear_stress_of_vortices_are_1_75_percent_small_and_q_3_5_as_th
         .position(|f| (f[0] - u).abs() + (f[1] - v).abs() < 1e-9);
     let form = form.unwrap_or_else(|| panic!("({u}, {v}) at ({x}, {y})"));
     // Both have |∇u| entries of the same kind; ω and Q follow by hand.
-    let (vorticity, q, rate): (
-        fn(f64, f64) -> f64,
-        fn(f64, f64) -> f64,
-        fn(f64, f64) -> f64,
-    ) = match form {
+    let (vorticity, q, rate): (Plane, Plane, Plane) = match form {
         0 => (
             |x, y| 2.0 * x.sin() * y.sin(),
             |x, y| x.sin().powi(2) * y.sin().powi(2) - x.cos().powi(2) * y.cos().powi(2),

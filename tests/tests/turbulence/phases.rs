@@ -51,10 +51,7 @@ fields = ["velocity"]
 
 const BED: &str = "bed = { phase = \"syrup\", roughness = 0.005 }\n";
 
-fn column<'a, const D: usize>(
-    world: &'a World<D>,
-    field: sph_core::Field<sph_core::Scalar>,
-) -> &'a [f64] {
+fn column<const D: usize>(world: &World<D>, field: sph_core::Field<sph_core::Scalar>) -> &[f64] {
     world.free.get(field).expect("a column")
 }
 

@@ -64,8 +64,7 @@ impl<const D: usize> Row<D> {
     /// Whether particle and walls may have come nearer by more than `skin` since it was found.
     fn is_stale(&self, place: &Vect<D>, travelled: f64, skin: f64) -> bool {
         let moved = (place - self.place).norm() + (travelled - self.travelled);
-        // Not ">": what was never found is no number.
-        !(moved <= skin)
+        moved.is_nan() || moved > skin
     }
 }
 
@@ -107,7 +106,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             if moves {
                 self.travel(mesh.points().map(|p| p.position).collect());
             }
-            self.follow(identities.map(|ids| &ids[..]), positions.len());
+            self.follow(identities, positions.len());
             self.search(mesh, positions, radius, skin);
             let close = self.particles.iter().map(|&p| positions[p as usize]);
             mesh.check_free_ends(&close.collect::<Vec<_>>(), support)

@@ -23,7 +23,8 @@ pub(crate) fn settle<const D: usize>(
 ) -> Result<(), SolverError> {
     let references = || laws.iter().map(|law| law.reference());
     let densities = || references().map(|r| r.density);
-    let flush = |walls: &Box<dyn sph_boundary::Wall<D>>| walls.lattice_offset() > 0.0;
+    let walls = choices.walls.as_ref();
+    let flush = walls.is_some_and(|walls| walls.lattice_offset() > 0.0);
     let walls: Vec<_> = drawn.walls.iter().map(|w| &w.drawing).collect();
     let mut problems = Vec::new();
     let mut settled = Vec::<(String, Arc<dyn Mover<D>>)>::new();
@@ -38,7 +39,7 @@ pub(crate) fn settle<const D: usize>(
                 densities().fold(0.0, f64::max),
             ],
             sound_speed: references().map(|r| r.sound_speed).fold(0.0, f64::max),
-            flush: choices.walls.as_ref().is_some_and(flush),
+            flush,
         };
         if let Err(refusal) = mover.settle(&setting) {
             let path = scene.mover(&wall).map(|c| c.inside(&refusal.key));
