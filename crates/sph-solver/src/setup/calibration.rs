@@ -153,6 +153,7 @@ fn measured<const D: usize>(parts: &mut Assembled<D>) -> Result<BTreeMap<String,
     }
     let mut samples: BTreeMap<String, Vec<f64>> = BTreeMap::new();
     let began = Instant::now();
+    let processor = on_processor();
     let mut steps = 0;
     while steps < STEPS || began.elapsed().as_secs_f64() < BUDGET {
         let before: Vec<Duration> = parts.flow.timings().iter().map(|t| t.spent).collect();
@@ -178,13 +179,28 @@ fn measured<const D: usize>(parts: &mut Assembled<D>) -> Result<BTreeMap<String,
     }
     parts.flow.evaluate()?;
     samples.insert(LISTS_NAME.into(), builds);
+    // Where the system tells for how long this thread was at work, that share of the time counts.
+    let wall = began.elapsed().as_secs_f64();
+    let share = on_processor()
+        .zip(processor)
+        .map(|(now, then)| (now - then) / wall)
+        .filter(|share| *share > 0.0);
+    let cost = |seconds: Vec<f64>| match share {
+        Some(share) => seconds.iter().sum::<f64>() / seconds.len() as f64 * share.min(1.0),
+        None => mean_of_undisturbed(seconds),
+    };
     let all = samples.into_iter();
-    Ok(all
-        .map(|(name, seconds)| (name, mean_of_undisturbed(seconds)))
-        .collect())
+    Ok(all.map(|(name, seconds)| (name, cost(seconds))).collect())
 }
 
-/// The mean, where what is far above the usual counts as little above it; many pieces have nothing to do in some steps.
+/// Seconds that this thread has been at work, where the system tells (Linux).
+fn on_processor() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;
+    Some(1e-9 * nanoseconds)
+}
+
+/// Where nobody tells: the mean, where what is far above the usual counts as little above it; many pieces have nothing to do in some steps.
 fn mean_of_undisturbed(mut seconds: Vec<f64>) -> f64 {
     seconds.sort_by(f64::total_cmp);
     let count = seconds.len() as f64;
