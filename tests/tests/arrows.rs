@@ -105,6 +105,7 @@ const ALLOWED: [(&str, &[&str]); 30] = [
         "sph-turbulence",
         &[
             "sph-core",
+            "sph-kernels",
             "sph-neighbours",
             "sph-contribution",
             "sph-viscosity",

@@ -78,8 +78,10 @@ impl<E: Entry<C>, const C: usize> Rows<E, C> {
         self.begin = self.used;
         let needed = self.used + most + 1;
         if self.columns.len() < needed {
-            let room = needed.next_power_of_two();
+            let room = needed + needed / 8;
+            self.columns.reserve_exact(room - self.columns.len());
             self.columns.resize(room, 0);
+            self.others.reserve_exact(room - self.others.len());
             self.others.resize(room, E::ZERO);
         }
     }

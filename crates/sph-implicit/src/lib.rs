@@ -22,6 +22,7 @@
 //! ```
 
 mod assemble;
+mod assembled;
 mod automatic;
 mod bicgstab;
 mod cholesky;

@@ -2,7 +2,6 @@
 
 use sph_core::Vect;
 
-use crate::halved::Halved;
 use crate::vector::dot;
 use crate::{Matrix, SolveError};
 
@@ -40,24 +39,6 @@ pub trait Operator<const D: usize>: Sync {
     /// down.
     fn assembled(&self) -> Option<&Matrix<D>> {
         None
-    }
-}
-
-impl<const D: usize> Operator<D> for Matrix<D> {
-    fn rows(&self) -> usize {
-        Matrix::rows(self)
-    }
-
-    fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
-        Matrix::multiply(self, x, y);
-    }
-
-    fn prepared(&self) -> Option<Box<dyn Operator<D> + '_>> {
-        Some(Box::new(Halved::of(self)))
-    }
-
-    fn assembled(&self) -> Option<&Matrix<D>> {
-        Some(self)
     }
 }
 

@@ -38,6 +38,25 @@ pub(crate) struct NearLists<const D: usize, N> {
     travelled: f64,
     /// Places of the nodes at the last build, m; empty where no wall ever moves.
     nodes: Vec<Vect<D>>,
+    /// Kept for their memory.
+    room: Room<D, N>,
+}
+
+/// What a search needs besides.
+#[derive(Debug)]
+struct Room<const D: usize, N> {
+    sorted: Vec<Row<D>>,
+    stale: Vec<u32>,
+    found: Vec<Found<D, N>>,
+    close: Vec<Vect<D>>,
+}
+
+/// What one task has found.
+#[derive(Debug)]
+struct Found<const D: usize, N> {
+    places: Vec<Vect<D>>,
+    counts: Vec<u32>,
+    elements: Vec<N>,
 }
 
 /// Where a particle's elements are, and where it was when they were found.
@@ -79,6 +98,22 @@ impl<const D: usize, N> Default for NearLists<D, N> {
             elements: Vec::new(),
             travelled: 0.0,
             nodes: Vec::new(),
+            room: Room {
+                sorted: Vec::new(),
+                stale: Vec::new(),
+                found: Vec::new(),
+                close: Vec::new(),
+            },
+        }
+    }
+}
+
+impl<const D: usize, N> Default for Found<D, N> {
+    fn default() -> Self {
+        Found {
+            places: Vec::new(),
+            counts: Vec::new(),
+            elements: Vec::new(),
         }
     }
 }
@@ -109,7 +144,9 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             self.follow(identities, positions.len());
             self.search(mesh, positions, radius, skin);
             let close = self.particles.iter().map(|&p| positions[p as usize]);
-            mesh.check_free_ends(&close.collect::<Vec<_>>(), support)
+            self.room.close.clear();
+            self.room.close.extend(close);
+            mesh.check_free_ends(&self.room.close, support)
         };
         let searched = outline.at_lists(world.lists.time, search);
         searched.and_then(|checked| checked).map_err(stage_error)
@@ -138,7 +175,9 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             let slot = slots.slot(id);
             slot.map_or(Row::none(), |slot| self.rows[slot as usize])
         };
-        self.rows = identities.par_iter().with_min_len(1024).map(row).collect();
+        let sorted = identities.par_iter().with_min_len(1024).map(row);
+        sorted.collect_into_vec(&mut self.room.sorted);
+        std::mem::swap(&mut self.rows, &mut self.room.sorted);
         self.identities.clear();
         self.identities.extend_from_slice(identities);
     }
@@ -152,24 +191,36 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
         skin: f64,
     ) {
         let travelled = self.travelled;
-        let rows = self.rows.iter().zip(positions).enumerate();
-        let stale = rows.filter(|(_, (row, x))| row.is_stale(x, travelled, skin));
-        let stale: Vec<u32> = stale.map(|(i, _)| i as u32).collect();
-        stale.iter().for_each(|&i| self.rows[i as usize].count = 0);
-        let found: Vec<(Vec<u32>, Vec<N>)> = stale
-            .par_chunks(BATCH)
-            .map(|batch| {
-                let places: Vec<_> = batch.iter().map(|&i| positions[i as usize]).collect();
-                let (mut counts, mut elements) = (Vec::with_capacity(batch.len()), Vec::new());
-                mesh.near_all(&places, radius, &mut counts, &mut elements);
-                (counts, elements)
-            })
-            .collect();
-        self.make_room(found.iter().map(|(_, elements)| elements.len()).sum());
+        let mut room = std::mem::replace(&mut self.room, Self::default().room);
+        room.stale.clear();
+        for (i, (row, x)) in self.rows.iter_mut().zip(positions).enumerate() {
+            if row.is_stale(x, travelled, skin) {
+                row.count = 0;
+                room.stale.push(i as u32);
+            }
+        }
+        let batches = room.stale.par_chunks(BATCH);
+        let tasks = batches.len();
+        room.found
+            .resize_with(tasks.max(room.found.len()), Found::default);
+        let found = &mut room.found[..tasks];
+        batches.zip(&mut *found).for_each(|(batch, found)| {
+            let Found {
+                places,
+                counts,
+                elements,
+            } = found;
+            places.clear();
+            places.extend(batch.iter().map(|&i| positions[i as usize]));
+            counts.clear();
+            elements.clear();
+            mesh.near_all(places, radius, counts, elements);
+        });
+        self.make_room(found.iter().map(|found| found.elements.len()).sum());
         let mut from = self.elements.len() as u32;
-        for (batch, (counts, elements)) in stale.chunks(BATCH).zip(&found) {
-            self.elements.extend_from_slice(elements);
-            for (&i, &count) in batch.iter().zip(counts) {
+        for (batch, found) in room.stale.chunks(BATCH).zip(&*found) {
+            self.elements.extend_from_slice(&found.elements);
+            for (&i, &count) in batch.iter().zip(&found.counts) {
                 self.rows[i as usize] = Row {
                     place: positions[i as usize],
                     travelled,
@@ -179,6 +230,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
                 from += count;
             }
         }
+        self.room = room;
         self.particles.clear();
         let near = self
             .rows

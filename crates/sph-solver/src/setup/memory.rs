@@ -73,8 +73,9 @@ impl Memory {
             lists: lists(world),
             copies: particles * copies(scene, world),
             walls: walls(world),
-            // Rows are put together before they are joined: for a moment they are there twice.
-            solves: 2.0 * system,
+            // Rows as they are put together, the matrix that they are joined to, its halves and incomplete factors in
+            // single precision, which take two thirds and a third of it.
+            solves: 3.0 * system,
             output: output(scene, particles),
         })
     }
