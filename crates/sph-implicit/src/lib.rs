@@ -1,6 +1,6 @@
 //! Sparse symmetric systems on the neighbour graph, and what solves them.
 //!
-//! * [`Matrix`]: rows of particles, scalar or d × d entries, [`assemble`]d from the neighbour lists.
+//! * [`Matrix`]: rows of particles, scalar or d × d entries, put together from the neighbour lists by an [`Assembly`].
 //! * [`Operator`]: what a solver needs of a system; a [`Matrix`] is one, a product without a matrix may be another.
 //! * [`LinearSolver`]: [`Automatic`], [`Cholesky`], [`ConjugateGradient`], [`Bicgstab`], as plugins;
 //!   [`Jacobi`] for comparison.

@@ -59,8 +59,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     type Seen: Send + Sync;
     /// The wall integrals of a kernel.
     type Integrals: Send + Sync + std::fmt::Debug;
-    /// Buffers of a thread that finds γ.
-    type Room: Default;
+    /// Buffers of a task that finds γ.
+    type Room: Default + Send + std::fmt::Debug;
 
     /// Meshes the walls; queries look up to `reach` metres far.
     ///

@@ -63,7 +63,7 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     /// Version of the near lists, moves and positions for which the contacts were found.
     found_for: (u64, u64, Vec<Vect<D>>),
     /// What was found last, batch by batch; kept for its memory.
-    found: Vec<Found>,
+    found: Vec<Found<M::Room>>,
     /// Least height of the particles of the near lists over the planes of their contacts, m; ∞ for
     /// those on no plane's fluid side.
     clearance: Vec<f64>,
@@ -81,14 +81,16 @@ const BATCH: usize = 64;
 
 /// γ of a batch of particles, and where their contacts end.
 #[derive(Debug, Default)]
-struct Found {
+struct Found<R> {
     gamma: Vec<f64>,
     /// Contacts up to and including each particle's.
     ends: Vec<u32>,
     clearance: Vec<f64>,
+    /// Buffers of the integrals.
+    room: R,
 }
 
-impl Found {
+impl<R> Found<R> {
     fn clear(&mut self) {
         self.gamma.clear();
         self.ends.clear();
@@ -180,21 +182,20 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         self.found.resize_with(batches.len(), Found::default);
         blocks.resize_with(batches.len(), Vec::new);
         let all = self.found.par_iter_mut().zip(blocks).zip(batches);
-        all.enumerate()
-            .for_each_init(M::Room::default, |room, (b, ((found, contacts), batch))| {
-                found.clear();
-                contacts.clear();
-                for (k, &particle) in batch.iter().enumerate() {
-                    let (x, row) = (&positions[particle as usize], near.row(b * BATCH + k));
-                    let from = contacts.len();
-                    let gamma = mesh.gamma(integrals, x, row, room, contacts);
-                    let heights = contacts[from..].iter().map(|c| c.distance);
-                    let least = heights.filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
-                    found.gamma.push(gamma);
-                    found.ends.push(contacts.len() as u32);
-                    found.clearance.push(least);
-                }
-            });
+        all.enumerate().for_each(|(b, ((found, contacts), batch))| {
+            found.clear();
+            contacts.clear();
+            for (k, &particle) in batch.iter().enumerate() {
+                let (x, row) = (&positions[particle as usize], near.row(b * BATCH + k));
+                let from = contacts.len();
+                let gamma = mesh.gamma(integrals, x, row, &mut found.room, contacts);
+                let heights = contacts[from..].iter().map(|c| c.distance);
+                let least = heights.filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
+                found.gamma.push(gamma);
+                found.ends.push(contacts.len() as u32);
+                found.clearance.push(least);
+            }
+        });
         self.clearance.clear();
         let least = self.found.iter().flat_map(|f| &f.clearance);
         self.clearance.extend(least);
