@@ -48,8 +48,7 @@ fn a_stiff_cliff_that_stands_with_stresses_of_the_end_of_the_step_is_refused_wit
     let stands = end_of(CLIFF, &[&IMPLICIT[..], &[allowed]].concat());
     let (energy, share) = (stands.kinetic_energy, held(&stands));
     println!("{energy:.3} J, {share:.3} of the weight held");
-    // A twentieth is what the program allows.
-    assert!(share > 0.05, "{share}: 0.261 was measured, with {energy} J");
+    assert!(share > 0.2, "{share}: 0.261 was measured, with {energy} J");
     let told = |s: &Summary| s.warnings.iter().any(|w| w.contains("sub_steps = true"));
     assert!(told(&stands), "{:?}", stands.warnings);
     let rest = [
@@ -59,7 +58,7 @@ fn a_stiff_cliff_that_stands_with_stresses_of_the_end_of_the_step_is_refused_wit
     ];
     let rests = end_of(SLOPE, &[&IMPLICIT[..], &rest[..]].concat());
     println!("at rest {:.3}", held(&rests));
-    assert!(held(&rests) < 0.05 && !told(&rests), "0.022 was measured");
+    assert!(held(&rests) < 0.03 && !told(&rests), "0.022 was measured");
 }
 
 /// E acts on a soil that flows mainly through the yield viscosity η_y ∝ d√𝒢: a hundredth of E with ten times the grains has the same. Kinetic energies
