@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 30] = [
+const ALLOWED: [(&str, &[&str]); 31] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation"]),
     ("dem-grains", &[]),
@@ -54,6 +54,10 @@ const ALLOWED: [(&str, &[&str]); 30] = [
             "sph-contribution",
             "sph-implicit",
         ],
+    ),
+    (
+        "sph-damping",
+        &["sph-core", "sph-neighbours", "sph-contribution"],
     ),
     (
         "sph-diffusion",
@@ -125,6 +129,7 @@ const ALLOWED: [(&str, &[&str]); 30] = [
             "dem-scene",
             "sph-bodies",
             "sph-core",
+            "sph-damping",
             "sph-io",
             "sph-scene",
             "sph-solver",
