@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 30] = [
+const ALLOWED: [(&str, &[&str]); 31] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation"]),
     ("dem-grains", &[]),
@@ -101,6 +101,7 @@ const ALLOWED: [(&str, &[&str]); 30] = [
     ("sph-integrators", &["sph-core", "sph-implicit"]),
     ("sph-probes", &["sph-core", "sph-kernels", "sph-neighbours"]),
     ("sph-io", &[]),
+    ("sph-draw", &["sph-io"]),
     (
         "sph-turbulence",
         &[
@@ -125,6 +126,7 @@ const ALLOWED: [(&str, &[&str]); 30] = [
             "dem-scene",
             "sph-bodies",
             "sph-core",
+            "sph-draw",
             "sph-io",
             "sph-scene",
             "sph-solver",
