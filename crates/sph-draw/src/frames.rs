@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use sph_io::{Cells, FieldValues, Piece};
+use sph_io::{Cells, Piece};
 
 use crate::{DrawError, Snapshot};
 
@@ -124,14 +124,5 @@ fn spacing(points: &[[f64; 3]]) -> f64 {
     match middle.is_finite() && middle > 0.0 {
         true => middle.sqrt(),
         false => 1.0,
-    }
-}
-
-/// A column as reals.
-pub(crate) fn reals(values: &FieldValues<'_>) -> Vec<f64> {
-    match values {
-        FieldValues::F64(v) => v.to_vec(),
-        FieldValues::U32(v) => v.iter().map(|x| f64::from(*x)).collect(),
-        FieldValues::I64(v) => v.iter().map(|x| *x as f64).collect(),
     }
 }

@@ -2,7 +2,6 @@
 
 use sph_io::{FieldValues, Location, Picture, Piece, View};
 
-use crate::frames::reals;
 use crate::{Cloud, DrawError};
 
 /// Particles at one time.
@@ -144,5 +143,14 @@ impl Snapshot {
             view: if planar { View::Plane } else { View::Front },
             ..Picture::of(points, values)
         }
+    }
+}
+
+/// A column as reals.
+fn reals(values: &FieldValues<'_>) -> Vec<f64> {
+    match values {
+        FieldValues::F64(v) => v.to_vec(),
+        FieldValues::U32(v) => v.iter().map(|x| f64::from(*x)).collect(),
+        FieldValues::I64(v) => v.iter().map(|x| *x as f64).collect(),
     }
 }

@@ -6,7 +6,7 @@ use crate::with;
 
 const TANK: &str = "title = \"Water at rest\"\ndimension = 2\n[run]\nend = 1e-4\n[numerics]\nspacing = 0.05\n\
     gravity = [0.0, -9.81]\n[walls.usaw]\nvertices = false\n[wall.tank]\nbox = [[0.0, 0.0], [1.0, 1.0]]\nopen = [\"y+\"]\n\
-    [phase.water]\n
+    [phase.water]\n\
     density = 1000.0\nvelocity_scale = 4.5\n[phase.water.rheology.newtonian]\nviscosity = 1e-3\n[body.water]\n\
     phase = \"water\"\nbox = [[0.0, 0.0], [1.0, 0.6]]\npressure = \"hydrostatic\"\n[output]\ntimes = [1e-4]\n\
     fields = [\"velocity\", \"surface_distance\"]\npicture = \"surface_distance\"\n";

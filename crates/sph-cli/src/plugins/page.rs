@@ -111,8 +111,8 @@ fn wrapped(text: &str, indent: &str) -> String {
     for word in text.split(' ') {
         let letters = word.chars().count();
         // What begins a list or a heading must not begin a line.
-        let safe = !word.starts_with(['-', '+', '*', '#', '=', '>', '|'])
-            && !word.starts_with(|c: char| c.is_ascii_digit());
+        let number = word.starts_with(|c: char| c.is_ascii_digit()) && word.ends_with(['.', ')']);
+        let safe = !number && !word.starts_with(['-', '+', '*', '#', '=', '>', '|']);
         if length > 0 && length + 1 + letters > LONGEST && safe {
             lines.push('\n');
             lines.push_str(indent);
