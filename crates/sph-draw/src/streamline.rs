@@ -126,19 +126,22 @@ impl Flow<'_> {
         // Its own earlier points, of which the last ones are always near.
         let mut own = Drawn::new(apart);
         let lag = (2.0 * apart / step.abs()).ceil() as usize;
+        let home = |x: &[f64; 3]| square(&[0, 1, 2].map(|k| x[k] - start[k])).sqrt();
+        let crowded = CROWDED * apart;
         while let Some(next) = self.step(line[line.len() - 1], step) {
-            let home = |x: &[f64; 3]| square(&[0, 1, 2].map(|k| x[k] - start[k])).sqrt();
             if line.len() > 8 && home(&next) < 0.75 * step.abs() {
                 line.push(start);
                 return (line, true);
             }
-            let crowded = CROWDED * apart;
             if drawn.near(next, crowded) || own.near(next, 0.5 * crowded) || line.len() == LONGEST {
                 break;
             }
             line.push(next);
-            if line.len() > lag {
-                own.add(line[line.len() - 1 - lag]);
+            // Those around the start are left out, so that a line can close.
+            if let Some(past) = line.len().checked_sub(lag + 1).map(|k| line[k])
+                && home(&past) > crowded
+            {
+                own.add(past);
             }
         }
         (line, false)
