@@ -34,6 +34,11 @@ pub fn step(py: Python<'_>, error: &impl std::fmt::Display) -> PyErr {
     exception(py, "RunError", &format!("error: {error}"), "null")
 }
 
+/// An exception for what is not there or cannot be.
+pub fn usage(py: Python<'_>, text: &str) -> PyErr {
+    exception(py, "UsageError", text, "null")
+}
+
 /// An exception for a file.
 pub fn file(py: Python<'_>, error: &impl std::fmt::Display) -> PyErr {
     exception(py, "FileError", &error.to_string(), "null")

@@ -9,6 +9,7 @@ mod errors;
 mod files;
 mod force;
 mod functions;
+mod law;
 mod probe;
 mod runs;
 mod scene;
@@ -32,6 +33,8 @@ fn _sph(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(functions::costs, module)?)?;
     module.add_function(wrap_pyfunction!(functions::register, module)?)?;
     module.add_function(wrap_pyfunction!(functions::forget, module)?)?;
+    module.add_function(wrap_pyfunction!(law::viscosities, module)?)?;
+    module.add_function(wrap_pyfunction!(law::shear_stresses, module)?)?;
     module.add_class::<simulation::Simulation>()?;
     Ok(())
 }

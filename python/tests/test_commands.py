@@ -192,3 +192,21 @@ name = "spacing"
 key = "numerics.spacing"
 values = [0.1, 0.05]
 """
+
+
+def test_a_law_is_sheared_alone_and_its_mistakes_are_told():
+    mud = sph.Law("newtonian", viscosity="2 Pa s")
+    assert mud.stress([0.5, 3.0]).tolist() == [1.0, 6.0]
+    with pytest.raises(sph.UsageError, match="did you mean `newtonian`"):
+        sph.Law("newtonien", viscosity=1.0)
+    with pytest.raises(sph.UsageError, match="viscosity"):
+        sph.Law("newtonian", viscosity="1 m/s")
+
+
+def test_tracks_are_the_rows_of_an_identity(coarse, tmp_path):
+    result = sph.run("dam-break-koshizuka", tmp_path / "a", set=coarse)
+    (track,) = result.tracks([17]).values()
+    assert track[:, 0].tolist() == result.times.tolist()
+    for frame, (_, *place) in zip(result.frames(), track):
+        (row,) = np.flatnonzero(frame["identity"] == 17)
+        assert frame.points[row].tolist() == place

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 31] = [
+const ALLOWED: [(&str, &[&str]); 32] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation"]),
     ("dem-grains", &[]),
@@ -105,6 +105,7 @@ const ALLOWED: [(&str, &[&str]); 31] = [
     ("sph-integrators", &["sph-core", "sph-implicit"]),
     ("sph-probes", &["sph-core", "sph-kernels", "sph-neighbours"]),
     ("sph-io", &[]),
+    ("sph-draw", &["sph-io"]),
     (
         "sph-turbulence",
         &[
@@ -130,6 +131,7 @@ const ALLOWED: [(&str, &[&str]); 31] = [
             "sph-bodies",
             "sph-core",
             "sph-damping",
+            "sph-draw",
             "sph-io",
             "sph-scene",
             "sph-solver",

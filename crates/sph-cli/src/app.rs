@@ -7,7 +7,7 @@ use clap::Parser;
 
 use crate::arguments::{Arguments, Command};
 use crate::{
-    check, compare, console, explain, manual, new, plugins, run, scenes, schema, study, view,
+    check, compare, console, draw, explain, manual, new, plugins, run, scenes, schema, study, view,
 };
 
 /// Runs the command that the process was called with.
@@ -38,6 +38,7 @@ pub fn command_line<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item
         Command::Scenes(a) => scenes::command(a),
         Command::New(a) => new::command(a),
         Command::Compare(a) => compare::command(a),
+        Command::Draw(a) => draw::command(a),
         Command::View(a) => view::command(a),
         Command::Completions(a) => manual::completions(a),
         Command::Man(a) => manual::man(a),

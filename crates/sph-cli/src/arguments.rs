@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-use crate::tool_arguments::{CompareArguments, CompletionArguments, ManArguments, ViewArguments};
+use crate::tool_arguments::{
+    CompareArguments, CompletionArguments, DrawCommand, ManArguments, ViewArguments,
+};
 
 /// Smoothed particle hydrodynamics, and grains one by one, from scene files.
 #[derive(Debug, Parser)]
@@ -145,6 +147,19 @@ that differs it tells the largest difference with time, particle and place. Writ
 
 Exit codes: 0 the same bits, 1 they differ, 2 there is nothing to compare.")]
     Compare(CompareArguments),
+    /// Draw what a run did not: streamlines, profiles along a line, tracks of particles
+    #[command(after_help = "\
+Examples:
+  sph draw streamlines results/cavity --out cavity.png
+  sph draw profile results/poiseuille-2d --from 0.5,0 --to 0.5,1 --field velocity.x
+  sph draw tracks results/dam-break-koshizuka --near 0.07,0.1 --near 0.14,0.28
+
+Reads the frames of fields.pvd, also while the run goes on. Beside every picture a table of the same name is
+written. Between particles values are those of a linear fit, exact for linear fields.
+
+Exit codes: 0 drawn, 1 a file cannot be written, 2 bad usage.")]
+    #[command(subcommand)]
+    Draw(DrawCommand),
     /// Show the results of a run in a browser, also while it goes on
     #[command(after_help = "\
 Example:
@@ -179,6 +194,7 @@ impl Command {
             Command::Compare(a) => a.json,
             Command::Schema(_)
             | Command::New(_)
+            | Command::Draw(_)
             | Command::View(_)
             | Command::Completions(_)
             | Command::Man(_) => false,

@@ -20,6 +20,7 @@ mod check;
 mod compare;
 mod console;
 mod diagnostics;
+mod draw;
 mod explain;
 mod failed;
 mod grains;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, Subcommand};
 use clap_complete::Shell;
 
 /// Arguments of `sph compare`.
@@ -44,4 +44,94 @@ pub struct ManArguments {
     /// Write the pages of all commands into a folder instead
     #[arg(long, value_name = "DIR", conflicts_with = "of")]
     pub out: Option<PathBuf>,
+}
+
+/// What `sph draw` draws.
+#[derive(Debug, Subcommand)]
+pub enum DrawCommand {
+    /// Lines along the velocity of one moment, over a field
+    Streamlines(StreamlineArguments),
+    /// A field along a straight line, at one time or at several
+    Profile(ProfileArguments),
+    /// Where single particles have been
+    Tracks(TrackArguments),
+}
+
+/// Arguments of `sph draw streamlines`.
+#[derive(Debug, Args)]
+pub struct StreamlineArguments {
+    /// Folder of the results of a run
+    pub results: PathBuf,
+    /// The picture, FILE.png; the points of the lines go to FILE.csv
+    #[arg(long, value_name = "FILE", default_value = "streamlines.png")]
+    pub out: PathBuf,
+    /// Time of the frame, s, or the one nearest to it [default: the last]
+    #[arg(long)]
+    pub time: Option<String>,
+    /// Field that gives the colours
+    #[arg(long, default_value = "speed")]
+    pub field: String,
+    /// Distance between lines, m [default: a 40th of the longer side]
+    #[arg(long)]
+    pub apart: Option<String>,
+    /// In space: the slice y that is shown, m [default: the middle]
+    #[arg(long, allow_hyphen_values = true)]
+    pub slice: Option<String>,
+}
+
+/// Arguments of `sph draw profile`.
+#[derive(Debug, Args)]
+pub struct ProfileArguments {
+    /// Folder of the results of a run
+    pub results: PathBuf,
+    /// Where the line starts, m
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true)]
+    pub from: String,
+    /// Where it ends, m
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true)]
+    pub to: String,
+    /// The field, of a vector its length, or a component: velocity.x
+    #[arg(long, default_value = "speed")]
+    pub field: String,
+    /// Times of the frames, s, or those nearest to them [default: the last]
+    #[arg(long, value_name = "T,…", value_delimiter = ',')]
+    pub time: Vec<String>,
+    /// Points on the line
+    #[arg(long, default_value_t = 101, value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    pub points: u32,
+    /// The picture, FILE.png or FILE.svg; the values go to FILE.csv
+    #[arg(long, value_name = "FILE", default_value = "profile.png")]
+    pub out: PathBuf,
+}
+
+/// Arguments of `sph draw tracks`.
+#[derive(Debug, Args)]
+pub struct TrackArguments {
+    /// Folder of the results of a run
+    pub results: PathBuf,
+    /// Particles by their identity [default: those of --near, or --count of them]
+    #[arg(
+        long,
+        value_name = "N,…",
+        value_delimiter = ',',
+        conflicts_with = "count"
+    )]
+    pub identity: Vec<u32>,
+    /// The particle that is nearest to a place in the first frame, m (may be repeated)
+    #[arg(
+        long,
+        value_name = "X,Y[,Z]",
+        allow_hyphen_values = true,
+        conflicts_with = "count"
+    )]
+    pub near: Vec<String>,
+    /// How many particles, evenly spread over the identities
+    #[arg(long, default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub count: u32,
+    /// Field of the last frame that gives the colours
+    #[arg(long, default_value = "speed")]
+    pub field: String,
+    /// The picture, FILE.png; the places go to FILE.csv
+    #[arg(long, value_name = "FILE", default_value = "tracks.png")]
+    pub out: PathBuf,
 }

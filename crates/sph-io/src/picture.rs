@@ -61,6 +61,8 @@ pub struct Picture<'a> {
     pub diameters: &'a [f64],
     /// Wall segments by their ends in metres.
     pub walls: &'a [[[f64; 3]; 2]],
+    /// Lines over the particles, by their points in metres: streamlines, tracks.
+    pub lines: &'a [Vec<[f64; 3]>],
     /// Which plane is drawn.
     pub view: View,
     /// What is shown, as `[[left, right], [bottom, top]]` in metres; if absent,
@@ -89,6 +91,7 @@ impl<'a> Picture<'a> {
             diameter: 0.0,
             diameters: &[],
             walls: &[],
+            lines: &[],
             view: View::Plane,
             window: None,
             ring: None,
@@ -122,6 +125,7 @@ impl<'a> Picture<'a> {
         if self.view == View::Plane {
             self.draw_walls(&mut canvas, &axes);
         }
+        self.draw_lines(&mut canvas, &axes);
         if let Some(place) = self.ring {
             self.draw_ring(&mut canvas, &axes, place);
         }
@@ -265,6 +269,22 @@ impl<'a> Picture<'a> {
             let [a, b] = ends.map(|p| self.flat(p)).map(|[x, y]| axes.spot(x, y));
             if let Some(inside) = axes.frame.clipped(a, b) {
                 canvas.line(&inside, pen);
+            }
+        }
+    }
+
+    /// Dark lines with a light edge, which shows on dark ground.
+    fn draw_lines(&self, canvas: &mut Canvas, axes: &Axes) {
+        for (colour, width) in [(Colour::WHITE, 0.16), (Colour::INK, 0.08)] {
+            let pen = Pen::solid(colour, width * axes.size);
+            for line in self.lines {
+                let spots = line.iter().map(|p| self.flat(*p));
+                let spots: Vec<_> = spots.map(|[x, y]| axes.spot(x, y)).collect();
+                for ends in spots.windows(2) {
+                    if let Some(inside) = axes.frame.clipped(ends[0], ends[1]) {
+                        canvas.line(&inside, pen);
+                    }
+                }
             }
         }
     }

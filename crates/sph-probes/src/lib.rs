@@ -7,6 +7,7 @@
 //!   [`SurfaceSlope`], [`Line`]), and of a bed under water ([`BedLines`], [`ErodedMass`],
 //!   [`PorePressureProbe`]).
 //! * [`derived_stages`]: vorticity and other fields that outputs and probes ask for by name.
+//! * [`surface_distance`]: the distance to the free surface, computed when it is written.
 //! * [`Solution`]: analytical flows, as references and as initial states.
 //! * [`norm`]: the norms in which errors are reported.
 
@@ -14,10 +15,12 @@ mod beds;
 mod contract;
 mod derived;
 mod flow;
+mod nearest;
 pub mod norm;
 mod phases;
 mod sampling;
 mod solutions;
+mod surface;
 
 pub use beds::bed_lines::BedLines;
 pub use beds::eroded_mass::ErodedMass;
@@ -62,3 +65,4 @@ pub use solutions::rigid_rotation::RigidRotation;
 pub use solutions::rotating_square::RotatingSquare;
 pub use solutions::taylor_green::TaylorGreen;
 pub use solutions::taylor_green_3d::TaylorGreen3d;
+pub use surface::{SURFACE_DISTANCE, surface_distance};

@@ -20,6 +20,7 @@ All quantities are in SI units. Mistakes are exceptions with the text of the com
 
 from ._commands import Check, Explanation, check, explain, run, study
 from ._errors import Error, FileError, RunError, SceneError, UsageError
+from ._law import Law
 from ._results import Curves, Frame, Record, Results, Series, StudyResults
 from ._simulation import Simulation
 from ._sph import __version__
@@ -31,6 +32,7 @@ __all__ = [
     "Explanation",
     "FileError",
     "Frame",
+    "Law",
     "Record",
     "Results",
     "RunError",

@@ -217,6 +217,16 @@ class Results:
         """The fields of all outputs, one after the other."""
         return (self._frame(time) for time in self.times)
 
+    def tracks(self, identities: Sequence[int]) -> "dict[int, np.ndarray]":
+        """Where particles have been: by identity, a row of time (s) and place (m) for every frame that has it."""
+        wanted = {int(identity): [] for identity in identities}
+        for frame in self.frames():
+            rows = {int(name): row for row, name in enumerate(frame["identity"])}
+            for identity, places in wanted.items():
+                if identity in rows:
+                    places.append([frame.time, *frame.points[rows[identity]]])
+        return {identity: np.array(places).reshape(-1, 4) for identity, places in wanted.items()}
+
     def _frame(self, time: float) -> Frame:
         here = {name: path for t, name, path in self._listed() if t == time}
         walls = here.pop("walls", None)

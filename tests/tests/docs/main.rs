@@ -1,5 +1,6 @@
 //! What the documents show is what there is: quoted code, scenes, links.
 
+mod book;
 mod dependencies;
 
 use std::path::{Path, PathBuf};

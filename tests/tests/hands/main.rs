@@ -5,6 +5,7 @@ mod animation;
 mod commands;
 mod compare;
 mod derived;
+mod draw;
 mod kinematic;
 mod stepper;
 mod view;

@@ -4,6 +4,11 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
+/// Plugins of this kind are drawn by `sph plugins KIND NAME --picture docs/images/law-NAME.svg`.
+const DRAWN: &str = "rheology";
+/// Longest line of prose; rows of tables cannot be broken.
+const LONGEST: usize = 120;
+
 /// A page of kinds as `sph plugins --json` tells them.
 pub fn of(kinds: &[Json]) -> String {
     let mut page = String::from(
@@ -14,19 +19,22 @@ pub fn of(kinds: &[Json]) -> String {
         let name = text(&kind["kind"]);
         line(
             &mut page,
-            &format!("* [{name}](#{name}): {}", text(&kind["purpose"])),
+            &wrapped(
+                &format!("* [{name}](#{name}): {}", text(&kind["purpose"])),
+                "  ",
+            ),
         );
     }
     for kind in kinds {
         let (name, purpose) = (text(&kind["kind"]), text(&kind["purpose"]));
         line(&mut page, &format!("\n## {name}\n\n{}.", capital(purpose)));
         let plugins = kind["plugins"].as_array().into_iter().flatten();
-        plugins.for_each(|plugin| one(&mut page, plugin));
+        plugins.for_each(|plugin| one(&mut page, name, plugin));
     }
     page
 }
 
-fn one(page: &mut String, plugin: &Json) {
+fn one(page: &mut String, kind: &str, plugin: &Json) {
     let dimensions = plugin["dimensions"].as_array().into_iter().flatten();
     let dimensions: Vec<String> = dimensions.map(|d| format!("{d}D")).collect();
     let provider = text(&plugin["provider"]);
@@ -37,14 +45,12 @@ fn one(page: &mut String, plugin: &Json) {
     }
     facts.push(format!("crate `{provider}`"));
     let (name, summary) = (text(&plugin["name"]), text(&plugin["summary"]));
-    line(
-        page,
-        &format!(
-            "\n### {name}\n\n{}; {}.",
-            capital(summary),
-            facts.join("; ")
-        ),
-    );
+    let told = format!("{}; {}.", capital(summary), facts.join("; "));
+    line(page, &format!("\n### {name}\n\n{}", wrapped(&told, "")));
+    if kind == DRAWN {
+        let picture = format!("\n![`{name}`, sheared alone](images/law-{name}.svg)");
+        line(page, &picture);
+    }
     let parameters = plugin["parameters"].as_array().into_iter().flatten();
     let rows: Vec<String> = parameters.map(row).collect();
     if !rows.is_empty() {
@@ -96,4 +102,27 @@ fn capital(text: &str) -> String {
 fn line(page: &mut String, text: &str) {
     page.push_str(text);
     page.push('\n');
+}
+
+/// A text in lines that are not too long, the second and all later ones behind `indent`.
+fn wrapped(text: &str, indent: &str) -> String {
+    let mut lines = String::new();
+    let mut length = 0;
+    for word in text.split(' ') {
+        let letters = word.chars().count();
+        // What begins a list or a heading must not begin a line.
+        let number = word.starts_with(|c: char| c.is_ascii_digit()) && word.ends_with(['.', ')']);
+        let safe = !number && !word.starts_with(['-', '+', '*', '#', '=', '>', '|']);
+        if length > 0 && length + 1 + letters > LONGEST && safe {
+            lines.push('\n');
+            lines.push_str(indent);
+            length = indent.len();
+        } else if length > 0 {
+            lines.push(' ');
+            length += 1;
+        }
+        lines.push_str(word);
+        length += letters;
+    }
+    lines
 }

@@ -7,6 +7,7 @@ use sph_io::{
     Cells, ColourMap, FieldData, FieldValues, Frame, IoError, Location, Picture, Piece, PvdSeries,
     View,
 };
+use sph_probes::{SURFACE_DISTANCE, surface_distance};
 use sph_scene::Scene;
 
 use crate::failure::bad_pictures;
@@ -91,20 +92,38 @@ impl Outputs {
     ) -> Result<(), SolverError> {
         let time = flow.world.time;
         let points = points(flow)?;
+        // No column: nobody but an output has a use for it.
+        let depth = SURFACE_DISTANCE;
+        let asked = self.fields.iter().chain(&self.pictures);
+        let depths = match asked.into_iter().any(|name| name == depth.name) {
+            true => surface_distance(&flow.world)?,
+            false => Vec::new(),
+        };
         if let Some(series) = &mut self.series {
+            let wanted = |name: &str| self.fields.iter().any(|f| f == name);
+            let mut pieces = pieces(flow, &points, wanted);
+            if wanted(depth.name) {
+                let field = FieldData::scalar(depth.name, depth.unit, &depths[..]);
+                pieces[0].fields.push(field);
+            }
             let frame = Frame {
                 time,
                 index: self.written,
-                pieces: pieces(flow, &points, |name| self.fields.iter().any(|f| f == name)),
+                pieces,
             };
             series.write(&frame)?;
         }
         for name in &self.pictures {
+            let drawn = match name == depth.name {
+                true => Some(("surface distance [m]".to_string(), depths.clone())),
+                false => column_of(flow, name),
+            };
+            let Some(drawn) = drawn else { continue };
             let file = format!("pictures/{name}_{:04}.png", self.written);
             picture(
                 flow,
                 &points,
-                name,
+                drawn,
                 self.range,
                 &self.title,
                 &self.folder.join(file),
@@ -313,15 +332,12 @@ fn map<const D: usize>(
 fn picture<const D: usize>(
     flow: &Flow<D>,
     points: &[[f64; 3]],
-    name: &str,
+    (label, values): (String, Vec<f64>),
     range: Option<[f64; 2]>,
     title: &str,
     path: &Path,
 ) -> Result<(), SolverError> {
     let world = &flow.world;
-    let Some((label, values)) = column_of(flow, name) else {
-        return Ok(());
-    };
     let walls = drawn_walls(world);
     let picture = Picture {
         title,

@@ -293,12 +293,13 @@ fn check_output_fields<const D: usize>(scene: &Scene, flow: &Flow<D>) -> Result<
         ("output.picture", &scene.output.picture),
     ];
     // What can be asked for is told with what there is.
-    let more = sph_probes::derived_fields().chain([fields::STRAIN_RATE.name]);
+    let written = sph_probes::SURFACE_DISTANCE.name;
+    let more = sph_probes::derived_fields().chain([fields::STRAIN_RATE.name, written]);
     let more = more.filter(|name| !free.has(name));
     let names: Vec<&str> = free.fields().map(|f| f.name).chain(more).collect();
     let mut problems = Vec::new();
     for (path, wanted) in lists {
-        for name in wanted.iter().filter(|n| !free.has(n)) {
+        for name in wanted.iter().filter(|n| *n != written && !free.has(n)) {
             let near = sph_core::suggestion(name, names.iter().copied());
             let known = names.join(", ");
             problems.push(SceneProblem::new(
