@@ -39,6 +39,17 @@ const ALLOWED: [(&str, &[&str]); 30] = [
         &["sph-core", "sph-kernels", "sph-lanes", "sph-neighbours"],
     ),
     ("sph-bodies", &["sph-core", "sph-boundary"]),
+    (
+        "sph-open",
+        &[
+            "sph-core",
+            "sph-kernels",
+            "sph-neighbours",
+            "sph-boundary",
+            "sph-state",
+            "sph-contribution",
+        ],
+    ),
     ("sph-rheology", &["sph-core"]),
     ("sph-state", &["sph-core", "sph-neighbours"]),
     (

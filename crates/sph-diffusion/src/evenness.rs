@@ -36,7 +36,7 @@ pub(crate) fn evenness<const D: usize>(
     let points = &world.walls.points;
     let own = world.kernel.value_at_zero();
     let between = 1.0 / world.kernel.at(world.spacing).0;
-    let mirrored = !points.in_sums();
+    let mirrored = !points.in_density();
     let least = AT_INTERFACE / world.kernel.smoothing_length();
     // A power with a known exponent is two products.
     let power = move |ratio: f64| match exponent {

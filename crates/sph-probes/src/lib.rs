@@ -1,7 +1,7 @@
 //! What a run measures and what it is compared with.
 //!
 //! * [`Probe`]: columns of the time series, from the state of the flow ([`Front`],
-//!   [`PressureProbe`], [`VelocityProbe`], [`DisplacementProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`],
+//!   [`PressureProbe`], [`VelocityProbe`], [`DisplacementProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`PassedProbe`],
 //!   [`WallMotionProbe`], [`StreamFunction`], [`Profile`], [`MeanProfile`], [`EnergySpectrum`]), and of
 //!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
 //!   [`SurfaceSlope`], [`Line`]), and of a bed under water ([`BedLines`], [`ErodedMass`],
@@ -39,6 +39,7 @@ pub use flow::profile::{Component, Profile};
 pub use flow::range::FieldRange;
 pub use flow::spectrum::EnergySpectrum;
 pub use flow::stream_function::StreamFunction;
+pub use flow::passed::PassedProbe;
 pub use flow::wall_force::WallForceProbe;
 pub use flow::wall_motion::WallMotionProbe;
 pub use phases::extent::Extent;
