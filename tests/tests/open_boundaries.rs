@@ -82,17 +82,29 @@ fn what_comes_in_less_what_goes_out_is_what_is_held() {
     let summary = into(out.path(), CHANNEL, 2, Start::Afresh);
     let passed = summary.open_boundaries.expect("a budget");
     let unbalanced = passed["unbalanced"].as_f64().expect("a number");
-    assert!(unbalanced < 1e-12, "{unbalanced:e} of what passed is missing");
+    assert!(
+        unbalanced < 1e-12,
+        "{unbalanced:e} of what passed is missing"
+    );
     let entered = number(&passed, "inlet.mud", "entered");
     // ρ u H t, with the density that the pressure at the face makes.
-    assert!((entered / (1.6 * 0.6) - 1.0).abs() < 0.02, "{entered} kg/m came in");
+    assert!(
+        (entered / (1.6 * 0.6) - 1.0).abs() < 0.02,
+        "{entered} kg/m came in"
+    );
     let faces = ["inlet.mud", "outlet.mud", "outlet.water"];
     let sum = |key: &str| faces.iter().map(|f| number(&passed, f, key)).sum::<f64>();
     let state = FinalState::of(out.path());
-    let mass = state.columns["mass"].iter().map(|b| f64::from_bits(*b)).sum::<f64>();
+    let mass = state.columns["mass"]
+        .iter()
+        .map(|b| f64::from_bits(*b))
+        .sum::<f64>();
     let first = 200.0 * 0.01;
     let missing = sum("entered") - sum("left") - sum("held") - (mass - first);
-    assert!(missing.abs() < 1e-12 * sum("entered"), "{missing:e} kg/m is missing");
+    assert!(
+        missing.abs() < 1e-12 * sum("entered"),
+        "{missing:e} kg/m is missing"
+    );
     assert!(number(&passed, "outlet.water", "died") > 0.3, "{passed}");
     // The summary counts the same deaths and births.
     assert!(summary.drift.mass.abs() < 1e-13, "{:e}", summary.drift.mass);
@@ -128,11 +140,20 @@ fn a_uniform_flow_passes_both_faces_as_if_they_were_not_there() {
     let out = folder();
     let summary = into(out.path(), &text, 2, Start::Afresh);
     let state = FinalState::of(out.path());
-    let velocity: Vec<f64> = state.columns["velocity"].iter().map(|b| f64::from_bits(*b)).collect();
-    let off = velocity.chunks(2).map(|u| (u[0] - 1.0).hypot(u[1])).fold(0.0, f64::max);
+    let velocity: Vec<f64> = state.columns["velocity"]
+        .iter()
+        .map(|b| f64::from_bits(*b))
+        .collect();
+    let off = velocity
+        .chunks(2)
+        .map(|u| (u[0] - 1.0).hypot(u[1]))
+        .fold(0.0, f64::max);
     let [least, largest] = summary.density_range;
     // A density that is off by 1 % is a pressure of 1.44 ρu².
-    assert!(off < 0.02 && least > 0.999 && largest < 1.001, "velocity off by {off}, density {least} to {largest}");
+    assert!(
+        off < 0.02 && least > 0.999 && largest < 1.001,
+        "velocity off by {off}, density {least} to {largest}"
+    );
 }
 
 /// A pulse of pressure runs into the outlet; what comes back is less than 2 % of it.
@@ -155,17 +176,32 @@ fn a_pressure_pulse_leaves() {
     // A simple wave to the right: δρ/ρ = u/c.
     use sph_core::fields;
     let free = &stepper.parts().flow.world.free;
-    let at: Vec<f64> = free.get(fields::POSITION).unwrap().iter().map(|x| x[0]).collect();
+    let at: Vec<f64> = free
+        .get(fields::POSITION)
+        .unwrap()
+        .iter()
+        .map(|x| x[0])
+        .collect();
     let gamma = free.get(fields::RENORMALISATION).unwrap().to_vec();
     let constant = free.get(fields::DENSITY_CONSTANT).unwrap().to_vec();
     let velocity: Vec<f64> = at.iter().flat_map(|x| [sound * pulse(*x), 0.0]).collect();
     let raised = constant.iter().zip(&gamma).zip(&at);
     let raised: Vec<f64> = raised.map(|((k, g), x)| k + g * pulse(*x)).collect();
-    stepper.set("velocity", &velocity).unwrap_or_else(|e| panic!("{e}"));
-    stepper.set("density_constant", &raised).unwrap_or_else(|e| panic!("{e}"));
+    stepper
+        .set("velocity", &velocity)
+        .unwrap_or_else(|e| panic!("{e}"));
+    stepper
+        .set("density_constant", &raised)
+        .unwrap_or_else(|e| panic!("{e}"));
     let largest = |stepper: &mut Stepper<2>| {
         stepper.evaluate().unwrap_or_else(|e| panic!("{e}"));
-        let pressure = stepper.parts().flow.world.free.get(fields::PRESSURE).unwrap();
+        let pressure = stepper
+            .parts()
+            .flow
+            .world
+            .free
+            .get(fields::PRESSURE)
+            .unwrap();
         pressure.iter().fold(0.0_f64, |most, p| most.max(p.abs()))
     };
     // Just before it arrives, and when what came back is in the middle.
@@ -193,7 +229,9 @@ fn problems(text: &str) -> Vec<SceneProblem> {
 
 fn assert_refused(text: &str, path: &str, why: &str) {
     let all = problems(text);
-    let found = all.iter().any(|p| p.path == path && p.message.contains(why));
+    let found = all
+        .iter()
+        .any(|p| p.path == path && p.message.contains(why));
     assert!(found, "{all:?}");
 }
 
@@ -210,27 +248,48 @@ fn what_no_face_can_be_is_refused_at_its_key() {
     let values = with("phase = \"mud\"\n", "values = { turbulence = 1.0 }\n");
     assert_refused(&values, &format!("{inlet}.values.turbulence"), "no plugin");
     let vertices = with("vertices = false", "vertices = true");
-    assert_refused(&vertices, "wall.inlet.open-boundary.velocity-inlet", "vertices = false");
+    assert_refused(
+        &vertices,
+        "wall.inlet.open-boundary.velocity-inlet",
+        "vertices = false",
+    );
     let level = with(
         "[wall.outlet.open-boundary.outflow]\nmemory = \"1 s\"",
         "[wall.outlet.open-boundary.level]\nlevel = 0.5",
     );
-    assert_refused(&level, "wall.outlet.open-boundary.level.level", "needs gravity");
+    assert_refused(
+        &level,
+        "wall.outlet.open-boundary.level.level",
+        "needs gravity",
+    );
     let nothing = with("memory = \"1 s\"", "pressure = 0");
     assert_refused(&nothing, "wall.outlet.open-boundary.outflow", "`memory`");
     let blocked = with(
         "[phase.water]",
         "[wall.block]\nbox = [[0.02, 0.42], [0.33, 0.73]]\nfluid = \"outside\"\n[phase.water]",
     )
-    .replace("box = [[0.0, 0.0], [2.0, 1.0]]", "box = [[0.0, 0.0], [2.0, 1.0]]\nclip = true");
+    .replace(
+        "box = [[0.0, 0.0], [2.0, 1.0]]",
+        "box = [[0.0, 0.0], [2.0, 1.0]]\nclip = true",
+    );
     assert_refused(&blocked, inlet, "blocked at the start");
-    let turbulent = with("integrator.symplectic-euler", "integrator.predictor-corrector");
-    assert_refused(&turbulent, "integrator.predictor-corrector", "once per step");
+    let turbulent = with(
+        "integrator.symplectic-euler",
+        "integrator.predictor-corrector",
+    );
+    assert_refused(
+        &turbulent,
+        "integrator.predictor-corrector",
+        "once per step",
+    );
 }
 
 #[test]
 fn a_closed_box_with_an_inlet_is_told() {
-    let text = CHANNEL.replace("[wall.outlet.open-boundary.outflow]\nmemory = \"1 s\"\n", "");
+    let text = CHANNEL.replace(
+        "[wall.outlet.open-boundary.outflow]\nmemory = \"1 s\"\n",
+        "",
+    );
     let loaded = parse(&text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
     let parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
     let told = parts.warnings.iter().any(|w| w.contains("none can leave"));

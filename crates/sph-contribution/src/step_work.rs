@@ -115,7 +115,11 @@ pub trait StepWork<const D: usize>: Send {
     ///
     /// # Errors
     /// As [`before_kick`](Self::before_kick).
-    fn departures(&mut self, _world: &mut World<D>, _dt: f64) -> Result<Vec<(u32, usize)>, StepError> {
+    fn departures(
+        &mut self,
+        _world: &mut World<D>,
+        _dt: f64,
+    ) -> Result<Vec<(u32, usize)>, StepError> {
         Ok(Vec::new())
     }
     /// Whether particles may come in by it.

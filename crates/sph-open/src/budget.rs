@@ -19,7 +19,10 @@ impl<const D: usize> Faces<D> {
                 if entered == 0.0 && left == 0.0 && born == 0.0 && died == 0.0 {
                     continue;
                 }
-                let masses = face.elements.clone().map(|k| self.memory.mass[k * count + q]);
+                let masses = face
+                    .elements
+                    .clone()
+                    .map(|k| self.memory.mass[k * count + q]);
                 let held: f64 = masses.sum();
                 let missing = entered - left - (born - died) - held;
                 whole[0] += missing;
@@ -32,7 +35,11 @@ impl<const D: usize> Faces<D> {
                 );
             }
         }
-        let unbalanced = if whole[1] > 0.0 { whole[0].abs() / whole[1] } else { 0.0 };
+        let unbalanced = if whole[1] > 0.0 {
+            whole[0].abs() / whole[1]
+        } else {
+            0.0
+        };
         all.insert("unbalanced".into(), json!(unbalanced));
         Json::Object(all)
     }

@@ -7,12 +7,12 @@ use sph_contribution::{Contribution, OwnColumn, Refusal, Setting, StepWork};
 use sph_core::{AnyField, Vect};
 use sph_state::Laws;
 
-use crate::{Entering, OpenBoundary};
 use crate::faces::{Face, Faces, SharedFaces, lock};
 use crate::flux::OPEN_FLUX;
 use crate::memory::Memory;
 use crate::passing::Passing;
 use crate::walls::OpenWalls;
+use crate::{Entering, OpenBoundary};
 
 /// The open faces of a scene as a contribution.
 pub struct OpenBoundaries<const D: usize> {

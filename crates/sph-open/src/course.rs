@@ -82,7 +82,9 @@ impl Profile {
 
     /// The largest factor.
     pub(crate) fn largest(&self) -> f64 {
-        (0..=1000).map(|k| self.at(k as f64 * 1e-3).abs()).fold(0.0, f64::max)
+        (0..=1000)
+            .map(|k| self.at(k as f64 * 1e-3).abs())
+            .fold(0.0, f64::max)
     }
 
     /// Refuses what is no profile along a line.
@@ -113,7 +115,10 @@ mod tests {
     #[test]
     fn tables_are_straight_between_their_points_and_stay_beyond() {
         let table = [[0.0, 1.0], [2.0, 3.0]];
-        assert_eq!([-1.0, 0.0, 0.5, 2.0, 9.0].map(|x| between(&table, x)), [1.0, 1.0, 1.5, 3.0, 3.0]);
+        assert_eq!(
+            [-1.0, 0.0, 0.5, 2.0, 9.0].map(|x| between(&table, x)),
+            [1.0, 1.0, 1.5, 3.0, 3.0]
+        );
     }
 
     #[test]

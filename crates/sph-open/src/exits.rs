@@ -4,14 +4,10 @@ use sph_contribution::Newborn;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::World;
 
-use crate::faces::{CLOSED, Faces};
+use crate::faces::{CLOSED, Faces, LATE};
 
 /// A particle is born when a port has this share of its mass: its half row has come in by then.
 const RIPE: f64 = 0.5;
-
-/// How late births and deaths may be, as a share of a row: lists are built anew where particles come or go, and the rows that
-/// pass meanwhile wait for each other.
-const LATE: f64 = 0.2;
 
 /// How far from the face, over the spacing, particles are born at least: on the fluid's side whatever is rounded.
 const IN_FRONT: f64 = 1e-6;
@@ -66,7 +62,11 @@ impl<const D: usize> Faces<D> {
         for (k, mean) in self.memory.mean.iter_mut().enumerate() {
             let law = &self.faces[self.face_of[k]].law;
             if let Some(memory) = law.memory() {
-                let part = if begins { 1.0 } else { 1.0 - (-dt / memory).exp() };
+                let part = if begins {
+                    1.0
+                } else {
+                    1.0 - (-dt / memory).exp()
+                };
                 *mean += (self.inside[k].velocity - *mean) * part;
             }
         }
@@ -91,7 +91,9 @@ impl<const D: usize> Faces<D> {
             let part = if part.is_finite() { part } else { 0.0 };
             self.memory.mass[first * phases + b.phase] += (1.0 - part) * b.mass;
             self.memory.mass[second.0 * phases + b.phase] += part * b.mass;
-            self.memory.totals[b.face * phases + b.phase].died.add(b.mass);
+            self.memory.totals[b.face * phases + b.phase]
+                .died
+                .add(b.mass);
         }
         Ok(behind.iter().map(|b| (b.particle, b.face)).collect())
     }
@@ -135,7 +137,11 @@ impl<const D: usize> Faces<D> {
             open.filter(|k| *k != CLOSED).map(|k| k as usize)
         };
         let least = |a: (usize, Vect<D>), b: (usize, Vect<D>)| {
-            if b.1.norm_squared() < a.1.norm_squared() { b } else { a }
+            if b.1.norm_squared() < a.1.norm_squared() {
+                b
+            } else {
+                a
+            }
         };
         let first = open().map(|k| (k, way(k))).reduce(least)?;
         let of_it = |k: &usize| *k != first.0 && self.face_of[*k] == self.face_of[first.0];

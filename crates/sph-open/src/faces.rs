@@ -9,10 +9,15 @@ use sph_neighbours::{Passed, WallSet, World};
 use sph_state::Laws;
 
 use crate::memory::Memory;
+use crate::row::Row;
 use crate::{Inside, Moment, OpenBoundary, Outside, Place};
 
 /// Least Σ V w of the fluid before an element, of the ½ of a filled half space, for a mean that means something.
 const WET: f64 = 0.15;
+
+/// How late births and deaths may be, as a share of a row: lists are built anew where particles come or go, and the rows that
+/// pass meanwhile wait for each other.
+pub(crate) const LATE: f64 = 0.2;
 
 /// The element that nobody opened.
 pub(crate) const CLOSED: u32 = u32::MAX;
@@ -95,13 +100,19 @@ impl<const D: usize> Faces<D> {
                     centre: elements.centre[s],
                     normal: elements.normal[s],
                     measure,
-                    along: if D == 2 { (before + 0.5 * measure) / whole } else { 0.5 },
+                    along: if D == 2 {
+                        (before + 0.5 * measure) / whole
+                    } else {
+                        0.5
+                    },
                 });
                 before += measure;
             }
             face.elements = first..self.elements.len();
         }
-        self.smooth = (0..self.places.len()).map(|k| self.around(k, kernel)).collect();
+        self.smooth = (0..self.places.len())
+            .map(|k| self.around(k, kernel))
+            .collect();
         self.add_ports(walls);
         let (ports, phases) = (self.elements.len(), self.whole.len());
         let nothing = Inside {
@@ -117,6 +128,7 @@ impl<const D: usize> Faces<D> {
         self.rows = vec![Vect::zeros(); ports];
         self.mix = vec![0.0; ports * phases];
         self.memory = Memory::new(ports, phases, self.faces.len());
+        walls.passed = self.passed(walls);
     }
 
     /// Weights of the mean of a velocity that is given on the face, as the fluid's own is taken: over rows of particles in front
@@ -156,7 +168,6 @@ impl<const D: usize> Faces<D> {
                 points.slip.push((0.0, place.normal));
             }
         }
-        walls.passed = self.passed(walls);
     }
 
     /// The phase that comes in at an element: the face's, or most of what is in front of it.
@@ -190,22 +201,30 @@ impl<const D: usize> Faces<D> {
     pub fn share(&self, element: usize) -> f64 {
         let phases = self.whole.len();
         let mass = &self.memory.mass[element * phases..(element + 1) * phases];
-        mass.iter().zip(&self.whole).map(|(m, whole)| m / whole).sum()
+        mass.iter()
+            .zip(&self.whole)
+            .map(|(m, whole)| m / whole)
+            .sum()
     }
 
     /// The velocity with which fluid passes an element, m/s: what is imposed, or that of the row in front of it and what the law
     /// adds.
     pub fn through(&self, element: usize) -> Vect<D> {
-        self.for_whom(element, &self.rows[element])
-    }
-
-    /// The velocity of the fluid at an element for a particle near it: what is imposed, or its own and what the law adds.
-    pub fn for_whom(&self, element: usize, own: &Vect<D>) -> Vect<D> {
         let (inside, outside) = (&self.inside[element], &self.outside[element]);
         match outside.imposed {
             true => outside.velocity,
-            false => own + (outside.velocity - inside.velocity),
+            false => self.rows[element] + (outside.velocity - inside.velocity),
         }
+    }
+
+    /// Whether a place behind a face is that of a particle that waits to leave.
+    pub fn waits(&self, place: &Vect<D>) -> bool {
+        self.places.iter().any(|face| {
+            let apart = place - face.centre;
+            let height = apart.dot(&face.normal);
+            let beside = (apart - face.normal * height).norm();
+            height <= 0.0 && height > -2.0 * LATE * self.spacing && beside <= self.spacing
+        })
     }
 
     /// Looks at the fluid in front of all elements, and asks the laws.
@@ -226,11 +245,16 @@ impl<const D: usize> Faces<D> {
         };
         for face in &self.faces {
             let own = face.elements.clone();
-            let outside =
-                (face.law).outside(&self.places[own.clone()], &self.inside[own.clone()], &moment);
+            let outside = (face.law).outside(
+                &self.places[own.clone()],
+                &self.inside[own.clone()],
+                &moment,
+            );
             self.outside[own].copy_from_slice(&outside);
         }
-        let pressures: Vec<_> = (0..self.elements.len()).map(|k| self.reflected(k)).collect();
+        let pressures: Vec<_> = (0..self.elements.len())
+            .map(|k| self.reflected(k))
+            .collect();
         for (outside, pressure) in self.outside.iter_mut().zip(pressures) {
             outside.pressure = pressure;
         }
@@ -247,7 +271,9 @@ impl<const D: usize> Faces<D> {
             return 0.0;
         }
         let normal = &self.places[k].normal;
-        let wet = self.smooth[k].iter().filter(|(j, _)| self.inside[*j as usize].wet);
+        let wet = self.smooth[k]
+            .iter()
+            .filter(|(j, _)| self.inside[*j as usize].wet);
         let (mut whole, mut mean) = (0.0, 0.0);
         for (j, w) in wet {
             whole += w;
@@ -267,7 +293,7 @@ impl<const D: usize> Faces<D> {
         let mut mix = vec![0.0; self.whole.len()];
         let (mut filling, mut p, mut z, mut rho) = (0.0, 0.0, 0.0, 0.0);
         let mut u = Vect::<D>::zeros();
-        let (mut beside, mut row) = (0.0, Vect::<D>::zeros());
+        let mut row = Row::default();
         let limit = world.kernel.support_radius().powi(2);
         for &j in world.lists.of_elements.row(self.elements[k] as usize) {
             let j = j as usize;
@@ -283,11 +309,7 @@ impl<const D: usize> Faces<D> {
             mix[phase] += vw;
             p += vw * (over + density[j] * world.gravity.dot(&apart));
             u += velocity[j] * vw;
-            // The mean over the support smooths a profile; the row in front of the element does not.
-            let along = apart - place.normal * apart.dot(&place.normal);
-            let narrow = vw * (-2.0 * along.norm_squared() / self.spacing.powi(2)).exp();
-            beside += narrow;
-            row += velocity[j] * narrow;
+            row.add(&place.normal, &apart, self.spacing, vw, &velocity[j]);
             rho += vw * density[j];
             z += vw * density[j] * self.laws[phase].sound_speed(density[j]);
         }
@@ -307,7 +329,7 @@ impl<const D: usize> Faces<D> {
             density: rho,
             mean,
         };
-        let row = if beside > 0.0 { row / beside } else { u };
+        let row = row.velocity(self.spacing).unwrap_or(u);
         Ok(Looked { inside, row, mix })
     }
 
@@ -337,8 +359,15 @@ impl<const D: usize> Faces<D> {
         for (t, totals) in self.memory.totals.iter().enumerate() {
             let (f, phase) = (t / phases, t % phases);
             let face = &self.faces[f];
-            let held = face.elements.clone().map(|k| self.memory.mass[k * phases + phase]);
-            let wall = walls.names.iter().position(|n| *n == face.name).unwrap_or(0);
+            let held = face
+                .elements
+                .clone()
+                .map(|k| self.memory.mass[k * phases + phase]);
+            let wall = walls
+                .names
+                .iter()
+                .position(|n| *n == face.name)
+                .unwrap_or(0);
             all.push(Passed {
                 wall: wall as u32,
                 phase: phase as u32,

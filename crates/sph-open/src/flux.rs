@@ -21,8 +21,8 @@ impl<const D: usize> Faces<D> {
     ///
     ///   dK_a/dt = ρ_a Σ_s u_s·∇γ_as + m_a Σ_v θ_v (u_a − u_v)·∇w_av.
     ///
-    /// Where a velocity is not imposed, u_s is the particle's own, changed by what the law adds to the mean before the face:
-    /// the mean over the support has not the profile of the flow.
+    /// Where a velocity is not imposed, u_s is that of the row in front of the element, changed by what the law adds to the mean
+    /// before the face: the mean over the support has not the profile of the flow.
     ///
     /// The first sum is what γ gains as the particle goes; it is advanced to second order (Adams & Bashforth), since what
     /// a step misses of it stays.
@@ -44,15 +44,17 @@ impl<const D: usize> Faces<D> {
             for contact in world.walls.contacts.of(i) {
                 let k = self.open[contact.element as usize];
                 if k != CLOSED {
-                    through += self.for_whom(k as usize, &velocity[i]).dot(&contact.gradient);
+                    through += self.through(k as usize).dot(&contact.gradient);
                 }
             }
             let mut beside = 0.0;
             for &v in world.lists.wall.row(i) {
                 let k = v as usize - first;
-                let apart = world.domain.nearest_image(position[i] - self.places[k].centre);
+                let apart = world
+                    .domain
+                    .nearest_image(position[i] - self.places[k].centre);
                 let factor = world.kernel.at(apart.norm()).1;
-                let parting = velocity[i] - self.for_whom(k, &velocity[i]);
+                let parting = velocity[i] - self.through(k);
                 beside += shares[k] * parting.dot(&apart) * factor;
             }
             let now = density[i] * through;
@@ -70,11 +72,7 @@ impl<const D: usize> Faces<D> {
 
     /// Takes the kernels of particles that come (`sign` −1) or go (+1) out of the density constants of all others, so that
     /// nobody's density jumps.
-    pub fn even_out(
-        world: &mut World<D>,
-        places: &[Vect<D>],
-        sign: f64,
-    ) -> Result<(), StepError> {
+    pub fn even_out(world: &mut World<D>, places: &[Vect<D>], sign: f64) -> Result<(), StepError> {
         if places.is_empty() {
             return Ok(());
         }

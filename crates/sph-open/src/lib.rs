@@ -15,6 +15,7 @@ mod flux;
 mod laws;
 mod memory;
 mod passing;
+mod row;
 mod walls;
 
 pub use contract::{

@@ -128,6 +128,10 @@ mod tests {
         let mut sum = Sum::default();
         sum.add(1e6);
         (0..1_000_000).for_each(|_| sum.add(1e-11));
-        assert!((sum.value() - 1e6 - 1e-5).abs() < 1e-9 * 1e-5 + 1.2e-10, "{}", sum.value() - 1e6);
+        assert!(
+            (sum.value() - 1e6 - 1e-5).abs() < 1e-9 * 1e-5 + 1.2e-10,
+            "{}",
+            sum.value() - 1e6
+        );
     }
 }

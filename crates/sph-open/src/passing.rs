@@ -59,7 +59,11 @@ impl<const D: usize> StepWork<D> for Passing<D> {
     }
 
     fn exits(&self) -> Vec<String> {
-        lock(&self.faces).faces.iter().map(|f| f.name.clone()).collect()
+        lock(&self.faces)
+            .faces
+            .iter()
+            .map(|f| f.name.clone())
+            .collect()
     }
 
     fn departures(

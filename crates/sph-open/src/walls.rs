@@ -29,7 +29,7 @@ impl<const D: usize> Wall<D> for OpenWalls<D> {
     }
 
     fn contains(&self, point: &Vect<D>) -> bool {
-        self.walls.contains(point)
+        self.walls.contains(point) || lock(&self.faces).waits(point)
     }
 
     fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {
@@ -75,7 +75,10 @@ impl<const D: usize> Wall<D> for OpenWalls<D> {
         let own = states.now.len().checked_sub(faces.memory.count());
         let back = own.is_some_and(|own| faces.memory.put_back(&states.now[own..]));
         if !back {
-            let wall = faces.faces.first().map_or(String::new(), |f| f.name.clone());
+            let wall = faces
+                .faces
+                .first()
+                .map_or(String::new(), |f| f.name.clone());
             return Err(BoundaryError::Motion { wall });
         }
         walls.passed = faces.passed(walls);

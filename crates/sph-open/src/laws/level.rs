@@ -36,7 +36,8 @@ pub struct Level {
 impl<const D: usize> OpenBoundary<D> for Level {
     fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
         if setting.gravity == 0.0 {
-            let why = "a level needs gravity: set `numerics.gravity`, or take `open-boundary.pressure`";
+            let why =
+                "a level needs gravity: set `numerics.gravity`, or take `open-boundary.pressure`";
             return Err(OpenRefusal::of("level", why));
         }
         check_phase(&self.phase, setting)?;

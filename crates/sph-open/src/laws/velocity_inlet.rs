@@ -63,12 +63,7 @@ impl<const D: usize> OpenBoundary<D> for VelocityInlet {
     fn lets_out(&self) -> bool {
         self.velocity < 0.0
     }
-    fn outside(
-        &self,
-        places: &[Place<D>],
-        _: &[Inside<D>],
-        moment: &Moment<D>,
-    ) -> Vec<Outside<D>> {
+    fn outside(&self, places: &[Place<D>], _: &[Inside<D>], moment: &Moment<D>) -> Vec<Outside<D>> {
         let now = self.velocity * factor(&self.over_time, moment.time);
         let one = |place: &Place<D>| imposed_velocity(place, now * self.profile.at(place.along));
         places.iter().map(one).collect()

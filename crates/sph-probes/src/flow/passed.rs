@@ -46,7 +46,10 @@ impl<const D: usize> Probe<D> for PassedProbe {
         let wanted = |wall: u32| self.wall.as_ref().is_none_or(|w| w == name(wall));
         let mut sums = vec![0.0; 3];
         for passed in walls.passed.iter().filter(|p| wanted(p.wall)) {
-            for (sum, x) in sums.iter_mut().zip([passed.entered, passed.left, passed.held]) {
+            for (sum, x) in sums
+                .iter_mut()
+                .zip([passed.entered, passed.left, passed.held])
+            {
                 *sum += x;
             }
         }

@@ -34,6 +34,10 @@ pub(crate) fn settle<const D: usize>(
     let Some((first, _)) = given.first() else {
         return Ok(None);
     };
+    if D != 2 {
+        let why = "open faces are known in two dimensions only";
+        return Err(SolverError::at(path(scene, first, ""), why));
+    }
     let fits = |w: &Box<dyn sph_boundary::Wall<D>>| w.renormalises() && w.lattice_offset() > 0.0;
     let Some(walls) = choices.walls.take().filter(fits) else {
         return Err(SolverError::at(path(scene, first, ""), OTHER_WALLS));
@@ -49,7 +53,10 @@ pub(crate) fn settle<const D: usize>(
     };
     let refused = given.iter().filter_map(|(wall, law)| {
         let refusal = law.settle(&setting).err()?;
-        Some(SceneProblem::new(path(scene, wall, &refusal.key), refusal.why))
+        Some(SceneProblem::new(
+            path(scene, wall, &refusal.key),
+            refusal.why,
+        ))
     });
     let problems: Vec<_> = refused.collect();
     if !problems.is_empty() {
@@ -61,10 +68,18 @@ pub(crate) fn settle<const D: usize>(
             spec.condition = Condition::FreeSlip;
         }
     }
-    let given: Vec<(String, Arc<dyn OpenBoundary<D>>)> =
-        given.into_iter().map(|(name, law)| (name, Arc::from(law))).collect();
+    let given: Vec<(String, Arc<dyn OpenBoundary<D>>)> = given
+        .into_iter()
+        .map(|(name, law)| (name, Arc::from(law)))
+        .collect();
     let summed = choices.physics.formulation.compressed().is_none();
-    let (walls, opened) = open(walls, given, (laws, &phases), scene.numerics.spacing, summed);
+    let (walls, opened) = open(
+        walls,
+        given,
+        (laws, &phases),
+        scene.numerics.spacing,
+        summed,
+    );
     choices.walls = Some(walls);
     Ok(Some(opened))
 }
