@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 32] = [
+const ALLOWED: [(&str, &[&str]); 33] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation"]),
     ("dem-grains", &[]),
@@ -39,6 +39,17 @@ const ALLOWED: [(&str, &[&str]); 32] = [
         &["sph-core", "sph-kernels", "sph-lanes", "sph-neighbours"],
     ),
     ("sph-bodies", &["sph-core", "sph-boundary"]),
+    (
+        "sph-open",
+        &[
+            "sph-core",
+            "sph-kernels",
+            "sph-neighbours",
+            "sph-boundary",
+            "sph-state",
+            "sph-contribution",
+        ],
+    ),
     ("sph-rheology", &["sph-core"]),
     ("sph-state", &["sph-core", "sph-neighbours"]),
     (

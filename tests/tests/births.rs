@@ -89,6 +89,7 @@ impl StepWork<2> for Dripping {
             mass: self.drip.mass,
             phase: 0,
             body: "tap".into(),
+            values: [].into(),
         };
         Ok(due.then_some(drop).into_iter().collect())
     }

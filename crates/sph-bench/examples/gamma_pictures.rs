@@ -126,6 +126,7 @@ fn at_rest<const D: usize>(drawing: Drawing) -> WallSpec<D> {
         surface_velocity: Vect::zeros(),
         motion: RigidMotion::default(),
         mover: None,
+        open: false,
     }
 }
 

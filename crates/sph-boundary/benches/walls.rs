@@ -136,6 +136,7 @@ impl<const D: usize> Flow<D> {
             surface_velocity: Vect::zeros(),
             motion: RigidMotion::default(),
             mover: None,
+            open: false,
         };
         let setup = WallSetup {
             walls: &[spec],

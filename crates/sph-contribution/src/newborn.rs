@@ -22,4 +22,6 @@ pub struct Newborn<const D: usize> {
     pub phase: u32,
     /// Where it came from, for columns that [begin](crate::Birth) with it.
     pub body: Arc<str>,
+    /// Values of columns that contributions bring along, by the names of the columns; the others begin as the columns say.
+    pub values: Arc<[(String, f64)]>,
 }

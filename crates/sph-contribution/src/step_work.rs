@@ -106,6 +106,22 @@ pub trait StepWork<const D: usize>: Send {
     fn after_drift(&mut self, _world: &mut World<D>, _dt: f64) -> Result<(), StepError> {
         Ok(())
     }
+    /// Names of the faces by which it takes particles out.
+    fn exits(&self) -> Vec<String> {
+        Vec::new()
+    }
+    /// Particles that leave at the end of a step of `dt` seconds, by their slots, ascending, each with the number of the
+    /// [exit](Self::exits). They are counted and taken out, before others come in.
+    ///
+    /// # Errors
+    /// As [`before_kick`](Self::before_kick).
+    fn departures(
+        &mut self,
+        _world: &mut World<D>,
+        _dt: f64,
+    ) -> Result<Vec<(u32, usize)>, StepError> {
+        Ok(Vec::new())
+    }
     /// Whether particles may come in by it.
     fn gives_birth(&self) -> bool {
         false

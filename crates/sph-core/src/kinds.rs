@@ -57,7 +57,7 @@ const fn at(place: Place, name: &'static str) -> KindInfo {
 }
 
 /// Those that the crates of this project have; others register theirs with [`kind!`](crate::kind).
-static OWN: [KindInfo; 21] = [
+static OWN: [KindInfo; 22] = [
     one("kernel", DEFAULT),
     one("formulation", DEFAULT),
     one("integrator", DEFAULT),
@@ -80,6 +80,7 @@ static OWN: [KindInfo; 21] = [
     at(Place::InPhase, "equation-of-state"),
     at(Place::InPhase, "rheology"),
     at(Place::InWall, "mover"),
+    at(Place::InWall, "open-boundary"),
     at(Place::Probe, "probe"),
     at(Place::Solution, "solution"),
 ];

@@ -54,7 +54,7 @@ pub(crate) fn evenness<const D: usize>(
     };
     let power = |ratio: f64| power(ratio, exponent);
     let (volume, between, own) = (sum.volume, sum.between, kernel.value_at_zero());
-    let mirrored = !points.in_sums();
+    let mirrored = !points.in_density();
     let least = AT_INTERFACE / kernel.smoothing_length();
     // An image stands for the row of images of a lattice, which pushes as much and the more for those aside.
     let row = if mirrored {

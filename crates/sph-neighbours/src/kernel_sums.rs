@@ -70,7 +70,7 @@ pub fn kernel_sums<const D: usize>(
             }
             for (k, sum) in sums.iter_mut().enumerate() {
                 *sum += own;
-                if points.in_sums() {
+                if points.in_density() {
                     let i = all.from + k;
                     let row = world.lists.wall.row(i);
                     if !row.is_empty() {

@@ -95,6 +95,14 @@ impl NeighbourList {
             });
     }
 
+    /// Counts the sources from another first one.
+    pub fn shift(&mut self, first: u32) {
+        if first > 0 {
+            let all = self.blocks.par_iter_mut();
+            all.for_each(|block| block.candidates.iter_mut().for_each(|c| *c += first));
+        }
+    }
+
     /// The candidates of a target.
     #[inline(always)]
     pub fn row(&self, i: usize) -> &[u32] {

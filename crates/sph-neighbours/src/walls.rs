@@ -30,15 +30,23 @@ pub struct WallPoints<const D: usize> {
     pub slip: Vec<(f64, Vect<D>)>,
     /// Which named wall the point belongs to.
     pub wall: Vec<u32>,
-    /// Whether the points are the corners of elements alone, without any fluid of their own: they
-    /// are in no list and in no sum.
-    pub corners_only: bool,
+    /// How many of the first points are corners of elements alone, without any fluid of their own: they are in no list
+    /// and in no sum.
+    pub corners: usize,
+    /// Whether the points behind the corners are the ports of open faces: masses that grow until a particle is born, and
+    /// that are in no density sum.
+    pub ports: bool,
 }
 
 impl<const D: usize> WallPoints<D> {
     /// Whether there are points that take part in sums.
     pub fn in_sums(&self) -> bool {
-        !self.corners_only && !self.position.is_empty()
+        self.position.len() > self.corners
+    }
+
+    /// Whether these points carry rows of fluid that stand at the wall.
+    pub fn in_density(&self) -> bool {
+        self.in_sums() && !self.ports
     }
 }
 
@@ -110,6 +118,21 @@ impl<const D: usize> Frame<D> {
     }
 }
 
+/// What has passed an open face of a phase since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Passed {
+    /// Which named wall the face is.
+    pub wall: u32,
+    /// Number of the phase.
+    pub phase: u32,
+    /// Mass that came in, kg (per metre of depth in two dimensions).
+    pub entered: f64,
+    /// Mass that went out, kg.
+    pub left: f64,
+    /// Mass that grows or fades at the face and is in no particle, kg; negative where a particle was born early.
+    pub held: f64,
+}
+
 /// All that the pair loop knows of walls; empty where a scene has none.
 #[derive(Clone, Debug, Default)]
 pub struct WallSet<const D: usize> {
@@ -123,6 +146,8 @@ pub struct WallSet<const D: usize> {
     pub contacts: Contacts<D>,
     /// Where every wall is, in the order of the names; empty where no wall ever moves.
     pub frames: Vec<Frame<D>>,
+    /// What has passed the open faces, face by face; empty where there is none.
+    pub passed: Vec<Passed>,
     /// Forces of the fluid on every wall, in the order of the names; NaN on walls that no probe asks for, empty if none
     /// asks for any.
     pub forces: Vec<WallForce<D>>,

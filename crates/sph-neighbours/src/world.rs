@@ -20,7 +20,7 @@ pub struct Lists<const D: usize> {
     pub(crate) shelf: Shelf,
     /// Wall points around free particles.
     pub wall: NeighbourList,
-    /// Free particles around wall points.
+    /// Free particles around the wall points that are in sums.
     pub of_points: NeighbourList,
     /// Free particles around element centres.
     pub of_elements: NeighbourList,
@@ -147,13 +147,16 @@ impl<const D: usize> World<D> {
         let domain = &self.domain;
         lists.free.build(&positions, &grid, reach, domain);
         if self.walls.points.in_sums() {
-            let wall_grid = CellGrid::new(&points, reach, domain);
+            let first = self.walls.points.corners;
+            let summed = &points[first..];
+            let wall_grid = CellGrid::new(summed, reach, domain);
             lists
                 .wall
-                .build(&positions, &points, &wall_grid, reach, domain);
+                .build(&positions, summed, &wall_grid, reach, domain);
+            lists.wall.shift(first as u32);
             lists
                 .of_points
-                .build(&points, &positions, &grid, reach, domain);
+                .build(summed, &positions, &grid, reach, domain);
         }
         let elements = &self.walls.elements;
         if !elements.centre.is_empty() {

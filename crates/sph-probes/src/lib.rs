@@ -1,7 +1,7 @@
 //! What a run measures and what it is compared with.
 //!
 //! * [`Probe`]: columns of the time series, from the state of the flow ([`Front`],
-//!   [`PressureProbe`], [`VelocityProbe`], [`DisplacementProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`],
+//!   [`PressureProbe`], [`VelocityProbe`], [`DisplacementProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`PassedProbe`],
 //!   [`WallMotionProbe`], [`StreamFunction`], [`Profile`], [`MeanProfile`], [`EnergySpectrum`]), and of
 //!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
 //!   [`SurfaceSlope`], [`Line`]), and of a bed under water ([`BedLines`], [`ErodedMass`],
@@ -37,6 +37,7 @@ pub use flow::energy::KineticEnergy;
 pub use flow::front::Front;
 pub use flow::level::Level;
 pub use flow::mean_profile::MeanProfile;
+pub use flow::passed::PassedProbe;
 pub use flow::point::{PressureProbe, VelocityProbe};
 pub use flow::profile::{Component, Profile};
 pub use flow::range::FieldRange;

@@ -16,6 +16,7 @@ pub(crate) mod layers;
 pub(crate) mod load;
 pub(crate) mod memory;
 pub(crate) mod movers;
+pub(crate) mod open_faces;
 pub(crate) mod parts;
 pub(crate) mod placement;
 pub(crate) mod planning;

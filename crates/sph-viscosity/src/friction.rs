@@ -121,11 +121,19 @@ impl<const D: usize, F: PairFriction<D>, S: ViscositySource> LanePairTerm<D> for
             elements: &world.walls.elements,
             contacts: &world.walls.contacts,
             rubs: rubs(world),
+            open: open(world),
             corrected: self.2.wall_term == WallTerm::Corrected,
             scale: self.2.on_lattice.scale(self.0, world),
             spacing: world.spacing,
         })
     }
+}
+
+/// Numbers of the walls that fluid passes.
+fn open<const D: usize>(world: &World<D>) -> Vec<u32> {
+    let mut open: Vec<u32> = world.walls.passed.iter().map(|p| p.wall).collect();
+    open.dedup();
+    open
 }
 
 /// Whether the fluid rubs any wall: all may be free-slip.
@@ -154,6 +162,8 @@ pub struct Bound<'a, const D: usize, F, S> {
     contacts: &'a Contacts<D>,
     /// Whether any wall does: else no wall is looked at.
     rubs: bool,
+    /// Walls that fluid passes: nothing of them is corrected.
+    open: Vec<u32>,
     corrected: bool,
     scale: f64,
     spacing: f64,
@@ -200,6 +210,12 @@ const LEAST_DISTANCE: f64 = 0.5;
 const BOUNDS: [f64; 2] = [0.0, 4.0];
 
 impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
+    /// Whether fluid passes an element.
+    #[inline(always)]
+    fn is_open(&self, element: u32) -> bool {
+        !self.open.is_empty() && self.open.contains(&self.elements.wall[element as usize])
+    }
+
     /// Normal and distance of the element with the largest mean kernel, the nearest one.
     #[inline(always)]
     fn nearest(&self, i: usize) -> Option<&Contact<D>> {
@@ -214,7 +230,7 @@ impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
         let mut largest = 0.0;
         for contact in self.contacts.of(i) {
             let mean = mean(contact);
-            if mean > largest {
+            if mean > largest && !self.is_open(contact.element) {
                 largest = mean;
                 nearest = Some(contact);
             }
@@ -361,7 +377,9 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
         let relative = here.velocity - self.elements.velocity[s];
         let tangential = relative - normal * relative.dot(normal);
         sum.flux += tangential * self.weight(here, contact);
-        sum.gradient += contact.gradient;
+        if !self.is_open(contact.element) {
+            sum.gradient += contact.gradient;
+        }
     }
 
     #[inline(always)]

@@ -65,6 +65,8 @@ pub struct WallSpec<const D: usize> {
     pub motion: RigidMotion<D>,
     /// What moves it instead, with the force of the fluid.
     pub mover: Option<Arc<dyn Mover<D>>>,
+    /// Whether fluid passes it: it stops no particle.
+    pub open: bool,
 }
 
 /// What a wall treatment needs to set itself up.

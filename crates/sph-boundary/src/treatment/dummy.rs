@@ -147,6 +147,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
             elements: Default::default(),
             contacts: Contacts::default(),
             frames,
+            passed: Vec::new(),
             forces: Vec::new(),
         })
     }

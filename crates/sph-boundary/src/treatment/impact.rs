@@ -105,6 +105,7 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
         let mesh = &self.outline.mesh;
         let mut hindrances = Vec::new();
         mesh.hindrances(x, row, 4.0 * self.spacing, &mut hindrances);
+        hindrances.retain(|h| !self.outline.specs[h.wall].open);
         if hindrances.is_empty() {
             return None;
         }

@@ -126,7 +126,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     /// Positions, normals and movements of points and elements.
     fn place(&mut self, walls: &mut WallSet<D>) {
         let nodes: Vec<_> = self.outline.mesh.points().collect();
-        if walls.points.in_sums() {
+        if walls.points.in_density() {
             // All anew: shares follow from the time alone, whatever places a wall has been to.
             for (v, node) in nodes.iter().enumerate() {
                 walls.points.share[v] = node.theta * node.size;
@@ -230,10 +230,11 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             elements: outline.elements(setup.spacing),
             contacts: Contacts::default(),
             frames: Vec::new(),
+            passed: Vec::new(),
             forces: Vec::new(),
         };
         if !self.vertices {
-            walls.points.corners_only = true;
+            walls.points.corners = walls.points.position.len();
             walls.points.share.fill(0.0);
         }
         let mut set_up = SetUp {
@@ -293,7 +294,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         let whole = spacing.powi(D as i32);
         let (points, elements) = (&world.walls.points, &world.walls.elements);
         let lists = &world.lists;
-        let at_points = match points.in_sums() {
+        let at_points = match points.in_density() {
             true => wall_means(
                 world,
                 &points.position,
@@ -319,7 +320,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             walls.elements.pressure[s] = mean.pressure;
             walls.elements.volume[s] = mean.volume;
         }
-        if walls.points.corners_only {
+        if walls.points.corners > 0 {
             pressure_at_corners(walls);
         }
         Ok(())
@@ -330,14 +331,15 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
 fn pressure_at_corners<const D: usize>(walls: &mut WallSet<D>) {
     let (points, elements) = (&mut walls.points, &walls.elements);
     let mut around = vec![0u32; points.pressure.len()];
-    points.pressure.fill(0.0);
+    points.pressure[..points.corners].fill(0.0);
     for (corners, pressure) in elements.corners.iter().zip(&elements.pressure) {
         for corner in corners.map(|c| c as usize) {
             around[corner] += 1;
             points.pressure[corner] += pressure;
         }
     }
-    for (pressure, n) in points.pressure.iter_mut().zip(around) {
+    let corners = points.corners;
+    for (pressure, n) in points.pressure[..corners].iter_mut().zip(around) {
         *pressure /= f64::from(n.max(1));
     }
 }

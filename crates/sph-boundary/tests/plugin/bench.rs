@@ -21,6 +21,7 @@ pub fn fixed(polyline: Polyline) -> WallSpec<2> {
         surface_velocity: Vect::zeros(),
         motion: RigidMotion::default(),
         mover: None,
+        open: false,
     }
 }
 

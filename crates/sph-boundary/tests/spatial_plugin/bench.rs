@@ -19,6 +19,7 @@ pub fn fixed<const D: usize>(drawing: Drawing) -> WallSpec<D> {
         surface_velocity: Vect::zeros(),
         motion: RigidMotion::default(),
         mover: None,
+        open: false,
     }
 }
 
@@ -27,6 +28,7 @@ pub fn moving<const D: usize>(drawing: Drawing, motion: RigidMotion<D>) -> WallS
     WallSpec {
         motion,
         mover: None,
+        open: false,
         ..fixed(drawing)
     }
 }

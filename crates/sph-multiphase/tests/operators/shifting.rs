@@ -345,7 +345,7 @@ fn beside_walls_the_shift_is_linear_in_the_concentration() {
         let cell = SPACING * SPACING;
         set(&mut channel.world, fields::VOLUME, |_| share * cell);
         channel.world.walls.points.volume.fill(share * cell);
-        channel.world.walls.points.corners_only = true;
+        channel.world.walls.points.corners = channel.world.walls.points.position.len();
         set_velocity(&mut channel.world, |x| Vect::<2>::new(x[1], 0.0));
         shift(&mut channel.world, shifting)
     };

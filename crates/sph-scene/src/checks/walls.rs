@@ -51,6 +51,15 @@ pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut 
             );
         }
     }
+    if let Some(name) = wall.open_boundary.keys().next() {
+        let stays = wall.motion.is_none() && wall.mover.is_empty() && wall.velocity.is_none();
+        if !stays {
+            found.add(
+                format!("{path}.open-boundary.{name}"),
+                "an open face does not move: take its `motion`, `mover` or `velocity` out",
+            );
+        }
+    }
     match (wall.condition, wall.slip_length) {
         (Condition::PartialSlip, None) => found.add(
             format!("{path}.condition"),

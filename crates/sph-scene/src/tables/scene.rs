@@ -170,6 +170,12 @@ impl Scene {
         single("mover", &self.wall.get(wall)?.mover, &path)
     }
 
+    /// What the fluid meets where it passes a wall, if it does.
+    pub fn open_boundary(&self, wall: &str) -> Option<PluginChoice> {
+        let path = format!("wall.{wall}.open-boundary");
+        single("open-boundary", &self.wall.get(wall)?.open_boundary, &path)
+    }
+
     /// The plugin that gives a body its velocity at the start, if the scene chooses one.
     pub fn initial(&self, body: &str) -> Option<PluginChoice> {
         let path = format!("body.{body}.initial");

@@ -84,6 +84,10 @@ pub struct Wall {
     #[serde(default)]
     #[schemars(with = "AnyPlugins")]
     pub mover: Plugins,
+    /// What the fluid meets where it passes the geometry, `[wall.NAME.open-boundary.PLUGIN]`; a solid wall if left out.
+    #[serde(default, rename = "open-boundary")]
+    #[schemars(with = "AnyPlugins")]
+    pub open_boundary: Plugins,
     /// The file with its folder, set when the scene is read.
     #[serde(skip)]
     pub path: Option<PathBuf>,

@@ -90,6 +90,7 @@ impl<const D: usize> Running<'_, D> {
                 .map(|(label, left)| (label.clone(), left))
                 .collect(),
             relaxation: self.parts.relaxation,
+            open_boundaries: flow.counts_of(sph_open::PASSING),
             implicit_viscosity: flow.counts_of(ImplicitViscosity::<D>::NAME),
             errors,
             warnings,

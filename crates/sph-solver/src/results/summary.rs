@@ -120,6 +120,9 @@ pub struct Summary {
     /// What implicit solves took, if the scene has any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub implicit_viscosity: Option<Solves>,
+    /// What has passed open faces, kg, by face and phase, and the share of it that is missing in the balance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub open_boundaries: Option<Json>,
     /// Mean of each plugin's bound over the steps, s, before the safety factor.
     #[serde(default)]
     pub dt_limits: BTreeMap<String, f64>,

@@ -227,7 +227,7 @@ impl<const D: usize> Running<'_, D> {
         self.parts.flow.world.dt = dt;
         let flow = &mut self.parts.flow;
         let stepped = self.parts.integrator.step(flow, dt);
-        let stepped = stepped.and_then(|()| flow.let_out());
+        let stepped = stepped.and_then(|()| flow.let_out(dt));
         if let Err(cause) = stepped.and_then(|()| flow.let_in(dt)) {
             return Ok(Err(cause));
         }

@@ -137,7 +137,7 @@ impl<const D: usize> Stepper<D> {
         self.evaluated = false;
         flow.world.dt = dt;
         self.parts.integrator.step(flow, dt)?;
-        flow.let_out()?;
+        flow.let_out(dt)?;
         flow.let_in(dt)?;
         if time + dt >= target * (1.0 - 1e-12) {
             flow.world.time = target;

@@ -19,6 +19,7 @@ use crate::setup::field_error;
 use crate::setup::joining::{Given, evolved, joined, remedies};
 use crate::setup::lattices;
 use crate::setup::movers;
+use crate::setup::open_faces;
 use crate::setup::parts::parts;
 use crate::setup::placement::Placed;
 use crate::setup::planning::{Planned, Planning};
@@ -70,6 +71,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     let laws = bind_laws::<D>(scene, &drawn, &choices)?;
     movers::settle(scene, &mut drawn, &mut choices, &laws)?;
     refuse_fast_walls(scene, &drawn, &laws)?;
+    let opened = open_faces::settle(scene, &mut drawn, &mut choices, &laws)?;
     let Room {
         world: room,
         walls,
@@ -77,13 +79,19 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         mut warnings,
     } = Room::of(scene, &drawn, &mut choices)?;
 
+    if let Some(opened) = &opened {
+        warnings.extend(open_faces::check(scene, opened, walls.as_ref())?);
+    }
     let ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
     let constant = constant_viscosities(scene, &choices.physics.rheologies);
     let formulation = choices.physics.formulation.clone();
     let shown = shown(scene, &choices.probes);
     let mut parts = parts(scene, choices.physics, &shown);
+    let entering = opened.as_ref().map(|o| o.entering()).unwrap_or_default();
+    parts.extend(opened.map(|opened| ("open-boundary", opened.boxed())));
     let mut free = state(scene, &*formulation, &parts, placed.positions.len())?;
+    open_faces::check_values(scene, &entering, &free)?;
     let outlets = Outlets::of(scene, &placed, &mut free).map_err(SolverError::Scene)?;
     give_places(&mut free, &placed)?;
     let mut world = World { free, ..room };
@@ -121,6 +129,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         formulation: &*formulation,
         columns: &columns().collect::<Vec<_>>(),
     };
+    flow.know_exits(scene);
     let relaxation = start(&beginning, &mut flow)?;
     if flow.works.iter().any(|w| w.gives_birth()) {
         flow.nursery = Some(Nursery::new(scene, formulation, columns().collect()));

@@ -10,6 +10,7 @@ use sph_integrators::{Integrator, IntegratorEntry};
 use sph_kernels::Kernel;
 use sph_multiphase::{Formulation, FormulationEntry, InterfaceEntry, InterfaceModel};
 use sph_neighbours::{KernelEntry, TermEntry, Terms};
+use sph_open::{OpenBoundary, OpenBoundaryEntry};
 use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry};
 use sph_rheology::RheologyEntry;
 use sph_scene::{PluginChoice, Scene};
@@ -32,6 +33,8 @@ pub struct Choices<const D: usize> {
     pub walls: Option<Box<dyn Wall<D>>>,
     /// What moves walls, by the wall's name.
     pub movers: Vec<(String, Box<dyn Mover<D>>)>,
+    /// Laws of open faces, by the wall's name.
+    pub open: Vec<(String, Box<dyn OpenBoundary<D>>)>,
     pub physics: Physics<D>,
     /// In the order of the phase numbers.
     pub equations_of_state: Vec<Box<dyn EquationOfState>>,
@@ -86,6 +89,9 @@ impl<const D: usize> Choices<D> {
         let movers = scene.wall.keys().cloned();
         let movers = movers.filter_map(|n| Some((n.clone(), scene.mover(&n)?)));
         let movers = b.named::<D, MoverEntry>(movers);
+        let open = scene.wall.keys().cloned();
+        let open = open.filter_map(|n| Some((n.clone(), scene.open_boundary(&n)?)));
+        let open = b.named::<D, OpenBoundaryEntry>(open);
         let physics = b.physics::<D>();
         let equations_of_state = b.equations_of_state::<D>();
         let probes = b.named::<D, ProbeEntry>(scene.probes());
@@ -102,6 +108,7 @@ impl<const D: usize> Choices<D> {
                     integrator,
                     walls,
                     movers,
+                    open,
                     physics,
                     equations_of_state,
                     probes,

@@ -86,6 +86,7 @@ impl<const D: usize> Drawn<D> {
                     surface_velocity,
                     motion: motion.clone(),
                     mover: None,
+                    open: false,
                 });
             }
         }

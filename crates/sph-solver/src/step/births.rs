@@ -106,6 +106,10 @@ impl<const D: usize> Flow<D> {
                         free.get_mut(column.field.vector())?[slot] = formula(&birth);
                     }
                 }
+                let mut given = newborn.values.iter();
+                if let Some((_, value)) = given.find(|(name, _)| name == column.field.name) {
+                    free.get_mut(column.field.scalar())?[slot] = *value;
+                }
             }
         }
         Ok(())

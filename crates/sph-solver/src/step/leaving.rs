@@ -1,18 +1,94 @@
 //! Particles that leave the flow.
 
 use rayon::prelude::*;
-use sph_core::{StepError, fields};
+use sph_core::{StepError, Taken, fields};
+use sph_scene::Scene;
 
 use crate::Flow;
 use crate::step::outlets::Left;
 
 impl<const D: usize> Flow<D> {
-    /// Takes out the particles that are in an outlet, and counts them in their order.
+    /// Takes out the particles that are in an outlet or have passed an open face at the end of a step of `dt` seconds, and
+    /// counts them in their order.
     ///
     /// # Errors
     /// If nobody is left.
-    pub(crate) fn let_out(&mut self) -> Result<(), StepError> {
-        if self.outlets.is_empty() {
+    pub(crate) fn let_out(&mut self, dt: f64) -> Result<(), StepError> {
+        // First those who look at wall contacts, which are by slots.
+        self.by_works(dt)?;
+        self.by_outlets()?;
+        match self.world.free.is_empty() {
+            false => Ok(()),
+            true => Err(StepError::Stage {
+                stage: "outlets".into(),
+                reason: "all particles have left: let the run end before".into(),
+            }),
+        }
+    }
+
+    /// Counts the exits of all work behind the outlets.
+    pub(crate) fn know_exits(&mut self, scene: &Scene) {
+        let mut taken = self.world.free.taken().to_vec();
+        let mut exit = self.outlets.all.len() as u32;
+        for name in self.works.iter().flat_map(|w| w.exits()) {
+            for (phase, of) in scene.phase.keys().enumerate() {
+                self.outlets.labels.push(format!("open.{name}.{of}"));
+                taken.push(Taken {
+                    outlet: exit,
+                    phase: phase as u32,
+                    ..Taken::default()
+                });
+            }
+            exit += 1;
+        }
+        self.world.free.set_taken(taken);
+    }
+
+    /// Takes out whom work lets out, and counts them.
+    fn by_works(&mut self, dt: f64) -> Result<(), StepError> {
+        let mut first = self.outlets.all.len();
+        for k in 0..self.works.len() {
+            let work = &mut self.works[k];
+            let exits = work.exits().len();
+            if exits == 0 {
+                continue;
+            }
+            self.world.free.watch(|| work.access());
+            let gone = work.departures(&mut self.world, dt);
+            self.world.free.unwatch(|| work.name())?;
+            self.take_out(&gone?, first)?;
+            first += exits;
+        }
+        Ok(())
+    }
+
+    fn take_out(&mut self, gone: &[(u32, usize)], first: usize) -> Result<(), StepError> {
+        if gone.is_empty() {
+            return Ok(());
+        }
+        let free = &mut self.world.free;
+        let mass = free.get(fields::MASS)?;
+        let phase = free.get(fields::PHASE).ok();
+        let mut taken = free.taken().to_vec();
+        let mut leaves = vec![false; free.len()];
+        for (p, exit) in gone {
+            let p = *p as usize;
+            let q = phase.map_or(0, |q| q[p]);
+            let by = (first + exit) as u32;
+            if let Some(count) = taken.iter_mut().find(|t| t.outlet == by && t.phase == q) {
+                count.mass += mass[p];
+                count.particles += 1;
+            }
+            leaves[p] = true;
+        }
+        free.take_out(&leaves);
+        free.set_taken(taken);
+        Ok(())
+    }
+
+    /// Takes out who is in an outlet.
+    fn by_outlets(&mut self) -> Result<(), StepError> {
+        if self.outlets.all.is_empty() {
             return Ok(());
         }
         let all = &self.outlets.all;
@@ -27,7 +103,7 @@ impl<const D: usize> Flow<D> {
         let mass = free.get(fields::MASS)?;
         let phase = free.get(fields::PHASE).ok();
         let mut taken = free.taken().to_vec();
-        let phases = taken.len() / all.len();
+        let phases = self.laws.len();
         for (k, outlet) in left.iter().enumerate() {
             let Some(outlet) = outlet else { continue };
             let count = &mut taken[outlet * phases + phase.map_or(0, |p| p[k] as usize)];
@@ -37,13 +113,7 @@ impl<const D: usize> Flow<D> {
         let leaves: Vec<bool> = left.iter().map(Option::is_some).collect();
         free.take_out(&leaves);
         free.set_taken(taken);
-        match free.is_empty() {
-            false => Ok(()),
-            true => Err(StepError::Stage {
-                stage: "outlets".into(),
-                reason: "all particles have left: let the run end before".into(),
-            }),
-        }
+        Ok(())
     }
 
     /// What a resumed run has counted: mass as bits, and particles.
@@ -101,14 +171,14 @@ mod tests {
         };
         // A first step takes one out for good.
         sent(&mut flow, 7, [2.5, 0.0]);
-        flow.let_out().unwrap();
+        flow.let_out(0.1).unwrap();
         flow.world.rebuild_lists().unwrap();
         let mut snapshot = Snapshot::default();
         snapshot.take(&flow).unwrap();
         let before = state(&flow);
         sent(&mut flow, 3, [2.5, 0.0]);
         sent(&mut flow, 150, [0.5, -1.5]);
-        flow.let_out().unwrap();
+        flow.let_out(0.1).unwrap();
         flow.world.rebuild_lists().unwrap();
         assert_eq!(flow.world.free.len(), before.0.len() - 2);
         let left: Vec<_> = flow.left().filter(|(_, l)| l.particles > 0).collect();

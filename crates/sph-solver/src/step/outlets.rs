@@ -9,7 +9,7 @@ use crate::setup::placement::Placed;
 /// The outlets of a scene.
 pub struct Outlets {
     pub(crate) all: Vec<Outlet>,
-    /// `outlet.NAME.PHASE`, as what has been taken out is counted.
+    /// `outlet.NAME.PHASE` and then `open.NAME.PHASE` of open faces, as what has been taken out is counted.
     pub(crate) labels: Vec<String>,
 }
 
@@ -70,8 +70,8 @@ impl Outlets {
         &self.labels
     }
 
-    /// Whether there is none.
+    /// Whether nobody can leave.
     pub fn is_empty(&self) -> bool {
-        self.all.is_empty()
+        self.labels.is_empty()
     }
 }

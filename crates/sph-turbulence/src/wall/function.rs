@@ -93,7 +93,7 @@ impl LogLaw {
             }
         }
         let elements = &walls.elements;
-        if elements.centre.is_empty() || walls.points.in_sums() {
+        if elements.centre.is_empty() || walls.points.in_density() {
             return Err(
                 "it acts on semi-analytical walls without vertices, whose points would rub as well: write `[walls.usaw]` \
                  with `vertices = false`"

@@ -66,7 +66,9 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
             sum.discrete += pair.separation * (self.wall_share[v] * shear);
         }
         for contact in rows.contacts {
-            sum.gradient += contact.gradient;
+            if !self.is_open(contact.element) {
+                sum.gradient += contact.gradient;
+            }
         }
         self.correction(here, &sum)
     }

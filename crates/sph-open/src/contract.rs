@@ -1,0 +1,154 @@
+//! What a law of an open face is.
+
+use std::collections::BTreeMap;
+
+use sph_core::{Vect, contract};
+
+/// An element of an open face.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<const D: usize> {
+    /// Centre, m.
+    pub centre: Vect<D>,
+    /// Unit normal into the fluid.
+    pub normal: Vect<D>,
+    /// Length or area, m^(d−1).
+    pub measure: f64,
+    /// How far along the face its centre is, 0 to 1 from the first corner of the drawing; ½ in three dimensions.
+    pub along: f64,
+}
+
+/// The fluid in front of an element, as a mean over its support.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inside<const D: usize> {
+    /// Whether there is enough fluid for a mean.
+    pub wet: bool,
+    /// Pressure at the element, over that of the reference density, Pa.
+    pub pressure: f64,
+    /// Velocity, m/s.
+    pub velocity: Vect<D>,
+    /// ρc, kg/(m² s).
+    pub impedance: f64,
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Running mean of the velocity over the [memory](OpenBoundary::memory), m/s.
+    pub mean: Vect<D>,
+}
+
+/// What the face does to the fluid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outside<const D: usize> {
+    /// Velocity with which fluid passes, m/s.
+    pub velocity: Vect<D>,
+    /// Pressure, over that of the reference density, Pa; of no account where the velocity is imposed.
+    pub pressure: f64,
+    /// Whether the velocity is imposed, and the pressure follows from the characteristic that leaves the fluid:
+    /// p = p_i + ρc (u − u_i), with the mean of u over the support for u. If not, fluid passes with its own velocity,
+    /// changed by what `velocity` differs from that inside.
+    pub imposed: bool,
+}
+
+impl<const D: usize> Outside<D> {
+    /// What is left where there is no fluid: nothing passes.
+    pub fn dry() -> Self {
+        Outside {
+            velocity: Vect::zeros(),
+            pressure: 0.0,
+            imposed: true,
+        }
+    }
+}
+
+/// What a law learns of the scene before the start.
+#[derive(Clone, Copy, Debug)]
+pub struct OpenSetting<'a> {
+    /// Names of the phases, in the order of their numbers.
+    pub phases: &'a [String],
+    /// The least speed of sound of all phases, m/s.
+    pub sound_speed: f64,
+    /// End of the run, s.
+    pub end: f64,
+    /// Gravity, m/s²; its size.
+    pub gravity: f64,
+    /// Dimension of space.
+    pub dimension: usize,
+}
+
+/// The conditions of a moment.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment<const D: usize> {
+    /// Time, s.
+    pub time: f64,
+    /// Gravity, m/s².
+    pub gravity: Vect<D>,
+}
+
+impl<const D: usize> Moment<D> {
+    /// Height of a place against gravity, m.
+    pub fn height(&self, place: &Vect<D>) -> f64 {
+        let g = self.gravity.norm();
+        if g > 0.0 {
+            -self.gravity.dot(place) / g
+        } else {
+            0.0
+        }
+    }
+}
+
+/// A key of a law's table, and what is wrong with it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OpenRefusal {
+    /// The key in the table; the table itself, if empty.
+    pub key: String,
+    /// What is wrong, and what to do.
+    pub why: String,
+}
+
+impl OpenRefusal {
+    /// Of a key.
+    pub fn of(key: impl Into<String>, why: impl Into<String>) -> Self {
+        OpenRefusal {
+            key: key.into(),
+            why: why.into(),
+        }
+    }
+}
+
+/// What comes in.
+#[derive(Clone, Debug, Default)]
+pub struct Entering {
+    /// Name of the phase; that of the fluid in front of the face if none is given.
+    pub phase: Option<String>,
+    /// Values of columns with which particles begin, by the names of the columns.
+    pub values: BTreeMap<String, f64>,
+}
+
+/// The law of an open face. It remembers nothing: what it needs of the past is in [`Inside::mean`].
+pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
+    /// Checks its table against the scene.
+    ///
+    /// # Errors
+    /// The key that does not fit.
+    fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal>;
+    /// What comes in.
+    fn entering(&self) -> Entering {
+        Entering::default()
+    }
+    /// Whether fluid can leave by it where more comes in elsewhere.
+    fn lets_out(&self) -> bool;
+    /// Time over which it wants the [mean](Inside::mean) velocity, s, if it does.
+    fn memory(&self) -> Option<f64> {
+        None
+    }
+    /// Velocity and pressure of every element, in their order.
+    fn outside(
+        &self,
+        places: &[Place<D>],
+        inside: &[Inside<D>],
+        moment: &Moment<D>,
+    ) -> Vec<Outside<D>>;
+}
+
+contract!(
+    /// The law of an open face that a wall may name.
+    pub OpenBoundaryEntry, "open-boundary", "what the fluid meets where it passes a wall", OpenBoundary<D>
+);

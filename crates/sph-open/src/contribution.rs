@@ -1,0 +1,134 @@
+//! Open faces as a piece of physics.
+
+use std::sync::{Arc, Mutex};
+
+use sph_boundary::Wall;
+use sph_contribution::{Contribution, OwnColumn, Refusal, Setting, StepWork};
+use sph_core::{AnyField, Vect};
+use sph_state::Laws;
+
+use crate::faces::{Face, Faces, SharedFaces, lock};
+use crate::flux::OPEN_FLUX;
+use crate::memory::Memory;
+use crate::passing::Passing;
+use crate::walls::OpenWalls;
+use crate::{Entering, OpenBoundary};
+
+/// The open faces of a scene as a contribution.
+pub struct OpenBoundaries<const D: usize> {
+    faces: SharedFaces<D>,
+    /// Whether the formulation sums densities.
+    summed: bool,
+}
+
+/// Opens faces in the walls of a scene: the treatment of all of them, and what lets mass through.
+///
+/// `given` are the names of the walls with their laws; `phases` are the names of the phases; `summed` tells whether densities
+/// are sums over positions.
+pub fn open<const D: usize>(
+    walls: Box<dyn Wall<D>>,
+    given: Vec<(String, Arc<dyn OpenBoundary<D>>)>,
+    (laws, phases): (&Laws, &[String]),
+    spacing: f64,
+    summed: bool,
+) -> (Box<dyn Wall<D>>, OpenBoundaries<D>) {
+    let cell = spacing.powi(D as i32);
+    let faces = given.into_iter().map(|(name, law)| {
+        let entering = law.entering();
+        let phase = entering.phase.as_ref();
+        let phase = phase.and_then(|name| phases.iter().position(|p| p == name));
+        Face {
+            body: name.as_str().into(),
+            name,
+            law,
+            phase: phase.map(|p| p as u32),
+            values: entering.values.into_iter().collect(),
+            elements: 0..0,
+        }
+    });
+    let faces = Faces {
+        faces: faces.collect(),
+        laws: laws.clone(),
+        whole: laws.iter().map(|l| l.reference().density * cell).collect(),
+        spacing,
+        elements: Vec::new(),
+        open: Vec::new(),
+        places: Vec::new(),
+        face_of: Vec::new(),
+        smooth: Vec::new(),
+        inside: Vec::new(),
+        outside: Vec::new(),
+        rows: Vec::new(),
+        mix: Vec::new(),
+        memory: Memory::new(0, 0, 0),
+        due: false,
+    };
+    let faces = Arc::new(Mutex::new(faces));
+    let walls = OpenWalls {
+        walls,
+        faces: faces.clone(),
+    };
+    (Box::new(walls), OpenBoundaries { faces, summed })
+}
+
+impl<const D: usize> OpenBoundaries<D> {
+    /// Places in front of all ports at a distance, m, each with the name of its face.
+    pub fn in_front(&self, distance: f64) -> Vec<(String, Vect<D>)> {
+        let faces = lock(&self.faces);
+        let all = faces.places.iter().zip(&faces.face_of);
+        let place = |(place, face): (&crate::Place<D>, &usize)| {
+            let x = place.centre + place.normal * distance;
+            (faces.faces[*face].name.clone(), x)
+        };
+        all.map(place).collect()
+    }
+
+    /// What comes in by every face, with its name.
+    pub fn entering(&self) -> Vec<(String, Entering)> {
+        let faces = lock(&self.faces);
+        let all = faces.faces.iter();
+        all.map(|f| (f.name.clone(), f.law.entering())).collect()
+    }
+
+    /// Whether fluid can leave by any of them.
+    pub fn let_out(&self) -> bool {
+        lock(&self.faces).faces.iter().any(|f| f.law.lets_out())
+    }
+
+    /// As the solver keeps it.
+    pub fn boxed(self) -> Box<dyn Contribution<D>> {
+        Box::new(self)
+    }
+}
+
+impl<const D: usize> Contribution<D> for OpenBoundaries<D> {
+    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+        match setting.kicks_once {
+            true => Ok(()),
+            false => Err(Refusal::of(
+                "integrator",
+                "",
+                "open faces let mass through once per step: take `[integrator.symplectic-euler]`",
+            )),
+        }
+    }
+
+    fn columns(&self) -> Vec<OwnColumn<D>> {
+        match self.summed {
+            true => vec![OwnColumn::zero(OPEN_FLUX.any())],
+            false => Vec::new(),
+        }
+    }
+
+    fn works(
+        &mut self,
+        setting: &Setting<'_, D>,
+        _: &[AnyField],
+    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
+        Ok(vec![Box::new(Passing {
+            faces: self.faces.clone(),
+            summed: self.summed,
+            phases: setting.phases.to_vec(),
+        })])
+    }
+}

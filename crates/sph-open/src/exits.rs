@@ -1,0 +1,193 @@
+//! Who has passed a face, and who is born at one.
+
+use sph_contribution::Newborn;
+use sph_core::{StepError, Vect, fields};
+use sph_neighbours::World;
+
+use crate::faces::{CLOSED, Faces, LATE};
+
+/// A particle is born when a port has this share of its mass: its half row has come in by then.
+const RIPE: f64 = 0.5;
+
+/// How far from the face, over the spacing, particles are born at least: on the fluid's side whatever is rounded.
+const IN_FRONT: f64 = 1e-6;
+
+/// How long a port keeps mass that came from particles that left it, over the time in which a row passes.
+///
+/// What passes by the law and what particles carry differ by what the mean before the face smooths; the difference is let
+/// go instead of gathering at the port.
+const ROWS: f64 = 5.0;
+
+/// A particle behind a face.
+struct Behind<const D: usize> {
+    particle: u32,
+    face: usize,
+    phase: usize,
+    mass: f64,
+    /// How far, m.
+    depth: f64,
+    ports: [(usize, Vect<D>); 2],
+}
+
+impl<const D: usize> Faces<D> {
+    /// Ports grow by what comes in and fade by what goes out in `dt` seconds.
+    pub fn pass(&mut self, dt: f64) {
+        let phases = self.whole.len();
+        for k in 0..self.elements.len() {
+            let place = self.places[k];
+            let normal = self.through(k).dot(&place.normal);
+            let face = self.face_of[k];
+            if normal > 0.0 {
+                let q = self.phase(k);
+                let mass = self.density(k, q) * normal * place.measure * dt;
+                self.memory.mass[k * phases + q] += mass;
+                self.memory.totals[face * phases + q].entered.add(mass);
+            } else if normal < 0.0 {
+                let faded = (-normal * dt / (ROWS * self.spacing)).min(1.0);
+                for q in 0..phases {
+                    let out = -normal * place.measure * dt * self.mix[k * phases + q];
+                    let density = self.density(k, q);
+                    let port = &mut self.memory.mass[k * phases + q];
+                    let mass = density * out + *port * faded;
+                    *port -= mass;
+                    self.memory.totals[face * phases + q].left.add(mass);
+                }
+            }
+        }
+    }
+
+    /// Advances the running means.
+    pub fn remember(&mut self, dt: f64) {
+        let begins = self.memory.dt == 0.0;
+        for (k, mean) in self.memory.mean.iter_mut().enumerate() {
+            let law = &self.faces[self.face_of[k]].law;
+            if let Some(memory) = law.memory() {
+                let part = if begins {
+                    1.0
+                } else {
+                    1.0 - (-dt / memory).exp()
+                };
+                *mean += (self.inside[k].velocity - *mean) * part;
+            }
+        }
+        self.memory.dt = dt;
+    }
+
+    /// Particles behind an open face, each with the number of it, if some particle has waited long enough to leave or to be
+    /// born; their mass goes to the ports.
+    pub fn leaving(&mut self, world: &World<D>) -> Result<Vec<(u32, usize)>, StepError> {
+        let behind = self.behind(world)?;
+        let late = (0..self.elements.len()).filter_map(|k| self.ripeness(k));
+        let depths = behind.iter().map(|b| b.depth / self.spacing);
+        self.due = late.chain(depths).fold(0.0, f64::max) >= LATE;
+        if !self.due {
+            return Ok(Vec::new());
+        }
+        let phases = self.whole.len();
+        for b in &behind {
+            let [(first, apart), second] = b.ports;
+            let between = apart - second.1;
+            let part = (apart.dot(&between) / between.norm_squared()).clamp(0.0, 1.0);
+            let part = if part.is_finite() { part } else { 0.0 };
+            self.memory.mass[first * phases + b.phase] += (1.0 - part) * b.mass;
+            self.memory.mass[second.0 * phases + b.phase] += part * b.mass;
+            self.memory.totals[b.face * phases + b.phase]
+                .died
+                .add(b.mass);
+        }
+        Ok(behind.iter().map(|b| (b.particle, b.face)).collect())
+    }
+
+    /// Particles behind an open face.
+    fn behind(&self, world: &World<D>) -> Result<Vec<Behind<D>>, StepError> {
+        let position = world.free.get(fields::POSITION)?;
+        let mass = world.free.get(fields::MASS)?;
+        let phase = world.free.get(fields::PHASE).ok();
+        let mut all = Vec::new();
+        for &p in &world.walls.contacts.particles {
+            let x = &position[p as usize];
+            let Some(ports) = self.nearest(world, p as usize, x) else {
+                continue;
+            };
+            let (first, apart) = ports[0];
+            let normal = self.places[first].normal;
+            let height = apart.dot(&normal);
+            if height >= 0.0 || (apart - normal * height).norm() > self.spacing {
+                continue;
+            }
+            all.push(Behind {
+                particle: p,
+                face: self.face_of[first],
+                phase: phase.map_or(0, |q| q[p as usize] as usize),
+                mass: mass[p as usize],
+                depth: -height,
+                ports,
+            });
+        }
+        Ok(all)
+    }
+
+    /// The nearest open element that a particle sees and the next nearest one of its face (the same, if there is no other),
+    /// with the ways from their centres to it.
+    fn nearest(&self, world: &World<D>, p: usize, x: &Vect<D>) -> Option<[(usize, Vect<D>); 2]> {
+        let way = |k: usize| world.domain.nearest_image(x - self.places[k].centre);
+        let open = || {
+            let contacts = world.walls.contacts.of(p).iter();
+            let open = contacts.map(|c| self.open[c.element as usize]);
+            open.filter(|k| *k != CLOSED).map(|k| k as usize)
+        };
+        let least = |a: (usize, Vect<D>), b: (usize, Vect<D>)| {
+            if b.1.norm_squared() < a.1.norm_squared() {
+                b
+            } else {
+                a
+            }
+        };
+        let first = open().map(|k| (k, way(k))).reduce(least)?;
+        let of_it = |k: &usize| *k != first.0 && self.face_of[*k] == self.face_of[first.0];
+        let second = open().filter(of_it).map(|k| (k, way(k))).reduce(least);
+        Some([first, second.unwrap_or(first)])
+    }
+
+    /// By how much of a particle a port with fluid that comes in is beyond the birth of one, if it is.
+    fn ripeness(&self, k: usize) -> Option<f64> {
+        if self.through(k).dot(&self.places[k].normal) <= 0.0 {
+            return None;
+        }
+        let q = self.phase(k);
+        let late = self.memory.mass[k * self.whole.len() + q] / self.whole[q] - RIPE;
+        (late >= 0.0).then_some(late)
+    }
+
+    /// Particles that ports have the mass for, where it is time.
+    pub fn ripe(&mut self) -> Vec<Newborn<D>> {
+        if !self.due {
+            return Vec::new();
+        }
+        let phases = self.whole.len();
+        let mut all = Vec::new();
+        for k in 0..self.elements.len() {
+            let Some(late) = self.ripeness(k) else {
+                continue;
+            };
+            let (place, velocity) = (self.places[k], self.through(k));
+            let q = self.phase(k);
+            let whole = self.whole[q];
+            self.memory.mass[k * phases + q] -= whole;
+            let face = self.face_of[k];
+            self.memory.totals[face * phases + q].born.add(whole);
+            // What is in the port beyond the half is already in front of it.
+            let ahead = late.clamp(IN_FRONT, 1.0) * self.spacing;
+            all.push(Newborn {
+                position: place.centre + place.normal * ahead,
+                velocity,
+                density: self.density(k, q),
+                mass: whole,
+                phase: q as u32,
+                body: self.faces[face].body.clone(),
+                values: self.faces[face].values.clone(),
+            });
+        }
+        all
+    }
+}

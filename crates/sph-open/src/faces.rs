@@ -1,0 +1,381 @@
+//! The open faces of a scene: their elements, what is in front of them, what they do.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use rayon::prelude::*;
+use sph_core::{StepError, Vect, fields};
+use sph_kernels::Sampler;
+use sph_neighbours::{Passed, WallSet, World};
+use sph_state::Laws;
+
+use crate::memory::Memory;
+use crate::row::Row;
+use crate::{Inside, Moment, OpenBoundary, Outside, Place};
+
+/// Least Σ V w of the fluid before an element, of the ½ of a filled half space, for a mean that means something.
+const WET: f64 = 0.15;
+
+/// How late births and deaths may be, as a share of a row: lists are built anew where particles come or go, and the rows that
+/// pass meanwhile wait for each other.
+pub(crate) const LATE: f64 = 0.2;
+
+/// The element that nobody opened.
+pub(crate) const CLOSED: u32 = u32::MAX;
+
+/// One open face.
+pub(crate) struct Face<const D: usize> {
+    pub name: String,
+    pub law: Arc<dyn OpenBoundary<D>>,
+    /// What comes in.
+    pub phase: Option<u32>,
+    pub values: Arc<[(String, f64)]>,
+    pub body: Arc<str>,
+    /// Its elements among those of all faces.
+    pub elements: std::ops::Range<usize>,
+}
+
+/// All of them. Every element has a port at its centre: a wall point with the mass that is not in particles.
+pub(crate) struct Faces<const D: usize> {
+    pub faces: Vec<Face<D>>,
+    /// Equations of state by phase.
+    pub laws: Laws,
+    /// Mass of a whole particle by phase, kg.
+    pub whole: Vec<f64>,
+    pub spacing: f64,
+    /// Elements of the walls, face by face.
+    pub elements: Vec<u32>,
+    /// The open element of an element of the walls, or [`CLOSED`].
+    pub open: Vec<u32>,
+    pub places: Vec<Place<D>>,
+    pub face_of: Vec<usize>,
+    /// For every element those of its face near it, with their share in a mean over the support of what is the same along the
+    /// normal.
+    pub smooth: Vec<Vec<(u32, f64)>>,
+    pub inside: Vec<Inside<D>>,
+    pub outside: Vec<Outside<D>>,
+    /// Velocity of the row of particles in front of every element, m/s.
+    pub rows: Vec<Vect<D>>,
+    /// Shares of the phases in front of every element, phases innermost.
+    pub mix: Vec<f64>,
+    pub memory: Memory<D>,
+    /// Whether particles come and go at the end of this step.
+    pub due: bool,
+}
+
+/// The fluid in front of an element.
+struct Looked<const D: usize> {
+    inside: Inside<D>,
+    row: Vect<D>,
+    mix: Vec<f64>,
+}
+
+/// The faces, known to the walls and to the work within a step.
+pub(crate) type SharedFaces<const D: usize> = Arc<Mutex<Faces<D>>>;
+
+/// The faces; a panic elsewhere does not make them unusable.
+pub(crate) fn lock<const D: usize>(faces: &SharedFaces<D>) -> MutexGuard<'_, Faces<D>> {
+    faces.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl<const D: usize> Faces<D> {
+    /// Finds its elements among those of the walls, and gives every one a port.
+    pub fn find(&mut self, walls: &mut WallSet<D>, kernel: &dyn Sampler) {
+        let elements = &walls.elements;
+        self.open = vec![CLOSED; elements.centre.len()];
+        self.elements.clear();
+        self.places.clear();
+        self.face_of.clear();
+        for (f, face) in self.faces.iter_mut().enumerate() {
+            let first = self.elements.len();
+            let own = |s: &usize| walls.names[elements.wall[*s] as usize] == face.name;
+            let own: Vec<usize> = (0..elements.centre.len()).filter(own).collect();
+            let whole: f64 = own.iter().map(|s| elements.measure[*s]).sum();
+            let mut before = 0.0;
+            for s in own {
+                self.open[s] = self.elements.len() as u32;
+                self.elements.push(s as u32);
+                self.face_of.push(f);
+                let measure = elements.measure[s];
+                self.places.push(Place {
+                    centre: elements.centre[s],
+                    normal: elements.normal[s],
+                    measure,
+                    along: if D == 2 {
+                        (before + 0.5 * measure) / whole
+                    } else {
+                        0.5
+                    },
+                });
+                before += measure;
+            }
+            face.elements = first..self.elements.len();
+        }
+        self.smooth = (0..self.places.len())
+            .map(|k| self.around(k, kernel))
+            .collect();
+        self.add_ports(walls);
+        let (ports, phases) = (self.elements.len(), self.whole.len());
+        let nothing = Inside {
+            wet: false,
+            pressure: 0.0,
+            velocity: Vect::zeros(),
+            impedance: 1.0,
+            density: 0.0,
+            mean: Vect::zeros(),
+        };
+        self.inside = vec![nothing; ports];
+        self.outside = vec![Outside::dry(); ports];
+        self.rows = vec![Vect::zeros(); ports];
+        self.mix = vec![0.0; ports * phases];
+        self.memory = Memory::new(ports, phases, self.faces.len());
+        walls.passed = self.passed(walls);
+    }
+
+    /// Weights of the mean of a velocity that is given on the face, as the fluid's own is taken: over rows of particles in front
+    /// of it.
+    fn around(&self, k: usize, kernel: &dyn Sampler) -> Vec<(u32, f64)> {
+        let rows = (kernel.support_radius() / self.spacing).ceil() as usize;
+        let heights = (0..rows).map(|row| (row as f64 + 0.5) * self.spacing);
+        let weight = |j: usize| {
+            let apart = self.places[k].centre - self.places[j].centre;
+            let r = |height: f64| (apart.norm_squared() + height * height).sqrt();
+            let sum: f64 = heights.clone().map(|h| kernel.at(r(h)).0).sum();
+            self.places[j].measure * sum
+        };
+        let own = self.faces[self.face_of[k]].elements.clone();
+        let all = own.map(|j| (j as u32, weight(j)));
+        all.filter(|(_, w)| *w > 0.0).collect()
+    }
+
+    fn add_ports(&self, walls: &mut WallSet<D>) {
+        let points = &mut walls.points;
+        points.ports = true;
+        let cell = self.spacing.powi(D as i32);
+        for (place, &s) in self.places.iter().zip(&self.elements) {
+            points.position.push(place.centre);
+            points.velocity.push(Vect::zeros());
+            points.viscous_velocity.push(Vect::zeros());
+            points.share.push(0.0);
+            points.volume.push(cell);
+            points.pressure.push(0.0);
+            points.grip.push(0.0);
+            points.wall.push(walls.elements.wall[s as usize]);
+            // Where no wall moves or slips these are empty.
+            if !points.acceleration.is_empty() {
+                points.acceleration.push(Vect::zeros());
+            }
+            if !points.slip.is_empty() {
+                points.slip.push((0.0, place.normal));
+            }
+        }
+    }
+
+    /// The phase that comes in at an element: the face's, or most of what is in front of it.
+    pub fn phase(&self, element: usize) -> usize {
+        let phases = self.whole.len();
+        match self.faces[self.face_of[element]].phase {
+            Some(phase) => phase as usize,
+            None => {
+                let mix = &self.mix[element * phases..(element + 1) * phases];
+                let most = (0..phases).reduce(|a, b| if mix[b] > mix[a] { b } else { a });
+                most.unwrap_or(0)
+            }
+        }
+    }
+
+    /// Pressure of a phase at its reference density, Pa.
+    pub fn background(&self, phase: usize) -> f64 {
+        let law = &self.laws[phase];
+        let mut pressure = [0.0];
+        law.pressure(&[law.reference().density], &mut pressure);
+        pressure[0]
+    }
+
+    /// Density at an element of what passes there, kg/m³.
+    pub fn density(&self, element: usize, phase: usize) -> f64 {
+        let pressure = self.outside[element].pressure + self.background(phase);
+        self.laws[phase].density(pressure)
+    }
+
+    /// Share of a whole particle that a port has.
+    pub fn share(&self, element: usize) -> f64 {
+        let phases = self.whole.len();
+        let mass = &self.memory.mass[element * phases..(element + 1) * phases];
+        mass.iter()
+            .zip(&self.whole)
+            .map(|(m, whole)| m / whole)
+            .sum()
+    }
+
+    /// The velocity with which fluid passes an element, m/s: what is imposed, or that of the row in front of it and what the law
+    /// adds.
+    pub fn through(&self, element: usize) -> Vect<D> {
+        let (inside, outside) = (&self.inside[element], &self.outside[element]);
+        match outside.imposed {
+            true => outside.velocity,
+            false => self.rows[element] + (outside.velocity - inside.velocity),
+        }
+    }
+
+    /// Whether a place behind a face is that of a particle that waits to leave.
+    pub fn waits(&self, place: &Vect<D>) -> bool {
+        self.places.iter().any(|face| {
+            let apart = place - face.centre;
+            let height = apart.dot(&face.normal);
+            let beside = (apart - face.normal * height).norm();
+            height <= 0.0 && height > -2.0 * LATE * self.spacing && beside <= self.spacing
+        })
+    }
+
+    /// Looks at the fluid in front of all elements, and asks the laws.
+    pub fn look(&mut self, world: &World<D>) -> Result<(), StepError> {
+        let phases = self.whole.len();
+        let looked: Vec<Looked<D>> = (0..self.elements.len())
+            .into_par_iter()
+            .map(|k| self.before(world, k))
+            .collect::<Result<_, _>>()?;
+        for (k, Looked { inside, row, mix }) in looked.into_iter().enumerate() {
+            self.inside[k] = inside;
+            self.rows[k] = row;
+            self.mix[k * phases..(k + 1) * phases].copy_from_slice(&mix);
+        }
+        let moment = Moment {
+            time: world.time,
+            gravity: world.gravity,
+        };
+        for face in &self.faces {
+            let own = face.elements.clone();
+            let outside = (face.law).outside(
+                &self.places[own.clone()],
+                &self.inside[own.clone()],
+                &moment,
+            );
+            self.outside[own].copy_from_slice(&outside);
+        }
+        let pressures: Vec<_> = (0..self.elements.len())
+            .map(|k| self.reflected(k))
+            .collect();
+        for (outside, pressure) in self.outside.iter_mut().zip(pressures) {
+            outside.pressure = pressure;
+        }
+        Ok(())
+    }
+
+    /// The pressure at an element: that of the law, or where the velocity is imposed of the characteristic that leaves the fluid.
+    fn reflected(&self, k: usize) -> f64 {
+        let (inside, outside) = (&self.inside[k], &self.outside[k]);
+        if !outside.imposed {
+            return outside.pressure;
+        }
+        if !inside.wet {
+            return 0.0;
+        }
+        let normal = &self.places[k].normal;
+        let wet = self.smooth[k]
+            .iter()
+            .filter(|(j, _)| self.inside[*j as usize].wet);
+        let (mut whole, mut mean) = (0.0, 0.0);
+        for (j, w) in wet {
+            whole += w;
+            mean += w * self.outside[*j as usize].velocity.dot(normal);
+        }
+        inside.pressure + inside.impedance * (mean / whole - inside.velocity.dot(normal))
+    }
+
+    /// Means over the fluid before an element.
+    fn before(&self, world: &World<D>, k: usize) -> Result<Looked<D>, StepError> {
+        let free = &world.free;
+        let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
+        let (pressure, density) = (free.get(fields::PRESSURE)?, free.get(fields::DENSITY)?);
+        let volume = free.get(fields::VOLUME)?;
+        let phase = free.get(fields::PHASE).ok();
+        let place = &self.places[k];
+        let mut mix = vec![0.0; self.whole.len()];
+        let (mut filling, mut p, mut z, mut rho) = (0.0, 0.0, 0.0, 0.0);
+        let mut u = Vect::<D>::zeros();
+        let mut row = Row::default();
+        let limit = world.kernel.support_radius().powi(2);
+        for &j in world.lists.of_elements.row(self.elements[k] as usize) {
+            let j = j as usize;
+            let apart = world.domain.nearest_image(place.centre - position[j]);
+            let r2 = apart.norm_squared();
+            if r2 >= limit {
+                continue;
+            }
+            let vw = volume[j] * world.kernel.at(r2.sqrt()).0;
+            let phase = phase.map_or(0, |p| p[j] as usize);
+            let over = pressure[j] - self.background(phase);
+            filling += vw;
+            mix[phase] += vw;
+            p += vw * (over + density[j] * world.gravity.dot(&apart));
+            u += velocity[j] * vw;
+            row.add(&place.normal, &apart, self.spacing, vw, &velocity[j]);
+            rho += vw * density[j];
+            z += vw * density[j] * self.laws[phase].sound_speed(density[j]);
+        }
+        if filling > 0.0 {
+            mix.iter_mut().for_each(|m| *m /= filling);
+            (p, u, z, rho) = (p / filling, u / filling, z / filling, rho / filling);
+        }
+        let mean = match self.memory.dt > 0.0 {
+            true => self.memory.mean[k],
+            false => u,
+        };
+        let inside = Inside {
+            wet: filling >= WET,
+            pressure: p,
+            velocity: u,
+            impedance: if z > 0.0 { z } else { 1.0 },
+            density: rho,
+            mean,
+        };
+        let row = row.velocity(self.spacing).unwrap_or(u);
+        Ok(Looked { inside, row, mix })
+    }
+
+    /// Hands what the laws say to whoever looks at walls.
+    pub fn tell(&self, walls: &mut WallSet<D>) {
+        let first = walls.points.corners;
+        for (k, &s) in self.elements.iter().enumerate() {
+            let (s, v) = (s as usize, first + k);
+            let outside = &self.outside[k];
+            let pressure = outside.pressure + self.background(self.phase(k));
+            walls.elements.pressure[s] = pressure;
+            let through = self.through(k);
+            walls.elements.velocity[s] = through;
+            walls.points.pressure[v] = pressure;
+            walls.points.velocity[v] = through;
+            walls.points.viscous_velocity[v] = through;
+            walls.points.volume[v] = walls.elements.volume[s];
+            walls.points.share[v] = self.share(k);
+        }
+        walls.passed = self.passed(walls);
+    }
+
+    /// What has passed, face by face and phase by phase.
+    pub fn passed(&self, walls: &WallSet<D>) -> Vec<Passed> {
+        let phases = self.whole.len();
+        let mut all = Vec::with_capacity(self.memory.totals.len());
+        for (t, totals) in self.memory.totals.iter().enumerate() {
+            let (f, phase) = (t / phases, t % phases);
+            let face = &self.faces[f];
+            let held = face
+                .elements
+                .clone()
+                .map(|k| self.memory.mass[k * phases + phase]);
+            let wall = walls
+                .names
+                .iter()
+                .position(|n| *n == face.name)
+                .unwrap_or(0);
+            all.push(Passed {
+                wall: wall as u32,
+                phase: phase as u32,
+                entered: totals.entered.value(),
+                left: totals.left.value(),
+                held: held.sum(),
+            });
+        }
+        all
+    }
+}

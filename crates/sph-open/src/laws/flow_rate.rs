@@ -1,0 +1,83 @@
+//! A flow rate that is imposed.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::register;
+
+use crate::course::{Course, check_course, factor};
+use crate::laws::{check_phase, check_speed, imposed_velocity};
+use crate::{
+    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
+    Place, Profile,
+};
+
+/// A volume per time passes through the part of the face that has fluid in front of it, at whatever level that is.
+///
+/// Velocities are those of a [`VelocityInlet`](crate::VelocityInlet), scaled so that they have the rate.
+///
+/// ```toml
+/// [wall.inlet.open-boundary.flow-rate]
+/// rate = "0.05 m²/s"
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FlowRate {
+    /// Volume into the fluid per time: m³/s, in two dimensions m²/s.
+    pub rate: f64,
+    /// How the velocity is shared out along the face.
+    #[serde(default)]
+    pub profile: Profile,
+    /// Times, s, and factors of the rate, straight between them; it must cover the run.
+    #[serde(default)]
+    pub over_time: Course,
+    /// Name of the phase that comes in; that of the fluid in front of the face if left out.
+    #[serde(default)]
+    pub phase: Option<String>,
+    /// Values with which columns of particles begin that come in, by their names, in SI units.
+    #[serde(default)]
+    pub values: BTreeMap<String, f64>,
+}
+
+impl<const D: usize> OpenBoundary<D> for FlowRate {
+    fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
+        check_phase(&self.phase, setting)?;
+        self.profile.check(setting)?;
+        check_course(&self.over_time, setting)?;
+        check_speed("rate", 0.0, setting)
+    }
+    fn entering(&self) -> Entering {
+        Entering {
+            phase: self.phase.clone(),
+            values: self.values.clone(),
+        }
+    }
+    fn lets_out(&self) -> bool {
+        self.rate < 0.0
+    }
+    fn outside(
+        &self,
+        places: &[Place<D>],
+        inside: &[Inside<D>],
+        moment: &Moment<D>,
+    ) -> Vec<Outside<D>> {
+        let now = self.rate * factor(&self.over_time, moment.time);
+        let each = || places.iter().zip(inside);
+        let weight = |place: &Place<D>| self.profile.at(place.along) * place.measure;
+        let wet: f64 = each().filter(|(_, i)| i.wet).map(|(p, _)| weight(p)).sum();
+        let one = |(place, inside): (&Place<D>, &Inside<D>)| match inside.wet && wet > 0.0 {
+            true => imposed_velocity(place, now / wet * self.profile.at(place.along)),
+            false => Outside::dry(),
+        };
+        each().map(one).collect()
+    }
+}
+
+register!(
+    OpenBoundaryEntry [2, 3],
+    FlowRate,
+    "flow-rate",
+    "a volume per time passes",
+    "Ferrand et al. 2017"
+);

@@ -1,0 +1,83 @@
+//! A water level that is imposed.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::register;
+
+use crate::course::{Course, check_course, factor};
+use crate::laws::{check_phase, imposed_pressure};
+use crate::{
+    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
+    Place,
+};
+
+/// A still water level behind the face: the pressure is hydrostatic below it, and nothing passes above.
+///
+/// For flows slower than their waves, which feel the level.
+///
+/// ```toml
+/// [wall.tail.open-boundary.level]
+/// level = "0.2 m"
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Level {
+    /// Height of the level against gravity, m, from the origin.
+    #[schemars(extend("unit" = "m"))]
+    pub level: f64,
+    /// Times, s, and factors of the level, straight between them; it must cover the run.
+    #[serde(default)]
+    pub over_time: Course,
+    /// Name of the phase that comes in; that of the fluid in front of the face if left out.
+    #[serde(default)]
+    pub phase: Option<String>,
+}
+
+impl<const D: usize> OpenBoundary<D> for Level {
+    fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
+        if setting.gravity == 0.0 {
+            let why =
+                "a level needs gravity: set `numerics.gravity`, or take `open-boundary.pressure`";
+            return Err(OpenRefusal::of("level", why));
+        }
+        check_phase(&self.phase, setting)?;
+        check_course(&self.over_time, setting)
+    }
+    fn entering(&self) -> Entering {
+        Entering {
+            phase: self.phase.clone(),
+            ..Entering::default()
+        }
+    }
+    fn lets_out(&self) -> bool {
+        true
+    }
+    fn outside(
+        &self,
+        places: &[Place<D>],
+        inside: &[Inside<D>],
+        moment: &Moment<D>,
+    ) -> Vec<Outside<D>> {
+        let level = self.level * factor(&self.over_time, moment.time);
+        let g = moment.gravity.norm();
+        let one = |(place, inside): (&Place<D>, &Inside<D>)| {
+            let depth = level - moment.height(&place.centre);
+            let still = inside.density * g * depth;
+            let mut outside = imposed_pressure(place, inside, still.max(0.0));
+            if depth <= 0.0 && outside.velocity.dot(&place.normal) > 0.0 {
+                let n = place.normal;
+                outside.velocity = inside.velocity - n * inside.velocity.dot(&n);
+            }
+            outside
+        };
+        places.iter().zip(inside).map(one).collect()
+    }
+}
+
+register!(
+    OpenBoundaryEntry [2, 3],
+    Level,
+    "level",
+    "a still water level behind the face",
+    "Ferrand et al. 2017"
+);

@@ -1,0 +1,69 @@
+//! A pressure that is imposed.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::register;
+
+use crate::course::{Course, check_course, factor};
+use crate::laws::{check_phase, imposed_pressure};
+use crate::{
+    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
+    Place,
+};
+
+/// A given pressure over the whole face; fluid passes as it likes, u = u_i + (p − p_i)/ρc.
+///
+/// Sound that arrives is thrown back as from a free surface.
+///
+/// ```toml
+/// [wall.outlet.open-boundary.pressure]
+/// pressure = "0 Pa"
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Pressure {
+    /// Pressure over that of the reference density, Pa.
+    #[schemars(extend("unit" = "Pa"))]
+    pub pressure: f64,
+    /// Times, s, and factors of the pressure, straight between them; it must cover the run.
+    #[serde(default)]
+    pub over_time: Course,
+    /// Name of the phase that comes in; that of the fluid in front of the face if left out.
+    #[serde(default)]
+    pub phase: Option<String>,
+}
+
+impl<const D: usize> OpenBoundary<D> for Pressure {
+    fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
+        check_phase(&self.phase, setting)?;
+        check_course(&self.over_time, setting)
+    }
+    fn entering(&self) -> Entering {
+        Entering {
+            phase: self.phase.clone(),
+            ..Entering::default()
+        }
+    }
+    fn lets_out(&self) -> bool {
+        true
+    }
+    fn outside(
+        &self,
+        places: &[Place<D>],
+        inside: &[Inside<D>],
+        moment: &Moment<D>,
+    ) -> Vec<Outside<D>> {
+        let now = self.pressure * factor(&self.over_time, moment.time);
+        let each = places.iter().zip(inside);
+        each.map(|(place, inside)| imposed_pressure(place, inside, now))
+            .collect()
+    }
+}
+
+register!(
+    OpenBoundaryEntry [2, 3],
+    Pressure,
+    "pressure",
+    "a given pressure; fluid passes as it likes",
+    "Ferrand et al. 2017; Leroy 2014"
+);

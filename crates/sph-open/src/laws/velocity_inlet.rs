@@ -1,0 +1,79 @@
+//! A velocity that is imposed.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::register;
+
+use crate::course::{Course, check_course, factor};
+use crate::laws::{check_phase, check_speed, imposed_velocity};
+use crate::{
+    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
+    Place, Profile,
+};
+
+/// Fluid passes with a given velocity along the normal of the face, whatever is in front of it.
+///
+/// The pressure follows from the characteristic that leaves the fluid, p = p_i + ρc (u − u_i): sound that arrives is
+/// thrown back as from a wall that moves so. A negative velocity takes fluid out.
+///
+/// Source: Ferrand et al. 2017, linearised.
+///
+/// ```toml
+/// [wall.inlet.open-boundary.velocity-inlet]
+/// velocity = "1 m/s"
+/// profile = "parabola"
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct VelocityInlet {
+    /// Velocity into the fluid, m/s; a `profile` and `over_time` are factors of it.
+    #[schemars(extend("unit" = "m/s"))]
+    pub velocity: f64,
+    /// How it is shared out along the face.
+    #[serde(default)]
+    pub profile: Profile,
+    /// Times, s, and factors of the velocity, straight between them; it must cover the run.
+    #[serde(default)]
+    pub over_time: Course,
+    /// Name of the phase that comes in; that of the fluid in front of the face if left out.
+    #[serde(default)]
+    pub phase: Option<String>,
+    /// Values with which columns of particles begin that come in, by their names, in SI units: `turbulent_energy = 0.01`.
+    #[serde(default)]
+    pub values: BTreeMap<String, f64>,
+}
+
+impl<const D: usize> OpenBoundary<D> for VelocityInlet {
+    fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
+        check_phase(&self.phase, setting)?;
+        self.profile.check(setting)?;
+        check_course(&self.over_time, setting)?;
+        let times = self.over_time.iter().flatten().map(|[_, f]| f.abs());
+        let largest = times.reduce(f64::max).unwrap_or(1.0) * self.profile.largest();
+        check_speed("velocity", self.velocity * largest, setting)
+    }
+    fn entering(&self) -> Entering {
+        Entering {
+            phase: self.phase.clone(),
+            values: self.values.clone(),
+        }
+    }
+    fn lets_out(&self) -> bool {
+        self.velocity < 0.0
+    }
+    fn outside(&self, places: &[Place<D>], _: &[Inside<D>], moment: &Moment<D>) -> Vec<Outside<D>> {
+        let now = self.velocity * factor(&self.over_time, moment.time);
+        let one = |place: &Place<D>| imposed_velocity(place, now * self.profile.at(place.along));
+        places.iter().map(one).collect()
+    }
+}
+
+register!(
+    OpenBoundaryEntry [2, 3],
+    VelocityInlet,
+    "velocity-inlet",
+    "fluid passes with a given velocity",
+    "Ferrand et al. 2017; Leroy 2014"
+);

@@ -1,0 +1,29 @@
+//! Open faces: fluid comes in and goes out through semi-analytical walls, `[wall.NAME.open-boundary.PLUGIN]`.
+//!
+//! * [`OpenBoundary`] is the law of a face: from the fluid in front of it ([`Inside`]) to what passes and which pressure
+//!   acts ([`Outside`]). Built in: [`VelocityInlet`], [`FlowRate`], [`Pressure`], [`Level`], [`Outflow`].
+//! * [`open`] puts the faces around the wall treatment of a scene, and gives the [`OpenBoundaries`] that let mass through.
+#![doc = include_str!("../README.md")]
+
+mod budget;
+mod contract;
+mod contribution;
+mod course;
+mod exits;
+mod faces;
+mod flux;
+mod laws;
+mod memory;
+mod passing;
+mod row;
+mod walls;
+
+pub use contract::{
+    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
+    Place,
+};
+pub use contribution::{OpenBoundaries, open};
+pub use course::Profile;
+pub use flux::OPEN_FLUX;
+pub use laws::{FlowRate, Level, Outflow, Pressure, VelocityInlet};
+pub use passing::PASSING;

@@ -1,0 +1,137 @@
+//! What faces remember from step to step, as plain numbers: in checkpoints, and taken back with a step that fails.
+
+use sph_core::Vect;
+
+/// A sum without the rounding of its many small parts (Neumaier 1974).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Sum {
+    sum: f64,
+    lost: f64,
+}
+
+impl Sum {
+    pub fn add(&mut self, x: f64) {
+        let next = self.sum + x;
+        self.lost += match self.sum.abs() >= x.abs() {
+            true => (self.sum - next) + x,
+            false => (x - next) + self.sum,
+        };
+        self.sum = next;
+    }
+
+    pub fn value(&self) -> f64 {
+        self.sum + self.lost
+    }
+}
+
+/// What has passed a face of a phase, kg.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Totals {
+    pub entered: Sum,
+    pub left: Sum,
+    /// Mass of the particles that were born at the face and that died there.
+    pub born: Sum,
+    pub died: Sum,
+}
+
+/// The memory of all faces.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Memory<const D: usize> {
+    /// Mass at every port of every phase, kg, phases innermost.
+    pub mass: Vec<f64>,
+    /// Running means of velocities, m/s.
+    pub mean: Vec<Vect<D>>,
+    /// By face and phase.
+    pub totals: Vec<Totals>,
+    /// The last step, s; 0 before the first.
+    pub dt: f64,
+}
+
+const PER_TOTAL: usize = 8;
+
+impl<const D: usize> Memory<D> {
+    pub fn new(ports: usize, phases: usize, faces: usize) -> Self {
+        Memory {
+            mass: vec![0.0; ports * phases],
+            mean: vec![Vect::zeros(); ports],
+            totals: vec![Totals::default(); faces * phases],
+            dt: 0.0,
+        }
+    }
+
+    /// How many numbers there are.
+    pub fn count(&self) -> usize {
+        self.mass.len() + D * self.mean.len() + PER_TOTAL * self.totals.len() + 1
+    }
+
+    /// All of it.
+    pub fn numbers(&self, to: &mut Vec<f64>) {
+        to.extend(&self.mass);
+        to.extend(self.mean.iter().flatten());
+        for t in &self.totals {
+            for sum in [t.entered, t.left, t.born, t.died] {
+                to.extend([sum.sum, sum.lost]);
+            }
+        }
+        to.push(self.dt);
+    }
+
+    /// Takes what [`numbers`](Self::numbers) gave; says whether it could.
+    pub fn put_back(&mut self, from: &[f64]) -> bool {
+        if from.len() != self.count() || from.iter().any(|x| !x.is_finite()) {
+            return false;
+        }
+        let (mass, rest) = from.split_at(self.mass.len());
+        let (mean, rest) = rest.split_at(D * self.mean.len());
+        self.mass.copy_from_slice(mass);
+        let means = self.mean.iter_mut().zip(mean.chunks_exact(D));
+        means.for_each(|(to, from)| *to = Vect::from_column_slice(from));
+        for (t, n) in self.totals.iter_mut().zip(rest.chunks_exact(PER_TOTAL)) {
+            let sum = |k: usize| Sum {
+                sum: n[k],
+                lost: n[k + 1],
+            };
+            *t = Totals {
+                entered: sum(0),
+                left: sum(2),
+                born: sum(4),
+                died: sum(6),
+            };
+        }
+        self.dt = from[from.len() - 1];
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_memory_comes_back_from_its_numbers() {
+        let mut memory = Memory::<2>::new(2, 2, 1);
+        memory.mass = vec![1.0, 2.0, 3.0, 4.0];
+        memory.mean[1] = Vect::<2>::new(5.0, 6.0);
+        memory.totals[1].left.add(7.0);
+        memory.dt = 8.0;
+        let mut numbers = Vec::new();
+        memory.numbers(&mut numbers);
+        assert_eq!(numbers.len(), memory.count());
+        let mut other = Memory::new(2, 2, 1);
+        assert!(other.put_back(&numbers));
+        assert_eq!(other, memory);
+        assert!(!other.put_back(&numbers[1..]));
+    }
+
+    #[test]
+    fn a_sum_of_a_million_small_parts_does_not_round() {
+        let mut sum = Sum::default();
+        sum.add(1e6);
+        (0..1_000_000).for_each(|_| sum.add(1e-11));
+        assert!(
+            (sum.value() - 1e6 - 1e-5).abs() < 1e-9 * 1e-5 + 1.2e-10,
+            "{}",
+            sum.value() - 1e6
+        );
+    }
+}

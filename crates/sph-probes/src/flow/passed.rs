@@ -1,0 +1,66 @@
+//! What has passed an open face.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, register, suggestion};
+use sph_neighbours::World;
+
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// Mass of all phases that has come in and gone out by an open face since the start, and what the face holds: mass that has come
+/// in and is in no particle yet, or has left one and is not out yet. Without a wall those of all faces together.
+///
+/// entered − left − held is the mass of the particles that were born there less that of those that died.
+///
+/// ```toml
+/// [probe.inlet]
+/// kind = "passed"
+/// wall = "inlet"
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PassedProbe {
+    /// Name of the wall; all open ones if left out.
+    #[serde(default)]
+    pub wall: Option<String>,
+}
+
+impl<const D: usize> Probe<D> for PassedProbe {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        let unit = if D == 2 { "kg/m" } else { "kg" };
+        let names = [".entered", ".left", ".held"];
+        names.map(|name| ProbeColumn::named(name, unit)).into()
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let walls = &world.walls;
+        let name = |wall: u32| walls.names[wall as usize].as_str();
+        let open = || walls.passed.iter().map(|p| name(p.wall));
+        if let Some(wall) = self.wall.as_ref().filter(|w| open().all(|n| n != *w)) {
+            let near = suggestion(wall, open());
+            return Err(StepError::Stage {
+                stage: "probe `passed`".into(),
+                reason: format!("there is no open wall `{wall}`{near}"),
+            });
+        }
+        let wanted = |wall: u32| self.wall.as_ref().is_none_or(|w| w == name(wall));
+        let mut sums = vec![0.0; 3];
+        for passed in walls.passed.iter().filter(|p| wanted(p.wall)) {
+            for (sum, x) in sums
+                .iter_mut()
+                .zip([passed.entered, passed.left, passed.held])
+            {
+                *sum += x;
+            }
+        }
+        Ok(sums)
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    PassedProbe,
+    "passed",
+    "mass that has passed an open face",
+    "a balance"
+);

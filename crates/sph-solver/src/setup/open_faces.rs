@@ -1,0 +1,158 @@
+//! Open faces learn of the scene, and get their walls.
+
+use std::sync::Arc;
+
+use sph_boundary::Condition;
+use sph_core::{SceneProblem, Store};
+use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenSetting, open};
+use sph_scene::Scene;
+use sph_state::Laws;
+
+use crate::failure::error::SolverError;
+use crate::setup::choices::Choices;
+use crate::setup::shapes::Drawn;
+use crate::step::stages::{SharedWall, lock};
+
+/// Why walls with points of their own cannot be opened.
+const OTHER_WALLS: &str = "open faces are known of semi-analytical walls without vertices: write `[walls.usaw]` with \
+     `vertices = false`";
+
+/// How far in front of a port the room of a particle is looked at, over the spacing.
+const ROOM: f64 = 0.5;
+
+/// Opens the walls of a scene that have a law for it; takes the laws out of the choices.
+///
+/// # Errors
+/// The keys that do not fit.
+pub(crate) fn settle<const D: usize>(
+    scene: &Scene,
+    drawn: &mut Drawn<D>,
+    choices: &mut Choices<D>,
+    laws: &Laws,
+) -> Result<Option<OpenBoundaries<D>>, SolverError> {
+    let given = std::mem::take(&mut choices.open);
+    let Some((first, _)) = given.first() else {
+        return Ok(None);
+    };
+    if D != 2 {
+        let why = "open faces are known in two dimensions only";
+        return Err(SolverError::at(path(scene, first, ""), why));
+    }
+    let fits = |w: &Box<dyn sph_boundary::Wall<D>>| w.renormalises() && w.lattice_offset() > 0.0;
+    let Some(walls) = choices.walls.take().filter(fits) else {
+        return Err(SolverError::at(path(scene, first, ""), OTHER_WALLS));
+    };
+    let phases: Vec<String> = scene.phase.keys().cloned().collect();
+    let speeds = laws.iter().map(|law| law.reference().sound_speed);
+    let setting = OpenSetting {
+        phases: &phases,
+        sound_speed: speeds.fold(f64::INFINITY, f64::min),
+        end: scene.run.end,
+        gravity: scene.gravity::<D>().norm(),
+        dimension: D,
+    };
+    let refused = given.iter().filter_map(|(wall, law)| {
+        let refusal = law.settle(&setting).err()?;
+        Some(SceneProblem::new(
+            path(scene, wall, &refusal.key),
+            refusal.why,
+        ))
+    });
+    let problems: Vec<_> = refused.collect();
+    if !problems.is_empty() {
+        return Err(SolverError::Scene(problems));
+    }
+    for spec in &mut drawn.walls {
+        if given.iter().any(|(name, _)| name == spec.drawing.name()) {
+            spec.open = true;
+            spec.condition = Condition::FreeSlip;
+        }
+    }
+    let given: Vec<(String, Arc<dyn OpenBoundary<D>>)> = given
+        .into_iter()
+        .map(|(name, law)| (name, Arc::from(law)))
+        .collect();
+    let summed = choices.physics.formulation.compressed().is_none();
+    let (walls, opened) = open(
+        walls,
+        given,
+        (laws, &phases),
+        scene.numerics.spacing,
+        summed,
+    );
+    choices.walls = Some(walls);
+    Ok(Some(opened))
+}
+
+/// The path of a key of a face's law.
+fn path(scene: &Scene, wall: &str, key: &str) -> String {
+    let choice = scene.open_boundary(wall);
+    choice.map_or(format!("wall.{wall}"), |c| c.inside(key))
+}
+
+/// Refuses faces that something blocks; remarks on those by which more comes in than can leave.
+///
+/// # Errors
+/// The law of a face before which there is no room.
+pub(crate) fn check<const D: usize>(
+    scene: &Scene,
+    opened: &OpenBoundaries<D>,
+    walls: Option<&SharedWall<D>>,
+) -> Result<Vec<String>, SolverError> {
+    let mut blocked = Vec::<SceneProblem>::new();
+    if let Some(walls) = walls {
+        let walls = lock(walls);
+        for (name, place) in opened.in_front(ROOM * scene.numerics.spacing) {
+            let path = path(scene, &name, "");
+            if !walls.contains(&place) && blocked.iter().all(|p| p.path != path) {
+                let place = place.as_slice();
+                let why = format!(
+                    "the open face `{name}` is blocked at the start: {place:?}, half a spacing before it, is behind another \
+                     wall"
+                );
+                blocked.push(SceneProblem::new(path, why));
+            }
+        }
+    }
+    match blocked.is_empty() {
+        true => Ok(remarks(scene, opened)),
+        false => Err(SolverError::Scene(blocked)),
+    }
+}
+
+fn remarks<const D: usize>(scene: &Scene, opened: &OpenBoundaries<D>) -> Vec<String> {
+    if opened.let_out() || !scene.outlet.is_empty() {
+        return Vec::new();
+    }
+    vec![
+        "fluid comes in and none can leave: where there is no room over a free surface the pressure will rise until the run \
+         fails; open another wall with `open-boundary.outflow`, `pressure` or `level`, or add an `[outlet.NAME]`"
+            .into(),
+    ]
+}
+
+/// Refuses values of columns that no plugin of the scene has.
+///
+/// # Errors
+/// The key of the value.
+pub(crate) fn check_values<const D: usize>(
+    scene: &Scene,
+    entering: &[(String, Entering)],
+    free: &Store<D>,
+) -> Result<(), SolverError> {
+    let mut problems = Vec::new();
+    for (wall, Entering { values, .. }) in entering {
+        for name in values.keys().filter(|name| !free.has(name)) {
+            let known: Vec<&str> = free.fields().map(|f| f.name).collect();
+            let near = sph_core::suggestion(name, known.iter().copied());
+            problems.push(SceneProblem::new(
+                path(scene, wall, &format!("values.{name}")),
+                format!("no plugin of this scene has a column `{name}`{near}"),
+            ));
+        }
+    }
+    match problems.is_empty() {
+        true => Ok(()),
+        false => Err(SolverError::Scene(problems)),
+    }
+}

@@ -1,0 +1,298 @@
+//! Fluid that comes in and goes out through walls, `[wall.NAME.open-boundary.PLUGIN]`.
+
+use std::path::Path;
+
+use serde_json::Value as Json;
+use sph_core::SceneProblem;
+use sph_scene::parse;
+use sph_solver::{Identity, RunOptions, SolverError, Start, Stepper, Summary, assemble, run};
+use sph_tests::FinalState;
+
+/// A channel of ten rows between an inlet and an outlet, `MORE` for what a test adds to either.
+const CHANNEL: &str = r#"
+title = "an open channel"
+dimension = 2
+[run]
+end = 0.6
+checkpoint_every = 0.1
+[numerics]
+spacing = 0.1
+[kernel.wendland-c2]
+[formulation.hu-adams]
+[integrator.symplectic-euler]
+[smoother.brezzi-pitkaranta]
+strength = 0.04
+[walls.usaw]
+vertices = false
+[wall.bottom]
+polyline = [[0.0, 0.0], [2.0, 0.0]]
+[wall.outlet]
+polyline = [[2.0, 0.0], [2.0, 1.0]]
+[wall.outlet.open-boundary.outflow]
+memory = "1 s"
+[wall.top]
+polyline = [[2.0, 1.0], [0.0, 1.0]]
+[wall.inlet]
+polyline = [[0.0, 1.0], [0.0, 0.0]]
+[wall.inlet.open-boundary.velocity-inlet]
+velocity = "1 m/s"
+phase = "mud"
+[phase.water]
+density = 1.0
+speed_of_sound = 12.0
+rheology.newtonian = { viscosity = "0.01 Pa s" }
+[phase.mud]
+density = 1.6
+speed_of_sound = 12.0
+rheology.newtonian = { viscosity = "0.1 Pa s" }
+[body.water]
+phase = "water"
+box = [[0.0, 0.0], [2.0, 1.0]]
+velocity = [1.0, 0.0]
+[probe.passed]
+kind = "passed"
+[output]
+every = 0.6
+vtk = false
+"#;
+
+fn into(folder: &Path, text: &str, threads: usize, start: Start) -> Summary {
+    let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    let options = RunOptions {
+        out: folder.to_path_buf(),
+        start,
+        threads: Some(threads),
+        identity: Identity::of_text(CHANNEL),
+    };
+    run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a folder")
+}
+
+fn number(of: &Json, face: &str, key: &str) -> f64 {
+    of[face][key].as_f64().unwrap_or(0.0)
+}
+
+/// entered − left − held of every face, and what particles there are, are four sums of their own.
+#[test]
+fn what_comes_in_less_what_goes_out_is_what_is_held() {
+    let out = folder();
+    let summary = into(out.path(), CHANNEL, 2, Start::Afresh);
+    let passed = summary.open_boundaries.expect("a budget");
+    let unbalanced = passed["unbalanced"].as_f64().expect("a number");
+    assert!(
+        unbalanced < 1e-12,
+        "{unbalanced:e} of what passed is missing"
+    );
+    let entered = number(&passed, "inlet.mud", "entered");
+    // ρ u H t, with the density that the pressure at the face makes.
+    assert!(
+        (entered / (1.6 * 0.6) - 1.0).abs() < 0.02,
+        "{entered} kg/m came in"
+    );
+    let faces = ["inlet.mud", "outlet.mud", "outlet.water"];
+    let sum = |key: &str| faces.iter().map(|f| number(&passed, f, key)).sum::<f64>();
+    let state = FinalState::of(out.path());
+    let mass = state.columns["mass"]
+        .iter()
+        .map(|b| f64::from_bits(*b))
+        .sum::<f64>();
+    let first = 200.0 * 0.01;
+    let missing = sum("entered") - sum("left") - sum("held") - (mass - first);
+    assert!(
+        missing.abs() < 1e-12 * sum("entered"),
+        "{missing:e} kg/m is missing"
+    );
+    assert!(number(&passed, "outlet.water", "died") > 0.3, "{passed}");
+    // The summary counts the same deaths and births.
+    assert!(summary.drift.mass.abs() < 1e-13, "{:e}", summary.drift.mass);
+    let left = &summary.left["open.outlet.water"];
+    assert!(left.particles > 30 && summary.escaped == 0, "{left:?}");
+}
+
+#[test]
+fn particles_come_and_go_at_the_same_step_with_the_same_bits_on_any_threads_and_resumed() {
+    let outs: Vec<_> = (0..4).map(|_| folder()).collect();
+    let path = |k: usize| outs[k].path();
+    into(path(0), CHANNEL, 1, Start::Afresh);
+    let whole = FinalState::of(path(0));
+    for (k, threads) in [(1, 2), (2, 4)] {
+        into(path(k), CHANNEL, threads, Start::Afresh);
+        FinalState::of(path(k)).assert_same(&whole, &format!("{threads} threads"));
+    }
+    let part = CHANNEL.replace("end = 0.6\n", "end = 0.6\nmax_steps = 60\n");
+    into(path(3), &part, 1, Start::Afresh);
+    into(path(3), CHANNEL, 2, Start::Resumed);
+    FinalState::of(path(3)).assert_same(&whole, "resumed");
+}
+
+/// A channel without friction with a flow that is the same everywhere: nothing may change it.
+#[test]
+fn a_uniform_flow_passes_both_faces_as_if_they_were_not_there() {
+    let text = CHANNEL
+        .replace("phase = \"mud\"\n", "phase = \"water\"\n")
+        .replace("[wall.bottom]", "[wall.bottom]\ncondition = \"free-slip\"")
+        .replace("[wall.top]", "[wall.top]\ncondition = \"free-slip\"")
+        .replace("end = 0.6", "end = 3.0")
+        .replace("every = 0.6", "every = 3.0");
+    let out = folder();
+    let summary = into(out.path(), &text, 2, Start::Afresh);
+    let state = FinalState::of(out.path());
+    let velocity: Vec<f64> = state.columns["velocity"]
+        .iter()
+        .map(|b| f64::from_bits(*b))
+        .collect();
+    let off = velocity
+        .chunks(2)
+        .map(|u| (u[0] - 1.0).hypot(u[1]))
+        .fold(0.0, f64::max);
+    let [least, largest] = summary.density_range;
+    // A density that is off by 1 % is a pressure of 1.44 ρu².
+    assert!(
+        off < 0.02 && least > 0.999 && largest < 1.001,
+        "velocity off by {off}, density {least} to {largest}"
+    );
+}
+
+/// A pulse of pressure runs into the outlet; what comes back is less than 2 % of it.
+#[test]
+#[ignore = "not reached: 12 % of a pulse of four smoothing lengths come back"]
+fn a_pressure_pulse_leaves() {
+    let text = CHANNEL
+        .replace("phase = \"mud\"\n", "phase = \"water\"\n")
+        .replace("[wall.bottom]", "[wall.bottom]\ncondition = \"free-slip\"")
+        .replace("[wall.top]", "[wall.top]\ncondition = \"free-slip\"")
+        .replace("[2.0,", "[10.0,")
+        .replace("velocity = \"1 m/s\"", "velocity = \"0 m/s\"")
+        .replace("velocity = [1.0, 0.0]", "velocity = [0.0, 0.0]")
+        .replace("strength = 0.04", "strength = 0.01")
+        .replace("memory = \"1 s\"", "velocity = \"0 m/s\"");
+    let loaded = parse(&text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    let mut stepper = Stepper::<2>::new(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    stepper.evaluate().unwrap_or_else(|e| panic!("{e}"));
+    let (sound, high) = (12.0, 1e-3);
+    let pulse = |x: f64| high * (-((x - 5.0) / 0.8).powi(2)).exp();
+    // A simple wave to the right: δρ/ρ = u/c.
+    use sph_core::fields;
+    let free = &stepper.parts().flow.world.free;
+    let at: Vec<f64> = free
+        .get(fields::POSITION)
+        .unwrap()
+        .iter()
+        .map(|x| x[0])
+        .collect();
+    let gamma = free.get(fields::RENORMALISATION).unwrap().to_vec();
+    let constant = free.get(fields::DENSITY_CONSTANT).unwrap().to_vec();
+    let velocity: Vec<f64> = at.iter().flat_map(|x| [sound * pulse(*x), 0.0]).collect();
+    let raised = constant.iter().zip(&gamma).zip(&at);
+    let raised: Vec<f64> = raised.map(|((k, g), x)| k + g * pulse(*x)).collect();
+    stepper
+        .set("velocity", &velocity)
+        .unwrap_or_else(|e| panic!("{e}"));
+    stepper
+        .set("density_constant", &raised)
+        .unwrap_or_else(|e| panic!("{e}"));
+    let largest = |stepper: &mut Stepper<2>| {
+        stepper.evaluate().unwrap_or_else(|e| panic!("{e}"));
+        let pressure = stepper
+            .parts()
+            .flow
+            .world
+            .free
+            .get(fields::PRESSURE)
+            .unwrap();
+        pressure.iter().fold(0.0_f64, |most, p| most.max(p.abs()))
+    };
+    // Just before it arrives, and when what came back is in the middle.
+    stepper.run_until(0.2).unwrap_or_else(|e| panic!("{e}"));
+    let before = largest(&mut stepper);
+    stepper.run_until(0.83).unwrap_or_else(|e| panic!("{e}"));
+    let after = largest(&mut stepper);
+    let back = after / before;
+    assert!(before > 0.5 * sound * sound * high, "{before} Pa arrived");
+    assert!(back < 0.02, "{:.2} % came back", 100.0 * back);
+}
+
+/// Problems of a scene, as a user sees them.
+fn problems(text: &str) -> Vec<SceneProblem> {
+    let loaded = match parse(text, "scene.toml", &[]) {
+        Ok(loaded) => loaded,
+        Err(e) => panic!("refused earlier: {e}"),
+    };
+    match assemble::<2>(&loaded.scene) {
+        Err(SolverError::Scene(problems)) => problems,
+        Err(other) => panic!("{other}"),
+        Ok(_) => panic!("it was let through"),
+    }
+}
+
+fn assert_refused(text: &str, path: &str, why: &str) {
+    let all = problems(text);
+    let found = all
+        .iter()
+        .any(|p| p.path == path && p.message.contains(why));
+    assert!(found, "{all:?}");
+}
+
+#[test]
+fn what_no_face_can_be_is_refused_at_its_key() {
+    let inlet = "wall.inlet.open-boundary.velocity-inlet";
+    let with = |a: &str, b: &str| CHANNEL.replace(a, b);
+    let fast = with("velocity = \"1 m/s\"", "velocity = \"15 m/s\"");
+    assert_refused(&fast, &format!("{inlet}.velocity"), "speed of sound is 12");
+    let short = with("phase = \"mud\"\n", "over_time = [[0, 0], [0.5, 1]]\n");
+    assert_refused(&short, &format!("{inlet}.over_time"), "from 0 s to 0.5 s");
+    let unknown = with("phase = \"mud\"\n", "phase = \"mudd\"\n");
+    assert_refused(&unknown, &format!("{inlet}.phase"), "`mud`");
+    let values = with("phase = \"mud\"\n", "values = { turbulence = 1.0 }\n");
+    assert_refused(&values, &format!("{inlet}.values.turbulence"), "no plugin");
+    let vertices = with("vertices = false", "vertices = true");
+    assert_refused(
+        &vertices,
+        "wall.inlet.open-boundary.velocity-inlet",
+        "vertices = false",
+    );
+    let level = with(
+        "[wall.outlet.open-boundary.outflow]\nmemory = \"1 s\"",
+        "[wall.outlet.open-boundary.level]\nlevel = 0.5",
+    );
+    assert_refused(
+        &level,
+        "wall.outlet.open-boundary.level.level",
+        "needs gravity",
+    );
+    let nothing = with("memory = \"1 s\"", "pressure = 0");
+    assert_refused(&nothing, "wall.outlet.open-boundary.outflow", "`memory`");
+    let blocked = with(
+        "[phase.water]",
+        "[wall.block]\nbox = [[0.02, 0.42], [0.33, 0.73]]\nfluid = \"outside\"\n[phase.water]",
+    )
+    .replace(
+        "box = [[0.0, 0.0], [2.0, 1.0]]",
+        "box = [[0.0, 0.0], [2.0, 1.0]]\nclip = true",
+    );
+    assert_refused(&blocked, inlet, "blocked at the start");
+    let turbulent = with(
+        "integrator.symplectic-euler",
+        "integrator.predictor-corrector",
+    );
+    assert_refused(
+        &turbulent,
+        "integrator.predictor-corrector",
+        "once per step",
+    );
+}
+
+#[test]
+fn a_closed_box_with_an_inlet_is_told() {
+    let text = CHANNEL.replace(
+        "[wall.outlet.open-boundary.outflow]\nmemory = \"1 s\"\n",
+        "",
+    );
+    let loaded = parse(&text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    let parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let told = parts.warnings.iter().any(|w| w.contains("none can leave"));
+    assert!(told, "{:?}", parts.warnings);
+}
