@@ -58,6 +58,7 @@ pub use solutions::elastic_shear_wave::ElasticShearWave;
 pub use solutions::hagen_poiseuille::HagenPoiseuille;
 pub use solutions::hydrostatic::Hydrostatic;
 pub use solutions::poiseuille::Poiseuille;
+pub use solutions::elliptical_drop::EllipticalDrop;
 pub use solutions::rigid_rotation::RigidRotation;
 pub use solutions::rotating_square::RotatingSquare;
 pub use solutions::taylor_green::TaylorGreen;
