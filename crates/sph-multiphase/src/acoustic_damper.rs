@@ -3,10 +3,12 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_contribution::{Contribution, Limiter, Setting, Stages, contribution_kind};
-use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, register};
+use sph_core::{
+    Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, register,
+};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, Terms,
-    There, World, add_scaled, interactions, lattice_sum, splat, vector,
+    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
+    Pair, Rates, Terms, There, World, add_scaled, interactions, lattice_sum, splat, vector,
 };
 
 use crate::divergence::{Divergence, OwnVolume};
@@ -57,7 +59,9 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
         let laws = setting.laws.iter().map(|law| law.reference());
         let term: Box<dyn Interaction<D>> = Divergence::boxed(OwnVolume);
         vec![Box::new(Resistance {
-            impedance: laws.map(|r| self.strength * r.density * r.sound_speed).collect(),
+            impedance: laws
+                .map(|r| self.strength * r.density * r.sound_speed)
+                .collect(),
             term: [term],
             states: Vec::new(),
             unused: Vec::new(),

@@ -59,9 +59,13 @@ impl Declares for FreeSurface {
 impl<const D: usize> Stage<World<D>> for FreeSurface {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut places = vec![Place::Inside; world.free.len()];
-        walk_into(world, Values::Both, |_| true, &mut places, |around| {
-            place(world, around)
-        })?;
+        walk_into(
+            world,
+            Values::Both,
+            |_| true,
+            &mut places,
+            |around| place(world, around),
+        )?;
         let mut surface = world.free.take(FREE_SURFACE)?;
         let lists = world.lists.nearest();
         let position = world.free.get(fields::POSITION)?;

@@ -26,7 +26,7 @@ contribution_kind!(
 ///
 /// Symbols: h smoothing length (m), c speed of sound of the phase at rest (m/s). Where a full support has K > 0, as many of
 /// the particles fill more space than they have volume: a fold closed on a gap. The loss of K lowers their pressure until
-/// the water around has filled the gap; mass and momentum stay, the energy that goes is counted (`summary.json`, `work`). A change
+/// the water around has filled the gap; mass and momentum stay, the energy that goes is counted (in checkpoints). A change
 /// of K moves the pressure by c h K/τ before sound has carried it off: with K up to 0.3 ρ₀ and a Mach number of 0.1, n = 30
 /// keeps that below ρU². ε is the unevenness of kernel sums beside walls: 2 % in the first row of a lattice.
 ///

@@ -82,7 +82,7 @@ impl<const D: usize> Solution<D> for EllipticalDrop {
 }
 
 register!(
-    SolutionEntry [2],
+    SolutionEntry[2],
     EllipticalDrop,
     "elliptical-drop",
     "a drop that is drawn out to an ellipse",
