@@ -4,9 +4,12 @@
 //!   [`ColagrossiLandrini`], [`Grenier`], [`Krimi`]. [`Dilatation`] is the work of those that integrate continuity.
 //! * [`InterfaceModel`] is a kind of plugin, a force where phases meet: [`SurfaceTension`], [`GrenierInterface`],
 //!   [`MicroMixing`], [`InterfaceFriction`].
+//! * [`SurfaceEntry`] is a kind of plugin, what free surfaces are: [`ConeTest`]; [`DamperEntry`] another, what takes sound
+//!   away: [`AcousticDamper`].
 //! * The combinations of pressure, friction and smoothing that are compiled into one loop.
 #![doc = include_str!("../README.md")]
 
+mod acoustic_damper;
 mod colagrossi_landrini;
 mod contract;
 mod contribution;
@@ -22,9 +25,11 @@ mod interface_limit;
 mod krimi;
 mod micro_mixing;
 mod repulsion;
+mod surface;
 mod surface_tension;
 mod volume;
 
+pub use acoustic_damper::{AcousticDamper, DamperEntry};
 pub use colagrossi_landrini::ColagrossiLandrini;
 pub use contract::{
     Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, InterfaceModel,
@@ -42,4 +47,5 @@ pub use interface_friction::InterfaceFriction;
 pub use interface_limit::InterfaceLimit;
 pub use krimi::{Continuity, Krimi};
 pub use micro_mixing::MicroMixing;
+pub use surface::{ConeTest, FREE_SURFACE, Place, SurfaceEntry};
 pub use surface_tension::{COLOUR_GRADIENT, SurfaceStress, SurfaceTension};

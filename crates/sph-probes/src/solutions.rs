@@ -6,6 +6,7 @@ pub(crate) mod bingham_poiseuille;
 pub(crate) mod cantilever;
 pub(crate) mod couette;
 pub(crate) mod elastic_shear_wave;
+pub(crate) mod elliptical_drop;
 pub(crate) mod hagen_poiseuille;
 pub(crate) mod hydrostatic;
 pub(crate) mod poiseuille;

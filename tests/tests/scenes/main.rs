@@ -5,6 +5,7 @@
 mod channels;
 mod dam_breaks;
 mod drops;
+mod impacts;
 mod implicit;
 mod left_out;
 mod readme_table;

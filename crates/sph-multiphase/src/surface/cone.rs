@@ -1,0 +1,132 @@
+//! Which particles are at a free surface.
+
+use rayon::prelude::*;
+use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, Vect, fields};
+use sph_neighbours::{Around, Values, World, walk_into};
+
+/// Where a particle is: [`Place`] as a number.
+pub const FREE_SURFACE: Field<Scalar> = Field::new(
+    "free_surface",
+    "1",
+    "0 in the fluid, 1 within reach of a free surface, 2 at one, 3 alone",
+);
+
+/// Where a particle is, by the arrangement around it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Place {
+    /// No free surface within the support.
+    #[default]
+    Inside,
+    /// Within the support of a particle at a surface.
+    Near,
+    /// At a free surface.
+    At,
+    /// Its neighbours fill less of its support than it does itself.
+    Alone,
+}
+
+impl Place {
+    /// As it is written in [`FREE_SURFACE`].
+    pub fn number(self) -> f64 {
+        self as u8 as f64
+    }
+}
+
+/// Cosine of the half angle of the cone that is empty over a surface, 45°.
+const CONE: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
+/// A particle of a plane surface has half of its support filled: who has less looks out on two sides.
+const HALF: f64 = 0.5;
+
+/// The cone test: a particle is at a free surface where no neighbour lies within 45° of n = −∇C/|∇C|, C = Σθδr^d w, or where
+/// less than half of its support is filled; alone, where its neighbours fill less of it than it does itself.
+///
+/// Volumes are those of the lattice, δr^d, so that the test knows nothing of densities. Walls count in ∇C as filled.
+///
+/// Source: Marrone et al. 2010, J. Comput. Phys. 229, 3652–3663, §3.1, with the cone of the first step alone; the bounds for
+/// sheets and lone particles are ours.
+pub(super) struct FreeSurface;
+
+impl Declares for FreeSurface {
+    fn name(&self) -> String {
+        "free surface".into()
+    }
+    fn access(&self) -> Access {
+        Access::none().both(fields::POSITION).writes(FREE_SURFACE)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for FreeSurface {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut places = vec![Place::Inside; world.free.len()];
+        walk_into(
+            world,
+            Values::Both,
+            |_| true,
+            &mut places,
+            |around| place(world, around),
+        )?;
+        let mut surface = world.free.take(FREE_SURFACE)?;
+        let lists = world.lists.nearest();
+        let position = world.free.get(fields::POSITION)?;
+        let reach2 = world.kernel.support_radius().powi(2);
+        let at = |i: usize| places[i] == Place::At;
+        let near = |i: usize| {
+            let mut others = lists.candidates(i).iter().map(|j| *j as usize);
+            others.any(|j| at(j) && apart2(world, &position[i], &position[j]) < reach2)
+        };
+        let all = surface.par_iter_mut().enumerate().with_min_len(1024);
+        all.for_each(|(i, out)| {
+            let place = match places[i] {
+                Place::Inside if near(i) => Place::Near,
+                other => other,
+            };
+            *out = place.number();
+        });
+        Ok(world.free.put(FREE_SURFACE, surface)?)
+    }
+}
+
+/// Squared distance, m², of the nearest images.
+fn apart2<const D: usize>(world: &World<D>, a: &Vect<D>, b: &Vect<D>) -> f64 {
+    world.domain.nearest_image(a - b).norm_squared()
+}
+
+/// What the neighbourhood of a particle says, but for surfaces of others.
+fn place<const D: usize>(world: &World<D>, around: &Around<'_, D>) -> Place {
+    let rows = &around.rows;
+    let points = &world.walls.points;
+    let cell = world.spacing.powi(D as i32);
+    let own = cell * world.kernel.value_at_zero();
+    let mut others = cell * around.free.iter().sum::<f64>();
+    let mut gradient = Vect::<D>::zeros();
+    for (separation, factor) in rows.free.separation.iter().zip(rows.free.factor) {
+        gradient += separation * (cell * factor);
+    }
+    for (k, &v) in rows.wall.index.iter().enumerate() {
+        let part = points.share[v as usize] * points.volume[v as usize];
+        others += part * around.wall[k];
+        gradient += rows.wall.separation[k] * (part * rows.wall.factor[k]);
+    }
+    let inverse = rows.inverse_renormalisation;
+    if others * inverse < own {
+        return Place::Alone;
+    }
+    let filling = (others + own) * inverse;
+    if filling < HALF {
+        return Place::At;
+    }
+    for contact in rows.contacts {
+        gradient -= contact.gradient * filling;
+    }
+    let Some(inwards) = gradient.try_normalize(0.0) else {
+        return Place::Inside;
+    };
+    // Separations point from the neighbour to the particle.
+    let pairs = rows.free.separation.iter().zip(rows.free.distance2);
+    let mut seen = pairs.map(|(r, r2)| (r.dot(&inwards), r2));
+    match seen.any(|(along, r2)| along > CONE * r2.sqrt()) {
+        true => Place::Inside,
+        false => Place::At,
+    }
+}

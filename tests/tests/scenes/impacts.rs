@@ -1,0 +1,74 @@
+//! Free surfaces with nothing that takes energy: closed forms.
+
+use std::f64::consts::PI;
+
+use crate::shipped::finished;
+
+/// What is required of the drop at 40 spacings to the radius: its semi-axes to 1 % of their range, and 1 % of its energy.
+#[test]
+fn a_drop_is_drawn_out_to_the_ellipse_of_monaghan() {
+    let run = finished("elliptical-drop", &[]);
+    run.error("semi-axis-x", 0.01, 0.0095);
+    run.error("semi-axis-y", 0.01, 0.0044);
+    let series = run.series();
+    let kinetic = series.column("kinetic_energy").expect("energies");
+    let lost = 1.0 - kinetic.last().expect("rows") / kinetic[0];
+    assert!(
+        lost.abs() < 0.01,
+        "{lost} of the kinetic energy is lost, -0.0005 was measured"
+    );
+}
+
+/// The wall takes the momentum of the jet, ρU²H/2 = 100 N/m. What is left is the sound of the blow: 20 N/m at a time, and about 30 times of
+/// 10 ms that differ.
+#[test]
+fn a_wall_takes_the_momentum_of_a_jet() {
+    let coarse = [
+        "numerics.spacing=0.01",
+        "body.jet.box=[[0,0],[0.105,1.205]]",
+    ];
+    finished("impact-jet-2d", &coarse).error("force", 0.2 / 30.0f64.sqrt(), 0.0010);
+}
+
+/// x = (2H/π)(arctan ν + artanh ν), p = ½ρU²(1 − ν²): the references of the scene, and the momentum that the wall takes.
+#[test]
+fn pressures_of_a_jet_are_those_of_its_free_streamlines() {
+    let (thickness, speed2) = (0.2, 1000.0);
+    let place = |nu: f64| 2.0 * thickness / PI * (nu.atan() + nu.atanh());
+    let at = |x: f64| {
+        let (mut low, mut high) = (0.0, 1.0 - 1e-15);
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if place(middle) < x {
+                low = middle
+            } else {
+                high = middle
+            }
+        }
+        0.5 * speed2 * (1.0 - low * low)
+    };
+    let text = include_str!("../../../scenes/impact-jet-2d.toml");
+    for (x, name) in [(0.0, "middle"), (0.05, "quarter"), (0.1, "half")] {
+        let value = format!(
+            "[reference.{name}]\nprobe = \"{name}\"\nvalue = {:.2}",
+            at(x)
+        );
+        let value = value.trim_end_matches(".00");
+        assert!(text.contains(value), "{value}");
+    }
+    // ∫½ρU²(1 − ν²) dx over the half, with dx = (4H/π) dν/(1 − ν⁴): Simpson's rule in ν.
+    let steps = 1000;
+    let force = |nu: f64| 0.5 * speed2 * 4.0 * thickness / PI / (1.0 + nu * nu);
+    let weight = |k: i32| {
+        if k == 0 || k == steps {
+            1.0
+        } else {
+            f64::from(2 + 2 * (k % 2))
+        }
+    };
+    let sum: f64 = (0..=steps)
+        .map(|k| weight(k) * force(f64::from(k) / f64::from(steps)))
+        .sum();
+    let half = sum / (3.0 * f64::from(steps));
+    assert!((half - 0.5 * speed2 * thickness).abs() < 1e-9, "{half} N/m");
+}
