@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 31] = [
+const ALLOWED: [(&str, &[&str]); 32] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation"]),
     ("dem-grains", &[]),
@@ -54,6 +54,10 @@ const ALLOWED: [(&str, &[&str]); 31] = [
             "sph-contribution",
             "sph-implicit",
         ],
+    ),
+    (
+        "sph-damping",
+        &["sph-core", "sph-neighbours", "sph-contribution"],
     ),
     (
         "sph-diffusion",
@@ -126,6 +130,7 @@ const ALLOWED: [(&str, &[&str]); 31] = [
             "dem-scene",
             "sph-bodies",
             "sph-core",
+            "sph-damping",
             "sph-draw",
             "sph-io",
             "sph-scene",

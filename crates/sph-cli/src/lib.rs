@@ -50,6 +50,7 @@ mod written;
 use sph_core::number;
 // Their plugins are in this binary.
 use sph_bodies as _;
+use sph_damping as _;
 use sph_turbulence as _;
 
 pub use app::main;

@@ -2,11 +2,10 @@
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::World;
-
-use sph_neighbours::lattice_sum;
-
-use sph_neighbours::{Around, Contact, Values, walk, walk_some};
+use sph_neighbours::{
+    Around, Contact, Lane, LanePair, LaneSum, Values, World, add_scaled, lattice_sum, unlike,
+    vector, walk_in_lanes, walk_some,
+};
 
 /// What the neighbourhood of a particle says of its arrangement.
 #[derive(Clone, Copy, Debug)]
@@ -22,76 +21,173 @@ pub(crate) struct Evenness<const D: usize> {
     pub interface: Option<Vect<D>>,
 }
 
+impl<const D: usize> Evenness<D> {
+    /// Of nobody.
+    fn empty() -> Self {
+        Evenness {
+            filling: 0.0,
+            gradient: Vect::zeros(),
+            push: Vect::zeros(),
+            interface: None,
+        }
+    }
+}
+
 /// Least h |∇c| of another phase's colour at an interface: the first row has 0.7, the third 0.04.
 const AT_INTERFACE: f64 = 0.1;
 
-/// All particles' [`Evenness`].
+/// All particles' [`Evenness`], into a buffer.
 pub(crate) fn evenness<const D: usize>(
     world: &World<D>,
     tensile: f64,
     exponent: i32,
-) -> Result<Vec<Evenness<D>>, StepError> {
-    let volume = world.free.get(fields::VOLUME)?;
-    let phase = world.free.get(fields::PHASE).ok();
+    all: &mut Vec<Evenness<D>>,
+) -> Result<(), StepError> {
     let points = &world.walls.points;
-    let own = world.kernel.value_at_zero();
-    let between = 1.0 / world.kernel.at(world.spacing).0;
-    let mirrored = !points.in_sums();
-    let least = AT_INTERFACE / world.kernel.smoothing_length();
-    // A power with a known exponent is two products.
-    let power = move |ratio: f64| match exponent {
-        4 => (ratio * ratio) * (ratio * ratio),
-        n => ratio.powi(n),
+    let kernel = &*world.kernel;
+    let sum = FreeSums {
+        volume: world.free.get(fields::VOLUME)?,
+        phase: world.free.get(fields::PHASE).ok(),
+        tensile,
+        exponent,
+        between: 1.0 / kernel.at(world.spacing).0,
     };
+    let power = |ratio: f64| power(ratio, exponent);
+    let (volume, between, own) = (sum.volume, sum.between, kernel.value_at_zero());
+    let mirrored = !points.in_sums();
+    let least = AT_INTERFACE / kernel.smoothing_length();
     // An image stands for the row of images of a lattice, which pushes as much and the more for those aside.
     let row = if mirrored {
         row_of_images(world, power)
     } else {
         0.0
     };
-    walk(world, Values::Both, |around: &Around<'_, D>| {
-        let (rows, i) = (&around.rows, around.rows.particle);
-        let mut filling = volume[i] * own;
-        let mut gradient = Vect::<D>::zeros();
-        let mut push = Vect::<D>::zeros();
-        let mut colour = Vect::<D>::zeros();
-        let free = rows.free.index.iter().zip(around.free);
-        for (k, (&j, w)) in free.enumerate() {
-            let v = volume[j as usize];
-            let slope = rows.free.separation[k] * (v * rows.free.factor[k]);
-            filling += v * w;
-            gradient += slope;
-            push += slope * (tensile * power(w * between));
-            if phase.is_some_and(|p| p[i] != p[j as usize]) {
-                colour += slope;
+    all.resize(volume.len(), Evenness::empty());
+    walk_in_lanes(
+        world,
+        &sum,
+        |_| true,
+        all,
+        |free, rows| {
+            let i = rows.particle;
+            let mut filling = volume[i] * own + free.filling;
+            let (mut gradient, mut push) = (free.gradient, free.push);
+            for (k, &v) in rows.wall.index.iter().enumerate() {
+                let w = kernel.at(rows.wall.distance2[k].sqrt()).0;
+                let part = points.share[v as usize] * points.volume[v as usize];
+                filling += part * w;
+                gradient += rows.wall.separation[k] * (part * rows.wall.factor[k]);
+                if part > 0.0 {
+                    // However little of it is fluid, a particle is not to come nearer to a point than to another.
+                    let whole = points.volume[v as usize] * rows.wall.factor[k];
+                    push += rows.wall.separation[k] * (whole * tensile * power(w * between));
+                }
             }
-        }
-        for (k, (&v, w)) in rows.wall.index.iter().zip(around.wall).enumerate() {
-            let part = points.share[v as usize] * points.volume[v as usize];
-            filling += part * w;
-            gradient += rows.wall.separation[k] * (part * rows.wall.factor[k]);
-            if part > 0.0 {
-                // However little of it is fluid, a particle is not to come nearer to a point than to another.
-                let whole = points.volume[v as usize] * rows.wall.factor[k];
-                push += rows.wall.separation[k] * (whole * tensile * power(w * between));
+            let inverse = rows.inverse_renormalisation;
+            let concentration = filling * inverse;
+            for contact in rows.contacts {
+                gradient -= contact.gradient * concentration;
             }
+            if mirrored {
+                push += images(world, rows.contacts, |w| row * tensile * power(w * between))
+                    * volume[i];
+            }
+            Evenness {
+                filling: concentration,
+                gradient: gradient * inverse,
+                push: (gradient + push) * inverse,
+                interface: free.colour.try_normalize(least),
+            }
+        },
+    )
+}
+
+/// ratioⁿ by products.
+#[inline(always)]
+fn power<L: Lane>(ratio: L, exponent: i32) -> L {
+    let square = ratio * ratio;
+    match exponent {
+        4 => square * square,
+        n => (1..n).fold(ratio, |power, _| power * ratio),
+    }
+}
+
+/// What free neighbours add to an [`Evenness`].
+struct FreeSums<'a> {
+    volume: &'a [f64],
+    phase: Option<&'a [u32]>,
+    tensile: f64,
+    exponent: i32,
+    /// 1/w(δr), m^d.
+    between: f64,
+}
+
+/// Sums over free neighbours, of one particle or side by side.
+#[derive(Clone, Copy)]
+struct Free<V, N> {
+    filling: N,
+    gradient: V,
+    push: V,
+    /// ΣV∇w over other phases.
+    colour: V,
+}
+
+impl<const D: usize> LaneSum<D> for FreeSums<'_> {
+    const VALUES: bool = true;
+    /// The phase.
+    type Here = f64;
+    type Sum = Free<Vect<D>, f64>;
+    type Side<L: Lane> = L;
+    type Sums<L: Lane> = Free<[L; D], L>;
+
+    #[inline(always)]
+    fn here(&self, particle: usize) -> f64 {
+        self.phase.map_or(0.0, |phase| f64::from(phase[particle]))
+    }
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[f64]) -> L {
+        L::load(here)
+    }
+    #[inline(always)]
+    fn zero<L: Lane>(&self) -> Self::Sums<L> {
+        let zero = L::splat(0.0);
+        Free {
+            filling: zero,
+            gradient: [zero; D],
+            push: [zero; D],
+            colour: [zero; D],
         }
-        let inverse = rows.inverse_renormalisation;
-        let concentration = filling * inverse;
-        for contact in rows.contacts {
-            gradient -= contact.gradient * concentration;
+    }
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Self::Sum {
+        Free {
+            filling: sums.filling.at(lane),
+            gradient: vector(&sums.gradient, lane),
+            push: vector(&sums.push, lane),
+            colour: vector(&sums.colour, lane),
         }
-        if mirrored {
-            push +=
-                images(world, rows.contacts, |w| row * tensile * power(w * between)) * volume[i];
+    }
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        phase: &L,
+        j: usize,
+        pair: &LanePair<D, L>,
+        value: L,
+        sums: &mut Self::Sums<L>,
+    ) {
+        let volume = L::splat(self.volume[j]);
+        let weight = volume * pair.factor;
+        let near = power(value * L::splat(self.between), self.exponent);
+        let pairing = weight * (L::splat(self.tensile) * near);
+        sums.filling += volume * value;
+        add_scaled(&mut sums.gradient, &pair.separation, weight);
+        add_scaled(&mut sums.push, &pair.separation, pairing);
+        if let Some(phases) = self.phase {
+            let other = unlike(*phase, phases[j]).where_positive(weight, L::splat(0.0));
+            add_scaled(&mut sums.colour, &pair.separation, other);
         }
-        Evenness {
-            filling: concentration,
-            gradient: gradient * inverse,
-            push: (gradient + push) * inverse,
-            interface: colour.try_normalize(least),
-        }
-    })
+    }
 }
 
 /// Σ F y (w/w(δr))ⁿ over the half of a lattice behind a plane midway between rows, over its largest term.

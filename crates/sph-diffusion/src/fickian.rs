@@ -118,7 +118,11 @@ impl Default for Fickian {
 impl<const D: usize> Shifting<D> for Fickian {
     fn stages(&self, laws: &Laws) -> Stages<D> {
         let speeds = laws.iter().map(|l| l.reference().sound_speed).collect();
-        vec![Box::new(ShiftVelocity(*self, speeds))]
+        vec![Box::new(ShiftVelocity {
+            parameters: *self,
+            speeds,
+            all: Vec::new(),
+        })]
     }
     fn term(&self, flow: ShiftedFlow) -> Option<Box<dyn Interaction<D>>> {
         let term = ShiftTransport {
@@ -138,10 +142,16 @@ register!(
     "Lind et al. 2012; Sun et al. 2017"
 );
 
-/// The shift velocity, and the speed of sound of every phase.
-struct ShiftVelocity(Fickian, Vec<f64>);
+/// The shift velocity.
+struct ShiftVelocity<const D: usize> {
+    parameters: Fickian,
+    /// Speed of sound of every phase, m/s.
+    speeds: Vec<f64>,
+    /// What is said of every particle's neighbourhood, kept from step to step.
+    all: Vec<Evenness<D>>,
+}
 
-impl Declares for ShiftVelocity {
+impl<const D: usize> Declares for ShiftVelocity<D> {
     fn name(&self) -> String {
         "Fickian shifting".into()
     }
@@ -160,7 +170,7 @@ impl Declares for ShiftVelocity {
 /// Share of h²/Δt that a diffusivity may have.
 const STABLE: f64 = 0.25;
 
-impl<const D: usize> Stage<World<D>> for ShiftVelocity {
+impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let Fickian {
             strength,
@@ -169,19 +179,19 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity {
             limit,
             surface,
             ..
-        } = self.0;
-        let (fastest, sound) = (largest_speeds(world)?, &self.1);
+        } = self.parameters;
+        let (fastest, sound) = (largest_speeds(world)?, &self.speeds);
         let mut shift = world.free.take(fields::SHIFT_VELOCITY)?;
         let mut emptiness = world.free.take(fields::EMPTINESS)?;
         let phase = world.free.get(fields::PHASE).ok();
         if fastest.iter().any(|u| *u > 0.0) {
             let h = world.kernel.smoothing_length();
-            let all = evenness(world, tensile, exponent)?;
-            let normals = held_normals(world, &all, surface)?;
+            evenness(world, tensile, exponent, &mut self.all)?;
+            let normals = held_normals(world, &self.all, surface)?;
             // Rows that pass points that stand are rearranged all the time, so that no density is taken up beside them: a shift
             // would change the pressure by ρc², and a tank at rest would sing.
             let rough = world.walls.points.in_sums();
-            let results = shift.par_iter_mut().zip(&mut emptiness).zip(&all);
+            let results = shift.par_iter_mut().zip(&mut emptiness).zip(&self.all);
             let results = results.enumerate().with_min_len(1024);
             results.for_each(|(i, ((s, empty), even))| {
                 if rough && !world.lists.wall.row(i).is_empty() {

@@ -33,6 +33,8 @@ pub(crate) struct Buffers<const D: usize> {
     pub distance2: Vec<f64>,
     /// F in the same order.
     pub factor: Vec<f64>,
+    /// w in the same order, where somebody asked for it.
+    pub value: Vec<f64>,
     /// Rows of wall points, one per member.
     pub walls: [Scratch<D>; MOST],
     /// Rows of free neighbours, one per member, where somebody asked for rows.
@@ -46,6 +48,7 @@ impl<const D: usize> Default for Buffers<D> {
         Buffers {
             distance2: Vec::new(),
             factor: Vec::new(),
+            value: Vec::new(),
             walls: std::array::from_fn(|_| Scratch::new()),
             free: std::array::from_fn(|_| Scratch::new()),
             rows: false,
@@ -111,6 +114,18 @@ impl<const D: usize> Cluster<'_, D> {
     #[inline(always)]
     pub fn factor(&self) -> &[f64] {
         &self.buffers.factor[..self.members.candidates.len() * self.lanes()]
+    }
+
+    /// Leaves w, 1/m^d, in the same order in a buffer; 0 beyond the support and for a particle and itself.
+    pub(crate) fn weigh<K: Sampler + ?Sized>(&mut self, kernel: &K) {
+        let needed = self.members.candidates.len() * self.lanes();
+        let Buffers {
+            distance2, value, ..
+        } = &mut *self.buffers;
+        if value.len() < needed {
+            value.resize(needed.next_power_of_two(), 0.0);
+        }
+        kernel.value(&distance2[..needed], &mut value[..needed]);
     }
 
     /// r_i − r_j, m.

@@ -15,6 +15,8 @@ use crate::{CHUNK, Neighbourhood, World};
 ///
 /// What it adds for a neighbour beyond the support, where F = 0, has to be exactly zero.
 pub trait LaneSum<const D: usize>: Sync {
+    /// Whether `add` gets kernel values.
+    const VALUES: bool = false;
     /// What is read once per particle.
     type Here: Copy;
     /// What is summed for one.
@@ -31,12 +33,13 @@ pub trait LaneSum<const D: usize>: Sync {
     fn zero<L: Lane>(&self) -> Self::Sums<L>;
     /// The sum of one lane.
     fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Self::Sum;
-    /// Adds a free neighbour to all lanes.
+    /// Adds a free neighbour to all lanes; `value` is w, 1/m^d, where [`VALUES`](LaneSum::VALUES) asks for it, else 0.
     fn add<L: Lane>(
         &self,
         here: &Self::Side<L>,
         neighbour: usize,
         pair: &LanePair<D, L>,
+        value: L,
         sums: &mut Self::Sums<L>,
     );
 }
@@ -65,7 +68,10 @@ pub fn walk_in_lanes<const D: usize, S: LaneSum<D>, R: Send>(
                     if !own.clone().any(&wanted) {
                         continue;
                     }
-                    let cluster = sweep.measured(&mut room.0, members);
+                    let mut cluster = sweep.measured(&mut room.0, members);
+                    if S::VALUES {
+                        cluster.weigh(&*world.kernel);
+                    }
                     let mut sums: [Option<S::Sum>; MOST] = std::array::from_fn(|_| None);
                     let body = SideBySide {
                         sum,
@@ -112,10 +118,15 @@ impl<const D: usize, S: LaneSum<D>> Body for SideBySide<'_, '_, D, S> {
         let mut sums = sum.zero::<L>();
         let distances = cluster.buffers.distance2.chunks_exact(L::N);
         let factors = cluster.buffers.factor.chunks_exact(L::N);
-        for (&j, (distance2, factor)) in candidates.iter().zip(distances.zip(factors)) {
+        let all = candidates.iter().zip(distances.zip(factors)).enumerate();
+        for (k, (&j, (distance2, factor))) in all {
             let j = j as usize;
             let pair = cluster.pair(&x, j, distance2, factor);
-            sum.add(&side, j, &pair, &mut sums);
+            let value = match S::VALUES {
+                true => L::load(&cluster.buffers.value[k * L::N..]),
+                false => L::splat(0.0),
+            };
+            sum.add(&side, j, &pair, value, &mut sums);
         }
         for (k, out) in out.iter_mut().enumerate().take(count) {
             *out = Some(sum.lane(&sums, k));

@@ -184,6 +184,7 @@ impl<const D: usize> LaneSum<D> for FreeSums<'_, D> {
         own: &[L; D],
         j: usize,
         pair: &LanePair<D, L>,
+        _value: L,
         [velocity, position]: &mut Self::Sums<L>,
     ) {
         let share = L::splat(self.volume[j]) * pair.factor;

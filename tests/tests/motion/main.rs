@@ -1,5 +1,6 @@
 //! What moves and what leaves: walls in motion, displacements, outlets, the times of outputs.
 
+mod damping;
 mod displacement;
 mod movers;
 mod moving_walls_3d;

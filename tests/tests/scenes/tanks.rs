@@ -1,5 +1,6 @@
 //! Water at rest: in a tank, over a wedge, between dummy particles.
 
+use sph_damping as _;
 use sph_io::Table;
 
 use crate::shipped::{finished, whole};
@@ -100,4 +101,28 @@ fn a_settled_tank_does_not_ring_with_any_smoother_and_is_hydrostatic_to_1_per_ce
             "{smoother}: {largest} kg m/s, 2.3 to 2.9 were measured"
         );
     }
+}
+
+/// To 2·10⁻⁴ of the depth that the equation of state gives for a column of this mass, and the pressure to 2 % (notes on Issa
+/// 2004, §4.1).
+#[test]
+fn damped_water_settles_to_the_depth_of_its_equation_of_state() {
+    // As stiff as twenty times the depth's speed and a quarter as wide, which settles as fast in fewer steps.
+    let run = finished(
+        "settling-channel",
+        &[
+            "run.end=1.5",
+            "numerics.periodic.x=[0.0, 0.1]",
+            "wall.bed.polyline=[[0.0, 0.0], [0.1, 0.0]]",
+            "body.water.box=[[0.0, 0.0], [0.1, 0.4]]",
+            "phase.water.speed_of_sound=20.0",
+            "damping.rayleigh.rate=1000.0",
+            "reference.depth.value=0.398088",
+            "reference.depth.window=[1.2, 1.5]",
+            "reference.pressure.parameters.surface=0.398088",
+        ],
+    );
+    run.error("depth", 2e-4, 1.7e-4);
+    // 2 % of ρgH, √3 times the root mean square of a linear pressure: 1.7 % of ρgH.
+    run.error("pressure", 0.02 * 3f64.sqrt(), 0.0299);
 }

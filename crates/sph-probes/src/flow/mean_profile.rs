@@ -15,8 +15,9 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// series from a time on: ⟨f⟩ = Σ V f/Σ V and √(⟨f²⟩ − ⟨f⟩²), f being a component of the velocity or a scalar field.
 ///
 /// Its curve has every component's, and −⟨u'w'⟩, u along the first axis and w along the axis of the profile. Where the flow is the
-/// same along an axis, as along a periodic one, nothing else need be said; `within` is for the others. With a `file` of distances
-/// and values the means are compared with it, at the middle of the layers. What was gathered goes on in a run that is resumed.
+/// same along an axis, as along a periodic one, nothing else need be said; `within` is for the others. A layer's distance is the
+/// mean of its particles, so that a mean of a linear profile lies on it wherever rows stand in their layers; there it is compared
+/// with a `file` of distances and values. What was gathered goes on in a run that is resumed.
 ///
 /// Source: Issa 2004, Eq. 6.46–6.50, with layers in the place of points.
 ///
@@ -61,7 +62,7 @@ pub struct MeanProfile {
     pub compared: Option<[f64; 2]>,
     #[serde(skip)]
     reference: Vec<[f64; 2]>,
-    /// Σ V, Σ V f and Σ V f² of every component, and Σ V u w, layer by layer.
+    /// Σ V, Σ V f and Σ V f² of every component, Σ V u w, and Σ V z of the distance, layer by layer.
     #[serde(skip)]
     #[schemars(skip)]
     sums: Mutex<Vec<f64>>,
@@ -81,12 +82,20 @@ impl MeanProfile {
     }
 
     fn stride<const D: usize>(&self) -> usize {
-        2 + 2 * self.components::<D>()
+        3 + 2 * self.components::<D>()
     }
 
     /// The middle of a layer, from `from`, m.
     fn middle(&self, layer: usize) -> f64 {
         (self.to - self.from) * (layer as f64 + 0.5) / self.layers as f64
+    }
+
+    /// Mean distance of what was in a layer from `from`, m; the middle of one where nothing was.
+    fn distance(&self, layer: usize, sums: &[f64], components: usize) -> f64 {
+        match sums[0] > 0.0 {
+            true => sums[2 + 2 * components] / sums[0],
+            false => self.middle(layer),
+        }
     }
 
     /// The layer of a place, if it is in one.
@@ -166,13 +175,14 @@ impl MeanProfile {
     /// Mean and reference of the layers that are compared.
     fn compared(&self, sums: &[f64], components: usize) -> Vec<[f64; 2]> {
         let [low, high] = self.compared.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-        let stride = 2 + 2 * components;
+        let stride = 3 + 2 * components;
         let component = (self.component as usize).min(components - 1);
         let layers = sums.chunks(stride).enumerate();
-        let inside = layers.filter(|(k, _)| (low..=high).contains(&self.middle(*k)));
-        let both = inside.filter_map(|(k, sums)| {
+        let placed = layers.map(|(k, sums)| (self.distance(k, sums, components), sums));
+        let inside = placed.filter(|(distance, _)| (low..=high).contains(distance));
+        let both = inside.filter_map(|(distance, sums)| {
             let [means, ..] = self.of_layer(sums, components);
-            Some([means[component], self.expected(self.middle(k))?])
+            Some([means[component], self.expected(distance)?])
         });
         both.filter(|[u, _]| u.is_finite()).collect()
     }
@@ -232,14 +242,15 @@ impl<const D: usize> Probe<D> for MeanProfile {
             let stride = self.stride::<D>();
             let sums = sums.get(k * stride..(k + 1) * stride).unwrap_or(&empty);
             let [means, fluctuations, stress] = self.of_layer(sums, components);
-            let mut row = vec![self.middle(k)];
+            let distance = self.distance(k, sums, components);
+            let mut row = vec![distance];
             row.extend(means);
             row.extend(fluctuations);
             if self.field.is_none() {
                 row.extend(stress);
             }
             if self.file.is_some() {
-                row.push(self.expected(self.middle(k)).unwrap_or(f64::NAN));
+                row.push(self.expected(distance).unwrap_or(f64::NAN));
             }
             row
         };
@@ -274,6 +285,7 @@ impl<const D: usize> Probe<D> for MeanProfile {
             }
             let axis = (self.axis as usize).min(components - 1);
             sums[1 + 2 * components] += volumes[i] * values[0] * values[axis];
+            sums[2 + 2 * components] += volumes[i] * (x[self.axis as usize] - self.from);
         }
         Ok(())
     }

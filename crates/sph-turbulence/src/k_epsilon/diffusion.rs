@@ -1,11 +1,9 @@
 //! Diffusion of k and ε.
 
 use sph_contribution::Limiter;
-use sph_core::reexport::inventory;
 use sph_core::{Access, Field, Scalar, StepError, StepLimit, fields};
 use sph_neighbours::{
-    BoundTerm, FusionEntry, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates, There, World,
-    fuse_two_lanes,
+    BoundTerm, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates, There, World,
 };
 
 use crate::columns::{DISSIPATION, DISSIPATION_RATE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE};
@@ -13,142 +11,156 @@ use crate::columns::{DISSIPATION, DISSIPATION_RATE, TURBULENT_ENERGY, TURBULENT_
 const VALUE: [Field<Scalar>; 2] = [TURBULENT_ENERGY, DISSIPATION];
 const RATE: [Field<Scalar>; 2] = [TURBULENT_ENERGY_RATE, DISSIPATION_RATE];
 
-/// dA_a/dt = 1/(γ_a ρ_a) Σ_b V_b (D_a + D_b)(A_a − A_b) F_ab with D = η + η_t/σ, for A = k (K = 0) and A = ε (K = 1); nothing
-/// passes through walls and surfaces, nor into phases without eddies.
+/// dA_a/dt = 1/(γ_a ρ_a) Σ_b V_b (D_a + D_b)(A_a − A_b) F_ab with D = η + η_t/σ, for A = k (N = 1), or k and ε (N = 2) that
+/// share all of the pair but D; nothing passes through walls and surfaces, nor into phases without eddies.
 ///
 /// Source: Issa 2004, Eq. 5.61 and 5.65, with the viscosity of the fluid.
-pub(crate) struct Diffusion<const K: usize>(
-    /// σ.
-    pub f64,
+pub(crate) struct Diffusion<const N: usize>(
+    /// σ of each.
+    pub [f64; N],
 );
 
 /// [`Diffusion`] with its columns.
-pub(crate) struct BoundDiffusion<'a> {
-    value: &'a [f64],
+pub(crate) struct BoundDiffusion<'a, const N: usize> {
+    value: [&'a [f64]; N],
     viscosity: &'a [f64],
     eddies: &'a [f64],
     density: &'a [f64],
     /// 1 − 1/σ: what an eddy's viscosity does not move.
-    held: f64,
-    slot: usize,
+    held: [f64; N],
+    slot: [usize; N],
 }
 
-impl BoundDiffusion<'_> {
+impl<const N: usize> BoundDiffusion<'_, N> {
     /// η + η_t/σ, where the viscosity is that of fluid and eddies; nothing where a closure does not act: where it does,
     /// there are eddies.
     #[inline(always)]
-    fn diffusivity(&self, i: usize) -> f64 {
-        match self.eddies[i] > 0.0 {
-            true => self.viscosity[i] - self.held * self.eddies[i],
-            false => 0.0,
+    fn diffusivity(&self, i: usize) -> [f64; N] {
+        let (viscosity, eddies) = (self.viscosity[i], self.eddies[i]);
+        match eddies > 0.0 {
+            true => self.held.map(|held| viscosity - held * eddies),
+            false => [0.0; N],
         }
     }
 }
 
 /// A particle's own values.
 #[derive(Clone, Copy)]
-pub(crate) struct Here {
-    value: f64,
-    diffusivity: f64,
+pub(crate) struct Here<const N: usize> {
+    value: [f64; N],
+    diffusivity: [f64; N],
     specific_volume: f64,
 }
 
-impl<const D: usize, const K: usize> LanePairTerm<D> for Diffusion<K> {
-    type Bound<'a> = BoundDiffusion<'a>;
+impl<const D: usize, const N: usize> LanePairTerm<D> for Diffusion<N> {
+    type Bound<'a> = BoundDiffusion<'a, N>;
     fn name(&self) -> String {
-        format!("diffusion of {}", VALUE[K].name)
+        let names: Vec<_> = VALUE[..N].iter().map(|field| field.name).collect();
+        format!("diffusion of {}", names.join(" and "))
     }
     fn access(&self) -> Access {
-        Access::none()
-            .both(VALUE[K])
+        let access = Access::none()
             .both(fields::VISCOSITY)
             .both(fields::EDDY_VISCOSITY)
             .here(fields::DENSITY)
-            .neighbours(fields::VOLUME)
-            .writes(RATE[K])
+            .neighbours(fields::VOLUME);
+        (0..N).fold(access, |access, n| access.both(VALUE[n]).writes(RATE[n]))
     }
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError> {
+        let (mut value, mut slot) = ([&[][..]; N], [0; N]);
+        for n in 0..N {
+            (value[n], slot[n]) = (world.free.get(VALUE[n])?, world.slot(RATE[n])?);
+        }
         Ok(BoundDiffusion {
-            value: world.free.get(VALUE[K])?,
+            value,
             viscosity: world.free.get(fields::VISCOSITY)?,
             eddies: world.free.get(fields::EDDY_VISCOSITY)?,
             density: world.free.get(fields::DENSITY)?,
-            held: 1.0 - 1.0 / self.0,
-            slot: world.slot(RATE[K])?,
+            held: self.0.map(|sigma| 1.0 - 1.0 / sigma),
+            slot,
         })
     }
 }
 
-impl<const D: usize> BoundTerm<D> for BoundDiffusion<'_> {
-    type Here = Here;
-    type Sum = f64;
+impl<const D: usize, const N: usize> BoundTerm<D> for BoundDiffusion<'_, N> {
+    type Here = Here<N>;
+    type Sum = [f64; N];
     #[inline(always)]
-    fn here(&self, i: usize) -> Here {
+    fn here(&self, i: usize) -> Here<N> {
         Here {
-            value: self.value[i],
+            value: self.value.map(|value| value[i]),
             diffusivity: self.diffusivity(i),
             specific_volume: 1.0 / self.density[i],
         }
     }
     #[inline(always)]
-    fn zero(&self) -> f64 {
-        0.0
+    fn zero(&self) -> [f64; N] {
+        [0.0; N]
     }
     #[inline(always)]
-    fn free(&self, here: &Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
+    fn free(&self, here: &Here<N>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut [f64; N]) {
         self.add_one(here, j, there, pair, sum);
     }
     #[inline(always)]
-    fn finish(&self, here: &Here, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.more[self.slot] += sum * inverse_gamma * here.specific_volume;
+    fn finish(&self, here: &Here<N>, sum: &[f64; N], inverse_gamma: f64, rates: &mut Rates<D>) {
+        for n in 0..N {
+            rates.more[self.slot[n]] += sum[n] * inverse_gamma * here.specific_volume;
+        }
     }
 }
 
-impl<const D: usize> LaneTerm<D> for BoundDiffusion<'_> {
-    /// Value and diffusivity.
-    type Side<L: Lane> = [L; 2];
-    type Sums<L: Lane> = L;
+impl<const D: usize, const N: usize> LaneTerm<D> for BoundDiffusion<'_, N> {
+    /// Values and diffusivities.
+    type Side<L: Lane> = [[L; N]; 2];
+    type Sums<L: Lane> = [L; N];
 
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Here]) -> [L; 2] {
-        let mut side = [L::splat(0.0); 2];
+    fn side<L: Lane>(&self, here: &[Here<N>]) -> [[L; N]; 2] {
+        let mut side = [[L::splat(0.0); N]; 2];
         for (lane, own) in here.iter().enumerate() {
-            side[0].set(lane, own.value);
-            side[1].set(lane, own.diffusivity);
+            for n in 0..N {
+                side[0][n].set(lane, own.value[n]);
+                side[1][n].set(lane, own.diffusivity[n]);
+            }
         }
         side
     }
     #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &f64) -> L {
-        L::splat(*sum)
+    fn sums<L: Lane>(&self, sum: &[f64; N]) -> [L; N] {
+        let mut sums = [L::splat(0.0); N];
+        for n in 0..N {
+            sums[n] = L::splat(sum[n]);
+        }
+        sums
     }
     #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &L, lane: usize) -> f64 {
-        sums.at(lane)
+    fn lane<L: Lane>(&self, sums: &[L; N], lane: usize) -> [f64; N] {
+        let mut sum = [0.0; N];
+        for n in 0..N {
+            sum[n] = sums[n].at(lane);
+        }
+        sum
     }
     #[inline(always)]
     fn add<L: Lane>(
         &self,
-        [value, diffusivity]: &[L; 2],
+        [value, diffusivity]: &[[L; N]; 2],
         j: usize,
         there: &There<D>,
         pair: &LanePair<D, L>,
-        sums: &mut L,
+        sums: &mut [L; N],
     ) {
         // Nothing passes to or from those on whom the closure does not act.
-        let (zero, there_too) = (L::splat(0.0), L::splat(self.diffusivity(j)));
-        let both = there_too.where_positive(*diffusivity + there_too, zero);
-        let both = diffusivity.where_positive(both, zero);
-        let apart = *value - L::splat(self.value[j]);
-        *sums += L::splat(there.volume) * both * apart * pair.factor;
-    }
-}
-
-inventory::submit! {
-    FusionEntry {
-        terms: 2,
-        fuse_2d: fuse_two_lanes::<2, Diffusion<0>, Diffusion<1>>,
-        fuse_3d: fuse_two_lanes::<3, Diffusion<0>, Diffusion<1>>,
+        let there_too = self.diffusivity(j);
+        if there_too[0] <= 0.0 {
+            return;
+        }
+        let weight = L::splat(there.volume) * pair.factor;
+        let weight = diffusivity[0].where_positive(weight, L::splat(0.0));
+        for n in 0..N {
+            let both = diffusivity[n] + L::splat(there_too[n]);
+            sums[n] += weight * both * (value[n] - L::splat(self.value[n][j]));
+        }
     }
 }
 

@@ -190,7 +190,7 @@ impl<const D: usize> Contribution<D> for OneEquation {
     }
     fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
         let sigma = KEpsilonModel::default().sigma_k;
-        vec![Box::new(Lanewise(Diffusion::<0>(sigma)))]
+        vec![Box::new(Lanewise(Diffusion([sigma])))]
     }
     fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
         vec![Box::new(DiffusionLimit(setting.viscous))]

@@ -226,10 +226,7 @@ impl<const D: usize> Contribution<D> for KEpsilon {
     }
     fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
         let [sigma_k, sigma_epsilon] = self.variant.sigmas();
-        vec![
-            Box::new(Lanewise(Diffusion::<0>(sigma_k))),
-            Box::new(Lanewise(Diffusion::<1>(sigma_epsilon))),
-        ]
+        vec![Box::new(Lanewise(Diffusion([sigma_k, sigma_epsilon])))]
     }
     fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
         vec![Box::new(DiffusionLimit(setting.viscous))]

@@ -189,14 +189,11 @@ impl WallLaw {
             let plus = value - shift;
             [u * plus - speed, plus + slope - turn]
         };
-        let mut low = 0.0;
-        // u⁺ = z⁺ of the sublayer, and from there up to a velocity that is too large.
-        let mut high = (speed * viscosity / distance).sqrt();
-        while residual(high)[0] < 0.0 {
-            low = high;
-            high *= 2.0;
-        }
-        let mut u = high;
+        // u⁺ = z⁺ of the sublayer, u⁺ = 8.3 z⁺^(1/7) beyond it (Werner and Wengle 1993).
+        let reynolds = speed * distance / viscosity;
+        let plus = reynolds.sqrt().max((reynolds / 8.3).powf(0.875));
+        let mut u = plus * viscosity / distance;
+        let (mut low, mut high) = (0.0, f64::INFINITY);
         for _ in 0..STEPS {
             let [value, slope] = residual(u);
             match value > 0.0 {
@@ -205,9 +202,14 @@ impl WallLaw {
             }
             let mut next = u - value / slope;
             if !(next > low && next < high) {
-                next = 0.5 * (low + high);
+                next = match high.is_finite() {
+                    true => 0.5 * (low + high),
+                    false => 2.0 * u,
+                };
             }
-            if (next - u).abs() <= 1e-15 * u || high - low <= 1e-15 * high {
+            // Newton's error is squared by each step: what is left of the next is below rounding.
+            let squeezed = high.is_finite() && high - low <= 1e-15 * high;
+            if squeezed || (next - u).abs() <= 1e-10 * u {
                 return next;
             }
             u = next;

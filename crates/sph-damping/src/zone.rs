@@ -1,0 +1,44 @@
+//! Where velocities are damped.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use sph_core::Vect;
+
+/// An axis of the box.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// The first.
+    #[default]
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
+}
+
+/// A zone in which the damping grows with the square of the way into it, from nothing at `from` to all of it at `to` and beyond:
+/// a rate that jumped would send waves back.
+///
+/// Source: Israeli & Orszag 1981, J. Comput. Phys. 41, 115–135 (smooth rates).
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Zone {
+    /// The axis along which it grows.
+    #[serde(default)]
+    pub axis: Axis,
+    /// Where it begins.
+    #[schemars(extend("unit" = "m"))]
+    pub from: f64,
+    /// Where it has grown; `to` may be less than `from`.
+    #[schemars(extend("unit" = "m"))]
+    pub to: f64,
+}
+
+impl Zone {
+    /// The share of the rate at a place, 0 to 1.
+    pub fn share<const D: usize>(&self, x: &Vect<D>) -> f64 {
+        let way = (x[self.axis as usize] - self.from) / (self.to - self.from);
+        way.clamp(0.0, 1.0).powi(2)
+    }
+}

@@ -1,0 +1,93 @@
+//! Velocities that are damped: everywhere, in a sponge, for a while.
+
+use sph_io::read_table;
+use sph_tests::{Bench, PERIODIC};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+
+/// Rows of momentum along x and time, one for every step.
+fn momenta(damping: &str, overrides: &str) -> Vec<[f64; 2]> {
+    let every = "series_every = 1e-9\nevery = 0.1";
+    let scene = PERIODIC.replace("every = 0.1", every) + "\n[damping.rayleigh]\n" + damping;
+    let bench = Bench::with(PROGRAM, &scene);
+    bench.done(&format!("run scene.toml --quiet --out r {overrides}"));
+    let series = read_table(bench.path("r/series.csv")).expect("a series");
+    let column = |name: &str| series.column(name).unwrap_or_else(|| panic!("no {name}"));
+    let both = column("time").iter().zip(column("momentum.x"));
+    both.map(|(t, p)| [*t, *p]).collect()
+}
+
+/// A uniform flow keeps 1/(1 + ΓΔt) of its momentum in every step, to rounding.
+#[test]
+fn a_uniform_flow_dies_away_by_the_rate_of_every_step() {
+    let rows = momenta("rate = 30.0\n", "");
+    assert!(rows.len() > 10, "{} rows", rows.len());
+    for pair in rows.windows(2) {
+        let [[from, before], [to, after]] = [pair[0], pair[1]];
+        let left = 1.0 / (1.0 + 30.0 * (to - from));
+        let error = (after / before / left - 1.0).abs();
+        assert!(error < 1e-12, "{error:e} of the momentum at {to} s");
+    }
+    // What is left after 0.1 s of Γ = 30 1/s is e⁻³ of it, and more by half of Γ²Δt t, which backward Euler is late.
+    let ratio = rows[rows.len() - 1][1] / rows[0][1];
+    assert!(
+        ratio > (-3.0f64).exp() && ratio < 1.25 * (-3.0f64).exp(),
+        "{ratio}"
+    );
+}
+
+#[test]
+fn it_ends_when_it_is_told_and_leaves_the_velocity_that_it_is_told() {
+    let rows = momenta("rate = 1e6\nuntil = 0.05\nvelocity = [0.25, 0.0]\n", "");
+    let start = rows[0][1];
+    let [_, end] = rows[rows.len() - 1];
+    // ΓΔt is some thousand: one step leaves a thousandth of the difference, two a millionth.
+    assert!(
+        (end / start - 0.25).abs() < 1e-6,
+        "{} of the momentum is left",
+        end / start
+    );
+    let late = rows.iter().filter(|row| row[0] > 0.06).map(|row| row[1]);
+    let drift = late.map(|p| (p / end - 1.0).abs()).fold(0.0, f64::max);
+    assert!(drift < 1e-12, "{drift:e} after its end");
+}
+
+#[test]
+fn only_the_zone_is_damped() {
+    let zone = "rate = 1e13\nzones = [{ axis = \"y\", from = 0.499, to = 0.501 }]\n";
+    let rows = momenta(zone, "--set run.end=1e-5");
+    let ratio = rows[rows.len() - 1][1] / rows[0][1];
+    assert!(
+        (ratio - 0.5).abs() < 1e-6,
+        "{ratio} of the momentum where the upper half is held"
+    );
+}
+
+#[test]
+fn what_is_no_damping_is_refused_at_its_line() {
+    for (damping, said) in [
+        ("rate = -1.0\n", "rate"),
+        (
+            "rate = 1.0\nvelocity = [1.0]\n",
+            "1 components where 2 were expected",
+        ),
+        (
+            "rate = 1.0\nzones = [{ from = 1.0, to = 1.0 }]\n",
+            "two different places",
+        ),
+        (
+            "rate = 1.0\nzones = [{ axis = \"z\", from = 0.0, to = 1.0 }]\n",
+            "no third axis",
+        ),
+    ] {
+        let scene = format!("{PERIODIC}\n[damping.rayleigh]\n{damping}");
+        let bench = Bench::with(PROGRAM, &scene);
+        let outcome = bench.call("run scene.toml --quiet --out r");
+        assert_eq!(outcome.code, Some(2), "{damping}{}", outcome.err);
+        assert!(outcome.err.contains(said), "{damping}{}", outcome.err);
+        assert!(
+            !bench.path("r").exists(),
+            "{damping}: something was written"
+        );
+    }
+}
