@@ -245,3 +245,29 @@ fn bad_usage_is_code_2() {
         nothing_written(&bench);
     }
 }
+
+/// Ten rows of 0.1 m fill 95 % of a channel 1.05 m high: a void, or a pressure that is 5 % of ρc² too low.
+#[test]
+fn a_spacing_that_does_not_divide_the_distance_of_walls_is_remarked_upon() {
+    let channel = |height: f64| {
+        format!(
+            "title = \"A channel\"\ndimension = 2\n[run]\nend = 1e-3\n[numerics]\nspacing = 0.1\nperiodic.x = [0.0, 2.0]\n\
+             [walls.usaw]\nvertices = false\n\
+             [wall.floor]\npolyline = [[0.0, 0.0], [2.0, 0.0]]\n\
+             [wall.roof]\npolyline = [[2.0, {height}], [0.0, {height}]]\n\
+             [phase.water]\ndensity = 1000.0\nspeed_of_sound = 10.0\n\
+             [phase.water.rheology.newtonian]\nviscosity = 1.0\n\
+             [body.water]\nphase = \"water\"\nbox = [[0.0, 0.0], [2.0, {height}]]\n"
+        )
+    };
+    let said = |height: f64| {
+        let outcome = Bench::with(PROGRAM, &channel(height)).done("check scene.toml");
+        outcome.out + &outcome.err
+    };
+    let odd = said(1.05).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        odd.contains("body `water` fill 95.") && odd.contains("% of its space"),
+        "{odd}"
+    );
+    assert!(!said(1.0).contains("of its space"), "{}", said(1.0));
+}

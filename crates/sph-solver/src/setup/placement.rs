@@ -6,6 +6,8 @@ use sph_boundary::Wall;
 use sph_core::{SceneProblem, Vect};
 use sph_scene::{Body, Offset, Region, Scene, disturb, fill};
 
+use crate::setup::filled_share::shares;
+
 /// A particle nearer to a wall than this share of a spacing is left out.
 const TOO_NEAR: f64 = 0.4;
 
@@ -43,6 +45,7 @@ pub fn place<const D: usize>(
         warnings: Vec::new(),
     };
     let mut problems = Vec::new();
+    let mut numbers = vec![0; regions.len()];
     for filled in &filled {
         let (name, body) = bodies[filled.body];
         let clipped = body.clip || body.fill.is_some();
@@ -78,13 +81,18 @@ pub fn place<const D: usize>(
                 nothing_left(body, spacing),
             ));
         }
+        numbers[filled.body] = kept.len();
         placed.body.extend(kept.iter().map(|_| filled.body as u32));
         placed.positions.extend(kept);
     }
-    match problems.is_empty() {
-        true => Ok(placed),
-        false => Err(problems),
+    if !problems.is_empty() {
+        return Err(problems);
     }
+    if let Some(walls) = walls {
+        let remarks = shares(scene, regions, walls, &periodic, &numbers);
+        placed.warnings.extend(remarks);
+    }
+    Ok(placed)
 }
 
 fn nothing_left(body: &Body, spacing: f64) -> String {

@@ -103,8 +103,8 @@ impl<const D: usize, const N: usize> BoundTerm<D> for BoundDiffusion<'_, N> {
     }
     #[inline(always)]
     fn finish(&self, here: &Here<N>, sum: &[f64; N], inverse_gamma: f64, rates: &mut Rates<D>) {
-        for n in 0..N {
-            rates.more[self.slot[n]] += sum[n] * inverse_gamma * here.specific_volume;
+        for (slot, sum) in self.slot.iter().zip(sum) {
+            rates.more[*slot] += sum * inverse_gamma * here.specific_volume;
         }
     }
 }
@@ -118,9 +118,10 @@ impl<const D: usize, const N: usize> LaneTerm<D> for BoundDiffusion<'_, N> {
     fn side<L: Lane>(&self, here: &[Here<N>]) -> [[L; N]; 2] {
         let mut side = [[L::splat(0.0); N]; 2];
         for (lane, own) in here.iter().enumerate() {
-            for n in 0..N {
-                side[0][n].set(lane, own.value[n]);
-                side[1][n].set(lane, own.diffusivity[n]);
+            for (side, own) in side.iter_mut().zip([own.value, own.diffusivity]) {
+                side.iter_mut()
+                    .zip(own)
+                    .for_each(|(side, own)| side.set(lane, own));
             }
         }
         side
