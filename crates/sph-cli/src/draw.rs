@@ -1,6 +1,6 @@
 //! `sph draw`: streamlines, profiles along a line and tracks, from the frames of a run.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use sph_core::parse_quantity;
 use sph_draw::{DrawError, Frames, Line};
@@ -25,7 +25,7 @@ fn streamlines(arguments: &StreamlineArguments) -> Result<(), Trouble> {
     let frames = frames(&arguments.results)?;
     let time = quantity("time", arguments.time.as_deref(), "s")?;
     let apart = quantity("apart", arguments.apart.as_deref(), "m")?;
-    if let Some(wrong) = apart.filter(|a| !(*a > 0.0)) {
+    if let Some(wrong) = apart.filter(|a| *a <= 0.0) {
         let said = format!("--apart {wrong}: expected a distance above zero");
         return Err(Trouble::usage(said));
     }
@@ -101,7 +101,7 @@ fn frames(folder: &Path) -> Result<Frames, Trouble> {
 }
 
 /// The file of the picture, if it can be one.
-fn picture<'a>(out: &'a PathBuf, kinds: &[&str]) -> Result<&'a Path, Trouble> {
+fn picture<'a>(out: &'a Path, kinds: &[&str]) -> Result<&'a Path, Trouble> {
     let kind = out.extension().and_then(|e| e.to_str()).unwrap_or_default();
     match kinds.contains(&kind) {
         true => Ok(out),
