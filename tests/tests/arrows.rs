@@ -96,6 +96,7 @@ const ALLOWED: [(&str, &[&str]); 33] = [
             "sph-neighbours",
             "sph-state",
             "sph-contribution",
+            "sph-damping",
             "sph-viscosity",
             "sph-diffusion",
         ],

@@ -10,8 +10,8 @@ use sph_neighbours::World;
 use crate::zone::Zone;
 
 contribution_kind!(
-    /// What lets velocities die away that a scene may name.
-    pub DampingEntry, "damping", Any, "what lets velocities die away", "none if left out"
+    /// What takes motion away, that a scene may name.
+    pub DampingEntry, "damping", Any, "what takes motion away: of a fluid that is to settle, of waves, of sound", "none if left out"
 );
 
 /// du/dt = −Γ(x) (u − U), with the velocity of the end of the step: u ← (u + ΓΔt U)/(1 + ΓΔt) after every kick, whatever ΓΔt.

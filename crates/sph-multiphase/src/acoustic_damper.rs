@@ -2,21 +2,17 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_contribution::{Contribution, Limiter, Setting, Stages, contribution_kind};
+use sph_contribution::{Contribution, Limiter, Setting, Stages};
 use sph_core::{
     Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, register,
 };
+use sph_damping::DampingEntry;
 use sph_neighbours::{
     BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
     Pair, Rates, Terms, There, World, add_scaled, interactions, lattice_sum, splat, vector,
 };
 
 use crate::divergence::{Divergence, OwnVolume};
-
-contribution_kind!(
-    /// A damper of sound that a scene may name.
-    pub DamperEntry, "damper", One, "what takes sound away", "none if left out"
-);
 
 /// m_a a = −1/γ_a [Σ_b θ_b (q_aV_a² + q_bV_b²) ∇w_ab − Σ_s q_a (V_a² + V_s²)/V_s ∇γ_as],
 /// q_a = −α ρ₀ c h D_a{u}, not below −max(p_a, 0).
@@ -34,7 +30,7 @@ contribution_kind!(
 /// Source: after the acoustic damper of Sun et al. 2023; with the adjoint pair of Hu & Adams 2006, and the bound, ours.
 ///
 /// ```toml
-/// [damper.acoustic]
+/// [damping.acoustic]
 /// strength = 0.5
 /// ```
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
@@ -87,7 +83,7 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
 }
 
 register!(
-    DamperEntry [2, 3],
+    DampingEntry [2, 3],
     AcousticDamper,
     "acoustic",
     "a bulk viscosity against the sound of impacts",

@@ -4,8 +4,8 @@
 //!   [`ColagrossiLandrini`], [`Grenier`], [`Krimi`]. [`Dilatation`] is the work of those that integrate continuity.
 //! * [`InterfaceModel`] is a kind of plugin, a force where phases meet: [`SurfaceTension`], [`GrenierInterface`],
 //!   [`MicroMixing`], [`InterfaceFriction`].
-//! * [`SurfaceEntry`] is a kind of plugin, what free surfaces are: [`ConeTest`]; [`DamperEntry`] another, what takes sound
-//!   away: [`AcousticDamper`].
+//! * [`SurfaceEntry`] is a kind of plugin, what free surfaces are: [`ConeTest`].
+//! * [`AcousticDamper`] takes sound away.
 //! * The combinations of pressure, friction and smoothing that are compiled into one loop.
 #![doc = include_str!("../README.md")]
 
@@ -29,7 +29,7 @@ mod surface;
 mod surface_tension;
 mod volume;
 
-pub use acoustic_damper::{AcousticDamper, DamperEntry};
+pub use acoustic_damper::AcousticDamper;
 pub use colagrossi_landrini::ColagrossiLandrini;
 pub use contract::{
     Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, InterfaceModel,
