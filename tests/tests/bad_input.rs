@@ -266,7 +266,7 @@ fn a_spacing_that_does_not_divide_the_distance_of_walls_is_remarked_upon() {
     };
     let odd = said(1.05).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
-        odd.contains("body `water` fill 95.") && odd.contains("% of its space"),
+        odd.contains("body `water` fill 95.2 % of its space"),
         "{odd}"
     );
     assert!(!said(1.0).contains("of its space"), "{}", said(1.0));

@@ -85,10 +85,7 @@ impl<const D: usize> Running<'_, D> {
             failure: failure.map(|f| f.findings.clone()),
             density_constant_range: flow.density_constant_range(),
             escaped,
-            left: flow
-                .left()
-                .map(|(label, left)| (label.clone(), left))
-                .collect(),
+            left: flow.left().map(|(to, left)| (to.clone(), left)).collect(),
             relaxation: self.parts.relaxation,
             open_boundaries: flow.counts_of(sph_open::PASSING),
             implicit_viscosity: flow.counts_of(ImplicitViscosity::<D>::NAME),

@@ -78,10 +78,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         placed,
         mut warnings,
     } = Room::of(scene, &drawn, &mut choices)?;
-
-    if let Some(opened) = &opened {
-        warnings.extend(open_faces::check(scene, opened, walls.as_ref())?);
-    }
+    warnings.extend(open_faces::check(scene, opened.as_ref(), walls.as_ref())?);
     let ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
     let constant = constant_viscosities(scene, &choices.physics.rheologies);
@@ -115,10 +112,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         evolved: evolved(&*formulation, &parts),
     };
     let mut flow = joined(world, planned, given);
-    let moved = shown.iter().any(|f| f == fields::DISPLACEMENT.name);
-    if moved || choices.probes.iter().any(|(_, p)| p.needs_displacement()) {
-        flow.world.free.add(fields::DISPLACEMENT, Role::State);
-    }
+    follow_displacements(&shown, &choices.probes, &mut flow);
     check_output_fields(scene, &flow)?;
     let columns = || parts.iter().flat_map(|(_, p)| p.columns());
     let beginning = Start {
@@ -252,6 +246,18 @@ fn give_places<const D: usize>(free: &mut Store<D>, placed: &Placed<D>) -> Resul
         ..Born::default()
     });
     Ok(())
+}
+
+/// Keeps displacements where an output or a probe asks for them.
+fn follow_displacements<const D: usize>(
+    shown: &[String],
+    probes: &[(String, Box<dyn Probe<D>>)],
+    flow: &mut Flow<D>,
+) {
+    let moved = shown.iter().any(|f| f == fields::DISPLACEMENT.name);
+    if moved || probes.iter().any(|(_, p)| p.needs_displacement()) {
+        flow.world.free.add(fields::DISPLACEMENT, Role::State);
+    }
 }
 
 /// Names of the columns that outputs show and probes measure.

@@ -13,7 +13,7 @@ const FINEST: usize = 16;
 
 /// Remarks on bodies whose particles do not fill their box, or the space between walls, in a scene without gravity: there
 /// is no surface then that could fall or rise, and what is missing opens as a void or lowers the pressure by ρc² times its
-/// share.
+/// share. Of walls with points of their own, which have volumes, nothing is said.
 pub fn shares<const D: usize>(
     scene: &Scene,
     regions: &[Region<D>],
@@ -31,7 +31,7 @@ pub fn shares<const D: usize>(
         return Vec::new();
     }
     let step = spacing / finer as f64;
-    let samples = fill(regions, step, Offset::None, periodic);
+    let samples = fill(regions, step, Offset::Half, periodic);
     let share = |filled: &Filled<D>| {
         let inside = filled.positions.iter().map(|x| Vect::from(*x));
         let inside = inside.filter(|x| walls.contains(x)).count() as f64;

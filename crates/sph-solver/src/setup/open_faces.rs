@@ -90,15 +90,18 @@ fn path(scene: &Scene, wall: &str, key: &str) -> String {
     choice.map_or(format!("wall.{wall}"), |c| c.inside(key))
 }
 
-/// Refuses faces that something blocks; remarks on those by which more comes in than can leave.
+/// Refuses faces that something blocks; remarks on those by which more comes in than can leave. Nothing without open faces.
 ///
 /// # Errors
 /// The law of a face before which there is no room.
 pub(crate) fn check<const D: usize>(
     scene: &Scene,
-    opened: &OpenBoundaries<D>,
+    opened: Option<&OpenBoundaries<D>>,
     walls: Option<&SharedWall<D>>,
 ) -> Result<Vec<String>, SolverError> {
+    let Some(opened) = opened else {
+        return Ok(Vec::new());
+    };
     let mut blocked = Vec::<SceneProblem>::new();
     if let Some(walls) = walls {
         let walls = lock(walls);

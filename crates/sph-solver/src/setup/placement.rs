@@ -88,7 +88,7 @@ pub fn place<const D: usize>(
     if !problems.is_empty() {
         return Err(problems);
     }
-    if let Some(walls) = walls {
+    if let (Some(walls), Offset::Half) = (walls, offset) {
         let remarks = shares(scene, regions, walls, &periodic, &numbers);
         placed.warnings.extend(remarks);
     }
