@@ -122,7 +122,7 @@ fn damped_water_settles_to_the_depth_of_its_equation_of_state() {
             "reference.pressure.parameters.surface=0.398088",
         ],
     );
-    run.error("depth", 2e-4, 1.7e-4);
-    // 2 % of ρgH, √3 times the root mean square of a linear pressure: 1.7 % of ρgH.
-    run.error("pressure", 0.02 * 3f64.sqrt(), 0.0299);
+    run.error("depth", 2e-4, 3.6e-5);
+    // 2 % of ρgH, √3 times the root mean square of a linear pressure.
+    run.error("pressure", 0.02 * 3f64.sqrt(), 0.0066);
 }
