@@ -38,8 +38,8 @@ pub(crate) fn settle<const D: usize>(
         let why = "open faces are known in two dimensions only";
         return Err(SolverError::at(path(scene, first, ""), why));
     }
-    let fits = |w: &Box<dyn sph_boundary::Wall<D>>| w.renormalises() && w.lattice_offset() > 0.0;
-    let Some(walls) = choices.walls.take().filter(fits) else {
+    let walls = choices.walls.take();
+    let Some(walls) = walls.filter(|w| w.renormalises() && w.lattice_offset() > 0.0) else {
         return Err(SolverError::at(path(scene, first, ""), OTHER_WALLS));
     };
     let phases: Vec<String> = scene.phase.keys().cloned().collect();

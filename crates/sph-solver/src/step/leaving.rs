@@ -29,8 +29,8 @@ impl<const D: usize> Flow<D> {
     /// Counts the exits of all work behind the outlets.
     pub(crate) fn know_exits(&mut self, scene: &Scene) {
         let mut taken = self.world.free.taken().to_vec();
-        let mut exit = self.outlets.all.len() as u32;
-        for name in self.works.iter().flat_map(|w| w.exits()) {
+        let exits = self.works.iter().flat_map(|w| w.exits());
+        for (exit, name) in (self.outlets.all.len() as u32..).zip(exits) {
             for (phase, of) in scene.phase.keys().enumerate() {
                 self.outlets.labels.push(format!("open.{name}.{of}"));
                 taken.push(Taken {
@@ -39,7 +39,6 @@ impl<const D: usize> Flow<D> {
                     ..Taken::default()
                 });
             }
-            exit += 1;
         }
         self.world.free.set_taken(taken);
     }
