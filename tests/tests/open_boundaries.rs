@@ -149,9 +149,9 @@ fn a_uniform_flow_passes_both_faces_as_if_they_were_not_there() {
         .map(|u| (u[0] - 1.0).hypot(u[1]))
         .fold(0.0, f64::max);
     let [least, largest] = summary.density_range;
-    // A density that is off by 1 % is a pressure of 1.44 ρu².
+    // A density that is off by 0.1 % is a pressure of 0.144 ρu²; sound of this strength moves particles by 0.001 c.
     assert!(
-        off < 0.02 && least > 0.999 && largest < 1.001,
+        off < 0.012 && least > 0.999 && largest < 1.001,
         "velocity off by {off}, density {least} to {largest}"
     );
 }

@@ -19,6 +19,7 @@
 //! assert_eq!(store.get(DENSITY).unwrap(), [1000.0; 3]);
 //! ```
 
+mod axis;
 mod births;
 mod boxes;
 mod error;
@@ -38,6 +39,7 @@ mod taken;
 mod turnover;
 mod watch;
 
+pub use axis::Axis;
 pub use boxes::{BoxTree, Corners};
 pub use error::{FieldError, PlanError, RegistryError, StepError};
 pub use evolve::{Evolved, Recall, System};

@@ -8,4 +8,4 @@ mod rayleigh;
 mod zone;
 
 pub use rayleigh::{DampingEntry, Rayleigh};
-pub use zone::{Axis, Zone};
+pub use zone::Zone;

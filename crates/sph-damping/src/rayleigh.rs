@@ -134,9 +134,9 @@ register!(
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector2;
+    use sph_core::Axis;
 
     use super::*;
-    use crate::Axis;
 
     #[test]
     fn a_sponge_grows_with_the_square_of_the_way_and_either_way() {

@@ -1,21 +1,8 @@
 //! Where velocities are damped.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use sph_core::Vect;
-
-/// An axis of the box.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// The first.
-    #[default]
-    X,
-    /// The second.
-    Y,
-    /// The third.
-    Z,
-}
+use serde::Deserialize;
+use sph_core::{Axis, Vect};
 
 /// A zone in which the damping grows with the square of the way into it, from nothing at `from` to all of it at `to` and beyond:
 /// a rate that jumped would send waves back.

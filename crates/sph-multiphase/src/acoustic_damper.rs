@@ -1,5 +1,7 @@
 //! A bulk viscosity against the sound of impacts.
 
+use std::sync::OnceLock;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_contribution::{Contribution, Limiter, Setting, Stages};
@@ -9,10 +11,11 @@ use sph_core::{
 use sph_damping::DampingEntry;
 use sph_neighbours::{
     BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
-    Pair, Rates, Terms, There, World, add_scaled, interactions, lattice_sum, splat, vector,
+    Pair, Rates, Terms, There, World, add_scaled, interactions, splat, vector,
 };
 
 use crate::divergence::{Divergence, OwnVolume};
+use crate::interface_limit::shortest_wave;
 
 /// m_a a = −1/γ_a [Σ_b θ_b (q_aV_a² + q_bV_b²) ∇w_ab − Σ_s q_a (V_a² + V_s²)/V_s ∇γ_as],
 /// q_a = −α ρ₀ c h D_a{u}, not below −max(p_a, 0).
@@ -71,6 +74,7 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
         let limit = DamperLimit {
             strength: self.strength,
             fastest: speeds.fold(0.0, f64::max),
+            wave: OnceLock::new(),
         };
         match self.strength > 0.0 {
             true => vec![Box::new(limit)],
@@ -148,15 +152,15 @@ impl<const D: usize> Stage<World<D>> for Resistance<D> {
 struct DamperLimit {
     strength: f64,
     fastest: f64,
+    /// S, 1/m: lattice and kernel stay.
+    wave: OnceLock<f64>,
 }
 
 impl<const D: usize> Limiter<D> for DamperLimit {
     fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
-        let cell = world.spacing.powi(D as i32);
-        // The sum without the sine is its upper bound.
-        let slope = cell * lattice_sum(world, |pair| (pair.factor * pair.separation[0]).abs());
+        let wave = self.wave.get_or_init(|| shortest_wave(world));
         let h = world.kernel.smoothing_length();
-        let dt = 1.0 / (self.strength * h * self.fastest * slope * slope);
+        let dt = 1.0 / (self.strength * h * self.fastest * wave * wave);
         Ok(StepLimit::new("acoustic damper", dt))
     }
     fn remedy(&self) -> Option<String> {

@@ -69,7 +69,7 @@ fn mixed_sound(one: Reference, other: Reference) -> f64 {
 const WAVES: usize = 64;
 
 /// S = max_k Σ_b V |∂w/∂x sin(kx)| for waves along a row of the lattice, 1/m.
-fn shortest_wave<const D: usize>(world: &World<D>) -> f64 {
+pub(crate) fn shortest_wave<const D: usize>(world: &World<D>) -> f64 {
     let volume = world.spacing.powi(D as i32);
     let response = |n: usize| {
         let wave = std::f64::consts::PI * n as f64 / (WAVES as f64 * world.spacing);

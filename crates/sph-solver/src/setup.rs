@@ -8,7 +8,6 @@ pub(crate) mod domain;
 pub(crate) mod estimate;
 pub(crate) mod examination;
 pub(crate) mod field_error;
-pub(crate) mod filled_share;
 pub(crate) mod initial;
 pub(crate) mod joining;
 pub(crate) mod lattices;

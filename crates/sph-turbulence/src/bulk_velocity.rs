@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_contribution::{Contribution, Refusal, Setting, StepWork, contribution_kind};
-use sph_core::{Access, AnyField, StepError, fields, register};
+use sph_core::{Access, AnyField, Axis, StepError, fields, register};
 use sph_neighbours::World;
 
 contribution_kind!(
@@ -32,19 +32,6 @@ pub struct BulkVelocity {
     /// Along which axis.
     #[serde(default)]
     pub axis: Axis,
-}
-
-/// An axis of the box.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// The first.
-    #[default]
-    X,
-    /// The second.
-    Y,
-    /// The third.
-    Z,
 }
 
 impl<const D: usize> Contribution<D> for BulkVelocity {

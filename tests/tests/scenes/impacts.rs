@@ -19,15 +19,14 @@ fn a_drop_is_drawn_out_to_the_ellipse_of_monaghan() {
     );
 }
 
-/// The wall takes the momentum of the jet, ρU²H/2 = 100 N/m. What is left is the sound of the blow: 20 N/m at a time, and about 30 times of
-/// 10 ms that differ.
+/// The wall takes the momentum of the jet, ρU²H/2 = 100 N/m, to the 3 % that are asked of its pressures.
 #[test]
 fn a_wall_takes_the_momentum_of_a_jet() {
     let coarse = [
         "numerics.spacing=0.01",
         "body.jet.box=[[0,0],[0.105,1.205]]",
     ];
-    finished("impact-jet-2d", &coarse).error("force", 0.2 / 30.0f64.sqrt(), 0.0010);
+    finished("impact-jet-2d", &coarse).error("force", 0.03, 0.0010);
 }
 
 /// x = (2H/π)(arctan ν + artanh ν), p = ½ρU²(1 − ν²): the references of the scene, and the momentum that the wall takes.

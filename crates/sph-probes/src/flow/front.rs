@@ -2,24 +2,11 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use sph_core::{StepError, fields, register};
+use sph_core::{Axis, StepError, fields, register};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
 use crate::{Probe, ProbeColumn, ProbeEntry};
-
-/// Axis of a coordinate.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, JsonSchema, PartialEq, Eq)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// First coordinate.
-    #[default]
-    X,
-    /// Second coordinate.
-    Y,
-    /// Third coordinate.
-    Z,
-}
 
 /// Which of the two ends of a phase along an axis.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, JsonSchema, PartialEq, Eq)]

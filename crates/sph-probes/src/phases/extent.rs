@@ -2,10 +2,9 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{StepError, fields, register};
+use sph_core::{Axis, StepError, fields, register};
 use sph_neighbours::World;
 
-use crate::flow::front::Axis;
 use crate::phases::phase::{self, Counted};
 use crate::{Probe, ProbeColumn, ProbeEntry};
 

@@ -2,9 +2,8 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Axis, Vect, register};
 
-use crate::flow::front::Axis;
 use crate::flow::point::point;
 use crate::{Solution, SolutionEntry};
 

@@ -1,12 +1,14 @@
 //! Where the particles are at time zero.
 
+mod filled_share;
+
 use std::collections::HashMap;
 
 use sph_boundary::Wall;
 use sph_core::{SceneProblem, Vect};
 use sph_scene::{Body, Offset, Region, Scene, disturb, fill};
 
-use crate::setup::filled_share::shares;
+use filled_share::shares;
 
 /// A particle nearer to a wall than this share of a spacing is left out.
 const TOO_NEAR: f64 = 0.4;
