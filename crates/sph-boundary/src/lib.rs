@@ -91,7 +91,7 @@ pub use geometry::surface::{
 };
 pub use geometry::wall_end::{FreeEnd, WallEnd};
 pub use geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
-pub use integrals::gamma::{Contact, GammaSum, Renormalisation2d, SegmentIntegral};
+pub use integrals::gamma::{Contact, GammaSum, Renormalisation2d, SegmentBatch, SegmentIntegral};
 pub use integrals::spatial::{FacetIntegral, GammaSum3d, Renormalisation3d, Weights};
 pub use rigid::course::{Course, Stage};
 pub use rigid::load::{Load, MoverRefusal, MoverSetting, Touch};

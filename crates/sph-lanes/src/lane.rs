@@ -44,6 +44,23 @@ pub trait Lane:
     fn where_positive(self, yes: Self, no: Self) -> Self;
     /// Whether any lane is less than that of `other`.
     fn any_less(self, other: Self) -> bool;
+    /// m from 1/√2 to √2 and the whole number e of x = m 2ᵉ, for normal positive numbers.
+    fn parts(self) -> (Self, Self);
+}
+
+/// The bits of 1/√2, without the lower half of its digits.
+const ROOT_HALF: u64 = 0x3fe6_a09e_0000_0000;
+/// The bits of 1.5 · 2⁵², to which a small whole number is added as such.
+const WHOLE: u64 = 0x4338_0000_0000_0000;
+
+/// [`Lane::parts`] of one number.
+#[inline(always)]
+pub(crate) fn parts(x: f64) -> (f64, f64) {
+    let above = x.to_bits().wrapping_sub(ROOT_HALF);
+    let exponent = (above as i64 >> 52) as u64;
+    let mantissa = x.to_bits().wrapping_sub(exponent << 52);
+    let whole = f64::from_bits(WHOLE.wrapping_add(exponent)) - f64::from_bits(WHOLE);
+    (f64::from_bits(mantissa), whole)
 }
 
 impl Lane for f64 {
@@ -87,6 +104,10 @@ impl Lane for f64 {
     #[inline(always)]
     fn any_less(self, other: f64) -> bool {
         self < other
+    }
+    #[inline(always)]
+    fn parts(self) -> (f64, f64) {
+        parts(self)
     }
 }
 

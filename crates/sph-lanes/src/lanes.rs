@@ -3,6 +3,7 @@
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use crate::Lane;
+use crate::lane::parts;
 
 /// Most numbers side by side.
 pub const MOST: usize = 8;
@@ -123,5 +124,13 @@ impl<const N: usize> Lane for Lanes<N> {
             any |= self.0[k] < other.0[k];
         }
         any
+    }
+    #[inline(always)]
+    fn parts(mut self) -> (Self, Self) {
+        let mut exponents = self;
+        for k in 0..N {
+            (self.0[k], exponents.0[k]) = parts(self.0[k]);
+        }
+        (self, exponents)
     }
 }

@@ -14,7 +14,7 @@ use crate::geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
 use crate::treatment::outline::groups;
 use crate::{
     BoundaryError, Drawing, GammaSum, NearSegment, PeriodicBox, Polyline, Pose, Renormalisation2d,
-    SeenSegment, Segment, SegmentGrid, SegmentMesh, Vertex, WallSpec,
+    SeenSegment, Segment, SegmentBatch, SegmentGrid, SegmentMesh, Vertex, WallSpec,
 };
 
 /// Polylines cut into segments, with the grid that finds them.
@@ -105,7 +105,7 @@ impl WallMesh<2> for PlanarWalls {
     type Near = NearSegment;
     type Seen = SeenSegment;
     type Integrals = Renormalisation2d;
-    type Room = ();
+    type Room = SegmentBatch;
 
     fn build(
         walls: &[WallSpec<2>],
@@ -207,25 +207,58 @@ impl WallMesh<2> for PlanarWalls {
         integrals: &Renormalisation2d,
         point: &Vect<2>,
         row: &[NearSegment],
-        _: &mut (),
+        room: &mut SegmentBatch,
         contacts: &mut Vec<Contact<2>>,
     ) -> f64 {
-        let mut sum = GammaSum::default();
-        for &near in row {
-            let segment = self.segment(near.segment);
-            let [start, end] = self.mesh.seen_from([point[0], point[1]], near);
-            let integral = integrals.segment(start, end, segment.normal);
-            sum.add(&integral, segment);
-            if integral.kernel != 0.0 {
-                let normal = Vect::from(segment.normal);
-                contacts.push(Contact {
-                    element: near.segment as u32,
-                    gradient: normal * integral.kernel,
-                    distance: -normal.dot(&Vect::from(start)),
-                });
+        let mut found = Vec::with_capacity(1);
+        self.gammas(
+            integrals,
+            std::iter::once((point, row)),
+            room,
+            contacts,
+            &mut found,
+        );
+        found[0].0
+    }
+
+    /// The segments of all points side by side: a point alone sees too few to fill vectors.
+    fn gammas<'a>(
+        &self,
+        integrals: &Renormalisation2d,
+        points: impl Iterator<Item = (&'a Vect<2>, &'a [NearSegment])>,
+        batch: &mut SegmentBatch,
+        contacts: &mut Vec<Contact<2>>,
+        found: &mut Vec<(f64, u32)>,
+    ) {
+        batch.clear();
+        for (point, row) in points {
+            for &near in row {
+                let ends = self.mesh.seen_from([point[0], point[1]], near);
+                let normal = self.segment(near.segment).normal;
+                integrals.see(batch, near.segment as u32, ends, normal);
             }
+            batch.end();
         }
-        sum.gamma()
+        integrals.weigh(batch);
+        let mut from = 0;
+        for &end in &batch.ends {
+            let mut sum = GammaSum::default();
+            for k in from..end {
+                let (element, distance) = batch.seen[k];
+                let segment = self.segment(element as usize);
+                let integral = integrals.weighed(batch, k);
+                sum.add(&integral, segment);
+                if integral.kernel != 0.0 {
+                    contacts.push(Contact {
+                        element,
+                        gradient: Vect::from(segment.normal) * integral.kernel,
+                        distance,
+                    });
+                }
+            }
+            found.push((sum.gamma(), contacts.len() as u32));
+            from = end;
+        }
     }
 
     fn hindrances(

@@ -128,6 +128,22 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         contacts: &mut Vec<Contact<D>>,
     ) -> f64;
 
+    /// γ at points, each with the elements that may be within its support, and how many contacts there are up to and
+    /// including its own.
+    fn gammas<'a>(
+        &self,
+        integrals: &Self::Integrals,
+        points: impl Iterator<Item = (&'a Vect<D>, &'a [Self::Near])>,
+        room: &mut Self::Room,
+        contacts: &mut Vec<Contact<D>>,
+        found: &mut Vec<(f64, u32)>,
+    ) {
+        for (point, near) in points {
+            let gamma = self.gamma(integrals, point, near, room, contacts);
+            found.push((gamma, contacts.len() as u32));
+        }
+    }
+
     /// Where the walls keep a particle off, among the places nearer than `reach` metres.
     fn hindrances(
         &self,

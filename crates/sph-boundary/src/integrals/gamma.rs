@@ -1,5 +1,6 @@
 //! γ and ∇γ of straight wall segments in closed form.
 
+mod batch;
 mod primitives;
 mod renormalisation;
 mod ring;
@@ -7,6 +8,7 @@ mod segment;
 mod sum;
 mod taylor;
 
+pub use batch::SegmentBatch;
 pub use renormalisation::Renormalisation2d;
 pub use segment::{Contact, SegmentIntegral};
 pub use sum::GammaSum;

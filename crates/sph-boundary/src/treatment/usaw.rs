@@ -79,12 +79,11 @@ register!(
 /// Particles that one task works through.
 const BATCH: usize = 64;
 
-/// γ of a batch of particles, and where their contacts end.
+/// What is found of a batch of particles.
 #[derive(Debug, Default)]
 struct Found<R> {
-    gamma: Vec<f64>,
-    /// Contacts up to and including each particle's.
-    ends: Vec<u32>,
+    /// γ of each particle, and contacts up to and including its own.
+    gamma: Vec<(f64, u32)>,
     clearance: Vec<f64>,
     /// Buffers of the integrals.
     room: R,
@@ -93,7 +92,6 @@ struct Found<R> {
 impl<R> Found<R> {
     fn clear(&mut self) {
         self.gamma.clear();
-        self.ends.clear();
         self.clearance.clear();
     }
 }
@@ -185,15 +183,18 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         all.enumerate().for_each(|(b, ((found, contacts), batch))| {
             found.clear();
             contacts.clear();
-            for (k, &particle) in batch.iter().enumerate() {
-                let (x, row) = (&positions[particle as usize], near.row(b * BATCH + k));
-                let from = contacts.len();
-                let gamma = mesh.gamma(integrals, x, row, &mut found.room, contacts);
-                let heights = contacts[from..].iter().map(|c| c.distance);
-                let least = heights.filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
-                found.gamma.push(gamma);
-                found.ends.push(contacts.len() as u32);
-                found.clearance.push(least);
+            let all = batch
+                .iter()
+                .enumerate()
+                .map(|(k, &particle)| (&positions[particle as usize], near.row(b * BATCH + k)));
+            let Found { gamma, room, .. } = found;
+            mesh.gammas(integrals, all, room, contacts, gamma);
+            let mut from = 0;
+            for (_, end) in &*gamma {
+                let own = &contacts[from..*end as usize];
+                let heights = own.iter().map(|c| c.distance).filter(|d| *d > 0.0);
+                found.clearance.push(heights.fold(f64::INFINITY, f64::min));
+                from = *end as usize;
             }
         });
         self.clearance.clear();
@@ -270,8 +271,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         let batches = set_up.near.particles.chunks(BATCH).zip(&set_up.found);
         for (b, (batch, found)) in batches.enumerate() {
             let mut start = 0;
-            let results = found.gamma.iter().zip(&found.ends);
-            for (&particle, (&gamma, &end)) in batch.iter().zip(results) {
+            for (&particle, &(gamma, end)) in batch.iter().zip(&found.gamma) {
                 renormalisation[particle as usize] = gamma;
                 contacts.place(particle, b, start..end);
                 start = end;

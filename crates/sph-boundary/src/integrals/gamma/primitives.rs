@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use sph_kernels::PiecewisePolynomial;
+use sph_lanes::Lane;
 
 use super::ring::{Ring, amplification};
 
@@ -32,30 +33,32 @@ struct Term {
 
 /// One end of a clipped segment: abscissa y on the line and distance q, over h.
 #[derive(Clone, Copy)]
-pub(super) struct End {
-    pub y: f64,
-    pub q: f64,
+pub(super) struct End<L> {
+    pub y: L,
+    pub q: L,
 }
 
 /// σ Σ c_n I_n and σ Σ c_n I_n/(n + 2), without and with the logarithm's factor.
-pub(super) struct Primitives {
-    pub gradient: f64,
-    pub gamma: f64,
+pub(super) struct Primitives<L> {
+    pub gradient: L,
+    pub gamma: L,
     /// Factors of asinh(y₂/a) − asinh(y₁/a) still to be added to both.
-    pub gradient_log: f64,
-    pub gamma_log: f64,
+    pub gradient_log: L,
+    pub gamma_log: L,
 }
 
 impl Knot {
     /// Differences between two ends of everything except the logarithm and the angle.
-    #[inline]
-    pub fn between(&self, a2: f64, from: End, to: End) -> Primitives {
+    #[inline(always)]
+    pub fn between<L: Lane>(&self, a2: L, from: End<L>, to: End<L>) -> Primitives<L> {
+        let zero = L::splat(0.0);
         // p_{n+1} and p_{n+2} of both sums.
-        let (mut g1, mut g2, mut s1, mut s2) = (0.0, 0.0, 0.0, 0.0);
-        let (mut g_from, mut g_to, mut s_from, mut s_to) = (0.0, 0.0, 0.0, 0.0);
+        let (mut g1, mut g2, mut s1, mut s2) = (zero, zero, zero, zero);
+        let (mut g_from, mut g_to, mut s_from, mut s_to) = (zero, zero, zero, zero);
         for term in &self.terms {
-            let up = term.ratio * a2;
-            let (g, s) = (term.gradient + up * g2, term.gamma + up * s2);
+            let up = L::splat(term.ratio) * a2;
+            let g = L::splat(term.gradient) + up * g2;
+            let s = L::splat(term.gamma) + up * s2;
             (g2, g1, s2, s1) = (g1, g, s1, s);
             g_from = g_from * from.q + g;
             g_to = g_to * to.q + g;

@@ -1,5 +1,7 @@
 //! The integrals of one segment seen from one point.
 
+use sph_lanes::{Lane, atan2, ln};
+
 use super::primitives::End;
 use super::renormalisation::Renormalisation2d;
 
@@ -41,6 +43,17 @@ impl SegmentIntegral {
     };
 }
 
+/// A segment in the frame of its line, everything over h.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OnLine<L> {
+    /// a: signed distance of the point from the line.
+    pub height: L,
+    /// Abscissae of both ends.
+    pub along: [L; 2],
+    /// Squared distances of both ends.
+    pub distance2: [L; 2],
+}
+
 impl Renormalisation2d {
     /// Integrals over the segment from `start` to `end`, both relative to the point, m.
     ///
@@ -49,109 +62,100 @@ impl Renormalisation2d {
     /// up to rounding however close the point is to that vertex.
     #[inline]
     pub fn segment(&self, start: [f64; 2], end: [f64; 2], normal: [f64; 2]) -> SegmentIntegral {
+        let seen = self.on_line(start, end, normal);
+        self.finished(&seen, self.discs(&seen))
+    }
+
+    /// The segment in the frame of its line.
+    #[inline(always)]
+    pub(super) fn on_line(&self, start: [f64; 2], end: [f64; 2], normal: [f64; 2]) -> OnLine<f64> {
         let (x1, y1) = (start[0] * self.per_h, start[1] * self.per_h);
         let (x2, y2) = (end[0] * self.per_h, end[1] * self.per_h);
         let (r1, r2) = (x1 * x1 + y1 * y1, x2 * x2 + y2 * y2);
         // The nearer end gives the distance to the line with an error relative to its own distance.
         let (x, y) = if r1 < r2 { (x1, y1) } else { (x2, y2) };
-        let a = -(x * normal[0] + y * normal[1]);
-        let t1 = x1 * normal[1] - y1 * normal[0];
-        let t2 = x2 * normal[1] - y2 * normal[0];
-        self.on_line(a, [t1, t2], [r1, r2])
+        OnLine {
+            height: -(x * normal[0] + y * normal[1]),
+            along: [
+                x1 * normal[1] - y1 * normal[0],
+                x2 * normal[1] - y2 * normal[0],
+            ],
+            distance2: [r1, r2],
+        }
     }
 
-    /// The same in the frame of the line, everything over h: signed distance a, abscissae of both
-    /// ends, their squared distances.
-    fn on_line(&self, a: f64, t: [f64; 2], r: [f64; 2]) -> SegmentIntegral {
-        let contact = contact(a, t, r);
+    /// What the discs of the closed form add: h ∫ w dS and Γ, several segments side by side.
+    #[inline(always)]
+    pub(super) fn discs<L: Lane>(&self, seen: &OnLine<L>) -> [L; 2] {
+        let (a, zero) = (seen.height, L::splat(0.0));
         let (a2, depth) = (a * a, a.abs());
-        let full = [
-            End {
-                y: t[0],
-                q: r[0].sqrt(),
-            },
-            End {
-                y: t[1],
-                q: r[1].sqrt(),
-            },
-        ];
-        // Angle and logarithm of the whole segment serve every knot that does not clip it.
-        let mut whole: Option<(f64, f64)> = None;
-        let (mut kernel, mut gamma, mut smooth) = (0.0, 0.0, 0.0);
+        let [y1, y2] = seen.along;
+        let [q1, q2] = [seen.distance2[0].sqrt(), seen.distance2[1].sqrt()];
+        let (mut kernel, mut gamma, mut smooth) = (zero, zero, zero);
         for knot in &self.knots {
-            let rho = knot.radius;
-            if depth >= rho {
-                break;
-            }
-            let [mut from, mut to] = full;
-            let clipped = [from.q >= rho, to.q >= rho];
-            if clipped[0] || clipped[1] {
-                let reach = ((rho - a) * (rho + a)).sqrt();
-                if clipped[0] {
-                    if from.y > 0.0 {
-                        break;
-                    }
-                    from = End { y: -reach, q: rho };
-                }
-                if clipped[1] {
-                    if to.y < 0.0 {
-                        break;
-                    }
-                    to = End { y: reach, q: rho };
-                }
-            }
-            let (angle, log) = match whole {
-                Some(known) if !(clipped[0] || clipped[1]) => known,
-                _ => (angle(a, from, to), logarithm(depth, from, to)),
+            let rho = L::splat(knot.radius);
+            // Half of the chord that the disc cuts out of the line; where there is none, nothing is left of a segment.
+            let reach = ((rho - depth).max(zero) * (rho + depth)).sqrt();
+            let inside = [rho - q1, rho - q2];
+            let clipped = |inside: L, y: L, q: L, at: L| End {
+                y: inside.where_positive(y, at),
+                q: inside.where_positive(q, rho),
             };
-            if !(clipped[0] || clipped[1]) {
-                whole = Some((angle, log));
-            }
+            let from = clipped(inside[0], y1, q1, zero - reach);
+            let to = clipped(inside[1], y2, q2, reach);
+            let angle = atan2(a * (to.y - from.y), from.y * to.y + a2);
+            let log = logarithm(depth, from, to);
             let p = knot.between(a2, from, to);
-            kernel += p.gradient + p.gradient_log * log;
-            smooth += p.gamma + p.gamma_log * log;
-            gamma += knot.angle * angle;
+            // Beyond an end that is clipped there is nothing, and nothing where the disc does not reach the line.
+            let ahead = inside[0].where_positive(L::splat(1.0), zero - y1);
+            let behind = inside[1].where_positive(L::splat(1.0), y2);
+            let counts = |sum: L, more: L| {
+                let more = ahead.where_positive(behind.where_positive(more, zero), zero);
+                sum + (rho - depth).where_positive(more, zero)
+            };
+            kernel = counts(kernel, p.gradient + p.gradient_log * log);
+            smooth = counts(smooth, p.gamma + p.gamma_log * log);
+            gamma = counts(gamma, L::splat(knot.angle) * angle);
         }
+        [kernel, gamma - a * smooth]
+    }
+
+    /// The integrals of one segment, whose discs are known.
+    #[inline(always)]
+    pub(super) fn finished(&self, seen: &OnLine<f64>, discs: [f64; 2]) -> SegmentIntegral {
+        let (a, t) = (seen.height, seen.along);
+        let [mut kernel, mut gamma] = discs;
         for ring in &self.rings {
-            if depth < ring.outer && t[0] < ring.outer && t[1] > -ring.outer {
+            if a.abs() < ring.outer && t[0] < ring.outer && t[1] > -ring.outer {
                 let [f, k] = ring.integrals(a, t[0], t[1]);
                 kernel += f;
                 gamma += a * k;
             }
         }
-        let gamma = if contact == Contact::None {
-            gamma - a * smooth
-        } else {
-            0.0
-        };
+        let contact = contact(a, t, seen.distance2);
         SegmentIntegral {
             kernel: kernel * self.per_h,
-            gamma,
+            gamma: if contact == Contact::None { gamma } else { 0.0 },
             contact,
         }
     }
 }
 
-/// Signed angle under which the piece is seen, positive from the fluid's side.
-#[inline]
-fn angle(a: f64, from: End, to: End) -> f64 {
-    (a * (to.y - from.y)).atan2(from.y * to.y + a * a)
-}
-
 /// asinh(y₂/a) − asinh(y₁/a) with one logarithm and without cancellation.
-#[inline]
-fn logarithm(depth: f64, from: End, to: End) -> f64 {
-    if depth < NO_LOGARITHM {
-        return 0.0;
-    }
+#[inline(always)]
+fn logarithm<L: Lane>(depth: L, from: End<L>, to: End<L>) -> L {
+    let zero = L::splat(0.0);
     let (far_from, far_to) = (from.y.abs() + from.q, to.y.abs() + to.q);
-    if from.y >= 0.0 {
-        (far_to / far_from).ln()
-    } else if to.y <= 0.0 {
-        (far_from / far_to).ln()
-    } else {
-        ((far_to / depth) * (far_from / depth)).ln()
-    }
+    // Both ends behind the foot, both before it, or the foot between them.
+    let behind = zero - from.y;
+    let over = to.y.where_positive(far_to * far_from, far_from);
+    let over = behind.where_positive(over, far_to);
+    let under = to.y.where_positive(depth * depth, far_to);
+    let under = behind.where_positive(under, far_from);
+    let seen = depth - L::splat(NO_LOGARITHM);
+    let one = L::splat(1.0);
+    let ratio = seen.where_positive(over, one) / seen.where_positive(under, one);
+    seen.where_positive(ln(ratio), zero)
 }
 
 #[inline]
