@@ -31,6 +31,7 @@ mod limit;
 mod plan;
 mod registry;
 mod saved;
+mod shelf;
 mod slots;
 mod stage;
 mod store;
@@ -56,6 +57,7 @@ pub use scene_text::{
     Dimensions, MOST_PROBLEMS, SceneProblem, conform, defaults, nearest, number, parse_quantity,
     parse_unit, plausible, suggestion,
 };
+pub use shelf::{Lent, Shelf};
 pub use slots::Slots;
 pub use stage::{Access, Declares, Stage};
 pub use store::{Plain, Role, Store};

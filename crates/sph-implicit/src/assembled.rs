@@ -1,6 +1,6 @@
 //! A matrix that is written down, as an operator.
 
-use sph_core::Vect;
+use sph_core::{Shelf, Vect};
 
 use crate::halved::Halved;
 use crate::{Matrix, Operator};
@@ -14,8 +14,8 @@ impl<const D: usize> Operator<D> for Matrix<D> {
         Matrix::multiply(self, x, y);
     }
 
-    fn prepared(&self) -> Option<Box<dyn Operator<D> + '_>> {
-        Some(Box::new(Halved::of(self)))
+    fn prepared<'a>(&'a self, shelf: &'a Shelf) -> Option<Box<dyn Operator<D> + 'a>> {
+        Some(Box::new(Halved::of(self, shelf)))
     }
 
     fn assembled(&self) -> Option<&Matrix<D>> {

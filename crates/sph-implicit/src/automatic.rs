@@ -1,8 +1,10 @@
 //! The choice between the solvers: iterations first, a factorisation where they take too long.
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Shelf, Vect, register};
 
 use crate::{
     Cholesky, ConjugateGradient, Entries, LinearSolver, LinearSolverEntry, Matrix, Operator,
@@ -36,6 +38,9 @@ pub struct Automatic {
     #[serde(skip)]
     #[schemars(skip)]
     direct: Cholesky,
+    #[serde(skip)]
+    #[schemars(skip)]
+    shelf: Arc<Shelf>,
 }
 
 impl Automatic {
@@ -53,6 +58,7 @@ impl Default for Automatic {
         Automatic {
             tolerance: 1e-8,
             direct: Cholesky::default(),
+            shelf: Arc::default(),
         }
     }
 }
@@ -93,6 +99,7 @@ impl<const D: usize> LinearSolver<D> for Automatic {
             let mut plain = ConjugateGradient {
                 tolerance: self.tolerance,
                 preconditioner: Preconditioner::None,
+                shelf: self.shelf.clone(),
                 ..ConjugateGradient::default()
             };
             return plain.solve_roughly(operator, right, x, enough);
@@ -118,6 +125,7 @@ impl<const D: usize> LinearSolver<D> for Automatic {
                     false => BLOCK_PATIENCE,
                     true => patience.unwrap_or(whole.iterations),
                 },
+                shelf: self.shelf.clone(),
             };
             // What a stage reached is where the next one starts.
             match solver.solve_roughly(operator, right, x, enough) {

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Shelf, Vect, register};
 
 use crate::krylov::{Tolerance, Watch};
 use crate::vector::add;
@@ -55,11 +55,13 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
             iterations: self.iterations,
         };
         let mut watch = Watch::new(METHOD, tolerance, operator, right)?;
-        let mut r = operator.residual(right, x);
+        let mut r = Vec::new();
+        operator.residual(right, x, &mut r);
         if let Some(residual) = watch.reached(operator.norm(&r))? {
             return Ok(watch.report(residual, size_of_val(&r[..])));
         }
-        let precondition = self.preconditioner.bind(operator, METHOD)?;
+        let shelf = Shelf::default();
+        let precondition = self.preconditioner.bind(operator, METHOD, &shelf)?;
         let bytes = 7 * size_of_val(&r[..]) + precondition.bytes();
         let rows = right.len();
         let zeros = || vec![Vect::<D>::zeros(); operator.columns()];

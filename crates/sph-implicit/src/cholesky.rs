@@ -93,12 +93,13 @@ impl<const D: usize> LinearSolver<D> for Cholesky {
         factorise(kept, right.len())?;
         solve(kept, right, x, blocks)?;
         let scale = norm(right).max(f64::MIN_POSITIVE);
-        let mut rest = operator.residual(right, x);
+        let mut rest = Vec::new();
+        operator.residual(right, x, &mut rest);
         if norm(&rest) > REFINE * scale {
             let mut correction = vec![Vect::zeros(); rest.len()];
             solve(kept, &rest, &mut correction, blocks)?;
             crate::vector::add(x, 1.0, &correction);
-            rest = operator.residual(right, x);
+            operator.residual(right, x, &mut rest);
         }
         let relative = norm(&rest) / scale;
         match relative <= REFUSE {

@@ -1,8 +1,10 @@
 //! Preconditioned conjugate gradients.
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Shelf, Vect, register};
 
 use crate::krylov::{Tolerance, Watch};
 use crate::vector::{add, scale_and_add};
@@ -17,7 +19,7 @@ use crate::{LinearSolver, LinearSolverEntry, Operator, Preconditioner, Report, S
 /// [linear-solver.conjugate-gradient]
 /// preconditioner = "incomplete-diagonal"
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ConjugateGradient {
     /// What shortens the iteration.
@@ -32,6 +34,19 @@ pub struct ConjugateGradient {
     /// Iterations after which it gives up; the step is then tried again with half its length.
     #[schemars(range(min = 1), extend("unit" = "1", "source" = "ours"))]
     pub iterations: usize,
+    /// Vectors and factors of solves before, kept for their memory; solvers may share them.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub shelf: Arc<Shelf>,
+}
+
+/// The vectors of a solve.
+#[derive(Default)]
+struct Vectors<const D: usize> {
+    r: Vec<Vect<D>>,
+    z: Vec<Vect<D>>,
+    direction: Vec<Vect<D>>,
+    image: Vec<Vect<D>>,
 }
 
 impl Default for ConjugateGradient {
@@ -40,6 +55,7 @@ impl Default for ConjugateGradient {
             preconditioner: Preconditioner::default(),
             tolerance: 1e-8,
             iterations: 2000,
+            shelf: Arc::default(),
         }
     }
 }
@@ -70,40 +86,48 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
             iterations: self.iterations,
         };
         let mut watch = Watch::new(METHOD, tolerance, operator, right)?;
-        let mut r = operator.residual(right, x);
-        if let Some(residual) = watch.reached(operator.norm(&r))? {
+        let shelf = &*self.shelf;
+        let mut vectors = shelf.lend::<Vectors<D>>();
+        let Vectors {
+            r,
+            z,
+            direction,
+            image,
+        } = &mut *vectors;
+        operator.residual(right, x, r);
+        if let Some(residual) = watch.reached(operator.norm(r))? {
             return Ok(watch.report(residual, size_of_val(&r[..])));
         }
-        let precondition = self.preconditioner.bind(operator, METHOD)?;
+        let precondition = self.preconditioner.bind(operator, METHOD, shelf)?;
         let bytes = 4 * size_of_val(&r[..]) + precondition.bytes();
-        let mut z = vec![Vect::zeros(); r.len()];
-        precondition.apply(&r, &mut z);
-        let mut direction = z.clone();
+        z.resize(r.len(), Vect::zeros());
+        precondition.apply(r, z);
+        direction.clone_from(z);
         direction.resize(operator.columns(), Vect::zeros());
-        let mut image = vec![Vect::zeros(); r.len()];
-        let mut slope = operator.dot(&r, &z);
+        image.resize(r.len(), Vect::zeros());
+        let mut slope = operator.dot(r, z);
         let mut prepared = None;
         loop {
             if watch.iterations() == PREPARE {
-                prepared = operator.prepared();
+                prepared = operator.prepared(shelf);
             }
             match &prepared {
-                Some(prepared) => prepared.multiply(&direction, &mut image),
-                None => operator.apply(&mut direction, &mut image),
+                Some(prepared) => prepared.multiply(direction, image),
+                None => operator.apply(direction, image),
             }
-            let curvature = operator.dot(&direction, &image);
+            let curvature = operator.dot(direction, image);
             if curvature <= 0.0 || slope <= 0.0 {
                 return Err(watch.not_positive());
             }
             let length = slope / curvature;
-            add(x, length, &direction);
-            add(&mut r, -length, &image);
-            if let Some(residual) = watch.reached(operator.norm(&r))? {
+            add(x, length, direction);
+            add(r, -length, image);
+            if let Some(residual) = watch.reached(operator.norm(r))? {
                 return Ok(watch.report(residual, bytes));
             }
-            precondition.apply(&r, &mut z);
-            let next = operator.dot(&r, &z);
-            scale_and_add(&mut direction[..z.len()], next / slope, &z);
+            precondition.apply(r, z);
+            let next = operator.dot(r, z);
+            scale_and_add(&mut direction[..z.len()], next / slope, z);
             slope = next;
         }
     }

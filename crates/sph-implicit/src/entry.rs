@@ -11,7 +11,7 @@ pub trait Entry<const D: usize>: Copy + Send + Sync + PartialEq + 'static {
     /// Nothing.
     const ZERO: Self;
     /// The same in half the memory, to seven digits.
-    type Short: Copy + Send + Sync + std::fmt::Debug;
+    type Short: Copy + Send + Sync + std::fmt::Debug + 'static;
     /// s a, shortened.
     fn short(&self, factor: f64) -> Self::Short;
     /// What is left of a shortened entry.

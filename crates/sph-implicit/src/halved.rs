@@ -1,7 +1,7 @@
 //! A symmetric matrix with each pair once, for many products.
 
 use rayon::prelude::*;
-use sph_core::Vect;
+use sph_core::{Lent, Shelf, Vect};
 
 use crate::matrix::{Entries, Values};
 use crate::{Block, Entry, Matrix, Operator, Pattern};
@@ -24,11 +24,12 @@ enum Kind<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Halved<'a, D> {
-    /// Of a matrix.
-    pub fn of(matrix: &'a Matrix<D>) -> Self {
+    /// Of a matrix, in memory that is kept.
+    pub fn of(matrix: &'a Matrix<D>, shelf: &'a Shelf) -> Self {
+        let pattern = &matrix.pattern;
         Halved(match &matrix.entries {
-            Entries::Scalar(values) => Kind::Scalar(Parts::of::<D>(&matrix.pattern, values)),
-            Entries::Block(values) => Kind::Block(Parts::of::<D>(&matrix.pattern, values)),
+            Entries::Scalar(values) => Kind::Scalar(Parts::of::<D>(pattern, values, shelf)),
+            Entries::Block(values) => Kind::Block(Parts::of::<D>(pattern, values, shelf)),
         })
     }
 }
@@ -49,10 +50,10 @@ impl<const D: usize> Operator<D> for Halved<'_, D> {
     }
 }
 
-struct Parts<'a, E> {
+struct Parts<'a, E: Send + 'static> {
     diagonal: &'a [E],
     rows: usize,
-    parts: Vec<Part<E>>,
+    parts: Lent<'a, Vec<Part<E>>>,
 }
 
 /// Some rows that follow each other.
@@ -66,21 +67,23 @@ struct Part<E> {
     others: Vec<E>,
 }
 
-impl<'a, E: Copy + Send + Sync> Parts<'a, E> {
-    fn of<const D: usize>(pattern: &Pattern, values: &'a Values<E>) -> Self
+impl<'a, E: Copy + Send + Sync + 'static> Parts<'a, E> {
+    fn of<const D: usize>(pattern: &Pattern, values: &'a Values<E>, shelf: &'a Shelf) -> Self
     where
         E: Entry<D>,
     {
         let rows = pattern.len().div_ceil(PARTS).clamp(PART, MOST);
         let count = pattern.len().div_ceil(rows);
-        let part = |k: usize| {
+        let mut parts = shelf.lend::<Vec<Part<E>>>();
+        parts.resize_with(count, Part::nothing);
+        parts.par_iter_mut().enumerate().for_each(|(k, part)| {
             let own = k * rows..((k + 1) * rows).min(pattern.len());
-            Part::of::<D>(pattern, &values.others, own)
-        };
+            part.refill(pattern, &values.others, own);
+        });
         Parts {
             diagonal: &values.diagonal,
             rows,
-            parts: (0..count).into_par_iter().map(part).collect(),
+            parts,
         }
     }
 
@@ -88,7 +91,7 @@ impl<'a, E: Copy + Send + Sync> Parts<'a, E> {
     where
         E: Entry<D>,
     {
-        let parts = y.par_chunks_mut(self.rows).zip(&self.parts).enumerate();
+        let parts = y.par_chunks_mut(self.rows).zip(&**self.parts).enumerate();
         parts.for_each(|(k, (y, part))| {
             let from = k * self.rows;
             part.multiply(&self.diagonal[from..from + y.len()], &x[from..], x, y);
@@ -97,18 +100,23 @@ impl<'a, E: Copy + Send + Sync> Parts<'a, E> {
 }
 
 impl<E: Copy> Part<E> {
-    fn of<const D: usize>(pattern: &Pattern, others: &[E], own: std::ops::Range<usize>) -> Self
-    where
-        E: Entry<D>,
-    {
-        let room = pattern.starts[own.end] as usize - pattern.starts[own.start] as usize;
-        let mut part = Part {
-            starts: Vec::with_capacity(own.len() + 1),
-            inside: Vec::with_capacity(room / 2),
-            lower: Vec::with_capacity(room / 2),
+    fn nothing() -> Self {
+        Part {
+            starts: Vec::new(),
+            inside: Vec::new(),
+            lower: Vec::new(),
             outside: Vec::new(),
             others: Vec::new(),
-        };
+        }
+    }
+
+    fn refill(&mut self, pattern: &Pattern, others: &[E], own: std::ops::Range<usize>) {
+        let part = self;
+        part.starts.clear();
+        part.inside.clear();
+        part.lower.clear();
+        part.outside.clear();
+        part.others.clear();
         part.starts.push([0, 0]);
         for i in own.clone() {
             let row = pattern.row(i);
@@ -127,7 +135,6 @@ impl<E: Copy> Part<E> {
             let ends = [part.inside.len() as u32, part.outside.len() as u32];
             part.starts.push(ends);
         }
-        part
     }
 
     /// y = A x for the rows of the part, of which `own` are the x.
@@ -200,7 +207,7 @@ mod tests {
             vec![Vect::<2>::repeat(f64::NAN); rows as usize],
         ];
         matrix.multiply(&x, &mut products[0]);
-        Halved::of(&matrix).multiply(&x, &mut products[1]);
+        Halved::of(&matrix, &Shelf::default()).multiply(&x, &mut products[1]);
         let apart = products[0].iter().zip(&products[1]);
         let apart = apart.map(|(a, b)| (a - b).amax()).fold(0.0, f64::max);
         assert!(apart < 1e-13, "{apart:e}");

@@ -21,6 +21,13 @@ pub struct Incomplete<E, S> {
     parts: Vec<Part<E, S>>,
 }
 
+impl<E, S> Default for Incomplete<E, S> {
+    /// Of no rows.
+    fn default() -> Self {
+        Incomplete { parts: Vec::new() }
+    }
+}
+
 /// The factor of some rows that follow each other; columns count from the first of them.
 #[derive(Clone, Debug)]
 struct Part<E, S> {
@@ -30,6 +37,8 @@ struct Part<E, S> {
     lower: Vec<S>,
     inverse_pivots: Vec<E>,
     largest: f64,
+    /// l before it is shortened; kept for its memory.
+    long: Vec<E>,
 }
 
 /// Rows of a part; their number fits into 16 bits.
@@ -40,27 +49,32 @@ const RAISE: f64 = 1e-3;
 const ATTEMPTS: usize = 5;
 
 impl<E: Copy + Send + Sync, S: Copy + Send + Sync> Incomplete<E, S> {
-    /// Factorises; with `pivots_only` l_ij = a_ij, which leaves out the search for common columns: less work for more iterations.
+    /// Factorises in the memory of the factors before; with `pivots_only` l_ij = a_ij, which leaves out the search for common columns: less work for more iterations.
     ///
     /// # Errors
     /// The row whose pivot is not positive, even with a raised diagonal.
-    pub fn new<const D: usize>(
+    pub fn refill<const D: usize>(
+        &mut self,
         pattern: &Pattern,
         values: &Values<E>,
         pivots_only: bool,
-    ) -> Result<Self, usize>
+    ) -> Result<(), usize>
     where
         E: Entry<D, Short = S>,
     {
         let mut raise = 0.0;
         let mut row = 0;
+        let count = pattern.len().div_ceil(PART);
+        self.parts.resize_with(count, Part::nothing);
         for _ in 0..ATTEMPTS {
-            let part = |k: usize| Part::new::<D>(pattern, values, pivots_only, 1.0 + raise, k);
-            let count = pattern.len().div_ceil(PART);
-            let parts: Vec<_> = (0..count).into_par_iter().map(part).collect();
-            match parts.into_iter().collect() {
-                Ok(parts) => return Ok(Incomplete { parts }),
-                Err(i) => row = i,
+            let parts = self.parts.par_iter_mut().enumerate();
+            let failed = parts.filter_map(|(k, part)| {
+                let filled = part.refill::<D>(pattern, values, pivots_only, 1.0 + raise, k);
+                filled.err()
+            });
+            match failed.min() {
+                None => return Ok(()),
+                Some(i) => row = i,
             }
             raise = if raise == 0.0 { RAISE } else { 10.0 * raise };
         }
@@ -74,6 +88,7 @@ impl<E: Copy + Send + Sync, S: Copy + Send + Sync> Incomplete<E, S> {
                 + size_of_val(&p.columns[..])
                 + size_of_val(&p.lower[..])
                 + size_of_val(&p.inverse_pivots[..])
+                + size_of_val(&p.long[..])
         };
         self.parts.iter().map(part).sum()
     }
@@ -90,25 +105,43 @@ impl<E: Copy + Send + Sync, S: Copy + Send + Sync> Incomplete<E, S> {
 }
 
 impl<E: Copy, S: Copy> Part<E, S> {
-    fn new<const D: usize>(
+    fn nothing() -> Self {
+        Part {
+            starts: Vec::new(),
+            columns: Vec::new(),
+            lower: Vec::new(),
+            inverse_pivots: Vec::new(),
+            largest: 0.0,
+            long: Vec::new(),
+        }
+    }
+
+    fn refill<const D: usize>(
+        &mut self,
         pattern: &Pattern,
         values: &Values<E>,
         pivots_only: bool,
         raise: f64,
         part: usize,
-    ) -> Result<Self, usize>
+    ) -> Result<(), usize>
     where
         E: Entry<D, Short = S>,
     {
+        let Part {
+            starts,
+            columns,
+            inverse_pivots,
+            long: lower,
+            ..
+        } = self;
         let from = part * PART;
         let rows = from..(from + PART).min(pattern.len());
-        let mut starts: Vec<u32> = Vec::with_capacity(rows.len() + 1);
+        starts.clear();
         starts.push(0);
-        let room = pattern.row(rows.end - 1).end - pattern.row(from).start;
-        let mut columns: Vec<u16> = Vec::with_capacity(room / 2);
-        let mut lower: Vec<E> = Vec::with_capacity(room / 2);
+        columns.clear();
+        lower.clear();
+        inverse_pivots.clear();
         let mut largest = f64::MIN_POSITIVE;
-        let mut inverse_pivots: Vec<E> = Vec::with_capacity(rows.len());
         for i in rows {
             let begin = columns.len();
             let row = pattern.row(i);
@@ -141,13 +174,10 @@ impl<E: Copy, S: Copy> Part<E, S> {
             starts.push(columns.len() as u32);
         }
         let factor = 1.0 / largest;
-        Ok(Part {
-            starts,
-            columns,
-            lower: lower.iter().map(|l| l.short(factor)).collect(),
-            inverse_pivots,
-            largest,
-        })
+        self.largest = largest;
+        self.lower.clear();
+        self.lower.extend(self.long.iter().map(|l| l.short(factor)));
+        Ok(())
     }
 
     fn solve<const D: usize>(&self, r: &[Vect<D>], z: &mut [Vect<D>])

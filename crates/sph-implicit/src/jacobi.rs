@@ -1,6 +1,6 @@
 //! Jacobi's iteration.
 
-use sph_core::Vect;
+use sph_core::{Shelf, Vect};
 
 use crate::krylov::{Tolerance, Watch};
 use crate::{LinearSolver, Operator, Preconditioner, Report, SolveError};
@@ -31,11 +31,13 @@ impl<const D: usize> LinearSolver<D> for Jacobi {
             iterations: self.sweeps,
         };
         let mut watch = Watch::new(METHOD, tolerance, operator, right)?;
-        let diagonal = Preconditioner::BlockJacobi.bind(operator, METHOD)?;
+        let shelf = Shelf::default();
+        let diagonal = Preconditioner::BlockJacobi.bind(operator, METHOD, &shelf)?;
+        let mut r = Vec::new();
         let mut step = vec![Vect::zeros(); right.len()];
         let bytes = 2 * size_of_val(&step[..]) + diagonal.bytes();
         loop {
-            let r = operator.residual(right, x);
+            operator.residual(right, x, &mut r);
             if let Some(residual) = watch.reached(operator.norm(&r))? {
                 return Ok(watch.report(residual, bytes));
             }

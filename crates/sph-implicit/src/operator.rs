@@ -1,6 +1,6 @@
 //! What a solver needs to know of a system.
 
-use sph_core::Vect;
+use sph_core::{Shelf, Vect};
 
 use crate::vector::dot;
 use crate::{Matrix, SolveError};
@@ -31,7 +31,7 @@ pub trait Operator<const D: usize>: Sync {
     fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]);
 
     /// The same operator in a form that is worth its making where many products are asked for; none where there is no such form.
-    fn prepared(&self) -> Option<Box<dyn Operator<D> + '_>> {
+    fn prepared<'a>(&'a self, _shelf: &'a Shelf) -> Option<Box<dyn Operator<D> + 'a>> {
         None
     }
 
@@ -61,17 +61,16 @@ impl<const D: usize> dyn Operator<D> + '_ {
     }
 
     /// r = b − A x.
-    pub(crate) fn residual(&self, right: &[Vect<D>], x: &[Vect<D>]) -> Vec<Vect<D>> {
-        let mut r = vec![Vect::zeros(); right.len()];
+    pub(crate) fn residual(&self, right: &[Vect<D>], x: &[Vect<D>], r: &mut Vec<Vect<D>>) {
+        r.resize(right.len(), Vect::zeros());
         if self.columns() == self.rows() {
-            self.multiply(x, &mut r);
+            self.multiply(x, r);
         } else {
             let mut x = x.to_vec();
             x.resize(self.columns(), Vect::zeros());
-            self.apply(&mut x, &mut r);
+            self.apply(&mut x, r);
         }
         r.iter_mut().zip(right).for_each(|(r, b)| *r = b - *r);
-        r
     }
 
     /// The whole matrix.

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use sph_core::Vect;
+use sph_core::{Lent, Shelf, Vect};
 
 use crate::incomplete::Incomplete;
 use crate::matrix::{Entries, ROWS, Values};
@@ -28,22 +28,23 @@ pub enum Preconditioner {
 }
 
 /// A preconditioner of one matrix.
-pub(crate) enum Bound<const D: usize> {
+pub(crate) enum Bound<'s, const D: usize> {
     Nothing,
-    Scalar(Vec<f64>),
-    Block(Vec<Block<D>>),
-    IncompleteScalar(Incomplete<f64, f32>),
-    IncompleteBlock(Incomplete<Block<D>, [[f32; D]; D]>),
+    Scalar(Lent<'s, Vec<f64>>),
+    Block(Lent<'s, Vec<Block<D>>>),
+    IncompleteScalar(Lent<'s, Incomplete<f64, f32>>),
+    IncompleteBlock(Lent<'s, Incomplete<Block<D>, [[f32; D]; D]>>),
 }
 
 impl Preconditioner {
     /// # Errors
     /// If a pivot is not positive.
-    pub(crate) fn bind<const D: usize>(
+    pub(crate) fn bind<'s, const D: usize>(
         self,
         operator: &dyn Operator<D>,
         method: &'static str,
-    ) -> Result<Bound<D>, SolveError> {
+        shelf: &'s Shelf,
+    ) -> Result<Bound<'s, D>, SolveError> {
         if self == Preconditioner::None {
             return Ok(Bound::Nothing);
         }
@@ -57,45 +58,57 @@ impl Preconditioner {
         Ok(match (self, &matrix.entries) {
             (Preconditioner::Jacobi, Entries::Block(values)) => {
                 let diagonal = |d: &Block<D>| Entry::<D>::diagonal(d);
-                Bound::Block(inverted::<D, _>(values, diagonal).map_err(failed)?)
+                Bound::Block(inverted::<D, _>(shelf, values, diagonal).map_err(failed)?)
             }
             (Preconditioner::Jacobi | Preconditioner::BlockJacobi, Entries::Scalar(values)) => {
-                Bound::Scalar(inverted::<D, _>(values, |d| *d).map_err(failed)?)
+                Bound::Scalar(inverted::<D, _>(shelf, values, |d| *d).map_err(failed)?)
             }
             (Preconditioner::BlockJacobi, Entries::Block(values)) => {
-                Bound::Block(inverted::<D, _>(values, |d| *d).map_err(failed)?)
+                Bound::Block(inverted::<D, _>(shelf, values, |d| *d).map_err(failed)?)
             }
             (_, Entries::Scalar(values)) => {
                 let quick = self == Preconditioner::IncompleteDiagonal;
-                Bound::IncompleteScalar(incomplete::<D, _>(&matrix.pattern, values, quick, failed)?)
+                Bound::IncompleteScalar(
+                    incomplete::<D, _>(shelf, &matrix.pattern, values, quick).map_err(failed)?,
+                )
             }
             (_, Entries::Block(values)) => {
                 let quick = self == Preconditioner::IncompleteDiagonal;
-                Bound::IncompleteBlock(incomplete::<D, _>(&matrix.pattern, values, quick, failed)?)
+                Bound::IncompleteBlock(
+                    incomplete::<D, _>(shelf, &matrix.pattern, values, quick).map_err(failed)?,
+                )
             }
         })
     }
 }
 
-fn incomplete<const D: usize, E: Entry<D>>(
+/// An incomplete factorisation, or the first row whose pivot is not positive.
+fn incomplete<'s, const D: usize, E: Entry<D>>(
+    shelf: &'s Shelf,
     pattern: &Pattern,
     values: &Values<E>,
     pivots_only: bool,
-    failed: impl Fn(usize) -> SolveError,
-) -> Result<Incomplete<E, E::Short>, SolveError> {
-    Incomplete::new::<D>(pattern, values, pivots_only).map_err(failed)
+) -> Result<Lent<'s, Incomplete<E, E::Short>>, usize> {
+    let mut factor = shelf.lend::<Incomplete<E, E::Short>>();
+    factor.refill::<D>(pattern, values, pivots_only)?;
+    Ok(factor)
 }
 
 /// The inverses of parts of the diagonal, or the first row that has none.
-fn inverted<const D: usize, E: Entry<D>>(
+fn inverted<'s, const D: usize, E: Entry<D>>(
+    shelf: &'s Shelf,
     values: &Values<E>,
     part: impl Fn(&E) -> E,
-) -> Result<Vec<E>, usize> {
-    let rows = values.diagonal.iter().enumerate();
-    rows.map(|(i, d)| part(d).inverted().ok_or(i)).collect()
+) -> Result<Lent<'s, Vec<E>>, usize> {
+    let mut inverse = shelf.lend::<Vec<E>>();
+    inverse.clear();
+    for (i, d) in values.diagonal.iter().enumerate() {
+        inverse.push(part(d).inverted().ok_or(i)?);
+    }
+    Ok(inverse)
 }
 
-impl<const D: usize> Bound<D> {
+impl<const D: usize> Bound<'_, D> {
     /// Memory that it takes.
     pub fn bytes(&self) -> usize {
         match self {

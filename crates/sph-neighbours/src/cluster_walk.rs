@@ -1,6 +1,6 @@
 //! Walks over clusters that make rows of matrices, and what else is no sum.
 
-use sph_core::StepError;
+use sph_core::{Shelf, StepError};
 use sph_kernels::Sampler;
 use sph_lanes::{Body, Lane, MOST, dispatch_at};
 
@@ -8,7 +8,6 @@ use crate::cluster::Cluster;
 use crate::lane_pair::LanePair;
 use crate::members::{Members, groups};
 use crate::separation::places;
-use crate::shelf::Shelf;
 use crate::sweep::{Room, Sweep};
 use crate::{CHUNK, World};
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use sph_core::Vect;
+use sph_core::{Shelf, Vect};
 use sph_lanes::{Body, Lane, dispatch_at, width};
 
 use crate::list::{keep_all, make_room};
@@ -44,11 +44,14 @@ impl Clusters {
         grid: &CellGrid<D>,
         reach: f64,
         domain: &Domain<D>,
+        shelf: &Shelf,
     ) {
         self.resize(points.len());
         let width = width();
         let blocks = self.blocks.par_iter_mut().enumerate();
-        blocks.for_each_init(Default::default, |(buffer, ranges), (b, block)| {
+        let room = || shelf.lend::<(Vec<u32>, Vec<Range<usize>>)>();
+        blocks.for_each_init(room, |room, (b, block)| {
+            let (buffer, ranges) = &mut **room;
             let from = b * CHUNK;
             let to = (from + CHUNK).min(points.len());
             block.part(&points[from..to], width.lanes(), LONGEST * reach);
@@ -82,11 +85,11 @@ impl Clusters {
     ///
     /// `cluster` gets the members, room for as many candidates as they have and the members' numbers, and returns how many
     /// candidates it left.
-    pub(crate) fn fill<S>(
+    pub(crate) fn fill<S: Default + Send + 'static>(
         &mut self,
         all: &Clusters,
         numbers: &mut [f64],
-        scratch: impl Fn() -> S + Sync + Send,
+        shelf: &Shelf,
         cluster: impl Fn(&mut S, Members<'_>, &mut [u32], &mut [f64]) -> usize + Sync,
     ) {
         self.resize(all.len);
@@ -95,8 +98,9 @@ impl Clusters {
             .zip(numbers.par_chunks_mut(CHUNK))
             .enumerate()
             .for_each_init(
-                || (scratch(), Vec::new()),
-                |(scratch, buffer), (b, ((block, all), numbers))| {
+                || shelf.lend::<(S, Vec<u32>)>(),
+                |room, (b, ((block, all), numbers))| {
+                    let (scratch, buffer) = &mut **room;
                     block.begin(all);
                     buffer.resize(buffer.len().max(all.candidates.len()), 0);
                     let mut used = 0;

@@ -8,7 +8,6 @@ use sph_lanes::{Body, Lane, dispatch_at, width};
 use crate::list::CHUNK;
 use crate::members::{Members, groups};
 use crate::separation::Distances;
-use crate::shelf::Lent;
 use crate::sweep::wrapping;
 use crate::{Domain, NeighbourList, World};
 
@@ -30,72 +29,69 @@ pub fn kernel_sums<const D: usize>(
     let own = kernel.value_at_zero();
     let limit = kernel.support_radius().powi(2);
     let width = width();
-    let cluster =
-        |room: &mut Lent<'_, Room>, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
-            let room = &mut **room;
-            let domain = |i: usize| wrapping(&world.domain, &positions[i], world.reach());
-            let mut inside = std::mem::take(&mut room.inside);
-            inside.clear();
-            inside.resize(all.candidates.len(), false);
-            for members in groups(all, width.lanes()) {
-                let first = members.from - all.from;
-                let near = (members.from..members.from + members.count).find_map(domain);
-                let out = &mut room.lanes.distance2;
-                dispatch_at(
-                    width,
-                    Distances {
-                        members,
-                        positions,
-                        domain: near,
-                        out,
-                    },
-                );
-                let values = &mut room.lanes;
-                let needed = members.candidates.len() * width.lanes();
-                values.reserve(needed);
-                let distance2 = &values.distance2[..needed];
-                let value = &mut values.value[..needed];
-                kernel.value(distance2, value);
-                let sums = &mut sums[first..first + members.count];
-                dispatch_at(
-                    width,
-                    Total {
-                        distance2,
-                        value,
-                        limit,
-                        inside: &mut inside,
-                        sums,
-                    },
-                );
-            }
-            for (k, sum) in sums.iter_mut().enumerate() {
-                *sum += own;
-                if points.in_density() {
-                    let i = all.from + k;
-                    let row = world.lists.wall.row(i);
-                    if !row.is_empty() {
-                        let values = &mut room.row;
-                        let w =
-                            values.fill(&positions[i], &points.position, row, domain(i), kernel);
-                        let shares = row.iter().map(|&v| points.share[v as usize]);
-                        *sum += w
-                            .iter()
-                            .zip(shares)
-                            .map(|(w, share)| w * share)
-                            .sum::<f64>();
-                    }
+    let cluster = |room: &mut Room, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
+        let domain = |i: usize| wrapping(&world.domain, &positions[i], world.reach());
+        let mut inside = std::mem::take(&mut room.inside);
+        inside.clear();
+        inside.resize(all.candidates.len(), false);
+        for members in groups(all, width.lanes()) {
+            let first = members.from - all.from;
+            let near = (members.from..members.from + members.count).find_map(domain);
+            let out = &mut room.lanes.distance2;
+            dispatch_at(
+                width,
+                Distances {
+                    members,
+                    positions,
+                    domain: near,
+                    out,
+                },
+            );
+            let values = &mut room.lanes;
+            let needed = members.candidates.len() * width.lanes();
+            values.reserve(needed);
+            let distance2 = &values.distance2[..needed];
+            let value = &mut values.value[..needed];
+            kernel.value(distance2, value);
+            let sums = &mut sums[first..first + members.count];
+            dispatch_at(
+                width,
+                Total {
+                    distance2,
+                    value,
+                    limit,
+                    inside: &mut inside,
+                    sums,
+                },
+            );
+        }
+        for (k, sum) in sums.iter_mut().enumerate() {
+            *sum += own;
+            if points.in_density() {
+                let i = all.from + k;
+                let row = world.lists.wall.row(i);
+                if !row.is_empty() {
+                    let values = &mut room.row;
+                    let w = values.fill(&positions[i], &points.position, row, domain(i), kernel);
+                    let shares = row.iter().map(|&v| points.share[v as usize]);
+                    *sum += w
+                        .iter()
+                        .zip(shares)
+                        .map(|(w, share)| w * share)
+                        .sum::<f64>();
                 }
             }
-            let mut n = 0;
-            for (&j, &near) in all.candidates.iter().zip(&inside) {
-                slots[n] = j;
-                n += usize::from(near);
-            }
-            room.inside = inside;
-            n
-        };
+        }
+        let mut n = 0;
+        for (&j, &near) in all.candidates.iter().zip(&inside) {
+            slots[n] = j;
+            n += usize::from(near);
+        }
+        room.inside = inside;
+        n
+    };
     let shelf = &world.lists.shelf;
-    pruned.fill(&world.lists.free, sums, || shelf.lend(), cluster);
+    pruned.fill(&world.lists.free, sums, shelf, cluster);
     world.lists.pruned = Some(pruned);
     Ok(())
 }
@@ -137,44 +133,32 @@ impl Body for Total<'_> {
     }
 }
 
-/// Calls `use_row(target, candidates, w)` for every target and collects what it returns: the
+/// Calls `use_row(target, candidates, w)` for every target and leaves what it returns in `out`: the
 /// walk behind Shepard means at walls and probes. `w` is exactly zero beyond the support.
+///
+/// # Errors
+/// If the world has no positions.
 pub fn shepard<const D: usize, R: Send>(
     world: &World<D>,
     targets: &[Vect<D>],
     list: &NeighbourList,
+    out: &mut Vec<R>,
     use_row: impl Fn(usize, &[u32], &[f64]) -> R + Sync,
-) -> Result<Vec<R>, StepError> {
-    let all = shepard_some(world, targets, list, |_, _| true, use_row)?;
-    Ok(all.into_iter().flatten().collect())
-}
-
-/// The same for the targets whose candidates are `wanted`; no kernel value is taken for the others.
-pub fn shepard_some<const D: usize, R: Send>(
-    world: &World<D>,
-    targets: &[Vect<D>],
-    list: &NeighbourList,
-    wanted: impl Fn(usize, &[u32]) -> bool + Sync,
-    use_row: impl Fn(usize, &[u32], &[f64]) -> R + Sync,
-) -> Result<Vec<Option<R>>, StepError> {
+) -> Result<(), StepError> {
     let positions = world.free.get(fields::POSITION)?;
     let kernel = &*world.kernel;
-    Ok(targets
-        .par_iter()
-        .enumerate()
-        .with_min_len(CHUNK)
-        .map_init(
-            || world.lists.shelf.lend::<Values>(),
-            |values, (t, x)| {
-                let row = list.row(t);
-                wanted(t, row).then(|| {
-                    let domain = world.domain.any_periodic().then_some(&world.domain);
-                    let w = values.fill(x, positions, row, domain, kernel);
-                    use_row(t, row, w)
-                })
-            },
-        )
-        .collect())
+    let domain = world.domain.any_periodic().then_some(&world.domain);
+    let rows = targets.par_iter().enumerate().with_min_len(CHUNK);
+    let means = rows.map_init(
+        || world.lists.shelf.lend::<Values>(),
+        |values, (t, x)| {
+            let row = list.row(t);
+            let w = values.fill(x, positions, row, domain, kernel);
+            use_row(t, row, w)
+        },
+    );
+    means.collect_into_vec(out);
+    Ok(())
 }
 
 #[derive(Default)]

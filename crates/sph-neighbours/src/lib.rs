@@ -35,7 +35,6 @@ mod reaction;
 mod row;
 mod separation;
 mod shares;
-mod shelf;
 mod sweep;
 mod term;
 mod walk;
@@ -53,7 +52,7 @@ pub use fuse::{
     FusionEntry, Terms, fuse_all, fuse_three, fuse_three_lanes, fuse_two, fuse_two_lanes,
 };
 pub use grid::CellGrid;
-pub use kernel_sums::{kernel_sums, shepard, shepard_some};
+pub use kernel_sums::{kernel_sums, shepard};
 pub use kernels::KernelEntry;
 pub use lane_pair::LanePair;
 pub use lane_term::{FusedLanes, LanePairTerm, LaneTerm, Lanewise};

@@ -1,10 +1,9 @@
 //! What stages and terms see of a running scene.
 
 use rayon::prelude::*;
-use sph_core::{AnyField, Field, FieldError, Scalar, Store, Vect, fields};
+use sph_core::{AnyField, Field, FieldError, Scalar, Shelf, Store, Vect, fields};
 use sph_kernels::Sampler;
 
-use crate::shelf::Shelf;
 use crate::{CellGrid, Clusters, Domain, NeighbourList, WallSet};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
@@ -145,7 +144,8 @@ impl<const D: usize> World<D> {
         let grid = CellGrid::new(&positions, reach, &self.domain);
         let lists = &mut self.lists;
         let domain = &self.domain;
-        lists.free.build(&positions, &grid, reach, domain);
+        let shelf = &lists.shelf;
+        lists.free.build(&positions, &grid, reach, domain, shelf);
         if self.walls.points.in_sums() {
             let first = self.walls.points.corners;
             let summed = &points[first..];

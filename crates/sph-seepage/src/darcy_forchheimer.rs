@@ -149,6 +149,7 @@ impl<const D: usize> Seepage<D> for DarcyForchheimer {
                 preconditioner: Preconditioner::IncompleteDiagonal,
                 tolerance: self.tolerance,
                 iterations: self.iterations,
+                ..ConjugateGradient::default()
             },
             exchange: Exchange {
                 evening: self.evening,

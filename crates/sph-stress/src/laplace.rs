@@ -121,6 +121,7 @@ impl Laplace {
                     preconditioner: Preconditioner::IncompleteDiagonal,
                     tolerance: self.tolerance,
                     iterations: self.iterations.unwrap_or(2000),
+                    ..ConjugateGradient::default()
                 }),
                 PressureSolver::Jacobi => Box::new(Jacobi {
                     tolerance: self.tolerance,

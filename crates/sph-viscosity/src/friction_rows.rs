@@ -55,19 +55,20 @@ impl<const D: usize> FrictionRows<'_, D> {
             let mut of_weak = Vect::zeros();
             let pairs = cluster.candidates().iter().zip(numbers_of.clone());
             for (&column, numbers) in pairs {
+                let norm = numbers[2 * lanes + lane];
+                // Half of a cluster's candidates are beyond the support of any one member.
+                if norm == 0.0 {
+                    continue;
+                }
                 let j = column as usize;
                 let (even, along) = (numbers[lane], numbers[lanes + lane]);
-                let norm = numbers[2 * lanes + lane];
                 let limit = self.weak.map_or(0.0, |w| w.limit[i].min(w.limit[j]));
                 // Not ">": what is not a number has to be seen by the solver.
                 let strong = norm.is_nan() || norm > limit;
                 let apart = cluster.separation(i, j);
                 let entry = E::central(even, along, &apart).times(self.ahead);
                 rows.couple(column, &entry, strong);
-                if !strong
-                    && norm > 0.0
-                    && let Some(weak) = self.weak
-                {
+                if !strong && let Some(weak) = self.weak {
                     let u = weak.velocity[i] - weak.velocity[j];
                     of_weak -= u * even + apart * (along * u.dot(&apart));
                 }

@@ -41,6 +41,8 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     /// λ/(λ + δ), empty unless a wall slips partly.
     slip: Vec<f64>,
     near: NearLists<D, M::Near>,
+    /// Pressures and velocities of the particles, kept for their memory.
+    means: Vec<(f64, Vect<D>)>,
 }
 
 register!(
@@ -76,6 +78,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             drawn,
             slip,
             near: NearLists::default(),
+            means: Vec::new(),
         })
     }
 
@@ -171,18 +174,20 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
     }
 
     fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let Some(set_up) = &self.set_up else {
+        let Some(set_up) = &mut self.set_up else {
             return Ok(());
         };
+        let slip = &set_up.slip;
         let position = world.free.get(fields::POSITION)?;
         let velocity = world.free.get(fields::VELOCITY)?;
         let pressure = world.free.get(fields::PRESSURE)?;
         let density = world.free.get(fields::DENSITY)?;
         let points = &world.walls.points;
-        let means = shepard(
+        shepard(
             world,
             &points.position,
             &world.lists.of_points,
+            &mut set_up.means,
             |v, row, w| {
                 let (mut sum_w, mut sum_p, mut sum_u) = (0.0, 0.0, Vect::<D>::zeros());
                 let felt = match points.acceleration.get(v) {
@@ -200,7 +205,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
                     return (0.0, points.velocity[v]);
                 }
                 let (wall, mean) = (points.velocity[v], sum_u / sum_w);
-                let surface = match set_up.slip.get(v) {
+                let surface = match slip.get(v) {
                     Some(share) => wall + (mean - wall) * *share,
                     None => wall,
                 };
@@ -208,7 +213,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
             },
         )?;
         let points = &mut world.walls.points;
-        for (v, (pressure, velocity)) in means.into_iter().enumerate() {
+        for (v, &(pressure, velocity)) in set_up.means.iter().enumerate() {
             points.pressure[v] = pressure;
             points.viscous_velocity[v] = velocity;
         }

@@ -20,12 +20,13 @@ pub(crate) fn wall_means<const D: usize>(
     accelerations: &[Vect<D>],
     list: &NeighbourList,
     whole: f64,
-) -> Result<Vec<WallMean>, StepError> {
+    out: &mut Vec<WallMean>,
+) -> Result<(), StepError> {
     let position = world.free.get(fields::POSITION)?;
     let pressure = world.free.get(fields::PRESSURE)?;
     let density = world.free.get(fields::DENSITY)?;
     let volume = world.free.get(fields::VOLUME)?;
-    shepard(world, targets, list, |t, row, w| {
+    shepard(world, targets, list, out, |t, row, w| {
         let (mut sum_w, mut sum_vw, mut sum_p) = (0.0, 0.0, 0.0);
         let felt = match accelerations.get(t) {
             Some(acceleration) => world.gravity - acceleration,

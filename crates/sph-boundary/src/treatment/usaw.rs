@@ -10,7 +10,7 @@ use crate::error::stage_error;
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::{Outline, checks_by_outline};
-use crate::treatment::shepard::wall_means;
+use crate::treatment::shepard::{WallMean, wall_means};
 use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallStates};
 
 /// Walls of segments or triangles with vertex particles; sums are renormalised by γ, the share of
@@ -67,6 +67,8 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     /// Least height of the particles of the near lists over the planes of their contacts, m; ∞ for
     /// those on no plane's fluid side.
     clearance: Vec<f64>,
+    /// What the fluid was last like at points and elements; kept for its memory.
+    means: [Vec<WallMean>; 2],
 }
 
 register!(
@@ -97,10 +99,6 @@ impl<R> Found<R> {
 }
 
 impl<const D: usize, M: WallMesh<D>> Usaw<D, M> {
-    fn ready(&self) -> Result<&SetUp<D, M>, StepError> {
-        self.set_up.as_ref().ok_or_else(not_built)
-    }
-
     /// Lets the outline move, and places points and elements where it is then.
     fn moved(
         &mut self,
@@ -168,8 +166,10 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         if walls && here().eq(known.iter().copied()) {
             return true;
         }
-        let here: Vec<_> = here().collect();
-        self.found_for = (self.near.version, self.moves, here);
+        let (version, moves, known) = &mut self.found_for;
+        (*version, *moves) = (self.near.version, self.moves);
+        known.clear();
+        known.extend(self.near.particles.iter().map(|p| positions[*p as usize]));
         false
     }
 
@@ -247,6 +247,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             found_for: (0, 0, Vec::new()),
             found: Vec::new(),
             clearance: Vec::new(),
+            means: Default::default(),
         };
         set_up.place(&mut walls);
         self.set_up = Some(set_up);
@@ -290,26 +291,28 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
     }
 
     fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let spacing = self.ready()?.spacing;
-        let whole = spacing.powi(D as i32);
+        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
+        let [at_points, at_elements] = &mut set_up.means;
+        let whole = set_up.spacing.powi(D as i32);
         let (points, elements) = (&world.walls.points, &world.walls.elements);
         let lists = &world.lists;
-        let at_points = match points.in_density() {
-            true => wall_means(
+        if points.in_density() {
+            wall_means(
                 world,
                 &points.position,
                 &points.acceleration,
                 &lists.of_points,
                 whole,
-            )?,
-            false => Vec::new(),
-        };
-        let at_elements = wall_means(
+                at_points,
+            )?;
+        }
+        wall_means(
             world,
             &elements.centre,
             &elements.acceleration,
             &lists.of_elements,
             whole,
+            at_elements,
         )?;
         let walls = &mut world.walls;
         for (v, mean) in at_points.iter().enumerate() {

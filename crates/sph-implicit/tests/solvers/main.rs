@@ -73,6 +73,7 @@ fn a_contrast_of_a_million_is_solved() {
             preconditioner,
             tolerance: 1e-10,
             iterations: 20_000,
+            ..ConjugateGradient::default()
         };
         let report = solver.solve(&matrix, &b, &mut x).unwrap();
         iterations.push(report.iterations);
@@ -95,6 +96,7 @@ fn what_is_not_solved_is_an_error_with_its_history() {
         preconditioner: Preconditioner::Jacobi,
         tolerance: 1e-12,
         iterations: 5,
+        ..ConjugateGradient::default()
     };
     match hasty.solve(&matrix, &b, &mut x) {
         Err(SolveError::NotConverged {

@@ -129,7 +129,7 @@ fn two_hands_with_half_of_the_rows_each_find_the_solution_of_the_whole() {
     };
     let factored = ConjugateGradient {
         preconditioner: Preconditioner::IncompleteCholesky,
-        ..plain
+        ..plain.clone()
     };
     let bicgstab = Bicgstab {
         preconditioner: Preconditioner::None,
@@ -138,8 +138,11 @@ fn two_hands_with_half_of_the_rows_each_find_the_solution_of_the_whole() {
     };
     let automatic = || Box::new(Automatic::default()) as Box<dyn LinearSolver<2>>;
     let runs = [
-        ("plain", solved(|| Box::new(plain), false)),
-        ("factored by halves", solved(|| Box::new(factored), true)),
+        ("plain", solved(|| Box::new(plain.clone()), false)),
+        (
+            "factored by halves",
+            solved(|| Box::new(factored.clone()), true),
+        ),
         ("BiCGSTAB", solved(|| Box::new(bicgstab), false)),
         ("automatic, no entries", solved(automatic, false)),
         ("automatic, entries by halves", solved(automatic, true)),

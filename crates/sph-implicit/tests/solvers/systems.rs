@@ -109,6 +109,7 @@ pub fn solvers<const D: usize>() -> Vec<(String, Box<dyn LinearSolver<D>>)> {
             preconditioner,
             tolerance: 1e-11,
             iterations: 20_000,
+            ..ConjugateGradient::default()
         };
         all.push((format!("cg {preconditioner:?}"), Box::new(conjugate)));
         let stabilised = Bicgstab {

@@ -7,8 +7,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Buffers of any types: of each as many as tasks were ever at work side by side.
 ///
 /// Which one a task gets depends on the threads, so that nobody reads what the last one left in it.
-#[derive(Default)]
-pub(crate) struct Shelf(Mutex<Vec<Box<dyn Any + Send>>>);
+#[derive(Debug, Default)]
+pub struct Shelf(Mutex<Vec<Box<dyn Any + Send>>>);
 
 impl Shelf {
     fn all(&self) -> MutexGuard<'_, Vec<Box<dyn Any + Send>>> {
@@ -29,13 +29,13 @@ impl Shelf {
 }
 
 /// A buffer that goes back when it is dropped.
-pub(crate) struct Lent<'a, T: Send + 'static> {
+pub struct Lent<'a, T: Send + 'static> {
     /// There until then.
     item: Option<Box<T>>,
     shelf: &'a Shelf,
 }
 
-impl<T: Send> Deref for Lent<'_, T> {
+impl<T: Send + 'static> Deref for Lent<'_, T> {
     type Target = T;
     #[inline(always)]
     fn deref(&self) -> &T {
@@ -46,7 +46,7 @@ impl<T: Send> Deref for Lent<'_, T> {
     }
 }
 
-impl<T: Send> DerefMut for Lent<'_, T> {
+impl<T: Send + 'static> DerefMut for Lent<'_, T> {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut T {
         match &mut self.item {
@@ -56,7 +56,7 @@ impl<T: Send> DerefMut for Lent<'_, T> {
     }
 }
 
-impl<T: Send> Drop for Lent<'_, T> {
+impl<T: Send + 'static> Drop for Lent<'_, T> {
     fn drop(&mut self) {
         if let Some(item) = self.item.take() {
             self.shelf.all().push(item);
