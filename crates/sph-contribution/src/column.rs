@@ -37,6 +37,8 @@ pub struct OwnColumn<const D: usize> {
     pub field: AnyField,
     /// Its values at the start.
     pub initial: Initial<D>,
+    /// Whether particles that come in may begin with positive values alone.
+    pub positive: bool,
 }
 
 impl<const D: usize> OwnColumn<D> {
@@ -48,6 +50,7 @@ impl<const D: usize> OwnColumn<D> {
         OwnColumn {
             field: field.any(),
             initial: Initial::Scalar(Box::new(initial)),
+            positive: false,
         }
     }
 
@@ -59,6 +62,7 @@ impl<const D: usize> OwnColumn<D> {
         OwnColumn {
             field: field.any(),
             initial: Initial::Vector(Box::new(initial)),
+            positive: false,
         }
     }
 
@@ -67,6 +71,15 @@ impl<const D: usize> OwnColumn<D> {
         OwnColumn {
             field,
             initial: Initial::Zero,
+            positive: false,
+        }
+    }
+
+    /// The same column, whose values may not be zero or negative where particles come in.
+    pub fn positive(self) -> Self {
+        OwnColumn {
+            positive: true,
+            ..self
         }
     }
 }

@@ -71,6 +71,16 @@ pub trait Contribution<const D: usize> {
     fn stages_for(&self, _setting: &Setting<'_, D>, _read: &[AnyField]) -> Stages<D> {
         Vec::new()
     }
+    /// Terms that leave in a column what works read after the sweep (`later`), where no stage or term of all, probe or
+    /// output has read it before (`read`).
+    fn riding(
+        &self,
+        _setting: &Setting<'_, D>,
+        _read: &[AnyField],
+        _later: &[AnyField],
+    ) -> Terms<D> {
+        Vec::new()
+    }
     /// Bounds on the step.
     fn limiters(&self, _setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
         Vec::new()

@@ -25,6 +25,7 @@ impl<const D: usize> Domain<D> {
     }
 
     /// Length of the box along an axis, m.
+    #[inline(always)]
     pub fn length(&self, axis: usize) -> f64 {
         self.upper[axis] - self.lower[axis]
     }

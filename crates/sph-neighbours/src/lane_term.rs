@@ -171,8 +171,10 @@ impl<const D: usize, B: LaneTerm<D>> Body for SideBySide<'_, '_, D, B> {
             let pair = cluster.pair(&x, j, distance2, factor);
             term.add(&side, j, &cluster.states[j], &pair, &mut sums);
         }
+        // A copy: single lanes are read from memory, and the sums themselves are to stay in registers.
+        let all = sums;
         for (k, rates) in rates.iter_mut().enumerate() {
-            let (here, mut sum) = (&heres[k], term.lane(&sums, k));
+            let (here, mut sum) = (&heres[k], term.lane(&all, k));
             let row = cluster.buffers.walls[k].row();
             if !row.index.is_empty() {
                 each(&row, |v, pair| term.wall(here, v, pair, &mut sum));

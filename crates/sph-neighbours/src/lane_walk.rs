@@ -128,8 +128,10 @@ impl<const D: usize, S: LaneSum<D>> Body for SideBySide<'_, '_, D, S> {
             };
             sum.add(&side, j, &pair, value, &mut sums);
         }
+        // A copy: single lanes are read from memory, and the sums themselves are to stay in registers.
+        let all = sums;
         for (k, out) in out.iter_mut().enumerate().take(count) {
-            *out = Some(sum.lane(&sums, k));
+            *out = Some(sum.lane(&all, k));
         }
     }
 }

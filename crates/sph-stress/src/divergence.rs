@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Access, StepError, Symmetric, Vect, fields, register};
+use sph_core::{Access, Field, StepError, Symmetric, SymmetricTensor, Vect, fields, register};
 use sph_neighbours::{
     BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
     Pair, Rates, There, World, dot, splat, vector,
@@ -69,12 +69,19 @@ register!(
 ///
 /// Ours, after Ghaïtanellis 2017, Eq. 3.25; Gray et al. 2001.
 #[derive(Clone, Copy, Debug)]
-pub struct StressDivergence;
+pub struct StressDivergence {
+    /// Name in plans.
+    pub name: &'static str,
+    /// The column of the stress τ, Pa, positive in tension.
+    pub stress: Field<SymmetricTensor>,
+}
 
 impl StressDivergence {
-    /// As a term of a sweep.
+    /// That of the stress of elastic materials, as a term of a sweep.
     pub fn boxed<const D: usize>() -> Box<dyn Interaction<D>> {
-        Box::new(Lanewise(StressDivergence))
+        let stress = fields::CARRIED_STRESS;
+        let name = "stress divergence";
+        Box::new(Lanewise(StressDivergence { name, stress }))
     }
 }
 
@@ -82,12 +89,12 @@ impl<const D: usize> LanePairTerm<D> for StressDivergence {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
-        "stress divergence".into()
+        self.name.into()
     }
 
     fn access(&self) -> Access {
         Access::none()
-            .both(fields::CARRIED_STRESS)
+            .both(self.stress)
             .both(fields::VOLUME)
             .here(fields::MASS)
     }
@@ -95,7 +102,7 @@ impl<const D: usize> LanePairTerm<D> for StressDivergence {
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
         let points = &world.walls.points;
         Ok(Bound {
-            stress: world.free.get(fields::CARRIED_STRESS)?,
+            stress: world.free.get(self.stress)?,
             volume: world.free.get(fields::VOLUME)?,
             mass: world.free.get(fields::MASS)?,
             wall_volume: &points.volume,

@@ -6,6 +6,8 @@ use nalgebra::SMatrix;
 use sph_core::{Access, Declares, Stage, StepError, Vect, contract, fields};
 use sph_neighbours::{Lane, LanePair, LaneSum, World, set, walk_in_lanes};
 
+use crate::gathered::{Gathered, LaneSums, add_free, one_lane};
+
 /// What a formula is made of: sums over neighbours, wall points and elements with the weights
 /// θ_b V_b ∇w_ab and −∇γ_as.
 #[derive(Clone, Copy, Debug)]
@@ -39,9 +41,7 @@ contract!(
 
 /// [`VELOCITY_GRADIENT`](fields::VELOCITY_GRADIENT) by a formula.
 ///
-/// All phases count. An element stands at the foot of the particle on its plane. Walls that do not rub stop
-/// the velocity normal to them, and know nothing of that along them: they take part in the gradient of the
-/// normal component alone. (Without them a wall's force would do work that no strain answers.)
+/// All phases count. Walls that do not rub take part in the gradient of the component normal to them alone.
 #[derive(Clone)]
 pub struct GradientStage<const D: usize> {
     /// The formula.
@@ -80,8 +80,6 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
         let mut gradients = world.free.take(fields::VELOCITY_GRADIENT)?;
         let velocity = world.free.get(fields::VELOCITY)?;
         let volume = world.free.get(fields::VOLUME)?;
-        let points = &world.walls.points;
-        let elements = &world.walls.elements;
         let read = match &self.phases {
             Some(phases) => Some((phases, world.free.get(fields::PHASE)?)),
             None => None,
@@ -91,57 +89,19 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
         }
         let wanted = |i: usize| read.is_none_or(|(phases, of)| phases[of[i] as usize]);
         let free = FreeSums { velocity, volume };
-        walk_in_lanes(
-            world,
-            &free,
-            wanted,
-            &mut gradients,
-            |[velocity_sum, position_sum], rows| {
-                let own = velocity[rows.particle];
-                let mut sums = NeighbourSums {
-                    velocity: velocity_sum,
-                    position: position_sum,
-                    inverse_renormalisation: rows.inverse_renormalisation,
-                };
-                // What walls that slip add, and where they face.
-                let mut slipping = [SMatrix::<f64, D, D>::zeros(); 2];
-                let mut facing = Vect::<D>::zeros();
-                for (k, &v) in rows.wall.index.iter().enumerate() {
-                    let v = v as usize;
-                    let share = points.share[v] * points.volume[v];
-                    let apart = &rows.wall.separation[k];
-                    let weight = (apart * (share * rows.wall.factor[k])).transpose();
-                    let [velocity, position] =
-                        [(points.viscous_velocity[v] - own) * weight, -apart * weight];
-                    let grip = points.grip[v];
-                    sums.velocity += velocity * grip;
-                    sums.position += position * grip;
-                    slipping[0] += velocity * (1.0 - grip);
-                    slipping[1] += position * (1.0 - grip);
-                }
-                for contact in rows.contacts {
-                    let s = contact.element as usize;
-                    let weight = -contact.gradient.transpose();
-                    let foot = elements.normal[s] * contact.distance;
-                    let [velocity, position] =
-                        [(elements.velocity[s] - own) * weight, -foot * weight];
-                    let grip = elements.grip[s];
-                    sums.velocity += velocity * grip;
-                    sums.position += position * grip;
-                    slipping[0] += velocity * (1.0 - grip);
-                    slipping[1] += position * (1.0 - grip);
-                    facing += contact.gradient * (1.0 - grip);
-                }
-                let along = self.formula.gradient(&sums);
-                let Some(normal) = facing.try_normalize(0.0) else {
-                    return along;
-                };
-                sums.velocity += slipping[0];
-                sums.position += slipping[1];
-                let across = self.formula.gradient(&sums);
-                along + normal * (normal.transpose() * (across - along))
-            },
-        )?;
+        let walls = &world.walls;
+        walk_in_lanes(world, &free, wanted, &mut gradients, |sums, rows| {
+            let own = &velocity[rows.particle];
+            let mut gathered = Gathered::default().with(sums);
+            let points = rows.wall.index.iter().zip(rows.wall.separation);
+            for ((&v, apart), factor) in points.zip(rows.wall.factor) {
+                gathered.point(own, &walls.points, v as usize, apart, *factor);
+            }
+            for contact in rows.contacts {
+                gathered.element(own, &walls.elements, contact);
+            }
+            gathered.gradient(&*self.formula, rows.inverse_renormalisation)
+        })?;
         Ok(world.free.put(fields::VELOCITY_GRADIENT, gradients)?)
     }
 }
@@ -156,7 +116,7 @@ impl<const D: usize> LaneSum<D> for FreeSums<'_, D> {
     type Here = Vect<D>;
     type Sum = [SMatrix<f64, D, D>; 2];
     type Side<L: Lane> = [L; D];
-    type Sums<L: Lane> = [[[L; D]; D]; 2];
+    type Sums<L: Lane> = LaneSums<L, D>;
 
     #[inline(always)]
     fn here(&self, particle: usize) -> Vect<D> {
@@ -176,7 +136,7 @@ impl<const D: usize> LaneSum<D> for FreeSums<'_, D> {
     }
     #[inline(always)]
     fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Self::Sum {
-        sums.map(|rows| SMatrix::from_fn(|i, k| rows[i][k].at(lane)))
+        one_lane(sums, lane)
     }
     #[inline(always)]
     fn add<L: Lane>(
@@ -185,19 +145,8 @@ impl<const D: usize> LaneSum<D> for FreeSums<'_, D> {
         j: usize,
         pair: &LanePair<D, L>,
         _value: L,
-        [velocity, position]: &mut Self::Sums<L>,
+        sums: &mut Self::Sums<L>,
     ) {
-        let share = L::splat(self.volume[j]) * pair.factor;
-        let mut weight = pair.separation;
-        for w in &mut weight {
-            *w = *w * share;
-        }
-        for i in 0..D {
-            let rise = L::splat(self.velocity[j][i]) - own[i];
-            for k in 0..D {
-                velocity[i][k] += rise * weight[k];
-                position[i][k] -= pair.separation[i] * weight[k];
-            }
-        }
+        add_free(own, &self.velocity[j], self.volume[j], pair, sums);
     }
 }

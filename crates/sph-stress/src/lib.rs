@@ -1,7 +1,7 @@
 //! How constitutive laws meet particles.
 //!
 //! * [`VelocityGradient`] is a kind of plugin: ∂u_i/∂x_j from a particle's neighbours and walls.
-//!   [`GradientStage`] applies it, [`StrainRate`] takes the magnitude.
+//!   [`GradientStage`] applies it, [`StrainRate`] takes the magnitude; [`RidingStrain`] does both within the sweep.
 //! * [`ViscosityStage`] hands batches of particles to their phase's law.
 //! * [`ElasticMotion`] carries remembered stresses along, [`CarriedStress`] (or [`CarriedAhead`]) tells what of them acts,
 //!   and [`Yielded`] how the forces share where a material yields.
@@ -30,11 +30,13 @@ mod elastic_force;
 mod elastic_sub_steps;
 mod elastic_work;
 mod felt;
+mod gathered;
 mod gradient;
 mod isotropic;
 mod laplace;
 mod pore_pressure;
 mod renormalised;
+mod riding_strain;
 mod soil_surface;
 mod strain_rate;
 mod symmetric_difference;
@@ -61,6 +63,7 @@ pub use isotropic::Isotropic;
 pub use laplace::{Laplace, PressureSolver};
 pub use pore_pressure::PorePressure;
 pub use renormalised::Renormalised;
+pub use riding_strain::RidingStrain;
 pub use strain_rate::StrainRate;
 pub use symmetric_difference::SymmetricDifference;
 pub use viscosity::ViscosityStage;

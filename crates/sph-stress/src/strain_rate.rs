@@ -21,6 +21,13 @@ pub fn in_space<const D: usize>(gradient: &SMatrix<f64, D, D>) -> Matrix3<f64> {
     })
 }
 
+/// γ̇ of a gradient, 1/s.
+#[inline]
+pub(crate) fn magnitude<const D: usize>(gradient: &SMatrix<f64, D, D>) -> f64 {
+    let strain = Symmetric::part_of(&in_space(gradient)).deviator();
+    (2.0 * strain.contract(&strain)).sqrt()
+}
+
 impl Declares for StrainRate {
     fn name(&self) -> String {
         "strain rate".into()
@@ -37,10 +44,7 @@ impl<const D: usize> Stage<World<D>> for StrainRate {
         let mut rate = world.free.take(fields::STRAIN_RATE)?;
         let gradient = world.free.get(fields::VELOCITY_GRADIENT)?;
         let all = rate.par_iter_mut().zip(gradient).with_min_len(2048);
-        all.for_each(|(rate, g)| {
-            let strain = Symmetric::part_of(&in_space(g)).deviator();
-            *rate = (2.0 * strain.contract(&strain)).sqrt();
-        });
+        all.for_each(|(rate, g)| *rate = magnitude(g));
         Ok(world.free.put(fields::STRAIN_RATE, rate)?)
     }
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod behind;
 mod filter;
+mod last_strain;
 pub(crate) mod length;
 mod mixing_length;
 pub(crate) mod phases;
@@ -11,5 +12,5 @@ mod wall_units;
 
 pub use filter::FilterLength;
 pub use mixing_length::MixingLength;
-pub use smagorinsky::{Damping, Smagorinsky};
+pub use smagorinsky::{Damping, Smagorinsky, StrainOf};
 pub use wale::Wale;

@@ -1,6 +1,6 @@
 //! Columns of turbulence.
 
-use sph_core::{Field, Scalar};
+use sph_core::{Field, Scalar, SymmetricTensor};
 
 /// Friction velocity u* = √(τ_w/ρ) that the wall function finds at a particle; 0 where it sees no such wall.
 pub const FRICTION_VELOCITY: Field<Scalar> = Field::new(
@@ -64,4 +64,16 @@ pub const DAMPING_UNITS: Field<Scalar> = Field::new(
     "damping_units",
     "1",
     "distance from the nearest wall that rubs in wall units; infinite out of reach",
+);
+/// Strain rate of the step before.
+pub const LAST_STRAIN: Field<Scalar> = Field::new(
+    "last_strain_rate",
+    "1/s",
+    "magnitude √(2 D:D) of the deviatoric strain rate D in the step before",
+);
+/// Stress of eddies that is not along the strain.
+pub const EDDY_STRESS: Field<SymmetricTensor> = Field::new(
+    "eddy_stress",
+    "Pa",
+    "stress of eddies that is not along the strain (xx, yy, zz, xy, yz, xz)",
 );

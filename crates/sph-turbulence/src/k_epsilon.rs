@@ -2,6 +2,7 @@
 
 mod diffusion;
 mod earsm;
+mod extra_stress;
 mod k_length;
 mod model;
 mod near;

@@ -5,6 +5,7 @@
 //!   [`KLength`], [`KEpsilon`].
 //! * [`LogLaw`] gives walls the shear of [`WallLaw`], [`FrictionVelocityProbe`] measures it, [`LogLawFlow`] is the velocity
 //!   over a flat bed.
+//! * [`TurbulentEnergyProbe`] measures k.
 //! * [`BulkVelocity`] holds the flow rate of a periodic channel.
 #![doc = include_str!("../README.md")]
 
@@ -13,18 +14,21 @@ mod bulk_velocity;
 mod closures;
 mod columns;
 mod distance;
+mod energy_probe;
 mod k_epsilon;
 mod kind;
 mod wall;
 
 pub use bed::RoughBed;
 pub use bulk_velocity::{BulkVelocity, FlowControlEntry};
-pub use closures::{Damping, FilterLength, MixingLength, Smagorinsky, Wale};
+pub use closures::{Damping, FilterLength, MixingLength, Smagorinsky, StrainOf, Wale};
 pub use columns::{
-    BED_DISTANCE, BED_FRICTION_VELOCITY, DISSIPATION, DISSIPATION_RATE, FRICTION_VELOCITY,
-    SURFACE_SHARE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE, WALL_DISTANCE, WALL_UNITS,
+    BED_DISTANCE, BED_FRICTION_VELOCITY, DISSIPATION, DISSIPATION_RATE, EDDY_STRESS,
+    FRICTION_VELOCITY, LAST_STRAIN, SURFACE_SHARE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE,
+    WALL_DISTANCE, WALL_UNITS,
 };
 pub use distance::{ElementTree, WallDistance};
+pub use energy_probe::TurbulentEnergyProbe;
 pub use k_epsilon::{
     AlgebraicStress, Anisotropy, AtWall, ChannelStart, KEpsilon, KEpsilonModel, KLength,
     RealisableModel, Variant,

@@ -3,6 +3,7 @@
 mod phases;
 mod probes;
 mod refusals;
+mod strains;
 
 use sph_core::{System, Vect, fields};
 use sph_scene::{Override, parse};

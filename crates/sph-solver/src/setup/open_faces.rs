@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use sph_boundary::Condition;
-use sph_core::{SceneProblem, Store};
+use sph_contribution::OwnColumn;
+use sph_core::{SceneProblem, Shape};
 use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenSetting, open};
 use sph_scene::Scene;
 use sph_state::Laws;
@@ -134,23 +135,36 @@ fn remarks<const D: usize>(scene: &Scene, opened: &OpenBoundaries<D>) -> Vec<Str
     ]
 }
 
-/// Refuses values of columns that no plugin of the scene has.
+/// Refuses values of columns that no plugin of the scene brings along, and such as they cannot have.
 ///
 /// # Errors
 /// The key of the value.
 pub(crate) fn check_values<const D: usize>(
     scene: &Scene,
     entering: &[(String, Entering)],
-    free: &Store<D>,
+    columns: &[OwnColumn<D>],
 ) -> Result<(), SolverError> {
+    let known = columns.iter().filter(|c| c.field.shape == Shape::Scalar);
+    let known: Vec<_> = known.map(|c| (c.field, c.positive)).collect();
     let mut problems = Vec::new();
     for (wall, Entering { values, .. }) in entering {
-        for name in values.keys().filter(|name| !free.has(name)) {
-            let known: Vec<&str> = free.fields().map(|f| f.name).collect();
-            let near = sph_core::suggestion(name, known.iter().copied());
+        for (name, value) in values {
+            let found = known.iter().find(|(field, _)| field.name == name);
+            let why = match found {
+                None => {
+                    let near = sph_core::suggestion(name, known.iter().map(|(f, _)| f.name));
+                    format!("no plugin of this scene has a column `{name}` of its own{near}")
+                }
+                Some((field, true)) if value.is_nan() || *value <= 0.0 => format!(
+                    "{} is positive, and what comes in here would have {value} {}: write a positive value, or take it \
+                     out for that of the start",
+                    field.meaning, field.unit
+                ),
+                Some(_) => continue,
+            };
             problems.push(SceneProblem::new(
                 path(scene, wall, &format!("values.{name}")),
-                format!("no plugin of this scene has a column `{name}`{near}"),
+                why,
             ));
         }
     }

@@ -49,10 +49,19 @@ pub struct Planning<'a, const D: usize> {
 }
 
 /// Terms with the kinds of plugins that they come from.
+#[derive(Default)]
 struct Offered<const D: usize> {
     terms: Terms<D>,
     kinds: Vec<(String, &'static str)>,
     change_density: bool,
+}
+
+impl<const D: usize> Offered<D> {
+    /// Takes terms of a kind of plugin.
+    fn take(&mut self, kind: &'static str, terms: Terms<D>) {
+        self.kinds.extend(terms.iter().map(|t| (t.name(), kind)));
+        self.terms.extend(terms);
+    }
 }
 
 impl<const D: usize> Planning<'_, D> {
@@ -65,16 +74,14 @@ impl<const D: usize> Planning<'_, D> {
         for (_, part) in parts.iter() {
             part.check(setting).map_err(|r| self.refused(r))?;
         }
-        let offered = self.terms(parts);
-        let transported = transported_by(&offered.terms)?;
-        let read_by_terms: Vec<AnyField> = offered
-            .terms
-            .iter()
+        let mut offered = Offered::default();
+        for (kind, part) in parts.iter() {
+            offered.take(kind, part.terms(setting));
+            offered.change_density |= part.changes_density(setting);
+        }
+        let by_terms: Vec<AnyField> = (offered.terms.iter())
             .flat_map(|t| t.access().reads())
             .collect();
-        let terms: SharedTerms<D> = fuse_all(offered.terms).into();
-        let changed = offered.change_density.then_some(self.diffused);
-        let sweep = InteractionSweep::new(terms.clone(), changed, self.walls.is_some());
 
         let mut stages: Stages<D> = Vec::new();
         if let Some(walls) = self.walls {
@@ -82,14 +89,22 @@ impl<const D: usize> Planning<'_, D> {
             stages.push(Box::new(WallState(walls.clone())));
         }
         stages.extend(parts.iter().flat_map(|(_, part)| part.stages(setting)));
-        let read = self.read(&stages, read_by_terms);
+        let read = self.read(&stages, by_terms);
         stages.extend(parts.iter().flat_map(|(_, p)| p.stages_for(setting, &read)));
-        stages.push(Box::new(sweep));
         let mut works = Vec::new();
         for (_, part) in parts.iter_mut() {
             let done = part.works(setting, &read);
             works.extend(done.map_err(|r| self.refused(r))?);
         }
+        let later: Vec<AnyField> = works.iter().flat_map(|w| w.access().reads()).collect();
+        for (kind, part) in parts.iter() {
+            offered.take(kind, part.riding(setting, &read, &later));
+        }
+        let transported = transported_by(&offered.terms)?;
+        let terms: SharedTerms<D> = fuse_all(offered.terms).into();
+        let changed = offered.change_density.then_some(self.diffused);
+        let sweep = InteractionSweep::new(terms.clone(), changed, self.walls.is_some());
+        stages.push(Box::new(sweep));
         let goals = self.goals(parts, &stages, &works);
         let (stages, pruned) = self.ordered(stages, &goals, &works)?;
         Ok(Planned {
@@ -115,21 +130,6 @@ impl<const D: usize> Planning<'_, D> {
             key => format!("{path}.{key}"),
         };
         SolverError::at(path, refusal.why)
-    }
-
-    fn terms(&self, parts: &[Part<D>]) -> Offered<D> {
-        let mut all = Offered {
-            terms: Vec::new(),
-            kinds: Vec::new(),
-            change_density: false,
-        };
-        for (kind, part) in parts {
-            let offered = part.terms(self.setting);
-            all.kinds.extend(offered.iter().map(|t| (t.name(), *kind)));
-            all.terms.extend(offered);
-            all.change_density |= part.changes_density(self.setting);
-        }
-        all
     }
 
     /// What stages and terms read, probes measure and outputs show.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use sph_contribution::Setting;
 use sph_core::{AnyField, fields};
 use sph_rheology::Rheology;
 use sph_viscosity::{EddyViscosity, Viscosity, ViscousOperator};
@@ -82,10 +83,25 @@ impl<const D: usize> Materials<D> {
         Some(GradientStage { formula, phases })
     }
 
+    /// Whether nobody reads strain rates before the interactions, which may then leave them for those who do it later.
+    pub(crate) fn strain_rides(&self, setting: &Setting<'_, D>, read: &[AnyField]) -> bool {
+        let Some(eddies) = &self.eddies else {
+            return false;
+        };
+        let of_eddies = eddies.stage_in(setting).access().reads();
+        let mut before = read.iter().chain(&of_eddies);
+        let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
+        !self.laws.iter().any(|law| reads_gradients(&**law))
+            && !before.any(|field| gradients.contains(field))
+    }
+
     /// By phase number, whether the law reads velocity gradients; `None` if all do.
     fn phases_with_gradients(&self) -> Option<Arc<[bool]>> {
-        let reads = |law: &dyn Rheology| law.needs().strain_rate || law.elastic().is_some();
-        let phases: Arc<[bool]> = self.laws.iter().map(|law| reads(&**law)).collect();
+        let phases: Arc<[bool]> = self.laws.iter().map(|l| reads_gradients(&**l)).collect();
         phases.contains(&false).then_some(phases)
     }
+}
+
+fn reads_gradients(law: &dyn Rheology) -> bool {
+    law.needs().strain_rate || law.elastic().is_some()
 }

@@ -2,17 +2,18 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork};
-use sph_core::{Access, AnyField, Declares, Stage, StepError, fields, register};
+use sph_contribution::{Contribution, OwnColumn, Refusal, Setting, Stages, StepWork};
+use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, StepError, fields, register};
 use sph_neighbours::World;
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
 use super::behind::Behind;
 use super::filter::FilterLength;
+use super::last_strain::KeepStrain;
 use super::phases::viscosities;
 use super::wall_units::WallUnits;
 use crate::bed::RoughBed;
-use crate::columns::DAMPING_UNITS;
+use crate::columns::{DAMPING_UNITS, LAST_STRAIN};
 use crate::kind::KIND;
 
 /// What lessens the eddies near walls.
@@ -54,6 +55,9 @@ pub struct Smagorinsky {
     /// What lessens the eddies near walls.
     #[schemars(extend("source" = "van Driest 1956"))]
     pub damping: Damping,
+    /// Of which step the strain rate is.
+    #[schemars(extend("source" = "as in DualSPHysics, Crespo et al. 2015"))]
+    pub strain_of: StrainOf,
     /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
     pub phases: Vec<String>,
     /// The bed of another phase as a rough wall.
@@ -67,10 +71,22 @@ impl Default for Smagorinsky {
             filter: 2.0,
             filter_length: FilterLength::SmoothingLength,
             damping: Damping::None,
+            strain_of: StrainOf::ThisStep,
             phases: Vec::new(),
             bed: None,
         }
     }
+}
+
+/// Of which step the strain rate is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum StrainOf {
+    /// Of this one, by a walk over the neighbours before the interactions.
+    #[default]
+    ThisStep,
+    /// Of the one before, summed along with its interactions: cheaper, and behind by one step. None at the start.
+    LastStep,
 }
 
 /// A⁺ of van Driest 1956.
@@ -85,6 +101,14 @@ impl Smagorinsky {
     /// f of van Driest's damping at z⁺.
     pub fn damped(z_plus: f64) -> f64 {
         -(-z_plus / DAMPING_LENGTH).exp_m1()
+    }
+
+    /// The column that its eddies follow.
+    fn strain_rate(&self) -> Field<Scalar> {
+        match self.strain_of {
+            StrainOf::ThisStep => fields::STRAIN_RATE,
+            StrainOf::LastStep => LAST_STRAIN,
+        }
     }
 
     fn behind(&self) -> Behind {
@@ -105,7 +129,7 @@ impl Declares for Smagorinsky {
     fn access(&self) -> Access {
         let access = Access::none()
             .here(fields::DENSITY)
-            .here(fields::STRAIN_RATE)
+            .here(self.strain_rate())
             .writes(fields::EDDY_VISCOSITY);
         match self.damping {
             Damping::None => access,
@@ -119,7 +143,7 @@ impl<const D: usize> Stage<World<D>> for Smagorinsky {
         let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
         let width = self.filter * self.filter_length.of(world);
         let density = world.free.get(fields::DENSITY)?;
-        let rates = world.free.get(fields::STRAIN_RATE)?;
+        let rates = world.free.get(self.strain_rate())?;
         let inputs = density.iter().zip(rates);
         for (eddy, (rho, rate)) in eddies.iter_mut().zip(inputs) {
             *eddy = rho * self.kinematic(width, *rate);
@@ -163,6 +187,12 @@ impl<const D: usize> Contribution<D> for LargeEddies {
             )),
         }
     }
+    fn columns(&self) -> Vec<OwnColumn<D>> {
+        match self.0.strain_of {
+            StrainOf::ThisStep => Vec::new(),
+            StrainOf::LastStep => vec![OwnColumn::scalar(LAST_STRAIN, |_| 0.0)],
+        }
+    }
     fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
         let mut stages = self.0.behind().stages(setting);
         if self.0.damping == Damping::VanDriest {
@@ -178,7 +208,11 @@ impl<const D: usize> Contribution<D> for LargeEddies {
         _: &Setting<'_, D>,
         _: &[AnyField],
     ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        Ok(self.0.behind().works())
+        let mut works = self.0.behind().works();
+        if self.0.strain_of == StrainOf::LastStep {
+            works.push(Box::new(KeepStrain));
+        }
+        Ok(works)
     }
 }
 

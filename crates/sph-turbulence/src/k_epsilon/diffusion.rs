@@ -3,7 +3,7 @@
 use sph_contribution::Limiter;
 use sph_core::{Access, Field, Scalar, StepError, StepLimit, fields};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates, There, World,
+    BoundTerm, Contact, Elements, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates, There, World,
 };
 
 use crate::columns::{DISSIPATION, DISSIPATION_RATE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE};
@@ -14,14 +14,19 @@ const RATE: [Field<Scalar>; 2] = [TURBULENT_ENERGY_RATE, DISSIPATION_RATE];
 /// dA_a/dt = 1/(γ_a ρ_a) Σ_b V_b (D_a + D_b)(A_a − A_b) F_ab with D = η + η_t/σ, for A = k (N = 1), or k and ε (N = 2) that
 /// share all of the pair but D; nothing passes through walls and surfaces, nor into phases without eddies.
 ///
-/// Source: Issa 2004, Eq. 5.61 and 5.65, with the viscosity of the fluid.
-pub(crate) struct Diffusion<const N: usize>(
+/// But for the ε of walls with a wall function, where it is asked for: with ε = u_k³/(κz), ν_t = κu_k z and u_k⁴ = C_μk² the
+/// wall gives C_μk²/(σ_ε z), which adds 2/γ_a Σ_s C_μk²/(σ_ε z)|∇γ_as| to dε/dt, z being the particle's distance.
+///
+/// Source: Issa 2004, Eq. 5.61 and 5.65, with the viscosity of the fluid; Leroy et al. 2014 (flux of ε).
+pub(crate) struct Diffusion<const N: usize> {
     /// σ of each.
-    pub [f64; N],
-);
+    pub sigma: [f64; N],
+    /// C_μ of the flux of the last of them through walls with a wall function; none passes if left out.
+    pub wall_flux: Option<f64>,
+}
 
 /// [`Diffusion`] with its columns.
-pub(crate) struct BoundDiffusion<'a, const N: usize> {
+pub(crate) struct BoundDiffusion<'a, const D: usize, const N: usize> {
     value: [&'a [f64]; N],
     viscosity: &'a [f64],
     eddies: &'a [f64],
@@ -29,9 +34,14 @@ pub(crate) struct BoundDiffusion<'a, const N: usize> {
     /// 1 − 1/σ: what an eddy's viscosity does not move.
     held: [f64; N],
     slot: [usize; N],
+    /// 2C_μ/σ of a flux through walls.
+    wall_flux: Option<f64>,
+    elements: &'a Elements<D>,
+    /// Least distance from a wall, m.
+    nearest: f64,
 }
 
-impl<const N: usize> BoundDiffusion<'_, N> {
+impl<const D: usize, const N: usize> BoundDiffusion<'_, D, N> {
     /// η + η_t/σ, where the viscosity is that of fluid and eddies; nothing where a closure does not act: where it does,
     /// there are eddies.
     #[inline(always)]
@@ -53,7 +63,7 @@ pub(crate) struct Here<const N: usize> {
 }
 
 impl<const D: usize, const N: usize> LanePairTerm<D> for Diffusion<N> {
-    type Bound<'a> = BoundDiffusion<'a, N>;
+    type Bound<'a> = BoundDiffusion<'a, D, N>;
     fn name(&self) -> String {
         let names: Vec<_> = VALUE[..N].iter().map(|field| field.name).collect();
         format!("diffusion of {}", names.join(" and "))
@@ -76,13 +86,16 @@ impl<const D: usize, const N: usize> LanePairTerm<D> for Diffusion<N> {
             viscosity: world.free.get(fields::VISCOSITY)?,
             eddies: world.free.get(fields::EDDY_VISCOSITY)?,
             density: world.free.get(fields::DENSITY)?,
-            held: self.0.map(|sigma| 1.0 - 1.0 / sigma),
+            held: self.sigma.map(|sigma| 1.0 - 1.0 / sigma),
             slot,
+            wall_flux: self.wall_flux.map(|c_mu| 2.0 * c_mu / self.sigma[N - 1]),
+            elements: &world.walls.elements,
+            nearest: 0.5 * world.spacing,
         })
     }
 }
 
-impl<const D: usize, const N: usize> BoundTerm<D> for BoundDiffusion<'_, N> {
+impl<const D: usize, const N: usize> BoundTerm<D> for BoundDiffusion<'_, D, N> {
     type Here = Here<N>;
     type Sum = [f64; N];
     #[inline(always)]
@@ -102,6 +115,17 @@ impl<const D: usize, const N: usize> BoundTerm<D> for BoundDiffusion<'_, N> {
         self.add_one(here, j, there, pair, sum);
     }
     #[inline(always)]
+    fn element(&self, here: &Here<N>, contact: &Contact<D>, sum: &mut [f64; N]) {
+        let Some(flux) = self.wall_flux else {
+            return;
+        };
+        let marked = self.elements.wall_function.get(contact.element as usize);
+        if marked == Some(&true) && here.diffusivity[0] > 0.0 {
+            let passing = flux * here.value[0].powi(2) / contact.distance.max(self.nearest);
+            sum[N - 1] += passing * contact.gradient.norm() / here.specific_volume;
+        }
+    }
+    #[inline(always)]
     fn finish(&self, here: &Here<N>, sum: &[f64; N], inverse_gamma: f64, rates: &mut Rates<D>) {
         for (slot, sum) in self.slot.iter().zip(sum) {
             rates.more[*slot] += sum * inverse_gamma * here.specific_volume;
@@ -109,7 +133,7 @@ impl<const D: usize, const N: usize> BoundTerm<D> for BoundDiffusion<'_, N> {
     }
 }
 
-impl<const D: usize, const N: usize> LaneTerm<D> for BoundDiffusion<'_, N> {
+impl<const D: usize, const N: usize> LaneTerm<D> for BoundDiffusion<'_, D, N> {
     /// Values and diffusivities.
     type Side<L: Lane> = [[L; N]; 2];
     type Sums<L: Lane> = [L; N];

@@ -31,6 +31,8 @@ pub struct Anisotropy {
     pub beta_4: f64,
     /// a.
     pub tensor: Matrix3<f64>,
+    /// β_4 (S*Ω* − Ω*S*), the part of a that is not along the strain.
+    pub across: Matrix3<f64>,
 }
 
 impl Anisotropy {
@@ -66,11 +68,13 @@ impl AlgebraicStress {
         let n = self.root(strain, turn);
         let below = n * n - 2.0 * turn;
         let [beta_1, beta_4] = [-1.2 * n / below, -1.2 / below];
+        let across = (s * o - o * s) * beta_4;
         Anisotropy {
             n,
             beta_1,
             beta_4,
-            tensor: s * beta_1 + (s * o - o * s) * beta_4,
+            tensor: s * beta_1 + across,
+            across,
         }
     }
 }

@@ -173,7 +173,7 @@ impl<const D: usize> Contribution<D> for OneEquation {
     fn columns(&self) -> Vec<OwnColumn<D>> {
         let (energy, phases) = (self.0.energy, self.0.phases.clone());
         let start = move |phase: &str| if acts_on(&phases, phase) { energy } else { 0.0 };
-        vec![OwnColumn::scalar(TURBULENT_ENERGY, move |b| start(b.phase))]
+        vec![OwnColumn::scalar(TURBULENT_ENERGY, move |b| start(b.phase)).positive()]
     }
     fn transported(&self) -> Vec<Evolved> {
         vec![Evolved {
@@ -190,7 +190,10 @@ impl<const D: usize> Contribution<D> for OneEquation {
     }
     fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
         let sigma = KEpsilonModel::default().sigma_k;
-        vec![Box::new(Lanewise(Diffusion([sigma])))]
+        vec![Box::new(Lanewise(Diffusion {
+            sigma: [sigma],
+            wall_flux: None,
+        }))]
     }
     fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
         vec![Box::new(DiffusionLimit(setting.viscous))]

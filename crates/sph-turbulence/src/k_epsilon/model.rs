@@ -14,9 +14,9 @@ pub enum Variant {
     Standard,
     /// Shih et al. 1995: [`RealisableModel`].
     Realisable,
-    /// The standard equations, with P = −R_ij ∂u_i/∂x_j and the part of the stresses of Wallin and Johansson 2000 that is along the
-    /// strain, η_t = −½ρβ_1 k²/ε: [`AlgebraicStress`](super::AlgebraicStress). The rest of them, which does no work, is left out:
-    /// in layers it is balanced by the pressure.
+    /// The standard equations, with P = −R_ij ∂u_i/∂x_j and the stresses of Wallin and Johansson 2000,
+    /// [`AlgebraicStress`](super::AlgebraicStress): the part along the strain is an eddy viscosity η_t = −½ρβ_1 k²/ε, the rest,
+    /// which does no work, a stress whose divergence acts. The isotropic part is in the pressure.
     ExplicitAlgebraic,
 }
 
@@ -104,9 +104,21 @@ impl KEpsilonModel {
     ) -> [f64; 2] {
         let speed = |k: f64| self.c_mu.powf(0.25) * k.sqrt();
         let dissipation = |k: f64| speed(k).powi(3) / (karman * distance);
-        let produced = friction_velocity.powi(2) * speed(energy) / (karman * distance);
+        let produced = self.wall_production(energy, friction_velocity, distance, karman);
         let next = (energy + dt * produced) / (1.0 + dt * dissipation(energy) / energy);
         [next, dissipation(next)]
+    }
+
+    /// P = u*² u_k/(κz) next to a wall, u_k = C_μ^¼ √k, m²/s³. Source: Launder and Spalding 1974, §4.
+    pub fn wall_production(
+        &self,
+        energy: f64,
+        friction_velocity: f64,
+        distance: f64,
+        karman: f64,
+    ) -> f64 {
+        let speed = self.c_mu.powf(0.25) * energy.sqrt();
+        friction_velocity.powi(2) * speed / (karman * distance)
     }
 
     /// ε = k^{3/2}/(0.18 H) at the surface of a channel of a depth H, m: eddies are no longer there than a share of the depth.

@@ -8,10 +8,12 @@ use sph_contribution::{
 };
 use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, register};
 use sph_neighbours::{Lanewise, Terms, World};
+use sph_stress::StressDivergence;
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
 use super::diffusion::{Diffusion, DiffusionLimit};
 use super::earsm::AlgebraicStress;
+use super::extra_stress::ExtraStress;
 use super::model::{KEpsilonModel, Variant};
 use super::realisable::RealisableModel;
 use super::start::ChannelStart;
@@ -19,7 +21,9 @@ use super::work::{AtWall, Sources};
 use crate::bed::{RoughBed, SurfaceShare};
 use crate::closures::behind::Behind;
 use crate::closures::phases::{acts_on, viscosities};
-use crate::columns::{DISSIPATION, DISSIPATION_RATE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE};
+use crate::columns::{
+    DISSIPATION, DISSIPATION_RATE, EDDY_STRESS, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE,
+};
 use crate::kind::KIND;
 
 /// η_t = ρ C_μ k²/ε, with
@@ -58,7 +62,7 @@ pub struct KEpsilon {
     /// Which equations.
     pub variant: Variant,
     /// What k and ε are next to walls with a wall function.
-    #[schemars(extend("source" = "Issa 2004, Eq. 5.33; Launder and Spalding 1974; Ferrand et al. 2013"))]
+    #[schemars(extend("source" = "Issa 2004, Eq. 5.33; Launder and Spalding 1974; Ferrand et al. 2013; Leroy et al. 2014"))]
     pub at_wall: AtWall,
     /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
     pub phases: Vec<String>,
@@ -201,8 +205,8 @@ impl<const D: usize> Contribution<D> for KEpsilon {
             }
         };
         vec![
-            OwnColumn::scalar(TURBULENT_ENERGY, at(self.clone(), 0)),
-            OwnColumn::scalar(DISSIPATION, at(self.clone(), 1)),
+            OwnColumn::scalar(TURBULENT_ENERGY, at(self.clone(), 0)).positive(),
+            OwnColumn::scalar(DISSIPATION, at(self.clone(), 1)).positive(),
         ]
     }
     fn transported(&self) -> Vec<Evolved> {
@@ -222,11 +226,24 @@ impl<const D: usize> Contribution<D> for KEpsilon {
         if self.damped_at_surfaces || self.surface_depth.is_some() {
             stages.push(Box::new(SurfaceShare));
         }
+        if self.variant == Variant::ExplicitAlgebraic {
+            stages.push(Box::new(ExtraStress));
+        }
         stages
     }
     fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
-        let [sigma_k, sigma_epsilon] = self.variant.sigmas();
-        vec![Box::new(Lanewise(Diffusion([sigma_k, sigma_epsilon])))]
+        let through = self.at_wall == AtWall::BothFluxes;
+        let mut terms: Terms<D> = vec![Box::new(Lanewise(Diffusion {
+            sigma: self.variant.sigmas(),
+            wall_flux: through.then_some(KEpsilonModel::default().c_mu),
+        }))];
+        if self.variant == Variant::ExplicitAlgebraic {
+            terms.push(Box::new(Lanewise(StressDivergence {
+                name: "stress of eddies",
+                stress: EDDY_STRESS,
+            })));
+        }
+        terms
     }
     fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
         vec![Box::new(DiffusionLimit(setting.viscous))]

@@ -22,6 +22,8 @@ pub enum AtWall {
     Values,
     /// No flux of k passes, P = u*² u_k/(κz), and ε = u_k³/(κz), with u_k = C_μ^¼ √k.
     Flux,
+    /// No flux of k passes, P = u*² u_k/(κz), and a flux of ε does, u_k⁴/(σ_ε z): neither is set.
+    BothFluxes,
 }
 
 /// After diffusion: k and ε are produced and dissipated, and next to walls with a wall function they are its own.
@@ -105,6 +107,11 @@ impl Sources {
             AtWall::Flux => {
                 let [k, _] = both;
                 model.with_flux(k, near.friction_velocity, near.distance, self.karman, dt)
+            }
+            AtWall::BothFluxes => {
+                let [k, e] = both;
+                let (u, z) = (near.friction_velocity, near.distance);
+                model.produced(k, e, model.wall_production(k, u, z, self.karman), dt)
             }
         }
     }

@@ -1,0 +1,73 @@
+//! The energy of eddies that particles do not resolve.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{StepError, fields, register};
+use sph_neighbours::World;
+use sph_probes::{Probe, ProbeColumn, ProbeEntry};
+
+use crate::columns::{DISSIPATION, TURBULENT_ENERGY};
+
+/// Σ m k, J (per metre of depth in 2D), its mean Σ m k/Σ m and the largest k, m²/s², of a closure that transports k; and with k–ε
+/// the mean dissipation Σ m ε/Σ m, m²/s³. Particles without eddies do not count.
+///
+/// ```toml
+/// [probe.eddies]
+/// kind = "turbulent-energy"
+/// ```
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TurbulentEnergyProbe {}
+
+impl<const D: usize> Probe<D> for TurbulentEnergyProbe {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        vec![
+            ProbeColumn::named("", "J"),
+            ProbeColumn::named(".mean", "m²/s²"),
+            ProbeColumn::named(".largest", "m²/s²"),
+            ProbeColumn::named(".dissipation", "m²/s³"),
+        ]
+    }
+
+    fn fields(&self) -> Vec<&str> {
+        vec![TURBULENT_ENERGY.name]
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        if !world.free.has(TURBULENT_ENERGY.name) {
+            return Err(StepError::Stage {
+                stage: "probe `turbulent-energy`".into(),
+                reason: "no closure of this scene transports k: name one, `[eddy-viscosity.k-epsilon]` or \
+                         `[eddy-viscosity.k-length]`"
+                    .into(),
+            });
+        }
+        let mass = world.free.get(fields::MASS)?;
+        let energy = world.free.get(TURBULENT_ENERGY)?;
+        let dissipation = match world.free.has(DISSIPATION.name) {
+            true => world.free.get(DISSIPATION)?,
+            false => &[],
+        };
+        let [mut all, mut total, mut largest, mut lost] = [0.0; 4];
+        for (i, (m, k)) in mass.iter().zip(energy).enumerate() {
+            if *k > 0.0 {
+                all += m;
+                total += m * k;
+                largest = k.max(largest);
+                lost += m * dissipation.get(i).copied().unwrap_or(f64::NAN);
+            }
+        }
+        Ok(match all > 0.0 {
+            true => vec![total, total / all, largest, lost / all],
+            false => vec![0.0, f64::NAN, f64::NAN, f64::NAN],
+        })
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    TurbulentEnergyProbe,
+    "turbulent-energy",
+    "energy of the eddies that a closure transports",
+    "Σ m k"
+);
