@@ -11,13 +11,13 @@ use crate::root;
 const NAMED: usize = 4;
 const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
 
-fn table(path: &str) -> Table {
+pub fn table(path: &str) -> Table {
     let text = fs::read_to_string(root().join(path)).unwrap_or_else(|e| panic!("{path}: {e}"));
     text.parse().unwrap_or_else(|e| panic!("{path}: {e}"))
 }
 
 /// The entries of a table in a table, empty where there is none.
-fn entries(table: &Table, name: &str) -> Table {
+pub fn entries(table: &Table, name: &str) -> Table {
     let entries = table.get(name).and_then(Value::as_table);
     entries.cloned().unwrap_or_default()
 }
@@ -92,19 +92,25 @@ fn used() -> BTreeMap<String, Users> {
     used
 }
 
-fn workspace() -> Table {
+pub fn workspace() -> Table {
     entries(&table("Cargo.toml"), "workspace")
 }
 
 /// What the page says of a crate, in this order, before the last sentences, which tell what else was looked at.
-const TOLD: [&str; 4] = [". Used by: ", ". Licence: ", ". Last release: ", ". Instead of: "];
+const TOLD: [&str; 4] = [
+    ". Used by: ",
+    ". Licence: ",
+    ". Last release: ",
+    ". Instead of: ",
+];
 
 /// The items of the page: name, what it does, users, licence, last release, what else was looked at.
 fn items() -> BTreeMap<String, Vec<String>> {
     let page = fs::read_to_string(root().join("docs/dependencies.md")).expect("the page");
     let mut found = BTreeMap::new();
     for item in super::items(&page) {
-        let Some((name, mut rest)) = item.strip_prefix('`').and_then(|i| i.split_once("`: ")) else {
+        let Some((name, mut rest)) = item.strip_prefix('`').and_then(|i| i.split_once("`: "))
+        else {
             continue;
         };
         let mut told = Vec::new();

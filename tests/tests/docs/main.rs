@@ -1,6 +1,7 @@
 //! What the documents show is what there is: quoted code, scenes, links.
 
 mod book;
+mod crates;
 mod dependencies;
 
 use std::path::{Path, PathBuf};
