@@ -112,6 +112,12 @@ impl<E: Entry<C>, const C: usize> Rows<E, C> {
     pub fn end(&mut self, own: E, source: Vect<C>) {
         let couplings = self.own().iter();
         let diagonal = couplings.fold(own, |sum, c| sum.plus(&c.times(-1.0)));
+        self.close(diagonal, source);
+    }
+
+    /// Ends the row at hand, whose diagonal is known.
+    #[inline]
+    pub fn close(&mut self, diagonal: E, source: Vect<C>) {
         self.diagonal.push(diagonal);
         self.sources.push(source);
         self.counts.push((self.used - self.begin) as u32);

@@ -53,6 +53,8 @@ impl<const D: usize> FrictionRows<'_, D> {
         for ((lane, i), walls) in cluster.members().enumerate().zip(walls) {
             rows.begin(all);
             let mut of_weak = Vect::zeros();
+            // Summed along with the couplings, which need not be read again.
+            let mut diagonal = E::unit(self.mass[i]).plus(&walls.wall.times(self.ahead));
             let pairs = cluster.candidates().iter().zip(numbers_of.clone());
             for (&column, numbers) in pairs {
                 let norm = numbers[2 * lanes + lane];
@@ -66,15 +68,19 @@ impl<const D: usize> FrictionRows<'_, D> {
                 // Not ">": what is not a number has to be seen by the solver.
                 let strong = norm.is_nan() || norm > limit;
                 let apart = cluster.separation(i, j);
-                let entry = E::central(even, along, &apart).times(self.ahead);
+                // Both for all pairs, one of them 0: strong and weak ones follow each other without a pattern.
+                let pick = |a: f64, of: bool| if of { a } else { 0.0 };
+                let coupled = [pick(even, strong), pick(along, strong)];
+                let entry = E::central(coupled[0], coupled[1], &apart).times(self.ahead);
                 rows.couple(column, &entry, strong);
-                if !strong && let Some(weak) = self.weak {
+                diagonal = diagonal.plus(&entry);
+                if let Some(weak) = self.weak {
                     let u = weak.velocity[i] - weak.velocity[j];
+                    let [even, along] = [pick(even, !strong), pick(along, !strong)];
                     of_weak -= u * even + apart * (along * u.dot(&apart));
                 }
             }
-            let own = E::unit(self.mass[i]).plus(&walls.wall.times(self.ahead));
-            rows.end(own, (walls.source + of_weak) * self.dt);
+            rows.close(diagonal, (walls.source + of_weak) * self.dt);
         }
         rows.numbers = numbers;
     }

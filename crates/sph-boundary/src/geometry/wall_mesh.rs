@@ -60,7 +60,7 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     /// The wall integrals of a kernel.
     type Integrals: Send + Sync + std::fmt::Debug;
     /// Buffers of a task that finds γ.
-    type Room: Default + Send + std::fmt::Debug;
+    type Room: Default + Send + Sync + std::fmt::Debug;
 
     /// Meshes the walls; queries look up to `reach` metres far.
     ///

@@ -94,7 +94,7 @@ pub struct WallStates {
 }
 
 /// A treatment of all walls of a scene.
-pub trait Wall<const D: usize>: Send {
+pub trait Wall<const D: usize>: Send + Sync {
     /// Where the first row of particles stands in front of a flat wall, in spacings beyond half
     /// a spacing: 0 for rows at 1, 2, 3 δr (the wall itself carries points), 0.5 for ½, 1½, ….
     fn lattice_offset(&self) -> f64;

@@ -4,6 +4,7 @@ mod filled_share;
 
 use std::collections::HashMap;
 
+use rayon::prelude::*;
 use sph_boundary::Wall;
 use sph_core::{SceneProblem, Vect};
 use sph_scene::{Body, Offset, Region, Scene, disturb, fill};
@@ -21,6 +22,13 @@ pub struct Placed<const D: usize> {
     pub body: Vec<u32>,
     /// Remarks.
     pub warnings: Vec<String>,
+}
+
+/// Where a place is, as the walls see it.
+enum Side<'a, const D: usize> {
+    Fluid,
+    TooNear,
+    Behind(&'a dyn Wall<D>),
 }
 
 /// Fills all bodies and holds them against the walls.
@@ -52,22 +60,26 @@ pub fn place<const D: usize>(
         let (name, body) = bodies[filled.body];
         let clipped = body.clip || body.fill.is_some();
         let (mut kept, mut dropped) = (Vec::new(), 0);
-        for position in &filled.positions {
+        let held = |position: &[f64; D]| {
             let x = Vect::from(*position);
-            if let Some(walls) = walls {
-                if walls.clearance(&x, TOO_NEAR * spacing).is_some() {
-                    dropped += usize::from(!clipped);
-                    continue;
-                }
-                if !walls.contains(&x) {
-                    if clipped {
-                        continue;
-                    }
+            let side = match walls {
+                Some(walls) if walls.clearance(&x, TOO_NEAR * spacing).is_some() => Side::TooNear,
+                Some(walls) if !walls.contains(&x) => Side::Behind(walls),
+                _ => Side::Fluid,
+            };
+            (x, side)
+        };
+        let all: Vec<_> = filled.positions.par_iter().map(held).collect();
+        for (x, side) in all {
+            match side {
+                Side::Fluid => kept.push(x),
+                Side::TooNear => dropped += usize::from(!clipped),
+                Side::Behind(_) if clipped => {}
+                Side::Behind(walls) => {
                     problems.push(through_a_wall(name, &x, walls, spacing));
                     break;
                 }
             }
-            kept.push(x);
         }
         if let Some(seed) = &body.seed {
             kept = connected(kept, &Vect::from_column_slice(seed), spacing);

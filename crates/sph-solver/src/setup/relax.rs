@@ -148,17 +148,23 @@ fn advance<const D: usize>(
     let spacing = world.spacing;
     let h2 = world.kernel.smoothing_length().powi(2);
     let mut position = world.free.take(fields::POSITION)?;
-    for ((x, c), held) in position.iter_mut().zip(all).zip(held) {
+    // Without contacts no wall is within the support, which is farther than a stride and the clearance.
+    let found = world.free.get(fields::RENORMALISATION).is_ok();
+    let (stride, clearance) = (STRIDE * spacing, CLEARANCE * spacing);
+    let reaches = world.kernel.support_radius() > stride + clearance;
+    let far = |i: usize| found && reaches && world.walls.contacts.of(i).is_empty();
+    for (i, ((x, c), held)) in position.iter_mut().zip(all).zip(held).enumerate() {
         if *held {
             continue;
         }
         let mut by = c.gradient * (-MOBILITY * h2);
-        let longest = STRIDE * spacing;
-        if by.norm() > longest {
-            by *= longest / by.norm();
+        if by.norm() > stride {
+            by *= stride / by.norm();
         }
         let to = *x + by;
-        if walls.clearance(&to, CLEARANCE * spacing).is_none() && walls.contains(&to) {
+        // A wall that was crossed is nearer than the stride.
+        let clear = || walls.clearance(&to, clearance).is_none();
+        if far(i) || (clear() && (stride < clearance || walls.contains(&to))) {
             *x = to;
         }
     }
