@@ -80,12 +80,14 @@ fn near_surface<const D: usize>(
 fn settle<const D: usize>(
     world: &mut World<D>,
     walls: &mut dyn Wall<D>,
-    surface: &dyn Fn(&Vect<D>, &dyn Wall<D>) -> bool,
+    surface: &(dyn Fn(&Vect<D>, &dyn Wall<D>) -> bool + Sync),
     most: usize,
     tolerance: f64,
 ) -> Result<Relaxation, StepError> {
     let position = world.free.get(fields::POSITION)?;
-    let held: Vec<bool> = position.iter().map(|x| surface(x, walls)).collect();
+    let fixed: &dyn Wall<D> = walls;
+    let held = position.par_iter().map(|x| surface(x, fixed));
+    let held: Vec<bool> = held.collect();
     // The marks follow the particles through sorting by their identities.
     let identity = world.free.get(fields::IDENTITY)?;
     let mut held_by_identity = vec![false; held.len()];
