@@ -126,6 +126,7 @@ const ALLOWED: [(&str, &[&str]); 33] = [
             "sph-neighbours",
             "sph-contribution",
             "sph-viscosity",
+            "sph-stress",
             "sph-probes",
         ],
     ),

@@ -99,6 +99,40 @@ fn what_does_not_fit_in_several_phases_is_refused_with_what_was_expected() {
     assert_refused(&cases);
 }
 
+/// The channel between an inlet and an outlet, with k–ε and what comes in as a table says.
+fn entering(values: &str) -> String {
+    const SCENE: &str = include_str!("../../../scenes/channel-open-2d.toml");
+    let inlet = SCENE.replace(
+        "profile = \"parabola\"\n",
+        &format!("profile = \"parabola\"\nvalues = {{ {values} }}\n"),
+    );
+    assert_ne!(inlet, SCENE);
+    let slipping = inlet
+        .replace("[wall.outlet]", "condition = \"free-slip\"\n[wall.outlet]")
+        .replace("[wall.inlet]", "condition = \"free-slip\"\n[wall.inlet]");
+    slipping + "[eddy-viscosity.k-epsilon]\nenergy = 1e-3\ndissipation = 1e-3\n"
+}
+
+#[test]
+fn what_comes_in_has_eddies_or_is_refused() {
+    let good = entering("turbulent_energy = 1e-3, dissipation = 1e-3");
+    let loaded = parse(&good, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    examine(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let cases = [
+        (
+            entering("turbulent_energy = -1.0"),
+            "-1 m²/s²: write a positive value",
+        ),
+        (
+            entering("dissipation = 0.0"),
+            "0 m²/s³: write a positive value",
+        ),
+        (entering("disipation = 1.0"), "did you mean `dissipation`"),
+        (entering("velocity = 1.0"), "no plugin of this scene"),
+    ];
+    assert_refused(&cases);
+}
+
 fn assert_refused(cases: &[(String, &str)]) {
     for (text, expected) in cases {
         let refused = match parse(text, "scene.toml", &[]) {

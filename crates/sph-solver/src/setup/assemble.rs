@@ -88,8 +88,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     let entering = opened.as_ref().map(|o| o.entering()).unwrap_or_default();
     parts.extend(opened.map(|opened| ("open-boundary", opened.boxed())));
     let mut free = state(scene, &*formulation, &parts, placed.positions.len())?;
-    let own: Vec<_> = parts.iter().flat_map(|(_, p)| p.columns()).collect();
-    open_faces::check_values(scene, &entering, &own)?;
+    open_faces::check_values(scene, &entering, &parts)?;
     let outlets = Outlets::of(scene, &placed, &mut free).map_err(SolverError::Scene)?;
     give_places(&mut free, &placed)?;
     let mut world = World { free, ..room };

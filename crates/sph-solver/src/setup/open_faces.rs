@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use sph_boundary::Condition;
-use sph_contribution::OwnColumn;
 use sph_core::{SceneProblem, Shape};
 use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenSetting, open};
 use sph_scene::Scene;
 use sph_state::Laws;
 
 use crate::failure::error::SolverError;
+use crate::setup::builder::Part;
 use crate::setup::choices::Choices;
 use crate::setup::shapes::Drawn;
 use crate::step::stages::{SharedWall, lock};
@@ -142,9 +142,10 @@ fn remarks<const D: usize>(scene: &Scene, opened: &OpenBoundaries<D>) -> Vec<Str
 pub(crate) fn check_values<const D: usize>(
     scene: &Scene,
     entering: &[(String, Entering)],
-    columns: &[OwnColumn<D>],
+    parts: &[Part<D>],
 ) -> Result<(), SolverError> {
-    let known = columns.iter().filter(|c| c.field.shape == Shape::Scalar);
+    let columns = parts.iter().flat_map(|(_, part)| part.columns());
+    let known = columns.filter(|c| c.field.shape == Shape::Scalar);
     let known: Vec<_> = known.map(|c| (c.field, c.positive)).collect();
     let mut problems = Vec::new();
     for (wall, Entering { values, .. }) in entering {
