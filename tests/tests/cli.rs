@@ -93,6 +93,9 @@ fn laws_are_drawn_whatever_they_are_and_mistakes_leave_no_file() {
             "{name}"
         );
     }
+    bench.done("plugins kernel wendland-c2 cubic-spline --picture kernels.svg");
+    let drawn = std::fs::read_to_string(bench.path("kernels.svg")).expect("a picture");
+    assert!(drawn.contains("wendland-c2") && drawn.contains("w h²"));
     let two = "plugins rheology bingham casson --set casson.yield_stress=3 --picture two.png";
     bench.done(two);
     assert!(bench.path("two.png").exists());
@@ -124,7 +127,8 @@ fn laws_are_drawn_whatever_they_are_and_mistakes_leave_no_file() {
             "1e-12",
         ),
         ("rheology mu-i --pressure 3kg --picture no.svg", "Pa"),
-        ("kernel wendland-c2 --picture no.svg", "only laws"),
+        ("walls usaw --picture no.svg", "only laws and kernels"),
+        ("kernel wendland-c2 --set a=1 --picture no.svg", "for laws"),
     ] {
         let refused = bench.call(&format!("plugins {arguments}"));
         assert_eq!(refused.code, Some(2), "{arguments}");

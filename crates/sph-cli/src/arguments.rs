@@ -309,7 +309,7 @@ pub struct PluginArguments {
     /// Name of a plugin of that kind; several to have them in one picture
     #[arg(value_name = "NAME")]
     pub names: Vec<String>,
-    /// Shear a law alone and draw its stress and viscosity into FILE.svg or FILE.png
+    /// Draw into FILE.svg or FILE.png: stress and viscosity of a law sheared alone, or a kernel and its slope
     #[arg(long, value_name = "FILE", requires = "names")]
     pub picture: Option<PathBuf>,
     /// Put a value on top of the law's example: --set yield_stress='5 Pa', or with several laws

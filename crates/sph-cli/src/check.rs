@@ -27,7 +27,7 @@ pub fn told(opened: &Opened, threads: Option<usize>) -> Result<Told, Trouble> {
     let threads = threads.unwrap_or(cores);
     let loaded = match &opened.scene {
         AnyScene::Particles(loaded) => loaded,
-        AnyScene::Grains(loaded) => return grains::check::told(loaded),
+        AnyScene::Grains(loaded) => return grains::check::told(loaded, &opened.shown),
     };
     let examined = examine(&loaded.scene);
     let mut examined = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
@@ -60,7 +60,7 @@ pub fn told(opened: &Opened, threads: Option<usize>) -> Result<Told, Trouble> {
     all["estimate"]["origin"] = json!(machine.map_or_else(|why| why, |machine| machine.origin));
     Ok(Told {
         json: all,
-        text: text(&examined, loaded.source.file(), &time),
+        text: text(&examined, &opened.shown, &time),
     })
 }
 

@@ -6,7 +6,7 @@ use sph_solver::{Examination, PluginInForce, StageUse, examine};
 use crate::arguments::ExplainArguments;
 use crate::check::memory;
 use crate::grains;
-use crate::layout::{columns, paragraph, parameters};
+use crate::layout::{columns, columns_and_below, paragraph, parameters};
 use crate::scene_file::{AnyScene, Opened, open};
 use crate::told::Told;
 use crate::trouble::Trouble;
@@ -33,7 +33,7 @@ pub fn told(opened: &Opened) -> Result<Told, Trouble> {
 
 fn text(e: &Examination) -> String {
     let mut text = format!("{}\n\nplugins, with the parameters in force\n", e.scene);
-    text.push_str(&columns(2, &plugins(&e.plugins)));
+    text.push_str(&plugins(&e.plugins));
     text.push_str(&format!(
         "\ncolumns: {} bytes per particle in {} columns (numbers are those of the stages below)\n",
         e.bytes_per_particle,
@@ -57,21 +57,14 @@ fn text(e: &Examination) -> String {
     text
 }
 
-fn plugins(plugins: &[PluginInForce]) -> Vec<Vec<String>> {
-    let mut rows = vec![
-        ["kind", "name", "parameters", "provider"]
-            .map(String::from)
-            .to_vec(),
-    ];
-    rows.extend(plugins.iter().map(|p| {
-        vec![
-            p.kind.clone(),
-            p.name.clone(),
-            parameters(&p.parameters),
-            p.provider.clone(),
-        ]
-    }));
-    rows
+/// Every plugin in a line, and its parameters below it.
+fn plugins(plugins: &[PluginInForce]) -> String {
+    let row = |p: &PluginInForce| {
+        let names = vec![p.kind.clone(), p.name.clone(), p.provider.clone()];
+        (names, parameters(&p.parameters))
+    };
+    let rows = plugins.iter().map(row).collect();
+    columns_and_below(2, &["kind", "name", "provider"], rows)
 }
 
 fn fields(e: &Examination) -> Vec<Vec<String>> {

@@ -29,6 +29,23 @@ pub fn columns(indent: usize, rows: &[Vec<String>]) -> String {
     text
 }
 
+/// Rows as columns below their heads, and below each row what belongs to it.
+pub fn columns_and_below(
+    indent: usize,
+    heads: &[&str],
+    rows: Vec<(Vec<String>, String)>,
+) -> String {
+    let (rows, below): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
+    let heads = heads.iter().map(|h| h.to_string()).collect();
+    let rows: Vec<Vec<String>> = std::iter::once(heads).chain(rows).collect();
+    let table = columns(indent, &rows);
+    let below = std::iter::once(String::new()).chain(below);
+    let lines = table.lines().zip(below);
+    lines
+        .map(|(line, below)| format!("{line}\n{}", paragraph(indent + 4, 98, &below)))
+        .collect()
+}
+
 /// A text broken between words, every line indented.
 pub fn paragraph(indent: usize, width: usize, text: &str) -> String {
     let mut lines = String::new();
@@ -59,15 +76,12 @@ pub fn remarks(remarks: &[String]) -> String {
     remarks.iter().map(item).collect()
 }
 
-/// Parameters of a plugin in one line.
+/// Parameters of a plugin in one line, empty if it has none.
 pub fn parameters(all: &Json) -> String {
     let one = |(name, value): (&String, &Json)| format!("{name} = {value}");
     let given = all.as_object().into_iter().flatten();
     let list: Vec<String> = given.filter(|(_, v)| !v.is_null()).map(one).collect();
-    match list.is_empty() {
-        true => "–".to_string(),
-        false => list.join(", "),
-    }
+    list.join(", ")
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! `sph plugins`.
 
+mod kernel_picture;
 mod page;
 mod picture;
 mod snippet;
@@ -13,8 +14,9 @@ use crate::layout::{columns, paragraph};
 use crate::trouble::Trouble;
 use crate::{console, grains};
 
-/// The kind of plugin that can be drawn.
+/// The kinds of plugins that can be drawn.
 const LAWS: &str = "rheology";
+const KERNELS: &str = "kernel";
 
 /// Lists kinds, the plugins of a kind, or some plugins; or draws laws.
 pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
@@ -35,12 +37,13 @@ pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
     let plugins = names.map(|name| find_plugin(kind, name));
     let plugins = plugins.collect::<Result<Vec<_>, _>>()?;
     if let Some(file) = &arguments.picture {
-        if kind.kind != LAWS {
-            return Err(Trouble::usage(format!(
-                "only laws can be drawn: sph plugins {LAWS} NAME --picture FILE"
-            )));
-        }
-        return picture::draw(arguments, &plugins, file);
+        return match kind.kind {
+            LAWS => picture::draw(arguments, &plugins, file),
+            KERNELS => kernel_picture::draw(arguments, &plugins, file),
+            _ => Err(Trouble::usage(format!(
+                "only laws and kernels can be drawn: sph plugins {LAWS} NAME --picture FILE"
+            ))),
+        };
     }
     let each = plugins.iter().map(|p| plugin_json(kind.kind, p));
     let (text, json) = match plugins.as_slice() {

@@ -59,6 +59,8 @@ pub struct Opened {
     pub scene: AnyScene,
     /// Name without folder and extension.
     pub stem: String,
+    /// What messages call it: its file, or its name if it is compiled in.
+    pub shown: String,
     /// Kept until the scene is done with.
     _unpacked: Option<Scratch>,
 }
@@ -114,6 +116,7 @@ pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<O
     Ok(Opened {
         scene: read(Source::new(text, file, &overrides).allowing(allowed))?,
         stem: stem(Path::new(file)).to_string(),
+        shown: file.to_string(),
         _unpacked: None,
     })
 }
@@ -194,6 +197,7 @@ fn from_file(path: &Path, overrides: &[Override], allowed: &[PathBuf]) -> Result
     Ok(Opened {
         scene: read(Source::new(&text, &file, overrides).allowing(allowed))?,
         stem: stem(path).to_string(),
+        shown: file,
         _unpacked: None,
     })
 }
@@ -209,6 +213,7 @@ fn compiled_in(
     Ok(Opened {
         scene: read(Source::new(text, &file, overrides).allowing(allowed))?,
         stem: name.to_string(),
+        shown: name.to_string(),
         _unpacked: unpacked,
     })
 }

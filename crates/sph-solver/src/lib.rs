@@ -9,10 +9,11 @@
 //! * [`run()`]: steps, outputs, checkpoints, roll-back, references, summary.
 //! * [`Stepper`]: the same in memory, step by step, with columns that may be changed in between.
 //! * [`examine()`]: the numbers that follow from a scene, without running it.
-//! * [`rheometer`]: a law by its name, sheared alone.
+//! * [`rheometer`]: a law by its name, sheared alone; [`kernels`]: a kernel by its name.
 
 pub mod defaults;
 mod failure;
+pub mod kernels;
 mod results;
 pub mod rheometer;
 mod running;

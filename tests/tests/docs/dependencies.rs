@@ -11,13 +11,13 @@ use crate::root;
 const NAMED: usize = 4;
 const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
 
-fn table(path: &str) -> Table {
+pub fn table(path: &str) -> Table {
     let text = fs::read_to_string(root().join(path)).unwrap_or_else(|e| panic!("{path}: {e}"));
     text.parse().unwrap_or_else(|e| panic!("{path}: {e}"))
 }
 
 /// The entries of a table in a table, empty where there is none.
-fn entries(table: &Table, name: &str) -> Table {
+pub fn entries(table: &Table, name: &str) -> Table {
     let entries = table.get(name).and_then(Value::as_table);
     entries.cloned().unwrap_or_default()
 }
@@ -92,48 +92,56 @@ fn used() -> BTreeMap<String, Users> {
     used
 }
 
-fn workspace() -> Table {
+pub fn workspace() -> Table {
     entries(&table("Cargo.toml"), "workspace")
 }
 
-/// The rows of the page: name, and the cells after it.
-fn rows() -> BTreeMap<String, Vec<String>> {
+/// What the page says of a crate, in this order, before the last sentences, which tell what else was looked at.
+const TOLD: [&str; 4] = [
+    ". Used by: ",
+    ". Licence: ",
+    ". Last release: ",
+    ". Instead of: ",
+];
+
+/// The items of the page: name, what it does, users, licence, last release, what else was looked at.
+fn items() -> BTreeMap<String, Vec<String>> {
     let page = fs::read_to_string(root().join("docs/dependencies.md")).expect("the page");
-    let rows = page.lines().filter_map(|line| {
-        let row = line.strip_prefix("| `")?.strip_suffix(" |")?;
-        let (name, rest) = row.split_once("` | ")?;
-        Some((
-            name.to_owned(),
-            rest.split(" | ").map(str::to_owned).collect(),
-        ))
-    });
     let mut found = BTreeMap::new();
-    for (name, cells) in rows {
-        assert!(
-            found.insert(name.clone(), cells).is_none(),
-            "two rows for {name}"
-        );
+    for item in super::items(&page) {
+        let Some((name, mut rest)) = item.strip_prefix('`').and_then(|i| i.split_once("`: "))
+        else {
+            continue;
+        };
+        let mut told = Vec::new();
+        for label in TOLD {
+            let (before, after) = rest
+                .split_once(label)
+                .unwrap_or_else(|| panic!("{name} without{label:?}"));
+            told.push(before.to_owned());
+            rest = after;
+        }
+        told.push(rest.to_owned());
+        let before = found.insert(name.to_owned(), told);
+        assert!(before.is_none(), "two items for {name}");
     }
     found
 }
 
 #[test]
-fn every_crate_from_outside_has_its_row_and_no_row_is_left_over() {
-    let (used, rows) = (used(), rows());
+fn every_crate_from_outside_has_its_item_and_no_item_is_left_over() {
+    let (used, items) = (used(), items());
     let names = |of: &mut dyn Iterator<Item = &String>| of.cloned().collect::<BTreeSet<_>>();
     assert_eq!(
-        names(&mut rows.keys()),
+        names(&mut items.keys()),
         names(&mut used.keys()),
-        "rows, manifests"
+        "items, manifests"
     );
     for (name, users) in used {
-        let cells = &rows[&name];
-        assert_eq!(cells.len(), 5, "cells of {name}");
-        assert!(
-            cells.iter().all(|cell| !cell.trim().is_empty()),
-            "empty cells of {name}"
-        );
-        assert_eq!(cells[1], users.told(), "users of {name}");
+        let told = &items[&name];
+        let empty = told.iter().any(|part| part.trim().is_empty());
+        assert!(!empty, "something is not told of {name}");
+        assert_eq!(told[1], users.told(), "users of {name}");
     }
 }
 

@@ -2,9 +2,10 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
 
-use sph_tests::DAM_BREAK;
+use sph_tests::{Bench, DAM_BREAK};
 
 use crate::with;
 
@@ -37,12 +38,8 @@ fn get(port: u16, target: &str) -> (String, Vec<u8>) {
     )
 }
 
-#[test]
-fn a_browser_gets_the_page_the_pictures_and_the_series_of_a_run() {
-    let bench = with(DAM_BREAK);
-    bench.done(
-        "run scene.toml -q --threads 1 --set output.picture=pressure --set run.end=0.06 --out a",
-    );
+/// `sph view` on the results in `a`, and its port.
+fn served(bench: &Bench) -> (Server, u16) {
     let mut command = bench.command("view a --port 0");
     let mut server = Server(
         command
@@ -57,9 +54,17 @@ fn a_browser_gets_the_page_the_pictures_and_the_series_of_a_run() {
         .split("127.0.0.1:")
         .nth(1)
         .and_then(|r| r.split('/').next());
-    let port: u16 = port
-        .and_then(|p| p.parse().ok())
-        .unwrap_or_else(|| panic!("{line}"));
+    let port = port.and_then(|p| p.parse().ok());
+    (server, port.unwrap_or_else(|| panic!("{line}")))
+}
+
+#[test]
+fn a_browser_gets_the_page_the_pictures_and_the_series_of_a_run() {
+    let bench = with(DAM_BREAK);
+    bench.done(
+        "run scene.toml -q --threads 1 --set output.picture=pressure --set run.end=0.06 --out a",
+    );
+    let (_server, port) = served(&bench);
     let (head, page) = get(port, "/");
     assert!(head.starts_with("HTTP/1.1 200 OK"), "{head}");
     assert!(String::from_utf8_lossy(&page).contains("/state.json"));
@@ -79,4 +84,68 @@ fn a_browser_gets_the_page_the_pictures_and_the_series_of_a_run() {
     assert!(get(port, "/files/checkpoint.sph").0.contains("404"));
     let refused = bench.call(&format!("view a --port {port}"));
     assert_eq!(refused.code, Some(2), "{}", refused.err);
+}
+
+/// A browser without a window, where one is installed.
+fn browser() -> Option<&'static str> {
+    ["chromium", "chromium-browser", "google-chrome"]
+        .into_iter()
+        .find(|name| {
+            let asked = Command::new(name).arg("--version").output();
+            asked.is_ok_and(|a| a.status.success())
+        })
+}
+
+/// The page as the browser has it once its script has run.
+fn rendered(browser: &str, bench: &Bench, port: u16) -> String {
+    let mut command = Command::new(browser);
+    command.args([
+        "--headless=new",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--no-first-run",
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--virtual-time-budget=6000",
+        "--dump-dom",
+    ]);
+    let profile = bench.path("browser");
+    command.arg(format!("--user-data-dir={}", profile.display()));
+    command.arg(format!("http://127.0.0.1:{port}/"));
+    let out = std::fs::File::create(bench.path("page.html")).expect("a file");
+    command.stdout(out).stderr(Stdio::null());
+    let mut child = Server(command.spawn().expect("the browser starts"));
+    let begun = Instant::now();
+    while child.0.try_wait().expect("a process").is_none() {
+        assert!(begun.elapsed() < Duration::from_secs(120), "it hangs");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    std::fs::read_to_string(bench.path("page.html")).expect("a page")
+}
+
+#[test]
+fn a_real_browser_shows_pictures_curves_plots_errors_and_the_log() {
+    let Some(browser) = browser() else {
+        println!("no chromium here: nothing was looked at");
+        return;
+    };
+    let bench = with(DAM_BREAK);
+    bench.done(
+        "run scene.toml -q --threads 1 --set output.picture=pressure --set run.end=0.06 --out a",
+    );
+    let (_server, port) = served(&bench);
+    let page = rendered(browser, &bench, port);
+    for (what, word) in [
+        ("status", "done: "),
+        ("the field of the slider", "<option value=\"pressure\">"),
+        (
+            "the last picture",
+            "src=\"/files/pictures/pressure_0002.png\"",
+        ),
+        ("its number", "3 of 3"),
+        ("the curve", "<polyline points=\"0.0,"),
+        ("the log", "<tr><td>0.06</td>"),
+    ] {
+        assert!(page.contains(word), "{what}, {word}, is not in\n{page}");
+    }
 }

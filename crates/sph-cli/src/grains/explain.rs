@@ -3,7 +3,7 @@
 use dem_scene::{Examination, Loaded, examine};
 use serde_json::Value as Json;
 
-use crate::layout::{columns, paragraph, parameters};
+use crate::layout::{columns, columns_and_below, paragraph, parameters};
 use crate::number;
 use crate::told::Told;
 use crate::trouble::Trouble;
@@ -22,20 +22,12 @@ fn text(e: &Examination) -> String {
         "{}\n\nplugins, with the parameters that the scene gives\n",
         e.scene
     );
-    let mut rows = vec![
-        ["kind", "of", "name", "parameters"]
-            .map(String::from)
-            .to_vec(),
-    ];
-    rows.extend(e.plugins.iter().map(|p| {
-        vec![
-            p.kind.clone(),
-            p.of.clone(),
-            p.name.clone(),
-            parameters(&p.parameters),
-        ]
-    }));
-    text.push_str(&columns(2, &rows));
+    let rows = e.plugins.iter().map(|p| {
+        let names = vec![p.kind.clone(), p.of.clone(), p.name.clone()];
+        (names, parameters(&p.parameters))
+    });
+    let rows = rows.collect();
+    text.push_str(&columns_and_below(2, &["kind", "of", "name"], rows));
     text.push_str("\nkept per grain; no column of particles is among it\n");
     let rows: Vec<_> = e
         .memory

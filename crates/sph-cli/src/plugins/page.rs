@@ -4,9 +4,55 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
-/// Plugins of this kind are drawn by `sph plugins KIND NAME --picture docs/images/law-NAME.svg`.
-const DRAWN: &str = "rheology";
-/// Longest line of prose; rows of tables cannot be broken.
+use super::{KERNELS, LAWS};
+
+/// Kinds that are drawn by `sph plugins KIND NAME --picture docs/images/FIRST-NAME.svg`: kind, FIRST, what is seen.
+const DRAWN: [(&str, &str, &str); 2] = [
+    (LAWS, "law", "sheared alone"),
+    (KERNELS, "kernel", "and its slope"),
+];
+/// Pictures of runs and walls: kind, name, file in `docs/images`, what is seen.
+const SHOWN: [(&str, &str, &str, &str); 8] = [
+    (
+        "eddy-viscosity",
+        "k-epsilon",
+        "dam-break-k-epsilon.png",
+        "A dam break with k–ε",
+    ),
+    (
+        "equation-of-state",
+        "compressible-grains",
+        "columns-runout.png",
+        "Run-out of columns of sand",
+    ),
+    (
+        "implicit-viscosity",
+        "backward-euler",
+        "implicit-error-against-time.png",
+        "Error against run time",
+    ),
+    (
+        "linear-solver",
+        "automatic",
+        "solver-scaling.png",
+        "Time per solve over the number of particles",
+    ),
+    ("mover", "rigid-body", "floating-box.png", "A floating box"),
+    (
+        "open-boundary",
+        "velocity-inlet",
+        "channel-open.png",
+        "A channel between two open faces",
+    ),
+    (
+        "smoother",
+        "delta-sph",
+        "granular-pile-lajeunesse.png",
+        "A pile of beads at rest",
+    ),
+    ("walls", "usaw", "gamma-gear.png", "γ around a gear"),
+];
+/// Longest line.
 const LONGEST: usize = 120;
 
 /// A page of kinds as `sph plugins --json` tells them.
@@ -47,30 +93,35 @@ fn one(page: &mut String, kind: &str, plugin: &Json) {
     let (name, summary) = (text(&plugin["name"]), text(&plugin["summary"]));
     let told = format!("{}; {}.", capital(summary), facts.join("; "));
     line(page, &format!("\n### {name}\n\n{}", wrapped(&told, "")));
-    if kind == DRAWN {
-        let picture = format!("\n![`{name}`, sheared alone](images/law-{name}.svg)");
-        line(page, &picture);
+    if let Some(picture) = picture(kind, name) {
+        line(page, &format!("\n{picture}"));
     }
     let parameters = plugin["parameters"].as_array().into_iter().flatten();
-    let rows: Vec<String> = parameters.map(row).collect();
-    if !rows.is_empty() {
-        line(
-            page,
-            "\n| parameter | unit | default | meaning |\n|---|---|---|---|",
-        );
-        line(page, &rows.join("\n"));
+    let items: Vec<String> = parameters.map(item).collect();
+    if !items.is_empty() {
+        line(page, &format!("\n{}", items.join("\n")));
     }
 }
 
-fn row(parameter: &Json) -> String {
+/// A picture of a plugin, where there is one.
+fn picture(kind: &str, name: &str) -> Option<String> {
+    if let Some((_, first, seen)) = DRAWN.iter().find(|drawn| drawn.0 == kind) {
+        return Some(format!("![`{name}`, {seen}](images/{first}-{name}.svg)"));
+    }
+    let shown = SHOWN.iter().find(|s| (s.0, s.1) == (kind, name));
+    shown.map(|(_, _, file, seen)| format!("![{seen}](images/{file})"))
+}
+
+/// A parameter: name, unit, default, meaning.
+fn item(parameter: &Json) -> String {
     let unit = match text(&parameter["unit"]) {
-        "" | "1" => "–",
-        unit => unit,
+        "" | "1" => String::new(),
+        unit => format!("{unit}, "),
     };
     let default = match (&parameter["required"], &parameter["default"]) {
         (Json::Bool(true), _) => "required".to_string(),
-        (_, Json::Null) => "–".to_string(),
-        (_, value) => format!("`{value}`"),
+        (_, Json::Null) => "may be left out".to_string(),
+        (_, value) => format!("default `{value}`"),
     };
     let mut meaning = text(&parameter["meaning"]).trim().to_string();
     let choices = parameter["choices"].as_array().into_iter().flatten();
@@ -84,9 +135,8 @@ fn row(parameter: &Json) -> String {
             let _ = write!(meaning, " Source: {source}.");
         }
     }
-    let cells = [text(&parameter["name"]), unit, &default, &meaning];
-    let [name, unit, default, meaning] = cells.map(|c| c.replace('|', "\\|"));
-    format!("| `{name}` | {unit} | {default} | {meaning} |")
+    let name = text(&parameter["name"]);
+    wrapped(&format!("* `{name}` ({unit}{default}): {meaning}"), "  ")
 }
 
 fn text(value: &Json) -> &str {
@@ -106,14 +156,24 @@ fn line(page: &mut String, text: &str) {
 
 /// A text in lines that are not too long, the second and all later ones behind `indent`.
 fn wrapped(text: &str, indent: &str) -> String {
+    let mut pieces: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        // What begins a list or a heading must not begin a line: it stays with the word before it.
+        let number = word.starts_with(|c: char| c.is_ascii_digit()) && word.ends_with(['.', ')']);
+        let begins = number || word.starts_with(['-', '+', '*', '#', '=', '>', '|']);
+        match pieces.last_mut().filter(|_| begins) {
+            Some(before) => {
+                before.push(' ');
+                before.push_str(word);
+            }
+            None => pieces.push(word.to_string()),
+        }
+    }
     let mut lines = String::new();
     let mut length = 0;
-    for word in text.split(' ') {
-        let letters = word.chars().count();
-        // What begins a list or a heading must not begin a line.
-        let number = word.starts_with(|c: char| c.is_ascii_digit()) && word.ends_with(['.', ')']);
-        let safe = !number && !word.starts_with(['-', '+', '*', '#', '=', '>', '|']);
-        if length > 0 && length + 1 + letters > LONGEST && safe {
+    for piece in &pieces {
+        let letters = piece.chars().count();
+        if length > 0 && length + 1 + letters > LONGEST {
             lines.push('\n');
             lines.push_str(indent);
             length = indent.len();
@@ -121,7 +181,7 @@ fn wrapped(text: &str, indent: &str) -> String {
             lines.push(' ');
             length += 1;
         }
-        lines.push_str(word);
+        lines.push_str(piece);
         length += letters;
     }
     lines

@@ -37,11 +37,7 @@ pub fn draw(
     plugins: &[PluginInfo],
     file: &Path,
 ) -> Result<(), Trouble> {
-    let known = |e: &str| e == "svg" || e == "png";
-    if !file.extension().and_then(|e| e.to_str()).is_some_and(known) {
-        let said = format!("--picture {}: it must end in .svg or .png", file.display());
-        return Err(Trouble::usage(said));
-    }
+    check(file)?;
     let specimens = specimen::all(plugins, &arguments.set, arguments.vary.as_deref())?;
     let curves = curves(&specimens, &numbers("pressure", &arguments.pressure, "Pa")?)?;
     let elastic = curves.iter().filter(|c| c.law.elastic().is_some()).count();
@@ -55,9 +51,26 @@ pub fn draw(
             ));
         }
     };
-    panels
-        .save(file)
-        .map_err(|e| Trouble::usage(e.to_string()))?;
+    save(&panels, file)
+}
+
+/// That the file is of a kind that can be written.
+fn check(file: &Path) -> Result<(), Trouble> {
+    let known = |e: &str| e == "svg" || e == "png";
+    match file.extension().and_then(|e| e.to_str()).is_some_and(known) {
+        true => Ok(()),
+        false => Err(Trouble::usage(format!(
+            "--picture {}: it must end in .svg or .png",
+            file.display()
+        ))),
+    }
+}
+
+/// Writes a picture and says so.
+pub fn save(panels: &Panels, file: &Path) -> Result<(), Trouble> {
+    check(file)?;
+    let saved = panels.save(file);
+    saved.map_err(|e| Trouble::usage(e.to_string()))?;
     console::out(&format!("wrote {}\n", file.display()));
     Ok(())
 }
