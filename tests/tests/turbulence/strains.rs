@@ -71,10 +71,11 @@ fn smagorinskys_eddies_follow_the_strain_of_the_last_step() {
     parts.flow.evaluate().expect("an evaluation");
     let world = &parts.flow.world;
     let width = 0.1 * 2.0 * world.kernel.smoothing_length();
-    let columns = [fields::EDDY_VISCOSITY, fields::DENSITY, LAST_STRAIN].map(|f| of(world, f));
-    for i in 0..world.free.len() {
-        let exact = columns[1][i] * width * width * columns[2][i];
-        assert!((columns[0][i] - exact).abs() <= 1e-12 * exact, "{i}");
+    let [eddies, density] = [fields::EDDY_VISCOSITY, fields::DENSITY].map(|f| of(world, f));
+    let strains = of(world, LAST_STRAIN);
+    for ((eddy, rho), strain) in eddies.iter().zip(density).zip(strains) {
+        let exact = rho * width * width * strain;
+        assert!((eddy - exact).abs() <= 1e-12 * exact, "{eddy}, {exact}");
     }
 }
 
