@@ -179,3 +179,27 @@ fn settled_grains_rest_on_the_floor_with_their_buoyant_weight() {
         assert!(error < 0.01, "{name}: {error}, 0.01 asked");
     }
 }
+
+#[test]
+fn colours_of_a_field_that_is_not_there_are_told_with_the_nearest_name() {
+    let bench = Bench::with(PROGRAM, DRY);
+    let checked = |range: &str| {
+        bench.call(&format!(
+            "check scene.toml --set output.picture_range={range}"
+        ))
+    };
+    let refused = checked("{sped=[0,1]}");
+    assert_eq!(refused.code, Some(2), "{}", refused.out);
+    assert!(
+        refused.err.contains("output.picture_range.sped"),
+        "{}",
+        refused.err
+    );
+    assert!(
+        refused.err.contains("did you mean `speed`?"),
+        "{}",
+        refused.err
+    );
+    assert_eq!(checked("{speed=[0,1]}").code, Some(0));
+    assert_eq!(checked("[0,1]").code, Some(0));
+}

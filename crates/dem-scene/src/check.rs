@@ -158,12 +158,16 @@ fn files(
 fn output(scene: &Scene, found: &mut Vec<SceneProblem>) {
     let wet = scene.fluid.is_some();
     let names = || crate::fields::names(wet);
-    for (k, field) in scene.output.picture.iter().enumerate() {
+    let pictures = scene.output.picture.iter().enumerate();
+    let pictures = pictures.map(|(k, field)| (format!("output.picture[{k}]"), field));
+    let coloured = scene.output.picture_range.iter().flat_map(|r| r.fields());
+    let coloured = coloured.map(|field| (format!("output.picture_range.{field}"), field));
+    for (path, field) in pictures.chain(coloured) {
         if !names().any(|n| n == field) {
             let near = suggestion(field, names());
             let known = names().collect::<Vec<_>>().join(", ");
             let message = format!("there is no field `{field}`{near} (there are: {known})");
-            add(found, format!("output.picture[{k}]"), message);
+            add(found, path, message);
         }
     }
 }

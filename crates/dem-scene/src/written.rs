@@ -92,7 +92,8 @@ impl Written {
             sph_io::writable(&folder)?;
             for field in &scene.output.picture {
                 let path = folder.join(format!("{field}_{index:06}.png"));
-                let range = scene.output.picture_range;
+                let range = scene.output.picture_range.as_ref();
+                let range = range.and_then(|all| all.of(field));
                 frames::picture(model, origin, field, range, &scene.title, None, &path)?;
             }
         }

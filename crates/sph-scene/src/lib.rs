@@ -75,7 +75,7 @@ pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 pub use tables::motion::{AngularRamp, AngularSine, Motion, Ramp, Rotation, Sine, Translate};
 pub use tables::numerics::{Numerics, Periodic, PressureOf, ReferencePressure, Relax, Run};
 pub use tables::outlet::Outlet;
-pub use tables::output::Output;
+pub use tables::output::{Output, PictureRange};
 pub use tables::phase::Phase;
 pub use tables::reference::{Norm, Reference};
 pub use tables::scene::{OFF_LATTICE, Scene};

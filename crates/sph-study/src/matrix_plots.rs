@@ -82,7 +82,7 @@ fn plot(results: &Results, lines: &[&Frontier]) -> Plot {
         title: first.title.clone(),
         x_label: first.axis.replace('-', " "),
         y_label: match quantity {
-            Some(error) => format!("error `{error}`"),
+            Some(error) => format!("error of {error}"),
             None => "largest deviation of the density [1]".into(),
         },
         log_x: first.is_wide(),

@@ -106,9 +106,9 @@ fn y_label(results: &Results) -> String {
     let name = results.judged();
     let with = |v: &crate::VariantResult| v.errors.get(name).cloned();
     match results.variants.iter().find_map(with) {
-        Some(e) if e.unit == "1" || e.unit.is_empty() => format!("error `{name}`, {} [1]", e.norm),
-        Some(e) => format!("error `{name}`, {} [{}]", e.norm, e.unit),
-        None => format!("error `{name}`"),
+        Some(e) if e.unit == "1" || e.unit.is_empty() => format!("error of {name}, {} [1]", e.norm),
+        Some(e) => format!("error of {name}, {} [{}]", e.norm, e.unit),
+        None => format!("error of {name}"),
     }
 }
 

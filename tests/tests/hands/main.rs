@@ -2,6 +2,7 @@
 //! commands around them.
 
 mod animation;
+mod colours;
 mod commands;
 mod compare;
 mod derived;

@@ -123,13 +123,22 @@ fn rendered(browser: &str, bench: &Bench, port: u16) -> String {
     std::fs::read_to_string(bench.path("page.html")).expect("a page")
 }
 
+/// The front of an inviscid dam break without an obstacle, 2√(gH) t beyond the gate (Ritter 1892), beside the probe.
+const RITTER: &str = "
+[reference.ritter]
+probe = \"front\"
+file = \"ritter.csv\"
+";
+
 #[test]
 fn a_real_browser_shows_pictures_curves_plots_errors_and_the_log() {
     let Some(browser) = browser() else {
         println!("no chromium here: nothing was looked at");
         return;
     };
-    let bench = with(DAM_BREAK);
+    let bench = with(&format!("{DAM_BREAK}{RITTER}"));
+    let ritter = "time[s],front[m]\n0,0.2\n0.06,0.4377\n";
+    std::fs::write(bench.path("ritter.csv"), ritter).expect("a table");
     bench.done(
         "run scene.toml -q --threads 1 --set output.picture=pressure --set run.end=0.06 --out a",
     );
@@ -145,6 +154,9 @@ fn a_real_browser_shows_pictures_curves_plots_errors_and_the_log() {
         ("its number", "3 of 3"),
         ("the curve", "<polyline points=\"0.0,"),
         ("the log", "<tr><td>0.06</td>"),
+        ("what is compared", "<th>reference</th><th>error</th>"),
+        ("the error", "<tr><td>ritter</td><td>0."),
+        ("the plot", "<img src=\"/files/plots/ritter.png\""),
     ] {
         assert!(page.contains(word), "{what}, {word}, is not in\n{page}");
     }

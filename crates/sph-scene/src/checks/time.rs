@@ -1,7 +1,7 @@
 //! Times and intervals: inside the run, in order.
 
 use crate::checks::problems::Problems;
-use crate::{Numerics, Scene};
+use crate::{Numerics, PictureRange, Scene};
 
 /// Most outputs of fields in a run.
 const OUTPUTS: f64 = 1e6;
@@ -46,7 +46,19 @@ pub(crate) fn check(scene: &Scene, found: &mut Problems) {
             );
         }
     }
-    rising(output.picture_range, "output.picture_range", found);
+    match &output.picture_range {
+        None => {}
+        Some(PictureRange::All(range)) => rising(Some(*range), "output.picture_range", found),
+        Some(PictureRange::ByField(ranges)) => {
+            for (field, range) in ranges {
+                rising(
+                    Some(*range),
+                    &format!("output.picture_range.{field}"),
+                    found,
+                );
+            }
+        }
+    }
     density(&scene.numerics, found);
     for (name, reference) in &scene.reference {
         rising(reference.window, &format!("reference.{name}.window"), found);

@@ -1,5 +1,7 @@
 //! The table `[output]`: what a run writes and when.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer};
 
@@ -22,9 +24,10 @@ pub struct Output {
     #[serde(deserialize_with = "one_or_many")]
     #[schemars(with = "OneOrMany")]
     pub picture: Vec<String>,
-    /// Values at the ends of the picture's colours, SI; least and largest value if left out.
+    /// Values at the ends of the pictures' colours, SI: `[low, high]` for all pictures, or a table of fields with such
+    /// pairs; least and largest value where none is given.
     #[schemars(extend("unit" = "1"))]
-    pub picture_range: Option<[f64; 2]>,
+    pub picture_range: Option<PictureRange>,
     /// Pictures per second of an animation of every picture, `animations/NAME.gif`; none if left out.
     #[schemars(extend("unit" = "1/s"), range(min = 0.02, max = 50.0))]
     pub animation: Option<f64>,
@@ -71,6 +74,26 @@ impl Output {
         }
         let k = (time / every * (1.0 + 1e-12)).floor() + 1.0;
         Some((k * every).min(end))
+    }
+}
+
+/// Values at the ends of the colours of pictures, SI.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum PictureRange {
+    /// Those of all pictures.
+    All([f64; 2]),
+    /// Those of single fields; pictures of others go from their least to their largest value.
+    ByField(BTreeMap<String, [f64; 2]>),
+}
+
+impl PictureRange {
+    /// The values at the ends for a field, if they are given.
+    pub fn of(&self, field: &str) -> Option<[f64; 2]> {
+        match self {
+            PictureRange::All(range) => Some(*range),
+            PictureRange::ByField(ranges) => ranges.get(field).copied(),
+        }
     }
 }
 

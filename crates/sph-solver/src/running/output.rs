@@ -8,7 +8,7 @@ use sph_io::{
     View,
 };
 use sph_probes::{SURFACE_DISTANCE, surface_distance};
-use sph_scene::Scene;
+use sph_scene::{PictureRange, Scene};
 
 use crate::failure::bad_pictures;
 use crate::running::drawn_flow::{column_of, drawn_walls, padded};
@@ -27,7 +27,7 @@ pub struct Outputs {
     series: Option<PvdSeries>,
     fields: Vec<String>,
     pictures: Vec<String>,
-    range: Option<[f64; 2]>,
+    ranges: Option<PictureRange>,
     title: String,
     /// Pictures per second of animations.
     animation: Option<f64>,
@@ -77,7 +77,7 @@ impl Outputs {
             series,
             fields: scene.output.fields.clone(),
             pictures: scene.output.picture.clone(),
-            range: scene.output.picture_range,
+            ranges: scene.output.picture_range.clone(),
             title: scene.title.clone(),
             animation: scene.output.animation,
             written: written.unwrap_or(0),
@@ -124,7 +124,7 @@ impl Outputs {
                 flow,
                 &points,
                 drawn,
-                self.range,
+                self.ranges.as_ref().and_then(|all| all.of(name)),
                 &self.title,
                 &self.folder.join(file),
             )?;

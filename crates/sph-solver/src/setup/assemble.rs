@@ -7,7 +7,7 @@ use sph_multiphase::Formulation;
 use sph_neighbours::World;
 use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
-use sph_scene::Scene;
+use sph_scene::{PictureRange, Scene};
 use sph_state::{Laws, Reference};
 
 use crate::failure::error::SolverError;
@@ -312,16 +312,23 @@ fn check_output_fields<const D: usize>(scene: &Scene, flow: &Flow<D>) -> Result<
     let more = sph_probes::derived_fields().chain([fields::STRAIN_RATE.name, written]);
     let more = more.filter(|name| !free.has(name));
     let names: Vec<&str> = free.fields().map(|f| f.name).chain(more).collect();
+    let unknown = |path: &str, name: &str| {
+        let near = sph_core::suggestion(name, names.iter().copied());
+        let known = names.join(", ");
+        let message =
+            format!("no plugin of this scene has a field `{name}`{near} (there are: {known})");
+        SceneProblem::new(path, message)
+    };
     let mut problems = Vec::new();
     for (path, wanted) in lists {
-        for name in wanted.iter().filter(|n| *n != written && !free.has(n)) {
-            let near = sph_core::suggestion(name, names.iter().copied());
-            let known = names.join(", ");
-            problems.push(SceneProblem::new(
-                path,
-                format!("no plugin of this scene has a field `{name}`{near} (there are: {known})"),
-            ));
-        }
+        let missing = wanted.iter().filter(|n| *n != written && !free.has(n));
+        problems.extend(missing.map(|name| unknown(path, name)));
+    }
+    if let Some(PictureRange::ByField(ranges)) = &scene.output.picture_range {
+        // Colours of a field that is not drawn now do no harm: pictures are changed with `--set`.
+        let known = |name: &str| names.contains(&name) || name == fields::DISPLACEMENT.name;
+        let missing = ranges.keys().filter(|name| !known(name));
+        problems.extend(missing.map(|name| unknown(&format!("output.picture_range.{name}"), name)));
     }
     match problems.is_empty() {
         true => Ok(()),
