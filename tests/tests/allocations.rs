@@ -83,20 +83,20 @@ fn steps(name: &str, overrides: &[&str]) -> (usize, [u64; 2], [u64; 2]) {
 
 /// Scenes with the most blocks and bytes per particle that their median step may ask for.
 ///
-/// Builds with debug assertions: a third of the blocks hold stages to their columns. The rest of water is means at walls, one
-/// number per wall point and element, and so more in space; that of soils is what solvers of linear systems make for themselves.
+/// Builds with debug assertions: a third of the blocks hold stages to their columns. What is left
+/// are small blocks per term, stage and sum.
 type Bounds = (&'static str, &'static [&'static str], [f64; 2]);
 
 const SCENES: [Bounds; 7] = [
     (
         "dam-break-koshizuka",
         &["numerics.spacing=0.004"],
-        [100.0, 60.0],
+        [75.0, 7.0],
     ),
     (
         "dam-break-spheric2",
         &["numerics.spacing=0.06"],
-        [110.0, 550.0],
+        [75.0, 7.0],
     ),
     (
         "air-water-dambreak-lobovsky",
@@ -105,27 +105,27 @@ const SCENES: [Bounds; 7] = [
             "body.water.box=[[0.0,0.0],[0.605,0.305]]",
             "body.air.subtract=[{box=[[0.0,0.0],[0.605,0.305]]}]",
         ],
-        [140.0, 14.0],
+        [120.0, 4.0],
     ),
     (
         "bingham-dam-break",
         &["numerics.spacing=0.01"],
-        [125.0, 60.0],
+        [102.0, 12.0],
     ),
     (
         "granular-pile-lajeunesse",
         &["numerics.spacing=0.003"],
-        [1100.0, 13_000.0],
+        [860.0, 140.0],
     ),
     (
         "soil-collapse-bui",
         &["numerics.spacing=0.003"],
-        [600.0, 2_200.0],
+        [410.0, 125.0],
     ),
     (
         "turb-channel-k-epsilon",
         &["numerics.spacing=0.01"],
-        [370.0, 70.0],
+        [340.0, 57.0],
     ),
 ];
 
