@@ -2,6 +2,7 @@
 
 mod bench;
 mod disk;
+mod pages;
 #[cfg(doctest)]
 mod readmes;
 mod results;
@@ -9,6 +10,7 @@ mod state;
 
 pub use bench::{Bench, Outcome};
 pub use disk::Disk;
+pub use pages::list_items;
 pub use results::Results;
 pub use state::{FinalState, files_with_extension};
 

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::dependencies::{entries, table, workspace};
-use crate::{items, root};
+use crate::root;
+use sph_tests::list_items;
 
 /// The crates in `crates` and those of the project that each is built on, as a page writes them.
 fn arrows() -> BTreeMap<String, String> {
@@ -32,7 +33,7 @@ fn arrows() -> BTreeMap<String, String> {
 #[test]
 fn the_list_of_crates_has_all_of_them_with_their_arrows() {
     let page = std::fs::read_to_string(root().join("docs/architecture.md")).expect("the page");
-    let told = items(&page).into_iter().filter_map(|item| {
+    let told = list_items(&page).into_iter().filter_map(|item| {
         let name = item.strip_prefix("[`")?.split('`').next()?.to_owned();
         let (_, used) = item.split_once(" Uses: ")?;
         Some((name, used.trim_end_matches('.').to_owned()))

@@ -108,7 +108,7 @@ const TOLD: [&str; 4] = [
 fn items() -> BTreeMap<String, Vec<String>> {
     let page = fs::read_to_string(root().join("docs/dependencies.md")).expect("the page");
     let mut found = BTreeMap::new();
-    for item in super::items(&page) {
+    for item in sph_tests::list_items(&page) {
         let Some((name, mut rest)) = item.strip_prefix('`').and_then(|i| i.split_once("`: "))
         else {
             continue;

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use sph_tests::list_items;
+
 use crate::shipped::whole;
 
 /// Scenes that take seconds, and their errors in the order of the table. The stress on the other wall of the last one is
@@ -33,15 +35,6 @@ fn percentages(text: &str) -> Vec<&str> {
     before.iter().map(|piece| last_number(piece)).collect()
 }
 
-/// The items of the page, each on one line.
-fn items(page: &str) -> Vec<String> {
-    let items = page.split("\n* ").skip(1);
-    let items = items.map(|item| item.split("\n\n").next().unwrap_or(item));
-    items
-        .map(|item| item.split_whitespace().collect::<Vec<_>>().join(" "))
-        .collect()
-}
-
 /// What a scene's item tells as its errors.
 fn told<'t>(items: &'t [String], scene: &str) -> Option<&'t str> {
     let begin = format!("[`{scene}`]");
@@ -53,7 +46,7 @@ fn told<'t>(items: &'t [String], scene: &str) -> Option<&'t str> {
 fn the_tables_of_scenes_have_what_short_runs_print() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let page = |name: &str| std::fs::read_to_string(root.join(name)).expect("a page");
-    let (all, readme) = (items(&page("docs/scenes.md")), page("README.md"));
+    let (all, readme) = (list_items(&page("docs/scenes.md")), page("README.md"));
     let mut wrong = Vec::new();
     for (scene, errors) in ROWS {
         let run = whole(scene);

@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use nalgebra::Matrix2;
 use sph_core::{System, Vect, fields};
 use sph_neighbours::World;
+use sph_probes::Probe;
 use sph_tests::PERIODIC;
-use sph_turbulence::{AlgebraicStress, LAST_STRAIN};
+use sph_turbulence::{AlgebraicStress, LAST_STRAIN, TurbulentEnergyProbe};
 
 use crate::{CHANNEL, assembled};
 
@@ -46,6 +47,17 @@ fn strain_rates_that_ride_along_are_those_of_a_walk_of_their_own() {
     }
     let [a, b] = [&riding, &own].map(|w| w.free.get(fields::ACCELERATION).expect("a"));
     assert_eq!(a, b);
+}
+
+/// Where k and ε are the same everywhere their means are these, and the whole is the mass times k.
+#[test]
+fn the_energy_of_even_eddies_is_the_mass_times_theirs() {
+    let world = evaluated(&format!("{CHANNEL}{K_EPSILON}"), &[], waves);
+    let told = TurbulentEnergyProbe {}.measure(&world).expect("numbers");
+    let mass: f64 = world.free.get(fields::MASS).expect("m").iter().sum();
+    for (told, exact) in told.into_iter().zip([mass * 1e-2, 1e-2, 1e-2, 1e-2]) {
+        assert!((told / exact - 1.0).abs() < 1e-12, "{told}, {exact}");
+    }
 }
 
 #[test]

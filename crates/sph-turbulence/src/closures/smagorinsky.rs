@@ -56,7 +56,7 @@ pub struct Smagorinsky {
     #[schemars(extend("source" = "van Driest 1956"))]
     pub damping: Damping,
     /// Of which step the strain rate is.
-    #[schemars(extend("source" = "as in DualSPHysics, Crespo et al. 2015"))]
+    #[schemars(extend("source" = "ours"))]
     pub strain_of: StrainOf,
     /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
     pub phases: Vec<String>,

@@ -17,7 +17,8 @@ const RATE: [Field<Scalar>; 2] = [TURBULENT_ENERGY_RATE, DISSIPATION_RATE];
 /// But for the ε of walls with a wall function, where it is asked for: with ε = u_k³/(κz), ν_t = κu_k z and u_k⁴ = C_μk² the
 /// wall gives C_μk²/(σ_ε z), which adds 2/γ_a Σ_s C_μk²/(σ_ε z)|∇γ_as| to dε/dt, z being the particle's distance.
 ///
-/// Source: Issa 2004, Eq. 5.61 and 5.65, with the viscosity of the fluid; Leroy et al. 2014 (flux of ε).
+/// Source: Issa 2004, Eq. 5.61 and 5.65, with the viscosity of the fluid; the flux of ε is that of the
+/// logarithmic law, put in as Ferrand et al. 2013 put fluxes through walls. It was not held against another code's.
 pub(crate) struct Diffusion<const N: usize> {
     /// σ of each.
     pub sigma: [f64; N],

@@ -62,7 +62,7 @@ pub struct KEpsilon {
     /// Which equations.
     pub variant: Variant,
     /// What k and ε are next to walls with a wall function.
-    #[schemars(extend("source" = "Issa 2004, Eq. 5.33; Launder and Spalding 1974; Ferrand et al. 2013; Leroy et al. 2014"))]
+    #[schemars(extend("source" = "Issa 2004, Eq. 5.33; Launder and Spalding 1974; Ferrand et al. 2013; the flux of ε is ours"))]
     pub at_wall: AtWall,
     /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
     pub phases: Vec<String>,
