@@ -106,4 +106,8 @@ pub trait Stage<C>: Declares + Send {
     /// # Errors
     /// When a column is missing or a value is impossible; the step is then rolled back.
     fn run(&mut self, context: &mut C) -> Result<(), StepError>;
+    /// Memory of the system that it solved last, matrix and solution, bytes; 0 where it solves none.
+    fn bytes(&self) -> usize {
+        0
+    }
 }

@@ -139,7 +139,11 @@ impl<E: Copy, S: Copy> Part<E, S> {
         starts.clear();
         starts.push(0);
         columns.clear();
+        // Room for what there is: growing by doubles would keep half of it empty.
+        let room = pattern.row(rows.end - 1).end - pattern.row(from).start;
+        columns.reserve_exact(room / 2);
         lower.clear();
+        lower.reserve_exact(room / 2);
         inverse_pivots.clear();
         let mut largest = f64::MIN_POSITIVE;
         for i in rows {
@@ -176,6 +180,7 @@ impl<E: Copy, S: Copy> Part<E, S> {
         let factor = 1.0 / largest;
         self.largest = largest;
         self.lower.clear();
+        self.lower.reserve_exact(self.long.len());
         self.lower.extend(self.long.iter().map(|l| l.short(factor)));
         Ok(())
     }

@@ -218,6 +218,16 @@ impl<const D: usize> Stage<World<D>> for Solve<D> {
             false => Ok(()),
         }
     }
+    fn bytes(&self) -> usize {
+        let Assembly {
+            pattern, values, ..
+        } = &self.room.assembly;
+        size_of_val(&pattern.starts[..])
+            + size_of_val(&pattern.columns[..])
+            + size_of_val(&values.diagonal[..])
+            + size_of_val(&values.others[..])
+            + size_of_val(&self.room.pressure[..])
+    }
 }
 
 impl<const D: usize> Solve<D> {

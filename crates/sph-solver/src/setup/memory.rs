@@ -18,6 +18,8 @@ const TABLES_PER_ELEMENT: f64 = 550.0;
 const PIXELS: f64 = 1200.0 * 850.0;
 /// Bytes of a pixel while a picture is drawn and encoded: once each.
 const BYTES_PER_PIXEL: f64 = 8.0;
+/// What solves keep over the matrix.
+const SHARES: f64 = 2.0 + 2.0 * 2.0 / 3.0;
 /// Bytes of a place of a particle for pictures and files: three coordinates and a value.
 const BYTES_PER_PLACE: f64 = 32.0;
 
@@ -68,14 +70,15 @@ impl Memory {
     ) -> Result<Self, FieldError> {
         let world = &flow.world;
         let particles = world.free.len() as f64;
+        let stages: usize = flow.stages.iter().map(|stage| stage.bytes()).sum();
         Ok(Memory {
             columns: particles * world.free.bytes_per_particle() as f64,
             lists: lists(world),
             copies: particles * copies(scene, world),
             walls: walls(world),
-            // Rows as they are put together, the matrix that they are joined to, its halves and incomplete factors in
-            // single precision, which take two thirds and a third of it.
-            solves: 3.0 * system,
+            // Rows as they are put together, the matrix that they are joined to, its halves and incomplete factors, which
+            // are kept in both precisions: these take two thirds of it each.
+            solves: SHARES * (system + stages as f64),
             output: output(scene, particles),
         })
     }
@@ -130,9 +133,11 @@ fn walls<const D: usize>(world: &World<D>) -> f64 {
     let element = (3 * 8 * D + 4 * 8 + 4 + 4 * D) as f64 + TABLES_PER_ELEMENT;
     // Elements near a particle are listed as well, with the skin, in entries of the same size.
     let contact = (GROWN + 1.0) * size_of::<Contact<D>>() as f64;
-    // Where the contacts of a particle are.
+    // Where the contacts of a particle are, and where its elements are listed: place, motion and range, twice so that they
+    // can follow a sorted particle, and whose they are.
+    let listed = 2.0 * (8 * D + 16) as f64 + 4.0;
     let places = match contacts > 0.0 {
-        true => 12.0 * world.free.len() as f64,
+        true => (12.0 + listed) * world.free.len() as f64,
         false => 0.0,
     };
     walls.points.position.len() as f64 * point
