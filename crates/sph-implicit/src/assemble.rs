@@ -47,8 +47,6 @@ pub struct Rows<E, const C: usize> {
     begin: usize,
     diagonal: Vec<E>,
     sources: Vec<Vect<C>>,
-    /// For whoever fills the rows: numbers of pairs.
-    pub numbers: Vec<f64>,
 }
 
 impl<E: Entry<C>, const C: usize> Rows<E, C> {
@@ -61,7 +59,6 @@ impl<E: Entry<C>, const C: usize> Rows<E, C> {
             begin: 0,
             diagonal: Vec::with_capacity(CHUNK),
             sources: Vec::with_capacity(CHUNK),
-            numbers: Vec::new(),
         }
     }
 
@@ -154,14 +151,25 @@ impl<E: Entry<C>, const C: usize> Assembly<E, C> {
         cluster: impl Fn(&mut Cluster<'_, D>, &mut Rows<E, C>) + Sync,
     ) -> Result<(), StepError> {
         let walk = ClusterWalk::new(world)?;
-        self.parts.resize_with(walk.blocks(), Rows::new);
+        self.fill_blocks([walk.blocks(), walk.particles()], |block, rows| {
+            walk.each(block, |members| cluster(members, rows));
+        });
+        Ok(())
+    }
+
+    /// The same of so many blocks with so many rows in all; `add` adds the rows of a block.
+    pub fn fill_blocks(
+        &mut self,
+        [blocks, all]: [usize; 2],
+        add: impl Fn(usize, &mut Rows<E, C>) + Sync,
+    ) {
+        self.parts.resize_with(blocks, Rows::new);
         let blocks = self.parts.par_iter_mut().enumerate();
         blocks.for_each(|(block, rows)| {
             rows.clear();
-            walk.each(block, |members| cluster(members, rows));
+            add(block, rows);
         });
-        self.join(walk.particles());
-        Ok(())
+        self.join(all);
     }
 
     /// Moves the rows of all parts to where a matrix has them.

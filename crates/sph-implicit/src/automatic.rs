@@ -7,7 +7,7 @@ use serde::Deserialize;
 use sph_core::{Shelf, Vect, register};
 
 use crate::{
-    Cholesky, ConjugateGradient, Entries, LinearSolver, LinearSolverEntry, Matrix, Operator,
+    Cholesky, ConjugateGradient, Diagonal, LinearSolver, LinearSolverEntry, Operator,
     Preconditioner, Report, SolveError,
 };
 
@@ -71,11 +71,17 @@ const BLOCK_PATIENCE: usize = 25;
 const DIRECT_ROWS: usize = 200_000;
 
 /// Iterations in whose time a factorisation is done; `None` where it is not tried.
-fn patience<const D: usize>(matrix: &Matrix<D>) -> Option<usize> {
-    let root = (matrix.rows() as f64).sqrt().ceil() as usize;
-    let mixed = matches!(matrix.entries, Entries::Block(_));
+fn patience<const D: usize>(rows: usize, mixed: bool) -> Option<usize> {
+    let root = (rows as f64).sqrt().ceil() as usize;
     let most = if mixed { 2 * root } else { root };
-    (D == 2 && matrix.rows() <= DIRECT_ROWS).then_some(most)
+    (D == 2 && rows <= DIRECT_ROWS).then_some(most)
+}
+
+/// Whether the diagonal alone preconditions.
+fn mild<const D: usize>(operator: &dyn Operator<D>) -> bool {
+    operator
+        .stiffness()
+        .is_some_and(|stiffness| stiffness < MILD)
 }
 
 impl<const D: usize> LinearSolver<D> for Automatic {
@@ -88,6 +94,13 @@ impl<const D: usize> LinearSolver<D> for Automatic {
         self.solve_roughly(operator, right, x, 0.0)
     }
 
+    fn wants_entries(&self, operator: &dyn Operator<D>) -> bool {
+        match operator.diagonal() {
+            Some(Diagonal::Scalar(_)) => !mild(operator),
+            _ => false,
+        }
+    }
+
     fn solve_roughly(
         &mut self,
         operator: &dyn Operator<D>,
@@ -95,7 +108,7 @@ impl<const D: usize> LinearSolver<D> for Automatic {
         x: &mut [Vect<D>],
         enough: f64,
     ) -> Result<Report, SolveError> {
-        let Some(matrix) = operator.assembled() else {
+        let Some(diagonal) = operator.diagonal() else {
             let mut plain = ConjugateGradient {
                 tolerance: self.tolerance,
                 preconditioner: Preconditioner::None,
@@ -104,26 +117,25 @@ impl<const D: usize> LinearSolver<D> for Automatic {
             };
             return plain.solve_roughly(operator, right, x, enough);
         };
-        let mild = matrix.stiffness() < MILD;
-        let stages = match (mild, &matrix.entries) {
+        let mixed = matches!(diagonal, Diagonal::Block(_));
+        let stages = match (mild(operator), mixed) {
             (true, _) => &[Preconditioner::Jacobi][..],
-            (false, Entries::Scalar(_)) => &[Preconditioner::IncompleteDiagonal],
-            (false, Entries::Block(_)) => {
-                &[Preconditioner::Jacobi, Preconditioner::IncompleteCholesky]
-            }
+            (false, false) => &[Preconditioner::IncompleteDiagonal],
+            (false, true) => &[Preconditioner::Jacobi, Preconditioner::IncompleteCholesky],
         };
         // Factors are of whole matrices.
-        let patience = patience(matrix).filter(|_| operator.whole("").is_ok());
+        let whole = operator.columns() == operator.rows();
+        let patience = patience::<D>(operator.rows(), mixed).filter(|_| whole);
         let mut spent = 0;
         for (k, &preconditioner) in stages.iter().enumerate() {
             let last = k + 1 == stages.len();
-            let whole = ConjugateGradient::default();
+            let usual = ConjugateGradient::default().iterations;
             let mut solver = ConjugateGradient {
                 tolerance: self.tolerance,
                 preconditioner,
                 iterations: match last {
                     false => BLOCK_PATIENCE,
-                    true => patience.unwrap_or(whole.iterations),
+                    true => patience.unwrap_or(usual),
                 },
                 shelf: self.shelf.clone(),
             };

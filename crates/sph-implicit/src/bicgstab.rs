@@ -44,6 +44,10 @@ impl Default for Bicgstab {
 const METHOD: &str = "BiCGSTAB";
 
 impl<const D: usize> LinearSolver<D> for Bicgstab {
+    fn wants_entries(&self, _: &dyn Operator<D>) -> bool {
+        self.preconditioner.factorises()
+    }
+
     fn solve(
         &mut self,
         operator: &dyn Operator<D>,

@@ -74,6 +74,10 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
         self.solve_roughly(operator, right, x, 0.0)
     }
 
+    fn wants_entries(&self, _: &dyn Operator<D>) -> bool {
+        self.preconditioner.factorises()
+    }
+
     fn solve_roughly(
         &mut self,
         operator: &dyn Operator<D>,

@@ -50,7 +50,7 @@ pub use error::SolveError;
 pub use incomplete::Incomplete;
 pub use jacobi::Jacobi;
 pub use krylov::Tolerance;
-pub use matrix::{Entries, Matrix, Pattern, Values};
+pub use matrix::{Diagonal, Entries, Matrix, Pattern, Values};
 pub use operator::Operator;
 pub use precondition::Preconditioner;
 pub use scheme::{

@@ -88,6 +88,22 @@ impl<const D: usize> Entries<D> {
     pub fn block(diagonal: Vec<Block<D>>, others: Vec<Block<D>>) -> Self {
         Entries::Block(Values { diagonal, others })
     }
+    /// Those of the diagonal.
+    pub fn diagonal(&self) -> Diagonal<'_, D> {
+        match self {
+            Entries::Scalar(values) => Diagonal::Scalar(&values.diagonal),
+            Entries::Block(values) => Diagonal::Block(&values.diagonal),
+        }
+    }
+}
+
+/// The diagonal of a matrix, one entry per row.
+#[derive(Clone, Copy, Debug)]
+pub enum Diagonal<'a, const D: usize> {
+    /// The same number for all components.
+    Scalar(&'a [f64]),
+    /// Components are coupled.
+    Block(&'a [Block<D>]),
 }
 
 impl<const D: usize> Default for Entries<D> {

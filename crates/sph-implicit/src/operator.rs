@@ -3,7 +3,7 @@
 use sph_core::{Shelf, Vect};
 
 use crate::vector::dot;
-use crate::{Matrix, SolveError};
+use crate::{Diagonal, Matrix, SolveError};
 
 /// A symmetric operator on vectors of particles, with or without a matrix behind it.
 ///
@@ -35,8 +35,19 @@ pub trait Operator<const D: usize>: Sync {
         None
     }
 
-    /// The entries between rows of one's own, for preconditioners and factorisations; none where nobody wrote them
-    /// down.
+    /// Its diagonal, for preconditioners; none where nobody knows it.
+    fn diagonal(&self) -> Option<Diagonal<'_, D>> {
+        self.assembled().map(|matrix| matrix.entries.diagonal())
+    }
+
+    /// Largest ratio of what couples a row to others to what is left of its diagonal, as
+    /// [`Matrix::stiffness`](crate::Matrix::stiffness); none where nobody knows it.
+    fn stiffness(&self) -> Option<f64> {
+        self.assembled().map(Matrix::stiffness)
+    }
+
+    /// The entries between rows of one's own, for preconditioners and factorisations; none where nobody can write
+    /// them down, which may be done when it is asked for.
     fn assembled(&self) -> Option<&Matrix<D>> {
         None
     }

@@ -7,7 +7,7 @@ use sph_core::{Lent, Shelf, Vect};
 
 use crate::incomplete::Incomplete;
 use crate::matrix::{Entries, ROWS, Values};
-use crate::{Block, Entry, Operator, Pattern, SolveError};
+use crate::{Block, Diagonal, Entry, Operator, Pattern, SolveError};
 
 /// z ≈ A⁻¹ r.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
@@ -37,6 +37,14 @@ pub(crate) enum Bound<'s, const D: usize> {
 }
 
 impl Preconditioner {
+    /// Whether it is made of the entries of a matrix, and not of its diagonal alone.
+    pub fn factorises(self) -> bool {
+        matches!(
+            self,
+            Preconditioner::IncompleteDiagonal | Preconditioner::IncompleteCholesky
+        )
+    }
+
     /// # Errors
     /// If a pivot is not positive.
     pub(crate) fn bind<'s, const D: usize>(
@@ -48,36 +56,33 @@ impl Preconditioner {
         if self == Preconditioner::None {
             return Ok(Bound::Nothing);
         }
-        let matrix = operator.assembled().ok_or_else(|| SolveError::NotWhole {
+        let missing = || SolveError::NotWhole {
             method: method.into(),
-        })?;
+        };
         let failed = |row| SolveError::NotPositive {
             method: method.into(),
             row,
         };
-        Ok(match (self, &matrix.entries) {
-            (Preconditioner::Jacobi, Entries::Block(values)) => {
-                let diagonal = |d: &Block<D>| Entry::<D>::diagonal(d);
-                Bound::Block(inverted::<D, _>(shelf, values, diagonal).map_err(failed)?)
-            }
-            (Preconditioner::Jacobi | Preconditioner::BlockJacobi, Entries::Scalar(values)) => {
-                Bound::Scalar(inverted::<D, _>(shelf, values, |d| *d).map_err(failed)?)
-            }
-            (Preconditioner::BlockJacobi, Entries::Block(values)) => {
-                Bound::Block(inverted::<D, _>(shelf, values, |d| *d).map_err(failed)?)
-            }
-            (_, Entries::Scalar(values)) => {
-                let quick = self == Preconditioner::IncompleteDiagonal;
-                Bound::IncompleteScalar(
-                    incomplete::<D, _>(shelf, &matrix.pattern, values, quick).map_err(failed)?,
-                )
-            }
-            (_, Entries::Block(values)) => {
-                let quick = self == Preconditioner::IncompleteDiagonal;
-                Bound::IncompleteBlock(
-                    incomplete::<D, _>(shelf, &matrix.pattern, values, quick).map_err(failed)?,
-                )
-            }
+        if !self.factorises() {
+            let diagonal = operator.diagonal().ok_or_else(missing)?;
+            let bound = match diagonal {
+                Diagonal::Scalar(all) => inverted::<D, _>(shelf, all, |d| *d).map(Bound::Scalar),
+                Diagonal::Block(all) if self == Preconditioner::Jacobi => {
+                    inverted::<D, _>(shelf, all, Entry::<D>::diagonal).map(Bound::Block)
+                }
+                Diagonal::Block(all) => inverted::<D, _>(shelf, all, |d| *d).map(Bound::Block),
+            };
+            return bound.map_err(failed);
+        }
+        let matrix = operator.assembled().ok_or_else(missing)?;
+        let quick = self == Preconditioner::IncompleteDiagonal;
+        Ok(match &matrix.entries {
+            Entries::Scalar(values) => Bound::IncompleteScalar(
+                incomplete::<D, _>(shelf, &matrix.pattern, values, quick).map_err(failed)?,
+            ),
+            Entries::Block(values) => Bound::IncompleteBlock(
+                incomplete::<D, _>(shelf, &matrix.pattern, values, quick).map_err(failed)?,
+            ),
         })
     }
 }
@@ -97,12 +102,12 @@ fn incomplete<'s, const D: usize, E: Entry<D>>(
 /// The inverses of parts of the diagonal, or the first row that has none.
 fn inverted<'s, const D: usize, E: Entry<D>>(
     shelf: &'s Shelf,
-    values: &Values<E>,
+    diagonal: &[E],
     part: impl Fn(&E) -> E,
 ) -> Result<Lent<'s, Vec<E>>, usize> {
     let mut inverse = shelf.lend::<Vec<E>>();
     inverse.clear();
-    for (i, d) in values.diagonal.iter().enumerate() {
+    for (i, d) in diagonal.iter().enumerate() {
         inverse.push(part(d).inverted().ok_or(i)?);
     }
     Ok(inverse)

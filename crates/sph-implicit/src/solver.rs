@@ -44,6 +44,11 @@ pub trait LinearSolver<const D: usize>: Send {
     ) -> Result<Report, SolveError> {
         self.solve(operator, right, x)
     }
+
+    /// Whether it asks for the entries of an operator in any case, and not for products and the diagonal alone.
+    fn wants_entries(&self, _operator: &dyn Operator<D>) -> bool {
+        true
+    }
 }
 
 contract!(

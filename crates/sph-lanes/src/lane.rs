@@ -44,6 +44,8 @@ pub trait Lane:
     fn where_positive(self, yes: Self, no: Self) -> Self;
     /// Whether any lane is less than that of `other`.
     fn any_less(self, other: Self) -> bool;
+    /// Whether any lane is not 0; what is not a number is not.
+    fn any_nonzero(self) -> bool;
     /// m from 1/√2 to √2 and the whole number e of x = m 2ᵉ, for normal positive numbers.
     fn parts(self) -> (Self, Self);
 }
@@ -104,6 +106,10 @@ impl Lane for f64 {
     #[inline(always)]
     fn any_less(self, other: f64) -> bool {
         self < other
+    }
+    #[inline(always)]
+    fn any_nonzero(self) -> bool {
+        self != 0.0
     }
     #[inline(always)]
     fn parts(self) -> (f64, f64) {

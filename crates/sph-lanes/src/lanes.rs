@@ -126,6 +126,14 @@ impl<const N: usize> Lane for Lanes<N> {
         any
     }
     #[inline(always)]
+    fn any_nonzero(self) -> bool {
+        let mut any = false;
+        for k in 0..N {
+            any |= self.0[k] != 0.0;
+        }
+        any
+    }
+    #[inline(always)]
     fn parts(mut self) -> (Self, Self) {
         let mut exponents = self;
         for k in 0..N {

@@ -17,9 +17,11 @@ mod cluster;
 mod cluster_walk;
 mod clusters;
 mod contacts;
+mod couplings;
 mod domain;
 mod fuse;
 mod grid;
+mod keep_couplings;
 mod kernel_sums;
 mod kernels;
 mod lane_pair;
@@ -47,11 +49,13 @@ pub use cluster::Cluster;
 pub use cluster_walk::{ClusterWalk, LanePairs};
 pub use clusters::Clusters;
 pub use contacts::{Contact, Contacts};
+pub use couplings::{Couplings, CouplingsAt, Kinds, Visitor};
 pub use domain::Domain;
 pub use fuse::{
     FusionEntry, Terms, fuse_all, fuse_three, fuse_three_lanes, fuse_two, fuse_two_lanes,
 };
 pub use grid::CellGrid;
+pub use keep_couplings::{Keeper, Rows as CouplingRows, Tally, Weak};
 pub use kernel_sums::{kernel_sums, shepard};
 pub use kernels::KernelEntry;
 pub use lane_pair::LanePair;

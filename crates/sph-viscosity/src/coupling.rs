@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use sph_core::{Access, StepError, Vect};
-use sph_neighbours::{Cluster, Neighbourhood, World};
+use sph_neighbours::{Cluster, Kinds, Neighbourhood, World};
 
 /// A friction that is linear in the velocities:
 /// m_a γ_a a_a = −Σ_b C_ab (u_a − u_b) − W_a u_a + s_a with C_ab = C_baᵀ.
@@ -28,17 +28,11 @@ pub struct CouplingRow<W, const D: usize> {
     pub source: Vect<D>,
 }
 
-/// Pairs that are coupled too weakly to be solved for: −C_ab (u_a − u_b) of a given velocity goes to the source.
-#[derive(Clone, Copy, Debug)]
-pub struct Weak<'a, const D: usize> {
-    /// With which they act, m/s.
-    pub velocity: &'a [Vect<D>],
-    /// The norm of C_ab is not above that of either particle, N s/m.
-    pub limit: &'a [f64],
-}
-
 /// A [`Coupling`] with its columns. Since nothing but the separation tells directions apart, C_ab = α 1 + β r rᵀ.
 pub trait BoundCoupling<const D: usize>: Sync {
+    /// Which of α and β are not zero everywhere.
+    fn kinds(&self) -> Kinds;
+
     /// α (N s/m), β (N s/m³) and their norm |α| + |β| r² for every candidate of a cluster, one number per lane each;
     /// exactly zero beyond the support.
     fn strengths(&self, cluster: &Cluster<'_, D>, out: &mut Vec<f64>);

@@ -9,11 +9,11 @@ use std::time::Instant;
 use serde_json::Value as Json;
 use sph_contribution::{OutsideForce, Stages, StepWork};
 use sph_core::{Access, StepError, Vect, fields};
-use sph_implicit::{LinearSolver, TimeScheme};
+use sph_implicit::{LinearSolver, Operator, TimeScheme};
 use sph_neighbours::{Interaction, World};
 
-use crate::system::{Start, System, put};
-use crate::{Coupling, Solves};
+use crate::start::{Start, put};
+use crate::{Coupling, FrictionSystem, Solves};
 
 /// Residual of a solve within an outer iteration, over the tolerance of the latter.
 const INNER: f64 = 0.1;
@@ -40,7 +40,7 @@ pub struct ImplicitViscosity<const D: usize> {
     lagged: Lagged<D>,
     solves: Solves,
     /// The system of the last solve, for its memory.
-    system: System<D>,
+    system: FrictionSystem<D>,
     start: Start<D>,
     /// uⁿ.
     earlier: Vec<Vect<D>>,
@@ -69,7 +69,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             solver,
             lagged,
             solves: Solves::default(),
-            system: System::default(),
+            system: FrictionSystem::default(),
             start: Start::default(),
             earlier: Vec::new(),
             ahead: Vec::new(),
@@ -154,38 +154,43 @@ impl<const D: usize> ImplicitViscosity<D> {
         let share = self.scheme.implicit_share();
         let system = &mut self.system;
         system.fill(&*self.coupling, world, earlier, [share, dt])?;
-        let rows = system.right.iter_mut().zip(ahead).zip(&system.mass);
+        let mut right = std::mem::take(&mut system.right);
+        let rows = right.iter_mut().zip(ahead).zip(&system.mass);
         rows.for_each(|((b, u), m)| *b += u * *m);
+        let operator = system.operator(world)?;
         if share < 1.0 || !again {
             self.start.image.resize(earlier.len(), Vect::zeros());
             let before = &mut self.start.image;
-            system.matrix.multiply(earlier, before);
+            operator.multiply(earlier, before);
             if share < 1.0 {
                 let rest = (1.0 - share) / share;
-                for (k, b) in system.right.iter_mut().enumerate() {
+                for (k, b) in right.iter_mut().enumerate() {
                     *b -= (before[k] - earlier[k] * system.mass[k]) * rest;
                 }
             }
             if !again {
-                self.start.between(system, earlier, velocity);
+                self.start.between((&operator, &right), earlier, velocity);
             }
         }
-        let (matrix, right) = (&system.matrix, &system.right);
         let start = Instant::now();
         let solved = match self.lagged.stages.is_empty() {
-            true => self.solver.solve(matrix, right, velocity),
+            true => self.solver.solve(&operator, &right, velocity),
             false => {
                 // More than the outer iteration asks for would be lost on it.
                 let enough = INNER * self.scheme.outer().tolerance;
-                self.solver.solve_roughly(matrix, right, velocity, enough)
+                let solver = &mut self.solver;
+                solver.solve_roughly(&operator, &right, velocity, enough)
             }
         };
+        let bytes = operator.bytes();
+        drop(operator);
+        system.right = right;
         let report = solved.map_err(|e| StepError::Stage {
             stage: Self::NAME.into(),
             reason: e.to_string(),
         })?;
         let seconds = start.elapsed().as_secs_f64();
-        self.solves.add(&report, seconds, matrix.bytes());
+        self.solves.add(&report, seconds, bytes);
         Ok(())
     }
 }
@@ -233,7 +238,7 @@ impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
         if self.lagged.stiffens {
             stiffen(world, &mut plain)?;
         }
-        let mut system = System::default();
+        let mut system = FrictionSystem::default();
         let part = [self.scheme.implicit_share(), dt];
         let earlier = world.free.get(fields::VELOCITY)?;
         let filled = system.fill(&*self.coupling, world, earlier, part);
@@ -241,8 +246,12 @@ impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
             unstiffen(world, &mut plain)?;
         }
         filled?;
+        let operator = system.operator(world)?;
+        if self.solver.wants_entries(&operator) {
+            operator.assembled();
+        }
         let vectors = VECTORS * world.free.len() * size_of::<Vect<D>>();
-        Ok(system.matrix.bytes() + vectors)
+        Ok(operator.bytes() + vectors)
     }
     fn counts(&self) -> Option<Json> {
         serde_json::to_value(&self.solves).ok()

@@ -81,10 +81,15 @@ pub struct Central;
 
 impl<const D: usize> PairFriction<D> for Central {
     const NAME: &'static str = "Monaghan–Gingold viscosity";
+    const EVEN: bool = false;
     #[inline(always)]
     fn strengths<L: Lane>(self, _: L, there: L, distance2: L, factor: L) -> [L; 2] {
         let along = L::splat((2 * (D + 2)) as f64) * there * factor;
         let along = along / distance2.max(L::splat(f64::MIN_POSITIVE));
         [L::splat(0.0), along]
+    }
+    #[inline(always)]
+    fn couplings<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2] {
+        <Self as PairFriction<D>>::strengths(self, volume, volume * there, distance2, factor)
     }
 }

@@ -3,8 +3,8 @@
 use sph_core::{Access, StepError, Vect};
 use sph_implicit::{Block, Entry};
 use sph_neighbours::{
-    BoundTerm, Cluster, Lane, LanePair, LanePairTerm, LanePairs, MOST, Neighbourhood, Pair, Row,
-    World,
+    BoundTerm, Cluster, Kinds, Lane, LanePair, LanePairTerm, LanePairs, MOST, Neighbourhood, Pair,
+    Row, World,
 };
 
 use super::{Bound, Here, PairFriction, Sum, ViscousTerm};
@@ -77,12 +77,11 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
 /// α, β and their norm of pairs.
 struct Strengths<'a, 'b, const D: usize, F, S>(&'a Bound<'b, D, F, S>);
 
-/// What a particle has of a pair: volume, viscosity, density, and what all its couplings are multiplied with.
+/// What a particle has of a pair.
 #[derive(Clone, Copy)]
 struct Own<V, L> {
     volume: L,
     density: L,
-    scale: L,
     viscosity: V,
 }
 
@@ -98,7 +97,6 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> LanePairs<D, 3>
         Own {
             volume: bound.volume[i],
             density: bound.density[i],
-            scale: bound.scale * bound.volume[i],
             viscosity: bound.viscosity.here(i),
         }
     }
@@ -111,13 +109,11 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> LanePairs<D, 3>
         let mut side = Own {
             volume: zero,
             density: zero,
-            scale: zero,
             viscosity: self.0.viscosity.side::<L>(&viscosities[..L::N]),
         };
         for (lane, own) in here.iter().enumerate() {
             side.volume.set(lane, own.volume);
             side.density.set(lane, own.density);
-            side.scale.set(lane, own.scale);
         }
         side
     }
@@ -128,10 +124,10 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> LanePairs<D, 3>
         let densities = [here.density, L::splat(bound.density[j])];
         let friction = bound.friction;
         let mean = friction.means(&bound.viscosity, &here.viscosity, j, densities);
-        let eta = here.scale * mean;
         let there = L::splat(bound.volume[j]);
-        let [even, along] = friction.strengths(here.volume, there, pair.distance2, pair.factor);
-        let [even, along] = [-(even * eta), -(along * eta)];
+        let [even, along] = friction.couplings(here.volume, there, pair.distance2, pair.factor);
+        let eta = L::splat(-bound.scale) * mean;
+        let [even, along] = [even * eta, along * eta];
         // A particle is infinitely far from itself, and the norm would not be a number.
         let norm = even.abs() + along.abs() * pair.distance2;
         let zero = L::splat(0.0);
@@ -142,6 +138,13 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> LanePairs<D, 3>
 impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundCoupling<D>
     for Bound<'_, D, F, S>
 {
+    fn kinds(&self) -> Kinds {
+        Kinds {
+            even: F::EVEN,
+            along: F::DIRECTIONAL,
+        }
+    }
+
     fn strengths(&self, cluster: &Cluster<'_, D>, out: &mut Vec<f64>) {
         cluster.numbers(&Strengths(self), out);
     }

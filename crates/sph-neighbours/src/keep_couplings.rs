@@ -1,0 +1,223 @@
+//! Finding couplings cluster by cluster, and keeping those that are worth it.
+
+use rayon::prelude::*;
+use sph_core::{StepError, Vect};
+use sph_lanes::{Body, Lane, MOST, dispatch_at};
+
+use crate::cluster::Cluster;
+use crate::couplings::{Couplings, Group, Kept, Kinds};
+use crate::lane_vector::minus;
+use crate::separation::places;
+use crate::{CHUNK, ClusterWalk, World};
+
+/// Pairs that are coupled too weakly to be kept: −C_ab (u_a − u_b) of a given velocity is summed in their place.
+#[derive(Clone, Copy, Debug)]
+pub struct Weak<'a, const D: usize> {
+    /// With which they act, m/s.
+    pub velocity: &'a [Vect<D>],
+    /// The norm of C_ab is below that of either particle, N s/m.
+    pub limit: &'a [f64],
+}
+
+/// What a particle's couplings come to.
+#[derive(Clone, Copy, Debug)]
+pub struct Tally<const D: usize> {
+    /// Σ_b C_ab of those that are kept, N s/m.
+    pub kept: nalgebra::SMatrix<f64, D, D>,
+    /// −Σ_b C_ab (u_a − u_b) of those that are not, N.
+    pub weak: Vect<D>,
+}
+
+/// Where the clusters of a block leave their couplings.
+pub struct Keeper<'a> {
+    kept: &'a mut Kept,
+    kinds: Kinds,
+    /// For whoever finds couplings: α, β and their norm for every candidate, one number per lane each.
+    pub numbers: &'a mut Vec<f64>,
+}
+
+/// Places that a particle has besides its couplings.
+pub type Rows<'a, A, B, C> = (&'a mut [A], &'a mut [B], &'a mut [C]);
+
+impl Couplings {
+    /// Finds them anew. `cluster` hands those of a cluster to the [`Keeper`]; `rows` has room for what else it finds, three places per
+    /// particle.
+    ///
+    /// # Errors
+    /// If the world has no positions.
+    pub fn fill<const D: usize, A: Send, B: Send, C: Send>(
+        &mut self,
+        world: &World<D>,
+        kinds: Kinds,
+        rows: Rows<'_, A, B, C>,
+        cluster: impl Fn(&mut Cluster<'_, D>, &mut Keeper<'_>, Rows<'_, A, B, C>) + Sync,
+    ) -> Result<(), StepError> {
+        let walk = ClusterWalk::new(world)?;
+        self.kinds = kinds;
+        self.blocks.resize_with(walk.blocks(), Kept::default);
+        let shelf = &world.lists.shelf;
+        let (a, b, c) = rows;
+        let rows = a.par_chunks_mut(CHUNK).zip(b.par_chunks_mut(CHUNK));
+        let rows = rows.zip(c.par_chunks_mut(CHUNK));
+        let blocks = self.blocks.par_iter_mut().zip(rows);
+        let room = || shelf.lend::<Vec<f64>>();
+        blocks
+            .enumerate()
+            .for_each_init(room, |numbers, (block, (kept, ((a, b), c)))| {
+                kept.groups.clear();
+                kept.columns.clear();
+                kept.numbers.clear();
+                walk.each(block, |members| {
+                    let own = members.members();
+                    let first = own.start - block * CHUNK;
+                    let own = first..first + own.len();
+                    let rows = (&mut a[own.clone()], &mut b[own.clone()], &mut c[own]);
+                    let mut keeper = Keeper {
+                        kept: &mut *kept,
+                        kinds,
+                        numbers: &mut *numbers,
+                    };
+                    cluster(members, &mut keeper, rows);
+                });
+            });
+        Ok(())
+    }
+}
+
+impl Keeper<'_> {
+    /// Keeps the numbers of a cluster times `factor`, without the weak ones.
+    pub fn keep<const D: usize>(
+        &mut self,
+        cluster: &Cluster<'_, D>,
+        factor: f64,
+        weak: Option<Weak<'_, D>>,
+    ) -> [Tally<D>; MOST] {
+        let own = cluster.members();
+        let split = Split {
+            cluster,
+            numbers: &self.numbers[..3 * cluster.lanes() * cluster.candidates().len()],
+            factor,
+            weak,
+            kinds: self.kinds,
+            kept: &mut *self.kept,
+        };
+        let tallies = dispatch_at(cluster.width, split);
+        self.kept.groups.push(Group {
+            width: cluster.width,
+            from: own.start as u32,
+            count: own.len() as u32,
+            to: self.kept.columns.len() as u32,
+            wraps: cluster.domain.is_some(),
+        });
+        tallies
+    }
+}
+
+struct Split<'a, 'c, const D: usize> {
+    cluster: &'a Cluster<'c, D>,
+    numbers: &'a [f64],
+    factor: f64,
+    weak: Option<Weak<'a, D>>,
+    kinds: Kinds,
+    kept: &'a mut Kept,
+}
+
+impl<const D: usize> Body for Split<'_, '_, D> {
+    type Output = [Tally<D>; MOST];
+
+    #[inline(always)]
+    fn call<L: Lane>(self) -> Self::Output {
+        let Split {
+            cluster,
+            numbers,
+            factor,
+            weak,
+            kinds,
+            kept,
+        } = self;
+        let own = cluster.members();
+        let zero = L::splat(0.0);
+        let x = places::<D, L>(&cluster.positions[own.clone()]);
+        // Lanes without a particle repeat the last one, which is near itself: their numbers are of nobody.
+        let mut real = zero;
+        (0..own.len()).for_each(|lane| real.set(lane, 1.0));
+        let mut limit = zero;
+        let mut velocity = [zero; D];
+        if let Some(weak) = weak {
+            velocity = places::<D, L>(&weak.velocity[own.clone()]);
+            (0..own.len()).for_each(|lane| limit.set(lane, weak.limit[own.start + lane]));
+        }
+        let mut blocks = [[zero; D]; D];
+        let mut force = [zero; D];
+        let each = kinds.count() * L::N;
+        let mut place = [0.0; 2 * MOST];
+        let pairs = cluster
+            .candidates()
+            .iter()
+            .zip(numbers.chunks_exact(3 * L::N));
+        for (&column, numbers) in pairs {
+            let norm = real.where_positive(L::load(&numbers[2 * L::N..]), zero);
+            // Half of a cluster's candidates are beyond the support of any one member.
+            if !norm.any_nonzero() {
+                continue;
+            }
+            let j = column as usize;
+            let [even, along] = [L::load(numbers), L::load(&numbers[L::N..])]
+                .map(|number| real.where_positive(number, zero));
+            let mut apart = minus(&x, &cluster.positions[j]);
+            if let Some(domain) = cluster.domain {
+                apart = domain.nearest_images(apart);
+            }
+            let mut softness = zero;
+            if let Some(weak) = weak {
+                let there = L::splat(weak.limit[j]);
+                // Of what is not a number nothing is positive: it is kept, and seen by the solver.
+                softness = (limit - there).where_positive(there, limit) - norm;
+                if zero.any_less(softness) {
+                    let [even, along] = [even, along].map(|c| softness.where_positive(c, zero));
+                    let relative = minus(&velocity, &weak.velocity[j]);
+                    let turned = along * sph_lanes::dot(&relative, &apart);
+                    for k in 0..D {
+                        force[k] -= relative[k] * even + apart[k] * turned;
+                    }
+                }
+            }
+            let factor = L::splat(factor);
+            let [even, along] = [even, along].map(|c| softness.where_positive(zero, c) * factor);
+            if !(even.any_nonzero() || along.any_nonzero()) {
+                continue;
+            }
+            kept.columns.push(column);
+            if kinds.even {
+                even.store(&mut place);
+            }
+            if kinds.along {
+                along.store(&mut place[each - L::N..]);
+            }
+            kept.numbers.extend_from_slice(&place[..each]);
+            for i in 0..D {
+                for k in 0..=i {
+                    blocks[i][k] += apart[i] * along * apart[k];
+                }
+                blocks[i][i] += even;
+            }
+        }
+        // Copies: single lanes are read from memory.
+        let (blocks, force) = (blocks, force);
+        std::array::from_fn(|lane| {
+            let lane = lane.min(L::N - 1);
+            let mut tally = Tally {
+                kept: nalgebra::SMatrix::zeros(),
+                weak: Vect::zeros(),
+            };
+            for i in 0..D {
+                tally.weak[i] = force[i].at(lane);
+                for k in 0..=i {
+                    tally.kept[(i, k)] = blocks[i][k].at(lane);
+                    tally.kept[(k, i)] = blocks[i][k].at(lane);
+                }
+            }
+            tally
+        })
+    }
+}

@@ -1,0 +1,202 @@
+//! The left side of a system with implicit friction: products in lanes, and a matrix where one is asked for.
+
+use std::sync::{Arc, Mutex, OnceLock};
+
+use sph_core::{Shelf, Vect};
+use sph_implicit::{Assembly, Block, Diagonal, Entries, Entry, Matrix, Operator, Rows};
+use sph_neighbours::{CouplingsAt, Neighbourhood, Visitor};
+
+use crate::friction_system::{Matrices, held};
+use crate::{BoundCoupling, CouplingRow};
+
+/// An entry of a friction's matrix: a number, or a block where components are mixed.
+pub trait FrictionEntry<const D: usize>: Entry<D> {
+    /// W and s of walls.
+    fn walls(coupling: &dyn BoundCoupling<D>, rows: &Neighbourhood<'_, D>) -> CouplingRow<Self, D>;
+}
+
+impl<const D: usize> FrictionEntry<D> for f64 {
+    fn walls(coupling: &dyn BoundCoupling<D>, rows: &Neighbourhood<'_, D>) -> CouplingRow<f64, D> {
+        coupling.scalar_walls(rows)
+    }
+}
+
+impl<const D: usize> FrictionEntry<D> for Block<D> {
+    fn walls(
+        coupling: &dyn BoundCoupling<D>,
+        rows: &Neighbourhood<'_, D>,
+    ) -> CouplingRow<Block<D>, D> {
+        coupling.block_walls(rows)
+    }
+}
+
+/// What every row has of its own, and its whole diagonal.
+#[derive(Clone, Copy)]
+pub(crate) enum RowsOf<'a, const D: usize> {
+    Scalar(&'a [f64], &'a [f64]),
+    Block(&'a [Block<D>], &'a [Block<D>]),
+}
+
+/// (M + θΔt K) u = M u + θΔt (W u + Σ_b C_ab (u_a − u_b)).
+///
+/// Products take the couplings as they are kept. [`assembled`](Operator::assembled) writes the matrix down when it is first asked for.
+pub struct FrictionOperator<'a, const D: usize> {
+    couplings: CouplingsAt<'a, D>,
+    coupling_bytes: usize,
+    rows: RowsOf<'a, D>,
+    matrix: OnceLock<Matrix<D>>,
+    matrices: &'a Mutex<Matrices<D>>,
+}
+
+impl<'a, const D: usize> FrictionOperator<'a, D> {
+    pub(crate) fn new(
+        couplings: CouplingsAt<'a, D>,
+        coupling_bytes: usize,
+        rows: RowsOf<'a, D>,
+        matrices: &'a Mutex<Matrices<D>>,
+    ) -> Self {
+        FrictionOperator {
+            couplings,
+            coupling_bytes,
+            rows,
+            matrix: OnceLock::new(),
+            matrices,
+        }
+    }
+
+    /// Memory of couplings and diagonals, and of the matrix if there is one.
+    pub fn bytes(&self) -> usize {
+        let rows = match self.rows {
+            RowsOf::Scalar(own, whole) => size_of_val(own) + size_of_val(whole),
+            RowsOf::Block(own, whole) => size_of_val(own) + size_of_val(whole),
+        };
+        let matrix = self.matrix.get().map_or(0, Matrix::bytes);
+        self.coupling_bytes + rows + matrix
+    }
+
+    fn written(&self) -> Matrix<D> {
+        let mut matrices = held(self.matrices);
+        match self.rows {
+            RowsOf::Scalar(own, _) => {
+                let (pattern, values) = self.of_pairs(own, &mut matrices.scalar);
+                Matrix::new(pattern, Entries::Scalar(values))
+            }
+            RowsOf::Block(own, _) => {
+                let (pattern, values) = self.of_pairs(own, &mut matrices.block);
+                Matrix::new(pattern, Entries::Block(values))
+            }
+        }
+    }
+
+    fn of_pairs<E: FrictionEntry<D>>(
+        &self,
+        own: &[E],
+        assembly: &mut Assembly<E, D>,
+    ) -> (sph_implicit::Pattern, sph_implicit::Values<E>) {
+        let size = [self.couplings.blocks(), own.len()];
+        assembly.fill_blocks(size, |block, rows| {
+            self.couplings.each(block, &mut Writer { own, rows });
+        });
+        let pattern = std::mem::take(&mut assembly.pattern);
+        (pattern, std::mem::take(&mut assembly.values))
+    }
+}
+
+impl<const D: usize> Drop for FrictionOperator<'_, D> {
+    /// Lets the memory of the matrix be used again.
+    fn drop(&mut self) {
+        let Some(Matrix { pattern, entries }) = self.matrix.take() else {
+            return;
+        };
+        let pattern = Arc::try_unwrap(pattern).unwrap_or_default();
+        let mut matrices = held(self.matrices);
+        match entries {
+            Entries::Scalar(values) => {
+                (matrices.scalar.pattern, matrices.scalar.values) = (pattern, values);
+            }
+            Entries::Block(values) => {
+                (matrices.block.pattern, matrices.block.values) = (pattern, values);
+            }
+        }
+    }
+}
+
+/// Writes rows of a matrix.
+struct Writer<'a, E, const D: usize> {
+    own: &'a [E],
+    rows: &'a mut Rows<E, D>,
+}
+
+impl<E: Entry<D>, const D: usize> Visitor<D> for Writer<'_, E, D> {
+    #[inline(always)]
+    fn begin(&mut self, _: usize, most: usize) {
+        self.rows.begin(most);
+    }
+    #[inline(always)]
+    fn pair(&mut self, neighbour: u32, [even, along]: [f64; 2], separation: &Vect<D>) {
+        let entry = E::central(even, along, separation);
+        self.rows.couple(neighbour, &entry, true);
+    }
+    #[inline(always)]
+    fn end(&mut self, particle: usize) {
+        self.rows.end(self.own[particle], Vect::zeros());
+    }
+}
+
+/// Largest of Σ C over what is left of the diagonal, of blocks with the means of their diagonals: Σ C is the whole less what is a row's own.
+fn stiffness<E: Entry<D>, const D: usize>(own: &[E], whole: &[E]) -> f64 {
+    let mean = |entry: &E| (0..D).map(|k| entry.component(k, k)).sum::<f64>() / D as f64;
+    let row = |(own, whole): (&E, &E)| {
+        let left = mean(own);
+        let coupled = mean(whole) - left;
+        match coupled > 0.0 {
+            true if left > 0.0 => coupled / left,
+            true => f64::INFINITY,
+            false => 0.0,
+        }
+    };
+    own.iter().zip(whole).map(row).fold(0.0, f64::max)
+}
+
+impl<const D: usize> Operator<D> for FrictionOperator<'_, D> {
+    fn rows(&self) -> usize {
+        match self.rows {
+            RowsOf::Scalar(own, _) => own.len(),
+            RowsOf::Block(own, _) => own.len(),
+        }
+    }
+
+    fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
+        match self.rows {
+            RowsOf::Scalar(own, _) => {
+                self.couplings.sums(x, y, |i, sum| x[i] * own[i] + sum);
+            }
+            RowsOf::Block(own, _) => {
+                self.couplings
+                    .sums(x, y, |i, sum| own[i].apply(&x[i]) + sum);
+            }
+        }
+    }
+
+    fn prepared<'a>(&'a self, shelf: &'a Shelf) -> Option<Box<dyn Operator<D> + 'a>> {
+        self.matrix.get().and_then(|matrix| matrix.prepared(shelf))
+    }
+
+    fn diagonal(&self) -> Option<Diagonal<'_, D>> {
+        Some(match self.rows {
+            RowsOf::Scalar(_, whole) => Diagonal::Scalar(whole),
+            RowsOf::Block(_, whole) => Diagonal::Block(whole),
+        })
+    }
+
+    fn stiffness(&self) -> Option<f64> {
+        Some(match self.rows {
+            RowsOf::Scalar(own, whole) => stiffness::<f64, D>(own, whole),
+            RowsOf::Block(own, whole) => stiffness(own, whole),
+        })
+    }
+
+    fn assembled(&self) -> Option<&Matrix<D>> {
+        Some(self.matrix.get_or_init(|| self.written()))
+    }
+}
