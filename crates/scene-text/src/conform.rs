@@ -113,6 +113,7 @@ impl<'s> Walk<'s> {
         }
         let before = self.problems.len();
         let mut first = None;
+        let mut wanted = Vec::new();
         for option in options {
             if option.get("type").and_then(Json::as_str) == Some("null") {
                 continue;
@@ -126,13 +127,25 @@ impl<'s> Walk<'s> {
                 return;
             }
             self.remarks.truncate(remarked);
+            wanted.push(wanted_in_its_place(&found, path));
             // The option that gets furthest (deepest path) has the most telling message.
             let depth = |p: &Vec<SceneProblem>| p.iter().map(|q| q.path.len()).max();
             if first.as_ref().is_none_or(|f| depth(&found) > depth(f)) {
                 first = Some(found);
             }
         }
-        self.problems.extend(first.unwrap_or_default());
+        // All want something else altogether: what each of them wants is told.
+        match wanted.into_iter().collect::<Option<Vec<_>>>() {
+            Some(mut all) if all.len() > 1 => {
+                all.dedup();
+                let found = describe(value);
+                self.problem(
+                    path,
+                    format!("expected {}, found {found}", all.join(" or ")),
+                );
+            }
+            _ => self.problems.extend(first.unwrap_or_default()),
+        }
     }
 
     fn one_of_names<'n>(
@@ -327,6 +340,24 @@ impl<'s> Walk<'s> {
     }
 }
 
+/// What a schema wants in the place of a value, if its only problem is that this is something else.
+fn wanted_in_its_place(problems: &[SceneProblem], path: &str) -> Option<String> {
+    let [problem] = problems else { return None };
+    let (wanted, _) = problem
+        .message
+        .strip_prefix("expected ")?
+        .split_once(", found ")?;
+    let kinds = [
+        "a list",
+        "a table",
+        "a string",
+        "a whole number",
+        "a number",
+    ];
+    let kind = kinds.iter().any(|kind| wanted.starts_with(kind));
+    (problem.path == path && kind).then(|| wanted.to_string())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -339,6 +370,7 @@ mod tests {
                 "density": {"type": "number", "unit": "kg/m³", "exclusiveMinimum": 0.0},
                 "gravity": {"type": "array", "items": {"type": "number"}, "minItems": 2, "unit": "m/s²"},
                 "mode": {"enum": ["no-slip", "free-slip"]},
+                "range": {"anyOf": [{"type": "array", "items": {"type": "number"}}, {"type": "object"}]},
             }
         })
     }
@@ -375,6 +407,20 @@ mod tests {
         let list = vec!["'x'"; 20_000].join(",");
         let found = problems(&format!("density = 1\ngravity = [{list}]"));
         assert_eq!(found.len(), MOST_PROBLEMS);
+    }
+
+    #[test]
+    fn all_that_may_stand_in_a_place_is_told() {
+        let told = problems("density = 1\nrange = 'big'");
+        assert_eq!(
+            told,
+            ["range: expected a list or a table, found the string \"big\""]
+        );
+        let deeper = problems("density = 1\nrange = [1, 'x']");
+        assert!(
+            deeper[0].starts_with("range[1]: `x` does not start"),
+            "{deeper:?}"
+        );
     }
 
     #[test]
