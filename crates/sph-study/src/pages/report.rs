@@ -40,7 +40,7 @@ pub fn html(results: &Results) -> Result<String, IoError> {
         matrix::STYLE
     );
     if let Some(description) = &results.description {
-        let _ = writeln!(page, "<p>{}</p>", escape(&words(description)));
+        let _ = writeln!(page, "<p>{}</p>", marked(&words(description)));
     }
     page.push_str(&facts(results));
     match results.frontiers.is_empty() {
@@ -88,6 +88,19 @@ fn compared(results: &Results) -> Result<String, IoError> {
 /// A text without its line breaks.
 fn words(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A text, escaped, with what stands between backticks as code.
+fn marked(text: &str) -> String {
+    let pieces: Vec<_> = text.split('`').map(escape).collect();
+    if pieces.len() % 2 == 0 {
+        return pieces.join("`");
+    }
+    let marked = pieces.iter().enumerate().map(|(k, piece)| match k % 2 {
+        0 => piece.to_string(),
+        _ => format!("<code>{piece}</code>"),
+    });
+    marked.collect()
 }
 
 /// A text with its line breaks, escaped.
@@ -280,6 +293,15 @@ mod tests {
             "series": [{ "name": "", "variants": ["n-1"], "orders": {} }], "pareto": [],
         });
         html(&serde_json::from_value(results).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn what_stands_between_backticks_is_code() {
+        assert_eq!(
+            marked("`a<b` and `c`"),
+            "<code>a&lt;b</code> and <code>c</code>"
+        );
+        assert_eq!(marked("one ` alone"), "one ` alone");
     }
 
     #[test]
