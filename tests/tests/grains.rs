@@ -207,7 +207,7 @@ fn colours_of_a_field_that_is_not_there_are_told_with_the_nearest_name() {
         let falling = checked(range);
         assert_eq!(falling.code, Some(2), "{range}: {}", falling.out);
         let told = &falling.err;
-        assert!(told.contains(&format!("output.{key}: ")), "{told}");
+        assert!(told.contains(&format!("── output.{key}\n")), "{told}");
         assert!(told.contains("less than the second"), "{told}");
     }
     assert_eq!(checked("{speed=[0,1]}").code, Some(0));
