@@ -6,7 +6,7 @@ use sph_lanes::{Body, Lane, MOST, dispatch_at};
 
 use crate::cluster::Cluster;
 use crate::couplings::{Couplings, Group, Kept, Kinds};
-use crate::lane_vector::minus;
+use crate::lane_vector::{minus, vector};
 use crate::separation::places;
 use crate::{CHUNK, ClusterWalk, World};
 
@@ -162,8 +162,9 @@ impl<const D: usize> Body for Split<'_, '_, D> {
                 continue;
             }
             let j = column as usize;
-            let [even, along] = [L::load(numbers), L::load(&numbers[L::N..])]
-                .map(|number| real.where_positive(number, zero));
+            // Without `map`, which is a call in some builds, and then for the least processor.
+            let even = real.where_positive(L::load(numbers), zero);
+            let along = real.where_positive(L::load(&numbers[L::N..]), zero);
             let mut apart = minus(&x, &cluster.positions[j]);
             if let Some(domain) = cluster.domain {
                 apart = domain.nearest_images(apart);
@@ -174,7 +175,8 @@ impl<const D: usize> Body for Split<'_, '_, D> {
                 // Of what is not a number nothing is positive: it is kept, and seen by the solver.
                 softness = (limit - there).where_positive(there, limit) - norm;
                 if zero.any_less(softness) {
-                    let [even, along] = [even, along].map(|c| softness.where_positive(c, zero));
+                    let even = softness.where_positive(even, zero);
+                    let along = softness.where_positive(along, zero);
                     let relative = minus(&velocity, &weak.velocity[j]);
                     let turned = along * sph_lanes::dot(&relative, &apart);
                     for k in 0..D {
@@ -183,7 +185,8 @@ impl<const D: usize> Body for Split<'_, '_, D> {
                 }
             }
             let factor = L::splat(factor);
-            let [even, along] = [even, along].map(|c| softness.where_positive(zero, c) * factor);
+            let even = softness.where_positive(zero, even) * factor;
+            let along = softness.where_positive(zero, along) * factor;
             if !(even.any_nonzero() || along.any_nonzero()) {
                 continue;
             }
@@ -204,20 +207,26 @@ impl<const D: usize> Body for Split<'_, '_, D> {
         }
         // Copies: single lanes are read from memory.
         let (blocks, force) = (blocks, force);
-        std::array::from_fn(|lane| {
-            let lane = lane.min(L::N - 1);
-            let mut tally = Tally {
-                kept: nalgebra::SMatrix::zeros(),
-                weak: Vect::zeros(),
-            };
-            for i in 0..D {
-                tally.weak[i] = force[i].at(lane);
-                for k in 0..=i {
-                    tally.kept[(i, k)] = blocks[i][k].at(lane);
-                    tally.kept[(k, i)] = blocks[i][k].at(lane);
-                }
-            }
-            tally
-        })
+        let mut tallies = [tally(&blocks, &force, 0); MOST];
+        for (lane, place) in tallies.iter_mut().enumerate().take(own.len()).skip(1) {
+            *place = tally(&blocks, &force, lane);
+        }
+        tallies
+    }
+}
+
+/// What is summed in a lane; of blocks the lower half is.
+#[inline(always)]
+fn tally<const D: usize, L: Lane>(blocks: &[[L; D]; D], force: &[L; D], lane: usize) -> Tally<D> {
+    let mut kept = nalgebra::SMatrix::zeros();
+    for i in 0..D {
+        for k in 0..=i {
+            kept[(i, k)] = blocks[i][k].at(lane);
+            kept[(k, i)] = blocks[i][k].at(lane);
+        }
+    }
+    Tally {
+        kept,
+        weak: vector(force, lane),
     }
 }
