@@ -200,6 +200,16 @@ fn colours_of_a_field_that_is_not_there_are_told_with_the_nearest_name() {
         "{}",
         refused.err
     );
+    for (range, key) in [
+        ("{speed=[1,0]}", "picture_range.speed"),
+        ("[1,1]", "picture_range"),
+    ] {
+        let falling = checked(range);
+        assert_eq!(falling.code, Some(2), "{range}: {}", falling.out);
+        let told = &falling.err;
+        assert!(told.contains(&format!("── output.{key}\n")), "{told}");
+        assert!(told.contains("less than the second"), "{told}");
+    }
     assert_eq!(checked("{speed=[0,1]}").code, Some(0));
     assert_eq!(checked("[0,1]").code, Some(0));
 }

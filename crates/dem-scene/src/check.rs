@@ -156,6 +156,9 @@ fn files(
 }
 
 fn output(scene: &Scene, found: &mut Vec<SceneProblem>) {
+    if let Some(colours) = &scene.output.picture_range {
+        found.extend(colours.falling("output.picture_range"));
+    }
     let wet = scene.fluid.is_some();
     let names = || crate::fields::names(wet);
     let pictures = scene.output.picture.iter().enumerate();

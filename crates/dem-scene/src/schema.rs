@@ -2,6 +2,7 @@
 
 use dem_flow::conductances;
 use dem_grains::contact_laws;
+use scene_text::for_editors;
 use serde_json::{Map, Value as Json, json};
 
 use crate::tables::{Probe, Reference, Scene};
@@ -85,32 +86,5 @@ fn lift(schema: &mut Json, shared: &mut Map<String, Json>) {
     object.remove("$schema");
     if let Some(Json::Object(own)) = object.remove("$defs") {
         shared.extend(own);
-    }
-}
-
-/// Numbers may be strings with a unit, and TOML has no null.
-fn for_editors(schema: &mut Json) {
-    match schema {
-        Json::Object(object) => {
-            for key in ["anyOf", "oneOf"] {
-                if let Some(Json::Array(options)) = object.get_mut(key) {
-                    options.retain(|o| o.get("type") != Some(&json!("null")));
-                }
-            }
-            if let Some(kind) = object.get_mut("type") {
-                let kinds: Vec<Json> = match &*kind {
-                    Json::Array(kinds) => kinds.iter().filter(|k| **k != "null").cloned().collect(),
-                    one => vec![one.clone()],
-                };
-                *kind = match kinds.as_slice() {
-                    [one] if one == "number" => json!(["number", "string"]),
-                    [one] => one.clone(),
-                    several => json!(several),
-                };
-            }
-            object.values_mut().for_each(for_editors);
-        }
-        Json::Array(items) => items.iter_mut().for_each(for_editors),
-        _ => {}
     }
 }

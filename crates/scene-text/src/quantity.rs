@@ -164,7 +164,11 @@ pub fn parse_quantity(text: &str, expected: &str) -> Result<f64, String> {
     if unit.is_empty() {
         return Ok(number);
     }
-    let (factor, dimensions) = parse_unit(unit)?;
+    let like = |why| match expected {
+        "1" => format!("{why}; this is a number without a unit"),
+        unit => format!("{why}, expected one like `{unit}`"),
+    };
+    let (factor, dimensions) = parse_unit(unit).map_err(like)?;
     let (wanted_factor, wanted) = parse_unit(expected)?;
     if dimensions != wanted {
         return Err(format!(

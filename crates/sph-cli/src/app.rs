@@ -6,9 +6,10 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::arguments::{Arguments, Command};
-use crate::{
-    check, compare, console, draw, explain, manual, new, plugins, run, scenes, schema, study, view,
+use crate::commands::{
+    check, compare, draw, explain, manual, new, plugins, run, scenes, schema, study, view,
 };
+use crate::telling::console;
 
 /// Runs the command that the process was called with.
 ///

@@ -23,7 +23,7 @@ Examples:
   sph plugins rheology                    what can stand in [phase.NAME.rheology.…]
   sph run grains-oedometer                grains one by one, and the fluid in their pores
 
-Exit codes: 0 done, 1 the run failed or was interrupted, 2 bad usage or a bad scene
+Exit codes: 0 done, 1 the run failed or was interrupted, 2 bad usage or a bad scene \
 (then nothing was written)."
 )]
 pub struct Arguments {
@@ -53,8 +53,8 @@ Leaves behind in DIR:
                     after a failure: the state in which it failed; pictures of all of it and around
                     the particle at fault
 
-Ctrl-C or SIGTERM writes a checkpoint and stops; a second one stops at once. A resumed run gives bit for
-bit what the uninterrupted one gives, also with another number of threads. --from takes the particles
+Ctrl-C or SIGTERM writes a checkpoint and stops; a second one stops at once. A resumed run gives bit for \
+bit what the uninterrupted one gives, also with another number of threads. --from takes the particles \
 alone: other plugins, steps or materials go on from there.
 
 Exit codes: 0 done, 1 failed or interrupted, 2 bad usage or a bad scene (nothing written).")]
@@ -67,7 +67,7 @@ Examples:
   sph study operators.toml --only 'morris_*' --set run.end=0.1
   sph study --compare results/before/study.json results/after/study.json
 
-A study file names a scene, what is varied and the error that is judged (docs/studies.md).
+A study file names a scene, what is varied and the error that is judged (docs/studies.md). \
 Everything is checked before the first variant runs.
 
 Leaves behind in DIR:
@@ -77,11 +77,11 @@ Leaves behind in DIR:
   error-against-refinement.*   convergence with its orders, SVG and PNG
   variants/NAME/               summary.json, series.csv and the record of every variant
 
-A variant that fails is recorded and the study goes on. Ctrl-C or SIGTERM stops with what is finished kept;
-the same command goes on from there, and runs nothing twice unless the scene or the program's
+A variant that fails is recorded and the study goes on. Ctrl-C or SIGTERM stops with what is finished kept; \
+the same command goes on from there, and runs nothing twice unless the scene or the program's \
 version has changed.
 
-Exit codes: 0 the study is complete (failed variants are results too) or compared,
+Exit codes: 0 the study is complete (failed variants are results too) or compared, \
 1 interrupted or a file cannot be written, 2 bad usage or a bad study (nothing written).")]
     Study(StudyArguments),
     /// Read, validate and assemble a scene without running it
@@ -90,7 +90,7 @@ Examples:
   sph check pool.toml
   sph check pool.toml --set numerics.spacing='1 mm' --threads 16    what would it cost?
 
-Prints what follows from the scene: smoothing length, speeds, dimensionless numbers, time steps,
+Prints what follows from the scene: smoothing length, speeds, dimensionless numbers, time steps, \
 particles, and an estimate of time, memory and disk. Writes nothing.
 
 Exit codes: 0 the scene is good, 2 it is not.")]
@@ -100,7 +100,7 @@ Exit codes: 0 the scene is good, 2 it is not.")]
 Example:
   sph explain dam-break-koshizuka
 
-A column or stage that is not listed does not exist in that scene and costs nothing.
+A column or stage that is not listed does not exist in that scene and costs nothing. \
 Writes nothing.")]
     Explain(ExplainArguments),
     /// List the plugins that scenes may name, with parameters, units and defaults
@@ -120,7 +120,7 @@ Examples:
   sph schema > scene.schema.json
   sph schema --grains > grains.schema.json
 
-Then put `#:schema scene.schema.json` into the first line of a scene; editors with a TOML
+Then put `#:schema scene.schema.json` into the first line of a scene; editors with a TOML \
 language server (taplo, Even Better TOML) complete and check it.")]
     Schema(SchemaArguments),
     /// List the shipped scenes
@@ -142,7 +142,7 @@ Never overwrites a scene.")]
 Example:
   sph compare results/before results/after
 
-Compares series.csv, all frames of fields.pvd and the checkpoints, particle by particle. Of every column
+Compares series.csv, all frames of fields.pvd and the checkpoints, particle by particle. Of every column \
 that differs it tells the largest difference with time, particle and place. Writes nothing.
 
 Exit codes: 0 the same bits, 1 they differ, 2 there is nothing to compare.")]
@@ -154,7 +154,7 @@ Examples:
   sph draw profile results/poiseuille-2d --from 0.5,0 --to 0.5,1 --field velocity.x
   sph draw tracks results/dam-break-koshizuka --near 0.07,0.1 --near 0.14,0.28
 
-Reads the frames of fields.pvd, also while the run goes on. Beside every picture a table of the same name is
+Reads the frames of fields.pvd, also while the run goes on. Beside every picture a table of the same name is \
 written. Between particles values are those of a linear fit, exact for linear fields.
 
 Exit codes: 0 drawn, 1 a file cannot be written, 2 bad usage.")]
@@ -165,7 +165,7 @@ Exit codes: 0 drawn, 1 a file cannot be written, 2 bad usage.")]
 Example:
   sph view results/dam-break-koshizuka
 
-Serves a page on 127.0.0.1, for this machine alone, until Ctrl-C: pictures over time, plots, columns of the
+Serves a page on 127.0.0.1, for this machine alone, until Ctrl-C: pictures over time, plots, columns of the \
 series, errors and remarks. Writes nothing.")]
     View(ViewArguments),
     /// Print completions for a shell

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::console;
+use crate::telling::console;
 
 /// A flag that the first Ctrl-C (or SIGTERM) raises; the second ends the process with code 1.
 pub fn flag() -> Arc<AtomicBool> {

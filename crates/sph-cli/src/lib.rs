@@ -16,36 +16,13 @@
 mod app;
 mod arguments;
 mod calibration;
-mod check;
-mod compare;
-mod console;
-mod diagnostics;
-mod draw;
-mod explain;
-mod failed;
-mod grains;
+mod commands;
 mod interrupt;
-mod layout;
-mod left_behind;
 pub mod library;
-mod manual;
-mod new;
-mod outcome;
-mod plugins;
-mod progress;
-mod run;
 mod scene_file;
-mod scenes;
-mod schema;
-mod shell;
 mod shipped;
-mod study;
-mod study_progress;
-mod told;
+mod telling;
 mod tool_arguments;
-mod trouble;
-mod view;
-mod written;
 
 use sph_core::number;
 // Their plugins are in this binary.

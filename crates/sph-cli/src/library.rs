@@ -16,16 +16,17 @@ use std::sync::atomic::AtomicBool;
 use sph_solver::Observer;
 
 use crate::arguments::{RunArguments, SceneArguments, StudyArguments};
-use crate::{run as runs, scene_file, study as studies};
+use crate::commands::{run as runs, study as studies};
+use crate::scene_file;
 
 pub use crate::app::command_line;
-pub use crate::check::told as check;
-pub use crate::compare::told as compare;
-pub use crate::explain::told as explain;
+pub use crate::commands::check::told as check;
+pub use crate::commands::compare::told as compare;
+pub use crate::commands::explain::told as explain;
+pub use crate::commands::study::Studied;
 pub use crate::scene_file::{AnyScene, Opened};
-pub use crate::study::Studied;
-pub use crate::told::{Ended, Told};
-pub use crate::trouble::Trouble;
+pub use crate::telling::told::{Ended, Told};
+pub use crate::telling::trouble::Trouble;
 /// A scene of particles.
 pub use sph_scene::Scene as ParticleScene;
 

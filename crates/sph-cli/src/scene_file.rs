@@ -8,9 +8,9 @@ use sph_scene::{LoadError, Override, Source, read_text, within};
 use sph_study::SceneText;
 
 use crate::arguments::SceneArguments;
-use crate::diagnostics;
 use crate::shipped::{self, Shipped};
-use crate::trouble::Trouble;
+use crate::telling::diagnostics;
+use crate::telling::trouble::Trouble;
 
 /// A scene of one kind or the other, with its text.
 pub enum AnyScene {

@@ -11,6 +11,9 @@ const RADIUS: f64 = 2.5;
 const INSIDE: f64 = 1.0;
 /// Least eigenvalue of the matrix of a fit, over the largest one, with which a slope is believed.
 const LEAST: f64 = 1e-6;
+/// Most that the shares of a value add up to without their signs. It is 1 in between particles, 2 at a plane surface, half
+/// a spacing beyond the last row, and 2.9 in the corner of a full box. Beyond that a value is guessed from a slope.
+const STRETCHED: f64 = 3.0;
 
 /// Particles, and the share that each has in the value at a place.
 pub type Weights = Vec<(u32, f64)>;
@@ -121,7 +124,9 @@ impl<'a> Cloud<'a> {
         };
         let factor = slope.unwrap_or_else(|| Vector4::x() / total);
         let share = |(j, weight, basis): (u32, f64, Vector4<f64>)| (j, weight * factor.dot(&basis));
-        Some(near.into_iter().map(share).collect())
+        let shares: Weights = near.into_iter().map(share).collect();
+        let stretched: f64 = shares.iter().map(|(_, share)| share.abs()).sum();
+        (stretched <= STRETCHED).then_some(shares)
     }
 }
 

@@ -213,3 +213,24 @@ fn what_was_not_written_is_told_with_what_was() {
     assert!(drawn.expect("drawn") > 10);
     assert!(Frames::of(&folder.path().join("gone")).is_err());
 }
+
+/// Two particles beside each other tell of the slope across them by a hair: nothing is guessed from it.
+#[test]
+fn a_value_is_not_stretched_over_a_slope_that_particles_hardly_tell() {
+    let thread: Vec<[f64; 3]> = (0..10)
+        .map(|k| [SPACING * k as f64, 0.02 * SPACING * (k % 2) as f64, 0.0])
+        .collect();
+    let cloud = Cloud::new(&thread, SPACING);
+    assert!(cloud.weights([4.5 * SPACING, 0.5 * SPACING, 0.0]).is_none());
+    let along = cloud
+        .weights([4.5 * SPACING, 0.01 * SPACING, 0.0])
+        .expect("in the fluid");
+    let sum: f64 = along.iter().map(|(_, share)| share).sum();
+    assert!((sum - 1.0).abs() < 1e-12, "shares add up to {sum}");
+    // The corner of a full box, half a spacing beyond the outer particles both ways, is in the fluid.
+    let full: Vec<[f64; 3]> = (0..100)
+        .map(|k| [SPACING * (k % 10) as f64, SPACING * (k / 10) as f64, 0.0])
+        .collect();
+    let corner = [-0.5 * SPACING, -0.5 * SPACING, 0.0];
+    assert!(Cloud::new(&full, SPACING).weights(corner).is_some());
+}

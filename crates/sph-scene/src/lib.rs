@@ -69,13 +69,15 @@ pub use reading::files::DataFile;
 pub use reading::load::{LoadError, Loaded, Refused, load, load_allowing, parse, read};
 pub use reading::plugins::{PluginChoice, Plugins};
 pub use reading::schema::{schema, unit};
-pub use scene_text::{Diagnostic, Origin, Override, PathProblem, Source, read_text, within};
+pub use scene_text::{
+    Diagnostic, Origin, Override, PathProblem, PictureRange, Source, read_text, within,
+};
 pub use tables::body::{Body, Cutout, Filling, Pressure};
 pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 pub use tables::motion::{AngularRamp, AngularSine, Motion, Ramp, Rotation, Sine, Translate};
 pub use tables::numerics::{Numerics, Periodic, PressureOf, ReferencePressure, Relax, Run};
 pub use tables::outlet::Outlet;
-pub use tables::output::{Output, PictureRange};
+pub use tables::output::Output;
 pub use tables::phase::Phase;
 pub use tables::reference::{Norm, Reference};
 pub use tables::scene::{OFF_LATTICE, Scene};

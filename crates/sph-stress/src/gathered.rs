@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use sph_core::Vect;
-use sph_neighbours::{Contact, Elements, Lane, LanePair, WallPoints};
+use sph_neighbours::{Contact, Elements, Lane, LanePair, WallPoints, set};
 
 use crate::{NeighbourSums, VelocityGradient};
 
@@ -124,6 +124,16 @@ pub(crate) fn add_free<const D: usize, L: Lane>(
             of_positions[i][k] -= pair.separation[i] * weight[k];
         }
     }
+}
+
+/// Velocities of particles side by side.
+#[inline(always)]
+pub(crate) fn side_by_side<L: Lane, const D: usize>(here: &[Vect<D>]) -> [L; D] {
+    let mut side = [L::splat(0.0); D];
+    for (lane, own) in here.iter().enumerate() {
+        set(&mut side, lane, own);
+    }
+    side
 }
 
 /// The sums of one lane. Plain loops: what is handed to a closure leaves the registers, in the walk as well.

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use nalgebra::SMatrix;
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
-use sph_neighbours::{Lane, LanePair, LaneSum, World, set, walk_in_lanes};
+use sph_neighbours::{Lane, LanePair, LaneSum, World, walk_in_lanes};
 
 use crate::VelocityGradient;
-use crate::gathered::{Gathered, LaneSums, add_free, one_lane};
+use crate::gathered::{Gathered, LaneSums, add_free, one_lane, side_by_side};
 
 /// [`VELOCITY_GRADIENT`](fields::VELOCITY_GRADIENT) by a formula.
 ///
@@ -94,11 +94,7 @@ impl<const D: usize> LaneSum<D> for FreeSums<'_, D> {
     }
     #[inline(always)]
     fn side<L: Lane>(&self, here: &[Vect<D>]) -> [L; D] {
-        let mut side = [L::splat(0.0); D];
-        for (lane, own) in here.iter().enumerate() {
-            set(&mut side, lane, own);
-        }
-        side
+        side_by_side(here)
     }
     #[inline(always)]
     fn zero<L: Lane>(&self) -> Self::Sums<L> {

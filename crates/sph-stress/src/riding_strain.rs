@@ -5,11 +5,10 @@ use std::sync::Arc;
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
     BoundTerm, Contact, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates, There, WallSet, World,
-    set,
 };
 
 use crate::VelocityGradient;
-use crate::gathered::{Gathered, LaneSums, add_free, one_lane};
+use crate::gathered::{Gathered, LaneSums, add_free, one_lane, side_by_side};
 use crate::strain_rate::magnitude;
 
 /// [`STRAIN_RATE`](fields::STRAIN_RATE) along with the interactions, for those who read it after them: the walk over the
@@ -100,11 +99,7 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
 
     #[inline(always)]
     fn side<L: Lane>(&self, here: &[Vect<D>]) -> [L; D] {
-        let mut side = [L::splat(0.0); D];
-        for (lane, own) in here.iter().enumerate() {
-            set(&mut side, lane, own);
-        }
-        side
+        side_by_side(here)
     }
     #[inline(always)]
     fn sums<L: Lane>(&self, sum: &Gathered<D>) -> Self::Sums<L> {

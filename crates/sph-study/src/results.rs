@@ -1,18 +1,26 @@
 //! `study.json`: all that came out of a study.
 
+pub mod compare;
+pub mod frontier;
+pub mod matrix;
+pub mod order;
+pub mod pareto;
+pub mod scaling;
+pub mod variant_result;
+
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::frontier::Frontier;
-use crate::machine::Origin;
-use crate::order::Orders;
-use crate::pareto::pareto;
-use crate::plan::Study;
-use crate::record::Record;
-use crate::scaling::Scale;
-use crate::variant::Variant;
-use crate::variant_result::{SeriesResult, VariantResult};
+use crate::reading::plan::Study;
+use crate::reading::variant::Variant;
+use crate::results::frontier::Frontier;
+use crate::results::order::Orders;
+use crate::results::pareto::pareto;
+use crate::results::scaling::Scale;
+use crate::results::variant_result::{SeriesResult, VariantResult};
+use crate::running::machine::Origin;
+use crate::running::record::Record;
 
 /// Version of the layout of `study.json`.
 pub const SCHEMA_VERSION: u32 = 1;

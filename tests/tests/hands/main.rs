@@ -8,6 +8,7 @@ mod compare;
 mod derived;
 mod draw;
 mod kinematic;
+mod mistakes;
 mod stepper;
 mod view;
 

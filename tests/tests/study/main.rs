@@ -8,6 +8,7 @@ use sph_tests::{Bench, Outcome};
 
 mod along;
 mod failures;
+mod orders_in_time;
 mod refusals;
 mod results;
 mod scaling;

@@ -1,7 +1,6 @@
 //! The table `[output]`.
 
-use std::collections::BTreeMap;
-
+use scene_text::PictureRange;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -36,35 +35,5 @@ impl Output {
     #[must_use]
     pub fn series_interval(&self, end: f64) -> f64 {
         self.series_every.unwrap_or(end / 500.0)
-    }
-}
-
-/// Values at the ends of the colours of pictures, SI.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum PictureRange {
-    /// Those of all pictures.
-    All([f64; 2]),
-    /// Those of single fields; pictures of others go from their least to their largest value.
-    ByField(BTreeMap<String, [f64; 2]>),
-}
-
-impl PictureRange {
-    /// The values at the ends for a field, if they are given.
-    #[must_use]
-    pub fn of(&self, field: &str) -> Option<[f64; 2]> {
-        match self {
-            PictureRange::All(range) => Some(*range),
-            PictureRange::ByField(ranges) => ranges.get(field).copied(),
-        }
-    }
-    /// Names of the fields that have values of their own.
-    pub fn fields(&self) -> impl Iterator<Item = &String> {
-        match self {
-            PictureRange::All(_) => None,
-            PictureRange::ByField(ranges) => Some(ranges.keys()),
-        }
-        .into_iter()
-        .flatten()
     }
 }

@@ -11,7 +11,7 @@ use super::{
     PREFIX, SUFFIX, Shape, VERSION,
 };
 use crate::error::{IoError, Result};
-use crate::folder::readable;
+use crate::files::folder::readable;
 
 /// Bytes converted at a time.
 const CHUNK: usize = 1 << 16;

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::{Checkpoint, Column, ColumnData, Header, MAGIC, PREFIX, SUFFIX, Shape, VERSION};
-use crate::atomic::{AtomicFile, Durability};
 use crate::error::{IoError, Result};
+use crate::files::atomic::{AtomicFile, Durability};
 
 /// Bytes converted at a time.
 const CHUNK: usize = 1 << 16;

@@ -1,7 +1,7 @@
 //! Times and intervals: inside the run, in order.
 
 use crate::checks::problems::Problems;
-use crate::{Numerics, PictureRange, Scene};
+use crate::{Numerics, Scene};
 
 /// Most outputs of fields in a run.
 const OUTPUTS: f64 = 1e6;
@@ -46,17 +46,9 @@ pub(crate) fn check(scene: &Scene, found: &mut Problems) {
             );
         }
     }
-    match &output.picture_range {
-        None => {}
-        Some(PictureRange::All(range)) => rising(Some(*range), "output.picture_range", found),
-        Some(PictureRange::ByField(ranges)) => {
-            for (field, range) in ranges {
-                rising(
-                    Some(*range),
-                    &format!("output.picture_range.{field}"),
-                    found,
-                );
-            }
+    if let Some(colours) = &output.picture_range {
+        for problem in colours.falling("output.picture_range") {
+            found.add(problem.path, problem.message);
         }
     }
     density(&scene.numerics, found);

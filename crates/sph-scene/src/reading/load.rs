@@ -133,8 +133,9 @@ fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     let mut scene: Scene = table.try_into().map_err(unread)?;
     scene.plugins = plugins;
     kinematic::to_dynamic(&mut scene);
-    let problems = whole::scene(&mut scene, source);
+    let mut problems = whole::scene(&mut scene, source);
     if !problems.is_empty() {
+        add_new(&mut problems, remarks::mistakes(&scene));
         return Err(diagnosed(problems));
     }
     remarks.extend(remarks::of_plugins(&scene));
@@ -167,6 +168,7 @@ fn resolved(source: &Source) -> Result<(Value, Vec<SceneProblem>), Vec<Diagnosti
     }
     problems.extend(whole::tables(&table));
     problems.extend(columns::convert(&mut table));
+    let mistakes = remarks::mistakes_in_tables(&table);
     let mut value = Value::Table(table);
     let remarks = conform(&mut value, &schema::of_scene()).unwrap_or_else(|found| {
         problems.extend(found);
@@ -174,6 +176,18 @@ fn resolved(source: &Source) -> Result<(Value, Vec<SceneProblem>), Vec<Diagnosti
     });
     match problems.is_empty() {
         true => Ok((value, remarks)),
-        false => Err(diagnosed(problems)),
+        false => {
+            add_new(&mut problems, mistakes);
+            Err(diagnosed(problems))
+        }
+    }
+}
+
+/// Adds problems at keys of which nothing is known yet.
+fn add_new(problems: &mut Vec<SceneProblem>, more: Vec<SceneProblem>) {
+    for problem in more {
+        if problems.iter().all(|p| p.path != problem.path) {
+            problems.push(problem);
+        }
     }
 }

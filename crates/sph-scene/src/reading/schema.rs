@@ -1,5 +1,6 @@
 //! The JSON schema of a whole scene, with every plugin of the binary, for editors.
 
+use scene_text::for_editors;
 use serde_json::{Map, Value as Json, json};
 use sph_core::{ContractInfo, Place, contracts, kind_of, kinds, schema_of};
 
@@ -191,33 +192,6 @@ fn renamed(schema: &mut Json, prefix: &str) {
             }
         }
         Json::Array(items) => items.iter_mut().for_each(|item| renamed(item, prefix)),
-        _ => {}
-    }
-}
-
-/// Numbers may be strings with a unit, and TOML has no null.
-fn for_editors(schema: &mut Json) {
-    match schema {
-        Json::Object(object) => {
-            for key in ["anyOf", "oneOf"] {
-                if let Some(Json::Array(options)) = object.get_mut(key) {
-                    options.retain(|o| o.get("type") != Some(&json!("null")));
-                }
-            }
-            if let Some(kind) = object.get_mut("type") {
-                let kinds: Vec<Json> = match &*kind {
-                    Json::Array(kinds) => kinds.iter().filter(|k| **k != "null").cloned().collect(),
-                    one => vec![one.clone()],
-                };
-                *kind = match kinds.as_slice() {
-                    [one] if one == "number" => json!(["number", "string"]),
-                    [one] => one.clone(),
-                    several => json!(several),
-                };
-            }
-            object.values_mut().for_each(for_editors);
-        }
-        Json::Array(items) => items.iter_mut().for_each(for_editors),
         _ => {}
     }
 }

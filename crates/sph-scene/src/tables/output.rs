@@ -1,7 +1,6 @@
 //! The table `[output]`: what a run writes and when.
 
-use std::collections::BTreeMap;
-
+use scene_text::PictureRange;
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer};
 
@@ -74,26 +73,6 @@ impl Output {
         }
         let k = (time / every * (1.0 + 1e-12)).floor() + 1.0;
         Some((k * every).min(end))
-    }
-}
-
-/// Values at the ends of the colours of pictures, SI.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum PictureRange {
-    /// Those of all pictures.
-    All([f64; 2]),
-    /// Those of single fields; pictures of others go from their least to their largest value.
-    ByField(BTreeMap<String, [f64; 2]>),
-}
-
-impl PictureRange {
-    /// The values at the ends for a field, if they are given.
-    pub fn of(&self, field: &str) -> Option<[f64; 2]> {
-        match self {
-            PictureRange::All(range) => Some(*range),
-            PictureRange::ByField(ranges) => ranges.get(field).copied(),
-        }
     }
 }
 

@@ -7,7 +7,7 @@ use sph_multiphase::Formulation;
 use sph_neighbours::World;
 use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
-use sph_scene::{PictureRange, Scene};
+use sph_scene::Scene;
 use sph_state::{Laws, Reference};
 
 use crate::failure::error::SolverError;
@@ -324,10 +324,10 @@ fn check_output_fields<const D: usize>(scene: &Scene, flow: &Flow<D>) -> Result<
         let missing = wanted.iter().filter(|n| *n != written && !free.has(n));
         problems.extend(missing.map(|name| unknown(path, name)));
     }
-    if let Some(PictureRange::ByField(ranges)) = &scene.output.picture_range {
+    if let Some(colours) = &scene.output.picture_range {
         // Colours of a field that is not drawn now do no harm: pictures are changed with `--set`.
         let known = |name: &str| names.contains(&name) || name == fields::DISPLACEMENT.name;
-        let missing = ranges.keys().filter(|name| !known(name));
+        let missing = colours.fields().filter(|name| !known(name));
         problems.extend(missing.map(|name| unknown(&format!("output.picture_range.{name}"), name)));
     }
     match problems.is_empty() {

@@ -34,15 +34,6 @@ pub struct SegmentIntegral {
     pub contact: Contact,
 }
 
-impl SegmentIntegral {
-    /// A segment out of reach.
-    pub const NOTHING: Self = Self {
-        kernel: 0.0,
-        gamma: 0.0,
-        contact: Contact::None,
-    };
-}
-
 /// A segment in the frame of its line, everything over h.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OnLine<L> {

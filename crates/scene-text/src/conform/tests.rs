@@ -1,0 +1,75 @@
+//! Tests of tables against schemas.
+
+use super::*;
+use serde_json::json;
+
+fn schema() -> Json {
+    json!({
+        "type": "object", "additionalProperties": false, "required": ["density"],
+        "properties": {
+            "density": {"type": "number", "unit": "kg/m³", "exclusiveMinimum": 0.0},
+            "gravity": {"type": "array", "items": {"type": "number"}, "minItems": 2, "unit": "m/s²"},
+            "mode": {"enum": ["no-slip", "free-slip"]},
+            "range": {"anyOf": [{"type": "array", "items": {"type": "number"}}, {"type": "object"}]},
+        }
+    })
+}
+
+fn problems(text: &str) -> Vec<String> {
+    let mut value: Value = Value::Table(toml::from_str(text).unwrap());
+    match conform(&mut value, &schema()) {
+        Ok(remarks) => remarks.iter().map(ToString::to_string).collect(),
+        Err(all) => all.iter().map(ToString::to_string).collect(),
+    }
+}
+
+#[test]
+fn quantities_become_si_numbers() {
+    let mut value: Value =
+        Value::Table(toml::from_str("density = '1 g/cm^3'\ngravity = [0, '-9.81 m/s^2']").unwrap());
+    conform(&mut value, &schema()).unwrap();
+    assert_eq!(value["density"].as_float(), Some(1000.0));
+    assert_eq!(value["gravity"][1].as_float(), Some(-9.81));
+}
+
+#[test]
+fn what_nature_does_not_have_is_remarked_upon_and_what_overflows_refused() {
+    assert!(problems("density = 1e12")[0].contains("white dwarfs"));
+    assert!(problems("density = 1e12\ngravity = [0, 1e30]")[1].contains("gravity[1]"));
+    assert!(problems("density = 1e-60")[0].contains("no run can be right"));
+}
+
+#[test]
+fn no_more_problems_are_kept_than_are_told() {
+    let keys: String = (0..20_000).map(|k| format!("k{k} = 1\n")).collect();
+    assert_eq!(problems(&keys).len(), MOST_PROBLEMS);
+    let list = vec!["'x'"; 20_000].join(",");
+    let found = problems(&format!("density = 1\ngravity = [{list}]"));
+    assert_eq!(found.len(), MOST_PROBLEMS);
+}
+
+#[test]
+fn all_that_may_stand_in_a_place_is_told() {
+    let told = problems("density = 1\nrange = 'big'");
+    assert_eq!(
+        told,
+        ["range: expected a list or a table, found the string \"big\""]
+    );
+    let deeper = problems("density = 1\nrange = [1, 'x']");
+    assert!(
+        deeper[0].starts_with("range[1]: `x` does not start"),
+        "{deeper:?}"
+    );
+}
+
+#[test]
+fn every_problem_is_named_with_its_path() {
+    assert!(problems("density = 1").is_empty());
+    assert!(problems("densty = 1")[0].contains("did you mean `density`?"));
+    assert!(problems("densty = 1")[1].contains("`density` is missing"));
+    assert!(problems("density = -1")[0].contains("more than 0 kg/m³"));
+    assert!(problems("density = nan")[0].contains("finite"));
+    assert!(problems("density = '3 m'")[0].contains("kg/m³"));
+    assert!(problems("density = 1\ngravity = [1]")[0].contains("at least 2"));
+    assert!(problems("density = 1\nmode = 'noslip'")[0].contains("did you mean `no-slip`?"));
+}

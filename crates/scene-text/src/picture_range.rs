@@ -1,0 +1,65 @@
+//! Colours of pictures: `output.picture_range` of any scene.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::SceneProblem;
+
+/// Values at the ends of the colours of pictures, SI.
+///
+/// ```
+/// let range: scene_text::PictureRange = toml::Value::from(vec![0.0, 9000.0]).try_into()?;
+/// assert_eq!(range.of("pressure"), Some([0.0, 9000.0]));
+/// assert!(range.falling("output.picture_range").is_empty());
+/// # Ok::<(), toml::de::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum PictureRange {
+    /// Those of all pictures.
+    All([f64; 2]),
+    /// Those of single fields; pictures of others go from their least to their largest value.
+    ByField(BTreeMap<String, [f64; 2]>),
+}
+
+impl PictureRange {
+    /// The values at the ends for a field, if they are given.
+    #[must_use]
+    pub fn of(&self, field: &str) -> Option<[f64; 2]> {
+        match self {
+            PictureRange::All(range) => Some(*range),
+            PictureRange::ByField(ranges) => ranges.get(field).copied(),
+        }
+    }
+
+    /// Names of the fields that have values of their own.
+    pub fn fields(&self) -> impl Iterator<Item = &String> {
+        match self {
+            PictureRange::All(_) => None,
+            PictureRange::ByField(ranges) => Some(ranges.keys()),
+        }
+        .into_iter()
+        .flatten()
+    }
+
+    /// A problem for each pair whose first value is not less than its second, by the key under `path`.
+    #[must_use]
+    pub fn falling(&self, path: &str) -> Vec<SceneProblem> {
+        let pairs = match self {
+            PictureRange::All(range) => vec![(path.to_string(), *range)],
+            PictureRange::ByField(ranges) => {
+                let of_field =
+                    |(field, range): (&String, &[f64; 2])| (format!("{path}.{field}"), *range);
+                ranges.iter().map(of_field).collect()
+            }
+        };
+        let falling = pairs.into_iter().filter(|(_, [low, high])| low >= high);
+        let told = falling.map(|(path, [low, high])| {
+            let message = format!("the first must be less than the second, found {low} and {high}");
+            SceneProblem::new(path, message)
+        });
+        told.collect()
+    }
+}

@@ -1,0 +1,19 @@
+//! What each command does.
+
+pub mod check;
+pub mod compare;
+pub mod draw;
+pub mod explain;
+pub mod failed;
+pub mod grains;
+pub mod left_behind;
+pub mod manual;
+pub mod new;
+pub mod outcome;
+pub mod plugins;
+pub mod run;
+pub mod scenes;
+pub mod schema;
+pub mod study;
+pub mod view;
+pub mod written;

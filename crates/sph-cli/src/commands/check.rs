@@ -1,0 +1,182 @@
+//! `sph check`.
+
+use serde_json::{Value as Json, json};
+use sph_solver::{Examination, Load, Memory, examine};
+
+use crate::arguments::CheckArguments;
+use crate::calibration::calibration;
+use crate::commands::grains;
+use crate::number;
+use crate::scene_file::{AnyScene, Opened, open};
+use crate::telling::layout::{columns, remarks};
+use crate::telling::told::Told;
+use crate::telling::trouble::Trouble;
+
+/// Above this Mach number the fluid is not nearly incompressible.
+const MACH: f64 = 0.1;
+
+/// Tells what follows from a scene, without running it.
+pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
+    let opened = open(&arguments.scene)?;
+    told(&opened, arguments.threads.map(usize::from))?.print(arguments.json);
+    Ok(())
+}
+
+/// What follows from a scene, for a number of threads.
+pub fn told(opened: &Opened, threads: Option<usize>) -> Result<Told, Trouble> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = threads.unwrap_or(cores);
+    let loaded = match &opened.scene {
+        AnyScene::Particles(loaded) => loaded,
+        AnyScene::Grains(loaded) => return grains::check::told(loaded, &opened.shown),
+    };
+    let examined = examine(&loaded.scene);
+    let mut examined = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
+    let too_fast = too_fast(&examined);
+    examined.warnings.extend(too_fast);
+    // Without it all else is as good.
+    let machine = calibration();
+    let hours = machine.as_ref().ok().map(|machine| {
+        let step = machine.calibration.step(&examined.load, threads);
+        examined.estimate.steps * step / 3600.0
+    });
+    let time = match (&machine, hours) {
+        (Ok(machine), Some(hours)) => {
+            let on = match threads {
+                1 => "1 thread".to_string(),
+                n => format!("{n} threads"),
+            };
+            let time = number::duration(3600.0 * hours);
+            let doubt = doubt(&examined.load);
+            format!("about {time} on {on}{doubt}, by {}", machine.origin)
+        }
+        (machine, _) => format!(
+            "not known: {}",
+            machine.as_ref().err().map_or("", String::as_str)
+        ),
+    };
+    let mut all = serde_json::to_value(&examined).unwrap_or(Json::Null);
+    all["threads"] = json!(threads);
+    all["estimate"]["hours"] = json!(hours);
+    all["estimate"]["origin"] = json!(machine.map_or_else(|why| why, |machine| machine.origin));
+    Ok(Told {
+        json: all,
+        text: text(&examined, &opened.shown, &time),
+    })
+}
+
+/// What the time of a run hangs on that its start does not tell.
+fn doubt(load: &Load) -> &'static str {
+    let solves = load.pieces.iter().any(|p| p.name.starts_with("implicit"));
+    match solves {
+        true => " (if solves are as short as those of a bed at rest)",
+        false => "",
+    }
+}
+
+/// A remark for every phase whose speed comes too near to that of sound.
+fn too_fast(examined: &Examination) -> Vec<String> {
+    let machs = examined.derived.iter();
+    let machs = machs.filter(|(name, value, _)| name.contains("Mach number") && *value > MACH);
+    let remark = |(name, value, _): &(String, f64, String)| {
+        let phase = name.split(':').next().unwrap_or_default();
+        format!(
+            "the Mach number of `{phase}` is {}, above {MACH}: density will vary by about {} ; \
+             raise `phase.{phase}.speed_of_sound`, or check `velocity_scale`",
+            number::plain(*value),
+            number::percent(value * value)
+        )
+        .replace(" ;", ";")
+    };
+    machs.map(remark).collect()
+}
+
+/// The memory of a run, and the parts that are a twentieth of it and more.
+pub fn memory(memory: &Memory) -> String {
+    let all = memory.total();
+    let parts = memory.parts().into_iter();
+    let parts: Vec<String> = parts
+        .filter(|(_, bytes)| *bytes > 0.05 * all)
+        .map(|(name, bytes)| format!("{name} {}", number::percent(bytes / all)))
+        .collect();
+    format!("{}: {}", number::bytes(all), parts.join(", "))
+}
+
+fn text(e: &Examination, file: &str, time: &str) -> String {
+    let mut text = format!(
+        "{}\n{file} is a good scene in {} dimensions\n",
+        e.scene, e.dimension
+    );
+    let row = |name: &str, value: String| vec![name.to_string(), value];
+    let size = [
+        row("particles", number::count(e.particles as f64)),
+        row("wall points", number::count(e.wall_points as f64)),
+        row("wall elements", number::count(e.wall_elements as f64)),
+        row("neighbours of a particle", format!("{:.1}", e.neighbours)),
+        row(
+            "bytes per particle",
+            format!(
+                "{:.0}, of these {} in {} columns",
+                e.memory.total() / e.particles.max(1) as f64,
+                e.bytes_per_particle,
+                e.fields.len()
+            ),
+        ),
+    ];
+    let derived = e.derived.iter().map(|(name, value, unit)| {
+        let unit = if unit == "1" { "" } else { unit.as_str() };
+        row(name, format!("{} {unit}", number::plain(*value)))
+    });
+    let limits = e
+        .step_limits
+        .iter()
+        .map(|(name, dt)| row(name, seconds(*dt)));
+    let cost = &e.estimate;
+    let estimate = [
+        row("steps", number::count(cost.steps)),
+        row("wall time", time.to_string()),
+        row("memory", format!("about {}", memory(&e.memory))),
+        row("disk", format!("about {}", number::bytes(cost.disk_bytes))),
+    ];
+    let percent = |part: f64| format!("{:.2} %", 100.0 * part);
+    let relaxation = e.relaxation.iter().flat_map(|r| {
+        [
+            row("steps", number::count(r.steps as f64)),
+            row(
+                "largest error",
+                format!("{} → {}", percent(r.largest_before), percent(r.largest)),
+            ),
+            row(
+                "rms error",
+                format!("{} → {}", percent(r.rms_before), percent(r.rms)),
+            ),
+            row(
+                "particles away from surfaces",
+                number::count(r.counted as f64),
+            ),
+        ]
+    });
+    let relaxation: Vec<_> = relaxation.collect();
+    let parts = [
+        ("size", size.to_vec()),
+        ("derived", derived.collect()),
+        ("largest stable time step at the start", limits.collect()),
+        ("relaxed density", relaxation),
+        ("estimate", estimate.to_vec()),
+    ];
+    for (title, rows) in parts.into_iter().filter(|(_, rows)| !rows.is_empty()) {
+        text.push_str(&format!("\n{title}\n{}", columns(2, &rows)));
+    }
+    if !e.warnings.is_empty() {
+        text.push_str(&format!("\nwarnings\n{}", remarks(&e.warnings)));
+    }
+    text
+}
+
+/// A step limit; one that does not bind is infinite.
+fn seconds(dt: f64) -> String {
+    match dt.is_finite() {
+        true => format!("{} s", number::plain(dt)),
+        false => "none".into(),
+    }
+}

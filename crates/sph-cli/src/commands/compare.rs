@@ -1,0 +1,197 @@
+//! `sph compare`: whether two runs have the same bits, and if not where they differ most.
+
+mod difference;
+mod tables;
+
+use std::path::Path;
+
+use serde_json::{Value as Json, json};
+use sph_io::{Checkpoint, IoError};
+
+use crate::commands::left_behind::CHECKPOINT;
+use crate::number;
+use crate::telling::layout::columns;
+use crate::telling::told::Told;
+use crate::telling::trouble::Trouble;
+use crate::tool_arguments::CompareArguments;
+use difference::{Difference, differences};
+use tables::Table;
+
+/// What two folders have in common, and how it differs.
+#[derive(Default)]
+struct Comparison {
+    /// Of every column that both have, in the order of the files.
+    columns: Vec<Difference>,
+    /// What only one of them has, and numbers of rows that differ.
+    remarks: Vec<String>,
+}
+
+/// Compares the results of two runs.
+pub fn command(arguments: &CompareArguments) -> Result<(), Trouble> {
+    let (told, same) = told(&arguments.first, &arguments.second)?;
+    told.print(arguments.json);
+    match same {
+        true => Ok(()),
+        false => Err(Trouble::Different),
+    }
+}
+
+/// What differs between the results of two runs, and whether nothing does.
+pub fn told(first: &Path, second: &Path) -> Result<(Told, bool), Trouble> {
+    let found = compared(first, second)?;
+    let same = found.remarks.is_empty() && found.columns.iter().all(|c| c.same);
+    let told = Told {
+        json: json(&found, same),
+        text: text(&found, same, [first, second]),
+    };
+    Ok((told, same))
+}
+
+fn compared(first: &Path, second: &Path) -> Result<Comparison, Trouble> {
+    for folder in [first, second] {
+        if !folder.is_dir() {
+            let folder = folder.display();
+            return Err(Trouble::usage(format!(
+                "there is no folder of results {folder}"
+            )));
+        }
+    }
+    let told = |e: IoError| Trouble::usage(e.to_string());
+    let mut all = Comparison::default();
+    let mut files = 0;
+    for file in ["series.csv", "fields.pvd", CHECKPOINT] {
+        match (first.join(file).is_file(), second.join(file).is_file()) {
+            (false, false) => continue,
+            (true, true) => {}
+            (in_first, _) => {
+                let only = if in_first { first } else { second };
+                let only = only.display();
+                all.remarks.push(format!("{file} is in {only} alone"));
+                continue;
+            }
+        }
+        files += 1;
+        let [a, b] = [first, second].map(|folder| folder.join(file));
+        match file {
+            "series.csv" => {
+                let [a, b] = [&a, &b].map(|p| sph_io::read_table(p).map(Table::of_series));
+                all.table(file, a.map_err(told)?, b.map_err(told)?);
+            }
+            "fields.pvd" => all.fields(&a, &b).map_err(told)?,
+            _ => {
+                let [a, b] = [&a, &b].map(|p| Checkpoint::load(p).map(Table::of_checkpoint));
+                all.table(file, a.map_err(told)?, b.map_err(told)?);
+            }
+        }
+    }
+    match files {
+        0 => Err(Trouble::usage(format!(
+            "{} and {} have no file of results in common (series.csv, fields.pvd, {CHECKPOINT})",
+            first.display(),
+            second.display()
+        ))),
+        _ => Ok(all),
+    }
+}
+
+impl Comparison {
+    /// Two tables of one file, row by row of the same key.
+    fn table(&mut self, file: &str, a: Table, b: Table) {
+        let (columns, remarks) = differences(file, &a, &b);
+        self.columns.extend(columns);
+        self.remarks.extend(remarks);
+    }
+
+    /// The frames that both lists have, by their times; of every column the frame that differs most.
+    fn fields(&mut self, a: &Path, b: &Path) -> Result<(), IoError> {
+        let [listed, other] = [sph_io::list_pvd(a)?, sph_io::list_pvd(b)?];
+        let mut largest: Vec<Difference> = Vec::new();
+        let mut common = 0;
+        let mut remarks: Vec<(String, f64, usize)> = Vec::new();
+        for one in &listed {
+            let same = |l: &&sph_io::Listed| l.time == one.time && l.name == one.name;
+            let Some(twin) = other.iter().find(same) else {
+                continue;
+            };
+            common += 1;
+            let [a, b] = [&one.path, &twin.path].map(|p| sph_io::read_vtu(p).map(Table::of_piece));
+            let (columns, told) = differences(&format!("fields of {}", one.name), &a?, &b?);
+            for remark in told {
+                match remarks.iter_mut().find(|(known, ..)| *known == remark) {
+                    Some((.., frames)) => *frames += 1,
+                    None => remarks.push((remark, one.time, 1)),
+                }
+            }
+            for column in columns {
+                let before = largest.iter_mut().find(|l| l.is_of(&column));
+                match before {
+                    Some(before) => before.keep_larger(column),
+                    None => largest.push(column),
+                }
+            }
+        }
+        for (remark, time, frames) in remarks {
+            let time = number::plain(time);
+            self.remarks.push(match frames {
+                1 => format!("{remark} at t = {time} s"),
+                n => format!("{remark} in {n} frames from t = {time} s"),
+            });
+        }
+        let lone = listed.len() + other.len() - 2 * common;
+        if lone > 0 {
+            let why = format!("fields.pvd: {lone} pieces have no twin at their time");
+            self.remarks.push(why);
+        }
+        self.columns.extend(largest);
+        Ok(())
+    }
+}
+
+fn json(found: &Comparison, same: bool) -> Json {
+    let columns = found.columns.iter().map(Difference::json);
+    json!({
+        "same": same,
+        "columns": columns.collect::<Vec<_>>(),
+        "remarks": found.remarks,
+    })
+}
+
+fn text(found: &Comparison, same: bool, folders: [&Path; 2]) -> String {
+    let [a, b] = folders.map(|f| f.display().to_string());
+    if same {
+        let count = found.columns.len();
+        return format!("the same bits in {count} columns of {a} and {b}\n");
+    }
+    let alike = found.columns.iter().filter(|c| c.same).count();
+    let mut text = format!(
+        "{a} and {b} differ; {alike} of {} columns have the same bits\n",
+        found.columns.len()
+    );
+    let mut rows = vec![
+        [
+            "file",
+            "column",
+            "largest difference",
+            "of the range",
+            "first",
+            "second",
+            "where",
+        ]
+        .map(String::from)
+        .to_vec(),
+    ];
+    rows.extend(
+        found
+            .columns
+            .iter()
+            .filter(|c| !c.same)
+            .map(Difference::row),
+    );
+    if rows.len() > 1 {
+        text.push_str(&columns(2, &rows));
+    }
+    for remark in &found.remarks {
+        text.push_str(&format!("  {remark}\n"));
+    }
+    text
+}

@@ -1,0 +1,150 @@
+//! `sph draw`: streamlines, profiles along a line and tracks, from the frames of a run.
+
+use std::path::Path;
+
+use sph_core::parse_quantity;
+use sph_draw::{DrawError, Frames, Line};
+use sph_io::IoError;
+use sph_solver::SolverError;
+
+use crate::telling::console;
+use crate::telling::trouble::Trouble;
+use crate::tool_arguments::{DrawCommand, ProfileArguments, StreamlineArguments, TrackArguments};
+
+/// Draws what is asked for.
+pub fn command(asked: &DrawCommand) -> Result<(), Trouble> {
+    match asked {
+        DrawCommand::Streamlines(a) => streamlines(a),
+        DrawCommand::Profile(a) => profile(a),
+        DrawCommand::Tracks(a) => tracks(a),
+    }
+}
+
+fn streamlines(arguments: &StreamlineArguments) -> Result<(), Trouble> {
+    let path = picture(&arguments.out, &["png"])?;
+    let frames = frames(&arguments.results)?;
+    let time = quantity("time", arguments.time.as_deref(), "s")?;
+    let apart = quantity("apart", arguments.apart.as_deref(), "m")?;
+    if let Some(wrong) = apart.filter(|a| *a <= 0.0) {
+        let said = format!("--apart {wrong}: expected a distance above zero");
+        return Err(Trouble::usage(said));
+    }
+    let slice = quantity("slice", arguments.slice.as_deref(), "m")?;
+    let how = (apart, slice);
+    let drawn = sph_draw::draw_streamlines(&frames, time, &arguments.field, how, path);
+    let lines = drawn.map_err(trouble)?;
+    told(&format!("{lines} lines"), path);
+    Ok(())
+}
+
+fn profile(arguments: &ProfileArguments) -> Result<(), Trouble> {
+    let path = picture(&arguments.out, &["png", "svg"])?;
+    let line = Line {
+        from: place("from", &arguments.from)?,
+        to: place("to", &arguments.to)?,
+        points: arguments.points as usize,
+    };
+    if line.from == line.to {
+        return Err(Trouble::usage("--to: the line has no length"));
+    }
+    let mut times = Vec::new();
+    for text in &arguments.time {
+        times.push(quantity("time", Some(text), "s")?);
+    }
+    if times.is_empty() {
+        times.push(None);
+    }
+    let frames = frames(&arguments.results)?;
+    let drawn = sph_draw::draw_profile(&frames, &line, &arguments.field, &times, path);
+    drawn.map_err(trouble)?;
+    told(&format!("{} profiles", times.len()), path);
+    Ok(())
+}
+
+fn tracks(arguments: &TrackArguments) -> Result<(), Trouble> {
+    let path = picture(&arguments.out, &["png"])?;
+    let frames = frames(&arguments.results)?;
+    let mut identities = arguments.identity.clone();
+    let first = &frames.entries()[0];
+    if !arguments.near.is_empty() || identities.is_empty() {
+        let start = frames.read(first).map_err(trouble)?;
+        for text in &arguments.near {
+            let near = sph_draw::nearest(&start, place("near", text)?);
+            identities.push(near.map_err(trouble)?);
+        }
+        if identities.is_empty() {
+            let count = arguments.count as usize;
+            identities = sph_draw::evenly(&start, count).map_err(trouble)?;
+        }
+    }
+    let tracks = sph_draw::tracks(&frames, &identities).map_err(trouble)?;
+    let drawn = sph_draw::draw_tracks(&frames, &tracks, &arguments.field, path);
+    drawn.map_err(trouble)?;
+    told(&format!("{} tracks", tracks.len()), path);
+    Ok(())
+}
+
+fn told(what: &str, path: &Path) {
+    let table = path.with_extension("csv");
+    let (path, table) = (path.display(), table.display());
+    console::out(&format!("{what} in {path} and {table}\n"));
+}
+
+fn frames(folder: &Path) -> Result<Frames, Trouble> {
+    if !folder.join("fields.pvd").is_file() {
+        let folder = folder.display();
+        return Err(Trouble::usage(format!(
+            "there is no fields.pvd in {folder}: name the folder of a run that writes fields (output.vtk)"
+        )));
+    }
+    Frames::of(folder).map_err(trouble)
+}
+
+/// The file of the picture, if it can be one.
+fn picture<'a>(out: &'a Path, kinds: &[&str]) -> Result<&'a Path, Trouble> {
+    let kind = out.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    match kinds.contains(&kind) {
+        true => Ok(out),
+        false => Err(Trouble::usage(format!(
+            "--out {}: it must end in .{}",
+            out.display(),
+            kinds.join(" or .")
+        ))),
+    }
+}
+
+fn quantity(option: &str, text: Option<&str>, unit: &str) -> Result<Option<f64>, Trouble> {
+    let read = text.map(|t| parse_quantity(t, unit));
+    let told = |why| Trouble::usage(format!("--{option}: {why}"));
+    read.transpose().map_err(told)
+}
+
+/// Two or three coordinates, m.
+fn place(option: &str, text: &str) -> Result<[f64; 3], Trouble> {
+    let mut place = [0.0; 3];
+    let parts: Vec<&str> = text.split(',').collect();
+    if !(2..=3).contains(&parts.len()) {
+        let said = format!("--{option} {text}: expected X,Y or X,Y,Z");
+        return Err(Trouble::usage(said));
+    }
+    for (coordinate, part) in place.iter_mut().zip(parts) {
+        if let Some(value) = quantity(option, Some(part.trim()), "m")? {
+            *coordinate = value;
+        }
+    }
+    Ok(place)
+}
+
+/// What cannot be written is a failure, all else a mistake of the one who asks.
+fn trouble(error: DrawError) -> Trouble {
+    match error {
+        DrawError::Io(error @ (IoError::Write { .. } | IoError::DiskFull { .. })) => {
+            Trouble::Failed {
+                error: SolverError::Io(error),
+                summary: None,
+                advice: None,
+            }
+        }
+        other => Trouble::usage(other.to_string()),
+    }
+}

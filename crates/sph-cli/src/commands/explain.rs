@@ -1,0 +1,119 @@
+//! `sph explain`.
+
+use serde_json::Value as Json;
+use sph_solver::{Examination, PluginInForce, StageUse, examine};
+
+use crate::arguments::ExplainArguments;
+use crate::commands::check::memory;
+use crate::commands::grains;
+use crate::scene_file::{AnyScene, Opened, open};
+use crate::telling::layout::{columns, columns_and_below, paragraph, parameters};
+use crate::telling::told::Told;
+use crate::telling::trouble::Trouble;
+
+/// Shows what a scene is made of.
+pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
+    told(&open(&arguments.scene)?)?.print(arguments.json);
+    Ok(())
+}
+
+/// What a scene is made of.
+pub fn told(opened: &Opened) -> Result<Told, Trouble> {
+    let loaded = match &opened.scene {
+        AnyScene::Particles(loaded) => loaded,
+        AnyScene::Grains(loaded) => return grains::explain::told(loaded),
+    };
+    let examined = examine(&loaded.scene);
+    let examined = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
+    Ok(Told {
+        json: serde_json::to_value(&examined).unwrap_or(Json::Null),
+        text: text(&examined),
+    })
+}
+
+fn text(e: &Examination) -> String {
+    let mut text = format!("{}\n\nplugins, with the parameters in force\n", e.scene);
+    text.push_str(&plugins(&e.plugins));
+    text.push_str(&format!(
+        "\ncolumns: {} bytes per particle in {} columns (numbers are those of the stages below)\n",
+        e.bytes_per_particle,
+        e.fields.len()
+    ));
+    text.push_str(&columns(2, &fields(e)));
+    text.push_str(&format!("\nmemory: about {}\n", memory(&e.memory)));
+    text.push_str("\nstages of an evaluation, in order\n");
+    for (k, stage) in e.stages.iter().enumerate() {
+        text.push_str(&stage_text(k, stage));
+    }
+    let pruned = match e.pruned.is_empty() {
+        true => "none".to_string(),
+        false => e.pruned.join(", "),
+    };
+    text.push_str(&format!("\nstages nobody needs here: {pruned}\n"));
+    text.push_str("\nlimits of the time step\n");
+    for formula in &e.limit_formulas {
+        text.push_str(&paragraph(2, 98, formula));
+    }
+    text
+}
+
+/// Every plugin in a line, and its parameters below it.
+fn plugins(plugins: &[PluginInForce]) -> String {
+    let row = |p: &PluginInForce| {
+        let names = vec![p.kind.clone(), p.name.clone(), p.provider.clone()];
+        (names, parameters(&p.parameters))
+    };
+    let rows = plugins.iter().map(row).collect();
+    columns_and_below(2, &["kind", "name", "provider"], rows)
+}
+
+fn fields(e: &Examination) -> Vec<Vec<String>> {
+    let header = ["name", "unit", "bytes", "role", "written by", "read by"];
+    let mut rows = vec![header.map(String::from).to_vec()];
+    let list = |names: &[String]| {
+        let place = |n: &String| e.stages.iter().position(|s| s.name == *n);
+        let places = names.iter().filter_map(place).map(|k| (k + 1).to_string());
+        match names.is_empty() {
+            true => "–".to_string(),
+            false => places.collect::<Vec<_>>().join(", "),
+        }
+    };
+    rows.extend(e.fields.iter().map(|f| {
+        let written = match (f.written_by.is_empty(), f.state) {
+            (true, true) => "start, integrator".to_string(),
+            _ => list(&f.written_by),
+        };
+        let role = if f.state { "state" } else { "derived" };
+        vec![
+            f.name.clone(),
+            f.unit.clone(),
+            f.bytes.to_string(),
+            role.to_string(),
+            written,
+            list(&f.read_by),
+        ]
+    }));
+    rows
+}
+
+fn stage_text(k: usize, stage: &StageUse) -> String {
+    let what = if stage.sweep {
+        "a sweep over neighbours"
+    } else {
+        "particle by particle"
+    };
+    let mut text = format!("  {}. {}: {what}\n", k + 1, stage.name);
+    let row = |name: &str, fields: &[String]| {
+        (!fields.is_empty()).then(|| vec![name.to_string(), fields.join(", ")])
+    };
+    let rows: Vec<Vec<String>> = [
+        row("reads here", &stage.reads_here),
+        row("reads at neighbours", &stage.reads_at_neighbours),
+        row("writes", &stage.writes),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    text.push_str(&columns(5, &rows));
+    text
+}

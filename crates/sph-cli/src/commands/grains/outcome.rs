@@ -1,0 +1,109 @@
+//! The end of a run of grains in a few lines.
+
+use std::path::Path;
+
+use dem_scene::{Compared, Status, Summary};
+
+use crate::commands::written;
+use crate::number;
+use crate::telling::layout::{columns, remarks};
+
+/// What the run was, what it cost, how good it is, and where its files are.
+pub fn text(summary: &Summary, out: &Path) -> String {
+    let status = match summary.status {
+        Status::Done => "done",
+        Status::Failed => "failed",
+        Status::Interrupted => "interrupted",
+    };
+    let mut text = format!("{status}: {}\n", summary.scene);
+    text.push_str(&columns(2, &cost(summary)));
+    if !summary.derived.is_empty() {
+        let row = |(name, value): (&String, &f64)| vec![name.clone(), number::plain(*value)];
+        let rows: Vec<_> = summary.derived.iter().map(row).collect();
+        text.push_str(&format!("measured before the run\n{}", columns(2, &rows)));
+    }
+    if !summary.errors.is_empty() {
+        text.push_str(&format!("errors\n{}", columns(2, &errors(summary))));
+    }
+    if !summary.warnings.is_empty() {
+        text.push_str(&format!("warnings\n{}", remarks(&summary.warnings)));
+    }
+    text.push_str(&format!("written to {}\n", out.display()));
+    text.push_str(&columns(2, &written::listing(out)));
+    text
+}
+
+fn cost(s: &Summary) -> Vec<Vec<String>> {
+    let row = |name: &str, value: String| vec![name.to_string(), value];
+    let cells = s.cells.map_or(String::new(), |cells| {
+        format!(", {} pores", number::count(cells as f64))
+    });
+    let size = format!(
+        "{} grains, {:.2} contacts each{cells}",
+        number::count(s.grains as f64),
+        s.coordination
+    );
+    let meshes = s.meshes.map_or(String::new(), |n| {
+        format!(", {} meshes", number::count(n as f64))
+    });
+    let steps = format!(
+        "{} to t = {} s{meshes}",
+        number::count(s.steps as f64),
+        number::plain(s.simulated_seconds)
+    );
+    let threads = match s.threads {
+        1 => "1 thread".to_string(),
+        n => format!("{n} threads"),
+    };
+    let time = format!(
+        "{} on {threads}, of these {} for the preparation",
+        number::duration(s.wall_seconds),
+        number::duration(s.preparation_seconds)
+    );
+    let mut limiters: Vec<_> = s.dt_limiters.iter().collect();
+    limiters.sort_by(|a, b| b.1.total_cmp(a.1));
+    let limiters: Vec<String> = limiters
+        .iter()
+        .map(|(name, share)| format!("{name} {}", number::percent(**share)))
+        .collect();
+    let mut rows = vec![
+        row("size", size),
+        row("steps", steps),
+        row("wall time", time),
+        row(
+            "speed",
+            format!("{} grain-steps/s", number::rate(s.grain_steps_per_second)),
+        ),
+        row("Δt limited by", limiters.join(", ")),
+    ];
+    if let Some(porosity) = s.porosity {
+        rows.push(row("porosity", format!("{porosity:.4}")));
+    }
+    if let Some(ratio) = s.unbalanced_force {
+        rows.push(row("unbalanced force", number::plain(ratio)));
+    }
+    rows
+}
+
+fn errors(summary: &Summary) -> Vec<Vec<String>> {
+    let header = ["name", "error", "norm", "found", "against", "rows"].map(String::from);
+    let mut rows = vec![header.to_vec()];
+    rows.extend(summary.errors.iter().map(|(name, error)| one(name, error)));
+    rows
+}
+
+fn one(name: &str, error: &Compared) -> Vec<String> {
+    let value = match (error.value, error.norm.as_str()) {
+        (None, _) => "none".to_string(),
+        (Some(value), "absolute") => number::plain(value),
+        (Some(value), _) => number::percent(value),
+    };
+    vec![
+        name.to_string(),
+        value,
+        error.norm.clone(),
+        error.found.map_or("–".to_string(), number::plain),
+        error.against.clone(),
+        error.samples.to_string(),
+    ]
+}

@@ -1,0 +1,96 @@
+//! `sph completions` and `sph man`: made from the definition of the command line.
+
+use clap::CommandFactory;
+use clap_mangen::Man;
+use sph_io::{Durability, IoError, write_atomic};
+use sph_solver::SolverError;
+
+use crate::arguments::Arguments;
+use crate::telling::console;
+use crate::telling::trouble::Trouble;
+use crate::tool_arguments::{CompletionArguments, ManArguments};
+
+/// Prints what a shell completes with.
+pub fn completions(arguments: &CompletionArguments) -> Result<(), Trouble> {
+    let mut script = Vec::new();
+    let mut command = Arguments::command();
+    clap_complete::generate(arguments.shell, &mut command, "sph", &mut script);
+    console::raw(&script);
+    Ok(())
+}
+
+/// Prints a manual page, or writes all of them.
+pub fn man(arguments: &ManArguments) -> Result<(), Trouble> {
+    let pages = pages();
+    let Some(folder) = &arguments.out else {
+        let name = match &arguments.of {
+            Some(of) => format!("sph-{of}"),
+            None => "sph".to_string(),
+        };
+        let Some((_, page)) = pages.iter().find(|(n, _)| *n == name) else {
+            let known: Vec<&str> = pages
+                .iter()
+                .filter_map(|(n, _)| n.strip_prefix("sph-"))
+                .collect();
+            let near = sph_core::suggestion(name.trim_start_matches("sph-"), known.iter().copied());
+            let known = known.join(", ");
+            return Err(Trouble::usage(format!(
+                "there is no such command{near} (there are: {known})"
+            )));
+        };
+        console::raw(page);
+        return Ok(());
+    };
+    let failed = |error: IoError| Trouble::Failed {
+        error: SolverError::Io(error),
+        summary: None,
+        advice: None,
+    };
+    sph_io::writable(folder).map_err(failed)?;
+    for (name, page) in &pages {
+        let path = folder.join(format!("{name}.1"));
+        write_atomic(&path, Durability::Process, |file| {
+            std::io::Write::write_all(file, page)
+        })
+        .map_err(failed)?;
+    }
+    console::out(&format!("{} pages in {}", pages.len(), folder.display()));
+    Ok(())
+}
+
+/// Name and text of the page of `sph` and of every command.
+fn pages() -> Vec<(String, Vec<u8>)> {
+    let mut whole = Arguments::command().disable_help_subcommand(true);
+    whole.build();
+    let mut pages = vec![("sph".to_string(), page(whole.clone()))];
+    for command in whole.get_subcommands() {
+        let name = format!("sph-{}", command.get_name());
+        pages.push((name, page(command.clone())));
+    }
+    pages
+}
+
+fn page(command: clap::Command) -> Vec<u8> {
+    let mut page = Vec::new();
+    // A vector takes all.
+    let _ = Man::new(command).render(&mut page);
+    page
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_has_a_page_with_its_options() {
+        let pages = pages();
+        let names: Vec<&str> = pages.iter().map(|(n, _)| n.as_str()).collect();
+        assert!(names.contains(&"sph") && names.contains(&"sph-run") && names.contains(&"sph-man"));
+        let (_, run) = pages.iter().find(|(n, _)| n == "sph-run").expect("a page");
+        let run = String::from_utf8_lossy(run);
+        assert!(
+            run.contains("resume") && run.contains(".SH SYNOPSIS"),
+            "{run}"
+        );
+    }
+}

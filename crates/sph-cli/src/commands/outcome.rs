@@ -1,0 +1,111 @@
+//! The end of a run in a few lines.
+
+use std::path::Path;
+
+use sph_solver::{Status, Summary};
+
+use crate::commands::check::memory;
+use crate::commands::written;
+use crate::number;
+use crate::telling::layout::{columns, remarks};
+
+/// What the run was, what it cost, how good it is, and where its files are.
+pub fn text(summary: &Summary, out: &Path) -> String {
+    let status = match summary.status {
+        Status::Done => "done",
+        Status::Failed => "failed",
+        Status::Interrupted => "interrupted",
+    };
+    let mut text = format!("{status}: {}\n", summary.scene);
+    text.push_str(&columns(2, &cost(summary)));
+    text.push_str(&errors(summary));
+    if !summary.warnings.is_empty() {
+        text.push_str("warnings\n");
+        text.push_str(&remarks(&summary.warnings));
+    }
+    if !summary.advice.is_empty() {
+        text.push_str("advice\n");
+        text.push_str(&remarks(&summary.advice));
+    }
+    text.push_str(&format!("written to {}\n", out.display()));
+    text.push_str(&columns(2, &written::listing(out)));
+    text
+}
+
+fn cost(s: &Summary) -> Vec<Vec<String>> {
+    let row = |name: &str, value: String| vec![name.to_string(), value];
+    let particles = format!(
+        "{} particles, {} wall points, {:.1} neighbours each",
+        number::count(s.particles as f64),
+        number::count(s.wall_points as f64),
+        s.neighbours
+    );
+    let back = match s.steps_rolled_back {
+        0 => String::new(),
+        n => format!(", {n} rolled back"),
+    };
+    let since = s.started_at.map_or(String::new(), |t| {
+        format!("from t = {} s of another run ", number::plain(t))
+    });
+    let steps = format!(
+        "{} {since}to t = {} s{back}",
+        number::count(s.steps as f64),
+        number::plain(s.simulated_seconds)
+    );
+    let threads = match s.threads {
+        1 => "1 thread".to_string(),
+        n => format!("{n} threads"),
+    };
+    let speed = format!(
+        "{} particle-steps/s, {:.1} ns per pair and thread",
+        number::rate(s.particle_steps_per_second),
+        s.nanoseconds_per_pair
+    );
+    let mut limiters: Vec<(&String, &f64)> = s.dt_limiters.iter().collect();
+    limiters.sort_by(|a, b| b.1.total_cmp(a.1));
+    let limiters: Vec<String> = limiters
+        .iter()
+        .map(|(name, share)| format!("{name} {}", number::percent(**share)))
+        .collect();
+    vec![
+        row("size", particles),
+        row("steps", steps),
+        row(
+            "wall time",
+            format!("{} on {threads}", number::duration(s.wall_seconds)),
+        ),
+        row("speed", speed),
+        row("memory", memory(&s.memory)),
+        row("Δt limited by", limiters.join(", ")),
+        row(
+            "drift",
+            format!(
+                "mass {:.1e}, momentum {:.1e}, energy {:.1e}",
+                s.drift.mass, s.drift.momentum, s.drift.energy
+            ),
+        ),
+    ]
+}
+
+fn errors(summary: &Summary) -> String {
+    if summary.errors.is_empty() {
+        return String::new();
+    }
+    let header = ["name", "value", "norm", "against", "samples"].map(String::from);
+    let mut rows = vec![header.to_vec()];
+    for (name, error) in &summary.errors {
+        let unit = match error.unit.as_str() {
+            "" | "1" => String::new(),
+            unit => format!(" {unit}"),
+        };
+        let value = error.value.map_or("none".to_string(), number::plain);
+        rows.push(vec![
+            name.clone(),
+            format!("{value}{unit}"),
+            error.norm.clone(),
+            error.against.clone(),
+            error.samples.to_string(),
+        ]);
+    }
+    format!("errors\n{}", columns(2, &rows))
+}

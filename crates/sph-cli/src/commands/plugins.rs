@@ -1,0 +1,239 @@
+//! `sph plugins`.
+
+mod kernel_picture;
+mod page;
+mod picture;
+mod snippet;
+mod specimen;
+
+use serde_json::{Value as Json, json};
+use sph_core::{ContractInfo, Parameter, PluginInfo, contracts, parameters, suggestion};
+
+use crate::arguments::PluginArguments;
+use crate::commands::grains;
+use crate::telling::console;
+use crate::telling::layout::{columns, paragraph};
+use crate::telling::trouble::Trouble;
+
+/// The kinds of plugins that can be drawn.
+const LAWS: &str = "rheology";
+const KERNELS: &str = "kernel";
+
+/// Lists kinds, the plugins of a kind, or some plugins; or draws laws.
+pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
+    let own = grains::plugins::contracts();
+    let mut kinds = contracts();
+    kinds.extend(&own);
+    kinds.sort_by_key(|kind| kind.kind);
+    let Some(kind) = &arguments.kind else {
+        let all: Vec<Json> = kinds.iter().map(|k| kind_json(k)).collect();
+        let text = match arguments.markdown {
+            true => page::of(&all),
+            false => overview(&kinds),
+        };
+        return shown(arguments, &text, &Json::Array(all));
+    };
+    let kind = find_kind(&kinds, kind)?;
+    let names = arguments.names.iter();
+    let plugins = names.map(|name| find_plugin(kind, name));
+    let plugins = plugins.collect::<Result<Vec<_>, _>>()?;
+    if let Some(file) = &arguments.picture {
+        return match kind.kind {
+            LAWS => picture::draw(arguments, &plugins, file),
+            KERNELS => kernel_picture::draw(arguments, &plugins, file),
+            _ => Err(Trouble::usage(format!(
+                "only laws and kernels can be drawn: sph plugins {LAWS} NAME --picture FILE"
+            ))),
+        };
+    }
+    let each = plugins.iter().map(|p| plugin_json(kind.kind, p));
+    let (text, json) = match plugins.as_slice() {
+        [] => (kind_text(kind), kind_json(kind)),
+        [only] => (plugin_text(kind, only), plugin_json(kind.kind, only)),
+        several => {
+            let texts = several.iter().map(|p| plugin_text(kind, p));
+            (texts.collect::<Vec<_>>().join("\n"), each.collect())
+        }
+    };
+    shown(arguments, &text, &json)
+}
+
+fn shown(arguments: &PluginArguments, text: &str, json: &Json) -> Result<(), Trouble> {
+    match arguments.json {
+        true => console::json(json),
+        false => console::out(text),
+    }
+    Ok(())
+}
+
+fn find_kind<'k>(kinds: &[&'k ContractInfo], name: &str) -> Result<&'k ContractInfo, Trouble> {
+    let found = kinds.iter().find(|k| k.kind == name);
+    found.copied().ok_or_else(|| {
+        let names: Vec<&str> = kinds.iter().map(|k| k.kind).collect();
+        let near = suggestion(name, names.iter().copied());
+        let known = names.join(", ");
+        Trouble::usage(format!(
+            "there is no kind of plugin called `{name}`{near} (kinds: {known})"
+        ))
+    })
+}
+
+fn find_plugin(kind: &ContractInfo, name: &str) -> Result<PluginInfo, Trouble> {
+    let plugins = (kind.plugins)();
+    let found = plugins.iter().find(|p| p.name == name);
+    found.copied().ok_or_else(|| {
+        let near = suggestion(name, plugins.iter().map(|p| p.name));
+        let known: Vec<&str> = plugins.iter().map(|p| p.name).collect();
+        Trouble::usage(format!(
+            "there is no {} called `{name}`{near} (registered: {}; a plugin of another crate must be \
+             mentioned in your binary: `use my_plugin as _;`)",
+            kind.kind,
+            known.join(", ")
+        ))
+    })
+}
+
+fn overview(kinds: &[&ContractInfo]) -> String {
+    let mut text = String::new();
+    for kind in kinds {
+        text.push_str(&kind_text(kind));
+        text.push('\n');
+    }
+    text.push_str("sph plugins KIND NAME shows a plugin's parameters and a snippet for a scene\n");
+    text
+}
+
+fn kind_text(kind: &ContractInfo) -> String {
+    let row = |p: &PluginInfo| {
+        vec![
+            p.name.to_string(),
+            p.summary.to_string(),
+            dimensions(p),
+            p.provider.to_string(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = (kind.plugins)().iter().map(row).collect();
+    let rows = match rows.is_empty() {
+        true => "  none is registered in this binary\n".to_string(),
+        false => columns(2, &rows),
+    };
+    format!("{}: {}\n{rows}", kind.kind, kind.purpose)
+}
+
+fn dimensions(plugin: &PluginInfo) -> String {
+    let each: Vec<String> = plugin.dimensions.iter().map(|d| format!("{d}D")).collect();
+    each.join(" ")
+}
+
+fn plugin_text(kind: &ContractInfo, plugin: &PluginInfo) -> String {
+    let schema = (plugin.schema)();
+    let mut text = format!("{} {}: {}\n", kind.kind, plugin.name, plugin.summary);
+    let facts = [
+        ["dimensions".to_string(), dimensions(plugin)],
+        ["source".to_string(), plugin.source.to_string()],
+        ["provider".to_string(), plugin.provider.to_string()],
+    ];
+    text.push_str(&columns(2, &facts.map(Vec::from)));
+    if let Some(description) = schema.get("description").and_then(Json::as_str) {
+        text.push('\n');
+        for part in prose(description) {
+            text.push_str(&paragraph(2, 98, &part));
+        }
+    }
+    text.push_str("\nparameters\n");
+    let all = parameters(&schema);
+    if all.is_empty() {
+        text.push_str("  none\n");
+    }
+    for parameter in &all {
+        text.push_str(&parameter_text(parameter, &schema));
+    }
+    text.push_str("\nin a scene\n");
+    for line in snippet::of(kind.kind, plugin).lines() {
+        text.push_str(format!("  {line}").trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+/// The paragraphs of a doc comment; examples are left to the snippet.
+fn prose(description: &str) -> Vec<String> {
+    let texts = description.split("```").step_by(2);
+    let parts = texts.flat_map(|t| t.split("\n\n")).map(str::trim);
+    parts.filter(|p| !p.is_empty()).map(String::from).collect()
+}
+
+fn parameter_text(parameter: &Parameter, schema: &Json) -> String {
+    let default = match (&parameter.default, required(schema, &parameter.name)) {
+        (_, true) => "required".to_string(),
+        (Some(value), _) if !value.is_null() => format!("default {value}"),
+        _ => "optional".to_string(),
+    };
+    let unit = match parameter.unit.as_str() {
+        "" | "1" => String::new(),
+        unit => format!(", {unit}"),
+    };
+    let mut text = format!(
+        "  {} ({}{unit}; {default})\n",
+        parameter.name, parameter.kind
+    );
+    text.push_str(&paragraph(6, 98, &parameter.meaning));
+    if !parameter.source.is_empty() {
+        text.push_str(&paragraph(6, 98, &format!("source: {}", parameter.source)));
+    }
+    text
+}
+
+/// Whether a plugin cannot be built without the parameter.
+fn required(schema: &Json, name: &str) -> bool {
+    let listed = schema.get("required").and_then(Json::as_array);
+    listed.into_iter().flatten().any(|r| r == name)
+}
+
+/// The texts that a parameter may be, if it is one of a few.
+fn choices(schema: &Json, name: &str) -> Vec<String> {
+    let property = &schema["properties"][name];
+    let options = property["anyOf"].as_array().into_iter().flatten();
+    let places = std::iter::once(property).chain(options);
+    let resolved = places.map(|p| {
+        let target = p["$ref"].as_str().and_then(|r| r.strip_prefix('#'));
+        target.and_then(|t| schema.pointer(t)).unwrap_or(p)
+    });
+    let each = resolved.flat_map(|p| {
+        let tagged = p["oneOf"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .map(|o| &o["const"]);
+        p["enum"].as_array().into_iter().flatten().chain(tagged)
+    });
+    each.filter_map(|c| Some(format!("\"{}\"", c.as_str()?)))
+        .collect()
+}
+
+fn kind_json(kind: &ContractInfo) -> Json {
+    let plugins = (kind.plugins)();
+    let plugins: Vec<Json> = plugins.iter().map(|p| plugin_json(kind.kind, p)).collect();
+    json!({ "kind": kind.kind, "purpose": kind.purpose, "plugins": plugins })
+}
+
+fn plugin_json(kind: &str, plugin: &PluginInfo) -> Json {
+    let schema = (plugin.schema)();
+    let all = parameters(&schema).into_iter().map(|p| {
+        let required = required(&schema, &p.name);
+        json!({
+            "name": p.name, "type": p.kind, "unit": p.unit, "default": p.default,
+            "required": required, "choices": choices(&schema, &p.name), "meaning": p.meaning, "source": p.source,
+        })
+    });
+    json!({
+        "kind": kind,
+        "name": plugin.name,
+        "summary": plugin.summary,
+        "source": plugin.source,
+        "provider": plugin.provider,
+        "dimensions": plugin.dimensions,
+        "parameters": all.collect::<Vec<_>>(),
+        "snippet": snippet::of(kind, plugin),
+    })
+}

@@ -1,0 +1,270 @@
+//! `sph plugins rheology NAME… --picture FILE`: laws, sheared alone and drawn.
+
+use std::path::Path;
+
+use sph_core::{PluginInfo, number, parse_quantity};
+use sph_io::{Panels, Plot, Series};
+use sph_solver::rheometer::{self, Rheology};
+
+use super::specimen::{self, Specimen};
+use crate::arguments::PluginArguments;
+use crate::telling::console;
+use crate::telling::trouble::Trouble;
+
+/// Strain rates in 1/s where none are given: the ends of the axis of a flow curve.
+const ENDS: [f64; 2] = [1e-3, 1e2];
+/// Those at which a law with an elastic part is sheared from rest.
+const RATES: [f64; 4] = [0.01, 0.1, 1.0, 10.0];
+/// Pressure in Pa at which laws with friction are sheared if none is given.
+const PRESSURE: f64 = 1000.0;
+/// Strain up to which laws are tried that do not yield before.
+const FAR: f64 = 2.0;
+/// Points of a curve.
+const POINTS: usize = 200;
+/// Most curves that can be told apart.
+const MOST: usize = 12;
+
+/// A specimen at a pressure.
+struct Curve<'s> {
+    label: String,
+    law: &'s dyn Rheology,
+    pressure: f64,
+}
+
+/// Draws the laws into the file that the arguments name.
+pub fn draw(
+    arguments: &PluginArguments,
+    plugins: &[PluginInfo],
+    file: &Path,
+) -> Result<(), Trouble> {
+    check(file)?;
+    let specimens = specimen::all(plugins, &arguments.set, arguments.vary.as_deref())?;
+    let curves = curves(&specimens, &numbers("pressure", &arguments.pressure, "Pa")?)?;
+    let elastic = curves.iter().filter(|c| c.law.elastic().is_some()).count();
+    let rates = rates(&arguments.strain_rates)?;
+    let panels = match elastic {
+        0 => flow(&curves, &rates)?,
+        all if all == curves.len() => from_rest(&curves, &rates, strain(arguments)?)?,
+        _ => {
+            return Err(Trouble::usage(
+                "laws with and without an elastic part have no common picture: draw them apart",
+            ));
+        }
+    };
+    save(&panels, file)
+}
+
+/// That the file is of a kind that can be written.
+fn check(file: &Path) -> Result<(), Trouble> {
+    let known = |e: &str| e == "svg" || e == "png";
+    match file.extension().and_then(|e| e.to_str()).is_some_and(known) {
+        true => Ok(()),
+        false => Err(Trouble::usage(format!(
+            "--picture {}: it must end in .svg or .png",
+            file.display()
+        ))),
+    }
+}
+
+/// Writes a picture and says so.
+pub fn save(panels: &Panels, file: &Path) -> Result<(), Trouble> {
+    check(file)?;
+    let saved = panels.save(file);
+    saved.map_err(|e| Trouble::usage(e.to_string()))?;
+    console::out(&format!("wrote {}\n", file.display()));
+    Ok(())
+}
+
+/// Every specimen at every pressure, or once if pressure does not matter to it.
+fn curves<'s>(specimens: &'s [Specimen], pressures: &[f64]) -> Result<Vec<Curve<'s>>, Trouble> {
+    let given = if pressures.is_empty() {
+        &[PRESSURE][..]
+    } else {
+        pressures
+    };
+    let mut curves = Vec::new();
+    for specimen in specimens {
+        let law = &*specimen.law;
+        if !law.needs().pressure {
+            let label = specimen.label.clone();
+            curves.push(Curve {
+                label,
+                law,
+                pressure: 0.0,
+            });
+            continue;
+        }
+        curves.extend(given.iter().map(|&pressure| Curve {
+            label: format!("{}, {} Pa", specimen.label, number::plain(pressure)),
+            law,
+            pressure,
+        }));
+    }
+    no_more_than(MOST, curves.len())?;
+    Ok(curves)
+}
+
+fn no_more_than(most: usize, count: usize) -> Result<(), Trouble> {
+    match count <= most {
+        true => Ok(()),
+        false => Err(Trouble::usage(format!(
+            "{count} curves cannot be told apart in one picture: {most} at most"
+        ))),
+    }
+}
+
+/// Shear stress over strain rate, and viscosity over it with logarithmic axes.
+fn flow(curves: &[Curve], rates: &[f64]) -> Result<Panels, Trouble> {
+    let [low, high] = ends(rates)?;
+    // The first steps of the linear axis are as fine as the logarithmic one: laws bend there.
+    let fine = spread(low, high, POINTS);
+    let even = (1..=POINTS).map(|k| high * k as f64 / POINTS as f64);
+    let mut along: Vec<f64> = fine.iter().copied().chain(even).collect();
+    along.push(0.0);
+    along.sort_by(f64::total_cmp);
+    let stress = |c: &Curve| {
+        let viscosity = rheometer::viscosities(c.law, c.pressure, &along);
+        along
+            .iter()
+            .zip(viscosity)
+            .map(|(g, eta)| [*g, eta * g])
+            .collect()
+    };
+    let series = |of: &dyn Fn(&Curve) -> Vec<[f64; 2]>| -> Vec<Series> {
+        curves
+            .iter()
+            .map(|c| Series::line(&c.label, of(c)))
+            .collect()
+    };
+    Ok(Panels(vec![
+        Plot {
+            x_label: "strain rate [1/s]".into(),
+            y_label: "shear stress [Pa]".into(),
+            series: series(&stress),
+            ..Plot::default()
+        },
+        Plot {
+            x_label: "strain rate [1/s]".into(),
+            y_label: "viscosity [Pa s]".into(),
+            log_x: true,
+            log_y: true,
+            series: series(&|c| viscosity(c, &fine)),
+            ..Plot::default()
+        },
+    ]))
+}
+
+/// Shear stress over strain at constant rates from rest, and the viscosity if there is one.
+fn from_rest(curves: &[Curve], rates: &[f64], strain: Option<f64>) -> Result<Panels, Trouble> {
+    let rates = if rates.is_empty() { &RATES[..] } else { rates };
+    no_more_than(MOST, curves.len() * rates.len())?;
+    let most = |c: &Curve| {
+        let of = |&rate: &f64| yielded(c, rate);
+        rates.iter().map(of).fold(0.0, f64::max)
+    };
+    let end =
+        strain.unwrap_or_else(|| (4.0 * curves.iter().map(most).fold(0.0, f64::max)).min(FAR));
+    let steps = 10 * POINTS;
+    let strains: Vec<f64> = (0..=steps).map(|k| end * k as f64 / steps as f64).collect();
+    let mut sheared = Vec::new();
+    for c in curves {
+        for &rate in rates {
+            let stress = rheometer::shear_stresses(c.law, c.pressure, rate, &strains);
+            let points = strains.iter().zip(stress).map(|(s, t)| [*s, t]);
+            let label = format!("{}, {} 1/s", c.label, number::plain(rate));
+            sheared.push(Series::line(label, points.step_by(10).collect()));
+        }
+    }
+    let mut panels = vec![Plot {
+        x_label: "shear strain [1]".into(),
+        y_label: "shear stress [Pa]".into(),
+        series: sheared,
+        ..Plot::default()
+    }];
+    let ends = rates
+        .iter()
+        .fold([f64::INFINITY, 0.0], |[a, b], r| [r.min(a), r.max(b)]);
+    let fine = spread(ends[0] / 10.0, ends[1] * 10.0, POINTS);
+    // A constant needs no panel.
+    let viscous: Vec<Series> = curves
+        .iter()
+        .filter(|c| c.law.uniform_viscosity().is_none())
+        .map(|c| Series::line(&c.label, viscosity(c, &fine)))
+        .collect();
+    if !viscous.is_empty() {
+        panels.push(Plot {
+            x_label: "strain rate [1/s]".into(),
+            y_label: "viscosity [Pa s]".into(),
+            log_x: true,
+            log_y: true,
+            series: viscous,
+            ..Plot::default()
+        });
+    }
+    Ok(Panels(panels))
+}
+
+/// The strain at which a shear from rest comes to 99 % of its largest stress.
+fn yielded(curve: &Curve, rate: f64) -> f64 {
+    let strains = spread(1e-7, FAR, 10 * POINTS);
+    let stress = rheometer::shear_stresses(curve.law, curve.pressure, rate, &strains);
+    let largest = stress.iter().fold(0.0_f64, |m, t| m.max(*t));
+    let found = strains
+        .iter()
+        .zip(&stress)
+        .find(|(_, t)| **t >= 0.99 * largest);
+    found.map_or(FAR, |(s, _)| *s)
+}
+
+fn viscosity(curve: &Curve, rates: &[f64]) -> Vec<[f64; 2]> {
+    let viscosity = rheometer::viscosities(curve.law, curve.pressure, rates);
+    rates
+        .iter()
+        .zip(viscosity)
+        .map(|(g, eta)| [*g, eta])
+        .collect()
+}
+
+/// Numbers from `low` to `high`, evenly spread over the decades.
+fn spread(low: f64, high: f64, count: usize) -> Vec<f64> {
+    let step = (high / low).ln() / (count - 1) as f64;
+    (0..count).map(|k| low * (step * k as f64).exp()).collect()
+}
+
+fn ends(rates: &[f64]) -> Result<[f64; 2], Trouble> {
+    match *rates {
+        [] => Ok(ENDS),
+        [low, high] if low < high => Ok([low, high]),
+        _ => Err(Trouble::usage(
+            "--strain-rates: a law without an elastic part takes two, the lower end of the axis and \
+             the upper one",
+        )),
+    }
+}
+
+fn rates(given: &[String]) -> Result<Vec<f64>, Trouble> {
+    let rates = numbers("strain-rates", given, "1/s")?;
+    match rates.iter().find(|r| !(1e-12..=1e12).contains(*r)) {
+        Some(wrong) => Err(Trouble::usage(format!(
+            "--strain-rates: {wrong} 1/s is not between 1e-12 and 1e12"
+        ))),
+        None => Ok(rates),
+    }
+}
+
+fn strain(arguments: &PluginArguments) -> Result<Option<f64>, Trouble> {
+    match arguments.strain {
+        Some(strain) if !(1e-12..=100.0).contains(&strain) => Err(Trouble::usage(format!(
+            "--strain {strain}: expected a number between 1e-12 and 100"
+        ))),
+        strain => Ok(strain),
+    }
+}
+
+fn numbers(option: &str, given: &[String], unit: &str) -> Result<Vec<f64>, Trouble> {
+    let read = |text: &String| {
+        let value = parse_quantity(text, unit);
+        value.map_err(|why| Trouble::usage(format!("--{option}: {why}")))
+    };
+    given.iter().map(read).collect()
+}

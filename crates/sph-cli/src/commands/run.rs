@@ -1,0 +1,171 @@
+//! `sph run`.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value as Json;
+use sph_scene::{Loaded, Source};
+use sph_solver::{Identity, Observer, RunOptions, SolverError, Start, Status, Summary, run};
+
+use crate::arguments::RunArguments;
+use crate::commands::left_behind::{CHECKPOINT, failed_summary, going_on, remedy};
+use crate::commands::{grains, outcome};
+use crate::interrupt;
+use crate::scene_file::{AnyScene, Opened, open};
+use crate::telling::console;
+use crate::telling::progress::Watcher;
+use crate::telling::told::{Ended, Told};
+use crate::telling::trouble::Trouble;
+
+/// Name of the summary in a run's folder.
+const SUMMARY: &str = "summary.json";
+
+/// Runs a scene.
+pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
+    let opened = open(&arguments.scene)?;
+    let out = folder(arguments, &opened);
+    look_before_writing(arguments, &out)?;
+    let start = format!("{}: running into {}", opened.scene.card().0, out.display());
+    let noun = match opened.scene {
+        AnyScene::Particles(_) => "particle",
+        AnyScene::Grains(_) => "grain",
+    };
+    let watcher = Watcher::new(arguments.quiet, start, interrupt::flag());
+    let mut watcher = watcher.counting(noun);
+    let ended = execute(arguments, &opened, &mut watcher);
+    watcher.finish();
+    conclude(arguments, &ended?, &out)
+}
+
+/// The folder of the results.
+pub fn folder(arguments: &RunArguments, opened: &Opened) -> PathBuf {
+    let out = arguments.out.clone();
+    out.unwrap_or_else(|| Path::new("results").join(&opened.stem))
+}
+
+/// Runs an opened scene, of particles or of grains, and says nothing itself.
+pub fn execute(
+    arguments: &RunArguments,
+    opened: &Opened,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Ended, Trouble> {
+    let out = folder(arguments, opened);
+    look_before_writing(arguments, &out)?;
+    match &opened.scene {
+        AnyScene::Particles(loaded) => particles(arguments, loaded, &out, observer),
+        AnyScene::Grains(loaded) => grains::run::execute(arguments, loaded, &out, observer),
+    }
+}
+
+fn particles(
+    arguments: &RunArguments,
+    loaded: &Loaded,
+    out: &Path,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Ended, Trouble> {
+    let located = |error| Trouble::of(error, &loaded.source);
+    let options = RunOptions {
+        out: out.to_path_buf(),
+        start: start(arguments, out)?,
+        threads: arguments.threads.map(usize::from),
+        identity: Identity::of(loaded).map_err(located)?,
+    };
+    let result = run(&loaded.scene, &options, observer);
+    let summary = result.map_err(|error| trouble(error, arguments, &loaded.source, out))?;
+    let stopped = summary.status != Status::Done;
+    Ok(Ended {
+        interrupted: stopped.then_some((summary.simulated_seconds, summary.steps)),
+        told: told(&summary, out),
+    })
+}
+
+fn told(summary: &Summary, out: &Path) -> Told {
+    Told {
+        json: serde_json::to_value(summary).unwrap_or(Json::Null),
+        text: outcome::text(summary, out),
+    }
+}
+
+/// Where the run begins.
+fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
+    let Some(other) = &arguments.from else {
+        return Ok(match (arguments.resume, arguments.changed) {
+            (true, true) => Start::Changed,
+            (true, false) => Start::Resumed,
+            _ => Start::Afresh,
+        });
+    };
+    let file = match other.is_dir() {
+        true => other.join(CHECKPOINT),
+        false => other.clone(),
+    };
+    let real = file.canonicalize().map_err(|_| {
+        Trouble::usage(format!(
+            "there is no checkpoint in {} to start from",
+            other.display()
+        ))
+    })?;
+    let own = out.join(CHECKPOINT).canonicalize();
+    if own.is_ok_and(|own| own == real) {
+        let out = out.display();
+        return Err(Trouble::usage(format!(
+            "{out} would be overwritten, and the run starts from it: name another folder with --out"
+        )));
+    }
+    Ok(Start::From(file))
+}
+
+/// What is refused before the folder is touched.
+fn look_before_writing(arguments: &RunArguments, out: &Path) -> Result<(), Trouble> {
+    if arguments.resume && !out.join(CHECKPOINT).is_file() {
+        return Err(Trouble::usage(format!(
+            "there is no checkpoint in {} to resume from: start without --resume",
+            out.display()
+        )));
+    }
+    Ok(())
+}
+
+fn conclude(arguments: &RunArguments, ended: &Ended, out: &Path) -> Result<(), Trouble> {
+    if arguments.json || !arguments.quiet {
+        ended.told.print(arguments.json);
+    }
+    let Some((time, steps)) = ended.interrupted else {
+        return Ok(());
+    };
+    console::err(&format!(
+        "interrupted at t = {time:.6} s, step {steps}; go on with\n  {}",
+        going_on(arguments, out)
+    ));
+    Err(Trouble::Interrupted)
+}
+
+fn trouble(error: SolverError, arguments: &RunArguments, source: &Source, out: &Path) -> Trouble {
+    let ran = matches!(error, SolverError::Failed(_));
+    let advice = unwritten(&error)
+        .filter(|_| out.join(CHECKPOINT).is_file())
+        .map(|why| {
+            format!(
+                "the last checkpoint stands: {why}, then go on with\n  {}",
+                going_on(arguments, out)
+            )
+        });
+    match Trouble::of(error, source) {
+        Trouble::Failed { error, .. } => Trouble::Failed {
+            error,
+            summary: ran
+                .then(|| failed_summary(&out.join(SUMMARY)))
+                .flatten()
+                .map(Box::new),
+            advice,
+        },
+        other => other,
+    }
+}
+
+/// What is to be done first, if a file could not be written.
+fn unwritten(error: &SolverError) -> Option<&'static str> {
+    match error {
+        SolverError::Io(io) => remedy(io),
+        _ => None,
+    }
+}

@@ -1,0 +1,14 @@
+//! `sph schema`.
+
+use crate::arguments::SchemaArguments;
+use crate::telling::console;
+use crate::telling::trouble::Trouble;
+
+/// Prints the JSON schema of scenes with all plugins of this binary.
+pub fn command(arguments: &SchemaArguments) -> Result<(), Trouble> {
+    match arguments.grains {
+        true => console::json(&dem_scene::editor_schema()),
+        false => console::json(&sph_scene::schema()),
+    }
+    Ok(())
+}

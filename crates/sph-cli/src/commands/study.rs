@@ -1,0 +1,243 @@
+//! `sph study`.
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use serde_json::Value as Json;
+use sph_core::suggestion;
+use sph_study::{Options, Origin, Results, SceneText, Status, Study, compare, execute, rows};
+
+use crate::arguments::StudyArguments;
+use crate::interrupt;
+use crate::scene_file::{Found, allowed, find, overrides};
+use crate::shipped;
+use crate::telling::console;
+use crate::telling::layout::columns;
+use crate::telling::shell::quoted;
+use crate::telling::study_progress::Watcher;
+use crate::telling::told::Told;
+use crate::telling::trouble::Trouble;
+
+/// Most series whose orders are told; the report has all.
+const MOST: usize = 12;
+
+/// Runs a study, or compares two.
+pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
+    if let [first, second] = arguments.compare.as_slice() {
+        return compared(arguments, first, second);
+    }
+    let studied = conduct(arguments, interrupt::flag())?;
+    if arguments.json || !arguments.quiet {
+        studied.told.print(arguments.json);
+    }
+    match studied.going_on {
+        None => Ok(()),
+        Some(kept) => {
+            console::err(&kept);
+            Err(Trouble::Interrupted)
+        }
+    }
+}
+
+/// The end of a study.
+pub struct Studied {
+    /// Its results.
+    pub told: Told,
+    /// What is kept and how to go on, if it stopped before its end.
+    pub going_on: Option<String>,
+}
+
+/// Runs a study until it is done or the flag is raised.
+pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Studied, Trouble> {
+    let name = arguments.study.as_deref().unwrap_or_default();
+    // The data of compiled-in scenes are needed until the last variant has run.
+    let scenes: RefCell<Vec<Found>> = RefCell::default();
+    let study = read(arguments, name, &scenes)?;
+    let out = arguments.out.clone();
+    let out = out.unwrap_or_else(|| Path::new("results/studies").join(&study.name));
+    let options = Options {
+        out: out.clone(),
+        threads: arguments.threads.map(usize::from),
+        fresh: arguments.fresh,
+        origin: Origin::new(env!("SPH_BUILT_WITH")),
+    };
+    let watcher = Watcher::new(arguments.quiet, &study, &options, stop);
+    assemble(&study, &watcher)?;
+    let failed = |error| Trouble::Failed {
+        error,
+        summary: None,
+        advice: None,
+    };
+    let _lock = sph_io::FolderLock::take(&out).map_err(|e| failed(e.into()))?;
+    sph_io::writable(&out).map_err(|e| failed(e.into()))?;
+    sph_io::sweep_temporaries(&out).map_err(|e| failed(e.into()))?;
+    let outcome = execute(&study, &options, &watcher);
+    watcher.finish();
+    let results = Results::new(&study, &outcome.records, options.origin);
+    let published = sph_study::publish(&results, &out);
+    if let Some(error) = outcome.error {
+        console::err(&kept(arguments, name, &outcome.records));
+        return Err(failed(error));
+    }
+    published.map_err(|e| failed(e.into()))?;
+    let records = &outcome.records;
+    Ok(Studied {
+        told: Told {
+            json: serde_json::to_value(&results).unwrap_or(Json::Null),
+            text: text(&results, &out),
+        },
+        going_on: outcome.stopped.then(|| kept(arguments, name, records)),
+    })
+}
+
+fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(), Trouble> {
+    let load = |path| Results::load(path).map_err(Trouble::Usage);
+    let comparison = compare(&load(first)?, &load(second)?);
+    if arguments.json {
+        console::json(&serde_json::to_value(&comparison).unwrap_or(Json::Null));
+        return Ok(());
+    }
+    let mut text = String::new();
+    for note in &comparison.notes {
+        text.push_str(&format!("{note}\n"));
+    }
+    if !comparison.variants.is_empty() {
+        text.push_str(&columns(2, &comparison.rows()));
+    }
+    let sides = [
+        (first, &comparison.only_in_first),
+        (second, &comparison.only_in_second),
+    ];
+    for (path, names) in sides.iter().filter(|(_, names)| !names.is_empty()) {
+        text.push_str(&format!(
+            "only in {}: {}\n",
+            path.display(),
+            names.join(", ")
+        ));
+    }
+    if let Some(ratio) = comparison.wall_ratio {
+        text.push_str(&format!("wall seconds, geometric mean: ×{ratio:.3}\n"));
+    }
+    console::out(&text);
+    Ok(())
+}
+
+/// The study by its path, or by the name of a shipped one.
+fn read(
+    arguments: &StudyArguments,
+    name: &str,
+    scenes: &RefCell<Vec<Found>>,
+) -> Result<Study, Trouble> {
+    let set = overrides(&arguments.set)?;
+    let allowed = allowed(&arguments.allow_path)?;
+    let look = |folder: &Path, name: &str| -> Result<SceneText, String> {
+        let found = find(folder, name, allowed)?;
+        let scene = found.scene.clone();
+        scenes.borrow_mut().push(found);
+        Ok(scene)
+    };
+    let path = Path::new(name);
+    if path.exists() && !path.is_dir() {
+        return Ok(Study::read(path, &look, &set, &arguments.only)?);
+    }
+    let study = shipped::find_study(name).ok_or_else(|| {
+        let near = suggestion(name.trim_end_matches(".toml"), shipped::studies());
+        let known = shipped::studies().collect::<Vec<_>>().join(", ");
+        Trouble::Usage(format!(
+            "there is no study file `{name}` and no shipped study of that name{near} (there are: \
+             {known})"
+        ))
+    })?;
+    let path = study.file.clone();
+    let path = path.unwrap_or_else(|| PathBuf::from(format!("{}.toml", study.name)));
+    Ok(match study.text {
+        None => Study::read(&path, &look, &set, &arguments.only)?,
+        Some(text) => Study::parse(text, &path, &look, &set, &arguments.only)?,
+    })
+}
+
+/// Puts together what is to be run, so that every mistake is known before the first run.
+fn assemble(study: &Study, watcher: &Watcher) -> Result<(), Trouble> {
+    for (k, variant) in study.variants.iter().enumerate() {
+        if watcher.has_to_run(k) {
+            watcher.assembled(k, study.assemble(variant)?);
+        }
+    }
+    Ok(())
+}
+
+fn text(results: &Results, out: &Path) -> String {
+    let pending = |k: usize| {
+        results
+            .variants
+            .get(k)
+            .is_some_and(|v| v.status == Status::Pending)
+    };
+    let all = rows(results).into_iter().enumerate();
+    let along = !results.frontiers.is_empty();
+    let shown = all.filter(|(k, _)| *k == 0 || along || !pending(k - 1));
+    let shown: Vec<Vec<String>> = shown.map(|(_, row)| row).collect();
+    let left = (0..results.variants.len()).filter(|k| pending(*k)).count();
+    let mut text = format!("{}\n{}", results.title, columns(2, &shown));
+    if left > 0 {
+        text.push_str(&format!("{left} variants are pending\n"));
+    }
+    let few = if results.series.len() > MOST { 0 } else { MOST };
+    for series in results.series.iter().take(few) {
+        let orders = series
+            .orders
+            .get(results.errors.first().map_or("", String::as_str));
+        if let Some(order) = orders.and_then(sph_study::Orders::main) {
+            let of = match series.name.as_str() {
+                "" => String::new(),
+                name => format!(" of {name}"),
+            };
+            text.push_str(&format!("order{of}: {order:.2}\n"));
+        }
+    }
+    for line in results.scale.iter().flat_map(sph_study::Scale::lines) {
+        text.push_str(&format!("{line}\n"));
+    }
+    text.push_str(&format!("on {}\n", results.origin.machine));
+    text.push_str(&format!(
+        "written to {}: report.html shows all of it\n",
+        out.display()
+    ));
+    text
+}
+
+/// What has been done, and how to go on.
+fn kept(arguments: &StudyArguments, name: &str, records: &[sph_study::Record]) -> String {
+    let over = |r: &&sph_study::Record| !matches!(r.status, Status::Pending | Status::Interrupted);
+    format!(
+        "{} of {} variants are finished and kept; go on with\n  {}",
+        records.iter().filter(over).count(),
+        records.len(),
+        going_on(arguments, name)
+    )
+}
+
+fn going_on(arguments: &StudyArguments, name: &str) -> String {
+    let mut words = vec!["sph".to_string(), "study".to_string(), quoted(name)];
+    let mut with = |option: &str, value: &str| {
+        words.extend([option.to_string(), quoted(value)]);
+    };
+    if let Some(out) = &arguments.out {
+        with("--out", &out.display().to_string());
+    }
+    if let Some(threads) = arguments.threads {
+        with("--threads", &threads.to_string());
+    }
+    for pattern in &arguments.only {
+        with("--only", pattern);
+    }
+    for set in &arguments.set {
+        with("--set", set);
+    }
+    for folder in &arguments.allow_path {
+        with("--allow-path", &folder.display().to_string());
+    }
+    words.join(" ")
+}

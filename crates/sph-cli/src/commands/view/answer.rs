@@ -1,0 +1,165 @@
+//! What a browser gets.
+
+use std::path::Path;
+
+use super::state;
+
+const PAGE: &str = include_str!("../../../templates/view.html");
+
+/// An answer.
+pub struct Answer {
+    /// Number and word.
+    pub status: &'static str,
+    /// MIME type.
+    pub kind: &'static str,
+    /// Content.
+    pub body: Vec<u8>,
+}
+
+/// Kinds of files of a run that are shown.
+const KINDS: [(&str, &str); 6] = [
+    ("png", "image/png"),
+    ("gif", "image/gif"),
+    ("svg", "image/svg+xml"),
+    ("csv", "text/csv; charset=utf-8"),
+    ("json", "application/json"),
+    ("html", "text/html; charset=utf-8"),
+];
+
+fn refused(status: &'static str) -> Answer {
+    Answer {
+        status,
+        kind: "text/plain; charset=utf-8",
+        body: format!("{status}\n").into_bytes(),
+    }
+}
+
+/// The answer to a request with this head.
+///
+/// Only names of this machine are answered: a page from elsewhere whose name leads here learns nothing.
+pub fn answer(head: &str, folder: &Path, port: u16) -> Answer {
+    let mut lines = head.lines();
+    let mut words = lines.next().unwrap_or_default().split(' ');
+    let (method, target) = (
+        words.next().unwrap_or_default(),
+        words.next().unwrap_or_default(),
+    );
+    if !["GET", "HEAD"].contains(&method) {
+        return refused("405 Method Not Allowed");
+    }
+    let host = lines.find_map(|line| {
+        let (name, value) = line.split_once(':')?;
+        name.eq_ignore_ascii_case("host").then_some(value.trim())
+    });
+    let own = [format!("127.0.0.1:{port}"), format!("localhost:{port}")];
+    if !host.is_some_and(|host| own.iter().any(|own| own == host)) {
+        return refused("403 Forbidden");
+    }
+    let path = target.split(['?', '#']).next().unwrap_or_default();
+    match path {
+        "/" => Answer {
+            status: "200 OK",
+            kind: "text/html; charset=utf-8",
+            body: PAGE.as_bytes().to_vec(),
+        },
+        "/state.json" => Answer {
+            status: "200 OK",
+            kind: "application/json",
+            body: state::of(folder).to_string().into_bytes(),
+        },
+        path => file(path, folder),
+    }
+}
+
+/// A file of the folder, links followed and still within it.
+fn file(path: &str, folder: &Path) -> Answer {
+    let Some(name) = path.strip_prefix("/files/").and_then(decoded) else {
+        return refused("404 Not Found");
+    };
+    let kind = KINDS
+        .iter()
+        .find(|(extension, _)| name.ends_with(&format!(".{extension}")));
+    let real = folder.join(&name).canonicalize().ok();
+    let inside = real.filter(|real| real.starts_with(folder));
+    let (Some((_, kind)), Some(real)) = (kind, inside) else {
+        return refused("404 Not Found");
+    };
+    match std::fs::read(real) {
+        Ok(body) => Answer {
+            status: "200 OK",
+            kind,
+            body,
+        },
+        Err(_) => refused("404 Not Found"),
+    }
+}
+
+/// A path with `%20` and the like as characters.
+fn decoded(path: &str) -> Option<String> {
+    let mut bytes = Vec::new();
+    let mut rest = path.bytes();
+    while let Some(byte) = rest.next() {
+        bytes.push(match byte {
+            b'%' => {
+                let digits = [rest.next()?, rest.next()?];
+                u8::from_str_radix(std::str::from_utf8(&digits).ok()?, 16).ok()?
+            }
+            byte => byte,
+        });
+    }
+    String::from_utf8(bytes).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_browser_gets_files_of_the_folder_and_no_others() {
+        let outer = sph_io::Scratch::new(".sph-view-").expect("a folder");
+        let folder = outer.path().join("results");
+        std::fs::create_dir_all(folder.join("pictures")).expect("a folder");
+        std::fs::write(folder.join("pictures/a b_0000.png"), b"png").expect("a file");
+        std::fs::write(folder.join("checkpoint.sph"), b"state").expect("a file");
+        std::fs::write(outer.path().join("secret.json"), b"{}").expect("a file");
+        let folder = folder.canonicalize().expect("there");
+        let get = |target: &str, host: &str| {
+            let head = format!("GET {target} HTTP/1.1\r\nHost: {host}\r\n\r\n");
+            let answer = answer(&head, &folder, 8377);
+            (
+                answer.status.split(' ').next().unwrap_or_default(),
+                answer.body,
+            )
+        };
+        let own = "127.0.0.1:8377";
+        assert_eq!(get("/", own).0, "200");
+        assert_eq!(
+            get("/files/pictures/a%20b_0000.png?t=1", own),
+            ("200", b"png".to_vec())
+        );
+        let state = String::from_utf8(get("/state.json", own).1).expect("text");
+        assert!(state.contains("a b"), "{state}");
+        for target in [
+            "/files/../secret.json",
+            "/files/%2e%2e/secret.json",
+            "/files//etc/hostname.json",
+            "/files/checkpoint.sph",
+            "/files/%zz.png",
+            "/files/gone.png",
+            "/secret.json",
+            "",
+        ] {
+            assert_eq!(get(target, own).0, "404", "{target}");
+        }
+        assert_eq!(get("/", "evil.example:8377").0, "403");
+        assert_eq!(get("/", "localhost:8377").0, "200");
+        assert_eq!(
+            answer("GET / HTTP/1.1\r\n\r\n", &folder, 8377).status,
+            "403 Forbidden"
+        );
+        assert_eq!(
+            answer("POST / HTTP/1.1\r\n", &folder, 8377).status,
+            "405 Method Not Allowed"
+        );
+    }
+}

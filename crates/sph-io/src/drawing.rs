@@ -1,0 +1,18 @@
+//! Pictures and plots: canvas, axes, marks, colours, legends.
+
+pub mod animation;
+pub mod axes;
+pub mod canvas;
+pub mod colour;
+pub mod colour_bar;
+pub mod drawn_series;
+pub mod extent;
+pub mod legend;
+pub mod mark;
+pub mod panels;
+pub mod picture;
+pub mod plot;
+pub mod surface;
+pub mod svg;
+pub mod text;
+pub mod ticks;

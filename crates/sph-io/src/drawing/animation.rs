@@ -1,0 +1,142 @@
+//! Pictures one after the other as an animated GIF.
+
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use gif::{Encoder, Frame, Repeat};
+use tiny_skia::Pixmap;
+
+use crate::error::{IoError, Result};
+use crate::files::atomic::{Durability, write_atomic};
+
+/// Every tenth pixel is looked at for the 256 colours of a frame.
+const SPEED: i32 = 10;
+/// The last picture stands for so long, hundredths of a second.
+const LAST: u16 = 150;
+
+/// Writes the PNG `pictures` to `path` as a GIF that begins again after its end, all or nothing.
+///
+/// Every frame has 256 colours of its own. Pictures that are smaller than the largest stand in the upper left corner, on
+/// white. Delays are whole hundredths of a second.
+///
+/// # Errors
+/// No picture at all, one that cannot be read, a file that cannot be written.
+pub fn write_gif(
+    path: impl AsRef<Path>,
+    pictures: &[PathBuf],
+    frames_per_second: f64,
+) -> Result<()> {
+    let path = path.as_ref();
+    let refuse = |problem: String| IoError::input(path, problem);
+    let mut sides = [0; 2];
+    for picture in pictures {
+        let map = read(picture)?;
+        sides = [sides[0].max(map.width()), sides[1].max(map.height())];
+    }
+    let side = |n: u32| u16::try_from(n).map_err(|_| refuse(format!("{n} pixels are too many")));
+    let (width, height) = (side(sides[0])?, side(sides[1])?);
+    if width == 0 || height == 0 {
+        return Err(refuse("there is no picture".into()));
+    }
+    let delay = (100.0 / frames_per_second).round().clamp(2.0, 6000.0) as u16;
+    write_atomic(path, Durability::Process, |file| {
+        let wrong = std::io::Error::other::<gif::EncodingError>;
+        let mut encoder = Encoder::new(BufWriter::new(file), width, height, &[]).map_err(wrong)?;
+        encoder.set_repeat(Repeat::Infinite).map_err(wrong)?;
+        for (k, picture) in pictures.iter().enumerate() {
+            let map = read(picture).map_err(std::io::Error::other)?;
+            let mut pixels = on_white(&map, usize::from(width), usize::from(height));
+            let mut frame = Frame::from_rgba_speed(width, height, &mut pixels, SPEED);
+            frame.delay = match k + 1 == pictures.len() {
+                true => delay.max(LAST),
+                false => delay,
+            };
+            encoder.write_frame(&frame).map_err(wrong)?;
+        }
+        Ok(())
+    })
+}
+
+/// The bytes of a picture on a larger white one. Pictures are opaque, so that what is multiplied with opacity is what
+/// it was.
+fn on_white(map: &Pixmap, width: usize, height: usize) -> Vec<u8> {
+    let mut pixels = vec![255; 4 * width * height];
+    let row = 4 * map.width() as usize;
+    let lines = pixels.chunks_exact_mut(4 * width);
+    for (line, drawn) in lines.zip(map.data().chunks_exact(row)) {
+        line[..row].copy_from_slice(drawn);
+    }
+    pixels
+}
+
+fn read(path: &Path) -> Result<Pixmap> {
+    let bytes = std::fs::read(path).map_err(|e| IoError::read(path, e))?;
+    Pixmap::decode_png(&bytes).map_err(|e| IoError::Unfit {
+        path: path.to_path_buf(),
+        problem: format!("it is no picture: {e}"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_come_back_with_their_size_order_and_delays() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut pictures = Vec::new();
+        for (k, colour) in [[255, 0, 0], [0, 255, 0], [0, 0, 255]]
+            .into_iter()
+            .enumerate()
+        {
+            let [r, g, b] = colour;
+            let mut map = Pixmap::new(30, 20).expect("a map");
+            map.fill(tiny_skia::Color::from_rgba8(r, g, b, 255));
+            let path = folder.path().join(format!("{k}.png"));
+            map.save_png(&path).expect("saved");
+            pictures.push(path);
+        }
+        let path = folder.path().join("a.gif");
+        write_gif(&path, &pictures, 12.5).expect("written");
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::RGBA);
+        let mut decoder = options
+            .read_info(std::fs::File::open(&path).expect("there"))
+            .expect("a GIF");
+        assert_eq!((decoder.width(), decoder.height()), (30, 20));
+        let mut seen = Vec::new();
+        while let Some(frame) = decoder.read_next_frame().expect("a frame") {
+            seen.push((frame.delay, [0, 1, 2].map(|c| frame.buffer[c] > 127)));
+        }
+        let [t, f] = [true, false];
+        assert_eq!(seen, [(8, [t, f, f]), (8, [f, t, f]), (LAST, [f, f, t])]);
+    }
+
+    #[test]
+    fn smaller_pictures_stand_on_white_and_nothing_is_written_of_what_is_none() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut pictures = Vec::new();
+        for (k, width) in [30, 20].into_iter().enumerate() {
+            let path = folder.path().join(format!("{k}.png"));
+            let mut map = Pixmap::new(width, 20).expect("a map");
+            map.fill(tiny_skia::Color::BLACK);
+            map.save_png(&path).expect("saved");
+            pictures.push(path);
+        }
+        let path = folder.path().join("a.gif");
+        write_gif(&path, &pictures, 10.0).expect("written");
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::RGBA);
+        let file = std::fs::File::open(&path).expect("there");
+        let mut decoder = options.read_info(file).expect("a GIF");
+        let mut last = |column: usize| {
+            let frame = decoder.read_next_frame().expect("read").expect("a frame");
+            [frame.buffer[0], frame.buffer[4 * column]]
+        };
+        assert_eq!((last(29), last(29)), ([0, 0], [0, 255]));
+        std::fs::remove_file(&path).expect("there");
+        assert!(write_gif(&path, &[], 10.0).is_err());
+        assert!(write_gif(&path, &[folder.path().join("gone.png")], 10.0).is_err());
+        assert!(!path.exists());
+    }
+}

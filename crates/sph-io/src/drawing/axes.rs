@@ -1,0 +1,162 @@
+//! A frame with ticks: the part that pictures and plots have in common.
+
+use crate::drawing::colour::Colour;
+use crate::drawing::surface::{Anchor, Lettering, Pen, Rect, Spot, Surface};
+use crate::drawing::text;
+use crate::drawing::ticks::{self, Ticks};
+
+/// One direction of a frame.
+#[derive(Clone, Debug)]
+pub(crate) struct Axis {
+    pub(crate) lo: f64,
+    pub(crate) hi: f64,
+    pub(crate) log: bool,
+    pub(crate) label: String,
+}
+
+impl Axis {
+    /// Where `value` is between the ends, from 0 to 1.
+    pub(crate) fn place(&self, value: f64) -> f64 {
+        if self.log {
+            (value / self.lo).ln() / (self.hi / self.lo).ln()
+        } else {
+            (value - self.lo) / (self.hi - self.lo)
+        }
+    }
+
+    pub(crate) fn ticks(&self, wanted: usize) -> Ticks {
+        if self.log {
+            ticks::logarithmic(self.lo, self.hi, wanted)
+        } else {
+            ticks::linear(self.lo, self.hi, wanted)
+        }
+    }
+}
+
+/// Two axes around a rectangle.
+#[derive(Clone, Debug)]
+pub(crate) struct Axes {
+    pub(crate) frame: Rect,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    /// Font size of the tick labels in pixels; all lengths go with it.
+    pub(crate) size: f64,
+    pub(crate) grid: bool,
+}
+
+impl Axes {
+    /// The spot of the point (`x`, `y`) in axis units.
+    pub(crate) fn spot(&self, x: f64, y: f64) -> Spot {
+        let f = &self.frame;
+        [
+            f.left + self.x.place(x) * f.width(),
+            f.bottom - self.y.place(y) * f.height(),
+        ]
+    }
+
+    /// Ticks of the horizontal axis, as many as the width takes.
+    fn x_ticks(&self) -> Ticks {
+        self.x
+            .ticks(ticks_within(self.frame.width() / (6.5 * self.size)))
+    }
+
+    /// Ticks of the vertical axis, as many as the height takes.
+    fn y_ticks(&self) -> Ticks {
+        y_ticks(&self.y, self.frame.height(), self.size)
+    }
+
+    /// Grid lines, to be drawn below the content.
+    pub(crate) fn draw_grid(&self, on: &mut dyn Surface) {
+        if !self.grid {
+            return;
+        }
+        let pen = Pen::solid(Colour::FAINT, self.size / 18.0);
+        let f = self.frame;
+        for (x, _) in &self.x_ticks().major {
+            let at = crisp(self.spot(*x, self.y.lo)[0]);
+            on.line(&[[at, f.top], [at, f.bottom]], pen);
+        }
+        for (y, _) in &self.y_ticks().major {
+            let at = crisp(self.spot(self.x.lo, *y)[1]);
+            on.line(&[[f.left, at], [f.right, at]], pen);
+        }
+    }
+
+    /// Frame, ticks and labels, to be drawn above the content.
+    pub(crate) fn draw(&self, on: &mut dyn Surface) {
+        let (f, size) = (self.frame, self.size);
+        let pen = Pen::solid(Colour::INK, size / 16.0);
+        let [a, b, c, d] = f.corners().map(|[x, y]| [crisp(x), crisp(y)]);
+        on.line(&[a, b, c, d, a], pen);
+        let mark = |major: bool| size * if major { 0.35 } else { 0.2 };
+        let middle = Lettering::new(size, Anchor::Middle);
+        let end = Lettering::new(size, Anchor::End);
+
+        let ticks = self.x_ticks();
+        for (x, label) in &ticks.major {
+            let at = crisp(self.spot(*x, self.y.lo)[0]);
+            on.line(&[[at, f.bottom], [at, f.bottom + mark(true)]], pen);
+            on.text([at, f.bottom + 1.5 * size], label, middle);
+        }
+        for x in &ticks.minor {
+            let at = crisp(self.spot(*x, self.y.lo)[0]);
+            on.line(&[[at, f.bottom], [at, f.bottom + mark(false)]], pen);
+        }
+        let below = f.bottom + 2.85 * size;
+        let centre = [(f.left + f.right) / 2.0, below];
+        on.text(centre, &self.x.label, middle);
+        if let Some(factor) = &ticks.factor {
+            on.text([f.right, below], factor, end);
+        }
+
+        let ticks = self.y_ticks();
+        for (y, label) in &ticks.major {
+            let at = crisp(self.spot(self.x.lo, *y)[1]);
+            on.line(&[[f.left - mark(true), at], [f.left, at]], pen);
+            on.text([f.left - 0.55 * size, at + 0.36 * size], label, end);
+        }
+        for y in &ticks.minor {
+            let at = crisp(self.spot(self.x.lo, *y)[1]);
+            on.line(&[[f.left - mark(false), at], [f.left, at]], pen);
+        }
+        let left = f.left - label_room(&ticks, size) + 1.2 * size;
+        let upwards = Lettering {
+            upwards: true,
+            ..middle
+        };
+        on.text([left, (f.top + f.bottom) / 2.0], &self.y.label, upwards);
+        if let Some(factor) = &ticks.factor {
+            on.text([f.left, f.top - 0.45 * size], factor, middle);
+        }
+    }
+}
+
+/// Pixels that the tick labels and the label of a vertical axis take.
+pub(crate) fn left_room(axis: &Axis, height: f64, size: f64) -> f64 {
+    label_room(&y_ticks(axis, height, size), size)
+}
+
+fn label_room(ticks: &Ticks, size: f64) -> f64 {
+    let widths = ticks.major.iter().map(|(_, l)| text::width(l, size));
+    widths.fold(0.0, f64::max) + 2.4 * size
+}
+
+fn y_ticks(axis: &Axis, height: f64, size: f64) -> Ticks {
+    axis.ticks(ticks_within(height / (3.6 * size)))
+}
+
+/// A number of ticks for which there is room, but no more than are useful.
+fn ticks_within(room: f64) -> usize {
+    room.clamp(2.0, 9.0) as usize
+}
+
+/// The middle of the pixel that holds `x`, where thin lines stay sharp.
+pub(crate) fn crisp(x: f64) -> f64 {
+    x.floor() + 0.5
+}
+
+/// Whether an axis can show `value`.
+pub(crate) fn shown(value: f64, log: bool) -> bool {
+    // Beyond these bounds a range may overflow.
+    value.is_finite() && value.abs() < 1e150 && (!log || value > 1e-150)
+}

@@ -1,0 +1,192 @@
+//! Pixels: a surface that becomes a PNG file.
+
+use std::path::Path;
+
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, StrokeDash, Transform,
+};
+
+use crate::drawing::colour::Colour;
+use crate::drawing::surface::{Anchor, Fill, Lettering, Pen, Rect, Spot, Surface};
+use crate::drawing::text;
+use crate::error::{IoError, Result};
+use crate::files::atomic::{Durability, write_atomic};
+
+/// Sides in pixels that a picture may have.
+pub(crate) const SIDES: std::ops::RangeInclusive<u32> = 200..=8192;
+
+/// An opaque image, white at first.
+pub(crate) struct Canvas {
+    map: Pixmap,
+}
+
+impl Canvas {
+    /// A canvas of `width` by `height` pixels, both within [`SIDES`].
+    pub(crate) fn new(width: u32, height: u32) -> Option<Self> {
+        let side = |s: u32| s.clamp(*SIDES.start(), *SIDES.end());
+        let mut map = Pixmap::new(side(width), side(height))?;
+        map.fill(Color::WHITE);
+        Some(Self { map })
+    }
+
+    /// Writes the image to `path`, all or nothing.
+    pub(crate) fn save(&self, path: &Path) -> Result<()> {
+        let png = self.map.encode_png();
+        let png = png.map_err(|e| IoError::write(path, std::io::Error::other(e)))?;
+        write_atomic(path, Durability::Process, |file| file.write_all(&png))
+    }
+
+    /// A filled circle, leaving out what is not inside `clip`.
+    pub(crate) fn clipped_disc(&mut self, [x, y]: Spot, radius: f64, fill: Fill, clip: &Rect) {
+        // A disc smaller than a pixel is a fainter pixel.
+        let drawn = radius.max(0.6);
+        let opacity = fill.opacity * (radius / drawn).powi(2);
+        let reach = drawn + 0.5;
+        let (width, height) = (self.map.width(), self.map.height());
+        let span = |at: f64, lo: f64, hi: f64, side: u32| {
+            let from = (at - reach).max(lo).floor().clamp(0.0, f64::from(side));
+            let to = (at + reach).min(hi).ceil().clamp(0.0, f64::from(side));
+            from as usize..to as usize
+        };
+        let columns = span(x, clip.left, clip.right, width);
+        let solid = (drawn - 0.5).max(0.0).powi(2);
+        let data = self.map.data_mut();
+        for j in span(y, clip.top, clip.bottom, height) {
+            let dy = j as f64 + 0.5 - y;
+            for i in columns.clone() {
+                let dx = i as f64 + 0.5 - x;
+                let square = dx * dx + dy * dy;
+                let cover = if square <= solid {
+                    1.0
+                } else {
+                    reach - square.sqrt()
+                };
+                if cover > 0.0 {
+                    let at = 4 * (j * width as usize + i);
+                    blend(&mut data[at..at + 3], fill.colour, cover.min(1.0) * opacity);
+                }
+            }
+        }
+    }
+
+    /// Fills whole pixels.
+    pub(crate) fn block(&mut self, rect: Rect, colour: Colour) {
+        let (width, height) = (self.map.width(), self.map.height());
+        let span = |from: f64, to: f64, side: u32| {
+            let end = f64::from(side);
+            from.round().clamp(0.0, end) as usize..to.round().clamp(0.0, end) as usize
+        };
+        let columns = span(rect.left, rect.right, width);
+        let data = self.map.data_mut();
+        for j in span(rect.top, rect.bottom, height) {
+            for i in columns.clone() {
+                let at = 4 * (j * width as usize + i);
+                blend(&mut data[at..at + 3], colour, 1.0);
+            }
+        }
+    }
+
+    /// The whole image.
+    pub(crate) fn bounds(&self) -> Rect {
+        Rect {
+            left: 0.0,
+            top: 0.0,
+            right: f64::from(self.map.width()),
+            bottom: f64::from(self.map.height()),
+        }
+    }
+}
+
+impl Surface for Canvas {
+    fn line(&mut self, points: &[Spot], pen: Pen) {
+        let Some(path) = path(points, false) else {
+            return;
+        };
+        let width = pen.width as f32;
+        let dash = StrokeDash::new(vec![4.0 * width, 2.5 * width], 0.0);
+        let stroke = Stroke {
+            width,
+            line_cap: LineCap::Butt,
+            line_join: LineJoin::Round,
+            dash: dash.filter(|_| pen.dashed),
+            ..Stroke::default()
+        };
+        let paint = paint(Fill::solid(pen.colour));
+        self.map
+            .stroke_path(&path, &paint, &stroke, Transform::identity(), None);
+    }
+
+    fn area(&mut self, outline: &[Spot], fill: Fill) {
+        if let Some(path) = path(outline, true) {
+            let rule = FillRule::Winding;
+            self.map
+                .fill_path(&path, &paint(fill), rule, Transform::identity(), None);
+        }
+    }
+
+    fn disc(&mut self, centre: Spot, radius: f64, fill: Fill) {
+        let bounds = self.bounds();
+        self.clipped_disc(centre, radius, fill, &bounds);
+    }
+
+    fn text(&mut self, at: Spot, text: &str, lettering: Lettering) {
+        let share = match lettering.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => 0.5,
+            Anchor::End => 1.0,
+        };
+        let back = share * text::width(text, lettering.size);
+        let (x, y) = if lettering.upwards {
+            (at[0], at[1] + back)
+        } else {
+            (at[0] - back, at[1])
+        };
+        let (x, y) = (x.round() as i32, y.round() as i32);
+        let (width, height) = (self.map.width() as i32, self.map.height() as i32);
+        let data = self.map.data_mut();
+        text::pixels(text, lettering.size, |right, down, cover| {
+            let (i, j) = if lettering.upwards {
+                (x + down, y - right)
+            } else {
+                (x + right, y + down)
+            };
+            if (0..width).contains(&i) && (0..height).contains(&j) {
+                let at = 4 * (j as usize * width as usize + i as usize);
+                blend(&mut data[at..at + 3], Colour::INK, f64::from(cover));
+            }
+        });
+    }
+}
+
+fn path(points: &[Spot], closed: bool) -> Option<tiny_skia::Path> {
+    let mut builder = PathBuilder::new();
+    let (first, rest) = points.split_first()?;
+    builder.move_to(first[0] as f32, first[1] as f32);
+    for p in rest {
+        builder.line_to(p[0] as f32, p[1] as f32);
+    }
+    if closed {
+        builder.close();
+    }
+    builder.finish()
+}
+
+fn paint(fill: Fill) -> Paint<'static> {
+    let mut paint = Paint {
+        anti_alias: true,
+        ..Paint::default()
+    };
+    let [r, g, b] = fill.colour.0;
+    let alpha = (fill.opacity.clamp(0.0, 1.0) * 255.0).round() as u8;
+    paint.set_color_rgba8(r, g, b, alpha);
+    paint
+}
+
+/// Mixes `colour` into an opaque pixel.
+fn blend(pixel: &mut [u8], Colour(colour): Colour, cover: f64) {
+    let part = (cover * 256.0) as u32;
+    for (old, new) in pixel.iter_mut().zip(colour) {
+        let mixed = u32::from(*old) * (256 - part) + u32::from(new) * part;
+        *old = (mixed >> 8) as u8;
+    }
+}

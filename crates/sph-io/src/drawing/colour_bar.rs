@@ -1,0 +1,129 @@
+//! The scale beside a picture that says which colour is which number.
+
+use crate::drawing::axes::crisp;
+use crate::drawing::canvas::Canvas;
+use crate::drawing::colour::{Colour, ColourMap};
+use crate::drawing::surface::{Anchor, Fill, Lettering, Pen, Rect, Surface};
+use crate::drawing::text;
+use crate::drawing::ticks::{Ticks, linear};
+
+/// A vertical colour scale with ticks and a label.
+pub(crate) struct ColourBar<'a> {
+    range: [f64; 2],
+    colours: ColourMap,
+    label: &'a str,
+    /// Whether values lie below and above the range: pointed ends.
+    beyond: [bool; 2],
+    size: f64,
+}
+
+impl<'a> ColourBar<'a> {
+    pub(crate) fn new(
+        range: [f64; 2],
+        colours: ColourMap,
+        label: &'a str,
+        beyond: [bool; 2],
+        size: f64,
+    ) -> Self {
+        Self {
+            range,
+            colours,
+            label,
+            beyond,
+            size,
+        }
+    }
+
+    /// Pixels that the bar takes to the right of the frame.
+    pub(crate) fn room(&self) -> f64 {
+        // With the most ticks it can have; fewer are never wider.
+        let size = self.size;
+        let label = if self.label.is_empty() { 0.6 } else { 2.2 };
+        2.6 * size + self.labels_width(&self.ticks(f64::INFINITY)) + label * size
+    }
+
+    /// Draws the bar beside `frame`, as high as that.
+    pub(crate) fn draw(&self, on: &mut Canvas, frame: &Rect) {
+        let size = self.size;
+        let bar = Rect {
+            left: crisp(frame.right + size) - 0.5,
+            right: crisp(frame.right + 2.1 * size) - 0.5,
+            top: crisp(frame.top) + if self.beyond[1] { 0.9 * size } else { 0.0 },
+            bottom: crisp(frame.bottom) - if self.beyond[0] { 0.9 * size } else { 0.0 },
+        };
+        let rows = bar.height().round() as usize;
+        for row in 0..rows {
+            let top = bar.top + row as f64;
+            let at = 1.0 - (row as f64 + 0.5) / rows as f64;
+            let strip = Rect {
+                top,
+                bottom: top + 1.0,
+                ..bar
+            };
+            on.block(strip, self.colours.at(at));
+        }
+        self.draw_outline(on, &bar);
+
+        let [lo, hi] = self.range;
+        let pen = Pen::solid(Colour::INK, size / 16.0);
+        let start = Lettering::new(size, Anchor::Start);
+        let ticks = self.ticks(frame.height());
+        for (value, label) in &ticks.major {
+            let at = crisp(bar.bottom - (value - lo) / (hi - lo) * bar.height());
+            on.line(&[[bar.right, at], [bar.right + 0.3 * size, at]], pen);
+            on.text([bar.right + 0.5 * size, at + 0.36 * size], label, start);
+        }
+        if let Some(factor) = &ticks.factor {
+            on.text([bar.left, frame.top - 0.5 * size], factor, start);
+        }
+        let upwards = Lettering {
+            upwards: true,
+            ..Lettering::new(size, Anchor::Middle)
+        };
+        let right = bar.right + self.labels_width(&ticks) + 1.75 * size;
+        let middle = (frame.top + frame.bottom) / 2.0;
+        on.text([right, middle], self.label, upwards);
+    }
+
+    /// Pointed ends where values lie beyond, and the line around it all.
+    fn draw_outline(&self, on: &mut Canvas, bar: &Rect) {
+        let tip = 0.9 * self.size;
+        let middle = (bar.left + bar.right) / 2.0;
+        let [a, b, c, d] = bar.corners();
+        // One pixel into the bar, so that no seam shows.
+        let [a1, b1, c1, d1] = Rect {
+            top: bar.top + 1.0,
+            bottom: bar.bottom - 1.0,
+            ..*bar
+        }
+        .corners();
+        let below = [middle, bar.bottom + tip];
+        let above = [middle, bar.top - tip];
+        let mut outline = vec![a];
+        if self.beyond[1] {
+            on.area(&[a1, a, above, b, b1], Fill::solid(self.colours.at(1.0)));
+            outline.push(above);
+        }
+        outline.extend([b, c]);
+        if self.beyond[0] {
+            on.area(&[d1, d, below, c, c1], Fill::solid(self.colours.at(0.0)));
+            outline.push(below);
+        }
+        outline.extend([d, a]);
+        on.line(&outline, Pen::solid(Colour::INK, self.size / 16.0));
+    }
+
+    fn ticks(&self, height: f64) -> Ticks {
+        let [lo, hi] = self.range;
+        linear(
+            lo,
+            hi,
+            (height / (3.2 * self.size)).clamp(2.0, 7.0) as usize,
+        )
+    }
+
+    fn labels_width(&self, ticks: &Ticks) -> f64 {
+        let widths = ticks.major.iter().map(|(_, l)| text::width(l, self.size));
+        widths.fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,95 @@
+//! What part of the plane a picture shows.
+
+use crate::drawing::surface::Spot;
+use crate::drawing::ticks::widened;
+
+/// The least box around some spots.
+#[derive(Clone, Copy)]
+struct Extent {
+    lo: Spot,
+    hi: Spot,
+}
+
+impl Extent {
+    fn around(spots: impl Iterator<Item = Spot>) -> Option<Self> {
+        // Beyond this a difference might not be finite.
+        let sane = |s: &Spot| s.iter().all(|x| x.abs() < 1e150);
+        let point = |at| Self { lo: at, hi: at };
+        spots.filter(sane).map(point).reduce(Self::joined)
+    }
+
+    fn joined(self, other: Self) -> Self {
+        Self {
+            lo: [0, 1].map(|i| self.lo[i].min(other.lo[i])),
+            hi: [0, 1].map(|i| self.hi[i].max(other.hi[i])),
+        }
+    }
+
+    fn grown(self, by: f64) -> Self {
+        Self {
+            lo: self.lo.map(|x| x - by),
+            hi: self.hi.map(|x| x + by),
+        }
+    }
+
+    fn within(self, other: Self) -> Self {
+        Self {
+            lo: [0, 1].map(|i| self.lo[i].clamp(other.lo[i], other.hi[i])),
+            hi: [0, 1].map(|i| self.hi[i].clamp(other.lo[i], other.hi[i])),
+        }
+    }
+
+    fn largest_side(self) -> f64 {
+        (self.hi[0] - self.lo[0]).max(self.hi[1] - self.lo[1])
+    }
+}
+
+/// The horizontal and vertical extent of particles of `diameter` and walls.
+///
+/// Where there are walls, particles that escaped by more than a quarter of
+/// their extent do not shrink the rest of the picture.
+pub(crate) fn window(
+    points: impl Iterator<Item = Spot>,
+    walls: impl Iterator<Item = Spot>,
+    diameter: f64,
+) -> [[f64; 2]; 2] {
+    let points = Extent::around(points).map(|e| e.grown(diameter / 2.0));
+    let walls = Extent::around(walls);
+    let all = match (points, walls) {
+        (Some(points), Some(walls)) => {
+            let near = walls.grown(walls.largest_side() / 4.0 + diameter);
+            walls.joined(points.within(near))
+        }
+        (Some(one), None) | (None, Some(one)) => one,
+        (None, None) => Extent {
+            lo: [0.0; 2],
+            hi: [1.0; 2],
+        },
+    };
+    let all = all.grown(0.02 * all.largest_side());
+    [0, 1].map(|i| widened(all.lo[i], all.hi[i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_escaped_particle_does_not_shrink_the_tank() {
+        let walls = [[0.0, 0.0], [1.0, 0.0]];
+        let points = [[0.5, 0.5], [0.5, 1e6], [f64::NAN, 0.0]];
+        let [x, y] = window(points.into_iter(), walls.into_iter(), 0.1);
+        assert!(x[0] < 0.0 && x[0] > -0.1 && x[1] < 1.1, "{x:?}");
+        assert!(y[1] < 0.5, "{y:?}");
+    }
+
+    #[test]
+    fn nothing_at_all_still_has_an_extent() {
+        let none = || std::iter::empty();
+        let [x, y] = window(none(), none(), 0.0);
+        assert!(x[0] < x[1] && y[0] < y[1]);
+        let one = [[3.0, 3.0]];
+        let [x, _] = window(one.into_iter(), none(), 0.0);
+        assert!(x[0] < 3.0 && x[1] > 3.0);
+    }
+}

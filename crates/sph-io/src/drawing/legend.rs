@@ -1,0 +1,98 @@
+//! Which series is which, in the corner where it hides least.
+
+use crate::drawing::axes::Axes;
+use crate::drawing::colour::Colour;
+use crate::drawing::drawn_series::Style;
+use crate::drawing::mark::Mark;
+use crate::drawing::surface::{Anchor, Fill, Lettering, Pen, Rect, Spot, Surface};
+use crate::drawing::text;
+
+/// Names and samples of the series that have a name.
+pub(crate) struct Legend<'a> {
+    marks: Vec<&'a Mark<'a>>,
+    place: Rect,
+    size: f64,
+}
+
+impl<'a> Legend<'a> {
+    pub(crate) fn new(marks: &'a [Mark<'a>], axes: &Axes) -> Self {
+        let size = 0.92 * axes.size;
+        let named = marks.iter().filter(|m| m.is_named());
+        let named: Vec<&Mark> = named.collect();
+        let widths = named.iter().map(|m| text::width(&m.series.name, size));
+        let width = widths.fold(0.0, f64::max) + 4.2 * size;
+        let height = (1.45 * named.len() as f64 + 0.5) * size;
+        // Rather what is grey than what the legend names.
+        let spots = |named: bool| visited(marks.iter().filter(|m| m.is_named() == named), axes);
+        let spots = [true, false].map(spots);
+        let under = |place: &Rect, k: usize| spots[k].iter().filter(|&&s| place.holds(s)).count();
+        let hidden = |place: &Rect| (under(place, 0), under(place, 1));
+        let places = corners(&axes.frame, width, height, 0.6 * size);
+        let place = places.into_iter().min_by_key(hidden);
+        Self {
+            marks: named,
+            place: place.unwrap_or(axes.frame),
+            size,
+        }
+    }
+
+    pub(crate) fn draw(&self, on: &mut dyn Surface) {
+        if self.marks.is_empty() {
+            return;
+        }
+        let (place, size) = (&self.place, self.size);
+        let paper = Fill {
+            colour: Colour::WHITE,
+            opacity: 0.85,
+        };
+        let [a, b, c, d] = place.corners();
+        on.area(&[a, b, c, d], paper);
+        on.line(&[a, b, c, d, a], Pen::solid(Colour::FAINT, size / 14.0));
+        for (i, mark) in self.marks.iter().enumerate() {
+            let y = place.top + (1.45 * i as f64 + 0.97) * size;
+            let from = [place.left + 0.6 * size, y];
+            let to = [place.left + 2.8 * size, y];
+            mark.draw_sample(on, [from, to], size);
+            let start = Lettering::new(size, Anchor::Start);
+            let at = [place.left + 3.4 * size, y + 0.36 * size];
+            on.text(at, &mark.series.name, start);
+        }
+    }
+}
+
+/// Right top, left top, right bottom, left bottom.
+fn corners(frame: &Rect, width: f64, height: f64, gap: f64) -> [Rect; 4] {
+    let rights = [frame.right - gap, frame.left + gap + width];
+    let bottoms = [frame.top + gap + height, frame.bottom - gap];
+    [0, 1, 2, 3].map(|i| {
+        let (right, bottom) = (rights[i % 2], bottoms[i / 2]);
+        Rect {
+            left: right - width,
+            top: bottom - height,
+            right,
+            bottom,
+        }
+    })
+}
+
+/// Spots along all series, close enough together to see what a box hides.
+fn visited<'a>(marks: impl Iterator<Item = &'a Mark<'a>>, axes: &Axes) -> Vec<Spot> {
+    let step = axes.size;
+    let mut spots = Vec::new();
+    for mark in marks {
+        for stretch in mark.stretches(axes) {
+            spots.extend(&stretch);
+            if mark.series.style == Style::Markers {
+                continue;
+            }
+            for ends in stretch.windows(2) {
+                let d = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
+                let parts = (d[0].hypot(d[1]) / step).min(1e3) as usize;
+                let at = |i: usize| i as f64 / (parts + 1) as f64;
+                let between = (1..=parts).map(at);
+                spots.extend(between.map(|t| [ends[0][0] + t * d[0], ends[0][1] + t * d[1]]));
+            }
+        }
+    }
+    spots
+}

@@ -1,0 +1,203 @@
+//! How one series of a plot is drawn.
+
+use crate::drawing::axes::{Axes, shown};
+use crate::drawing::colour::{Colour, SERIES};
+use crate::drawing::drawn_series::{Series, Style};
+use crate::drawing::surface::{Fill, Pen, Spot, Surface};
+
+/// Points beyond which lines are thinned to what can be seen.
+const MANY: usize = 4000;
+
+/// A series with its colour and shape.
+pub(crate) struct Mark<'a> {
+    pub(crate) series: &'a Series,
+    number: usize,
+}
+
+impl<'a> Mark<'a> {
+    pub(crate) fn new((number, series): (usize, &'a Series)) -> Self {
+        Self { series, number }
+    }
+
+    fn colour(&self) -> Colour {
+        match self.series.style {
+            Style::Background => Colour::PALE,
+            Style::Highlight => Colour::HIGHLIGHT,
+            _ => SERIES[self.number % SERIES.len()],
+        }
+    }
+
+    /// Whether it is drawn below the others.
+    pub(crate) fn is_behind(&self) -> bool {
+        let style = &self.series.style;
+        matches!(style, Style::Band(_) | Style::Background | Style::Highlight)
+    }
+
+    /// Whether it has a place in the legend.
+    pub(crate) fn is_named(&self) -> bool {
+        !self.series.name.is_empty() && self.series.style != Style::Background
+    }
+
+    /// The unbroken stretches of the series on the surface.
+    pub(crate) fn stretches(&self, axes: &Axes) -> Vec<Vec<Spot>> {
+        let visible = |p: &[f64; 2]| shown(p[0], axes.x.log) && shown(p[1], axes.y.log);
+        let pieces = self.series.points.split(|p| !visible(p));
+        let spots = pieces.map(|s| s.iter().map(|p| axes.spot(p[0], p[1])).collect());
+        spots.filter(|s: &Vec<Spot>| !s.is_empty()).collect()
+    }
+
+    pub(crate) fn draw(&self, on: &mut dyn Surface, axes: &Axes) {
+        if let Style::Band(upper) = &self.series.style {
+            self.draw_band(on, axes, upper);
+            return;
+        }
+        for stretch in self.stretches(axes) {
+            self.draw_stretch(on, &stretch, axes.size);
+        }
+    }
+
+    /// The sample in a legend between the spots `from` and `to`.
+    pub(crate) fn draw_sample(&self, on: &mut dyn Surface, [from, to]: [Spot; 2], size: f64) {
+        let middle = [(from[0] + to[0]) / 2.0, from[1]];
+        match self.series.style {
+            Style::Band(_) => {
+                let half = 0.35 * size;
+                let [(a, b), (c, d)] = [(from[0], from[1] - half), (to[0], to[1] + half)];
+                on.area(&[[a, b], [c, b], [c, d], [a, d]], self.band_fill());
+            }
+            Style::Markers => self.draw_marker(on, middle, size),
+            Style::LineAndMarkers => {
+                on.line(&[from, to], self.pen(size));
+                self.draw_marker(on, middle, size);
+            }
+            Style::Line | Style::Dashes | Style::Background | Style::Highlight => {
+                on.line(&[from, to], self.pen(size))
+            }
+        }
+    }
+
+    fn draw_stretch(&self, on: &mut dyn Surface, stretch: &[Spot], size: f64) {
+        let style = &self.series.style;
+        if *style != Style::Markers {
+            on.line(&thinned(stretch), self.pen(size));
+        }
+        if matches!(style, Style::Markers | Style::LineAndMarkers) {
+            for &spot in stretch {
+                self.draw_marker(on, spot, size);
+            }
+        }
+        if *style == Style::Background {
+            for &spot in stretch {
+                on.disc(spot, 0.14 * size, Fill::solid(self.colour()));
+            }
+        }
+    }
+
+    fn draw_band(&self, on: &mut dyn Surface, axes: &Axes, upper: &[f64]) {
+        let edges = self.series.points.iter().zip(upper);
+        let edges: Vec<([f64; 2], f64)> = edges.map(|(&p, &y)| (p, y)).collect();
+        let visible = |(p, y): &([f64; 2], f64)| {
+            shown(p[0], axes.x.log) && shown(p[1], axes.y.log) && shown(*y, axes.y.log)
+        };
+        for piece in edges.split(|e| !visible(e)) {
+            let lower: Vec<Spot> = piece.iter().map(|(p, _)| axes.spot(p[0], p[1])).collect();
+            let upper: Vec<Spot> = piece.iter().map(|(p, y)| axes.spot(p[0], *y)).collect();
+            let mut outline = thinned(&lower);
+            outline.extend(thinned(&upper).iter().rev());
+            if outline.len() > 2 {
+                on.area(&outline, self.band_fill());
+            }
+        }
+    }
+
+    /// Circle, square, diamond and triangle in turn.
+    fn draw_marker(&self, on: &mut dyn Surface, [x, y]: Spot, size: f64) {
+        let r = 0.27 * size;
+        let fill = Fill::solid(self.colour());
+        match self.number % 4 {
+            0 => on.disc([x, y], r, fill),
+            1 => {
+                let a = 0.88 * r;
+                on.area(
+                    &[
+                        [x - a, y - a],
+                        [x + a, y - a],
+                        [x + a, y + a],
+                        [x - a, y + a],
+                    ],
+                    fill,
+                );
+            }
+            2 => {
+                let a = 1.25 * r;
+                on.area(&[[x, y - a], [x + a, y], [x, y + a], [x - a, y]], fill);
+            }
+            _ => {
+                let (a, b) = (1.15 * r, 0.75 * r);
+                on.area(&[[x, y - 1.3 * r], [x + a, y + b], [x - a, y + b]], fill);
+            }
+        }
+    }
+
+    fn pen(&self, size: f64) -> Pen {
+        Pen {
+            colour: self.colour(),
+            width: match self.series.style {
+                Style::Background => size / 18.0,
+                Style::Highlight => size / 2.2,
+                _ => size / 8.0,
+            },
+            // Colours that come round again are told apart by dashes.
+            dashed: match self.series.style {
+                Style::Dashes => true,
+                Style::Background | Style::Highlight => false,
+                _ => self.number >= SERIES.len(),
+            },
+        }
+    }
+
+    fn band_fill(&self) -> Fill {
+        Fill {
+            colour: self.colour(),
+            opacity: 0.25,
+        }
+    }
+}
+
+/// A long line reduced to first, lowest, highest and last spot of every run
+/// within one column of pixels: it looks the same.
+fn thinned(line: &[Spot]) -> Vec<Spot> {
+    if line.len() <= MANY {
+        return line.to_vec();
+    }
+    let mut out = Vec::new();
+    for run in line.chunk_by(|a, b| a[0].floor() == b[0].floor()) {
+        let height = |&i: &usize, &j: &usize| run[i][1].total_cmp(&run[j][1]);
+        let lowest = (0..run.len()).min_by(height).unwrap_or(0);
+        let highest = (0..run.len()).max_by(height).unwrap_or(0);
+        let mut kept = [0, lowest, highest, run.len() - 1];
+        kept.sort_unstable();
+        for (i, &k) in kept.iter().enumerate() {
+            if i == 0 || kept[i - 1] != k {
+                out.push(run[k]);
+            }
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thinning_keeps_ends_and_extremes() {
+        let wave = |i: usize| [i as f64 / 100.0, (i as f64 / 7.0).sin()];
+        let line: Vec<Spot> = (0..100_000).map(wave).collect();
+        let thin = thinned(&line);
+        assert!(thin.len() <= 4 * 1000);
+        assert_eq!((thin[0], thin.last()), (line[0], line.last()));
+        let top = |l: &[Spot]| l.iter().map(|s| s[1]).fold(0.0, f64::max);
+        assert_eq!(top(&thin), top(&line));
+    }
+}

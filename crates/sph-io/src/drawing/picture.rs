@@ -1,0 +1,363 @@
+//! A particle field as a PNG picture.
+//!
+//! Particles are discs of their own diameter, coloured by a field, between
+//! walls drawn as dark lines, with axes in metres and a colour bar. Discs of a
+//! few pixels are drawn up to √2 times larger, so that a full lattice shows its
+//! field and not the gaps between the discs. In 3D the
+//! scene is seen along +y: what is drawn is the x–z plane, and of particles
+//! behind each other the one with the least y is on top.
+
+use std::path::Path;
+
+use crate::drawing::axes::{Axes, Axis, left_room};
+use crate::drawing::canvas::{Canvas, SIDES};
+use crate::drawing::colour::{Colour, ColourMap};
+use crate::drawing::colour_bar::ColourBar;
+use crate::drawing::extent;
+use crate::drawing::surface::{Anchor, Fill, Lettering, Pen, Rect, Surface};
+use crate::drawing::ticks::{time_stamp, widened};
+use crate::error::{IoError, Result};
+
+/// Which plane is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum View {
+    /// x to the right, y upwards: 2D.
+    #[default]
+    Plane,
+    /// x to the right, z upwards, seen along +y: 3D.
+    Front,
+}
+
+/// A particle field and how it is to be drawn.
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// use sph_io::Picture;
+/// let points = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0]];
+/// let picture = Picture {
+///     title: "Two particles",
+///     label: "pressure [Pa]",
+///     diameter: 0.1,
+///     ..Picture::of(&points, &[0.0, 10.0])
+/// };
+/// picture.save(folder.path().join("two.png"))?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Picture<'a> {
+    /// Above the picture, to the left.
+    pub title: &'a str,
+    /// Simulated time in seconds, above the picture, to the right.
+    pub time: Option<f64>,
+    /// Beside the colour bar: name and unit of the field.
+    pub label: &'a str,
+    /// Positions in metres. Particles with a non-finite one are left out.
+    pub points: &'a [[f64; 3]],
+    /// The field, one value per particle; non-finite ones are drawn in magenta.
+    pub values: &'a [f64],
+    /// Diameter of the discs in metres: the particle spacing.
+    pub diameter: f64,
+    /// Diameters of the particles in metres where they differ, one per particle; else empty.
+    pub diameters: &'a [f64],
+    /// Wall segments by their ends in metres.
+    pub walls: &'a [[[f64; 3]; 2]],
+    /// Lines over the particles, by their points in metres: streamlines, tracks.
+    pub lines: &'a [Vec<[f64; 3]>],
+    /// Which plane is drawn.
+    pub view: View,
+    /// What is shown, as `[[left, right], [bottom, top]]` in metres; if absent,
+    /// the walls and the particles that are not far outside them.
+    pub window: Option<[[f64; 2]; 2]>,
+    /// A place in metres that is ringed, if any.
+    pub ring: Option<[f64; 3]>,
+    /// Values at the ends of the colour bar; if absent, the least and the largest.
+    pub range: Option<[f64; 2]>,
+    /// Colours of the field.
+    pub colours: ColourMap,
+    /// Width in pixels, from 200 to 8192; the height follows.
+    pub width: u32,
+}
+
+impl<'a> Picture<'a> {
+    /// A picture of a field with everything else at its default: no texts and
+    /// walls, automatic window and range, 1200 pixels wide.
+    pub fn of(points: &'a [[f64; 3]], values: &'a [f64]) -> Self {
+        Self {
+            title: "",
+            time: None,
+            label: "",
+            points,
+            values,
+            diameter: 0.0,
+            diameters: &[],
+            walls: &[],
+            lines: &[],
+            view: View::Plane,
+            window: None,
+            ring: None,
+            range: None,
+            colours: ColourMap::Viridis,
+            width: 1200,
+        }
+    }
+
+    /// Draws the picture and writes it to `path`, all or nothing.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
+        let drawn = self.draw().map_err(|p| IoError::input(path, p))?;
+        drawn.save(path)
+    }
+
+    fn draw(&self) -> std::result::Result<Canvas, String> {
+        self.check()?;
+        let range = self.range.unwrap_or_else(|| self.automatic_range());
+        let width = self.width.clamp(*SIDES.start(), *SIDES.end());
+        // At 1200 pixels letters of 20; never too small to read.
+        let size = (f64::from(width) / 60.0).max(9.0);
+        let beyond = self.beyond(range);
+        let bar = ColourBar::new(range, self.colours, self.label, beyond, size);
+        let (axes, height) = self.layout(f64::from(width), size, bar.room());
+        let mut canvas = Canvas::new(width, height).ok_or("no memory for the picture")?;
+        if self.view == View::Front {
+            self.draw_walls(&mut canvas, &axes);
+        }
+        self.draw_particles(&mut canvas, &axes, range);
+        if self.view == View::Plane {
+            self.draw_walls(&mut canvas, &axes);
+        }
+        self.draw_lines(&mut canvas, &axes);
+        if let Some(place) = self.ring {
+            self.draw_ring(&mut canvas, &axes, place);
+        }
+        axes.draw(&mut canvas);
+        bar.draw(&mut canvas, &axes.frame);
+        let start = Lettering::new(1.15 * size, Anchor::Start);
+        canvas.text([axes.frame.left, 1.5 * size], self.title, start);
+        if let Some(time) = self.time {
+            let end = Lettering::new(size, Anchor::End);
+            let at = [axes.frame.right, 1.5 * size];
+            canvas.text(at, &time_stamp(time), end);
+        }
+        Ok(canvas)
+    }
+
+    /// What does not fit together, in words.
+    fn check(&self) -> std::result::Result<(), String> {
+        let (points, values) = (self.points.len(), self.values.len());
+        if points != values {
+            return Err(format!("{values} values for {points} particles"));
+        }
+        if !(self.diameter.is_finite() && self.diameter >= 0.0) {
+            return Err(format!("a diameter of {} m", self.diameter));
+        }
+        let sizes = self.diameters.len();
+        if sizes != 0 && sizes != points {
+            return Err(format!("{sizes} diameters for {points} particles"));
+        }
+        if let Some(bad) = self
+            .diameters
+            .iter()
+            .find(|d| !(d.is_finite() && **d >= 0.0))
+        {
+            return Err(format!("a diameter of {bad} m"));
+        }
+        let rising = |r: &[f64; 2]| r[0] < r[1] && (r[1] - r[0]).is_finite();
+        if let Some(range) = self.range.filter(|r| !rising(r)) {
+            return Err(format!("a colour range of {range:?}"));
+        }
+        if let Some(window) = self.window.filter(|w| !w.iter().all(rising)) {
+            return Err(format!("a window of {window:?} m"));
+        }
+        Ok(())
+    }
+
+    /// The axes in their place, and the height of the picture in pixels.
+    fn layout(&self, width: f64, size: f64, right: f64) -> (Axes, u32) {
+        let flat = |p: &[f64; 3]| self.flat(*p);
+        let window = self.window.unwrap_or_else(|| {
+            let walls = self.walls.as_flattened().iter().map(flat);
+            extent::window(self.points.iter().map(flat), walls, self.diameter)
+        });
+        let [w, h] = window.map(|[lo, hi]| hi - lo);
+        let upwards = match self.view {
+            View::Plane => "y [m]",
+            View::Front => "z [m]",
+        };
+        let axis = |[lo, hi]: [f64; 2], label: &str| Axis {
+            lo,
+            hi,
+            log: false,
+            label: label.into(),
+        };
+        let placed = |left: f64, top: f64| {
+            let wide = width - left - right;
+            // Very flat and very tall scenes get a frame with room to spare.
+            let high = (wide * h / w).clamp(9.0 * size, 1.4 * width).round();
+            let scale = (wide / w).min(high / h);
+            let fitted = |[lo, hi]: [f64; 2], pixels: f64| {
+                let spare = (pixels / scale - (hi - lo)) / 2.0;
+                [lo - spare, hi + spare]
+            };
+            Axes {
+                frame: Rect {
+                    left,
+                    top,
+                    right: left + wide,
+                    bottom: top + high,
+                },
+                x: axis(fitted(window[0], wide), "x [m]"),
+                y: axis(fitted(window[1], high), upwards),
+                size,
+                grid: false,
+            }
+        };
+        // How wide the tick labels are depends on the frame beside them.
+        let mut axes = placed(4.0 * size, 0.0);
+        for _ in 0..3 {
+            let top = if axes.y.ticks(5).factor.is_some() {
+                3.6
+            } else {
+                2.3
+            };
+            let left = left_room(&axes.y, axes.frame.height(), size);
+            axes = placed(left, top * size);
+        }
+        let height = (axes.frame.bottom + 3.4 * size).ceil() as u32;
+        (axes, height)
+    }
+
+    fn draw_particles(&self, canvas: &mut Canvas, axes: &Axes, [lo, hi]: [f64; 2]) {
+        let scale = axes.frame.width() / (axes.x.hi - axes.x.lo);
+        let radius = |i: usize| match self.diameters.get(i) {
+            // Spheres of their own size are drawn as they are.
+            Some(diameter) => 0.5 * diameter * scale,
+            None => drawn_radius(0.5 * self.diameter * scale),
+        };
+        let mut order: Vec<usize> = (0..self.points.len()).collect();
+        if self.view == View::Front {
+            order.sort_by(|&a, &b| self.points[b][1].total_cmp(&self.points[a][1]));
+        }
+        for i in order {
+            let [x, y] = self.flat(self.points[i]);
+            let value = self.values[i];
+            let colour = if value.is_finite() {
+                self.colours.at((value - lo) / (hi - lo))
+            } else {
+                Colour::MISSING
+            };
+            if x.is_finite() && y.is_finite() {
+                let (spot, radius) = (axes.spot(x, y), radius(i));
+                let fill = Fill::solid(colour);
+                // A rim tells spheres of one colour apart.
+                let rim = if self.diameters.is_empty() {
+                    0.0
+                } else {
+                    0.1 * radius
+                };
+                if rim > 0.0 {
+                    let dark = Fill::solid(colour.darker());
+                    canvas.clipped_disc(spot, radius, dark, &axes.frame);
+                }
+                canvas.clipped_disc(spot, radius - rim, fill, &axes.frame);
+            }
+        }
+    }
+
+    fn draw_walls(&self, canvas: &mut Canvas, axes: &Axes) {
+        let pen = Pen::solid(Colour::WALL, axes.size / 7.0);
+        for ends in self.walls {
+            let [a, b] = ends.map(|p| self.flat(p)).map(|[x, y]| axes.spot(x, y));
+            if let Some(inside) = axes.frame.clipped(a, b) {
+                canvas.line(&inside, pen);
+            }
+        }
+    }
+
+    /// Dark lines with a light edge, which shows on dark ground.
+    fn draw_lines(&self, canvas: &mut Canvas, axes: &Axes) {
+        for (colour, width) in [(Colour::WHITE, 0.16), (Colour::INK, 0.08)] {
+            let pen = Pen::solid(colour, width * axes.size);
+            for line in self.lines {
+                let spots = line.iter().map(|p| self.flat(*p));
+                let spots: Vec<_> = spots.map(|[x, y]| axes.spot(x, y)).collect();
+                for ends in spots.windows(2) {
+                    if let Some(inside) = axes.frame.clipped(ends[0], ends[1]) {
+                        canvas.line(&inside, pen);
+                    }
+                }
+            }
+        }
+    }
+
+    /// A ring with four strokes towards it, to be found among many particles.
+    fn draw_ring(&self, canvas: &mut Canvas, axes: &Axes, place: [f64; 3]) {
+        let [x, y] = self.flat(place);
+        let centre = axes.spot(x, y);
+        if !(centre.iter().all(|c| c.is_finite()) && axes.frame.holds(centre)) {
+            return;
+        }
+        let scale = axes.frame.width() / (axes.x.hi - axes.x.lo);
+        let radius = (0.75 * self.diameter * scale).max(0.5 * axes.size);
+        let at = |r: f64, turn: f64| {
+            let angle = std::f64::consts::TAU * turn;
+            [centre[0] + r * angle.cos(), centre[1] + r * angle.sin()]
+        };
+        let mut lines: Vec<Vec<[f64; 2]>> = (0..48)
+            .map(|k| [k, k + 1].map(|k| at(radius, f64::from(k) / 48.0)).to_vec())
+            .collect();
+        lines.extend((0..4).map(|k| {
+            let turn = f64::from(k) / 4.0;
+            vec![at(radius, turn), at(radius + 1.2 * axes.size, turn)]
+        }));
+        // A light edge shows it on dark ground.
+        for (colour, width) in [(Colour::WHITE, 0.3), (Colour::RING, 0.15)] {
+            let pen = Pen::solid(colour, width * axes.size);
+            for line in &lines {
+                if let Some(inside) = axes.frame.clipped(line[0], line[1]) {
+                    canvas.line(&inside, pen);
+                }
+            }
+        }
+    }
+
+    /// The least and the largest finite value, symmetric for signed colours.
+    fn automatic_range(&self) -> [f64; 2] {
+        let finite = self.values.iter().copied().filter(|v| v.is_finite());
+        let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in finite {
+            lo = lo.min(value);
+            hi = hi.max(value);
+        }
+        if lo > hi {
+            return [0.0, 1.0];
+        }
+        // Keeps the extent finite.
+        let limit = f64::MAX / 4.0;
+        (lo, hi) = (lo.max(-limit), hi.min(limit));
+        if self.colours == ColourMap::CoolWarm {
+            hi = hi.max(-lo);
+            lo = -hi;
+        }
+        widened(lo, hi)
+    }
+
+    /// Whether values lie below and above the range.
+    fn beyond(&self, [lo, hi]: [f64; 2]) -> [bool; 2] {
+        let any = |outside: &dyn Fn(f64) -> bool| self.values.iter().any(|&v| outside(v));
+        [any(&|v| v < lo), any(&|v| v > hi)]
+    }
+
+    fn flat(&self, [x, y, z]: [f64; 3]) -> [f64; 2] {
+        match self.view {
+            View::Plane => [x, y],
+            View::Front => [x, z],
+        }
+    }
+}
+
+/// The radius in pixels at which a disc of true radius `r` pixels is drawn:
+/// touching along the diagonals of a lattice if small, true if large.
+fn drawn_radius(r: f64) -> f64 {
+    let small = ((6.0 - r) / 3.0).clamp(0.0, 1.0);
+    r * (1.0 + small * (std::f64::consts::SQRT_2 - 1.0))
+}

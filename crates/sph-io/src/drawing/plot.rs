@@ -1,0 +1,184 @@
+//! Lines, markers and bands over two axes, as PNG or SVG.
+//!
+//! Meant for probes against reference data and for work–precision plots, not
+//! for publication: everything is automatic.
+
+use std::path::Path;
+
+use crate::drawing::axes::{Axes, Axis, left_room, shown};
+use crate::drawing::canvas::Canvas;
+use crate::drawing::drawn_series::{Series, Style};
+use crate::drawing::legend::Legend;
+use crate::drawing::mark::Mark;
+use crate::drawing::surface::{Anchor, Lettering, Rect, Surface};
+use crate::drawing::svg::Svg;
+use crate::drawing::ticks::widened;
+use crate::error::{IoError, Result};
+
+/// Pixels of a plot.
+const SIZE: [u32; 2] = [1200, 800];
+/// Font size in pixels.
+const LETTERS: f64 = 22.0;
+
+/// A plot of some series.
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// use sph_io::{Plot, Series};
+/// let plot = Plot {
+///     title: "Convergence".into(),
+///     x_label: "spacing [m]".into(),
+///     y_label: "error [1]".into(),
+///     log_x: true,
+///     log_y: true,
+///     series: vec![Series::line("second order", vec![[0.01, 1e-4], [0.1, 1e-2]])],
+/// };
+/// plot.save_png(folder.path().join("convergence.png"))?;
+/// plot.save_svg(folder.path().join("convergence.svg"))?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plot {
+    /// Above the frame.
+    pub title: String,
+    /// Quantity and unit along the horizontal axis.
+    pub x_label: String,
+    /// Quantity and unit along the vertical axis.
+    pub y_label: String,
+    /// Logarithmic horizontal axis; points with x ≤ 0 are left out.
+    pub log_x: bool,
+    /// Logarithmic vertical axis; points with y ≤ 0 are left out.
+    pub log_y: bool,
+    /// Each in its own colour; drawn in this order, bands before all others.
+    pub series: Vec<Series>,
+}
+
+impl Plot {
+    /// Writes the plot as a picture of 1200 by 800 pixels.
+    pub fn save_png(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
+        self.check(path)?;
+        let canvas = Canvas::new(SIZE[0], SIZE[1]);
+        let mut canvas = canvas.ok_or_else(|| IoError::input(path, "no memory for the plot"))?;
+        self.draw(&mut canvas, &whole());
+        canvas.save(path)
+    }
+
+    /// Writes the plot as vectors, texts as texts.
+    pub fn save_svg(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
+        self.check(path)?;
+        let mut svg = Svg::new(SIZE[0], SIZE[1]);
+        self.draw(&mut svg, &whole());
+        svg.save(path)
+    }
+
+    /// The document that [`save_svg`](Self::save_svg) writes, to stand in a page.
+    ///
+    /// # Errors
+    /// If the series do not fit together.
+    pub fn to_svg(&self) -> Result<String> {
+        self.check(Path::new("plot.svg"))?;
+        let mut svg = Svg::new(SIZE[0], SIZE[1]);
+        self.draw(&mut svg, &whole());
+        Ok(svg.finish())
+    }
+
+    pub(crate) fn check(&self, path: &Path) -> Result<()> {
+        for Series {
+            name,
+            points,
+            style,
+        } in &self.series
+        {
+            if let Style::Band(upper) = style
+                && upper.len() != points.len()
+            {
+                let (points, upper) = (points.len(), upper.len());
+                let said = format!("band `{name}` has {upper} upper ordinates at {points} points");
+                return Err(IoError::input(path, said));
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws the plot into a part of a surface.
+    pub(crate) fn draw(&self, on: &mut dyn Surface, place: &Rect) {
+        let axes = self.axes(place);
+        let marks: Vec<Mark> = self.series.iter().enumerate().map(Mark::new).collect();
+        axes.draw_grid(on);
+        // Bands first, whatever their place in the list: they hide lines.
+        let (behind, others): (Vec<&Mark>, Vec<&Mark>) = marks.iter().partition(|m| m.is_behind());
+        for mark in behind.into_iter().chain(others) {
+            mark.draw(on, &axes);
+        }
+        axes.draw(on);
+        Legend::new(&marks, &axes).draw(on);
+        let middle = (axes.frame.left + axes.frame.right) / 2.0;
+        let lettering = Lettering::new(1.15 * LETTERS, Anchor::Middle);
+        let title = [middle, place.top + 1.6 * LETTERS];
+        on.text(title, &self.title, lettering);
+    }
+
+    fn axes(&self, place: &Rect) -> Axes {
+        let x = self.axis(0, self.log_x, &self.x_label);
+        let y = self.axis(1, self.log_y, &self.y_label);
+        let top = if self.title.is_empty() { 1.2 } else { 2.6 } * LETTERS;
+        let room = if y.ticks(8).factor.is_some() {
+            0.9
+        } else {
+            0.0
+        };
+        let top = place.top + top + room * LETTERS;
+        let bottom = place.bottom - 3.6 * LETTERS;
+        Axes {
+            frame: Rect {
+                left: place.left + left_room(&y, bottom - top, LETTERS),
+                top,
+                right: place.right - 1.6 * LETTERS,
+                bottom,
+            },
+            x,
+            y,
+            size: LETTERS,
+            grid: true,
+        }
+    }
+
+    /// The axis that holds all points that can be shown, with a margin.
+    fn axis(&self, direction: usize, log: bool, label: &str) -> Axis {
+        let logs = [self.log_x, self.log_y];
+        let shown = |p: &[f64; 2]| (0..2).all(|i| shown(p[i], logs[i]));
+        let values = self.series.iter().flat_map(Series::spots).filter(shown);
+        let values = values.map(|p| {
+            if log {
+                p[direction].log10()
+            } else {
+                p[direction]
+            }
+        });
+        let (lo, hi) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| {
+            (lo.min(v), hi.max(v))
+        });
+        let [lo, hi] = if lo > hi { [0.0, 1.0] } else { widened(lo, hi) };
+        let margin = 0.04 * (hi - lo);
+        let [lo, hi] = [lo - margin, hi + margin];
+        let back = |v: f64| if log { 10_f64.powf(v) } else { v };
+        Axis {
+            lo: back(lo),
+            hi: back(hi),
+            log,
+            label: label.into(),
+        }
+    }
+}
+
+/// The place of a plot that stands alone.
+fn whole() -> Rect {
+    Rect {
+        left: 0.0,
+        top: 0.0,
+        right: f64::from(SIZE[0]),
+        bottom: f64::from(SIZE[1]),
+    }
+}

@@ -1,0 +1,161 @@
+//! What a drawing needs of the thing it is drawn on.
+//!
+//! Coordinates are in pixels from the top left corner.
+
+use crate::drawing::colour::Colour;
+
+/// A point on the surface.
+pub(crate) type Spot = [f64; 2];
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pen {
+    pub(crate) colour: Colour,
+    /// Width in pixels.
+    pub(crate) width: f64,
+    pub(crate) dashed: bool,
+}
+
+/// How an area is filled.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fill {
+    pub(crate) colour: Colour,
+    /// From 0 to 1.
+    pub(crate) opacity: f64,
+}
+
+/// Which part of a text stands at its spot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// How a text is set.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lettering {
+    /// Font size in pixels.
+    pub(crate) size: f64,
+    pub(crate) anchor: Anchor,
+    /// Reading upwards instead of to the right.
+    pub(crate) upwards: bool,
+}
+
+/// Pixels or a vector file.
+pub(crate) trait Surface {
+    /// A line through `points`.
+    fn line(&mut self, points: &[Spot], pen: Pen);
+    /// A filled polygon.
+    fn area(&mut self, outline: &[Spot], fill: Fill);
+    /// A filled circle.
+    fn disc(&mut self, centre: Spot, radius: f64, fill: Fill);
+    /// A text with its baseline through `at`.
+    fn text(&mut self, at: Spot, text: &str, lettering: Lettering);
+}
+
+impl Pen {
+    pub(crate) fn solid(colour: Colour, width: f64) -> Self {
+        Self {
+            colour,
+            width,
+            dashed: false,
+        }
+    }
+}
+
+impl Fill {
+    pub(crate) fn solid(colour: Colour) -> Self {
+        Self {
+            colour,
+            opacity: 1.0,
+        }
+    }
+}
+
+impl Lettering {
+    pub(crate) fn new(size: f64, anchor: Anchor) -> Self {
+        Self {
+            size,
+            anchor,
+            upwards: false,
+        }
+    }
+}
+
+/// A rectangle on the surface, in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rect {
+    pub(crate) left: f64,
+    pub(crate) top: f64,
+    pub(crate) right: f64,
+    pub(crate) bottom: f64,
+}
+
+impl Rect {
+    pub(crate) fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    pub(crate) fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+
+    pub(crate) fn corners(&self) -> [Spot; 4] {
+        let Self {
+            left,
+            top,
+            right,
+            bottom,
+        } = *self;
+        [[left, top], [right, top], [right, bottom], [left, bottom]]
+    }
+
+    pub(crate) fn holds(&self, [x, y]: Spot) -> bool {
+        (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
+    }
+
+    /// The part of the line `a`–`b` inside (Liang and Barsky), if any.
+    pub(crate) fn clipped(&self, a: Spot, b: Spot) -> Option<[Spot; 2]> {
+        let d = [b[0] - a[0], b[1] - a[1]];
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        let sides = [
+            (-d[0], a[0] - self.left),
+            (d[0], self.right - a[0]),
+            (-d[1], a[1] - self.top),
+            (d[1], self.bottom - a[1]),
+        ];
+        for (speed, room) in sides {
+            if speed == 0.0 {
+                if room < 0.0 {
+                    return None;
+                }
+            } else if speed < 0.0 {
+                from = from.max(room / speed);
+            } else {
+                to = to.min(room / speed);
+            }
+        }
+        let at = |t: f64| [a[0] + t * d[0], a[1] + t * d[1]];
+        (from <= to).then(|| [at(from), at(to)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_clipped_to_the_rectangle() {
+        let rect = Rect {
+            left: 0.0,
+            top: 0.0,
+            right: 2.0,
+            bottom: 1.0,
+        };
+        let through = rect.clipped([-1.0, 0.5], [3.0, 0.5]);
+        assert_eq!(through, Some([[0.0, 0.5], [2.0, 0.5]]));
+        assert_eq!(rect.clipped([-1.0, 2.0], [3.0, 2.0]), None);
+        assert_eq!(rect.clipped([3.0, 0.5], [4.0, 0.5]), None);
+    }
+}

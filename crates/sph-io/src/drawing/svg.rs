@@ -1,0 +1,113 @@
+//! Vectors: a surface that becomes an SVG file, with texts as texts.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use crate::drawing::colour::Colour;
+use crate::drawing::surface::{Anchor, Fill, Lettering, Pen, Spot, Surface};
+use crate::error::Result;
+use crate::files::atomic::{Durability, write_atomic};
+use crate::paraview::xml::escape;
+
+/// An SVG document, white at first.
+pub(crate) struct Svg {
+    body: String,
+}
+
+impl Svg {
+    /// A document of `width` by `height` pixels.
+    pub(crate) fn new(width: u32, height: u32) -> Self {
+        let body = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
+             width=\"{width}\" height=\"{height}\" \
+             font-family=\"DejaVu Sans, Verdana, sans-serif\">\n\
+             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
+        );
+        Self { body }
+    }
+
+    /// The whole document.
+    pub(crate) fn finish(mut self) -> String {
+        self.body.push_str("</svg>\n");
+        self.body
+    }
+
+    /// Writes the document to `path`, all or nothing.
+    pub(crate) fn save(self, path: &Path) -> Result<()> {
+        let text = self.finish();
+        write_atomic(path, Durability::Process, |file| {
+            file.write_all(text.as_bytes())
+        })
+    }
+
+    fn push(&mut self, element: &str) {
+        self.body.push_str(element);
+        self.body.push('\n');
+    }
+}
+
+impl Surface for Svg {
+    fn line(&mut self, points: &[Spot], pen: Pen) {
+        let (list, colour, width) = (list(points), code(pen.colour), pen.width);
+        let dash = if pen.dashed {
+            format!(
+                " stroke-dasharray=\"{:.1} {:.1}\"",
+                4.0 * width,
+                2.5 * width
+            )
+        } else {
+            String::new()
+        };
+        self.push(&format!(
+            "<polyline points=\"{list}\" fill=\"none\" stroke=\"{colour}\" \
+             stroke-width=\"{width:.2}\" stroke-linejoin=\"round\"{dash}/>"
+        ));
+    }
+
+    fn area(&mut self, outline: &[Spot], fill: Fill) {
+        let (list, colour, opacity) = (list(outline), code(fill.colour), fill.opacity);
+        self.push(&format!(
+            "<polygon points=\"{list}\" fill=\"{colour}\" fill-opacity=\"{opacity:.2}\"/>"
+        ));
+    }
+
+    fn disc(&mut self, [x, y]: Spot, radius: f64, fill: Fill) {
+        let (colour, opacity) = (code(fill.colour), fill.opacity);
+        self.push(&format!(
+            "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"{colour}\" \
+             fill-opacity=\"{opacity:.2}\"/>"
+        ));
+    }
+
+    fn text(&mut self, [x, y]: Spot, text: &str, lettering: Lettering) {
+        let anchor = match lettering.anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        let turn = if lettering.upwards {
+            format!(" transform=\"rotate(-90 {x:.2} {y:.2})\"")
+        } else {
+            String::new()
+        };
+        let (size, colour, text) = (lettering.size, code(Colour::INK), escape(text));
+        self.push(&format!(
+            "<text x=\"{x:.2}\" y=\"{y:.2}\" font-size=\"{size:.1}\" fill=\"{colour}\" \
+             text-anchor=\"{anchor}\"{turn}>{text}</text>"
+        ));
+    }
+}
+
+fn code(Colour([r, g, b]): Colour) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+fn list(points: &[Spot]) -> String {
+    let mut out = String::with_capacity(16 * points.len());
+    for [x, y] in points {
+        // Writing to a string cannot fail.
+        let _ = write!(out, "{x:.2},{y:.2} ");
+    }
+    out.truncate(out.trim_end().len());
+    out
+}

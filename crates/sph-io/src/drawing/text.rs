@@ -1,0 +1,71 @@
+//! The embedded font: widths of texts and their pixels.
+//!
+//! A subset of DejaVu Sans (ASCII, Latin-1, Greek, sub- and superscripts, some
+//! mathematical signs); its licence lies beside it in `assets`.
+
+use std::sync::OnceLock;
+
+use ab_glyph::{Font, FontRef, Glyph, ScaleFont, point};
+
+static DATA: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
+
+fn font() -> Option<&'static FontRef<'static>> {
+    static FONT: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
+    FONT.get_or_init(|| FontRef::try_from_slice(DATA).ok())
+        .as_ref()
+}
+
+/// Width in pixels of `text` at `size` pixels per em.
+pub(crate) fn width(text: &str, size: f64) -> f64 {
+    let Some(font) = font() else { return 0.0 };
+    let scaled = font.as_scaled(per_em(font, size));
+    let advance = |c| f64::from(scaled.h_advance(scaled.glyph_id(c)));
+    text.chars().map(advance).sum()
+}
+
+/// Calls `paint` with the offset to the right and down from the start of the
+/// baseline, and the coverage from 0 to 1, of every pixel that `text` touches.
+pub(crate) fn pixels(text: &str, size: f64, mut paint: impl FnMut(i32, i32, f32)) {
+    let Some(font) = font() else { return };
+    let scale = per_em(font, size);
+    let scaled = font.as_scaled(scale);
+    let mut pen = 0.0;
+    for c in text.chars() {
+        let id = scaled.glyph_id(c);
+        let glyph: Glyph = id.with_scale_and_position(scale, point(pen, 0.0));
+        pen += scaled.h_advance(id);
+        if let Some(outline) = font.outline_glyph(glyph) {
+            let corner = outline.px_bounds().min;
+            let (x, y) = (corner.x as i32, corner.y as i32);
+            outline.draw(|i, j, cover| paint(x + i as i32, y + j as i32, cover.min(1.0)));
+        }
+    }
+}
+
+/// The library's scale, a line height, for a size in pixels per em.
+fn per_em(font: &FontRef, size: f64) -> f32 {
+    let em = font.units_per_em().unwrap_or(2048.0);
+    size as f32 * font.height_unscaled() / em
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_font_has_what_units_and_titles_need() {
+        let font = font().expect("the embedded font is sound");
+        for c in "azAZ09~[]×·−√°²³⁰⁻⁹₀γρΔμ∇∂≤≈∞éü–…".chars() {
+            assert_ne!(font.glyph_id(c).0, 0, "{c}");
+        }
+    }
+
+    #[test]
+    fn widths_scale_with_the_size() {
+        let (small, large) = (width("pressure [Pa]", 10.0), width("pressure [Pa]", 20.0));
+        assert!(
+            small > 50.0 && (large - 2.0 * small).abs() < 0.1,
+            "{small} {large}"
+        );
+    }
+}

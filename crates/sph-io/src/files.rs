@@ -1,0 +1,11 @@
+//! Files and folders: written whole or not at all, held by one program, tables and series.
+
+pub mod atomic;
+pub mod clean;
+pub mod folder;
+pub mod lock;
+pub mod rows;
+pub mod scratch;
+pub mod series;
+pub mod summary;
+pub mod table;

@@ -1,0 +1,7 @@
+//! Files for ParaView.
+
+pub mod frame;
+pub mod pvd;
+pub mod vtu;
+pub mod vtu_read;
+pub mod xml;

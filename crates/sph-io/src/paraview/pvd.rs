@@ -1,0 +1,274 @@
+//! ParaView's `.pvd`: the list of files that make a time series.
+//!
+//! The list is rewritten all or nothing after every output, so that a running
+//! or killed job can be opened at any time. Its data files lie in a folder of
+//! the same stem beside it, and paths in it are relative, so that both can be
+//! moved together.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::error::{IoError, Result};
+use crate::files::atomic::{Durability, write_atomic};
+use crate::files::folder::writable;
+use crate::paraview::frame::Frame;
+use crate::paraview::vtu::write_vtu;
+use crate::paraview::xml::{attributes, escape};
+
+/// A time series being written: `fields.pvd` and `fields/fluid_000000.vtu`, …
+#[derive(Debug)]
+pub struct PvdSeries {
+    path: PathBuf,
+    entries: Vec<Entry>,
+}
+
+/// A file of a series that has been written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Listed {
+    /// Simulated time, s.
+    pub time: f64,
+    /// Name of the piece: `fluid`, `walls`.
+    pub name: String,
+    /// Its file.
+    pub path: PathBuf,
+}
+
+/// The files that a `.pvd` lists, in the order of their times.
+///
+/// # Errors
+/// If it cannot be read, or is not one of [`PvdSeries`].
+pub fn list_pvd(path: impl AsRef<Path>) -> Result<Vec<Listed>> {
+    let series = PvdSeries {
+        path: path.as_ref().to_path_buf(),
+        entries: Vec::new(),
+    };
+    let listed = |entry: Entry| Listed {
+        time: entry.time,
+        name: entry.name,
+        path: series.path.with_file_name(entry.file),
+    };
+    // A list that is not there is none, not an empty one.
+    Ok(series.load(1)?.into_iter().map(listed).collect())
+}
+
+/// One file of the series.
+#[derive(Clone, Debug, PartialEq)]
+struct Entry {
+    time: f64,
+    part: usize,
+    name: String,
+    file: String,
+}
+
+impl PvdSeries {
+    /// Starts a series at `path` (ending in `.pvd`); the first frame replaces
+    /// whatever list is there.
+    pub fn create(path: impl AsRef<Path>) -> Result<Self> {
+        let series = Self {
+            path: path.as_ref().to_path_buf(),
+            entries: Vec::new(),
+        };
+        writable(series.folder())?;
+        Ok(series)
+    }
+
+    /// Continues a series after its first `frames` output times; later ones,
+    /// which the interrupted run wrote after its last checkpoint, are dropped.
+    pub fn open_at(path: impl AsRef<Path>, frames: usize) -> Result<Self> {
+        let mut series = Self::create(path)?;
+        let found = series.load(frames)?;
+        let times = distinct_times(&found);
+        if times.len() < frames {
+            return Err(IoError::TooShort {
+                path: series.path,
+                what: "output times",
+                expected: frames as u64,
+                found: times.len() as u64,
+            });
+        }
+        let end = frames
+            .checked_sub(1)
+            .map_or(f64::NEG_INFINITY, |last| times[last]);
+        series.keep(found, end)?;
+        Ok(series)
+    }
+
+    /// Continues a series after `time` (s); later entries are dropped.
+    pub fn open_until(path: impl AsRef<Path>, time: f64) -> Result<Self> {
+        let mut series = Self::create(path)?;
+        let found = series.load(0)?;
+        series.keep(found, time)?;
+        Ok(series)
+    }
+
+    /// Writes the pieces of `frame`, lists them, and returns their paths.
+    ///
+    /// The time must be later than that of the frame before.
+    pub fn write(&mut self, frame: &Frame) -> Result<Vec<PathBuf>> {
+        let refuse = |problem: String| Err(IoError::input(&self.path, problem));
+        if let Some(last) = self.entries.last()
+            && frame.time.partial_cmp(&last.time) != Some(std::cmp::Ordering::Greater)
+        {
+            let (time, before) = (frame.time, last.time);
+            return refuse(format!("time {time} s does not come after {before} s"));
+        }
+        if frame.pieces.is_empty() {
+            return refuse(format!("frame {} has no pieces", frame.index));
+        }
+        let (folder, prefix) = (self.folder(), self.stem());
+        let mut added = Vec::with_capacity(frame.pieces.len());
+        let mut written = Vec::with_capacity(frame.pieces.len());
+        for piece in &frame.pieces {
+            let name = piece.name.to_string();
+            let file = format!("{}_{:06}.vtu", file_name(&name), frame.index);
+            let path = folder.join(&file);
+            if written.contains(&path) {
+                return refuse(format!("two pieces are named `{name}`"));
+            }
+            write_vtu(&path, piece, frame.time)?;
+            added.push(Entry {
+                time: frame.time,
+                part: self.part(&name, &added),
+                name,
+                file: format!("{prefix}/{file}"),
+            });
+            written.push(path);
+        }
+        let before = self.entries.len();
+        self.entries.extend(added);
+        let listed = self.list();
+        if listed.is_err() {
+            self.entries.truncate(before);
+        }
+        listed.map(|()| written)
+    }
+
+    /// How many output times are listed; give it to [`open_at`](Self::open_at)
+    /// to continue from here.
+    pub fn frames(&self) -> usize {
+        distinct_times(&self.entries).len()
+    }
+
+    /// The `.pvd` file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn stem(&self) -> String {
+        let stem = self.path.file_stem().unwrap_or_default();
+        let stem = stem.to_string_lossy().into_owned();
+        // Without an extension the folder would take the list's own name.
+        if self.path.extension().is_none() {
+            return stem + "_files";
+        }
+        stem
+    }
+
+    fn folder(&self) -> PathBuf {
+        self.path.with_file_name(self.stem())
+    }
+
+    /// The part number of `name`: that of its first appearance.
+    fn part(&self, name: &str, added: &[Entry]) -> usize {
+        let known = || self.entries.iter().chain(added);
+        known().find(|e| e.name == name).map_or_else(
+            || known().map(|e| e.part + 1).max().unwrap_or(0),
+            |e| e.part,
+        )
+    }
+
+    /// Takes over what came not after `end`, and lists only that.
+    fn keep(&mut self, mut found: Vec<Entry>, end: f64) -> Result<()> {
+        let before = found.len();
+        found.retain(|e| e.time <= end);
+        self.entries = found;
+        if self.entries.len() < before {
+            self.list()?;
+        }
+        Ok(())
+    }
+
+    fn list(&self) -> Result<()> {
+        let mut xml = String::from(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" \
+             byte_order=\"LittleEndian\">\n  <Collection>\n",
+        );
+        for e in &self.entries {
+            let (name, file) = (escape(&e.name), escape(&e.file));
+            xml.push_str(&format!(
+                "    <DataSet timestep=\"{:?}\" part=\"{}\" name=\"{name}\" file=\"{file}\"/>\n",
+                e.time, e.part
+            ));
+        }
+        xml.push_str("  </Collection>\n</VTKFile>\n");
+        write_atomic(&self.path, Durability::Process, |file| {
+            file.write_all(xml.as_bytes())
+        })
+    }
+
+    /// The entries on disk; no file is as good as an empty one if none are wanted.
+    fn load(&self, wanted: usize) -> Result<Vec<Entry>> {
+        let text = match fs::read_to_string(&self.path) {
+            Ok(text) => text,
+            Err(e) if e.kind() == io::ErrorKind::NotFound && wanted == 0 => return Ok(vec![]),
+            Err(e) => return Err(IoError::read(&self.path, e)),
+        };
+        parse(&text).map_err(|problem| IoError::Malformed {
+            path: self.path.clone(),
+            problem,
+        })
+    }
+}
+
+/// The entries of a list as this module writes it.
+fn parse(text: &str) -> std::result::Result<Vec<Entry>, String> {
+    if !text.contains("type=\"Collection\"") || !text.trim_end().ends_with("</VTKFile>") {
+        return Err("it is not a whole VTK collection".into());
+    }
+    let mut entries: Vec<Entry> = Vec::new();
+    for (i, after) in text.split("<DataSet").skip(1).enumerate() {
+        let entry = after
+            .split_once("/>")
+            .and_then(|(tag, _)| entry(&attributes(tag)?))
+            .ok_or_else(|| format!("entry {} cannot be read", i + 1))?;
+        if entries.last().is_some_and(|last| last.time > entry.time) {
+            return Err(format!("entry {} goes back in time", i + 1));
+        }
+        entries.push(entry);
+    }
+    Ok(entries)
+}
+
+fn entry(found: &[(&str, String)]) -> Option<Entry> {
+    let get = |name| found.iter().find(|(n, _)| *n == name).map(|(_, v)| v);
+    Some(Entry {
+        time: get("timestep")?
+            .parse()
+            .ok()
+            .filter(|t: &f64| t.is_finite())?,
+        part: get("part")?.parse().ok()?,
+        name: get("name")?.clone(),
+        file: get("file")?.clone(),
+    })
+}
+
+fn distinct_times(entries: &[Entry]) -> Vec<f64> {
+    let mut times: Vec<f64> = entries.iter().map(|e| e.time).collect();
+    times.dedup();
+    times
+}
+
+/// `name` with everything but letters, digits, `-` and `_` replaced.
+fn file_name(name: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    let name: String = name
+        .chars()
+        .map(|c| if plain(c) { c } else { '_' })
+        .collect();
+    if name.is_empty() {
+        "piece".into()
+    } else {
+        name
+    }
+}

@@ -1,0 +1,245 @@
+//! ParaView's `.vtu`: an unstructured grid as XML with raw, compressed arrays.
+//!
+//! Arrays are appended after the XML in little-endian order, cut into blocks
+//! of 1 MiB, each compressed by zlib. An array starts with `UInt64` numbers:
+//! count of blocks, block size, size of a shorter last block (0 if none), and
+//! the compressed size of every block. Reals keep their 64 bits, the simulated
+//! time is in the field data as `TimeValue`, and units are attached as VTK's
+//! information key `UNITS_LABEL`, so that names stay plain words.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::Path;
+
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+
+use crate::error::{IoError, Result};
+use crate::files::atomic::{Durability, write_atomic};
+use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece};
+use crate::paraview::xml::escape;
+
+/// Bytes per compressed block.
+const BLOCK: usize = 1 << 20;
+
+/// Writes one piece at `time` (s) to `path`, all or nothing.
+pub fn write_vtu(path: impl AsRef<Path>, piece: &Piece, time: f64) -> Result<()> {
+    let path = path.as_ref();
+    piece.check().map_err(|p| IoError::input(path, p))?;
+    if !time.is_finite() {
+        return Err(IoError::input(path, format!("the time is {time}")));
+    }
+    let document = Document::of(piece, time).map_err(|e| IoError::write(path, e))?;
+    write_atomic(path, Durability::Process, |file| {
+        file.write_all(document.xml.as_bytes())?;
+        file.write_all(&document.appended)?;
+        file.write_all(b"\n  </AppendedData>\n</VTKFile>\n")
+    })
+}
+
+/// The XML up to the underscore, and the arrays after it.
+#[derive(Default)]
+struct Document {
+    xml: String,
+    appended: Vec<u8>,
+}
+
+impl Document {
+    fn of(piece: &Piece, time: f64) -> std::io::Result<Self> {
+        let points = piece.points.len();
+        let cells = piece.cells.len(points);
+        let mut doc = Self::default();
+        doc.line("<?xml version=\"1.0\"?>");
+        doc.line(
+            "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
+             header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">",
+        );
+        doc.line("  <UnstructuredGrid>");
+        doc.line("    <FieldData>");
+        let tuples = " NumberOfTuples=\"1\"";
+        doc.array("TimeValue", "Float64", tuples, "", time.to_le_bytes())?;
+        doc.line("    </FieldData>");
+        doc.line(&format!(
+            "    <Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">"
+        ));
+        for (tag, location) in [("PointData", Location::Point), ("CellData", Location::Cell)] {
+            doc.line(&format!("      <{tag}>"));
+            for field in piece.fields.iter().filter(|f| f.location == location) {
+                doc.field(field)?;
+            }
+            doc.line(&format!("      </{tag}>"));
+        }
+        doc.line("      <Points>");
+        let coordinates = bytes(piece.points.as_flattened(), f64::to_le_bytes);
+        let three = " NumberOfComponents=\"3\"";
+        doc.array("Points", "Float64", three, "m", coordinates)?;
+        doc.line("      </Points>");
+        doc.cells(&piece.cells, cells)?;
+        doc.line("    </Piece>");
+        doc.line("  </UnstructuredGrid>");
+        doc.line("  <AppendedData encoding=\"raw\">");
+        doc.xml.push('_');
+        Ok(doc)
+    }
+
+    fn line(&mut self, text: &str) {
+        self.xml.push_str(text);
+        self.xml.push('\n');
+    }
+
+    fn field(&mut self, field: &FieldData) -> std::io::Result<()> {
+        let (kind, data) = match &field.data {
+            FieldValues::F64(v) => ("Float64", bytes(v, f64::to_le_bytes)),
+            FieldValues::U32(v) => ("UInt32", bytes(v, u32::to_le_bytes)),
+            FieldValues::I64(v) => ("Int64", bytes(v, i64::to_le_bytes)),
+        };
+        let shape = format!(" NumberOfComponents=\"{}\"", field.components);
+        self.array(&field.name, kind, &shape, &field.unit, data)
+    }
+
+    fn cells(&mut self, cells: &Cells, count: usize) -> std::io::Result<()> {
+        // VTK's numbers for vertex, line, triangle and tetrahedron.
+        let (kind, corners, joined) = match cells {
+            Cells::Vertices => (
+                1_u8,
+                1,
+                (0..count as i64).flat_map(i64::to_le_bytes).collect(),
+            ),
+            Cells::Segments(c) => (
+                3,
+                2,
+                bytes(c.as_flattened(), |p| i64::from(p).to_le_bytes()),
+            ),
+            Cells::Triangles(c) => (
+                5,
+                3,
+                bytes(c.as_flattened(), |p| i64::from(p).to_le_bytes()),
+            ),
+            Cells::Tetrahedra(c) => (
+                10,
+                4,
+                bytes(c.as_flattened(), |p| i64::from(p).to_le_bytes()),
+            ),
+        };
+        let ends = (1..=count as i64).map(|i| i * corners);
+        let offsets: Vec<u8> = ends.flat_map(i64::to_le_bytes).collect();
+        self.line("      <Cells>");
+        self.array("connectivity", "Int64", "", "", joined)?;
+        self.array("offsets", "Int64", "", "", offsets)?;
+        self.array("types", "UInt8", "", "", vec![kind; count])?;
+        self.line("      </Cells>");
+        Ok(())
+    }
+
+    /// Declares an array in the XML and appends its compressed bytes.
+    fn array(
+        &mut self,
+        name: &str,
+        kind: &str,
+        shape: &str,
+        unit: &str,
+        data: impl AsRef<[u8]>,
+    ) -> std::io::Result<()> {
+        let (name, offset) = (escape(name), self.appended.len());
+        let head = format!(
+            "        <DataArray type=\"{kind}\" Name=\"{name}\"{shape} \
+             format=\"appended\" offset=\"{offset}\""
+        );
+        self.xml.push_str(&head);
+        if unit.is_empty() {
+            self.line("/>");
+        } else {
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                self.xml,
+                ">\n          <InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">\
+                 {}</InformationKey>\n        </DataArray>",
+                escape(unit)
+            );
+        }
+        append_compressed(&mut self.appended, data.as_ref())
+    }
+}
+
+/// The little-endian image of `values`.
+fn bytes<T: Copy, const N: usize>(values: &[T], image: impl Fn(T) -> [u8; N]) -> Vec<u8> {
+    let mut out = Vec::with_capacity(values.len() * N);
+    for &value in values {
+        out.extend_from_slice(&image(value));
+    }
+    out
+}
+
+/// Appends `data` in the block layout of `vtkZLibDataCompressor`.
+fn append_compressed(out: &mut Vec<u8>, data: &[u8]) -> std::io::Result<()> {
+    let blocks = data.len().div_ceil(BLOCK);
+    let head = [blocks, BLOCK, data.len() % BLOCK];
+    out.extend(head.iter().flat_map(|&n| (n as u64).to_le_bytes()));
+    let sizes = out.len();
+    out.resize(sizes + 8 * blocks, 0);
+    for (i, block) in data.chunks(BLOCK).enumerate() {
+        let start = out.len();
+        let mut encoder = ZlibEncoder::new(&mut *out, Compression::fast());
+        encoder.write_all(block)?;
+        encoder.finish()?;
+        let size = (out.len() - start) as u64;
+        out[sizes + 8 * i..][..8].copy_from_slice(&size.to_le_bytes());
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flate2::read::ZlibDecoder;
+    use std::io::Read;
+
+    fn word(data: &[u8], i: usize) -> usize {
+        u64::from_le_bytes(data[8 * i..][..8].try_into().unwrap()) as usize
+    }
+
+    fn expand(data: &[u8]) -> Vec<u8> {
+        let blocks = word(data, 0);
+        let mut at = 8 * (3 + blocks);
+        let mut out = Vec::new();
+        for i in 0..blocks {
+            let size = word(data, 3 + i);
+            let mut block = Vec::new();
+            ZlibDecoder::new(&data[at..at + size])
+                .read_to_end(&mut block)
+                .unwrap();
+            let last = word(data, 2);
+            let whole = i + 1 < blocks || last == 0;
+            assert_eq!(block.len(), if whole { word(data, 1) } else { last });
+            out.extend(block);
+            at += size;
+        }
+        assert_eq!(at, data.len());
+        out
+    }
+
+    #[test]
+    fn blocks_expand_to_what_went_in() {
+        for size in [0, 1, BLOCK - 1, BLOCK, BLOCK + 1, 2 * BLOCK, 2 * BLOCK + 77] {
+            let data: Vec<u8> = (0..size).map(|i| (i * i % 251) as u8).collect();
+            let mut out = Vec::new();
+            append_compressed(&mut out, &data).unwrap();
+            assert!(expand(&out) == data, "{size} bytes");
+        }
+    }
+
+    #[test]
+    fn an_infinite_time_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let piece = Piece {
+            name: "fluid".into(),
+            points: vec![].into(),
+            cells: Cells::Vertices,
+            fields: vec![],
+        };
+        let path = folder.path().join("a.vtu");
+        assert!(write_vtu(&path, &piece, f64::NAN).is_err());
+        assert!(!path.exists());
+        write_vtu(&path, &piece, 0.0).unwrap();
+    }
+}

@@ -1,0 +1,235 @@
+//! Reads back what [`write_vtu`](crate::write_vtu) wrote; it is no reader of all of VTK.
+
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+
+use flate2::read::ZlibDecoder;
+
+use crate::error::{IoError, Result};
+use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece};
+use crate::paraview::xml::{attributes, unescape};
+
+/// Largest array that is read, bytes.
+const MOST: usize = 1 << 36;
+
+/// Reads a piece and its time (s); its name is that of the file without its number.
+///
+/// # Errors
+/// A file that cannot be read, or that is not one of [`write_vtu`](crate::write_vtu).
+pub fn read_vtu(path: impl AsRef<Path>) -> Result<(Piece<'static>, f64)> {
+    let path = path.as_ref();
+    let bytes = fs::read(path).map_err(|e| IoError::read(path, e))?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let name = stem.rsplit_once('_').map_or(&*stem, |(name, _)| name);
+    let unfit = |problem: &str| IoError::Unfit {
+        path: path.to_path_buf(),
+        problem: format!("it is not a VTU file of this program: {problem}"),
+    };
+    piece(&bytes, name).map_err(unfit)
+}
+
+/// An array as the XML declares it, with the bytes that belong to it.
+struct Array {
+    name: String,
+    kind: String,
+    components: usize,
+    unit: String,
+    bytes: Vec<u8>,
+}
+
+fn piece(file: &[u8], name: &str) -> std::result::Result<(Piece<'static>, f64), &'static str> {
+    const MARK: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
+    let end = file.windows(MARK.len()).position(|w| w == MARK);
+    let end = end.ok_or("its arrays are not appended")?;
+    let xml = std::str::from_utf8(&file[..end]).map_err(|_| "its head is no text")?;
+    let appended = &file[end + MARK.len()..];
+    let section = |tag: &str| -> std::result::Result<Vec<Array>, &'static str> {
+        let within = xml.split_once(&format!("<{tag}>"));
+        let within = within.and_then(|(_, rest)| rest.split_once(&format!("</{tag}>")));
+        let (within, _) = within.ok_or("a section is missing")?;
+        let tags = within.split("<DataArray ").skip(1);
+        tags.map(|tag| array(tag, appended)).collect()
+    };
+    let time = section("FieldData")?.pop().ok_or("it has no time")?;
+    let time = *reals(&time.bytes).first().ok_or("it has no time")?;
+    let points = section("Points")?.pop().ok_or("it has no points")?;
+    let points = reals(&points.bytes);
+    let (points, _) = points.as_chunks::<3>();
+    let mut fields = Vec::new();
+    for (tag, location) in [("PointData", Location::Point), ("CellData", Location::Cell)] {
+        for array in section(tag)? {
+            fields.push(field(array, location)?);
+        }
+    }
+    let piece = Piece {
+        name: name.to_string().into(),
+        points: points.to_vec().into(),
+        cells: cells(&section("Cells")?)?,
+        fields,
+    };
+    piece
+        .check()
+        .map_err(|_| "its arrays do not fit together")?;
+    Ok((piece, time))
+}
+
+fn array(tag: &str, appended: &[u8]) -> std::result::Result<Array, &'static str> {
+    let (head, rest) = tag.split_once('>').ok_or("a tag does not end")?;
+    let found = attributes(head).ok_or("a tag cannot be read")?;
+    let get = |name| found.iter().find(|(n, _)| *n == name).map(|(_, v)| v);
+    let offset = get("offset").and_then(|o| o.parse::<usize>().ok());
+    let data = offset.and_then(|o| appended.get(o..));
+    let unit = match head.trim_end().ends_with('/') {
+        true => None,
+        false => rest.split_once("\"vtkDataArray\">"),
+    };
+    let unit = unit.and_then(|(_, u)| u.split_once('<'));
+    Ok(Array {
+        name: get("Name").ok_or("an array has no name")?.clone(),
+        kind: get("type").ok_or("an array has no type")?.clone(),
+        components: get("NumberOfComponents")
+            .map_or(Ok(1), |n| n.parse().map_err(|_| "a number"))?,
+        unit: unit.map_or(String::new(), |(u, _)| unescape(u)),
+        bytes: expanded(data.ok_or("an array lies outside of the file")?)?,
+    })
+}
+
+/// The blocks of `vtkZLibDataCompressor`, expanded.
+fn expanded(data: &[u8]) -> std::result::Result<Vec<u8>, &'static str> {
+    let cut = "an array is cut off";
+    let word = |k: usize| {
+        let bytes = data.get(8 * k..8 * k + 8)?;
+        usize::try_from(u64::from_le_bytes(bytes.try_into().ok()?)).ok()
+    };
+    let (blocks, block, last) = match (word(0), word(1), word(2)) {
+        (Some(n), Some(block), Some(last)) => (n, block, last),
+        _ => return Err(cut),
+    };
+    if blocks > data.len() / 8 || block.saturating_mul(blocks) > MOST || last > block {
+        return Err("an array is too large");
+    }
+    let mut out = Vec::new();
+    let mut at = 8 * (3 + blocks);
+    for k in 0..blocks {
+        let size = word(3 + k).ok_or(cut)?;
+        let end = at.checked_add(size).ok_or(cut)?;
+        let whole = k + 1 < blocks || last == 0;
+        let length = if whole { block } else { last };
+        let before = out.len();
+        let decoder = ZlibDecoder::new(data.get(at..end).ok_or(cut)?);
+        let read = decoder.take(length as u64 + 1).read_to_end(&mut out);
+        if read.is_err() || out.len() != before + length {
+            return Err("an array does not expand to its length");
+        }
+        at = end;
+    }
+    Ok(out)
+}
+
+fn field(
+    array: Array,
+    location: Location,
+) -> std::result::Result<FieldData<'static>, &'static str> {
+    let data = match array.kind.as_str() {
+        "Float64" => FieldValues::F64(reals(&array.bytes).into()),
+        "UInt32" => {
+            let (words, _) = array.bytes.as_chunks::<4>();
+            let words: Vec<u32> = words.iter().map(|w| u32::from_le_bytes(*w)).collect();
+            FieldValues::U32(words.into())
+        }
+        "Int64" => FieldValues::I64(whole(&array.bytes).into()),
+        _ => return Err("an array has a type of other programs"),
+    };
+    Ok(FieldData {
+        name: array.name.into(),
+        unit: array.unit.into(),
+        location,
+        components: array.components,
+        data,
+    })
+}
+
+fn reals(bytes: &[u8]) -> Vec<f64> {
+    let (words, _) = bytes.as_chunks::<8>();
+    words.iter().map(|w| f64::from_le_bytes(*w)).collect()
+}
+
+fn whole(bytes: &[u8]) -> Vec<i64> {
+    let (words, _) = bytes.as_chunks::<8>();
+    words.iter().map(|w| i64::from_le_bytes(*w)).collect()
+}
+
+fn cells(arrays: &[Array]) -> std::result::Result<Cells<'static>, &'static str> {
+    let get = |name| arrays.iter().find(|a| a.name == name);
+    let (Some(joined), Some(types)) = (get("connectivity"), get("types")) else {
+        return Err("it has no cells");
+    };
+    let joined: Vec<u32> = whole(&joined.bytes).iter().map(|i| *i as u32).collect();
+    Ok(match types.bytes.first() {
+        None | Some(1) => Cells::Vertices,
+        Some(3) => Cells::Segments(joined.as_chunks::<2>().0.to_vec().into()),
+        Some(5) => Cells::Triangles(joined.as_chunks::<3>().0.to_vec().into()),
+        Some(10) => Cells::Tetrahedra(joined.as_chunks::<4>().0.to_vec().into()),
+        _ => return Err("it has cells of other programs"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::write_vtu;
+
+    fn sample() -> Piece<'static> {
+        let count = 200_000;
+        let points: Vec<[f64; 3]> = (0..count).map(|i| [i as f64, 0.5, -1e-300]).collect();
+        let pressure: Vec<f64> = (0..count).map(|i| (i as f64).sin()).collect();
+        let number: Vec<u32> = (0..count).collect();
+        let segments: Vec<[u32; 2]> = (1..count).map(|i| [i - 1, i]).collect();
+        let normal = vec![1.0; 3 * segments.len()];
+        let fields = vec![
+            FieldData::scalar("pressure", "Pa", pressure),
+            FieldData::integer("identity", number),
+            FieldData::tensor("normal", "m/s² & <more>", 3, normal).at_cells(),
+        ];
+        Piece {
+            name: "two_words".into(),
+            points: points.into(),
+            cells: Cells::Segments(segments.into()),
+            fields,
+        }
+    }
+
+    #[test]
+    fn what_was_written_is_read_to_the_last_bit() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("two_words_000003.vtu");
+        let piece = sample();
+        write_vtu(&path, &piece, 0.1 + 0.2).expect("written");
+        let (read, time) = read_vtu(&path).expect("read");
+        assert_eq!(time.to_bits(), (0.1_f64 + 0.2).to_bits());
+        assert_eq!(format!("{read:?}"), format!("{piece:?}"));
+    }
+
+    #[test]
+    fn what_is_cut_or_garbled_is_refused() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a_0.vtu");
+        let piece = Piece {
+            fields: vec![],
+            ..sample()
+        };
+        write_vtu(&path, &piece, 0.0).expect("written");
+        let whole = fs::read(&path).expect("read");
+        for length in [0, 10, 700, whole.len() / 2] {
+            fs::write(&path, &whole[..length]).expect("cut");
+            let told = read_vtu(&path).unwrap_err().to_string();
+            assert!(told.contains("not a VTU file of this program"), "{told}");
+        }
+        let mut bad = whole.clone();
+        let middle = bad.len() / 2;
+        bad[middle] ^= 0x55;
+        fs::write(&path, &bad).expect("garbled");
+        assert!(read_vtu(&path).is_err());
+    }
+}

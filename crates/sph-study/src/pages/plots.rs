@@ -1,0 +1,124 @@
+//! Plots of a study: error against time, and error against refinement.
+
+use sph_core::number;
+use sph_io::{Plot, Series, Style};
+
+use crate::results::Results;
+use crate::results::order::Orders;
+use crate::results::variant_result::SeriesResult;
+
+/// Most series of which all are named.
+const MOST: usize = 12;
+/// Series that are named where there are more than that.
+const BEST: usize = 6;
+
+/// Error against wall seconds, one line per series, with the Pareto line.
+pub fn work_precision(results: &Results) -> Plot {
+    let time_and_error = |names: &[String]| -> Vec<[f64; 2]> {
+        let point = |name: &String| {
+            let variant = results.variant(name)?;
+            let error = variant.error(results.judged())?;
+            Some([variant.wall_seconds.min?, error])
+        };
+        names.iter().filter_map(point).collect()
+    };
+    let of = |s: &SeriesResult| (label(results, s), time_and_error(&s.variants));
+    let mut all = drawn(results, of);
+    if results.pareto.len() > 1 {
+        let line = time_and_error(&results.pareto);
+        all.push(Series::of("Pareto", line, Style::Highlight));
+    }
+    Plot {
+        title: results.title.clone(),
+        x_label: "wall time [s]".into(),
+        y_label: y_label(results),
+        log_x: true,
+        log_y: true,
+        series: all,
+    }
+}
+
+/// Error against refinement with the observed orders, if there is a refinement.
+pub fn convergence(results: &Results) -> Option<Plot> {
+    let key = results.refinement.as_ref()?;
+    results.errors.first()?;
+    let of = |s: &SeriesResult| {
+        let points = results.convergence(&s.variants, results.judged());
+        let order = s.orders.get(results.judged()).and_then(Orders::main);
+        let name = match order {
+            Some(order) => format!("{}: order {order:.2}", label(results, s)),
+            None => label(results, s),
+        };
+        (name, points.into_iter().map(|(_, p)| p).collect())
+    };
+    let unit = sph_scene::unit(key).filter(|u| u != "1");
+    Some(Plot {
+        title: results.title.clone(),
+        x_label: unit.map_or_else(|| key.clone(), |u| format!("{key} [{u}]")),
+        y_label: y_label(results),
+        log_x: true,
+        log_y: true,
+        series: drawn(results, of),
+    })
+}
+
+/// Every series of which anything has run; if there are too many to be told apart, only the most accurate on the Pareto line
+/// by name, and the others in the background.
+fn drawn(results: &Results, of: impl Fn(&SeriesResult) -> (String, Vec<[f64; 2]>)) -> Vec<Series> {
+    let best = best(results);
+    let mut named = Vec::new();
+    let mut others = Vec::new();
+    for series in &results.series {
+        let (name, points) = of(series);
+        if points.is_empty() {
+            continue;
+        }
+        match results.series.len() <= MOST || best.contains(&series.name.as_str()) {
+            true => named.push(Series::of(name, points, Style::LineAndMarkers)),
+            false => others.push(Series::of(name, points, Style::Background)),
+        }
+    }
+    named.extend(others);
+    named
+}
+
+/// Names of the series with the most accurate variants of the Pareto line.
+fn best(results: &Results) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for variant in results.pareto.iter().rev() {
+        let series = results.series.iter().find(|s| s.variants.contains(variant));
+        if let Some(series) = series.filter(|s| !names.contains(&s.name.as_str())) {
+            names.push(&series.name);
+        }
+    }
+    names.truncate(BEST);
+    names
+}
+
+fn label(results: &Results, series: &SeriesResult) -> String {
+    match series.name.as_str() {
+        "" => results.scene.clone(),
+        name => name.to_string(),
+    }
+}
+
+fn y_label(results: &Results) -> String {
+    let name = results.judged();
+    let with = |v: &crate::VariantResult| v.errors.get(name).cloned();
+    match results.variants.iter().find_map(with) {
+        Some(e) if e.unit == "1" || e.unit.is_empty() => format!("error of {name}, {} [1]", e.norm),
+        Some(e) => format!("error of {name}, {} [{}]", e.norm, e.unit),
+        None => format!("error of {name}"),
+    }
+}
+
+/// What the plots say in a line: the fastest within ever smaller errors.
+pub fn pareto_lines(results: &Results) -> Vec<[String; 3]> {
+    let line = |name: &String| {
+        let variant = results.variant(name)?;
+        let error = variant.error(results.judged())?;
+        let seconds = variant.wall_seconds.min?;
+        Some([name.clone(), number::plain(error), number::plain(seconds)])
+    };
+    results.pareto.iter().filter_map(line).collect()
+}

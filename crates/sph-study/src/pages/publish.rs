@@ -1,0 +1,48 @@
+//! Everything that a study leaves behind for its readers.
+
+use std::path::Path;
+
+use sph_io::{Durability, IoError, Plot, write_atomic};
+
+use crate::pages::{matrix_plots, plots, report, table};
+use crate::reading::combine::safe;
+use crate::results::Results;
+
+/// Writes `study.json`, `study.csv`, the plots and `report.html` into a folder.
+///
+/// # Errors
+/// The first file that cannot be written.
+pub fn publish(results: &Results, folder: &Path) -> Result<(), IoError> {
+    sph_io::write_json(folder.join("study.json"), results)?;
+    table::write_csv(results, &folder.join("study.csv"))?;
+    for (name, plot) in matrix_plots::axes(results) {
+        both(&plot, folder, &format!("axis-{}", safe(&name)))?;
+    }
+    if results.frontiers.is_empty() {
+        compared(results, folder)?;
+    }
+    let page = report::html(results)?;
+    write_atomic(folder.join("report.html"), Durability::Process, |file| {
+        file.write_all(page.as_bytes())
+    })
+}
+
+/// The plots of variants of one scene.
+fn compared(results: &Results, folder: &Path) -> Result<(), IoError> {
+    if !results.errors.is_empty() {
+        let plot = plots::work_precision(results);
+        both(&plot, folder, "error-against-time")?;
+    }
+    if let Some(scale) = &results.scale {
+        both(&scale.plot(&results.title), folder, "cost-against-size")?;
+    }
+    if let Some(plot) = plots::convergence(results) {
+        both(&plot, folder, "error-against-refinement")?;
+    }
+    Ok(())
+}
+
+fn both(plot: &Plot, folder: &Path, name: &str) -> Result<(), IoError> {
+    plot.save_svg(folder.join(format!("{name}.svg")))?;
+    plot.save_png(folder.join(format!("{name}.png")))
+}

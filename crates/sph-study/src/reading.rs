@@ -1,0 +1,13 @@
+//! From the file of a study to its variants.
+
+pub mod axis;
+pub mod combine;
+pub mod file;
+pub mod ladder;
+pub mod mistake;
+pub mod options;
+pub mod plan;
+pub mod reader;
+pub mod rung;
+pub mod scene_text;
+pub mod variant;

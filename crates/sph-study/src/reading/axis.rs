@@ -1,0 +1,262 @@
+//! From the axes of a study file to labels and the scene values behind them.
+
+use std::collections::BTreeSet;
+
+use sph_core::SceneProblem;
+use sph_scene::Override;
+use toml::{Table, Value};
+
+use crate::reading::file;
+
+/// A scene value with the place of the study file that gives it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Set {
+    /// What is put on the scene.
+    pub value: Override,
+    /// Path in the study file.
+    pub path: String,
+}
+
+/// A direction in which variants differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Name in tables and plots.
+    pub name: String,
+    /// The places on it.
+    pub choices: Vec<Choice>,
+}
+
+/// A place on an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// Name in tables and plots.
+    pub label: String,
+    /// Name in folders: the label, after the axis' name where the label is a bare value.
+    pub slug: String,
+    /// What it sets.
+    pub sets: Vec<Set>,
+}
+
+impl Axis {
+    /// Whether its places set a key of the scene, or something around or in it.
+    pub fn touches(&self, key: &str) -> bool {
+        let within = |inner: &str, outer: &str| {
+            let rest = inner.strip_prefix(outer);
+            rest.is_some_and(|r| r.is_empty() || r.starts_with(['.', '[']))
+        };
+        let sets = self.choices.iter().flat_map(|c| &c.sets);
+        let paths = sets.map(|s| s.value.path());
+        paths.into_iter().any(|p| within(p, key) || within(key, p))
+    }
+}
+
+/// Most axes of a study.
+const AXES: usize = 100;
+
+/// All axes of a study file.
+///
+/// # Errors
+/// Every axis that is not one, with its place in the file.
+pub fn axes(given: &[file::Axis]) -> Result<Vec<Axis>, Vec<SceneProblem>> {
+    if given.len() > AXES {
+        let message = format!("{} axes are more than {AXES}", given.len());
+        return Err(vec![SceneProblem::new("vary", message)]);
+    }
+    let mut problems = Vec::new();
+    let mut axes: Vec<Axis> = Vec::new();
+    for (k, axis) in given.iter().enumerate() {
+        let at = format!("vary[{k}]");
+        match one(axis, &at) {
+            Ok(axis) if axes.iter().any(|a| a.name == axis.name) => {
+                let message = format!("there is another axis called `{}`", axis.name);
+                problems.push(SceneProblem::new(at, message));
+            }
+            Ok(axis) => axes.push(axis),
+            Err(found) => problems.extend(found),
+        }
+    }
+    match problems.is_empty() {
+        true => Ok(axes),
+        false => Err(problems),
+    }
+}
+
+/// One axis of a study file, with its path.
+///
+/// # Errors
+/// What it lacks, with its place in the file.
+pub(crate) fn one(axis: &file::Axis, at: &str) -> Result<Axis, Vec<SceneProblem>> {
+    let problem = |key: &str, message: &str| vec![SceneProblem::new(format!("{at}{key}"), message)];
+    let (name, choices) = match (&axis.key, &axis.values, &axis.entries) {
+        (Some(key), Some(values), None) => {
+            let name = axis.name.clone();
+            let name = name.unwrap_or_else(|| last(key).to_string());
+            let labels = axis.labels.as_ref();
+            if labels.is_some_and(|l| l.len() != values.len()) {
+                return Err(problem(
+                    ".labels",
+                    "there must be one label for every value",
+                ));
+            }
+            let choice = |(k, value): (usize, &Value)| {
+                let at = format!("{at}.values[{k}]");
+                let set = set(key, value.clone(), at)?;
+                let bare = label(value);
+                let given = labels.map(|l| l[k].clone());
+                Ok(Choice {
+                    slug: given.clone().unwrap_or_else(|| format!("{name}-{bare}")),
+                    label: given.unwrap_or(bare),
+                    sets: vec![set],
+                })
+            };
+            let choices: Result<Vec<_>, SceneProblem> =
+                values.iter().enumerate().map(choice).collect();
+            (name.clone(), choices.map_err(|p| vec![p])?)
+        }
+        (None, None, Some(entries)) => {
+            if axis.labels.is_some() {
+                return Err(problem(".labels", "entries have names, not labels"));
+            }
+            let name = axis.name.clone();
+            let missing = "the key `name` is missing: what tables and plots call this axis";
+            let name = name.ok_or_else(|| problem("", missing))?;
+            let choice = |(k, entry): (usize, &file::Entry)| {
+                let at = format!("{at}.entries[{k}].set");
+                Ok(Choice {
+                    label: entry.name.clone(),
+                    slug: entry.name.clone(),
+                    sets: sets(&entry.set, &at)?,
+                })
+            };
+            let choices: Result<Vec<_>, SceneProblem> =
+                entries.iter().enumerate().map(choice).collect();
+            (name, choices.map_err(|p| vec![p])?)
+        }
+        _ => {
+            let message = "an axis has either `key` and `values`, or `name` and `entries`";
+            return Err(problem("", message));
+        }
+    };
+    if choices.is_empty() {
+        return Err(problem("", "an axis needs a value"));
+    }
+    let mut seen = BTreeSet::new();
+    match choices.iter().find(|c| !seen.insert(&c.label)) {
+        Some(twice) => Err(problem("", &format!("`{}` is there twice", twice.label))),
+        None => Ok(Axis { name, choices }),
+    }
+}
+
+fn last(key: &str) -> &str {
+    key.rsplit('.').next().unwrap_or(key)
+}
+
+fn set(key: &str, value: Value, at: String) -> Result<Set, SceneProblem> {
+    let value = Override::new(key, value);
+    let value = value.map_err(|p| SceneProblem::new(&at, format!("{key}: {}", p.message)))?;
+    Ok(Set { value, path: at })
+}
+
+/// The scene values of a table, whose keys are paths as in `--set` or tables of such.
+///
+/// A table under a plain key is gone into; one under a key with a dot, and an empty one, is the
+/// value itself.
+///
+/// # Errors
+/// A key that is no path.
+pub fn sets(table: &Table, at: &str) -> Result<Vec<Set>, SceneProblem> {
+    let mut all = Vec::new();
+    collect(table, "", at, &mut all)?;
+    Ok(all)
+}
+
+fn collect(table: &Table, key: &str, at: &str, all: &mut Vec<Set>) -> Result<(), SceneProblem> {
+    for (name, value) in table {
+        let below = match key {
+            "" => name.clone(),
+            key => format!("{key}.{name}"),
+        };
+        let at = format!("{at}.{name}");
+        match value {
+            Value::Table(inner) if !inner.is_empty() && !name.contains('.') => {
+                collect(inner, &below, &at, all)?;
+            }
+            value => all.push(set(&below, value.clone(), at)?),
+        }
+    }
+    Ok(())
+}
+
+/// A value as it stands in tables.
+pub fn label(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Float(x) => format!("{x}"),
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Result<Vec<Axis>, String> {
+        #[derive(serde::Deserialize)]
+        struct Vary {
+            vary: Vec<file::Axis>,
+        }
+        let Vary { vary } = toml::from_str(text).unwrap();
+        axes(&vary).map_err(|all| all[0].to_string())
+    }
+
+    #[test]
+    fn values_and_entries_become_scene_values_with_their_places() {
+        let axes = parsed(
+            "[[vary]]\nkey = 'numerics.spacing'\nvalues = [0.5, '2 mm']\n\
+             [[vary]]\nname = 'viscosity'\nentries = [{ name = 'off', set = { shifting = {}, \
+             'body.a.box' = [[0], [1]], viscous-operator.krimi = {} } }]",
+        )
+        .unwrap();
+        assert_eq!(axes[0].name, "spacing");
+        assert_eq!(axes[0].choices[1].slug, "spacing-2 mm");
+        assert!(axes[0].touches("numerics.spacing") && axes[0].touches("numerics"));
+        assert!(!axes[0].touches("numerics.spacing_x"));
+        let sets = &axes[1].choices[0].sets;
+        let paths: Vec<_> = sets.iter().map(|s| (s.value.path(), &*s.path)).collect();
+        assert_eq!(
+            paths,
+            [
+                ("body.a.box", "vary[1].entries[0].set.body.a.box"),
+                ("shifting", "vary[1].entries[0].set.shifting"),
+                (
+                    "viscous-operator.krimi",
+                    "vary[1].entries[0].set.viscous-operator.krimi"
+                ),
+            ]
+        );
+    }
+
+    #[test]
+    fn what_is_no_axis_is_told() {
+        for (axis, message) in [
+            ("key = 'a'", "either `key` and `values`"),
+            ("key = 'a'\nvalues = []", "needs a value"),
+            ("key = 'a'\nvalues = [1, 1]", "`1` is there twice"),
+            (
+                "key = 'a'\nvalues = [1]\nlabels = []",
+                "one label for every",
+            ),
+            ("key = 'a..b'\nvalues = [1]", "vary[0].values[0]: a..b: "),
+            ("entries = [{ name = 'x' }]", "`name` is missing"),
+        ] {
+            let told = parsed(&format!("[[vary]]\n{axis}")).unwrap_err();
+            assert!(told.contains(message), "{axis}: {told}");
+        }
+        let twice = "[[vary]]\nkey = 'a.x'\nvalues = [1]\n[[vary]]\nkey = 'b.x'\nvalues = [1]";
+        assert!(
+            parsed(twice)
+                .unwrap_err()
+                .contains("another axis called `x`")
+        );
+    }
+}

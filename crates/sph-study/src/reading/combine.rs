@@ -1,0 +1,270 @@
+//! From axes to variants: crossing, pairing, leaving out, naming.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sph_core::{SceneProblem, suggestion};
+use toml::Value;
+
+use crate::reading::axis::{Axis, label};
+use crate::reading::file::Combine;
+
+/// Most variants of a study.
+pub(crate) const MOST: usize = 10_000;
+/// Longest name of a variant's folder.
+const LONGEST: usize = 120;
+
+/// A variant: the number of the choice taken on every axis, and its name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Combination {
+    /// Name, which is that of its folder too.
+    pub name: String,
+    /// One number per axis.
+    pub choices: Vec<usize>,
+}
+
+/// All variants, the last axis running fastest.
+///
+/// # Errors
+/// Axes that cannot be paired, conditions that name nothing, too many variants.
+pub fn combinations(
+    axes: &[Axis],
+    combine: Combine,
+    skip: &[BTreeMap<String, Value>],
+) -> Result<Vec<Combination>, Vec<SceneProblem>> {
+    let all = match combine {
+        Combine::Product => product(axes),
+        Combine::Zip => zipped(axes),
+    };
+    let all = all.map_err(|p| vec![p])?;
+    let skipped = conditions(axes, skip)?;
+    let left_out = |choices: &Vec<usize>| {
+        let holds = |condition: &Condition| condition.iter().all(|(k, c)| c.contains(&choices[*k]));
+        skipped.iter().any(holds)
+    };
+    let kept: Vec<_> = all.into_iter().filter(|c| !left_out(c)).collect();
+    match kept.is_empty() {
+        true => Err(vec![SceneProblem::new("skip", "no variant is left")]),
+        false => Ok(named(axes, kept)),
+    }
+}
+
+fn product(axes: &[Axis]) -> Result<Vec<Vec<usize>>, SceneProblem> {
+    let mut all: Vec<Vec<usize>> = vec![Vec::new()];
+    for axis in axes {
+        if all.len().saturating_mul(axis.choices.len()) > MOST {
+            let message = format!("these are more than {MOST} variants");
+            return Err(SceneProblem::new("vary", message));
+        }
+        let with = |c: &Vec<usize>| {
+            let longer = |k| c.iter().copied().chain([k]).collect();
+            (0..axis.choices.len()).map(longer).collect::<Vec<_>>()
+        };
+        all = all.iter().flat_map(with).collect();
+    }
+    Ok(all)
+}
+
+fn zipped(axes: &[Axis]) -> Result<Vec<Vec<usize>>, SceneProblem> {
+    let count = axes.first().map_or(1, |a| a.choices.len());
+    if let Some(k) = axes.iter().position(|a| a.choices.len() != count) {
+        let message = format!(
+            "axes that go side by side are equally long: `{}` has {count}, `{}` has {}",
+            axes[0].name,
+            axes[k].name,
+            axes[k].choices.len()
+        );
+        return Err(SceneProblem::new(format!("vary[{k}]"), message));
+    }
+    Ok((0..count).map(|k| vec![k; axes.len()]).collect())
+}
+
+/// Number of an axis with those of its choices, all of which must hold.
+type Condition = Vec<(usize, Vec<usize>)>;
+
+fn conditions(
+    axes: &[Axis],
+    skip: &[BTreeMap<String, Value>],
+) -> Result<Vec<Condition>, Vec<SceneProblem>> {
+    let mut problems = Vec::new();
+    let mut all = Vec::new();
+    for (n, given) in skip.iter().enumerate() {
+        let at = format!("skip[{n}]");
+        if given.is_empty() {
+            problems.push(SceneProblem::new(
+                &at,
+                "an empty condition skips everything",
+            ));
+        }
+        let mut condition = Condition::new();
+        for (name, labels) in given {
+            match choices(axes, name, labels) {
+                Ok(found) => condition.push(found),
+                Err(why) => problems.push(SceneProblem::new(format!("{at}.{name}"), why)),
+            }
+        }
+        all.push(condition);
+    }
+    match problems.is_empty() {
+        true => Ok(all),
+        false => Err(problems),
+    }
+}
+
+fn choices(axes: &[Axis], name: &str, labels: &Value) -> Result<(usize, Vec<usize>), String> {
+    let names = || axes.iter().map(|a| a.name.as_str());
+    let axis = axes.iter().position(|a| a.name == name).ok_or_else(|| {
+        let near = suggestion(name, names());
+        let known = names().collect::<Vec<_>>().join(", ");
+        format!("there is no axis called `{name}`{near} (there are: {known})")
+    })?;
+    let labels: Vec<String> = match labels {
+        Value::Array(several) => several.iter().map(label).collect(),
+        one => vec![label(one)],
+    };
+    let known = || axes[axis].choices.iter().map(|c| c.label.as_str());
+    let find = |wanted: &String| {
+        known().position(|l| l == wanted).ok_or_else(|| {
+            let near = suggestion(wanted, known());
+            let known = known().collect::<Vec<_>>().join(", ");
+            format!("the axis has no `{wanted}`{near} (it has: {known})")
+        })
+    };
+    let found: Result<Vec<usize>, String> = labels.iter().map(find).collect();
+    Ok((axis, found?))
+}
+
+fn named(axes: &[Axis], all: Vec<Vec<usize>>) -> Vec<Combination> {
+    let mut taken = BTreeSet::new();
+    let name = |choices: &Vec<usize>| {
+        let parts = axes.iter().zip(choices);
+        let parts = parts.map(|(a, k)| safe(&a.choices[*k].slug));
+        let parts: Vec<String> = parts.filter(|p| !p.is_empty()).collect();
+        let name: String = parts.join("_").chars().take(LONGEST).collect();
+        let name = match name.is_empty() {
+            true => "scene".to_string(),
+            false => name,
+        };
+        // Some file systems do not tell case apart.
+        let mut free = name.clone();
+        let mut number = 1;
+        while !taken.insert(free.to_lowercase()) {
+            number += 1;
+            free = format!("{name}-{number}");
+        }
+        free
+    };
+    let mut name = name;
+    let one = |choices: Vec<usize>| Combination {
+        name: name(&choices),
+        choices,
+    };
+    all.into_iter().map(one).collect()
+}
+
+/// A text as it can stand in the name of a folder anywhere.
+pub fn safe(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            c if c.is_ascii_alphanumeric() || "+=.".contains(c) => out.push(c),
+            _ if out.ends_with('-') => {}
+            _ => out.push('-'),
+        }
+    }
+    out.trim_matches(['-', '.']).to_string()
+}
+
+/// Whether a name fits a pattern with `*` and `?`.
+///
+/// What follows a `*` is tried at its first place; where the rest does not fit, the last `*` alone takes one letter
+/// more. That is enough, and takes no more than the product of both lengths.
+pub fn fits(pattern: &str, name: &str) -> bool {
+    let (pattern, name): (Vec<char>, Vec<char>) =
+        (pattern.chars().collect(), name.chars().collect());
+    let (mut p, mut n) = (0, 0);
+    let mut star: Option<(usize, usize)> = None;
+    while n < name.len() {
+        match pattern.get(p) {
+            Some('*') => {
+                star = Some((p, n));
+                p += 1;
+            }
+            Some(c) if *c == '?' || *c == name[n] => (p, n) = (p + 1, n + 1),
+            _ => match star {
+                Some((at, taken)) => {
+                    (p, n) = (at + 1, taken + 1);
+                    star = Some((at, taken + 1));
+                }
+                None => return false,
+            },
+        }
+    }
+    pattern[p..].iter().all(|c| *c == '*')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reading::axis::Choice;
+
+    fn axis(name: &str, labels: &[&str]) -> Axis {
+        let choice = |l: &&str| Choice {
+            label: (*l).into(),
+            slug: (*l).into(),
+            sets: Vec::new(),
+        };
+        Axis {
+            name: name.into(),
+            choices: labels.iter().map(choice).collect(),
+        }
+    }
+
+    fn names(combine: Combine, skip: &str) -> Result<Vec<String>, String> {
+        #[derive(serde::Deserialize)]
+        struct Skip {
+            skip: Vec<BTreeMap<String, Value>>,
+        }
+        let Skip { skip } = toml::from_str(&format!("skip = {skip}")).unwrap();
+        let axes = [axis("colour", &["red", "Blue"]), axis("n", &["1", "2"])];
+        let all = combinations(&axes, combine, &skip).map_err(|p| p[0].to_string())?;
+        Ok(all.into_iter().map(|c| c.name).collect())
+    }
+
+    #[test]
+    fn axes_are_crossed_paired_and_thinned() {
+        let all = ["red_1", "red_2", "Blue_1", "Blue_2"];
+        assert_eq!(names(Combine::Product, "[]").unwrap(), all);
+        assert_eq!(names(Combine::Zip, "[]").unwrap(), ["red_1", "Blue_2"]);
+        let skip = "[{ colour = 'red', n = [2] }, { n = 1 }]";
+        assert_eq!(names(Combine::Product, skip).unwrap(), ["Blue_2"]);
+    }
+
+    #[test]
+    fn a_condition_that_names_nothing_is_told() {
+        for (skip, message) in [
+            ("[{ color = 'red' }]", "did you mean `colour`"),
+            ("[{ colour = 'blu' }]", "did you mean `Blue`"),
+            ("[{}]", "skips everything"),
+            ("[{ n = [1, 2] }]", "no variant is left"),
+        ] {
+            let told = names(Combine::Product, skip).unwrap_err();
+            assert!(told.contains(message), "{skip}: {told}");
+        }
+    }
+
+    #[test]
+    fn names_are_safe_and_distinct() {
+        assert_eq!(safe("../a b/ρ: 25²"), "a-b-25");
+        let axes = [axis("x", &["a/b", "A b", "*"])];
+        let all = combinations(&axes, Combine::Product, &[]).unwrap();
+        let names: Vec<_> = all.iter().map(|c| c.name.as_str()).collect();
+        assert_eq!(names, ["a-b", "A-b-2", "scene"]);
+        assert!(fits("mor*_?5", "morris_25") && !fits("mor*_?5", "morris_125x"));
+        assert!(fits("*25*", "a_225_x") && fits("", "") && fits("**", "") && !fits("", "a"));
+        // Ways to spread the letters over the stars are without number.
+        assert!(!fits(
+            &"*a".repeat(40).replace("*a*a*a*a", "*a*a*a*b"),
+            &"a".repeat(120)
+        ));
+    }
+}

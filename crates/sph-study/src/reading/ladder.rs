@@ -1,0 +1,270 @@
+//! Axes that are gone along from harmless to absurd, each with its own scene.
+
+use sph_core::{SceneProblem, suggestion};
+use sph_scene::{Override, Source};
+
+use crate::reading::axis::{self, Axis, Choice, label};
+use crate::reading::combine::{MOST, combinations, safe};
+use crate::reading::file::{self, Bounds, Combine, StudyFile};
+use crate::reading::mistake::Refused;
+use crate::reading::reader::Reader;
+use crate::reading::rung::{Ladder, Rung};
+use crate::reading::scene_text::SceneText;
+use crate::reading::variant::Variant;
+use crate::running::verdict::QUANTITIES;
+
+/// Names of what the labels of such a study's variants belong to.
+const COLUMNS: [&str; 3] = ["axis", "combination", "value"];
+
+/// The axes of such a study as a table has them.
+pub fn columns() -> Vec<Axis> {
+    let axis = |name: &&str| Axis {
+        name: (*name).to_string(),
+        choices: Vec::new(),
+    };
+    COLUMNS.iter().map(axis).collect()
+}
+
+/// Every axis, and its variants in the order in which they run.
+///
+/// # Errors
+/// All mistakes of the axes, else all of their scenes.
+pub fn read(
+    file: &StudyFile,
+    source: &Source,
+    find: &dyn Fn(&str) -> Result<SceneText, String>,
+    set: &[Override],
+    only: &[String],
+) -> Result<(Vec<Ladder>, Vec<Variant>), Refused> {
+    let mut problems = whole(file);
+    let mut ladders = Vec::new();
+    for (k, given) in file.axis.iter().enumerate() {
+        match one(file, given, &format!("axis[{k}]"), find) {
+            Ok(ladder) => ladders.push(ladder),
+            Err(found) => problems.extend(found),
+        }
+    }
+    if !problems.is_empty() {
+        return Err(Refused::of(source, &problems));
+    }
+    let mut variants = Vec::new();
+    let mut mistakes = Vec::new();
+    for (k, found) in ladders.iter().enumerate() {
+        let common = axis::sets(&file.set, "set").and_then(|mut sets| {
+            sets.extend(axis::sets(&file.axis[k].set, &format!("axis[{k}].set"))?);
+            Ok(sets)
+        });
+        let common = common.map_err(|p| Refused::of(source, &[p]))?;
+        let all = combinations(&found.axes, Combine::Product, &[]);
+        let all = all.map_err(|problems| Refused::of(source, &problems))?;
+        if variants.len() + all.len() > MOST {
+            let message = format!("with this axis there are more than {MOST} variants");
+            let problem = SceneProblem::new(format!("axis[{k}]"), message);
+            return Err(Refused::of(source, &[problem]));
+        }
+        let errors = &file.axis[k].error;
+        let reader = Reader {
+            file,
+            source,
+            scene: &found.scene,
+            axes: &found.axes,
+            common,
+            set,
+            refinement: None,
+            errors: errors.paths(&format!("axis[{k}].error")),
+        };
+        match reader.all(&all, only) {
+            Err(refused) => mistakes.extend(refused.mistakes),
+            Ok(read) => {
+                let placed = read.into_iter().zip(&all).map(|(mut variant, c)| {
+                    variant.rung = Some(Rung {
+                        ladder: k,
+                        combination: c.choices[1],
+                        value: c.choices[2],
+                    });
+                    variant
+                });
+                variants.extend(placed);
+            }
+        }
+    }
+    match mistakes.is_empty() {
+        true => Ok((ladders.into_iter().map(|l| l.ladder).collect(), variants)),
+        false => Err(Refused { mistakes }),
+    }
+}
+
+/// A ladder with what its variants are made from.
+struct Found {
+    ladder: Ladder,
+    scene: SceneText,
+    /// The ladder itself, the combinations, the values.
+    axes: [Axis; 3],
+}
+
+/// What is wrong with the study as a whole.
+fn whole(file: &StudyFile) -> Vec<SceneProblem> {
+    let mut problems = Vec::new();
+    let mut problem = |path: String, message: &str| problems.push(SceneProblem::new(path, message));
+    if !file.vary.is_empty() {
+        problem("vary".into(), "a study has either `vary` or `axis`");
+    }
+    if file.refinement.is_some() {
+        problem("refinement".into(), "a study with `axis` has no refinement");
+    }
+    if !file.error.paths("error").is_empty() {
+        problem("error".into(), "every `axis` names its own errors");
+    }
+    let names: Vec<String> = file
+        .axis
+        .iter()
+        .map(|a| safe(&a.name).to_lowercase())
+        .collect();
+    for (k, name) in names.iter().enumerate() {
+        if names[..k].contains(name) {
+            problem(
+                format!("axis[{k}].name"),
+                "there is another axis of that name",
+            );
+        }
+    }
+    let known = || file.axis.iter().map(|a| a.name.as_str());
+    for (k, combination) in file.combination.iter().enumerate() {
+        for (n, wanted) in combination.axes.iter().enumerate() {
+            if !known().any(|name| name == wanted) {
+                let near = suggestion(wanted, known());
+                let message = format!("there is no axis called `{wanted}`{near}");
+                problem(format!("combination[{k}].axes[{n}]"), &message);
+            }
+        }
+    }
+    problems
+}
+
+fn one(
+    file: &StudyFile,
+    given: &file::Ladder,
+    at: &str,
+    find: &dyn Fn(&str) -> Result<SceneText, String>,
+) -> Result<Found, Vec<SceneProblem>> {
+    let problem =
+        |key: &str, message: String| vec![SceneProblem::new(format!("{at}{key}"), message)];
+    let values = values(given, at)?;
+    let labels: Vec<String> = values.choices.iter().map(|c| c.label.clone()).collect();
+    let must = given.must.as_ref().map(|must| {
+        let must = label(must);
+        let place = labels.iter().position(|l| *l == must);
+        place.ok_or_else(|| {
+            let known = labels.join(", ");
+            problem(
+                ".must",
+                format!("the axis has no `{must}` (it has: {known})"),
+            )
+        })
+    });
+    let must = must.transpose()?;
+    let named = given.scene.as_ref().or(file.scene.as_ref());
+    let missing = || problem("", "neither the axis nor the study has a scene".into());
+    let scene = find(named.ok_or_else(missing)?);
+    let scene = scene.map_err(|why| problem(".scene", why))?;
+    let errors = given.error.paths(&format!("{at}.error"));
+    let errors: Vec<String> = errors.into_iter().map(|e| e.0).collect();
+    let (judge, path) = match given.judge.is_empty() {
+        true => (&file.judge, "judge".to_string()),
+        false => (&given.judge, format!("{at}.judge")),
+    };
+    check(judge, &errors, &path)?;
+    let itself = Choice {
+        label: given.name.clone(),
+        slug: given.name.clone(),
+        sets: Vec::new(),
+    };
+    let axis = |k: usize, choices| Axis {
+        name: COLUMNS[k].to_string(),
+        choices,
+    };
+    Ok(Found {
+        axes: [
+            axis(0, vec![itself]),
+            axis(1, plugins(file, given)?),
+            axis(2, values.choices),
+        ],
+        ladder: Ladder {
+            name: given.name.clone(),
+            title: given.title.clone(),
+            scene: scene.name.clone(),
+            errors,
+            labels,
+            must,
+            judge: judge.clone(),
+            to_the_end: given.to_the_end,
+        },
+        scene,
+    })
+}
+
+/// The values of an axis, whose labels alone name folders.
+fn values(given: &file::Ladder, at: &str) -> Result<Axis, Vec<SceneProblem>> {
+    let plain = file::Axis {
+        name: Some(given.name.clone()),
+        key: given.key.clone(),
+        values: given.values.clone(),
+        labels: given.labels.clone(),
+        entries: given.entries.clone(),
+    };
+    let mut values = axis::one(&plain, at)?;
+    for choice in &mut values.choices {
+        choice.slug.clone_from(&choice.label);
+    }
+    Ok(values)
+}
+
+/// The combinations of plugins that are for an axis; one without a name if there are none.
+fn plugins(file: &StudyFile, given: &file::Ladder) -> Result<Vec<Choice>, Vec<SceneProblem>> {
+    let all = file.combination.iter().enumerate();
+    let fitting = all.filter(|(_, c)| c.axes.is_empty() || c.axes.contains(&given.name));
+    let choice = |(k, c): (usize, &file::Combination)| {
+        Ok(Choice {
+            label: c.name.clone(),
+            slug: c.name.clone(),
+            sets: axis::sets(&c.set, &format!("combination[{k}].set"))?,
+        })
+    };
+    let choices: Result<Vec<Choice>, SceneProblem> = fitting.map(choice).collect();
+    let mut choices = choices.map_err(|p| vec![p])?;
+    if choices.is_empty() {
+        choices.push(Choice {
+            label: String::new(),
+            slug: String::new(),
+            sets: Vec::new(),
+        });
+    }
+    Ok(choices)
+}
+
+/// Refuses bounds of what no run of the axis has, and bounds in the wrong order.
+fn check(judge: &Bounds, errors: &[String], path: &str) -> Result<(), Vec<SceneProblem>> {
+    let known = || {
+        let own = errors.iter().map(String::as_str);
+        own.chain(QUANTITIES.iter().map(|q| q.0))
+    };
+    let mut problems = Vec::new();
+    for (name, [green, yellow]) in judge {
+        let at = format!("{path}.{name}");
+        if !known().any(|k| k == name) {
+            let near = suggestion(name, known());
+            let list = known().collect::<Vec<_>>().join(", ");
+            let message = format!("nothing is called `{name}`{near} (there are: {list})");
+            problems.push(SceneProblem::new(&at, message));
+        }
+        if !(*green >= 0.0 && yellow >= green) {
+            let message =
+                "bounds are the largest green and the largest yellow value, in this order";
+            problems.push(SceneProblem::new(at, message));
+        }
+    }
+    match problems.is_empty() {
+        true => Ok(()),
+        false => Err(problems),
+    }
+}

@@ -1,0 +1,40 @@
+//! How a study is run.
+
+use std::path::PathBuf;
+
+use crate::reading::variant::Variant;
+use crate::running::machine::Origin;
+use crate::running::record::Record;
+
+/// How a study is run.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Folder of all its files.
+    pub out: PathBuf,
+    /// Threads; `None` for all cores.
+    pub threads: Option<usize>,
+    /// Whether finished variants are run again.
+    pub fresh: bool,
+    /// On what and by what variants are run, for the records.
+    pub origin: Origin,
+}
+
+impl Options {
+    /// Folder of a variant.
+    pub fn folder(&self, variant: &Variant) -> PathBuf {
+        self.out.join("variants").join(&variant.name)
+    }
+
+    /// What is known of a variant from before.
+    pub fn known(&self, variant: &Variant) -> Option<Record> {
+        let record = Record::load(&self.folder(variant));
+        let forgotten = self.fresh && variant.wanted;
+        record.filter(|r| !forgotten && r.fingerprint == variant.fingerprint)
+    }
+
+    /// Threads in force.
+    pub fn threads(&self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        self.threads.unwrap_or_else(cores)
+    }
+}

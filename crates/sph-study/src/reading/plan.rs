@@ -1,0 +1,238 @@
+//! From a study file to variants that are known to be good, before any of them is run.
+
+use std::path::Path;
+
+use sph_core::{RegistryError, SceneProblem, suggestion, typed};
+use sph_scene::{Override, Source, read_text};
+use sph_solver::{SolverError, examine};
+use toml::Table;
+
+use crate::reading::axis::{self, Axis};
+use crate::reading::combine::{combinations, fits};
+use crate::reading::file::StudyFile;
+use crate::reading::ladder;
+use crate::reading::mistake::{Blame, Refused};
+use crate::reading::reader::{Reader, refinement};
+use crate::reading::rung::Ladder;
+use crate::reading::scene_text::{FindScene, SceneText};
+use crate::reading::variant::Variant;
+
+/// A study whose variants are known to be good.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Name of the file without extension.
+    pub name: String,
+    /// What the file says.
+    pub file: StudyFile,
+    /// Name of the scene.
+    pub scene: String,
+    /// Names of the references that are judged, the first one by plots.
+    pub errors: Vec<String>,
+    /// What is varied.
+    pub axes: Vec<Axis>,
+    /// Key over which the order of convergence is computed.
+    pub refinement: Option<String>,
+    /// Axes that are gone along until they break, instead of what is varied.
+    pub ladders: Vec<Ladder>,
+    /// What was put on top of every variant, as `--set` has it.
+    pub set: Vec<String>,
+    /// The variants, in the order in which they run.
+    pub variants: Vec<Variant>,
+    source: Source,
+}
+
+impl Study {
+    /// Reads a study file and the scenes of all its variants.
+    ///
+    /// `set` is put on top of every variant; variants that fit none of the patterns `only` are
+    /// shown but not run.
+    ///
+    /// # Errors
+    /// Every mistake of the study and of the scenes that follow from it.
+    pub fn read(
+        path: &Path,
+        find: &FindScene,
+        set: &[Override],
+        only: &[String],
+    ) -> Result<Self, ReadError> {
+        let name = path.display().to_string();
+        let text = read_text(path).map_err(|why| ReadError::Unreadable(name.clone(), why))?;
+        Self::parse(&text, path, find, set, only)
+    }
+
+    /// Reads a study from a text; `path` is its file, from which it names the scene.
+    ///
+    /// # Errors
+    /// As [`Study::read`].
+    pub fn parse(
+        text: &str,
+        path: &Path,
+        find: &FindScene,
+        set: &[Override],
+        only: &[String],
+    ) -> Result<Self, ReadError> {
+        let source = Source::new(text, &path.display().to_string(), &[]);
+        let refused = |problems: Vec<SceneProblem>| Refused::of(&source, &problems);
+        let table = source.table();
+        let table = table.map_err(|found| Refused::from_diagnostics(&source, found))?;
+        let file = study_file(&table).map_err(refused)?;
+        let name = path.file_stem().and_then(|s| s.to_str());
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let parts = Parts {
+            name: name.unwrap_or("study").to_string(),
+            find: &|scene| find(folder, scene),
+            set,
+            only,
+        };
+        let study = match file.axis.is_empty() {
+            true => parts.varied(file, source)?,
+            false => parts.along(file, source)?,
+        };
+        if let Some(pattern) = only
+            .iter()
+            .find(|p| !study.variants.iter().any(|v| fits(p, &v.name)))
+        {
+            let names = || study.variants.iter().map(|v| v.name.as_str());
+            let mut near = suggestion(pattern, names());
+            if let (true, Some(one)) = (near.is_empty(), names().next()) {
+                near = format!("; they are called like `{one}`");
+            }
+            return Err(ReadError::Only(pattern.clone(), near));
+        }
+        Ok(study)
+    }
+
+    /// Text of the study file.
+    pub fn definition(&self) -> &str {
+        self.source.text()
+    }
+
+    /// Assembles a variant as a run would; returns the work of a run, pairs in the sweeps of all steps.
+    ///
+    /// # Errors
+    /// Everything its plugins refuse, in the study file where that is to blame.
+    pub fn assemble(&self, variant: &Variant) -> Result<f64, Refused> {
+        let problems = match examine(&variant.loaded.scene) {
+            Ok(examined) => return Ok(examined.estimate.steps * examined.load.pairs()),
+            Err(SolverError::Scene(problems)) => problems,
+            Err(other) => vec![SceneProblem::new("", other.to_string())],
+        };
+        let scene = &variant.loaded.source;
+        let blame = Blame {
+            study: &self.source,
+            given_by: &variant.given_by,
+        };
+        let mut mistakes = blame.place(scene, &scene.diagnose(&problems));
+        // What no key of the study is to blame for still belongs to a variant.
+        for mistake in &mut mistakes {
+            if mistake.diagnostic.file != self.source.file() {
+                let message = &mut mistake.diagnostic.message;
+                *message = format!("variant `{}`: {message}", variant.name);
+            }
+        }
+        Err(Refused { mistakes })
+    }
+}
+
+/// What a study is made from besides its file.
+struct Parts<'a> {
+    name: String,
+    find: &'a dyn Fn(&str) -> Result<SceneText, String>,
+    set: &'a [Override],
+    only: &'a [String],
+}
+
+impl Parts<'_> {
+    /// Variants of one scene.
+    fn varied(&self, file: StudyFile, source: Source) -> Result<Study, Refused> {
+        let refused = |problems: Vec<SceneProblem>| Refused::of(&source, &problems);
+        let axes = axis::axes(&file.vary).map_err(refused)?;
+        let all = combinations(&axes, file.combine, &file.skip).map_err(refused)?;
+        let errors = file.error.paths("error");
+        if errors.is_empty() && file.scaling.is_none() {
+            let why = "a study judges by an error, or tells the `scaling` of a cost";
+            return Err(refused(vec![SceneProblem::new("error", why)]));
+        }
+        let between = file.scaling.as_ref().and_then(|s| s.between.as_ref());
+        if let Some(name) = between.filter(|name| !axes.iter().any(|a| a.name == **name)) {
+            let near = suggestion(name, axes.iter().map(|a| a.name.as_str()));
+            let why = format!("there is no axis `{name}`{near}");
+            return Err(refused(vec![SceneProblem::new("scaling.between", why)]));
+        }
+        let scene = match &file.scene {
+            Some(scene) => (self.find)(scene),
+            None => Err("a study needs a scene, or axes that have their own".into()),
+        };
+        let scene = scene.map_err(|why| refused(vec![SceneProblem::new("scene", why)]))?;
+        let common = axis::sets(&file.set, "set").map_err(|p| refused(vec![p]))?;
+        let reader = Reader {
+            file: &file,
+            source: &source,
+            scene: &scene,
+            axes: &axes,
+            common,
+            set: self.set,
+            refinement: refinement(&file, &axes),
+            errors,
+        };
+        let variants = reader.all(&all, self.only)?;
+        Ok(Study {
+            name: self.name.clone(),
+            scene: scene.name.clone(),
+            errors: reader.errors.iter().map(|e| e.0.clone()).collect(),
+            refinement: reader.refinement.clone(),
+            set: self.set.iter().map(|o| o.text().to_string()).collect(),
+            ladders: Vec::new(),
+            axes,
+            variants,
+            file,
+            source,
+        })
+    }
+
+    /// Axes that are gone along until they break.
+    fn along(&self, file: StudyFile, source: Source) -> Result<Study, Refused> {
+        let (ladders, variants) = ladder::read(&file, &source, self.find, self.set, self.only)?;
+        let mut scenes: Vec<&str> = Vec::new();
+        for ladder in &ladders {
+            if !scenes.contains(&ladder.scene.as_str()) {
+                scenes.push(&ladder.scene);
+            }
+        }
+        Ok(Study {
+            name: self.name.clone(),
+            scene: scenes.join(", "),
+            errors: Vec::new(),
+            refinement: None,
+            set: self.set.iter().map(|o| o.text().to_string()).collect(),
+            axes: ladder::columns(),
+            ladders,
+            variants,
+            file,
+            source,
+        })
+    }
+}
+
+/// Why a study cannot be had.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// The file cannot be read.
+    #[error("cannot read `{0}`: {1}")]
+    Unreadable(String, String),
+    /// A pattern that no variant fits.
+    #[error("no variant is called `{0}`{1}")]
+    Only(String, String),
+    /// The study has mistakes.
+    #[error(transparent)]
+    Refused(#[from] Refused),
+}
+
+/// The typed content of a study file.
+fn study_file(table: &Table) -> Result<StudyFile, Vec<SceneProblem>> {
+    match typed(table) {
+        Ok(file) => Ok(file),
+        Err(RegistryError::Parameters(problems)) => Err(problems),
+        Err(other) => Err(vec![SceneProblem::new("", other.to_string())]),
+    }
+}

@@ -1,0 +1,191 @@
+//! The scenes of all variants, and what must hold of them together.
+
+use std::collections::BTreeMap;
+
+use sph_core::{SceneProblem, suggestion};
+use sph_scene::{Loaded, Override, Source, read};
+use toml::{Table, Value};
+
+use crate::reading::axis::{Axis, Set};
+use crate::reading::combine::{Combination, fits};
+use crate::reading::file::StudyFile;
+use crate::reading::mistake::{Blame, Mistake, Refused};
+use crate::reading::scene_text::SceneText;
+use crate::reading::variant::Variant;
+use crate::running::fingerprint::fingerprint;
+
+/// The key over which the order of convergence is computed, where a study names none.
+const REFINEMENT: &str = "numerics.spacing";
+/// Scene values that keep a variant from writing what nobody looks at.
+const QUIET: [&str; 2] = ["output.vtk=false", "output.picture=[]"];
+
+/// Makes variants from combinations.
+pub(crate) struct Reader<'a> {
+    pub file: &'a StudyFile,
+    pub source: &'a Source,
+    pub scene: &'a SceneText,
+    pub axes: &'a [Axis],
+    /// What every variant sets.
+    pub common: Vec<Set>,
+    /// What is put on top of every variant from outside.
+    pub set: &'a [Override],
+    /// References that the scene must have, with their places in the study file.
+    pub errors: Vec<(String, String)>,
+    /// The key over which the order of convergence is computed.
+    pub refinement: Option<String>,
+}
+
+/// The key over which the order of convergence is computed.
+pub(crate) fn refinement(file: &StudyFile, axes: &[Axis]) -> Option<String> {
+    let varied = || axes.iter().any(|a| a.touches(REFINEMENT));
+    let given = file.refinement.clone();
+    given.or_else(|| varied().then(|| REFINEMENT.to_string()))
+}
+
+impl Reader<'_> {
+    /// Every variant, or every mistake, each told once.
+    pub fn all(&self, all: &[Combination], only: &[String]) -> Result<Vec<Variant>, Refused> {
+        let mut variants = Vec::new();
+        let mut found: Vec<(&str, Mistake)> = Vec::new();
+        for combination in all {
+            match self.one(combination, only) {
+                Ok(variant) => variants.push(variant),
+                Err(mistakes) => {
+                    let named = mistakes.into_iter().map(|m| (combination.name.as_str(), m));
+                    found.extend(named);
+                }
+            }
+        }
+        match found.is_empty() {
+            true => Ok(variants),
+            false => Err(Refused {
+                mistakes: self.told_once(found, all.len()),
+            }),
+        }
+    }
+
+    /// Each mistake once; what only some variants make of the scene is told with one of them.
+    fn told_once(&self, found: Vec<(&str, Mistake)>, variants: usize) -> Vec<Mistake> {
+        let mut times: BTreeMap<String, usize> = BTreeMap::new();
+        for (_, mistake) in &found {
+            *times.entry(mistake.diagnostic.to_string()).or_default() += 1;
+        }
+        let mut told = Vec::new();
+        for (name, mut mistake) in found {
+            let diagnostic = &mut mistake.diagnostic;
+            let Some(count) = times.remove(&diagnostic.to_string()) else {
+                continue;
+            };
+            if count < variants && diagnostic.file != self.source.file() {
+                diagnostic.message = format!("variant `{name}`: {}", diagnostic.message);
+            }
+            told.push(mistake);
+        }
+        told
+    }
+
+    fn one(&self, combination: &Combination, only: &[String]) -> Result<Variant, Vec<Mistake>> {
+        let (overrides, given_by) = self.overrides(&combination.choices);
+        let blame = Blame {
+            study: self.source,
+            given_by: &given_by,
+        };
+        let SceneText {
+            text,
+            file,
+            allowed,
+            ..
+        } = self.scene;
+        let loaded = read(Source::new(text, file, &overrides).allowing(allowed));
+        let loaded = loaded.map_err(|r| blame.place(&r.source, &r.diagnostics))?;
+        let mut problems = self.missing_references(&loaded);
+        let refinement = self
+            .refinement
+            .as_ref()
+            .map(|key| value_at(&loaded.resolved(), key));
+        if let Some(Err(why)) = &refinement {
+            problems.push(SceneProblem::new("refinement", why.clone()));
+        }
+        if !problems.is_empty() {
+            return Err(Refused::of(self.source, &problems).mistakes);
+        }
+        let unreadable = |(key, why): (String, String)| {
+            let found = loaded.source.diagnose(&[SceneProblem::new(key, why)]);
+            blame.place(&loaded.source, &found)
+        };
+        let labels = self.axes.iter().zip(&combination.choices);
+        let name = combination.name.clone();
+        Ok(Variant {
+            labels: labels.map(|(a, k)| a.choices[*k].label.clone()).collect(),
+            refinement: refinement.and_then(Result::ok),
+            wanted: only.is_empty() || only.iter().any(|p| fits(p, &name)),
+            fingerprint: fingerprint(&loaded).map_err(unreadable)?,
+            errors: self.errors.iter().map(|e| e.0.clone()).collect(),
+            rung: None,
+            name,
+            loaded,
+            given_by,
+        })
+    }
+
+    /// What is put on the scene, in this order, with the place that gives it.
+    fn overrides(&self, choices: &[usize]) -> (Vec<Override>, Vec<Option<String>>) {
+        let mut all: Vec<(Override, Option<String>)> = Vec::new();
+        if !self.file.keep_output {
+            let quiet = QUIET.iter().filter_map(|text| Override::parse(text).ok());
+            all.extend(quiet.map(|o| (o, None)));
+        }
+        let chosen = self
+            .axes
+            .iter()
+            .zip(choices)
+            .flat_map(|(a, k)| &a.choices[*k].sets);
+        let own = self.common.iter().chain(chosen);
+        all.extend(own.map(|s| (s.value.clone(), Some(s.path.clone()))));
+        all.extend(self.set.iter().map(|o| (o.clone(), None)));
+        all.into_iter().unzip()
+    }
+
+    fn missing_references(&self, loaded: &Loaded) -> Vec<SceneProblem> {
+        let known = &loaded.scene.reference;
+        let names = self.errors.iter().cloned();
+        let missing = names.filter(|(name, _)| !known.contains_key(name));
+        let problem = |(name, path): (String, String)| {
+            let near = suggestion(&name, known.keys().map(String::as_str));
+            let list = known.keys().cloned().collect::<Vec<_>>().join(", ");
+            let message = match list.as_str() {
+                "" => "the scene has no reference to judge by".to_string(),
+                list => {
+                    format!("the scene has no reference called `{name}`{near} (it has: {list})")
+                }
+            };
+            SceneProblem::new(path, message)
+        };
+        missing.map(problem).collect()
+    }
+}
+
+/// The positive number at a key of a scene.
+fn value_at(scene: &Table, key: &str) -> Result<f64, String> {
+    let mut here: Option<&Value> = None;
+    for part in key.split('.') {
+        let table = here.map_or(Some(scene), Value::as_table);
+        here = table.and_then(|t| t.get(part));
+    }
+    let number = match here {
+        Some(Value::Float(x)) => *x,
+        Some(Value::Integer(i)) => *i as f64,
+        Some(other) => {
+            return Err(format!(
+                "`{key}` is refined over and must be a number, found {other}"
+            ));
+        }
+        None => return Err(format!("no scene of the study has a value at `{key}`")),
+    };
+    match number > 0.0 && number.is_finite() {
+        true => Ok(number),
+        false => Err(format!(
+            "`{key}` is refined over and must be positive, found {number}"
+        )),
+    }
+}

@@ -1,0 +1,28 @@
+//! One scene of a study.
+
+use sph_scene::Loaded;
+
+use crate::reading::rung::Rung;
+
+/// One scene of a study.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// Name, which is that of its folder too.
+    pub name: String,
+    /// Label on every axis.
+    pub labels: Vec<String>,
+    /// Value of the refinement's key.
+    pub refinement: Option<f64>,
+    /// Names of the references that are judged.
+    pub errors: Vec<String>,
+    /// Its place on an axis that is gone along until it breaks.
+    pub rung: Option<Rung>,
+    /// Whether it is to be run, or only shown if it has been.
+    pub wanted: bool,
+    /// The scene.
+    pub loaded: Loaded,
+    /// What its result depends on.
+    pub fingerprint: String,
+    /// For every override of the scene the path in the study file that gives it, if it does.
+    pub(crate) given_by: Vec<Option<String>>,
+}

@@ -1,0 +1,201 @@
+//! What changed between two studies.
+
+use std::path::Path;
+
+use serde::Serialize;
+use sph_core::number;
+
+use crate::results::Results;
+use crate::running::machine::Origin;
+
+/// The difference of two studies, variant by variant.
+#[derive(Clone, Debug, Serialize)]
+pub struct Comparison {
+    /// What else differs: studies, machines, versions, threads.
+    pub notes: Vec<String>,
+    /// Variants that both have.
+    pub variants: Vec<Change>,
+    /// Variants of the first study only.
+    pub only_in_first: Vec<String>,
+    /// Variants of the second study only.
+    pub only_in_second: Vec<String>,
+    /// Geometric mean of the ratios of wall seconds, second over first.
+    pub wall_ratio: Option<f64>,
+}
+
+/// A variant in both studies.
+#[derive(Clone, Debug, Serialize)]
+pub struct Change {
+    /// Name.
+    pub name: String,
+    /// How it ended.
+    pub status: [String; 2],
+    /// Name of an error with its values and their ratio.
+    pub errors: Vec<(String, Pair)>,
+    /// Wall seconds and their ratio.
+    pub wall_seconds: Pair,
+    /// Steps and their ratio.
+    pub steps: Pair,
+}
+
+/// Two numbers and the second over the first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Pair {
+    /// In the first study.
+    pub first: Option<f64>,
+    /// In the second study.
+    pub second: Option<f64>,
+    /// Second over first.
+    pub ratio: Option<f64>,
+}
+
+impl Pair {
+    fn of(first: Option<f64>, second: Option<f64>) -> Self {
+        let ratio = first.zip(second).map(|(a, b)| b / a);
+        Pair {
+            first,
+            second,
+            ratio: ratio.filter(|r| r.is_finite()),
+        }
+    }
+
+    fn text(&self) -> String {
+        let one = |x: Option<f64>| x.map_or("–".to_string(), number::plain);
+        if self.first == self.second {
+            return one(self.first);
+        }
+        let ratio = self.ratio.map_or(String::new(), |r| format!("  ×{r:.3}"));
+        format!("{} → {}{ratio}", one(self.first), one(self.second))
+    }
+}
+
+/// Longest `study.json`, bytes.
+const LONGEST: u64 = 512 << 20;
+
+impl Results {
+    /// Reads a `study.json`.
+    ///
+    /// # Errors
+    /// In words, if the file cannot be read or is none.
+    pub fn load(path: &Path) -> Result<Self, String> {
+        let shown = path.display();
+        sph_io::readable(path, LONGEST).map_err(|e| e.to_string())?;
+        let text = std::fs::read_to_string(path);
+        let text = text.map_err(|e| format!("cannot read `{shown}`: {e}"))?;
+        serde_json::from_str(&text).map_err(|e| format!("`{shown}` is no study.json: {e}"))
+    }
+}
+
+/// Compares two studies by the names of their variants.
+pub fn compare(first: &Results, second: &Results) -> Comparison {
+    let change = |a: &crate::VariantResult| {
+        let b = second.variant(&a.name)?;
+        let error = |name: &String| {
+            let pair = Pair::of(a.error(name), b.error(name));
+            (name.clone(), pair)
+        };
+        Some(Change {
+            name: a.name.clone(),
+            status: [a.status, b.status].map(|s| s.name().to_string()),
+            errors: first.errors.iter().map(error).collect(),
+            wall_seconds: Pair::of(a.wall_seconds.min, b.wall_seconds.min),
+            steps: Pair::of(Some(a.steps as f64), Some(b.steps as f64)),
+        })
+    };
+    let variants: Vec<Change> = first.variants.iter().filter_map(change).collect();
+    let missing = |from: &Results, other: &Results| {
+        let names = from.variants.iter().map(|v| v.name.clone());
+        names.filter(|n| other.variant(n).is_none()).collect()
+    };
+    let ratios = variants.iter().filter_map(|v| v.wall_seconds.ratio);
+    let logs: Vec<f64> = ratios.map(f64::ln).filter(|l| l.is_finite()).collect();
+    let mean = logs.iter().sum::<f64>() / logs.len() as f64;
+    Comparison {
+        notes: notes(first, second),
+        only_in_first: missing(first, second),
+        only_in_second: missing(second, first),
+        wall_ratio: (!logs.is_empty()).then(|| mean.exp()),
+        variants,
+    }
+}
+
+fn notes(a: &Results, b: &Results) -> Vec<String> {
+    let mut notes = Vec::new();
+    let mut differ = |what: &str, a: String, b: String| {
+        if a != b {
+            notes.push(format!("{what}: {a} → {b}"));
+        }
+    };
+    differ("study", a.study.clone(), b.study.clone());
+    differ("scene", a.scene.clone(), b.scene.clone());
+    let (x, y) = (&a.origin, &b.origin);
+    let commit = |o: &Origin| o.commit.clone().unwrap_or("unknown".into());
+    differ("version", x.version.clone(), y.version.clone());
+    differ("commit", commit(x), commit(y));
+    differ("built with", x.built_with.clone(), y.built_with.clone());
+    differ(
+        "machine, so that times cannot be compared",
+        x.machine.to_string(),
+        y.machine.to_string(),
+    );
+    let threads = |r: &Results| {
+        let mut all: Vec<usize> = r.variants.iter().map(|v| v.threads).collect();
+        all.retain(|t| *t > 0);
+        all.sort_unstable();
+        all.dedup();
+        all.iter()
+            .map(usize::to_string)
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    differ("threads", threads(a), threads(b));
+    let manner = |r: &Results| {
+        if r.serial {
+            "one by one"
+        } else {
+            "side by side"
+        }
+    };
+    differ("variants ran", manner(a).into(), manner(b).into());
+    notes
+}
+
+impl Comparison {
+    /// One row per variant, the first one being the heads of the columns.
+    pub fn rows(&self) -> Vec<Vec<String>> {
+        let mut heads = vec!["variant".to_string()];
+        let errors = self.variants.first().map_or(&[][..], |v| &v.errors[..]);
+        heads.extend(errors.iter().map(|(name, _)| name.clone()));
+        heads.extend(["wall seconds", "steps", "status"].map(String::from));
+        let mut rows = vec![heads];
+        for v in &self.variants {
+            let mut row = vec![v.name.clone()];
+            row.extend(v.errors.iter().map(|(_, pair)| pair.text()));
+            row.push(v.wall_seconds.text());
+            row.push(v.steps.text());
+            row.push(match v.status[0] == v.status[1] {
+                true => v.status[0].clone(),
+                false => v.status.join(" → "),
+            });
+            rows.push(row);
+        }
+        rows
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_have_ratios_where_there_are_two_numbers() {
+        let pair = Pair::of(Some(2.0), Some(1.0));
+        assert_eq!(
+            (pair.ratio, pair.text().as_str()),
+            (Some(0.5), "2 → 1  ×0.500")
+        );
+        assert_eq!(Pair::of(Some(2.0), Some(2.0)).text(), "2");
+        assert_eq!(Pair::of(None, Some(2.0)).text(), "– → 2");
+        assert_eq!(Pair::of(Some(0.0), Some(2.0)).ratio, None);
+    }
+}

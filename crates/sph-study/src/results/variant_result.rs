@@ -1,0 +1,140 @@
+//! What came out of a variant, and which variants differ in their refinement only.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::reading::file::Bounds;
+use crate::reading::variant::Variant;
+use crate::results::order::Orders;
+use crate::running::cost::{Cost, SolveCost};
+use crate::running::machine::Origin;
+use crate::running::record::{Error, Health, Record, Status};
+use crate::running::verdict::{Verdict, verdict};
+
+/// What came out of a variant.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct VariantResult {
+    /// Name, which is that of its folder.
+    pub name: String,
+    /// Label by axis.
+    pub values: BTreeMap<String, String>,
+    /// Value of the refinement's key.
+    pub refinement: Option<f64>,
+    /// How it ended.
+    pub status: Status,
+    /// Why it did not end well.
+    pub reason: Option<String>,
+    /// Green, yellow or red, of a run along an axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
+    /// How sound the run was.
+    #[serde(default)]
+    pub health: Health,
+    /// All errors against the scene's references.
+    pub errors: BTreeMap<String, Error>,
+    /// Observed order between this and the next coarser variant, of the first judged error.
+    pub order: Option<f64>,
+    /// Wall-clock times.
+    pub wall_seconds: WallSeconds,
+    /// Threads.
+    pub threads: usize,
+    /// Free particles.
+    pub particles: usize,
+    /// Steps.
+    pub steps: u64,
+    /// Steps that were rolled back.
+    pub steps_rolled_back: u64,
+    /// Simulated time reached, s.
+    pub simulated_seconds: f64,
+    /// The bound that limited most steps.
+    pub dt_limiter: Option<String>,
+    /// Share of the steps limited by each bound.
+    pub dt_limiters: BTreeMap<String, f64>,
+    /// What implicit solves took.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub solves: Option<SolveCost>,
+    /// Wall-clock seconds per stage, of the fastest repetition.
+    pub wall_seconds_by_stage: BTreeMap<String, f64>,
+    /// On what and by what it was run.
+    #[serde(flatten)]
+    pub origin: Origin,
+    /// What the result depends on.
+    pub fingerprint: String,
+}
+
+/// Wall-clock times of the repetitions, s.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct WallSeconds {
+    /// The least: what the variant takes where nothing disturbs it.
+    pub min: Option<f64>,
+    /// Largest over least, less one.
+    pub spread: Option<f64>,
+    /// All of them.
+    pub all: Vec<f64>,
+    /// Of the repetition that did not come to its end.
+    #[serde(default)]
+    pub spent: f64,
+}
+
+/// Variants that differ in their refinement only, from coarse to fine.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct SeriesResult {
+    /// Labels on the other axes.
+    pub name: String,
+    /// Names of the variants.
+    pub variants: Vec<String>,
+    /// Orders of every judged error.
+    pub orders: BTreeMap<String, Orders>,
+}
+
+impl VariantResult {
+    pub(crate) fn new(
+        v: &Variant,
+        record: &Record,
+        judge: Option<&Bounds>,
+        axes: &[String],
+    ) -> Self {
+        VariantResult {
+            name: v.name.clone(),
+            values: axes.iter().cloned().zip(v.labels.iter().cloned()).collect(),
+            refinement: v.refinement,
+            status: record.status,
+            reason: record.reason.clone(),
+            verdict: judge.and_then(|bounds| verdict(record, bounds)),
+            health: record.health.clone(),
+            errors: match record.status {
+                Status::Done => record.errors.clone(),
+                _ => BTreeMap::new(),
+            },
+            order: None,
+            wall_seconds: WallSeconds {
+                min: record.least_seconds(),
+                spread: record.spread(),
+                all: record.wall_seconds.clone(),
+                spent: record.spent,
+            },
+            threads: record.threads,
+            particles: record.particles,
+            steps: record.steps,
+            steps_rolled_back: record.steps_rolled_back,
+            simulated_seconds: record.simulated_seconds,
+            dt_limiter: record.limiter().map(String::from),
+            dt_limiters: record.dt_limiters.clone(),
+            solves: record.solves.clone(),
+            wall_seconds_by_stage: record.wall_seconds_by_stage.clone(),
+            origin: record.origin.clone(),
+            fingerprint: v.fingerprint.clone(),
+        }
+    }
+
+    /// Seconds of a step or a solve.
+    pub fn cost(&self, cost: Cost) -> Option<f64> {
+        cost.seconds(self.wall_seconds.min, self.steps, self.solves.as_ref())
+    }
+
+    /// An error, if the variant is finished and has it.
+    pub fn error(&self, name: &str) -> Option<f64> {
+        self.errors.get(name)?.value
+    }
+}

@@ -1,0 +1,10 @@
+//! Variants run one after the other, and what is kept of each.
+
+pub mod cost;
+pub mod execute;
+pub mod fingerprint;
+pub mod machine;
+pub mod record;
+pub mod repeat;
+pub mod verdict;
+pub mod watcher;

@@ -1,0 +1,135 @@
+//! On what and by what a study was run.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use serde::{Deserialize, Serialize};
+
+use crate::running::fingerprint::VERSION;
+
+/// A computer, as far as run times depend on it.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Machine {
+    /// Model of the processor.
+    pub cpu: String,
+    /// Cores that this process may use.
+    pub cores: usize,
+    /// Operating system and architecture.
+    pub os: String,
+}
+
+impl Machine {
+    /// This computer.
+    pub fn this() -> Self {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        Machine {
+            cpu: cpu().unwrap_or_else(|| std::env::consts::ARCH.to_string()),
+            cores,
+            os: format!("{} {}", system(), std::env::consts::ARCH),
+        }
+    }
+}
+
+/// Where run times and last digits come from.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Origin {
+    /// On what it ran.
+    pub machine: Machine,
+    /// Version of the program.
+    pub version: String,
+    /// Commit of the program's repository, if it is known.
+    pub commit: Option<String>,
+    /// Compiler and libraries of the program.
+    pub built_with: String,
+}
+
+impl Origin {
+    /// Of what this program runs here and now.
+    pub fn new(built_with: &str) -> Self {
+        Origin {
+            machine: Machine::this(),
+            version: VERSION.into(),
+            commit: commit(),
+            built_with: built_with.into(),
+        }
+    }
+}
+
+impl std::fmt::Display for Machine {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let cores = if self.cores == 1 { "core" } else { "cores" };
+        write!(f, "{}, {} {cores}, {}", self.cpu, self.cores, self.os)
+    }
+}
+
+fn cpu() -> Option<String> {
+    if let Ok(text) = std::fs::read_to_string("/proc/cpuinfo") {
+        let line = text.lines().find(|l| l.starts_with("model name"))?;
+        return Some(line.split_once(':')?.1.trim().to_string());
+    }
+    said(Command::new("sysctl").args(["-n", "machdep.cpu.brand_string"]))
+}
+
+fn system() -> String {
+    let release = std::fs::read_to_string("/etc/os-release").unwrap_or_default();
+    let name = release.lines().find_map(|l| l.strip_prefix("PRETTY_NAME="));
+    match name {
+        Some(name) => name.trim_matches('"').to_string(),
+        None => std::env::consts::OS.to_string(),
+    }
+}
+
+/// What a program prints, if it is there and content.
+fn said(command: &mut Command) -> Option<String> {
+    let output = command
+        .stdin(Stdio::null())
+        .stderr(Stdio::null())
+        .output()
+        .ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    let text = text.trim();
+    (output.status.success() && !text.is_empty()).then(|| text.to_string())
+}
+
+/// Commit of the repository that this program was built in, with `-dirty` if files were changed.
+///
+/// Taken from the build (`SPH_COMMIT`) if it says, else from the repository around the
+/// executable or the working folder, provided it is the one with this crate.
+fn commit() -> Option<String> {
+    if let Some(commit) = option_env!("SPH_COMMIT") {
+        return Some(commit.to_string());
+    }
+    let beside = std::env::current_exe().ok();
+    let beside = beside.as_deref().and_then(Path::parent);
+    let here = std::env::current_dir().ok();
+    let mut folders = beside.into_iter().chain(here.as_deref());
+    folders.find_map(|folder| {
+        let git = |words: &[&str]| said(Command::new("git").current_dir(folder).args(words));
+        let root = git(&["rev-parse", "--show-toplevel"])?;
+        let ours = Path::new(&root)
+            .join("crates/sph-study/Cargo.toml")
+            .exists();
+        ours.then(|| {
+            git(&[
+                "describe",
+                "--always",
+                "--dirty",
+                "--abbrev=12",
+                "--exclude=*",
+            ])
+        })?
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_machine_has_a_name_and_cores() {
+        let machine = Machine::this();
+        assert!(machine.cores > 0 && !machine.cpu.is_empty() && !machine.os.is_empty());
+        assert!(machine.to_string().contains(&machine.cpu));
+    }
+}

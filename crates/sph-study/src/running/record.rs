@@ -1,0 +1,296 @@
+//! What is kept of a variant once it has run.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use sph_io::IoError;
+use sph_solver::{ErrorEntry, Summary, Trouble};
+
+use crate::running::cost::{Cost, SolveCost};
+use crate::running::machine::Origin;
+
+/// Name of the record in a variant's folder.
+const FILE: &str = "record.json";
+/// Longest record, bytes.
+const LONGEST: u64 = 64 << 20;
+
+/// How a variant ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// All repetitions reached their end.
+    Done,
+    /// It stopped on an error.
+    Failed,
+    /// It was given up after the study's time limit.
+    OverLimit,
+    /// It has begun, and goes on when the study is run again.
+    Interrupted,
+    /// It comes after one that broke on the same axis, and is not run.
+    Skipped,
+    /// It has not been run yet.
+    #[default]
+    Pending,
+}
+
+impl Status {
+    /// As it stands in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Done => "done",
+            Status::Failed => "failed",
+            Status::OverLimit => "over limit",
+            Status::Interrupted => "interrupted",
+            Status::Skipped => "skipped",
+            Status::Pending => "pending",
+        }
+    }
+}
+
+/// All that a study knows of a variant that has run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Record {
+    /// How it ended.
+    pub status: Status,
+    /// What the result depends on.
+    pub fingerprint: String,
+    /// Why it failed, or which limit it is over.
+    pub reason: Option<String>,
+    /// Time limit in force, s.
+    pub time_limit: Option<f64>,
+    /// Errors against the scene's references.
+    pub errors: BTreeMap<String, Error>,
+    /// Wall-clock seconds of every repetition.
+    pub wall_seconds: Vec<f64>,
+    /// Wall-clock seconds of the repetition under way, s.
+    pub spent: f64,
+    /// Threads of the last repetition.
+    pub threads: usize,
+    /// Free particles.
+    pub particles: usize,
+    /// Steps taken.
+    pub steps: u64,
+    /// Steps that were rolled back.
+    pub steps_rolled_back: u64,
+    /// Simulated time reached, s.
+    pub simulated_seconds: f64,
+    /// Share of the steps limited by each bound.
+    pub dt_limiters: BTreeMap<String, f64>,
+    /// How sound it was.
+    pub health: Health,
+    /// What implicit solves took in the last repetition.
+    pub solves: Option<SolveCost>,
+    /// Wall-clock seconds per stage, of the fastest repetition.
+    pub wall_seconds_by_stage: BTreeMap<String, f64>,
+    /// On what and by what it was run.
+    #[serde(flatten)]
+    pub origin: Origin,
+}
+
+/// What tells whether a run was sound; numbers that are not finite are left out.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Health {
+    /// Particles behind a wall at the end.
+    pub escaped: usize,
+    /// Least and largest density over the reference, over all rows of the series.
+    pub density_range: Option<[f64; 2]>,
+    /// Change of the energy over the largest energy of any kind.
+    pub energy_drift: Option<f64>,
+    /// Most that the energy was above its first value, over the same.
+    pub energy_rise: Option<f64>,
+    /// Change of the momentum over Σ m|u|.
+    pub momentum_drift: Option<f64>,
+    /// Largest speed over the speed of sound.
+    pub mach: Option<f64>,
+    /// Least and mean distance to the nearest particle at the end, over the spacing.
+    pub nearest: Option<[f64; 2]>,
+    /// The first step that failed, if any did.
+    pub first_trouble: Option<Trouble>,
+}
+
+impl Health {
+    fn of(summary: &Summary) -> Self {
+        let finite = |x: f64| x.is_finite().then_some(x);
+        let both = |x: [f64; 2]| x.iter().all(|x| x.is_finite()).then_some(x);
+        Health {
+            escaped: summary.escaped,
+            density_range: both(summary.density_range),
+            energy_drift: finite(summary.drift.energy),
+            energy_rise: finite(summary.drift.energy_rise),
+            momentum_drift: finite(summary.drift.momentum),
+            mach: finite(summary.mach),
+            nearest: both(summary.nearest),
+            first_trouble: summary.first_trouble.clone(),
+        }
+    }
+
+    /// Largest distance of a density from its reference, over it.
+    pub fn density_deviation(&self) -> Option<f64> {
+        let [low, high] = self.density_range?;
+        Some((low - 1.0).abs().max((high - 1.0).abs()))
+    }
+}
+
+/// A comparison with a reference.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Error {
+    /// The number; null if nothing could be compared.
+    pub value: Option<f64>,
+    /// Name of the norm.
+    pub norm: String,
+    /// Unit, "1" for relative norms.
+    pub unit: String,
+}
+
+impl From<&ErrorEntry> for Error {
+    fn from(entry: &ErrorEntry) -> Self {
+        Error {
+            value: entry.value,
+            norm: entry.norm.clone(),
+            unit: entry.unit.clone(),
+        }
+    }
+}
+
+impl Record {
+    /// The record in a variant's folder, if there is one that can be read.
+    pub fn load(folder: &Path) -> Option<Self> {
+        let file = folder.join(FILE);
+        sph_io::readable(&file, LONGEST).ok()?;
+        let text = std::fs::read_to_string(file).ok()?;
+        serde_json::from_str(&text).ok()
+    }
+
+    /// Writes the record, all or nothing.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn save(&self, folder: &Path) -> Result<(), IoError> {
+        sph_io::write_json(folder.join(FILE), self)
+    }
+
+    /// Path of the record in a variant's folder.
+    pub fn path(folder: &Path) -> PathBuf {
+        folder.join(FILE)
+    }
+
+    /// Takes over what a finished repetition gave.
+    pub fn add(&mut self, summary: &Summary) {
+        let fastest = self
+            .least_seconds()
+            .is_none_or(|s| summary.wall_seconds <= s);
+        self.wall_seconds.push(summary.wall_seconds);
+        self.look(summary);
+        self.spent = 0.0;
+        let errors = summary.errors.iter();
+        self.errors = errors.map(|(name, e)| (name.clone(), e.into())).collect();
+        if fastest {
+            self.wall_seconds_by_stage
+                .clone_from(&summary.wall_seconds_by_stage);
+        }
+    }
+
+    /// Takes over how far a repetition got.
+    pub fn look(&mut self, summary: &Summary) {
+        self.spent = summary.wall_seconds;
+        self.threads = summary.threads;
+        self.particles = summary.particles;
+        self.steps = summary.steps;
+        self.steps_rolled_back = summary.steps_rolled_back;
+        self.simulated_seconds = summary.simulated_seconds;
+        self.dt_limiters.clone_from(&summary.dt_limiters);
+        self.solves = summary.implicit_viscosity.as_ref().map(SolveCost::of);
+        self.health = Health::of(summary);
+    }
+
+    /// Whether nothing is left to do for a variant of this fingerprint.
+    pub fn settles(&self, fingerprint: &str, repetitions: usize, limit: Option<f64>) -> bool {
+        let same = self.fingerprint == fingerprint;
+        same && match self.status {
+            Status::Done => self.wall_seconds.len() >= repetitions,
+            Status::Failed => true,
+            // A longer limit gives it another chance.
+            Status::OverLimit => match (self.time_limit, limit) {
+                (Some(then), Some(now)) => now <= then,
+                _ => false,
+            },
+            Status::Skipped | Status::Interrupted | Status::Pending => false,
+        }
+    }
+
+    /// Wall-clock seconds of the fastest repetition.
+    pub fn least_seconds(&self) -> Option<f64> {
+        self.wall_seconds.iter().copied().reduce(f64::min)
+    }
+
+    /// Seconds of a step or a solve.
+    pub fn cost(&self, cost: Cost) -> Option<f64> {
+        cost.seconds(self.least_seconds(), self.steps, self.solves.as_ref())
+    }
+
+    /// Slowest repetition over the fastest, less one.
+    pub fn spread(&self) -> Option<f64> {
+        let most = self.wall_seconds.iter().copied().reduce(f64::max)?;
+        let least = self.least_seconds().filter(|s| *s > 0.0)?;
+        (self.wall_seconds.len() > 1).then_some(most / least - 1.0)
+    }
+
+    /// The bound that limited most steps.
+    pub fn limiter(&self) -> Option<&str> {
+        let most = self.dt_limiters.iter().max_by(|a, b| a.1.total_cmp(b.1));
+        most.map(|(name, _)| name.as_str())
+    }
+
+    /// An error that a finished variant has.
+    pub fn error(&self, name: &str) -> Option<f64> {
+        match self.status {
+            Status::Done => self.errors.get(name)?.value,
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_settled_is_not_run_again() {
+        let record = |status, limit| Record {
+            status,
+            fingerprint: "a".into(),
+            time_limit: limit,
+            wall_seconds: vec![1.0, 1.5],
+            ..Record::default()
+        };
+        let done = record(Status::Done, None);
+        assert!(done.settles("a", 2, None) && !done.settles("b", 2, None));
+        assert!(!done.settles("a", 3, None), "another repetition is wanted");
+        assert_eq!(
+            (done.least_seconds(), done.spread()),
+            (Some(1.0), Some(0.5))
+        );
+        assert!(record(Status::Failed, None).settles("a", 9, None));
+        let late = record(Status::OverLimit, Some(60.0));
+        assert!(late.settles("a", 1, Some(60.0)));
+        assert!(!late.settles("a", 1, Some(61.0)) && !late.settles("a", 1, None));
+        assert!(!record(Status::Interrupted, None).settles("a", 1, None));
+    }
+
+    #[test]
+    fn a_record_comes_back_and_a_broken_one_counts_as_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let record = Record {
+            status: Status::OverLimit,
+            reason: Some("…".into()),
+            ..Record::default()
+        };
+        record.save(folder.path()).unwrap();
+        assert_eq!(Record::load(folder.path()), Some(record));
+        std::fs::write(Record::path(folder.path()), "{").unwrap();
+        assert_eq!(Record::load(folder.path()), None);
+    }
+}

@@ -1,0 +1,221 @@
+//! One variant: its repetitions, and what becomes of its folder.
+
+use std::path::Path;
+use std::time::Instant;
+
+use sph_io::IoError;
+use sph_solver::{Command, Identity, Observer, Progress, RunOptions, SolverError, Start, run};
+
+use crate::reading::options::Options;
+use crate::reading::plan::Study;
+use crate::reading::variant::Variant;
+use crate::running::record::{Record, Status};
+use crate::running::watcher::Watcher;
+
+/// Files that only an interrupted variant needs, or one whose output is kept.
+const CHECKPOINT: &str = "checkpoint.sph";
+const BAD_STATE: &str = "bad_state.vtu";
+
+/// A variant to be run.
+pub(crate) struct Job<'a> {
+    pub study: &'a Study,
+    pub variant: &'a Variant,
+    pub options: &'a Options,
+    pub threads: usize,
+    pub watcher: &'a dyn Watcher,
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// Why a run was told to stop.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Cause {
+    Asked,
+    Limit,
+}
+
+impl Job<'_> {
+    /// Runs what is missing; the record is what is known afterwards, whatever happened.
+    pub fn run(&self) -> (Record, Result<(), SolverError>) {
+        let file = &self.study.file;
+        let mut record = self.options.known(self.variant).unwrap_or_default();
+        let settled = record.settles(&self.variant.fingerprint, file.repetitions, file.time_limit);
+        if !settled && (!self.variant.wanted || (self.stop)()) {
+            return (record, Ok(()));
+        }
+        let result = match settled {
+            true => Ok(()),
+            false => self.repeat(&mut record),
+        };
+        if result.is_ok() {
+            self.watcher.finished(self.variant, &record);
+        }
+        (record, result)
+    }
+
+    fn repeat(&self, record: &mut Record) -> Result<(), SolverError> {
+        let folder = self.options.folder(self.variant);
+        if record.fingerprint.is_empty() && folder.exists() {
+            // What lies there belongs to another scene, or is to be forgotten; a killed run of
+            // this one is known by its checkpoint.
+            self.forget(&folder)?;
+        }
+        sph_io::writable(&folder)?;
+        record.fingerprint.clone_from(&self.variant.fingerprint);
+        record.origin.clone_from(&self.options.origin);
+        record.time_limit = self.study.file.time_limit;
+        record.reason = None;
+        while record.wall_seconds.len() < self.study.file.repetitions {
+            record.status = Status::Interrupted;
+            let ended = self.once(&folder, record)?;
+            record.save(&folder)?;
+            if ended != Status::Done {
+                break;
+            }
+            if !self.study.file.keep_output {
+                remove(&folder.join(CHECKPOINT));
+            }
+        }
+        Ok(())
+    }
+
+    fn forget(&self, folder: &Path) -> Result<(), SolverError> {
+        let record = Record::path(folder);
+        let kept = folder.join(CHECKPOINT).exists() && !record.exists() && !self.options.fresh;
+        if kept {
+            return Ok(());
+        }
+        // Not from under the feet of a run that somebody started there.
+        let _lock = sph_io::FolderLock::take(folder)?;
+        std::fs::remove_dir_all(folder).map_err(|source| {
+            let path = folder.to_path_buf();
+            SolverError::Io(IoError::Write { path, source })
+        })
+    }
+
+    /// One repetition; the status is what became of it.
+    fn once(&self, folder: &Path, record: &mut Record) -> Result<Status, SolverError> {
+        let repetition = record.wall_seconds.len();
+        self.watcher.started(self.variant, repetition);
+        let mut options = RunOptions {
+            out: folder.to_path_buf(),
+            start: match folder.join(CHECKPOINT).exists() {
+                true => Start::Resumed,
+                false => Start::Afresh,
+            },
+            threads: Some(self.threads),
+            identity: Identity::of_text(format!(
+                "{} repetition {repetition}",
+                self.variant.fingerprint
+            )),
+        };
+        let mut observer = Watching {
+            job: self,
+            since: Instant::now(),
+            left: self.study.file.time_limit.map(|l| l - record.spent),
+            cause: None,
+        };
+        let scene = &self.variant.loaded.scene;
+        let mut result = run(scene, &options, &mut observer);
+        if options.start == Start::Resumed && result.as_ref().is_err_and(cannot_resume) {
+            options.start = Start::Afresh;
+            observer.since = Instant::now();
+            observer.left = self.study.file.time_limit;
+            result = run(scene, &options, &mut observer);
+        }
+        let cause = observer.cause;
+        match result {
+            Ok(summary) if summary.status == sph_solver::Status::Done => {
+                record.add(&summary);
+                if record.wall_seconds.len() >= self.study.file.repetitions {
+                    record.status = Status::Done;
+                }
+                return Ok(Status::Done);
+            }
+            Ok(summary) => {
+                record.look(&summary);
+                let at = format!(
+                    "at t = {:.4} of {} s",
+                    summary.simulated_seconds, scene.run.end
+                );
+                (record.status, record.reason) = match (cause, self.study.file.time_limit) {
+                    (Some(Cause::Asked), _) => (Status::Interrupted, None),
+                    (Some(Cause::Limit), Some(limit)) => (
+                        Status::OverLimit,
+                        Some(format!("{at} after the limit of {limit} s")),
+                    ),
+                    _ => {
+                        let by = "by `run.max_steps` or `run.max_wall` of the scene";
+                        (Status::Failed, Some(format!("stopped {at} {by}")))
+                    }
+                };
+            }
+            // A file that cannot be written is no fault of the variant.
+            Err(SolverError::Io(error)) => return Err(SolverError::Io(error)),
+            Err(error) => {
+                if let SolverError::Failed(failure) = &error {
+                    match &failure.summary {
+                        Some(summary) => record.look(summary),
+                        None => record.health.first_trouble = Some(failure.first.clone()),
+                    }
+                    record.steps = failure.step;
+                    record.simulated_seconds = failure.time;
+                }
+                record.threads = self.threads;
+                record.status = Status::Failed;
+                record.reason = Some(error.to_string());
+                if !self.study.file.keep_output {
+                    remove(&folder.join(CHECKPOINT));
+                    remove(&folder.join(BAD_STATE));
+                }
+            }
+        }
+        Ok(record.status)
+    }
+}
+
+/// Whether an error says that a checkpoint is of no use, so that the variant starts afresh.
+fn cannot_resume(error: &SolverError) -> bool {
+    use IoError::{Checkpoint, Malformed, Read, TooShort};
+    match error {
+        SolverError::Resume { .. } => true,
+        SolverError::Io(io) => matches!(
+            io,
+            Checkpoint { .. } | Malformed { .. } | Read { .. } | TooShort { .. }
+        ),
+        _ => false,
+    }
+}
+
+/// Removes a file that is of no more use; if it stays, it does no harm.
+fn remove(file: &Path) {
+    let _ = std::fs::remove_file(file);
+}
+
+/// Passes a run's steps on, and the wish to stop back.
+struct Watching<'a> {
+    job: &'a Job<'a>,
+    since: Instant,
+    /// Seconds that are left under the time limit.
+    left: Option<f64>,
+    cause: Option<Cause>,
+}
+
+impl Observer for Watching<'_> {
+    fn step(&mut self, progress: &Progress) -> Command {
+        self.job.watcher.step(self.job.variant, progress);
+        let over = |left: f64| self.since.elapsed().as_secs_f64() > left;
+        if (self.job.stop)() {
+            self.cause = Some(Cause::Asked);
+        } else if self.left.is_some_and(over) {
+            self.cause = Some(Cause::Limit);
+        }
+        match self.cause {
+            Some(_) => Command::Stop,
+            None => Command::Continue,
+        }
+    }
+
+    fn message(&mut self, text: &str) {
+        self.job.watcher.message(self.job.variant, text);
+    }
+}

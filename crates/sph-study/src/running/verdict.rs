@@ -1,0 +1,215 @@
+//! Green, yellow or red: how a run along an axis went.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use sph_core::number;
+
+use crate::reading::file::Bounds;
+use crate::running::record::{Record, Status};
+
+/// How well a run went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Colour {
+    /// Everything is within the bounds of green.
+    Green,
+    /// Something is beyond them, or a step had to be tried again.
+    Yellow,
+    /// It failed, lost particles through walls, took too long, or is beyond the bounds of yellow.
+    Red,
+}
+
+impl Colour {
+    /// As it stands in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Colour::Green => "green",
+            Colour::Yellow => "yellow",
+            Colour::Red => "red",
+        }
+    }
+}
+
+/// A colour and the reason for it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// The colour.
+    pub colour: Colour,
+    /// What made it worse than green; empty if nothing did.
+    pub why: String,
+}
+
+/// What every run can be judged by, besides the scene's references, with what it means.
+pub const QUANTITIES: [(&str, &str); 7] = [
+    (
+        "energy-rise",
+        "most that the energy was above its first value, over the largest energy of any kind",
+    ),
+    (
+        "energy-drift",
+        "size of the energy's change from start to end, over the same",
+    ),
+    ("momentum-drift", "change of the momentum over Σ m|u|"),
+    (
+        "density",
+        "largest distance of a density from its reference, over it",
+    ),
+    (
+        "compression",
+        "largest density over its reference, less one",
+    ),
+    ("mach", "largest speed over the speed of sound"),
+    (
+        "pairing",
+        "what the mean distance to the nearest particle lacks of a spacing, over it",
+    ),
+];
+
+/// The numbers a run can be judged by, those of its references included.
+pub fn quantities(record: &Record) -> BTreeMap<String, f64> {
+    let mut all = BTreeMap::new();
+    let mut add = |name: &str, value: Option<f64>| {
+        if let Some(value) = value {
+            all.insert(name.to_string(), value);
+        }
+    };
+    for (name, error) in &record.errors {
+        add(name, error.value);
+    }
+    let health = &record.health;
+    add("energy-rise", health.energy_rise);
+    add("energy-drift", health.energy_drift.map(f64::abs));
+    add("momentum-drift", health.momentum_drift.map(f64::abs));
+    add("density", health.density_deviation());
+    add(
+        "compression",
+        health.density_range.map(|[_, high]| high - 1.0),
+    );
+    add("mach", health.mach);
+    add("pairing", health.nearest.map(|[_, mean]| 1.0 - mean));
+    all
+}
+
+/// The verdict on a run that has come to an end.
+pub fn verdict(record: &Record, bounds: &Bounds) -> Option<Verdict> {
+    let red = |why: String| {
+        Some(Verdict {
+            colour: Colour::Red,
+            why,
+        })
+    };
+    match record.status {
+        Status::Done => {}
+        Status::Failed | Status::OverLimit => {
+            return red(record.reason.clone().unwrap_or_default());
+        }
+        Status::Skipped | Status::Interrupted | Status::Pending => return None,
+    }
+    if record.health.escaped > 0 {
+        return red(format!(
+            "{} particles are behind a wall",
+            record.health.escaped
+        ));
+    }
+    let found = quantities(record);
+    let mut worst = Verdict {
+        colour: Colour::Green,
+        why: String::new(),
+    };
+    if record.steps_rolled_back > 0 {
+        worst = Verdict {
+            colour: Colour::Yellow,
+            why: format!("{} steps were tried again", record.steps_rolled_back),
+        };
+    }
+    for (name, [green, yellow]) in bounds {
+        let Some(value) = found.get(name) else {
+            continue;
+        };
+        let (colour, bound) = match *value {
+            x if x <= *green => continue,
+            x if x <= *yellow => (Colour::Yellow, green),
+            // Nothing compares with what is not a number.
+            _ => (Colour::Red, yellow),
+        };
+        if colour > worst.colour {
+            let why = format!(
+                "{name} {} > {}",
+                number::plain(*value),
+                number::plain(*bound)
+            );
+            worst = Verdict { colour, why };
+        }
+    }
+    Some(worst)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::running::record::{Error, Health};
+
+    fn record(error: f64, rolled_back: u64, escaped: usize) -> Record {
+        let error = Error {
+            value: Some(error),
+            ..Error::default()
+        };
+        Record {
+            status: Status::Done,
+            errors: [("e".to_string(), error)].into(),
+            steps_rolled_back: rolled_back,
+            health: Health {
+                escaped,
+                density_range: Some([0.7, 1.1]),
+                ..Health::default()
+            },
+            ..Record::default()
+        }
+    }
+
+    #[test]
+    fn the_worst_quantity_gives_the_colour_and_the_reason() {
+        let bounds = |e: [f64; 2], density: [f64; 2]| -> Bounds {
+            [("e".to_string(), e), ("density".to_string(), density)].into()
+        };
+        let of = |record: &Record, bounds: &Bounds| {
+            let told = verdict(record, bounds).unwrap();
+            (told.colour, told.why)
+        };
+        let fine = bounds([0.1, 0.2], [0.5, 1.0]);
+        assert_eq!(
+            of(&record(0.05, 0, 0), &fine),
+            (Colour::Green, String::new())
+        );
+        assert_eq!(of(&record(0.15, 0, 0), &fine).0, Colour::Yellow);
+        assert_eq!(of(&record(f64::NAN, 0, 0), &fine).0, Colour::Red);
+        assert_eq!(of(&record(0.05, 2, 0), &fine).1, "2 steps were tried again");
+        assert_eq!(of(&record(0.05, 0, 1), &fine).0, Colour::Red);
+        let tight = bounds([0.1, 0.2], [0.1, 0.2]);
+        assert_eq!(
+            of(&record(0.15, 0, 0), &tight),
+            (Colour::Red, "density 0.3 > 0.2".to_string())
+        );
+    }
+
+    #[test]
+    fn what_did_not_end_is_red_and_what_did_not_run_has_no_colour() {
+        let ended = |status| Record {
+            status,
+            reason: Some("…".into()),
+            ..Record::default()
+        };
+        let none = Bounds::new();
+        assert_eq!(
+            verdict(&ended(Status::Failed), &none).unwrap().colour,
+            Colour::Red
+        );
+        assert_eq!(
+            verdict(&ended(Status::OverLimit), &none).unwrap().colour,
+            Colour::Red
+        );
+        assert_eq!(verdict(&ended(Status::Skipped), &none), None);
+        assert_eq!(verdict(&ended(Status::Pending), &none), None);
+    }
+}

@@ -1,0 +1,25 @@
+//! Who is told how a study goes on.
+
+use sph_solver::Progress;
+
+use crate::reading::variant::Variant;
+use crate::running::record::Record;
+
+/// A watcher of a study; variants may call it from several threads.
+pub trait Watcher: Sync {
+    /// A repetition of a variant begins or goes on.
+    fn started(&self, _variant: &Variant, _repetition: usize) {}
+    /// After every step.
+    fn step(&self, _variant: &Variant, _progress: &Progress) {}
+    /// A line worth saying.
+    fn message(&self, _variant: &Variant, _text: &str) {}
+    /// A variant has come to an end, or had one.
+    fn finished(&self, _variant: &Variant, _record: &Record) {}
+    /// Whether to stop, with what is finished kept.
+    fn stop(&self) -> bool {
+        false
+    }
+}
+
+/// A watcher that says nothing.
+impl Watcher for () {}
