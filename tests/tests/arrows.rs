@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 33] = [
+const ALLOWED: [(&str, &[&str]); 34] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation"]),
     ("dem-grains", &[]),
@@ -130,6 +130,10 @@ const ALLOWED: [(&str, &[&str]); 33] = [
             "sph-probes",
         ],
     ),
+    (
+        "sph-waves",
+        &["sph-core", "sph-neighbours", "sph-boundary", "sph-probes"],
+    ),
     ("sph-scene", &["scene-text", "surface-file", "sph-core"]),
     (
         "sph-study",
@@ -150,6 +154,7 @@ const ALLOWED: [(&str, &[&str]); 33] = [
             "sph-solver",
             "sph-study",
             "sph-turbulence",
+            "sph-waves",
         ],
     ),
     (

@@ -29,5 +29,6 @@ use sph_core::number;
 use sph_bodies as _;
 use sph_damping as _;
 use sph_turbulence as _;
+use sph_waves as _;
 
 pub use app::main;

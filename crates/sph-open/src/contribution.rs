@@ -57,6 +57,7 @@ pub fn open<const D: usize>(
         face_of: Vec::new(),
         smooth: Vec::new(),
         inside: Vec::new(),
+        present: Vec::new(),
         outside: Vec::new(),
         rows: Vec::new(),
         mix: Vec::new(),

@@ -70,6 +70,9 @@ impl<const D: usize> Faces<D> {
                 *mean += (self.inside[k].velocity - *mean) * part;
             }
         }
+        for (arrived, inside) in self.memory.arrived.iter_mut().zip(&self.inside) {
+            *arrived = (inside.pressure, inside.velocity);
+        }
         self.memory.dt = dt;
     }
 

@@ -2,18 +2,13 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use rayon::prelude::*;
-use sph_core::{StepError, Vect, fields};
+use sph_core::Vect;
 use sph_kernels::Sampler;
-use sph_neighbours::{Passed, WallSet, World};
+use sph_neighbours::{Passed, WallSet};
 use sph_state::Laws;
 
 use crate::memory::Memory;
-use crate::row::Row;
-use crate::{Inside, Moment, OpenBoundary, Outside, Place};
-
-/// Least Σ V w of the fluid before an element, of the ½ of a filled half space, for a mean that means something.
-const WET: f64 = 0.15;
+use crate::{Inside, OpenBoundary, Outside, Place};
 
 /// How late births and deaths may be, as a share of a row: lists are built anew where particles come or go, and the rows that
 /// pass meanwhile wait for each other.
@@ -52,6 +47,8 @@ pub(crate) struct Faces<const D: usize> {
     /// normal.
     pub smooth: Vec<Vec<(u32, f64)>>,
     pub inside: Vec<Inside<D>>,
+    /// Mean velocity before every element at this moment, m/s; those of `inside` are as late as they arrive at the face.
+    pub present: Vec<Vect<D>>,
     pub outside: Vec<Outside<D>>,
     /// Velocity of the row of particles in front of every element, m/s.
     pub rows: Vec<Vect<D>>,
@@ -60,13 +57,6 @@ pub(crate) struct Faces<const D: usize> {
     pub memory: Memory<D>,
     /// Whether particles come and go at the end of this step.
     pub due: bool,
-}
-
-/// The fluid in front of an element.
-struct Looked<const D: usize> {
-    inside: Inside<D>,
-    row: Vect<D>,
-    mix: Vec<f64>,
 }
 
 /// The faces, known to the walls and to the work within a step.
@@ -124,6 +114,7 @@ impl<const D: usize> Faces<D> {
             mean: Vect::zeros(),
         };
         self.inside = vec![nothing; ports];
+        self.present = vec![Vect::zeros(); ports];
         self.outside = vec![Outside::dry(); ports];
         self.rows = vec![Vect::zeros(); ports];
         self.mix = vec![0.0; ports * phases];
@@ -210,10 +201,10 @@ impl<const D: usize> Faces<D> {
     /// The velocity with which fluid passes an element, m/s: what is imposed, or that of the row in front of it and what the law
     /// adds.
     pub fn through(&self, element: usize) -> Vect<D> {
-        let (inside, outside) = (&self.inside[element], &self.outside[element]);
+        let outside = &self.outside[element];
         match outside.imposed {
             true => outside.velocity,
-            false => self.rows[element] + (outside.velocity - inside.velocity),
+            false => self.rows[element] + (outside.velocity - self.present[element]),
         }
     }
 
@@ -225,112 +216,6 @@ impl<const D: usize> Faces<D> {
             let beside = (apart - face.normal * height).norm();
             height <= 0.0 && height > -2.0 * LATE * self.spacing && beside <= self.spacing
         })
-    }
-
-    /// Looks at the fluid in front of all elements, and asks the laws.
-    pub fn look(&mut self, world: &World<D>) -> Result<(), StepError> {
-        let phases = self.whole.len();
-        let looked: Vec<Looked<D>> = (0..self.elements.len())
-            .into_par_iter()
-            .map(|k| self.before(world, k))
-            .collect::<Result<_, _>>()?;
-        for (k, Looked { inside, row, mix }) in looked.into_iter().enumerate() {
-            self.inside[k] = inside;
-            self.rows[k] = row;
-            self.mix[k * phases..(k + 1) * phases].copy_from_slice(&mix);
-        }
-        let moment = Moment {
-            time: world.time,
-            gravity: world.gravity,
-        };
-        for face in &self.faces {
-            let own = face.elements.clone();
-            let outside = (face.law).outside(
-                &self.places[own.clone()],
-                &self.inside[own.clone()],
-                &moment,
-            );
-            self.outside[own].copy_from_slice(&outside);
-        }
-        let pressures: Vec<_> = (0..self.elements.len())
-            .map(|k| self.reflected(k))
-            .collect();
-        for (outside, pressure) in self.outside.iter_mut().zip(pressures) {
-            outside.pressure = pressure;
-        }
-        Ok(())
-    }
-
-    /// The pressure at an element: that of the law, or where the velocity is imposed of the characteristic that leaves the fluid.
-    fn reflected(&self, k: usize) -> f64 {
-        let (inside, outside) = (&self.inside[k], &self.outside[k]);
-        if !outside.imposed {
-            return outside.pressure;
-        }
-        if !inside.wet {
-            return 0.0;
-        }
-        let normal = &self.places[k].normal;
-        let wet = self.smooth[k]
-            .iter()
-            .filter(|(j, _)| self.inside[*j as usize].wet);
-        let (mut whole, mut mean) = (0.0, 0.0);
-        for (j, w) in wet {
-            whole += w;
-            mean += w * self.outside[*j as usize].velocity.dot(normal);
-        }
-        inside.pressure + inside.impedance * (mean / whole - inside.velocity.dot(normal))
-    }
-
-    /// Means over the fluid before an element.
-    fn before(&self, world: &World<D>, k: usize) -> Result<Looked<D>, StepError> {
-        let free = &world.free;
-        let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
-        let (pressure, density) = (free.get(fields::PRESSURE)?, free.get(fields::DENSITY)?);
-        let volume = free.get(fields::VOLUME)?;
-        let phase = free.get(fields::PHASE).ok();
-        let place = &self.places[k];
-        let mut mix = vec![0.0; self.whole.len()];
-        let (mut filling, mut p, mut z, mut rho) = (0.0, 0.0, 0.0, 0.0);
-        let mut u = Vect::<D>::zeros();
-        let mut row = Row::default();
-        let limit = world.kernel.support_radius().powi(2);
-        for &j in world.lists.of_elements.row(self.elements[k] as usize) {
-            let j = j as usize;
-            let apart = world.domain.nearest_image(place.centre - position[j]);
-            let r2 = apart.norm_squared();
-            if r2 >= limit {
-                continue;
-            }
-            let vw = volume[j] * world.kernel.at(r2.sqrt()).0;
-            let phase = phase.map_or(0, |p| p[j] as usize);
-            let over = pressure[j] - self.background(phase);
-            filling += vw;
-            mix[phase] += vw;
-            p += vw * (over + density[j] * world.gravity.dot(&apart));
-            u += velocity[j] * vw;
-            row.add(&place.normal, &apart, self.spacing, vw, &velocity[j]);
-            rho += vw * density[j];
-            z += vw * density[j] * self.laws[phase].sound_speed(density[j]);
-        }
-        if filling > 0.0 {
-            mix.iter_mut().for_each(|m| *m /= filling);
-            (p, u, z, rho) = (p / filling, u / filling, z / filling, rho / filling);
-        }
-        let mean = match self.memory.dt > 0.0 {
-            true => self.memory.mean[k],
-            false => u,
-        };
-        let inside = Inside {
-            wet: filling >= WET,
-            pressure: p,
-            velocity: u,
-            impedance: if z > 0.0 { z } else { 1.0 },
-            density: rho,
-            mean,
-        };
-        let row = row.velocity(self.spacing).unwrap_or(u);
-        Ok(Looked { inside, row, mix })
     }
 
     /// Hands what the laws say to whoever looks at walls.

@@ -13,6 +13,7 @@ mod exits;
 mod faces;
 mod flux;
 mod laws;
+mod look;
 mod memory;
 mod passing;
 mod row;

@@ -41,6 +41,8 @@ pub(crate) struct Memory<const D: usize> {
     pub mass: Vec<f64>,
     /// Running means of velocities, m/s.
     pub mean: Vec<Vect<D>>,
+    /// Pressures, Pa, and velocities, m/s, in front of the elements, as late as they arrive at the face.
+    pub arrived: Vec<(f64, Vect<D>)>,
     /// By face and phase.
     pub totals: Vec<Totals>,
     /// The last step, s; 0 before the first.
@@ -54,6 +56,7 @@ impl<const D: usize> Memory<D> {
         Memory {
             mass: vec![0.0; ports * phases],
             mean: vec![Vect::zeros(); ports],
+            arrived: vec![(0.0, Vect::zeros()); ports],
             totals: vec![Totals::default(); faces * phases],
             dt: 0.0,
         }
@@ -61,13 +64,17 @@ impl<const D: usize> Memory<D> {
 
     /// How many numbers there are.
     pub fn count(&self) -> usize {
-        self.mass.len() + D * self.mean.len() + PER_TOTAL * self.totals.len() + 1
+        self.mass.len() + (2 * D + 1) * self.mean.len() + PER_TOTAL * self.totals.len() + 1
     }
 
     /// All of it.
     pub fn numbers(&self, to: &mut Vec<f64>) {
         to.extend(&self.mass);
         to.extend(self.mean.iter().flatten());
+        for (pressure, velocity) in &self.arrived {
+            to.push(*pressure);
+            to.extend(velocity.iter());
+        }
         for t in &self.totals {
             for sum in [t.entered, t.left, t.born, t.died] {
                 to.extend([sum.sum, sum.lost]);
@@ -83,9 +90,12 @@ impl<const D: usize> Memory<D> {
         }
         let (mass, rest) = from.split_at(self.mass.len());
         let (mean, rest) = rest.split_at(D * self.mean.len());
+        let (arrived, rest) = rest.split_at((D + 1) * self.arrived.len());
         self.mass.copy_from_slice(mass);
         let means = self.mean.iter_mut().zip(mean.chunks_exact(D));
         means.for_each(|(to, from)| *to = Vect::from_column_slice(from));
+        let all = self.arrived.iter_mut().zip(arrived.chunks_exact(D + 1));
+        all.for_each(|(to, from)| *to = (from[0], Vect::from_column_slice(&from[1..])));
         for (t, n) in self.totals.iter_mut().zip(rest.chunks_exact(PER_TOTAL)) {
             let sum = |k: usize| Sum {
                 sum: n[k],
@@ -112,6 +122,7 @@ mod tests {
         let mut memory = Memory::<2>::new(2, 2, 1);
         memory.mass = vec![1.0, 2.0, 3.0, 4.0];
         memory.mean[1] = Vect::<2>::new(5.0, 6.0);
+        memory.arrived[0] = (9.0, Vect::<2>::new(10.0, 11.0));
         memory.totals[1].left.add(7.0);
         memory.dt = 8.0;
         let mut numbers = Vec::new();

@@ -29,6 +29,13 @@ pub enum Course {
         /// Time in which r rises, s; 0 for r = 1 from the start.
         ramp: f64,
     },
+    /// s = r(t) Σ a sin(ωt + φ) − r(0) Σ a sin φ, r rising smoothly as that of a sine.
+    Sum {
+        /// Shared by the pieces that a wall is drawn in.
+        parts: Arc<[SinePart]>,
+        /// Time in which r rises, s; 0 for r = 1 from the start.
+        ramp: f64,
+    },
     /// Values at instants less the first value, joined by the cubic whose slopes are those of the
     /// parabolas through three neighbouring values; at rest before the first and after the last.
     Table {
@@ -36,6 +43,17 @@ pub enum Course {
         /// Shared by the pieces that a wall is drawn in.
         rows: Arc<[[f64; 2]]>,
     },
+}
+
+/// One sine of a sum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SinePart {
+    /// a, m or rad.
+    pub amplitude: f64,
+    /// ω, rad/s.
+    pub frequency: f64,
+    /// φ, rad.
+    pub phase: f64,
 }
 
 /// Value, rate and second derivative of a course at one instant.
@@ -66,6 +84,11 @@ impl Course {
                     .all(|x| x.is_finite());
                 finite && *period > 0.0 && *ramp >= 0.0
             }
+            Self::Sum { parts, ramp } => {
+                let finite = |p: &SinePart| [p.amplitude, p.frequency, p.phase].map(f64::is_finite);
+                let sound = |p: &SinePart| finite(p) == [true; 3] && p.frequency > 0.0;
+                parts.iter().all(sound) && *ramp >= 0.0 && ramp.is_finite()
+            }
             Self::Table { rows } => {
                 rows.len() >= 2
                     && rows.iter().flatten().all(|x| x.is_finite())
@@ -79,6 +102,7 @@ impl Course {
         match self {
             Self::Steady { speed } | Self::Ramp { speed, .. } => *speed != 0.0,
             Self::Sine { amplitude, .. } => *amplitude != 0.0,
+            Self::Sum { parts, .. } => parts.iter().any(|p| p.amplitude != 0.0),
             Self::Table { rows } => rows.windows(2).any(|w| w[0][1] != w[1][1]),
         }
     }
@@ -107,20 +131,33 @@ impl Course {
                 phase,
                 ramp,
             } => {
-                let omega = TAU / period;
-                let (sine, cosine) = (omega * t + phase).sin_cos();
-                let [r, dr, ddr] = rise(t, *ramp);
-                let at_start = rise(0.0, *ramp)[0] * phase.sin();
-                Stage {
-                    value: amplitude * (r * sine - at_start),
-                    rate: amplitude * (dr * sine + r * omega * cosine),
-                    acceleration: amplitude
-                        * (ddr * sine + 2.0 * dr * omega * cosine - r * omega * omega * sine),
-                }
+                let part = SinePart {
+                    amplitude: *amplitude,
+                    frequency: TAU / period,
+                    phase: *phase,
+                };
+                sines(&[part], *ramp, t)
             }
+            Self::Sum { parts, ramp } => sines(parts, *ramp, t),
             Self::Table { rows } => along(rows, t),
         }
     }
+}
+
+/// A sum of sines that rises smoothly, less its value at the start.
+fn sines(parts: &[SinePart], ramp: f64, t: f64) -> Stage {
+    let [r, dr, ddr] = rise(t, ramp);
+    let [first, ..] = rise(0.0, ramp);
+    let mut stage = Stage::default();
+    for part in parts {
+        let (a, omega) = (part.amplitude, part.frequency);
+        let (sine, cosine) = (omega * t + part.phase).sin_cos();
+        stage.value += a * (r * sine - first * part.phase.sin());
+        stage.rate += a * (dr * sine + r * omega * cosine);
+        stage.acceleration +=
+            a * (ddr * sine + 2.0 * dr * omega * cosine - r * omega * omega * sine);
+    }
+    stage
 }
 
 /// The smooth rise from 0 to 1 with its derivatives.
@@ -193,6 +230,16 @@ mod tests {
                 period: 1.3,
                 phase: 0.4,
                 ramp: 1.1,
+            },
+            Course::Sum {
+                parts: [[0.1, 4.0, 0.3], [0.05, 9.0, -1.0]]
+                    .map(|[amplitude, frequency, phase]| SinePart {
+                        amplitude,
+                        frequency,
+                        phase,
+                    })
+                    .into(),
+                ramp: 0.9,
             },
             Course::Table { rows },
         ];

@@ -64,6 +64,8 @@ pub struct MoverSetting<'a, const D: usize> {
     pub densities: [f64; 2],
     /// The largest speed of sound c, m/s.
     pub sound_speed: f64,
+    /// Gravity, m/s².
+    pub gravity: Vect<D>,
     /// Whether the particles begin at the wall, so that the reaction to the particles is the force on the wall; without
     /// it half a row of fluid clings to the wall.
     pub flush: bool,

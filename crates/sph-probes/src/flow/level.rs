@@ -33,6 +33,18 @@ pub struct Level {
     number: Option<u32>,
 }
 
+impl Level {
+    /// The free surface over a place that stands still.
+    pub fn over(at: Vec<f64>) -> Level {
+        Level {
+            at,
+            follows: None,
+            phase: None,
+            number: None,
+        }
+    }
+}
+
 impl<const D: usize> Probe<D> for Level {
     fn columns(&self) -> Vec<ProbeColumn> {
         ProbeColumn::only("m")

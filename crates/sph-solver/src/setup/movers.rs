@@ -39,6 +39,7 @@ pub(crate) fn settle<const D: usize>(
                 densities().fold(0.0, f64::max),
             ],
             sound_speed: references().map(|r| r.sound_speed).fold(0.0, f64::max),
+            gravity: scene.gravity::<D>(),
             flush,
         };
         if let Err(refusal) = mover.settle(&setting) {

@@ -1,0 +1,154 @@
+//! What is in front of open faces, and what their laws say to it.
+
+use rayon::prelude::*;
+use sph_core::{StepError, Vect, fields};
+use sph_neighbours::World;
+
+use crate::faces::Faces;
+use crate::row::Row;
+use crate::{Inside, Moment};
+
+/// Least Σ V w of the fluid before an element, of the ½ of a filled half space, for a mean that means something.
+const WET: f64 = 0.15;
+
+/// The fluid in front of an element.
+struct Looked<const D: usize> {
+    inside: Inside<D>,
+    /// How far before it that mean stands, m.
+    reach: f64,
+    row: Vect<D>,
+    mix: Vec<f64>,
+}
+
+impl<const D: usize> Faces<D> {
+    /// Looks at the fluid in front of all elements, and asks the laws.
+    pub fn look(&mut self, world: &World<D>) -> Result<(), StepError> {
+        let phases = self.whole.len();
+        let looked: Vec<Looked<D>> = (0..self.elements.len())
+            .into_par_iter()
+            .map(|k| self.before(world, k))
+            .collect::<Result<_, _>>()?;
+        for (k, seen) in looked.into_iter().enumerate() {
+            self.present[k] = seen.inside.velocity;
+            self.inside[k] = self.arriving(k, &seen);
+            self.rows[k] = seen.row;
+            self.mix[k * phases..(k + 1) * phases].copy_from_slice(&seen.mix);
+        }
+        let moment = Moment {
+            time: world.time,
+            gravity: world.gravity,
+        };
+        for face in &self.faces {
+            let own = face.elements.clone();
+            let outside = (face.law).outside(
+                &self.places[own.clone()],
+                &self.inside[own.clone()],
+                &moment,
+            );
+            self.outside[own].copy_from_slice(&outside);
+        }
+        let pressures: Vec<_> = (0..self.elements.len())
+            .map(|k| self.reflected(k))
+            .collect();
+        for (outside, pressure) in self.outside.iter_mut().zip(pressures) {
+            outside.pressure = pressure;
+        }
+        Ok(())
+    }
+
+    /// What is seen in front of an element, as it arrives at the face.
+    ///
+    /// A mean that stands a distance d before the face sees a wave d/c too early. It is delayed by this time,
+    /// y' = (x − y) c/d, with the end of the step.
+    fn arriving(&self, k: usize, seen: &Looked<D>) -> Inside<D> {
+        let mut inside = seen.inside;
+        let dt = self.memory.dt;
+        if inside.wet && dt > 0.0 {
+            let late = seen.reach * inside.density / inside.impedance;
+            let part = dt / (dt + late);
+            let (pressure, velocity) = &self.memory.arrived[k];
+            inside.pressure = pressure + (inside.pressure - pressure) * part;
+            inside.velocity = velocity + (inside.velocity - velocity) * part;
+        }
+        inside
+    }
+
+    /// The pressure at an element: that of the law, or where the velocity is imposed of the characteristic that leaves the fluid.
+    fn reflected(&self, k: usize) -> f64 {
+        let (inside, outside) = (&self.inside[k], &self.outside[k]);
+        if !outside.imposed {
+            return outside.pressure;
+        }
+        if !inside.wet {
+            return 0.0;
+        }
+        let normal = &self.places[k].normal;
+        let wet = self.smooth[k]
+            .iter()
+            .filter(|(j, _)| self.inside[*j as usize].wet);
+        let (mut whole, mut mean) = (0.0, 0.0);
+        for (j, w) in wet {
+            whole += w;
+            mean += w * self.outside[*j as usize].velocity.dot(normal);
+        }
+        inside.pressure + inside.impedance * (mean / whole - inside.velocity.dot(normal))
+    }
+
+    /// Means over the fluid before an element.
+    fn before(&self, world: &World<D>, k: usize) -> Result<Looked<D>, StepError> {
+        let free = &world.free;
+        let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
+        let (pressure, density) = (free.get(fields::PRESSURE)?, free.get(fields::DENSITY)?);
+        let volume = free.get(fields::VOLUME)?;
+        let phase = free.get(fields::PHASE).ok();
+        let place = &self.places[k];
+        let mut mix = vec![0.0; self.whole.len()];
+        let (mut filling, mut p, mut z, mut rho, mut reach) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        let mut u = Vect::<D>::zeros();
+        let mut row = Row::default();
+        let limit = world.kernel.support_radius().powi(2);
+        for &j in world.lists.of_elements.row(self.elements[k] as usize) {
+            let j = j as usize;
+            let apart = world.domain.nearest_image(place.centre - position[j]);
+            let r2 = apart.norm_squared();
+            if r2 >= limit {
+                continue;
+            }
+            let vw = volume[j] * world.kernel.at(r2.sqrt()).0;
+            let phase = phase.map_or(0, |p| p[j] as usize);
+            let over = pressure[j] - self.background(phase);
+            filling += vw;
+            reach -= vw * apart.dot(&place.normal);
+            mix[phase] += vw;
+            p += vw * (over + density[j] * world.gravity.dot(&apart));
+            u += velocity[j] * vw;
+            row.add(&place.normal, &apart, self.spacing, vw, &velocity[j]);
+            rho += vw * density[j];
+            z += vw * density[j] * self.laws[phase].sound_speed(density[j]);
+        }
+        if filling > 0.0 {
+            mix.iter_mut().for_each(|m| *m /= filling);
+            (p, u, z, rho) = (p / filling, u / filling, z / filling, rho / filling);
+            reach = (reach / filling).max(0.0);
+        }
+        let mean = match self.memory.dt > 0.0 {
+            true => self.memory.mean[k],
+            false => u,
+        };
+        let inside = Inside {
+            wet: filling >= WET,
+            pressure: p,
+            velocity: u,
+            impedance: if z > 0.0 { z } else { 1.0 },
+            density: rho,
+            mean,
+        };
+        let row = row.velocity(self.spacing).unwrap_or(u);
+        Ok(Looked {
+            inside,
+            reach,
+            row,
+            mix,
+        })
+    }
+}

@@ -1,0 +1,22 @@
+//! Wave flumes: makers of waves, and gauges that tell what comes back.
+//!
+//! * [`WaveMaker`] is the mover of a piston or a flap ([`Paddle`]), for [`Waves`] of every kind.
+//! * [`ReflectionProbe`] separates the two directions ([`separated`]).
+//! * [`wavenumber`] is the dispersion of linear waves, [`Jonswap`] a spectrum.
+#![doc = include_str!("../README.md")]
+
+mod dispersion;
+mod maker;
+mod paddle;
+mod reflection;
+mod separation;
+mod spectrum;
+mod waves;
+
+pub use dispersion::wavenumber;
+pub use maker::WaveMaker;
+pub use paddle::Paddle;
+pub use reflection::ReflectionProbe;
+pub use separation::{Amplitude, Separated, separated};
+pub use spectrum::Jonswap;
+pub use waves::{Component, Waves};
