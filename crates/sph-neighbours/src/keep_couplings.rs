@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect};
-use sph_lanes::{Body, Lane, MOST, dispatch_at};
+use sph_lanes::{Body, Lane, MOST, dispatch_at, dot};
 
 use crate::cluster::Cluster;
 use crate::couplings::{Couplings, Group, Kept, Kinds};
@@ -175,13 +175,12 @@ impl<const D: usize> Body for Split<'_, '_, D> {
                 // Of what is not a number nothing is positive: it is kept, and seen by the solver.
                 softness = (limit - there).where_positive(there, limit) - norm;
                 if zero.any_less(softness) {
-                    let even = softness.where_positive(even, zero);
-                    let along = softness.where_positive(along, zero);
+                    let soft = [
+                        softness.where_positive(even, zero),
+                        softness.where_positive(along, zero),
+                    ];
                     let relative = minus(&velocity, &weak.velocity[j]);
-                    let turned = along * sph_lanes::dot(&relative, &apart);
-                    for k in 0..D {
-                        force[k] -= relative[k] * even + apart[k] * turned;
-                    }
+                    rub(&mut force, soft, &relative, &apart);
                 }
             }
             let factor = L::splat(factor);
@@ -198,12 +197,7 @@ impl<const D: usize> Body for Split<'_, '_, D> {
                 along.store(&mut place[each - L::N..]);
             }
             kept.numbers.extend_from_slice(&place[..each]);
-            for i in 0..D {
-                for k in 0..=i {
-                    blocks[i][k] += apart[i] * along * apart[k];
-                }
-                blocks[i][i] += even;
-            }
+            add_block(&mut blocks, [even, along], &apart);
         }
         // Copies: single lanes are read from memory.
         let (blocks, force) = (blocks, force);
@@ -212,6 +206,35 @@ impl<const D: usize> Body for Split<'_, '_, D> {
             *place = tally(&blocks, &force, lane);
         }
         tallies
+    }
+}
+
+/// Takes α u + β (u·r) r from a force.
+#[inline(always)]
+fn rub<const D: usize, L: Lane>(
+    force: &mut [L; D],
+    [even, along]: [L; 2],
+    relative: &[L; D],
+    apart: &[L; D],
+) {
+    let turned = along * dot(relative, apart);
+    for k in 0..D {
+        force[k] -= relative[k] * even + apart[k] * turned;
+    }
+}
+
+/// Adds the lower half of α 1 + β r rᵀ.
+#[inline(always)]
+fn add_block<const D: usize, L: Lane>(
+    blocks: &mut [[L; D]; D],
+    [even, along]: [L; 2],
+    apart: &[L; D],
+) {
+    for i in 0..D {
+        for k in 0..=i {
+            blocks[i][k] += apart[i] * along * apart[k];
+        }
+        blocks[i][i] += even;
     }
 }
 

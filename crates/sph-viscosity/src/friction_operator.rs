@@ -1,12 +1,11 @@
 //! The left side of a system with implicit friction: products in lanes, and a matrix where one is asked for.
 
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use sph_core::{Shelf, Vect};
 use sph_implicit::{Assembly, Block, Diagonal, Entries, Entry, Matrix, Operator, Rows};
 use sph_neighbours::{CouplingsAt, Neighbourhood, Visitor};
 
-use crate::friction_system::{Matrices, held};
 use crate::{BoundCoupling, CouplingRow};
 
 /// An entry of a friction's matrix: a number, or a block where components are mixed.
@@ -28,6 +27,18 @@ impl<const D: usize> FrictionEntry<D> for Block<D> {
     ) -> CouplingRow<Block<D>, D> {
         coupling.block_walls(rows)
     }
+}
+
+/// Matrices of former systems.
+#[derive(Default)]
+pub(crate) struct Matrices<const D: usize> {
+    pub scalar: Assembly<f64, D>,
+    pub block: Assembly<Block<D>, D>,
+}
+
+/// What a lock holds; a panic elsewhere leaves memory that is as good as any.
+fn held<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
+    lock.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// What every row has of its own, and its whole diagonal.

@@ -1,12 +1,12 @@
 //! The linear system of a step with implicit friction, and the memory of those before.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use sph_core::{StepError, Vect, fields};
-use sph_implicit::{Assembly, Block};
+use sph_implicit::Block;
 use sph_neighbours::{Cluster, CouplingRows, Couplings, Keeper, MOST, Weak, World};
 
-use crate::friction_operator::{FrictionEntry, FrictionOperator, RowsOf};
+use crate::friction_operator::{FrictionEntry, FrictionOperator, Matrices, RowsOf};
 use crate::{BoundCoupling, Coupling, CouplingRow};
 
 /// Coupling of a pair over its smaller mass up to which it is taken explicitly: hundreds of neighbours together are far from
@@ -29,13 +29,6 @@ pub struct FrictionSystem<const D: usize> {
     block: Diagonals<Block<D>>,
     mixes: bool,
     matrices: Mutex<Matrices<D>>,
-}
-
-/// Matrices of former systems.
-#[derive(Default)]
-pub(crate) struct Matrices<const D: usize> {
-    pub scalar: Assembly<f64, D>,
-    pub block: Assembly<Block<D>, D>,
 }
 
 /// M + θΔt W, and the same with what couples a row to others.
@@ -212,9 +205,4 @@ impl<const D: usize> Part<'_, D> {
         }
         walls
     }
-}
-
-/// What a lock holds; a panic elsewhere leaves memory that is as good as any.
-pub(crate) fn held<T>(lock: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    lock.lock().unwrap_or_else(PoisonError::into_inner)
 }
