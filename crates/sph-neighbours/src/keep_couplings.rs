@@ -151,11 +151,8 @@ impl<const D: usize> Body for Split<'_, '_, D> {
         let mut force = [zero; D];
         let each = kinds.count() * L::N;
         let mut place = [0.0; 2 * MOST];
-        let pairs = cluster
-            .candidates()
-            .iter()
-            .zip(numbers.chunks_exact(3 * L::N));
-        for (&column, numbers) in pairs {
+        let numbers = numbers.chunks_exact(3 * L::N);
+        for (&column, numbers) in cluster.candidates().iter().zip(numbers) {
             let norm = real.where_positive(L::load(&numbers[2 * L::N..]), zero);
             // Half of a cluster's candidates are beyond the support of any one member.
             if !norm.any_nonzero() {
