@@ -85,8 +85,4 @@ impl<const D: usize> PairFriction<D> for WithTransposed {
         let along = L::splat((D + 2) as f64) * even;
         [even, along / distance2.max(L::splat(f64::MIN_POSITIVE))]
     }
-    #[inline(always)]
-    fn couplings<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2] {
-        <Self as PairFriction<D>>::strengths(self, volume, volume * there, distance2, factor)
-    }
 }

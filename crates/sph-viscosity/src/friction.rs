@@ -26,8 +26,6 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
     const EVEN: bool = true;
     /// α, 1/m², and β, 1/m⁴, of f(u) = α u + β (u·r) r, from the volumes here and there, r² and F.
     fn strengths<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2];
-    /// V_a α and V_a β, the same bits for both particles of a pair.
-    fn couplings<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2];
     /// f, 1/m² times the relative velocity u_ab, of several particles.
     #[inline(always)]
     fn forces<L: Lane>(

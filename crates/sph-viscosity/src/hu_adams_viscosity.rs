@@ -83,10 +83,6 @@ impl<const D: usize> PairFriction<D> for BothVolumes {
         [(volume + there * there / volume) * factor, L::splat(0.0)]
     }
     #[inline(always)]
-    fn couplings<L: Lane>(self, volume: L, there: L, _: L, factor: L) -> [L; 2] {
-        [(volume * volume + there * there) * factor, L::splat(0.0)]
-    }
-    #[inline(always)]
     fn at_element(self, volume: f64, there: f64) -> f64 {
         0.5 * (volume / there + there / volume)
     }

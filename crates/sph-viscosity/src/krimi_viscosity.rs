@@ -109,12 +109,6 @@ impl<const D: usize> PairFriction<D> for BetweenStresses {
         [even, even / distance2.max(L::splat(f64::MIN_POSITIVE))]
     }
     #[inline(always)]
-    fn couplings<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2] {
-        let both = volume * volume + there * there;
-        let even = L::splat(self.strength(D)) * both * factor;
-        [even, even / distance2.max(L::splat(f64::MIN_POSITIVE))]
-    }
-    #[inline(always)]
     fn means<S: BoundViscosity, L: Lane>(
         self,
         viscosity: &S,

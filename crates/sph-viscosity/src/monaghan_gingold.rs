@@ -88,8 +88,4 @@ impl<const D: usize> PairFriction<D> for Central {
         let along = along / distance2.max(L::splat(f64::MIN_POSITIVE));
         [L::splat(0.0), along]
     }
-    #[inline(always)]
-    fn couplings<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2] {
-        <Self as PairFriction<D>>::strengths(self, volume, volume * there, distance2, factor)
-    }
 }

@@ -97,8 +97,4 @@ impl<const D: usize> PairFriction<D> for FirstDifferences {
     fn strengths<L: Lane>(self, _: L, there: L, _: L, factor: L) -> [L; 2] {
         [L::splat(2.0) * there * factor, L::splat(0.0)]
     }
-    #[inline(always)]
-    fn couplings<L: Lane>(self, volume: L, there: L, _: L, factor: L) -> [L; 2] {
-        [L::splat(2.0) * (volume * there) * factor, L::splat(0.0)]
-    }
 }

@@ -241,5 +241,5 @@ fn within<L: Lane>(mean: Within, eta: L, other: L) -> L {
 #[inline(always)]
 fn in_series<L: Lane>(here: L, eta: L, there: L, other: L) -> L {
     let sum = here * other + there * eta;
-    sum.where_positive((here + there) * (eta * other) / sum, L::splat(0.0))
+    sum.where_positive((here + there) * eta * other / sum, L::splat(0.0))
 }

@@ -125,8 +125,8 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> LanePairs<D, 3>
         let friction = bound.friction;
         let mean = friction.means(&bound.viscosity, &here.viscosity, j, densities);
         let there = L::splat(bound.volume[j]);
-        let [even, along] = friction.couplings(here.volume, there, pair.distance2, pair.factor);
-        let eta = L::splat(-bound.scale) * mean;
+        let [even, along] = friction.strengths(here.volume, there, pair.distance2, pair.factor);
+        let eta = L::splat(-bound.scale) * here.volume * mean;
         let [even, along] = [even * eta, along * eta];
         // A particle is infinitely far from itself, and the norm would not be a number.
         let norm = even.abs() + along.abs() * pair.distance2;
