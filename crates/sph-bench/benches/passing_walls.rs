@@ -46,7 +46,7 @@ box = [[0.0, 0.0], [2.0, 1.0]]
 const WALLS: &str = "[wall.inlet]\npolyline = [[0.0, 1.0], [0.0, 0.0]]\n\
                      [wall.outlet]\npolyline = [[2.0, 0.0], [2.0, 1.0]]\n";
 const FACES: &str = "[wall.inlet.open-boundary.velocity-inlet]\nvelocity = 0.1\n\
-                     [wall.outlet.open-boundary.outflow]\n";
+                     [wall.outlet.open-boundary.outflow]\nmemory = \"1 s\"\n";
 /// Name, what `[numerics]` has besides, and the ends.
 const CHANNELS: [(&str, &str, [&str; 2]); 3] = [
     ("periodic", "periodic = { x = [0.0, 2.0] }", ["", ""]),
