@@ -113,13 +113,14 @@ impl Reader<'_> {
             let found = subject.source().diagnose(&[problem]);
             blame.place(subject.source(), &found)
         };
+        let marks = subject.marks().map_err(unreadable)?;
         let labels = self.axes.iter().zip(&combination.choices);
         let name = combination.name.clone();
         Ok(Variant {
             labels: labels.map(|(a, k)| a.choices[*k].label.clone()).collect(),
             refinement: refinement.and_then(Result::ok),
             wanted: only.is_empty() || only.iter().any(|p| fits(p, &name)),
-            fingerprint: fingerprint(&*subject).map_err(unreadable)?,
+            fingerprint: fingerprint(subject.resolved(), &marks),
             errors: self.errors.iter().map(|e| e.0.clone()).collect(),
             rung: None,
             name,
