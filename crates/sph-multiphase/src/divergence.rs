@@ -12,6 +12,11 @@ pub trait DivergenceWeight: Copy + Send + Sync + 'static {
     const NAME: &'static str;
     /// W from the volumes and densities here and there.
     fn weight<L: Lane>(self, volume: L, density: L, there: L, there_density: L) -> L;
+    /// W/V_s of a wall element from the volume and density here and its volume.
+    #[inline(always)]
+    fn at_element(self, volume: f64, density: f64, there: f64) -> f64 {
+        self.weight(volume, density, there, density) / there
+    }
 }
 
 /// W = V_a: belongs to [`HuAdams`](crate::HuAdams), Ghaïtanellis 2017, Eq. 3.26.
@@ -23,6 +28,23 @@ impl DivergenceWeight for OwnVolume {
     #[inline(always)]
     fn weight<L: Lane>(self, volume: L, _: L, _: L, _: L) -> L {
         volume
+    }
+}
+
+/// W = V_a and W/V_s = 1: −D lnρ_a/Dt of the density sum ρ = (K + mΣθw)/γ with constant K, to rounding. It differs from
+/// [`OwnVolume`] where elements of walls have another volume than the particle.
+#[derive(Clone, Copy, Debug)]
+pub struct OfTheSum;
+
+impl DivergenceWeight for OfTheSum {
+    const NAME: &'static str = "rate of the density sum";
+    #[inline(always)]
+    fn weight<L: Lane>(self, volume: L, _: L, _: L, _: L) -> L {
+        volume
+    }
+    #[inline(always)]
+    fn at_element(self, _: f64, _: f64, _: f64) -> f64 {
+        1.0
     }
 }
 
@@ -135,8 +157,9 @@ impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for Bound<'_, D, W> {
     #[inline(always)]
     fn element(&self, here: &Self::Here, contact: &Contact<D>, sum: &mut f64) {
         let s = contact.element as usize;
-        let volume = self.elements.volume[s];
-        let weight = self.weight.weight(here.1, here.2, volume, here.2) / volume;
+        let weight = self
+            .weight
+            .at_element(here.1, here.2, self.elements.volume[s]);
         *sum += weight * (here.0 - self.elements.velocity[s]).dot(&contact.gradient);
     }
 

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, register};
 use sph_neighbours::{Interaction, World, kernel_sums};
 
-use crate::divergence::{Divergence, OwnVolume};
+use crate::divergence::{Divergence, OfTheSum, OwnVolume};
 use crate::gradient::{PressureGradient, SquaredVolumes};
 use crate::{Diffused, Formulation, FormulationEntry};
 use sph_contribution::Stages;
@@ -45,6 +45,10 @@ impl<const D: usize> Formulation<D> for HuAdams {
 
     fn divergence(&self) -> Box<dyn Interaction<D>> {
         Divergence::boxed(OwnVolume)
+    }
+
+    fn dilatation(&self) -> Box<dyn Interaction<D>> {
+        Divergence::boxed(OfTheSum)
     }
 
     fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {

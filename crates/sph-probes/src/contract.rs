@@ -46,6 +46,10 @@ pub trait Probe<const D: usize>: Send {
     fn needs_displacement(&self) -> bool {
         false
     }
+    /// Whether it reads the work of everybody on the particles, which is booked for such probes only.
+    fn needs_books(&self) -> bool {
+        false
+    }
     /// Names of derived fields that are computed for such probes only.
     fn fields(&self) -> Vec<&str> {
         Vec::new()

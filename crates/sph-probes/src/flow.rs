@@ -3,6 +3,7 @@
 pub(crate) mod angular_momentum;
 pub(crate) mod displacement;
 pub(crate) mod energy;
+pub(crate) mod energy_budget;
 pub(crate) mod front;
 pub(crate) mod level;
 pub(crate) mod mean_profile;

@@ -2,7 +2,8 @@
 //!
 //! * [`Probe`]: columns of the time series, from the state of the flow ([`Front`],
 //!   [`PressureProbe`], [`VelocityProbe`], [`DisplacementProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`PassedProbe`],
-//!   [`WallMotionProbe`], [`MooringProbe`], [`StreamFunction`], [`Profile`], [`MeanProfile`], [`EnergySpectrum`]), and of
+//!   [`WallMotionProbe`], [`MooringProbe`], [`StreamFunction`], [`Profile`], [`MeanProfile`], [`EnergySpectrum`],
+//!   [`EnergyBudget`]), and of
 //!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
 //!   [`SurfaceSlope`], [`Line`]), and of a bed under water ([`BedLines`], [`ErodedMass`],
 //!   [`PorePressureProbe`]).
@@ -34,6 +35,9 @@ pub use derived::{
 pub use flow::angular_momentum::AngularMomentum;
 pub use flow::displacement::DisplacementProbe;
 pub use flow::energy::KineticEnergy;
+pub use flow::energy_budget::{
+    BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyBudget, EnergyWork,
+};
 pub use flow::front::Front;
 pub use flow::level::Level;
 pub use flow::mean_profile::MeanProfile;

@@ -1,6 +1,8 @@
 //! What happens in a step: evaluation, kicks, drifts, and going back.
 
+pub(crate) mod accounts;
 pub(crate) mod births;
+pub(crate) mod books;
 pub(crate) mod clocks;
 pub(crate) mod drift;
 pub(crate) mod flow;

@@ -31,6 +31,7 @@ use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
 use crate::setup::start::{Start, start};
 use crate::setup::wall_speeds;
+use crate::step::accounts;
 use crate::step::flow::Flow;
 use crate::step::nursery::Nursery;
 use crate::step::outlets::Outlets;
@@ -111,6 +112,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         remedies: remedies(scene, &parts),
         evolved: evolved(&*formulation, &parts),
     };
+    let kinds = planned.work_kinds.clone();
     let mut flow = joined(world, planned, given);
     follow_displacements(&shown, &choices.probes, &mut flow);
     check_output_fields(scene, &flow)?;
@@ -125,6 +127,8 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     };
     flow.know_exits(scene);
     let relaxation = start(&beginning, &mut flow)?;
+    let (probes, integrator) = (&choices.probes, &*choices.integrator);
+    accounts::open(scene, probes, integrator, &*formulation, kinds, &mut flow)?;
     if flow.works.iter().any(|w| w.gives_birth()) {
         flow.nursery = Some(Nursery::new(scene, formulation, columns().collect()));
     }

@@ -90,6 +90,7 @@ pub(crate) fn joined<const D: usize>(
         timings: Vec::new(),
         outlets: given.outlets,
         nursery: None,
+        books: None,
     };
     flow.reset_timings();
     allocate(&mut flow);

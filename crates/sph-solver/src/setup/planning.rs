@@ -28,6 +28,8 @@ pub struct Planned<const D: usize> {
     pub kinds: Vec<(String, &'static str)>,
     /// Work within a step, in order.
     pub works: Vec<Box<dyn StepWork<D>>>,
+    /// The kinds of plugins that it comes from, in the same order.
+    pub work_kinds: Vec<&'static str>,
     /// Bounds on the step.
     pub limiters: Vec<Box<dyn Limiter<D>>>,
     /// Rates that the sweep sums besides those of the formulation, in the order of their slots.
@@ -92,9 +94,11 @@ impl<const D: usize> Planning<'_, D> {
         let read = self.read(&stages, by_terms);
         stages.extend(parts.iter().flat_map(|(_, p)| p.stages_for(setting, &read)));
         let mut works = Vec::new();
-        for (_, part) in parts.iter_mut() {
+        let mut work_kinds = Vec::new();
+        for (kind, part) in parts.iter_mut() {
             let done = part.works(setting, &read);
             works.extend(done.map_err(|r| self.refused(r))?);
+            work_kinds.resize(works.len(), *kind);
         }
         let later: Vec<AnyField> = works.iter().flat_map(|w| w.access().reads()).collect();
         for (kind, part) in parts.iter() {
@@ -113,6 +117,7 @@ impl<const D: usize> Planning<'_, D> {
             terms,
             kinds: offered.kinds,
             works,
+            work_kinds,
             limiters: parts
                 .iter()
                 .flat_map(|(_, p)| p.limiters(setting))

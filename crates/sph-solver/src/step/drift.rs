@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 use sph_core::{Access, AnyField, StepError, fields};
+use sph_probes::EnergyWork;
 
 use crate::step::clocks::MOTION;
 use crate::step::flow::Flow;
@@ -24,16 +25,22 @@ impl<const D: usize> Flow<D> {
     /// Positions: r += Δt u, and all that works besides.
     pub(crate) fn drift_over(&mut self, dt: f64) -> Result<(), StepError> {
         self.each_work(|work, world| work.before_walls(world))?;
+        self.book_turns(EnergyWork::Others)?;
         let start = Instant::now();
         if let Some(walls) = &self.walls {
             lock(walls).constrain(&mut self.world, dt)?;
         }
         self.timings[MOTION].spent += start.elapsed();
+        self.book_turns(EnergyWork::Walls)?;
         if self.moved && self.works.iter().any(|w| w.needs_state_in_drifts()) {
             let gives = |a: &Access| STATE.iter().any(|f| a.writes.contains(f));
             self.run_stages(|stage| gives(&stage.access()))?;
         }
         self.each_work(|work, world| work.before_drift(world, dt))?;
+        self.book_turns(EnergyWork::Others)?;
+        if let Some(books) = &mut self.books {
+            books.drifts(&mut self.world, dt)?;
+        }
         match self.works.iter().any(|w| w.halves_drifts()) {
             false => self.advance(dt)?,
             true => {
@@ -45,6 +52,14 @@ impl<const D: usize> Flow<D> {
             }
         }
         self.each_work(|work, world| work.after_drift(world, dt))
+    }
+
+    /// Books velocities that somebody has turned.
+    fn book_turns(&mut self, of: EnergyWork) -> Result<(), StepError> {
+        match &mut self.books {
+            Some(books) => Ok(books.turned(&mut self.world, of)?),
+            None => Ok(()),
+        }
     }
 
     /// Lists, wall contacts and γ of the present positions.

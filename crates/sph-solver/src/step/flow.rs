@@ -13,6 +13,7 @@ use sph_core::{
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
 use sph_state::Laws;
 
+use crate::step::books::Books;
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::guard;
 use crate::step::kept_rates::Kept;
@@ -62,6 +63,8 @@ pub struct Flow<const D: usize> {
     pub(crate) outlets: Outlets,
     /// What newborn particles begin with, where some may come in.
     pub(crate) nursery: Option<Nursery<D>>,
+    /// Who gives energy and who takes it, where a probe asks.
+    pub(crate) books: Option<Books<D>>,
 }
 
 impl<const D: usize> Flow<D> {
@@ -87,7 +90,11 @@ impl<const D: usize> Flow<D> {
 
 impl<const D: usize> System for Flow<D> {
     fn evaluate(&mut self) -> Result<(), StepError> {
-        self.run_stages(|_| true)
+        self.run_stages(|_| true)?;
+        match &self.books {
+            Some(books) => Ok(books.evaluated(&mut self.world)?),
+            None => Ok(()),
+        }
     }
 
     fn evaluate_forces(&mut self) -> Result<(), StepError> {
@@ -144,7 +151,7 @@ impl<const D: usize> Flow<D> {
     /// Lets all work, in their order, and holds them to what they declared.
     pub(crate) fn each_work(
         &mut self,
-        work: impl Fn(&mut dyn StepWork<D>, &mut World<D>) -> Result<(), StepError>,
+        work: impl FnMut(&mut dyn StepWork<D>, &mut World<D>) -> Result<(), StepError>,
     ) -> Result<(), StepError> {
         self.each_work_with(std::iter::empty, work)
     }
@@ -153,7 +160,7 @@ impl<const D: usize> Flow<D> {
     pub(crate) fn each_work_with<A: Iterator<Item = Access>>(
         &mut self,
         more: impl Fn() -> A,
-        work: impl Fn(&mut dyn StepWork<D>, &mut World<D>) -> Result<(), StepError>,
+        mut work: impl FnMut(&mut dyn StepWork<D>, &mut World<D>) -> Result<(), StepError>,
     ) -> Result<(), StepError> {
         let first = MOTION + 1 + self.stages.len();
         for (k, one) in self.works.iter_mut().enumerate() {

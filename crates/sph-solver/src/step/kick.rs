@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, fields};
 use sph_neighbours::wall_forces;
 
+use crate::step::books::Books;
 use crate::step::clocks::MOTION;
 use crate::step::flow::Flow;
 use crate::step::stages::lock;
@@ -19,6 +20,9 @@ impl<const D: usize> Flow<D> {
         let felt = self.felt();
         self.load_walls(&felt)?;
         self.before_kick()?;
+        if let Some(books) = &mut self.books {
+            books.before_kick(&self.world, &self.terms, &self.kinds)?;
+        }
         let start = Instant::now();
         if !self.works.iter().any(|w| w.kicks()) {
             let mut velocity = self.world.free.take(fields::VELOCITY)?;
@@ -39,8 +43,36 @@ impl<const D: usize> Flow<D> {
             true => work.kick(world, dt),
             false => Ok(()),
         })?;
-        self.each_work(|work, world| work.after_kick(world, dt))?;
+        self.after_kick(dt)?;
         self.load_walls_more(&felt)
+    }
+
+    /// What works on velocities and scalars that have been advanced.
+    fn after_kick(&mut self, dt: f64) -> Result<(), StepError> {
+        let Some(mut books) = self.books.take() else {
+            return self.each_work(|work, world| work.after_kick(world, dt));
+        };
+        let done = self.after_booked_kick(&mut books, dt);
+        self.books = Some(books);
+        done
+    }
+
+    /// The same, with the books open.
+    fn after_booked_kick(&mut self, books: &mut Books<D>, dt: f64) -> Result<(), StepError> {
+        let kicker = self.works.iter().position(|w| w.kicks());
+        books.kicked(&self.world, dt, kicker)?;
+        let access = books.access();
+        let mut number = 0;
+        self.each_work_with(
+            || std::iter::once(access.clone()),
+            |work, world| {
+                work.after_kick(world, dt)?;
+                books.worked(world, number)?;
+                number += 1;
+                Ok(())
+            },
+        )?;
+        books.settled(&mut self.world, dt)
     }
 
     /// Whether the mover of each wall asks for forces; empty if none does.

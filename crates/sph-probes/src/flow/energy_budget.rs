@@ -1,0 +1,154 @@
+//! Where the energy of a flow goes.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_core::{Field, Scalar, StepError, fields, register};
+use sph_neighbours::World;
+
+use crate::{Probe, ProbeColumn, ProbeEntry};
+
+/// Who gives energy to a particle or takes it, in the order of [`ENERGY_WORKS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnergyWork {
+    /// Friction, explicit or solved for, of eddies and at walls too; what moving walls rub in.
+    Viscosity,
+    /// Diffusion of the density.
+    Smoother,
+    /// Shifted positions, and what shifted particles take up.
+    Shifting,
+    /// Terms of `[damping.…]`: the damper of sound.
+    Damper,
+    /// Work of `[damping.…]` on velocities.
+    Damping,
+    /// Changes of the density constant by `[surface.…]`.
+    Surface,
+    /// Pressure at walls, and particles that are kept off them.
+    Walls,
+    /// Driving, interfaces, elastic and other forces.
+    Others,
+    /// What the length of the step makes, and whatever is not listed.
+    Remainder,
+}
+
+/// Work of everybody on a particle since the start, J (per metre of depth in 2D).
+pub const ENERGY_WORKS: [Field<Scalar>; 9] = [
+    Field::new("work_viscosity", "J", "work of friction since the start"),
+    Field::new("work_smoother", "J", "work of the smoother since the start"),
+    Field::new("work_shifting", "J", "work of shifting since the start"),
+    Field::new(
+        "work_damper",
+        "J",
+        "work of the damper of sound since the start",
+    ),
+    Field::new(
+        "work_damping",
+        "J",
+        "work of damped velocities since the start",
+    ),
+    Field::new(
+        "work_surface",
+        "J",
+        "work of forgotten surfaces since the start",
+    ),
+    Field::new(
+        "work_walls",
+        "J",
+        "work of walls by pressure since the start",
+    ),
+    Field::new("work_others", "J", "work of other forces since the start"),
+    Field::new(
+        "work_remainder",
+        "J",
+        "work of finite steps since the start",
+    ),
+];
+/// Energy of compression of a particle when it was last booked.
+pub const BOOKED_COMPRESSION: Field<Scalar> = Field::new(
+    "booked_compression",
+    "J",
+    "energy of compression, as booked",
+);
+/// Energy of a particle at the start.
+pub const ENERGY_AT_START: Field<Scalar> = Field::new(
+    "energy_at_start",
+    "J",
+    "energy of the particle at the start",
+);
+
+/// Kinetic, potential and internal energy (of compression) of all particles, and the work of everybody who gives or takes
+/// energy since the start, J (per metre of depth in 2D). Positive work gives:
+///
+/// | column | work of |
+/// |---|---|
+/// | `viscosity` | friction, Σ m a_η·ū Δt; implicit too, of eddies and of moving walls |
+/// | `smoother` | diffusion of the density, Σ m [e(ρ + ρ̇_δ Δt) − e(ρ)] at ρ in the middle of the motion |
+/// | `shifting` | shifts: of weights, −Σ m g·s Δt, of densities, and what shifted particles take up |
+/// | `damper`, `damping` | terms of `[damping.…]` (`acoustic`), and work on velocities (`rayleigh`) |
+/// | `surface` | changes of the density constant by `[surface.…]` |
+/// | `walls` | pressure, Σ m a_p·ū Δt − Σ V p D{ū} Δt: gradient and density sum are adjoint but at walls; lone particles that are stopped |
+/// | `others` | driving, interfaces, elastic and other forces |
+/// | `remainder` | what is left: the length of the step, and the bound on the density of lone particles |
+/// | `unlisted` | energy less that of the start less all these: 0 to rounding, unless something moves particles or densities that the books do not see |
+///
+/// ū is the mean of the velocities before and after a kick and all that follows it, Σ m δu·ū is then exact; e = ∫p/ρ² dρ; D the rate at which the
+/// density of the formulation follows the motion. Symbols: m mass (kg), ρ density (kg/m³), V volume (m^d), p pressure (Pa), s
+/// shift velocity (m/s), g gravity (m/s²).
+///
+/// Most of the remainder comes back: a kick, then a drift keep E − ½ΔtΣF·u and not E.
+///
+/// Every work is also a column of the particles, `work_viscosity` and so on, that outputs may show: a map of where the
+/// energy goes. Between particles energy moves by pressure, so that `walls` and `remainder` of single particles mean nothing.
+///
+/// Limits: integrators of one kick and one drift per step, `symplectic-euler`; no particles that come in or leave. Several more walks
+/// over the neighbours in every step.
+///
+/// ```toml
+/// [probe.budget]
+/// kind = "energy-budget"
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EnergyBudget {}
+
+impl<const D: usize> Probe<D> for EnergyBudget {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        let works = ENERGY_WORKS.map(|work| work.name.replacen("work_", ".", 1));
+        let all = [".kinetic", ".potential", ".internal"].map(String::from);
+        let all = all.into_iter().chain(works).chain([".unlisted".into()]);
+        all.map(|suffix| ProbeColumn::named(&suffix, "J")).collect()
+    }
+
+    fn needs_books(&self) -> bool {
+        true
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let free = &world.free;
+        let mass = free.get(fields::MASS)?;
+        let velocity = free.get(fields::VELOCITY)?;
+        let position = free.get(fields::POSITION)?;
+        let sum = |field| -> Result<f64, StepError> { Ok(free.get(field)?.iter().sum()) };
+        let kinetic = mass.iter().zip(velocity);
+        let potential = mass.iter().zip(position);
+        let mut all = vec![
+            kinetic.map(|(m, u)| 0.5 * m * u.norm_squared()).sum(),
+            potential.map(|(m, x)| -m * world.gravity.dot(x)).sum(),
+            sum(BOOKED_COMPRESSION)?,
+        ];
+        let now: f64 = all.iter().sum();
+        let works = ENERGY_WORKS.into_iter().map(sum);
+        let works = works.collect::<Result<Vec<f64>, _>>()?;
+        let unlisted = now - sum(ENERGY_AT_START)? - works.iter().sum::<f64>();
+        all.extend(works);
+        all.push(unlisted);
+        Ok(all)
+    }
+}
+
+register!(
+    ProbeEntry [2, 3],
+    EnergyBudget,
+    "energy-budget",
+    "where the energy goes: energies, and the work of everybody who gives or takes some",
+    "ours: the first law, discrete"
+);

@@ -1,0 +1,49 @@
+//! Opens the books of energy where a probe asks for them.
+
+use sph_core::SceneProblem;
+use sph_integrators::Integrator;
+use sph_multiphase::Formulation;
+use sph_probes::Probe;
+use sph_scene::Scene;
+
+use crate::failure::error::SolverError;
+use crate::step::books::Books;
+use crate::step::flow::Flow;
+
+/// Opens the books of a flow, if a probe reads them; `kinds` are those of the plugins that work within a step.
+///
+/// # Errors
+/// If steps have another form than the books know, or particles come in or leave.
+pub(crate) fn open<const D: usize>(
+    scene: &Scene,
+    probes: &[(String, Box<dyn Probe<D>>)],
+    integrator: &dyn Integrator,
+    formulation: &dyn Formulation<D>,
+    kinds: Vec<&'static str>,
+    flow: &mut Flow<D>,
+) -> Result<(), SolverError> {
+    let Some((name, _)) = probes.iter().find(|(_, probe)| probe.needs_books()) else {
+        return Ok(());
+    };
+    let comes = flow.works.iter().any(|work| work.gives_birth());
+    let goes = !flow.outlets.labels().is_empty();
+    let why = match (integrator.kicks_once(), comes || goes) {
+        (false, _) => {
+            "energy is booked for steps of one kick and one drift: take `[integrator.symplectic-euler]`"
+        }
+        (_, true) => {
+            "particles come in or leave, and their energy is not booked: take the probe out"
+        }
+        _ => {
+            let (laws, world) = (flow.laws.clone(), &mut flow.world);
+            flow.books = Some(Books::open(formulation, laws, kinds, world)?);
+            return Ok(());
+        }
+    };
+    let kind = match scene.gauge.contains_key(name) {
+        true => "gauge",
+        false => "probe",
+    };
+    let problem = SceneProblem::new(format!("{kind}.{name}.kind"), why);
+    Err(SolverError::Scene(vec![problem]))
+}
