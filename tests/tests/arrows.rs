@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 34] = [
+const ALLOWED: [(&str, &[&str]); 35] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation"]),
     ("dem-grains", &[]),
@@ -50,6 +50,7 @@ const ALLOWED: [(&str, &[&str]); 34] = [
             "sph-contribution",
         ],
     ),
+    ("sph-decomposition", &["sph-core", "sph-neighbours"]),
     ("sph-rheology", &["sph-core"]),
     ("sph-state", &["sph-core", "sph-neighbours"]),
     (

@@ -140,7 +140,41 @@ fn what_is_wrong_is_told_with_its_line_and_nothing_is_written() {
             "did you mean `stress`?",
         ),
     ];
-    for (scene, spheres, told) in cases {
+    let recorded = |load: &str| {
+        wet.replace(
+            "[wall.top]\npressure = 0\n",
+            &format!("[wall.top]\nrecorded = {{ file = \"spheres.txt\", {load} }}\n"),
+        )
+    };
+    let series = "time,left,right\n0,1,2\n1,1,2\n";
+    let of_series = [
+        (
+            recorded("places = [0, 0.1], columns = [\"left\", \"rigt\"]"),
+            series,
+            "did you mean `right`?",
+        ),
+        (
+            recorded("places = [0, 0.1], columns = [\"left\"]"),
+            series,
+            "1 columns for 2 places",
+        ),
+        (
+            recorded("places = [0.1, 0], columns = [\"left\", \"right\"]"),
+            series,
+            "places that do not ascend",
+        ),
+        (
+            recorded("places = [0], columns = [\"left\"], start = 2"),
+            series,
+            "no row after 2 s",
+        ),
+        (
+            recorded("places = [0], columns = [\"left\"]"),
+            "left\n1\n",
+            "no column `time`",
+        ),
+    ];
+    for (scene, spheres, told) in cases.into_iter().chain(of_series) {
         let bench = Bench::with(PROGRAM, &scene);
         bench.write("spheres.txt", spheres);
         let outcome = bench.call("run scene.toml --quiet");
@@ -151,6 +185,24 @@ fn what_is_wrong_is_told_with_its_line_and_nothing_is_written() {
             "{told}: something was written"
         );
     }
+}
+
+#[test]
+fn a_recorded_pressure_acts_as_the_one_it_records() {
+    let bench = Bench::with(PROGRAM, &wet());
+    let table = "time,a,b\n0,130,130\n0.01,130,130\n9,130,130\n";
+    bench.write("load.csv", table);
+    let load = "{file=\"load.csv\",places=[0.0,0.1],columns=[\"a\",\"b\"],less=30.0}";
+    let recorded = wet().replace("pressure = 0\n", &format!("recorded = {load}\n"));
+    bench.write("recorded.toml", &recorded);
+    bench.write(
+        "given.toml",
+        &wet().replace("pressure = 0\n", "pressure = 100\n"),
+    );
+    let set = "--quiet --set run.end=0.02";
+    bench.done(&format!("run given.toml {set} --out given"));
+    bench.done(&format!("run recorded.toml {set} --out recorded"));
+    assert!(bytes(&bench, "given") == bytes(&bench, "recorded"));
 }
 
 #[test]

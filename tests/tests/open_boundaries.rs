@@ -158,7 +158,7 @@ fn a_uniform_flow_passes_both_faces_as_if_they_were_not_there() {
 
 /// A channel of a length without friction, at rest but for a pulse of pressure that runs to the right from 5 m: a simple wave,
 /// δρ/ρ = u/c.
-fn with_pulse(length: f64, sound: f64, high: f64) -> Stepper<2> {
+fn with_pulse(length: f64, sound: f64, high: f64, far: &str) -> Stepper<2> {
     let text = CHANNEL
         .replace("phase = \"mud\"\n", "phase = \"water\"\n")
         .replace("[wall.bottom]", "[wall.bottom]\ncondition = \"free-slip\"")
@@ -167,7 +167,7 @@ fn with_pulse(length: f64, sound: f64, high: f64) -> Stepper<2> {
         .replace("velocity = \"1 m/s\"", "velocity = \"0 m/s\"")
         .replace("velocity = [1.0, 0.0]", "velocity = [0.0, 0.0]")
         .replace("strength = 0.04", "strength = 0.01")
-        .replace("memory = \"1 s\"", "velocity = \"0 m/s\"");
+        .replace("memory = \"1 s\"", far);
     let loaded = parse(&text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
     let mut stepper = Stepper::<2>::new(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
     stepper.evaluate().unwrap_or_else(|e| panic!("{e}"));
@@ -216,29 +216,33 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 /// A pulse of pressure runs into the outlet. What comes back is what differs from a channel of twice the length, whose outlet
 /// nothing has reached yet: the pulse also leaves slow waves behind it, which have never been at the outlet.
 #[test]
-#[ignore = "not reached: 1.1 % of the pulse itself, but with the slower waves behind it 6 % come back"]
+#[ignore = "not reached: with the slower waves behind the pulse 4 to 5 % come back"]
 fn a_pressure_pulse_leaves() {
+    pulse_leaves("velocity = \"0 m/s\"");
+}
+
+#[test]
+#[ignore = "not reached: the memory is eight times as long as the pulse, and takes a part of it for slow: 10 %"]
+fn a_pressure_pulse_leaves_by_what_is_faster_than_the_memory() {
+    pulse_leaves("memory = \"1 s\"");
+}
+
+fn pulse_leaves(far: &str) {
     let (sound, high) = (12.0, 1e-3);
-    let [mut short, mut long] = [10.0, 20.0].map(|length| with_pulse(length, sound, high));
+    let [mut short, mut long] = [10.0, 20.0].map(|length| with_pulse(length, sound, high, far));
     let before = largest(columns_at(&mut short, 0.2).into_iter());
     columns_at(&mut long, 0.2);
     assert!(before > 0.5 * sound * sound * high, "{before} Pa arrived");
     // What came back from 10 m is then around 8.4, 6.6 and 5 m.
-    for time in [0.55, 0.7, 0.83] {
+    let shares = [0.55, 0.7, 0.83].map(|time| {
         let [a, b] = [&mut short, &mut long].map(|stepper| columns_at(stepper, time));
         // The last four spacings, a support, are those in which waves still leave.
-        let apart = || a.iter().zip(&b).map(|(a, b)| a - b);
-        let (back, there) = (
-            largest(apart().take(96)) / before,
-            largest(b.iter().copied()) / before,
-        );
-        println!(
-            "{:.2} % came back at {time} s, {:.1} % behind the pulse",
-            100.0 * back,
-            100.0 * there
-        );
-        assert!(back < 0.02, "{:.2} % came back at {time} s", 100.0 * back);
-    }
+        let apart = a.iter().zip(&b).map(|(a, b)| a - b);
+        100.0 * largest(apart.take(96)) / before
+    });
+    println!("{far}: {shares:.2?} % came back at 0.55, 0.7 and 0.83 s");
+    let worst = largest(shares.into_iter());
+    assert!(worst < 2.0, "{shares:.2?} % came back");
 }
 
 /// Problems of a scene, as a user sees them.

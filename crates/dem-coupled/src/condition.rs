@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use dem_flow::{Boundary, PoreGeometry};
 use serde::{Deserialize, Serialize};
 
-use crate::{CoupledError, Vector};
+use crate::recorded::interpolated;
+use crate::{CoupledError, Recorded, Vector};
 
 /// A wall as the fluid sees it.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
@@ -36,6 +37,8 @@ pub enum Condition {
     },
     /// The load of a wave.
     Wave(Wave),
+    /// What another computation has left.
+    Recorded(Recorded),
     /// An even inflow, m/s; negative lets fluid out.
     Inflow(f64),
 }
@@ -113,6 +116,7 @@ impl Side {
                 () if !places.is_sorted() => bad("has places that do not ascend"),
                 () => Ok(()),
             },
+            Condition::Recorded(recorded) => recorded.problem().map_or(Ok(()), bad),
             Condition::Wave(w) => {
                 let lengths = [w.half_length, w.period.unwrap_or(1.0)];
                 match () {
@@ -131,7 +135,7 @@ impl Side {
 
     /// Whether its values change while the clock runs.
     pub(crate) fn varies(&self) -> bool {
-        matches!(self.condition, Condition::Wave(_))
+        matches!(self.condition, Condition::Wave(_) | Condition::Recorded(_))
     }
 
     /// Whether both give a pressure, or neither does: then a change needs no new matrix.
@@ -153,6 +157,9 @@ impl Side {
                 Some(interpolated(places, pressures, x[*axis]))
             }),
             Condition::Wave(w) => boundary.pressure(pores, wall, |x| Some(w.pressure(&x, time))),
+            Condition::Recorded(r) => {
+                boundary.pressure(pores, wall, |x| Some(r.pressure(x[r.axis], time)));
+            }
             Condition::Inflow(v) => {
                 boundary.inflow(pores, wall, *v, |_| true);
             }
@@ -167,16 +174,4 @@ pub(crate) fn boundary(sides: &[Side], pores: &PoreGeometry, time: f64) -> Bound
         side.give(&mut boundary, pores, wall, time);
     }
     boundary
-}
-
-fn interpolated(places: &[f64], values: &[f64], x: f64) -> f64 {
-    let after = places.partition_point(|p| *p <= x);
-    if after == 0 {
-        return values[0];
-    }
-    let Some(next) = places.get(after) else {
-        return values[after - 1];
-    };
-    let share = (x - places[after - 1]) / (next - places[after - 1]);
-    values[after - 1] + share * (values[after] - values[after - 1])
 }

@@ -10,6 +10,7 @@ use crate::names::{BOX, planes};
 use crate::origin::Origin;
 use crate::prepare;
 use crate::read::Loaded;
+use crate::recorded;
 use crate::tables::{self, Scene};
 use crate::walls::{FAR, control};
 
@@ -43,7 +44,7 @@ pub fn assemble(loaded: &Loaded, tell: &mut dyn FnMut(&str)) -> Result<Assembled
     let model = match &scene.fluid {
         None => Model::Dry(Box::new(grains)),
         Some(fluid) => {
-            let setup = flow(scene, fluid);
+            let setup = flow(loaded, fluid)?;
             let system = CoupledSystem::with_law(grains, setup, throats(scene)?);
             let system = system.map_err(|e| DemError::at(key_of(&e), e))?;
             if scene.oedometer.is_some() {
@@ -107,7 +108,7 @@ fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
 }
 
 /// The fluid and its conditions.
-fn flow(scene: &Scene, fluid: &tables::Fluid) -> FlowSetup {
+fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
     let mut given = dem_coupled::Fluid::new(fluid.viscosity, fluid.density);
     given.bulk_modulus = fluid.bulk_modulus;
     let mut setup = FlowSetup::new(given).remeshing(Remeshing {
@@ -115,14 +116,14 @@ fn flow(scene: &Scene, fluid: &tables::Fluid) -> FlowSetup {
         most_steps: fluid.remesh_steps,
     });
     for (number, name) in BOX.iter().enumerate() {
-        if let Some(table) = scene.wall.get(*name) {
-            setup = setup.side(number, side(table));
+        if let Some(table) = loaded.scene.wall.get(*name) {
+            setup = setup.side(number, side(loaded, name, table)?);
         }
     }
-    setup
+    Ok(setup)
 }
 
-fn side(table: &tables::Wall) -> Side {
+fn side(loaded: &Loaded, name: &str, table: &tables::Wall) -> Result<Side, DemError> {
     let wave = |w: &tables::WaveLoad| Wave {
         axis: w.axis.number(),
         crest: w.crest,
@@ -135,10 +136,13 @@ fn side(table: &tables::Wall) -> Side {
         (Some(pressure), ..) => Condition::Pressure(pressure),
         (_, Some(speed), _) => Condition::Inflow(speed),
         (.., Some(load)) => Condition::Wave(wave(load)),
-        _ => Condition::Closed,
+        _ => match &table.recorded {
+            Some(load) => Condition::Recorded(recorded::read(&loaded.source, name, load)?),
+            None => Condition::Closed,
+        },
     };
-    Side {
+    Ok(Side {
         condition,
         sticks: table.sticks,
-    }
+    })
 }

@@ -86,9 +86,9 @@ fn fluid(scene: &Scene, found: &mut Vec<SceneProblem>) {
     let pressed = scene
         .wall
         .values()
-        .any(|w| w.pressure.is_some() || w.wave.is_some());
+        .any(|w| w.pressure.is_some() || w.wave.is_some() || w.recorded.is_some());
     if !pressed && fluid.bulk_modulus.is_none() {
-        let message = "no wall has a `pressure` or a `wave`: pressures would be known but for a constant; give one, \
+        let message = "no wall has a `pressure`, a `wave` or what was `recorded`: pressures would be known but for a constant; give one, \
                        or a `bulk_modulus`";
         add(found, "fluid", message);
     }
@@ -148,6 +148,12 @@ fn files(
             }
             _ => None,
         });
+    for (name, wall) in &scene.wall {
+        let read = |load| crate::recorded::read(source, name, load).err();
+        if let Some(DemError::Scene(problems)) = wall.recorded.as_ref().and_then(read) {
+            found.extend(problems);
+        }
+    }
     for (key, file) in start.chain(walls).chain(compared) {
         if let Err(problem) = source.resolve(&key, file) {
             add(found, key, problem.to_string());

@@ -58,6 +58,7 @@ mod names;
 mod origin;
 mod prepare;
 mod read;
+mod recorded;
 mod run;
 mod scaling;
 mod schema;

@@ -58,7 +58,11 @@ pub fn grains(
             tolerance: grown.tolerance,
             most_steps: scene.start.most_steps,
         };
+        // Under its own weight a heap would press on the floor before there is a packing.
+        let gravity = system.gravity();
+        system.set_gravity(Default::default());
         let steps = growth.run(&mut system);
+        system.set_gravity(gravity);
         let steps = steps.map_err(|e| DemError::at("start.grown", e))?;
         tell(&format!("grown in {steps} steps{}", porosity(&system)));
     }
@@ -77,7 +81,8 @@ fn porosity(system: &GrainSystem) -> String {
     }
 }
 
-/// Lets the grains come to rest under gravity and the prepared stress of pistons.
+/// Lets the grains come to rest under gravity and the prepared stress of pistons; in a fluid under their buoyant weight, as
+/// if they were laid down slowly there.
 fn settled(
     scene: &Scene,
     system: &mut GrainSystem,
@@ -97,12 +102,17 @@ fn settled(
             system.walls_mut()[number].control = before;
         }
     }
+    let gravity = system.gravity();
+    if let Some(fluid) = &scene.fluid {
+        system.set_gravity(gravity * (1.0 - fluid.density / scene.grains.density));
+    }
     let steps = settle(
         system,
         scene.start.safety,
         tolerance,
         scene.start.most_steps,
     );
+    system.set_gravity(gravity);
     let steps = steps.map_err(|e| DemError::at("start", e))?;
     tell(&format!("settled in {steps} steps"));
     Ok(())

@@ -200,6 +200,8 @@ impl Loaded {
         for (name, wall) in &self.scene.wall {
             let file = wall.file.iter();
             found.extend(file.map(|f| (format!("wall.{name}.file"), f.clone())));
+            let recorded = wall.recorded.iter();
+            found.extend(recorded.map(|r| (format!("wall.{name}.recorded.file"), r.file.clone())));
         }
         let of = |plugins: &Plugins, what: &str| {
             let named = plugins.iter().filter_map(|(name, table)| {

@@ -16,7 +16,7 @@ pub use output::Output;
 pub use probe::Probe;
 pub use reference::{Reference, Statistic};
 pub use scene::{Oedometer, Run, Scene};
-pub use wall::{Box, Piston, Servo, Wall, WaveLoad};
+pub use wall::{Box, Piston, RecordedLoad, Servo, Wall, WaveLoad};
 
 use std::collections::BTreeMap;
 

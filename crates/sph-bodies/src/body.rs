@@ -12,6 +12,7 @@ use crate::dynamics::Dynamics;
 use crate::freedom::{Freedom, Holds};
 use crate::layer::layer;
 use crate::line::Line;
+use crate::mooring::Mooring;
 use crate::shape::{Solid, winding};
 use crate::six::padded;
 
@@ -64,7 +65,7 @@ pub struct RigidBody {
     /// Springs and dampers on its degrees of freedom.
     #[serde(default)]
     pub hold: Holds,
-    /// Elastic lines to places that stay.
+    /// Lines to places that stay: elastic ones, and chains that hang.
     #[serde(default)]
     pub line: Vec<Line>,
     /// Share of the normal velocity that is left after it meets a wall or a body; 0.135 is the least, which is critical
@@ -188,26 +189,11 @@ impl RigidBody {
         Ok(free)
     }
 
-    fn check_lines<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Settled<()> {
-        for (k, line) in self.line.iter().enumerate() {
-            let at = |key: &str| format!("line[{k}].{key}");
-            for (key, place) in [("from", &line.from), ("to", &line.to)] {
-                if place.len() != D {
-                    return Err(numbers(&at(key), place.len(), &D.to_string()));
-                }
-            }
-            if line.drawn_length() <= 0.0 {
-                return Err(MoverRefusal::of(
-                    at("to"),
-                    "the line has no length: both ends are one place",
-                ));
-            }
-            if let Some(wall) = setting.others().find(|w| line.crosses(w)) {
-                let why = format!("the line goes through the wall `{}`", wall.name());
-                return Err(MoverRefusal::of(at("to"), why));
-            }
-        }
-        Ok(())
+    fn moorings<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Settled<Vec<Mooring>> {
+        let lines = self.line.iter().enumerate();
+        lines
+            .map(|(k, line)| Mooring::of(line, k, setting))
+            .collect()
     }
 
     /// Penalty of contact: as stiff as the fluid in the gap, but never so stiff that an explicit step is too long for it.
@@ -297,7 +283,7 @@ impl<const D: usize> Mover<D> for RigidBody {
         let weighed = self.weighed(setting)?;
         apart(setting)?;
         let free = self.freedoms::<D>()?;
-        self.check_lines(setting)?;
+        let lines = self.moorings(setting)?;
         vector::<D>("velocity", &self.velocity)?;
         let turns = if D == 2 { 1 } else { 3 };
         if let Some(given) = self.angular_velocity.as_ref().filter(|g| g.len() != turns) {
@@ -316,7 +302,7 @@ impl<const D: usize> Mover<D> for RigidBody {
             layer,
             free,
             holds: self.hold.all().collect(),
-            lines: self.line.clone(),
+            lines,
             start: self.start,
         };
         self.settled = Some((dynamics, self.touch_of(setting, weighed.mass, surface)));
@@ -325,6 +311,11 @@ impl<const D: usize> Mover<D> for RigidBody {
 
     fn touch(&self) -> Option<Touch> {
         self.settled.as_ref().map(|(_, touch)| *touch)
+    }
+
+    fn pulls(&self, now: &RigidState<D>) -> Vec<(Vect<D>, f64)> {
+        let settled = self.settled.iter();
+        settled.flat_map(|(d, _)| d.pulls(now)).collect()
     }
 
     fn start(&self) -> RigidState<D> {

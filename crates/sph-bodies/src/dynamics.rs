@@ -5,7 +5,7 @@ use sph_boundary::{Load, RigidState};
 use sph_core::Vect;
 
 use crate::freedom::Freedom;
-use crate::line::Line;
+use crate::mooring::{Mooring, Pull};
 use crate::six::{blocks, padded, parts, six, solve};
 
 /// A body as the equations of motion know it; matrices as it is drawn.
@@ -21,7 +21,7 @@ pub(crate) struct Dynamics {
     pub free: [bool; 6],
     /// Stiffness and damping on degrees of freedom.
     pub holds: Vec<(Freedom, f64, f64)>,
-    pub lines: Vec<Line>,
+    pub lines: Vec<Mooring>,
     /// The time from which on it is free, s.
     pub start: f64,
 }
@@ -134,12 +134,37 @@ impl Dynamics {
             }
         }
         for line in &self.lines {
-            let arm = turn * (padded(&line.to) - self.centre);
-            if let Some(pull) = line.pull(self.centre + shift + arm, arm, velocity) {
-                let (tension, rate) = (pull.tension, pull.rate);
-                add(&pull.along, tension, line.stiffness, line.damping, rate);
+            if let Some(pull) = self.pull(line, &turn, &shift, velocity) {
+                *matrix += pull.damping * dt + pull.stiffness * (dt * dt);
+                *force += pull.force - pull.stiffness * velocity * dt;
             }
         }
+    }
+
+    fn pull(
+        &self,
+        line: &Mooring,
+        turn: &Matrix3<f64>,
+        shift: &Vector3<f64>,
+        velocity: &Vector6<f64>,
+    ) -> Option<Pull> {
+        let arm = turn * (line.to - self.centre);
+        line.pull(self.centre + shift + arm, arm, velocity)
+    }
+
+    /// Force of every line on the body, and its tension at the anchor, in a state.
+    pub fn pulls<const D: usize>(
+        &self,
+        now: &RigidState<D>,
+    ) -> impl Iterator<Item = (Vect<D>, f64)> {
+        let (turn, shift) = (rotation(now), padded(&now.pose.translation));
+        let velocity = six(padded(now.velocity.as_slice()), now.angular_velocity.into());
+        self.lines.iter().map(move |line| {
+            let pull = self.pull(line, &turn, &shift, &velocity);
+            pull.map_or((Vect::zeros(), 0.0), |pull| {
+                (Vect::from_fn(|k, _| pull.force[k]), pull.anchor)
+            })
+        })
     }
 
     /// The mean angular velocity over a step at whose end the angular momentum is L, and that at its end: the inertia
@@ -164,6 +189,7 @@ impl Dynamics {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::catenary::Catenary;
 
     fn body(free: [bool; 6]) -> Dynamics {
         Dynamics {
@@ -285,5 +311,46 @@ mod tests {
         }
         assert!((swings(1.1, 1.0, 0.0) - 1.0).abs() < 1e-3);
         assert!(!swings(0.9, 1.0, 0.0).is_finite() || swings(0.9, 1.0, 0.0).abs() > 10.0);
+    }
+
+    /// m = 2 on two equal chains, one to either side: its period is 2π √(m/2k), k the horizontal stiffness of one; with steps
+    /// of ten periods it stays bounded.
+    #[test]
+    fn chains_have_their_period_and_never_bound_the_step() {
+        let catenary = Catenary {
+            weight: 30.0,
+            axial: 2e4,
+            length: 2.0,
+            bed: true,
+        };
+        let centre = Vector3::new(0.1, 0.2, 0.0);
+        let chain = |way: f64| {
+            let from = centre + Vector3::new(way, -0.6, 0.0);
+            Mooring::chain(from, centre, catenary, Vector3::y())
+        };
+        let moored = Dynamics {
+            centre,
+            lines: vec![chain(-1.8), chain(1.8)],
+            ..body([true, false, false, false, false, false])
+        };
+        let stiffness = 2.0 * catenary.hang(1.8, 0.6).stiffness[0][0];
+        let period = std::f64::consts::TAU * (moored.mass / stiffness).sqrt();
+        let none = Load::<2>::of_gravity(Vect::zeros());
+        let mut state = at_rest(&moored);
+        let way = 1e-4;
+        state.pose.translation[0] = way;
+        let steps = 20_000;
+        for _ in 0..steps {
+            state = moored.next(&state, &none, 0.0, period / f64::from(steps));
+        }
+        let [x, _] = state.pose.translation;
+        // The stiffness changes by a thousandth over the way.
+        assert!((x / way - 1.0).abs() < 2e-3, "after a period at {x}");
+        state.pose.translation[0] = 0.1;
+        for _ in 0..200 {
+            state = moored.next(&state, &none, 0.0, 10.0 * period);
+            let [x, _] = state.pose.translation;
+            assert!(x.abs() <= 0.1, "at {x}");
+        }
     }
 }

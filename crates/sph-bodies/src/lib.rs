@@ -1,17 +1,19 @@
 //! Rigid bodies that the fluid moves: `[wall.NAME.mover.rigid-body]`.
 //!
 //! * [`RigidBody`] is the mover: mass, centre and inertia, degrees of freedom, springs and dampers on them ([`Holds`]),
-//!   elastic [`Line`]s, contact.
+//!   elastic and hanging [`Line`]s, contact.
 //! * [`Solid`] has volume, centre and inertia of what lines and surfaces enclose.
 //!
 //! The wall itself, γ, the force of the fluid and the state of a body are those of `sph-boundary`.
 #![doc = include_str!("../README.md")]
 
 mod body;
+mod catenary;
 mod dynamics;
 mod freedom;
 mod layer;
 mod line;
+mod mooring;
 mod shape;
 mod six;
 

@@ -296,6 +296,9 @@ pub struct CheckArguments {
 pub struct ExplainArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
+    /// Also what each of so many machines would own, and what they would send each other
+    #[arg(long, value_name = "N")]
+    pub ranks: Option<std::num::NonZeroUsize>,
     /// Print the result, or the diagnostics as an array, as JSON on stdout
     #[arg(long)]
     pub json: bool,

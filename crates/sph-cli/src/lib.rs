@@ -32,3 +32,4 @@ use sph_turbulence as _;
 use sph_waves as _;
 
 pub use app::main;
+pub use scene_file::method;

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use sph_core::suggestion;
 use sph_io::Scratch;
 use sph_scene::{LoadError, Override, Source, read_text, within};
-use sph_study::SceneText;
+use sph_study::{Method, Particles, SceneText};
 
 use crate::arguments::SceneArguments;
+use crate::commands::grains::study::Grains;
 use crate::shipped::{self, Shipped};
 use crate::telling::diagnostics;
 use crate::telling::trouble::Trouble;
@@ -145,10 +146,10 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, St
         (Some(file), _) => {
             let shown = file.display().to_string();
             let text = read_text(&file).map_err(|why| format!("cannot read `{shown}`: {why}"))?;
-            of_particles(&text, &shown)?;
             Ok(Found {
                 scene: SceneText {
                     name,
+                    method: method(&text, &shown),
                     text,
                     file: shown,
                     allowed: allowed.to_vec(),
@@ -158,10 +159,10 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, St
         }
         (None, text) => {
             let text = text.unwrap_or_default().to_string();
-            of_particles(&text, &name)?;
             let (file, unpacked) = unpacked(&name, &text)?;
             Ok(Found {
                 scene: SceneText {
+                    method: method(&text, &name),
                     name,
                     text,
                     file,
@@ -173,14 +174,13 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, St
     }
 }
 
-/// Studies vary scenes of particles.
-fn of_particles(text: &str, name: &str) -> Result<(), String> {
+/// What computes the scene of a text in a study; the name is for messages.
+#[must_use]
+pub fn method(text: &str, name: &str) -> &'static dyn Method {
     let table = Source::new(text, name, &[]).table();
     match table.is_ok_and(|table| dem_scene::is_grain_scene(&table)) {
-        true => Err(format!(
-            "`{name}` is a scene of grains, and studies vary scenes of particles: run it with --set"
-        )),
-        false => Ok(()),
+        true => &Grains,
+        false => &Particles,
     }
 }
 

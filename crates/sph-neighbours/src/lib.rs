@@ -79,5 +79,5 @@ pub use term::{
 };
 pub use walk::{Around, Rows, Surroundings, Values, walk, walk_into, walk_some};
 pub use wall_force::WallForce;
-pub use walls::{Coulomb, Elements, Frame, Passed, WallPoints, WallSet};
+pub use walls::{Coulomb, Elements, Frame, LinePull, Passed, WallPoints, WallSet};
 pub use world::{Lists, World};

@@ -118,6 +118,17 @@ impl<const D: usize> Frame<D> {
     }
 }
 
+/// What a line does to the wall that it holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinePull<const D: usize> {
+    /// Which wall it holds.
+    pub wall: u32,
+    /// Force on the wall, N (N/m in two dimensions); its size is the tension there.
+    pub force: Vect<D>,
+    /// Tension at the other end, N.
+    pub anchor: f64,
+}
+
 /// What has passed an open face of a phase since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Passed {
@@ -148,6 +159,8 @@ pub struct WallSet<const D: usize> {
     pub frames: Vec<Frame<D>>,
     /// What has passed the open faces, face by face; empty where there is none.
     pub passed: Vec<Passed>,
+    /// What the lines of movers do, wall by wall in the order of their scene; empty where there is none.
+    pub pulls: Vec<LinePull<D>>,
     /// Forces of the fluid on every wall, in the order of the names; NaN on walls that no probe asks for, empty if none
     /// asks for any.
     pub forces: Vec<WallForce<D>>,

@@ -32,6 +32,8 @@ pub struct Inside<const D: usize> {
     pub density: f64,
     /// Running mean of the velocity over the [memory](OpenBoundary::memory), m/s.
     pub mean: Vect<D>,
+    /// That of the pressure, Pa.
+    pub mean_pressure: f64,
 }
 
 /// What the face does to the fluid.
@@ -135,7 +137,7 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     }
     /// Whether fluid can leave by it where more comes in elsewhere.
     fn lets_out(&self) -> bool;
-    /// Time over which it wants the [mean](Inside::mean) velocity, s, if it does.
+    /// Time over which it wants the [means](Inside::mean) of velocity and pressure, s, if it does.
     fn memory(&self) -> Option<f64> {
         None
     }

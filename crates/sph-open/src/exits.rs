@@ -59,7 +59,7 @@ impl<const D: usize> Faces<D> {
     /// Advances the running means.
     pub fn remember(&mut self, dt: f64) {
         let begins = self.memory.dt == 0.0;
-        for (k, mean) in self.memory.mean.iter_mut().enumerate() {
+        for (k, (pressure, velocity)) in self.memory.mean.iter_mut().enumerate() {
             let law = &self.faces[self.face_of[k]].law;
             if let Some(memory) = law.memory() {
                 let part = if begins {
@@ -67,7 +67,8 @@ impl<const D: usize> Faces<D> {
                 } else {
                     1.0 - (-dt / memory).exp()
                 };
-                *mean += (self.inside[k].velocity - *mean) * part;
+                *pressure += (self.inside[k].pressure - *pressure) * part;
+                *velocity += (self.inside[k].velocity - *velocity) * part;
             }
         }
         for (arrived, inside) in self.memory.arrived.iter_mut().zip(&self.inside) {

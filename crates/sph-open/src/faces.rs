@@ -112,6 +112,7 @@ impl<const D: usize> Faces<D> {
             impedance: 1.0,
             density: 0.0,
             mean: Vect::zeros(),
+            mean_pressure: 0.0,
         };
         self.inside = vec![nothing; ports];
         self.present = vec![Vect::zeros(); ports];

@@ -44,11 +44,7 @@ pub(crate) fn imposed_pressure<const D: usize>(
 }
 
 /// Fluid that leaves keeps its velocity along the face; what comes in has none.
-pub(crate) fn passing<const D: usize>(
-    place: &Place<D>,
-    inside: &Inside<D>,
-    normal: f64,
-) -> Vect<D> {
+fn passing<const D: usize>(place: &Place<D>, inside: &Inside<D>, normal: f64) -> Vect<D> {
     let n = place.normal;
     let along = inside.velocity - n * inside.velocity.dot(&n);
     match normal < 0.0 {

@@ -131,9 +131,9 @@ impl<const D: usize> Faces<D> {
             (p, u, z, rho) = (p / filling, u / filling, z / filling, rho / filling);
             reach = (reach / filling).max(0.0);
         }
-        let mean = match self.memory.dt > 0.0 {
+        let (mean_pressure, mean) = match self.memory.dt > 0.0 {
             true => self.memory.mean[k],
-            false => u,
+            false => (p, u),
         };
         let inside = Inside {
             wet: filling >= WET,
@@ -142,6 +142,7 @@ impl<const D: usize> Faces<D> {
             impedance: if z > 0.0 { z } else { 1.0 },
             density: rho,
             mean,
+            mean_pressure,
         };
         let row = row.velocity(self.spacing).unwrap_or(u);
         Ok(Looked {

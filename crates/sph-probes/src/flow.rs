@@ -7,6 +7,7 @@ pub(crate) mod energy_budget;
 pub(crate) mod front;
 pub(crate) mod level;
 pub(crate) mod mean_profile;
+pub(crate) mod mooring;
 pub(crate) mod passed;
 pub(crate) mod point;
 pub(crate) mod profile;

@@ -2,7 +2,8 @@
 //!
 //! * [`Probe`]: columns of the time series, from the state of the flow ([`Front`],
 //!   [`PressureProbe`], [`VelocityProbe`], [`DisplacementProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`PassedProbe`],
-//!   [`WallMotionProbe`], [`StreamFunction`], [`Profile`], [`MeanProfile`], [`EnergySpectrum`], [`EnergyBudget`]), and of
+//!   [`WallMotionProbe`], [`MooringProbe`], [`StreamFunction`], [`Profile`], [`MeanProfile`], [`EnergySpectrum`],
+//!   [`EnergyBudget`]), and of
 //!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
 //!   [`SurfaceSlope`], [`Line`]), and of a bed under water ([`BedLines`], [`ErodedMass`],
 //!   [`PorePressureProbe`]).
@@ -40,6 +41,7 @@ pub use flow::energy_budget::{
 pub use flow::front::Front;
 pub use flow::level::Level;
 pub use flow::mean_profile::MeanProfile;
+pub use flow::mooring::MooringProbe;
 pub use flow::passed::PassedProbe;
 pub use flow::point::{PressureProbe, VelocityProbe};
 pub use flow::profile::{Component, Profile};

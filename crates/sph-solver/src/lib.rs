@@ -35,6 +35,7 @@ pub use setup::estimate::{Estimate, Size, size};
 pub use setup::examination::{Examination, FieldUse, StageUse, examine};
 pub use setup::load::{Load, Per, Piece};
 pub use setup::memory::Memory;
+pub use setup::ranks::{ExchangeUse, RankUse, Ranks, ranks};
 pub use setup::relaxation::Relaxation;
 pub use sph_viscosity::Solves;
 pub use step::flow::Flow;

@@ -20,6 +20,7 @@ pub(crate) mod parts;
 pub(crate) mod placement;
 pub(crate) mod planning;
 pub(crate) mod probe_setup;
+pub(crate) mod ranks;
 pub(crate) mod relax;
 pub(crate) mod relaxation;
 pub(crate) mod room;

@@ -1,9 +1,10 @@
-//! Bodies that the fluid moves: balance, stability, contact, the same bits, and what is refused.
+//! Bodies that the fluid moves: balance, stability, contact, chains, the same bits, and what is refused.
 
 mod balance;
 mod contact;
 mod layer;
 mod light;
+mod moored;
 mod refused;
 mod rest;
 mod resumed;

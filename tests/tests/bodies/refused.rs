@@ -74,6 +74,42 @@ fn freedoms_holds_and_lines_that_are_not_there_are_refused() {
 }
 
 #[test]
+fn chains_that_cannot_hang_are_refused() {
+    let chain = |more: &str| {
+        format!(
+            "density = 500.0\n[[wall.float.mover.rigid-body.line]]\nfrom = [0.2, 0.0]\n\
+             to = [0.4, 0.2]\nstiffness = 1e4\n{more}"
+        )
+    };
+    for (more, place, why) in [
+        ("weight = 5.0", "weight = 5.0", "needs its `length`"),
+        (
+            "weight = 5.0\nlength = 0.25",
+            "length = 0.25",
+            "too short to hang",
+        ),
+        (
+            "weight = 5.0\nlength = 0.3\ndamping = 2.0",
+            "damping = 2.0",
+            "has no damping",
+        ),
+        ("length = 0.3\nbed = true", "bed = true", "is straight"),
+    ] {
+        let said = told(BODY, &chain(more), place);
+        assert!(said.contains(why), "{said}");
+    }
+    // The way between its ends is free, but what hangs there is not.
+    let sill = "[wall.sill]\nbox = [[0.3, 0.0], [0.34, 0.1]]\nfluid = \"outside\"\n[wall.float]";
+    let scene = FLOAT.replacen("[wall.float]", sill, 1);
+    let chain = chain("weight = 5.0\nlength = 0.3\nbed = false");
+    let bench = Bench::with(PROGRAM, &scene.replacen(BODY, &chain, 1));
+    let outcome = bench.call("run scene.toml --quiet --out r");
+    assert_eq!(outcome.code, Some(2), "{}", outcome.err);
+    let named = outcome.err.contains("goes through the wall `sill`");
+    assert!(named, "{}", outcome.err);
+}
+
+#[test]
 fn bodies_that_overlap_at_the_start_are_refused() {
     for other in ["[[0.45, 0.25], [0.6, 0.4]]", "[[0.35, 0.22], [0.45, 0.28]]"] {
         let two = format!(

@@ -9,6 +9,7 @@ mod derived;
 mod draw;
 mod kinematic;
 mod mistakes;
+mod ranks;
 mod stepper;
 mod view;
 

@@ -8,6 +8,7 @@ use sph_tests::{Bench, Outcome};
 
 mod along;
 mod failures;
+mod grains;
 mod orders_in_time;
 mod refusals;
 mod results;
@@ -77,6 +78,7 @@ fn shipped_studies_are_good() {
         let text = std::fs::read_to_string(&path).map_err(|e| e.to_string())?;
         let (name, file) = (name.to_string(), path.display().to_string());
         Ok(SceneText {
+            method: sph_cli::method(&text, &name),
             name,
             text,
             file,

@@ -111,13 +111,14 @@ fn conditions(scene: &Scene, name: &str, wall: &Wall, found: &mut Vec<SceneProbl
         wall.pressure.is_some(),
         wall.inflow.is_some(),
         wall.wave.is_some(),
+        wall.recorded.is_some(),
     ];
     let several = sides.iter().filter(|given| **given).count() > 1;
     if several {
         add(
             found,
             format!("wall.{name}"),
-            "only one of `pressure`, `inflow`, `wave` can be given",
+            "only one of `pressure`, `inflow`, `wave`, `recorded` can be given",
         );
     }
     if scene.fluid.is_none() && (sides.contains(&true) || wall.sticks) {

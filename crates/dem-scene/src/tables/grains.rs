@@ -61,8 +61,8 @@ pub struct Start {
     #[serde(default = "share")]
     #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0, "quantity" = "safety factor"))]
     pub safety: f64,
-    /// Unbalanced force ratio down to which the grains settle, dry, before the run starts: under gravity and the
-    /// `prepared` stress of pistons. They are left as they are if this is left out.
+    /// Unbalanced force ratio down to which the grains settle, drained, before the run starts: under gravity, in a fluid
+    /// under their buoyant weight, and the `prepared` stress of pistons. They are left as they are if this is left out.
     #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
     pub settle: Option<f64>,
     /// Most steps of a preparation.
@@ -87,7 +87,8 @@ pub struct Cloud {
     pub high: Option<Triple>,
 }
 
-/// Growth to a stress or to a porosity. `radius` gives the proportions; at the start they fill a quarter of the box.
+/// Growth to a stress or to a porosity, without gravity. `radius` gives the proportions; at the start they fill a quarter
+/// of the box.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Grown {

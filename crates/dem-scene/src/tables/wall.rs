@@ -65,6 +65,8 @@ pub struct Wall {
     pub inflow: Option<f64>,
     /// Pressure of waves.
     pub wave: Option<WaveLoad>,
+    /// Pressure from a table, such as the series of a scene with a free surface.
+    pub recorded: Option<RecordedLoad>,
     /// Whether fluid sticks to it.
     pub sticks: bool,
 }
@@ -134,6 +136,31 @@ pub struct WaveLoad {
     /// Period, s; the load stands still if left out.
     #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
     pub period: Option<f64>,
+}
+
+/// p(x, t) less `less`, linear between places and rows, constant before the first and after the last. The pressure is
+/// piezometric: take off that of still water.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RecordedLoad {
+    /// A table with a column `time` (s) and one of pressures (Pa) for each place: `series.csv` of `sph run`, for example.
+    pub file: String,
+    /// Axis along which the places are.
+    #[serde(default)]
+    pub axis: Axis,
+    /// Where the pressures were taken, m.
+    #[schemars(extend("unit" = "m", "minItems" = 1))]
+    pub places: Vec<f64>,
+    /// The columns of these places.
+    pub columns: Vec<String>,
+    /// Time of the table at which the run starts, s.
+    #[serde(default)]
+    #[schemars(extend("unit" = "s"))]
+    pub start: f64,
+    /// What is taken off all pressures, Pa.
+    #[serde(default)]
+    #[schemars(extend("unit" = "Pa"))]
+    pub less: f64,
 }
 
 fn twentieth() -> f64 {

@@ -1,6 +1,6 @@
 //! What moves a wall.
 
-use sph_core::contract;
+use sph_core::{Vect, contract};
 
 use crate::{Load, MoverRefusal, MoverSetting, RigidMotion, RigidState, Touch};
 
@@ -23,6 +23,11 @@ pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
     /// Whether it asks what the fluid does to the wall; the force is then measured before every kick.
     fn feels(&self) -> bool {
         true
+    }
+    /// What lines pull the wall in a state: the force of each on it, N, and its tension at the other end, N; none if it
+    /// hangs on nothing.
+    fn pulls(&self, _now: &RigidState<D>) -> Vec<(Vect<D>, f64)> {
+        Vec::new()
     }
     /// The state at `time + dt` from that at `time`, s, with the load of the last evaluation.
     fn next(&self, now: &RigidState<D>, load: &Load<D>, time: f64, dt: f64) -> RigidState<D>;

@@ -109,6 +109,7 @@ impl<const D: usize, M: WallMesh<D>> DummyParticles<D, M> {
         way(&mut set_up.outline)?;
         set_up.place(&mut walls.points);
         walls.frames = set_up.outline.frames();
+        walls.pulls = set_up.outline.pulls();
         Ok(())
     }
 }
@@ -142,7 +143,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
         }
         set_up.place(&mut points);
         let names = set_up.outline.mesh.names().to_vec();
-        let frames = set_up.outline.frames();
+        let (frames, pulls) = (set_up.outline.frames(), set_up.outline.pulls());
         self.set_up = Some(set_up);
         Ok(WallSet {
             names,
@@ -151,6 +152,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
             contacts: Contacts::default(),
             frames,
             passed: Vec::new(),
+            pulls,
             forces: Vec::new(),
         })
     }

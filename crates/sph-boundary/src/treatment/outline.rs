@@ -1,7 +1,7 @@
 //! What all wall treatments share: the mesh, the conditions, the motion, the checks.
 
 use sph_core::Vect;
-use sph_neighbours::{Domain, Elements, Frame, WallForce, WallPoints};
+use sph_neighbours::{Domain, Elements, Frame, LinePull, WallForce, WallPoints};
 
 use crate::geometry::cover::Cover;
 use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
@@ -119,6 +119,22 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             true => self.states.iter().map(frame).collect(),
             false => Vec::new(),
         }
+    }
+
+    /// What the lines of movers do to their walls.
+    pub fn pulls(&self) -> Vec<LinePull<D>> {
+        let walls = self.specs.iter().zip(&self.states).enumerate();
+        let of_wall = |(wall, (spec, state)): (usize, (&WallSpec<D>, &RigidState<D>))| {
+            let pulls = spec.mover.as_ref().map(|m| m.pulls(state));
+            let wall = wall as u32;
+            let pull = move |(force, anchor)| LinePull {
+                wall,
+                force,
+                anchor,
+            };
+            pulls.into_iter().flatten().map(pull)
+        };
+        walls.flat_map(of_wall).collect()
     }
 
     /// Whether any wall slips partly.

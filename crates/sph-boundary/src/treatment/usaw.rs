@@ -133,6 +133,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         }
         let outline = &self.outline;
         walls.frames = outline.frames();
+        walls.pulls = outline.pulls();
         let points = &mut walls.points;
         for (v, node) in nodes.iter().enumerate() {
             let movement = outline.movement(node.wall, &node.position);
@@ -232,6 +233,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             contacts: Contacts::default(),
             frames: Vec::new(),
             passed: Vec::new(),
+            pulls: Vec::new(),
             forces: Vec::new(),
         };
         if !self.vertices {

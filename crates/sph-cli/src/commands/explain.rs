@@ -1,7 +1,7 @@
 //! `sph explain`.
 
 use serde_json::Value as Json;
-use sph_solver::{Examination, PluginInForce, StageUse, examine};
+use sph_solver::{Examination, PluginInForce, Ranks, StageUse, examine, ranks};
 
 use crate::arguments::ExplainArguments;
 use crate::commands::check::memory;
@@ -11,9 +11,17 @@ use crate::telling::layout::{columns, columns_and_below, paragraph, parameters};
 use crate::telling::told::Told;
 use crate::telling::trouble::Trouble;
 
+/// Machines that are listed.
+const SHOWN: usize = 16;
+
 /// Shows what a scene is made of.
 pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
-    told(&open(&arguments.scene)?)?.print(arguments.json);
+    let opened = open(&arguments.scene)?;
+    let mut told = told(&opened)?;
+    if let Some(count) = arguments.ranks {
+        split(&opened, count.get(), &mut told)?;
+    }
+    told.print(arguments.json);
     Ok(())
 }
 
@@ -29,6 +37,75 @@ pub fn told(opened: &Opened) -> Result<Told, Trouble> {
         json: serde_json::to_value(&examined).unwrap_or(Json::Null),
         text: text(&examined),
     })
+}
+
+/// Adds what several machines would have and send.
+fn split(opened: &Opened, count: usize, told: &mut Told) -> Result<(), Trouble> {
+    let AnyScene::Particles(loaded) = &opened.scene else {
+        return Err(Trouble::usage(
+            "--ranks splits scenes of particles, and this is one of grains",
+        ));
+    };
+    let split = ranks(&loaded.scene, count);
+    let split = split.map_err(|e| Trouble::of(e, &loaded.source))?;
+    if let Json::Object(json) = &mut told.json {
+        json.insert(
+            "ranks".into(),
+            serde_json::to_value(&split).unwrap_or(Json::Null),
+        );
+    }
+    told.text.push_str(&ranks_text(&split));
+    Ok(())
+}
+
+fn ranks_text(split: &Ranks) -> String {
+    let count = split.ranks.len();
+    let mut text = format!(
+        "\nsplit over {count} machines at the start: the costliest has {:.1} % more than the mean\n",
+        100.0 * split.imbalance
+    );
+    let header = [
+        "rank",
+        "particles",
+        "cost",
+        "guests",
+        "sends per step",
+        "guests of",
+    ];
+    let mut rows = vec![header.map(String::from).to_vec()];
+    for (rank, own) in split.ranks.iter().enumerate().take(SHOWN) {
+        let partners: Vec<String> = own.partners.iter().map(ToString::to_string).collect();
+        rows.push(vec![
+            rank.to_string(),
+            own.particles.to_string(),
+            format!("{:.3}", own.cost),
+            own.guests.to_string(),
+            format!("{:.1} kB", 1e-3 * (own.sent * split.bytes_per_guest) as f64),
+            partners.join(", "),
+        ]);
+    }
+    text.push_str(&columns(2, &rows));
+    if count > SHOWN {
+        text.push_str(&format!(
+            "  … and {} more (all of them with --json)\n",
+            count - SHOWN
+        ));
+    }
+    text.push_str(&format!(
+        "\nsent to guests: {} bytes for each in an evaluation, all {} when it is new; in each iteration of a solve a vector \
+         besides\n",
+        split.bytes_per_guest, split.bytes_per_newcomer
+    ));
+    let header = ["before", "bytes", "columns"];
+    let mut rows = vec![header.map(String::from).to_vec()];
+    rows.extend(
+        split
+            .exchanges
+            .iter()
+            .map(|e| vec![e.stage.clone(), e.bytes.to_string(), e.columns.join(", ")]),
+    );
+    text.push_str(&columns(2, &rows));
+    text
 }
 
 fn text(e: &Examination) -> String {

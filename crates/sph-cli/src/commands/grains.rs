@@ -6,3 +6,4 @@ pub mod failed;
 mod outcome;
 pub mod plugins;
 pub mod run;
+pub mod study;

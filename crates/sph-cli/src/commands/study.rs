@@ -79,7 +79,7 @@ pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Stud
     let published = sph_study::publish(&results, &out);
     if let Some(error) = outcome.error {
         console::err(&kept(arguments, name, &outcome.records));
-        return Err(failed(error));
+        return Err(failed(error.into()));
     }
     published.map_err(|e| failed(e.into()))?;
     let records = &outcome.records;

@@ -4,18 +4,19 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::register;
 
-use crate::laws::{check_speed, passing};
+use crate::laws::{check_speed, imposed_pressure};
 use crate::{
     Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside, Place,
 };
 
-/// Fluid leaves, and sound with it: what comes back from outside is p + ρc u of a state far away.
+/// Fluid leaves, and sound with it.
 ///
-/// With u inwards, p_i − ρc u_i arrives from the fluid and p₀ + ρc u₀ from outside, so that
-/// p = ½ [p_i + p₀ + ρc (u₀ − u_i)] and u = ½ [u_i + u₀ + (p₀ − p_i)/ρc]. u₀ is the `velocity`, or the mean of u_i over
-/// the `memory`: what changes faster leaves, what changes more slowly feels the pressure p₀.
+/// With u inwards, p_i − ρc u_i arrives from the fluid, u_i that of the face as a whole. With a `velocity` −u₀ far away,
+/// p₀ + ρc u₀ comes from outside, so that p = ½ [p_i + p₀ + ρc (u₀ − u_i)]. With a `memory` only what changes faster leaves, and the means of p_i and u_i over this
+/// time, p̄ and ū, feel the pressure p₀: p = p₀ + ½ [(p_i − p̄) − ρc (u_i − ū)]. In both cases fluid passes with
+/// u = u_i + (p − p_i)/ρc, with the u_i of each element.
 ///
-/// Source: Ferrand et al. 2017 (Riemann invariants), linearised; the running mean is ours.
+/// Source: Ferrand et al. 2017 (Riemann invariants), linearised; the running means are ours.
 ///
 /// ```toml
 /// [wall.outlet.open-boundary.outflow]
@@ -29,11 +30,11 @@ pub struct Outflow {
     #[serde(default)]
     #[schemars(extend("unit" = "Pa"))]
     pub pressure: f64,
-    /// Velocity −u₀ out of the fluid far away, m/s; a running mean if left out.
+    /// Velocity −u₀ out of the fluid far away, m/s.
     #[serde(default)]
     #[schemars(extend("unit" = "m/s"))]
     pub velocity: Option<f64>,
-    /// Time of the running mean, s.
+    /// Time of the running means, s.
     #[serde(default)]
     #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
     pub memory: Option<f64>,
@@ -70,6 +71,7 @@ impl<const D: usize> OpenBoundary<D> for Outflow {
         moment: &Moment<D>,
     ) -> Vec<Outside<D>> {
         let g = moment.gravity.norm();
+        let [present, mean] = of_the_face(places, inside);
         let one = |(place, inside): (&Place<D>, &Inside<D>)| {
             if !inside.wet {
                 return Outside::dry();
@@ -77,19 +79,35 @@ impl<const D: usize> OpenBoundary<D> for Outflow {
             let z = inside.impedance;
             let depth = |level: f64| (level - moment.height(&place.centre)).max(0.0);
             let far = self.pressure + self.level.map_or(0.0, |l| inside.density * g * depth(l));
-            let within = inside.velocity.dot(&place.normal);
-            let beyond = match self.velocity {
-                Some(out) => -out,
-                None => inside.mean.dot(&place.normal),
+            let pressure = match self.velocity {
+                Some(out) => 0.5 * (inside.pressure + far - z * (out + present)),
+                None => {
+                    let changed = inside.pressure - inside.mean_pressure;
+                    far + 0.5 * (changed - z * (present - mean))
+                }
             };
-            let normal = 0.5 * (within + beyond + (far - inside.pressure) / z);
-            Outside {
-                velocity: passing(place, inside, normal),
-                pressure: 0.5 * (inside.pressure + far + z * (beyond - within)),
-                imposed: false,
-            }
+            imposed_pressure(place, inside, pressure)
         };
         places.iter().zip(inside).map(one).collect()
+    }
+}
+
+/// u_i and ū of the face as a whole, m/s.
+///
+/// Sound in front of a face is a plane wave there. What differs from element to element is the profile of the flow, and which
+/// particles have just been taken into the mean: times ρc that would be pressure.
+fn of_the_face<const D: usize>(places: &[Place<D>], inside: &[Inside<D>]) -> [f64; 2] {
+    let (mut sums, mut whole) = ([0.0; 2], 0.0);
+    for (place, inside) in places.iter().zip(inside).filter(|(_, inside)| inside.wet) {
+        let velocities = [inside.velocity, inside.mean];
+        for (sum, velocity) in sums.iter_mut().zip(velocities) {
+            *sum += place.measure * velocity.dot(&place.normal);
+        }
+        whole += place.measure;
+    }
+    match whole > 0.0 {
+        true => sums.map(|sum| sum / whole),
+        false => sums,
     }
 }
 

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use sph_core::{RegistryError, SceneProblem, suggestion, typed};
 use sph_scene::{Override, Source, read_text};
-use sph_solver::{SolverError, examine};
 use toml::Table;
 
 use crate::reading::axis::{self, Axis};
@@ -107,17 +106,16 @@ impl Study {
         self.source.text()
     }
 
-    /// Assembles a variant as a run would; returns the work of a run, pairs in the sweeps of all steps.
+    /// Assembles a variant as a run would; returns the work of a run, of particles the pairs in the sweeps of all steps.
     ///
     /// # Errors
     /// Everything its plugins refuse, in the study file where that is to blame.
     pub fn assemble(&self, variant: &Variant) -> Result<f64, Refused> {
-        let problems = match examine(&variant.loaded.scene) {
-            Ok(examined) => return Ok(examined.estimate.steps * examined.load.pairs()),
-            Err(SolverError::Scene(problems)) => problems,
-            Err(other) => vec![SceneProblem::new("", other.to_string())],
+        let problems = match variant.subject.assemble() {
+            Ok(work) => return Ok(work),
+            Err(problems) => problems,
         };
-        let scene = &variant.loaded.source;
+        let scene = variant.subject.source();
         let blame = Blame {
             study: &self.source,
             given_by: &variant.given_by,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sph_core::{SceneProblem, suggestion};
-use sph_scene::{Loaded, Override, Source, read};
+use sph_scene::{Override, Source};
 use toml::{Table, Value};
 
 use crate::reading::axis::{Axis, Set};
@@ -13,11 +13,10 @@ use crate::reading::mistake::{Blame, Mistake, Refused};
 use crate::reading::scene_text::SceneText;
 use crate::reading::variant::Variant;
 use crate::running::fingerprint::fingerprint;
+use crate::subject::Subject;
 
 /// The key over which the order of convergence is computed, where a study names none.
 const REFINEMENT: &str = "numerics.spacing";
-/// Scene values that keep a variant from writing what nobody looks at.
-const QUIET: [&str; 2] = ["output.vtk=false", "output.picture=[]"];
 
 /// Makes variants from combinations.
 pub(crate) struct Reader<'a> {
@@ -94,36 +93,38 @@ impl Reader<'_> {
             text,
             file,
             allowed,
+            method,
             ..
         } = self.scene;
-        let loaded = read(Source::new(text, file, &overrides).allowing(allowed));
-        let loaded = loaded.map_err(|r| blame.place(&r.source, &r.diagnostics))?;
-        let mut problems = self.missing_references(&loaded);
+        let read = method.read(Source::new(text, file, &overrides).allowing(allowed));
+        let subject = read.map_err(|(source, found)| blame.place(&source, &found))?;
+        let mut problems = self.missing_references(&*subject);
         let refinement = self
             .refinement
             .as_ref()
-            .map(|key| value_at(&loaded.resolved(), key));
+            .map(|key| value_at(&subject.resolved(), key));
         if let Some(Err(why)) = &refinement {
             problems.push(SceneProblem::new("refinement", why.clone()));
         }
         if !problems.is_empty() {
             return Err(Refused::of(self.source, &problems).mistakes);
         }
-        let unreadable = |(key, why): (String, String)| {
-            let found = loaded.source.diagnose(&[SceneProblem::new(key, why)]);
-            blame.place(&loaded.source, &found)
+        let unreadable = |problem: SceneProblem| {
+            let found = subject.source().diagnose(&[problem]);
+            blame.place(subject.source(), &found)
         };
+        let marks = subject.marks().map_err(unreadable)?;
         let labels = self.axes.iter().zip(&combination.choices);
         let name = combination.name.clone();
         Ok(Variant {
             labels: labels.map(|(a, k)| a.choices[*k].label.clone()).collect(),
             refinement: refinement.and_then(Result::ok),
             wanted: only.is_empty() || only.iter().any(|p| fits(p, &name)),
-            fingerprint: fingerprint(&loaded).map_err(unreadable)?,
+            fingerprint: fingerprint(subject.resolved(), &marks),
             errors: self.errors.iter().map(|e| e.0.clone()).collect(),
             rung: None,
             name,
-            loaded,
+            subject,
             given_by,
         })
     }
@@ -132,7 +133,12 @@ impl Reader<'_> {
     fn overrides(&self, choices: &[usize]) -> (Vec<Override>, Vec<Option<String>>) {
         let mut all: Vec<(Override, Option<String>)> = Vec::new();
         if !self.file.keep_output {
-            let quiet = QUIET.iter().filter_map(|text| Override::parse(text).ok());
+            let quiet = self
+                .scene
+                .method
+                .quiet()
+                .iter()
+                .filter_map(|text| Override::parse(text).ok());
             all.extend(quiet.map(|o| (o, None)));
         }
         let chosen = self
@@ -146,13 +152,13 @@ impl Reader<'_> {
         all.into_iter().unzip()
     }
 
-    fn missing_references(&self, loaded: &Loaded) -> Vec<SceneProblem> {
-        let known = &loaded.scene.reference;
+    fn missing_references(&self, subject: &dyn Subject) -> Vec<SceneProblem> {
+        let known = subject.references();
         let names = self.errors.iter().cloned();
-        let missing = names.filter(|(name, _)| !known.contains_key(name));
+        let missing = names.filter(|(name, _)| !known.contains(name));
         let problem = |(name, path): (String, String)| {
-            let near = suggestion(&name, known.keys().map(String::as_str));
-            let list = known.keys().cloned().collect::<Vec<_>>().join(", ");
+            let near = suggestion(&name, known.iter().map(String::as_str));
+            let list = known.join(", ");
             let message = match list.as_str() {
                 "" => "the scene has no reference to judge by".to_string(),
                 list => {

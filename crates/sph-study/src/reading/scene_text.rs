@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::subject::Method;
+
 /// The text of a scene and the file name against which it names other files.
 #[derive(Clone, Debug)]
 pub struct SceneText {
@@ -13,6 +15,8 @@ pub struct SceneText {
     pub file: String,
     /// Folders besides its own whose files it may name.
     pub allowed: Vec<PathBuf>,
+    /// What computes it.
+    pub method: &'static dyn Method,
 }
 
 /// Finds the scene that a study names, from the study's folder; the error is told as it is.

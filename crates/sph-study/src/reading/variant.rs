@@ -1,8 +1,9 @@
 //! One scene of a study.
 
-use sph_scene::Loaded;
+use std::sync::Arc;
 
 use crate::reading::rung::Rung;
+use crate::subject::Subject;
 
 /// One scene of a study.
 #[derive(Clone, Debug)]
@@ -20,7 +21,7 @@ pub struct Variant {
     /// Whether it is to be run, or only shown if it has been.
     pub wanted: bool,
     /// The scene.
-    pub loaded: Loaded,
+    pub subject: Arc<dyn Subject>,
     /// What its result depends on.
     pub fingerprint: String,
     /// For every override of the scene the path in the study file that gives it, if it does.

@@ -3,7 +3,7 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use sph_solver::SolverError;
+use sph_io::IoError;
 
 use crate::reading::options::Options;
 use crate::reading::plan::Study;
@@ -21,7 +21,7 @@ pub struct Outcome {
     /// Whether it was told to stop before everything had run.
     pub stopped: bool,
     /// What kept it from going on, a full disk for instance.
-    pub error: Option<SolverError>,
+    pub error: Option<IoError>,
 }
 
 /// Runs every wanted variant that is not settled by a record.

@@ -112,7 +112,7 @@ pub struct Health {
 }
 
 impl Health {
-    fn of(summary: &Summary) -> Self {
+    pub(crate) fn of(summary: &Summary) -> Self {
         let finite = |x: f64| x.is_finite().then_some(x);
         let both = |x: [f64; 2]| x.iter().all(|x| x.is_finite()).then_some(x);
         Health {
@@ -178,32 +178,29 @@ impl Record {
     }
 
     /// Takes over what a finished repetition gave.
-    pub fn add(&mut self, summary: &Summary) {
-        let fastest = self
-            .least_seconds()
-            .is_none_or(|s| summary.wall_seconds <= s);
-        self.wall_seconds.push(summary.wall_seconds);
-        self.look(summary);
+    pub fn add(&mut self, run: &Record) {
+        let fastest = self.least_seconds().is_none_or(|s| run.spent <= s);
+        self.wall_seconds.push(run.spent);
+        self.look(run);
         self.spent = 0.0;
-        let errors = summary.errors.iter();
-        self.errors = errors.map(|(name, e)| (name.clone(), e.into())).collect();
+        self.errors.clone_from(&run.errors);
         if fastest {
             self.wall_seconds_by_stage
-                .clone_from(&summary.wall_seconds_by_stage);
+                .clone_from(&run.wall_seconds_by_stage);
         }
     }
 
     /// Takes over how far a repetition got.
-    pub fn look(&mut self, summary: &Summary) {
-        self.spent = summary.wall_seconds;
-        self.threads = summary.threads;
-        self.particles = summary.particles;
-        self.steps = summary.steps;
-        self.steps_rolled_back = summary.steps_rolled_back;
-        self.simulated_seconds = summary.simulated_seconds;
-        self.dt_limiters.clone_from(&summary.dt_limiters);
-        self.solves = summary.implicit_viscosity.as_ref().map(SolveCost::of);
-        self.health = Health::of(summary);
+    pub fn look(&mut self, run: &Record) {
+        self.spent = run.spent;
+        self.threads = run.threads;
+        self.particles = run.particles;
+        self.steps = run.steps;
+        self.steps_rolled_back = run.steps_rolled_back;
+        self.simulated_seconds = run.simulated_seconds;
+        self.dt_limiters.clone_from(&run.dt_limiters);
+        self.solves.clone_from(&run.solves);
+        self.health.clone_from(&run.health);
     }
 
     /// Whether nothing is left to do for a variant of this fingerprint.

@@ -4,13 +4,14 @@ use std::path::Path;
 use std::time::Instant;
 
 use sph_io::IoError;
-use sph_solver::{Command, Identity, Observer, Progress, RunOptions, SolverError, Start, run};
+use sph_solver::{Command, Observer, Progress};
 
 use crate::reading::options::Options;
 use crate::reading::plan::Study;
 use crate::reading::variant::Variant;
 use crate::running::record::{Record, Status};
 use crate::running::watcher::Watcher;
+use crate::subject::{Ended, Request};
 
 /// Files that only an interrupted variant needs, or one whose output is kept.
 const CHECKPOINT: &str = "checkpoint.sph";
@@ -35,7 +36,7 @@ enum Cause {
 
 impl Job<'_> {
     /// Runs what is missing; the record is what is known afterwards, whatever happened.
-    pub fn run(&self) -> (Record, Result<(), SolverError>) {
+    pub fn run(&self) -> (Record, Result<(), IoError>) {
         let file = &self.study.file;
         let mut record = self.options.known(self.variant).unwrap_or_default();
         let settled = record.settles(&self.variant.fingerprint, file.repetitions, file.time_limit);
@@ -52,7 +53,7 @@ impl Job<'_> {
         (record, result)
     }
 
-    fn repeat(&self, record: &mut Record) -> Result<(), SolverError> {
+    fn repeat(&self, record: &mut Record) -> Result<(), IoError> {
         let folder = self.options.folder(self.variant);
         if record.fingerprint.is_empty() && folder.exists() {
             // What lies there belongs to another scene, or is to be forgotten; a killed run of
@@ -78,7 +79,7 @@ impl Job<'_> {
         Ok(())
     }
 
-    fn forget(&self, folder: &Path) -> Result<(), SolverError> {
+    fn forget(&self, folder: &Path) -> Result<(), IoError> {
         let record = Record::path(folder);
         let kept = folder.join(CHECKPOINT).exists() && !record.exists() && !self.options.fresh;
         if kept {
@@ -88,101 +89,81 @@ impl Job<'_> {
         let _lock = sph_io::FolderLock::take(folder)?;
         std::fs::remove_dir_all(folder).map_err(|source| {
             let path = folder.to_path_buf();
-            SolverError::Io(IoError::Write { path, source })
+            IoError::Write { path, source }
         })
     }
 
     /// One repetition; the status is what became of it.
-    fn once(&self, folder: &Path, record: &mut Record) -> Result<Status, SolverError> {
+    fn once(&self, folder: &Path, record: &mut Record) -> Result<Status, IoError> {
         let repetition = record.wall_seconds.len();
         self.watcher.started(self.variant, repetition);
-        let mut options = RunOptions {
-            out: folder.to_path_buf(),
-            start: match folder.join(CHECKPOINT).exists() {
-                true => Start::Resumed,
-                false => Start::Afresh,
-            },
-            threads: Some(self.threads),
-            identity: Identity::of_text(format!(
-                "{} repetition {repetition}",
-                self.variant.fingerprint
-            )),
+        let identity = format!("{} repetition {repetition}", self.variant.fingerprint);
+        let mut request = Request {
+            out: folder,
+            resume: folder.join(CHECKPOINT).exists(),
+            threads: self.threads,
+            identity: &identity,
         };
+        let limit = self.study.file.time_limit;
         let mut observer = Watching {
             job: self,
             since: Instant::now(),
-            left: self.study.file.time_limit.map(|l| l - record.spent),
+            left: limit.map(|l| l - record.spent),
             cause: None,
         };
-        let scene = &self.variant.loaded.scene;
-        let mut result = run(scene, &options, &mut observer);
-        if options.start == Start::Resumed && result.as_ref().is_err_and(cannot_resume) {
-            options.start = Start::Afresh;
+        let subject = &self.variant.subject;
+        let mut ended = subject.run(&request, &mut observer)?;
+        if matches!(ended, Ended::Unusable) {
+            request.resume = false;
             observer.since = Instant::now();
-            observer.left = self.study.file.time_limit;
-            result = run(scene, &options, &mut observer);
+            observer.left = limit;
+            ended = subject.run(&request, &mut observer)?;
         }
         let cause = observer.cause;
-        match result {
-            Ok(summary) if summary.status == sph_solver::Status::Done => {
-                record.add(&summary);
+        match ended {
+            Ended::Done(run) => {
+                record.add(&run);
                 if record.wall_seconds.len() >= self.study.file.repetitions {
                     record.status = Status::Done;
                 }
                 return Ok(Status::Done);
             }
-            Ok(summary) => {
-                record.look(&summary);
-                let at = format!(
-                    "at t = {:.4} of {} s",
-                    summary.simulated_seconds, scene.run.end
-                );
-                (record.status, record.reason) = match (cause, self.study.file.time_limit) {
-                    (Some(Cause::Asked), _) => (Status::Interrupted, None),
-                    (Some(Cause::Limit), Some(limit)) => (
-                        Status::OverLimit,
-                        Some(format!("{at} after the limit of {limit} s")),
-                    ),
-                    _ => {
-                        let by = "by `run.max_steps` or `run.max_wall` of the scene";
-                        (Status::Failed, Some(format!("stopped {at} {by}")))
-                    }
-                };
+            Ended::Stopped(run) => {
+                record.look(&run);
+                (record.status, record.reason) = self.stopped(run.simulated_seconds, cause);
             }
-            // A file that cannot be written is no fault of the variant.
-            Err(SolverError::Io(error)) => return Err(SolverError::Io(error)),
-            Err(error) => {
-                if let SolverError::Failed(failure) = &error {
-                    match &failure.summary {
-                        Some(summary) => record.look(summary),
-                        None => record.health.first_trouble = Some(failure.first.clone()),
-                    }
-                    record.steps = failure.step;
-                    record.simulated_seconds = failure.time;
-                }
+            Ended::Failed(run, reason) => {
+                record.look(&run);
                 record.threads = self.threads;
                 record.status = Status::Failed;
-                record.reason = Some(error.to_string());
+                record.reason = Some(reason);
                 if !self.study.file.keep_output {
                     remove(&folder.join(CHECKPOINT));
                     remove(&folder.join(BAD_STATE));
                 }
             }
+            Ended::Unusable => {
+                record.status = Status::Failed;
+                record.reason = Some("what was to start afresh found a checkpoint".into());
+            }
         }
         Ok(record.status)
     }
-}
 
-/// Whether an error says that a checkpoint is of no use, so that the variant starts afresh.
-fn cannot_resume(error: &SolverError) -> bool {
-    use IoError::{Checkpoint, Malformed, Read, TooShort};
-    match error {
-        SolverError::Resume { .. } => true,
-        SolverError::Io(io) => matches!(
-            io,
-            Checkpoint { .. } | Malformed { .. } | Read { .. } | TooShort { .. }
-        ),
-        _ => false,
+    /// What is told of a run that stopped at a time, s.
+    fn stopped(&self, time: f64, cause: Option<Cause>) -> (Status, Option<String>) {
+        let at = format!("at t = {time:.4} of {} s", self.variant.subject.end());
+        match (cause, self.study.file.time_limit) {
+            (Some(Cause::Asked), _) => (Status::Interrupted, None),
+            (Some(Cause::Limit), Some(limit)) => (
+                Status::OverLimit,
+                Some(format!("{at} after the limit of {limit} s")),
+            ),
+            _ => {
+                let by = "by `run.max_steps` or `run.max_wall` of the scene";
+                (Status::Failed, Some(format!("stopped {at} {by}")))
+            }
+        }
     }
 }
 

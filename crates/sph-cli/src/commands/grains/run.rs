@@ -13,7 +13,7 @@ use crate::telling::told::{Ended, Told};
 use crate::telling::trouble::Trouble;
 
 /// A watcher of particles that watches grains.
-struct Watching<'a>(&'a mut (dyn Observer + Send));
+pub(crate) struct Watching<'a>(pub &'a mut (dyn Observer + Send));
 
 impl dem_scene::Observer for Watching<'_> {
     fn step(&mut self, step: &Step) -> bool {

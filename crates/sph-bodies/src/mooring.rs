@@ -1,0 +1,222 @@
+//! Lines as a body in motion knows them: what they pull with, and how stiff they are.
+
+use nalgebra::{Matrix6, Vector3, Vector6};
+use sph_boundary::{MoverRefusal, MoverSetting};
+
+use crate::catenary::Catenary;
+use crate::line::{Line, crosses};
+use crate::six::{padded, six};
+
+/// A line, ready to pull.
+#[derive(Clone, Debug)]
+pub(crate) struct Mooring {
+    from: Vector3<f64>,
+    /// Its place of the body, where it is drawn.
+    pub to: Vector3<f64>,
+    kind: Kind,
+}
+
+#[derive(Clone, Debug)]
+enum Kind {
+    /// Stiffness, damping, length without tension.
+    Straight(f64, f64, f64),
+    /// With the unit vector upwards.
+    Hanging(Catenary, Vector3<f64>),
+}
+
+/// What a line does at a place and velocity of its body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pull {
+    /// Force on the body and its moment about the centre.
+    pub force: Vector6<f64>,
+    /// Minus its derivative with respect to the place.
+    pub stiffness: Matrix6<f64>,
+    /// Minus its derivative with respect to the velocity.
+    pub damping: Matrix6<f64>,
+    /// Tension at the anchor, N.
+    pub anchor: f64,
+}
+
+/// Pieces of the curve that is held against walls before the start.
+const PIECES: usize = 64;
+
+impl Mooring {
+    /// Number `k` of the lines of a body, in its scene.
+    ///
+    /// # Errors
+    /// The key that does not fit: ends of another dimension, no length, too short or slack without weight, through a wall.
+    pub fn of<const D: usize>(
+        line: &Line,
+        k: usize,
+        setting: &MoverSetting<'_, D>,
+    ) -> Result<Self, MoverRefusal> {
+        let refuse =
+            |key: &str, why: String| Err(MoverRefusal::of(format!("line[{k}].{key}"), why));
+        for (key, place) in [("from", &line.from), ("to", &line.to)] {
+            if place.len() != D {
+                let why = format!("{} numbers, {D} are expected", place.len());
+                return refuse(key, why);
+            }
+        }
+        let drawn = line.drawn_length();
+        if drawn <= 0.0 {
+            let why = "the line has no length: both ends are one place";
+            return refuse("to", why.into());
+        }
+        let kind = match line.weight {
+            Some(weight) => Self::hanging(line, weight, setting),
+            None if line.bed.is_some() => Err((
+                "bed",
+                "a line without `weight` is straight: it needs no bed".into(),
+            )),
+            None => Ok(Kind::Straight(
+                line.stiffness,
+                line.damping,
+                line.length.unwrap_or(drawn),
+            )),
+        };
+        let mooring = match kind {
+            Ok(kind) => Mooring {
+                from: padded(&line.from),
+                to: padded(&line.to),
+                kind,
+            },
+            Err((key, why)) => return refuse(key, why),
+        };
+        let places = mooring.drawn_places();
+        for wall in setting.others() {
+            if places.windows(2).any(|w| crosses(w[0], w[1], wall)) {
+                let why = format!("the line goes through the wall `{}`", wall.name());
+                return refuse("to", why);
+            }
+        }
+        Ok(mooring)
+    }
+
+    /// A chain between two places.
+    #[cfg(test)]
+    pub fn chain(from: Vector3<f64>, to: Vector3<f64>, chain: Catenary, up: Vector3<f64>) -> Self {
+        let kind = Kind::Hanging(chain, up);
+        Mooring { from, to, kind }
+    }
+
+    fn hanging<const D: usize>(
+        line: &Line,
+        weight: f64,
+        setting: &MoverSetting<'_, D>,
+    ) -> Result<Kind, (&'static str, String)> {
+        let gravity = padded(setting.gravity.as_slice());
+        if gravity.norm() <= 0.0 {
+            let why =
+                "nothing weighs anything here: give `numerics.gravity`, or leave `weight` out";
+            return Err(("weight", why.into()));
+        }
+        if line.damping > 0.0 {
+            let why = "a line with a `weight` is always at rest: it has no damping";
+            return Err(("damping", why.into()));
+        }
+        let up = -gravity.normalize();
+        let drawn = line.drawn_length();
+        let Some(length) = line.length else {
+            let why = format!(
+                "a line with a `weight` needs its `length`: more than {drawn:.4} m, from end to end"
+            );
+            return Err(("weight", why));
+        };
+        if length <= drawn {
+            let why = format!("the line is too short to hang: its ends are {drawn:.4} m apart");
+            return Err(("length", why));
+        }
+        let bed = line.bed.unwrap_or(true);
+        let rise = (padded(&line.to) - padded(&line.from)).dot(&up);
+        if bed && rise < 0.0 {
+            let why = "the end at the body is below the bed at the fixed end: give `bed = false` if there is none";
+            return Err(("to", why.into()));
+        }
+        let catenary = Catenary {
+            weight,
+            axial: line.stiffness * length,
+            length,
+            bed,
+        };
+        Ok(Kind::Hanging(catenary, up))
+    }
+
+    /// The line as it is before the start.
+    fn drawn_places(&self) -> Vec<Vector3<f64>> {
+        match &self.kind {
+            Kind::Straight(..) => vec![self.from, self.to],
+            Kind::Hanging(catenary, up) => {
+                let (across, [x, z]) = split(self.to - self.from, up);
+                let hang = catenary.hang(x, z);
+                let mut places: Vec<_> = catenary
+                    .shape(&hang, x, PIECES)
+                    .into_iter()
+                    .map(|[x, z]| self.from + across * x + up * z)
+                    .collect();
+                // Rounding must not move the end from a wall on which it lies.
+                if let Some(last) = places.last_mut() {
+                    *last = self.to;
+                }
+                places
+            }
+        }
+    }
+
+    /// None while it is slack. `end` is where its place of the body is, `arm` the way there from the centre.
+    pub fn pull(
+        &self,
+        end: Vector3<f64>,
+        arm: Vector3<f64>,
+        velocity: &Vector6<f64>,
+    ) -> Option<Pull> {
+        let way = end - self.from;
+        let along = |e: Vector3<f64>| six(e, arm.cross(&e));
+        match &self.kind {
+            Kind::Straight(stiffness, damping, free) => {
+                let length = way.norm();
+                let stretch = length - free;
+                if length <= 0.0 || stretch <= 0.0 {
+                    return None;
+                }
+                let e = along(way / length);
+                let tension = stiffness * stretch + damping * e.dot(velocity);
+                (tension > 0.0).then(|| Pull {
+                    force: -e * tension,
+                    stiffness: e * e.transpose() * *stiffness,
+                    damping: e * e.transpose() * *damping,
+                    anchor: tension,
+                })
+            }
+            Kind::Hanging(catenary, up) => {
+                let (across, [x, z]) = split(way, up);
+                let hang = catenary.hang(x, z);
+                let [e, f, g] = [across, *up, up.cross(&across)].map(along);
+                let [[a, b], [_, d]] = hang.stiffness;
+                // Beside its plane it is a pendulum: H/x.
+                let beside = if x > 0.0 { hang.across / x } else { 0.0 };
+                Some(Pull {
+                    force: -(e * hang.across + f * hang.up),
+                    stiffness: e * e.transpose() * a
+                        + (e * f.transpose() + f * e.transpose()) * b
+                        + f * f.transpose() * d
+                        + g * g.transpose() * beside,
+                    damping: Matrix6::zeros(),
+                    anchor: hang.across.hypot(catenary.at_anchor(hang.up)),
+                })
+            }
+        }
+    }
+}
+
+/// The horizontal direction of a way, and how far it leads across and up.
+fn split(way: Vector3<f64>, up: &Vector3<f64>) -> (Vector3<f64>, [f64; 2]) {
+    let z = way.dot(up);
+    let level = way - up * z;
+    let x = level.norm();
+    let across = if x > 0.0 { level / x } else { level };
+    (across, [x, z])
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,189 @@
+//! Recursive coordinate bisection.
+
+use std::ops::Range;
+
+use sph_core::Vect;
+use thiserror::Error;
+
+/// Why there are no owners.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum DecompositionError {
+    /// No rank at all.
+    #[error("there must be a rank at least")]
+    NoRanks,
+    /// More ranks than there is to own.
+    #[error("{ranks} ranks for {particles} particles: some would own nothing")]
+    TooManyRanks {
+        /// Ranks.
+        ranks: usize,
+        /// Particles.
+        particles: usize,
+    },
+    /// Lists that do not fit.
+    #[error("{costs} costs for {particles} particles")]
+    Length {
+        /// Costs.
+        costs: usize,
+        /// Particles.
+        particles: usize,
+    },
+    /// A place or a cost that is not a number, or a cost below zero.
+    #[error("particle {particle} has a place or a cost that cannot be divided")]
+    NotFinite {
+        /// Which one.
+        particle: usize,
+    },
+}
+
+/// The owner of every particle: the set is cut across its longest axis so that both sides have the cost of their ranks, and
+/// so on. Places that are the same go by their index, so that every rank finds the same owners. Each rank owns one particle at least.
+/// Source: Berger & Bokhari 1987, IEEE Trans. Comput. C-36, 570–580.
+///
+/// # Errors
+/// No rank, more ranks than particles, numbers that are not finite.
+pub fn bisect<const D: usize>(
+    places: &[Vect<D>],
+    costs: &[f64],
+    ranks: usize,
+) -> Result<Vec<u32>, DecompositionError> {
+    let particles = places.len();
+    if ranks == 0 {
+        return Err(DecompositionError::NoRanks);
+    }
+    if ranks > particles {
+        return Err(DecompositionError::TooManyRanks { ranks, particles });
+    }
+    if costs.len() != particles {
+        let costs = costs.len();
+        return Err(DecompositionError::Length { costs, particles });
+    }
+    let whole = |k: &usize| places[*k].iter().all(|x| x.is_finite()) && costs[*k] >= 0.0;
+    if let Some(particle) = (0..particles).find(|k| !whole(k) || costs[*k].is_infinite()) {
+        return Err(DecompositionError::NotFinite { particle });
+    }
+    let mut all: Vec<u32> = (0..particles as u32).collect();
+    let mut owners = vec![0; particles];
+    let mut cutter = Cutter {
+        places,
+        costs,
+        owners: &mut owners,
+    };
+    cutter.cut(&mut all, 0..ranks as u32);
+    Ok(owners)
+}
+
+struct Cutter<'a, const D: usize> {
+    places: &'a [Vect<D>],
+    costs: &'a [f64],
+    owners: &'a mut [u32],
+}
+
+impl<const D: usize> Cutter<'_, D> {
+    fn cut(&mut self, part: &mut [u32], ranks: Range<u32>) {
+        if ranks.len() == 1 {
+            part.iter()
+                .for_each(|k| self.owners[*k as usize] = ranks.start);
+            return;
+        }
+        let axis = self.longest(part);
+        let at = |k: &u32| self.places[*k as usize][axis];
+        part.sort_unstable_by(|a, b| at(a).total_cmp(&at(b)).then(a.cmp(b)));
+        let lower = ranks.len() / 2;
+        let total: f64 = part.iter().map(|k| self.costs[*k as usize]).sum();
+        let target = total * lower as f64 / ranks.len() as f64;
+        let mut sum = 0.0;
+        let here = part.iter().position(|k| {
+            let cost = self.costs[*k as usize];
+            // The cut is nearer to the target before this one than behind it.
+            let beyond = sum + 0.5 * cost > target;
+            sum += cost;
+            beyond
+        });
+        let least = lower;
+        let most = part.len() - (ranks.len() - lower);
+        let here = here.unwrap_or(part.len()).clamp(least, most);
+        let (low, high) = part.split_at_mut(here);
+        let middle = ranks.start + lower as u32;
+        self.cut(low, ranks.start..middle);
+        self.cut(high, middle..ranks.end);
+    }
+
+    fn longest(&self, part: &[u32]) -> usize {
+        let first = self.places[part[0] as usize];
+        let corners = part.iter().fold((first, first), |(low, high), k| {
+            let x = &self.places[*k as usize];
+            (low.inf(x), high.sup(x))
+        });
+        (corners.1 - corners.0).imax()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector2;
+
+    fn lattice() -> Vec<Vector2<f64>> {
+        let place = |k: usize| Vector2::new((k % 60) as f64, (k / 60) as f64);
+        (0..60 * 20).map(place).collect()
+    }
+
+    #[test]
+    fn every_rank_has_its_share_of_the_cost() {
+        let places = lattice();
+        // The right third costs five times as much.
+        let costs: Vec<f64> = places
+            .iter()
+            .map(|x| if x[0] < 40.0 { 1.0 } else { 5.0 })
+            .collect();
+        let total: f64 = costs.iter().sum();
+        for ranks in [1, 2, 3, 5, 8, 16] {
+            let owners = bisect(&places, &costs, ranks).expect("owners");
+            let mut shares = vec![0.0; ranks];
+            owners
+                .iter()
+                .zip(&costs)
+                .for_each(|(o, c)| shares[*o as usize] += c);
+            // Each of at most log₂ cuts is off by half a particle, 5.
+            let bound = 2.5 * (ranks as f64).log2().ceil() + 1e-9;
+            for share in shares {
+                let off = (share - total / ranks as f64).abs();
+                assert!(off <= bound, "{ranks} ranks: off by {off}, bound {bound}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_divided_is_named() {
+        let places = lattice();
+        let costs = vec![1.0; places.len()];
+        let told = |places: &[Vector2<f64>], costs: &[f64], ranks| {
+            bisect(places, costs, ranks).expect_err("an error")
+        };
+        assert_eq!(told(&places, &costs, 0), DecompositionError::NoRanks);
+        assert!(
+            told(&places[..3], &costs[..3], 4)
+                .to_string()
+                .contains("own nothing")
+        );
+        assert!(matches!(
+            told(&places, &costs[1..], 2),
+            DecompositionError::Length { .. }
+        ));
+        let mut broken = costs.clone();
+        broken[7] = f64::NAN;
+        assert_eq!(
+            told(&places, &broken, 2),
+            DecompositionError::NotFinite { particle: 7 }
+        );
+        // Particles on one place go by their index.
+        let same = vec![Vector2::new(1.0, 1.0); 8];
+        assert_eq!(
+            bisect(&same, &[1.0; 8], 4),
+            Ok(vec![0, 0, 1, 1, 2, 2, 3, 3])
+        );
+        // Nothing costs anything: each has a particle all the same.
+        let owners = bisect(&same, &[0.0; 8], 8).expect("owners");
+        assert_eq!(owners, (0..8).collect::<Vec<_>>());
+    }
+}

@@ -1,0 +1,125 @@
+//! What a scene would send if it were split over several machines.
+
+use serde::Serialize;
+use sph_core::{System, fields};
+use sph_decomposition::{Halo, bisect, exchanges};
+use sph_neighbours::World;
+use sph_scene::Scene;
+
+use crate::setup::assemble::assemble;
+use crate::{Flow, SolverError};
+
+/// Columns that do not change while a particle lives.
+const CONSTANT: [&str; 3] = [fields::MASS.name, fields::PHASE.name, fields::IDENTITY.name];
+/// Cost of a contact with a wall in terms of that of a candidate, from the profile of `dam-break-spheric2` (docs/performance.md).
+const CONTACT: f64 = 3.0;
+
+/// A rank's share.
+#[derive(Clone, Debug, Serialize)]
+pub struct RankUse {
+    /// Particles that it owns.
+    pub particles: usize,
+    /// Its cost over the mean.
+    pub cost: f64,
+    /// Particles of others that it needs.
+    pub guests: usize,
+    /// Particles that it sends, each as often as it is sent.
+    pub sent: usize,
+    /// Ranks that it has guests of.
+    pub partners: Vec<usize>,
+}
+
+/// What is sent before a stage.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExchangeUse {
+    /// The stage.
+    pub stage: String,
+    /// Columns.
+    pub columns: Vec<String>,
+    /// Bytes per guest.
+    pub bytes: usize,
+}
+
+/// A decomposition of a scene at its start, and what an evaluation sends. Solves send besides, in each iteration, a vector.
+#[derive(Clone, Debug, Serialize)]
+pub struct Ranks {
+    /// Each rank.
+    pub ranks: Vec<RankUse>,
+    /// Largest cost over the mean, less one.
+    pub imbalance: f64,
+    /// What is sent before which stage.
+    pub exchanges: Vec<ExchangeUse>,
+    /// Bytes per guest in an evaluation.
+    pub bytes_per_guest: usize,
+    /// Bytes of a guest that is new, with all its columns.
+    pub bytes_per_newcomer: usize,
+}
+
+/// Splits a scene's particles over `ranks` machines.
+///
+/// # Errors
+/// Every problem of the scene; more ranks than particles.
+pub fn ranks(scene: &Scene, ranks: usize) -> Result<Ranks, SolverError> {
+    match scene.dimension {
+        3 => ranks_in(&mut assemble::<3>(scene)?.flow, ranks),
+        _ => ranks_in(&mut assemble::<2>(scene)?.flow, ranks),
+    }
+}
+
+fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, SolverError> {
+    flow.evaluate()?;
+    let world = &flow.world;
+    let places = world.free.get(fields::POSITION)?;
+    let costs = costs(world);
+    let owners = bisect(places, &costs, ranks).map_err(|e| SolverError::at("", e.to_string()))?;
+    let halo = Halo::of(places, &owners, ranks, world.reach(), &world.domain);
+    let mut cost = vec![0.0; ranks];
+    let all = owners.iter().zip(&costs);
+    all.for_each(|(owner, c)| cost[*owner as usize] += c);
+    let mean = (costs.iter().sum::<f64>() / ranks as f64).max(f64::MIN_POSITIVE);
+    let exchanges = sent(flow);
+    let largest = cost.iter().copied().fold(0.0, f64::max);
+    let one = |rank: usize| RankUse {
+        particles: halo.owned(rank),
+        cost: cost[rank] / mean,
+        guests: halo.guests(rank),
+        sent: halo.sent(rank),
+        partners: halo.partners(rank),
+    };
+    Ok(Ranks {
+        ranks: (0..ranks).map(one).collect(),
+        imbalance: largest / mean - 1.0,
+        bytes_per_guest: exchanges.iter().map(|e| e.bytes).sum(),
+        bytes_per_newcomer: world.free.bytes_per_particle(),
+        exchanges,
+    })
+}
+
+/// Candidates of each particle, and its contacts with walls.
+fn costs<const D: usize>(world: &World<D>) -> Vec<f64> {
+    let contacts = &world.walls.contacts;
+    let cost = |i: usize| {
+        let candidates = world.lists.free.candidates(i).len();
+        candidates as f64 + CONTACT * contacts.of(i).len() as f64
+    };
+    (0..world.free.len()).map(cost).collect()
+}
+
+fn sent<const D: usize>(flow: &Flow<D>) -> Vec<ExchangeUse> {
+    let stages: Vec<_> = flow.stages.iter().map(|s| s.access()).collect();
+    let bytes = |name: &str| {
+        let columns = flow.world.free.columns();
+        let mut own = columns.filter(|column| column.0 == name);
+        own.next()
+            .map_or(0, |(.., components, values)| match values {
+                sph_core::Plain::Real(_) => 8 * components,
+                sph_core::Plain::Index(_) => 4,
+            })
+    };
+    let one = |exchange: sph_decomposition::Exchange| ExchangeUse {
+        stage: flow.stages[exchange.stage].name(),
+        bytes: exchange.columns.iter().map(|name| bytes(name)).sum(),
+        columns: exchange.columns.iter().map(ToString::to_string).collect(),
+    };
+    exchanges(&stages, &CONSTANT).into_iter().map(one).collect()
+}

@@ -1,0 +1,55 @@
+//! What several machines would have and send.
+
+use crate::bench;
+
+#[test]
+fn every_particle_has_one_owner_and_guests_are_those_that_are_sent() {
+    let bench = bench();
+    let told = bench.done("explain hydrostatic-tank --ranks 6 --json").out;
+    let json: serde_json::Value = serde_json::from_str(&told).expect("JSON");
+    let split = &json["ranks"];
+    let ranks = split["ranks"].as_array().expect("ranks");
+    assert_eq!(ranks.len(), 6);
+    let sum = |key: &str| ranks.iter().filter_map(|r| r[key].as_u64()).sum::<u64>();
+    assert_eq!(Some(sum("particles")), json["particles"].as_u64());
+    assert_eq!(sum("guests"), sum("sent"));
+    // No rank is a particle's cost off: candidates and three for a contact.
+    let off = split["imbalance"].as_f64().expect("an imbalance");
+    assert!((0.0..0.05).contains(&off), "imbalance {off}");
+    // Positions before the density sum, and what came of it before the interactions: no column twice.
+    let columns: Vec<&str> = split["exchanges"]
+        .as_array()
+        .expect("exchanges")
+        .iter()
+        .flat_map(|e| e["columns"].as_array().expect("columns"))
+        .filter_map(|c| c.as_str())
+        .collect();
+    let mut once = columns.clone();
+    once.sort_unstable();
+    once.dedup();
+    assert_eq!(once.len(), columns.len(), "{columns:?}");
+    assert_eq!(columns.first(), Some(&"position"), "{columns:?}");
+    assert!(
+        columns.contains(&"pressure") && !columns.contains(&"mass"),
+        "{columns:?}"
+    );
+    let text = bench.done("explain hydrostatic-tank --ranks 6").out;
+    assert!(text.contains("split over 6 machines"), "{text}");
+}
+
+#[test]
+fn splits_that_cannot_be_are_told() {
+    let bench = bench();
+    for (command, told) in [
+        (
+            "explain hydrostatic-tank --ranks 100000",
+            "some would own nothing",
+        ),
+        ("explain hydrostatic-tank --ranks 0", "invalid value"),
+        ("explain grains-oedometer --ranks 2", "one of grains"),
+    ] {
+        let outcome = bench.call(command);
+        assert_eq!(outcome.code, Some(2), "{command}: {}", outcome.err);
+        assert!(outcome.err.contains(told), "{command}: {}", outcome.err);
+    }
+}
