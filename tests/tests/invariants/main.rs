@@ -7,6 +7,7 @@ use sph_scene::{Override, load, parse};
 use sph_solver::{Assembled, assemble};
 
 mod conservation;
+mod energy;
 mod lists;
 mod scales;
 mod symmetry;

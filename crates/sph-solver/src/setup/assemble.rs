@@ -1,6 +1,8 @@
 //! From a scene to a flow that can be evaluated.
 
-use sph_contribution::{ForceLimit, Setting};
+use std::sync::Arc;
+
+use sph_contribution::{ForceLimit, OwnColumn, Setting};
 use sph_core::{Born, Role, SceneProblem, Store, fields};
 use sph_integrators::Integrator;
 use sph_multiphase::Formulation;
@@ -112,7 +114,6 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         remedies: remedies(scene, &parts),
         evolved: evolved(&*formulation, &parts),
     };
-    let kinds = planned.work_kinds.clone();
     let mut flow = joined(world, planned, given);
     follow_displacements(&shown, &choices.probes, &mut flow);
     check_output_fields(scene, &flow)?;
@@ -127,11 +128,9 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     };
     flow.know_exits(scene);
     let relaxation = start(&beginning, &mut flow)?;
-    let (probes, integrator) = (&choices.probes, &*choices.integrator);
-    accounts::open(scene, probes, integrator, &*formulation, kinds, &mut flow)?;
-    if flow.works.iter().any(|w| w.gives_birth()) {
-        flow.nursery = Some(Nursery::new(scene, formulation, columns().collect()));
-    }
+    let integrator = &*choices.integrator;
+    accounts::open(scene, &choices.probes, integrator, &*formulation, &mut flow)?;
+    flow.nursery = nursery(scene, formulation, columns().collect(), &flow);
     warnings.extend(ground.remarks(scene, &flow)?);
     warnings.extend(lattices::remarks(scene, &flow, &placed.body)?);
     Ok(Assembled {
@@ -145,6 +144,17 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         height: height(scene, &drawn.regions),
         body_of: placed.body,
     })
+}
+
+/// What newborn particles begin with, where some may come in.
+fn nursery<const D: usize>(
+    scene: &Scene,
+    formulation: Arc<dyn Formulation<D>>,
+    columns: Vec<OwnColumn<D>>,
+    flow: &Flow<D>,
+) -> Option<Nursery<D>> {
+    let some = flow.works.iter().any(|w| w.gives_birth());
+    some.then(|| Nursery::new(scene, formulation, columns))
 }
 
 /// Refuses walls that are faster than sound in the slowest phase.

@@ -10,7 +10,7 @@ use crate::failure::error::SolverError;
 use crate::step::books::Books;
 use crate::step::flow::Flow;
 
-/// Opens the books of a flow, if a probe reads them; `kinds` are those of the plugins that work within a step.
+/// Opens the books of a flow, if a probe reads them.
 ///
 /// # Errors
 /// If steps have another form than the books know, or particles come in or leave.
@@ -19,7 +19,6 @@ pub(crate) fn open<const D: usize>(
     probes: &[(String, Box<dyn Probe<D>>)],
     integrator: &dyn Integrator,
     formulation: &dyn Formulation<D>,
-    kinds: Vec<&'static str>,
     flow: &mut Flow<D>,
 ) -> Result<(), SolverError> {
     let Some((name, _)) = probes.iter().find(|(_, probe)| probe.needs_books()) else {
@@ -35,8 +34,8 @@ pub(crate) fn open<const D: usize>(
             "particles come in or leave, and their energy is not booked: take the probe out"
         }
         _ => {
-            let (laws, world) = (flow.laws.clone(), &mut flow.world);
-            flow.books = Some(Books::open(formulation, laws, kinds, world)?);
+            let (laws, kinds) = (flow.laws.clone(), flow.work_kinds.clone());
+            flow.books = Some(Books::open(formulation, laws, kinds, &mut flow.world)?);
             return Ok(());
         }
     };

@@ -39,6 +39,8 @@ pub struct Flow<const D: usize> {
     pub(crate) integrated: Vec<Field<Scalar>>,
     /// What physics does within a step, in this order.
     pub(crate) works: Vec<Box<dyn StepWork<D>>>,
+    /// The kinds of plugins that it comes from, in the same order.
+    pub(crate) work_kinds: Vec<&'static str>,
     /// Forces outside of the sweep.
     pub(crate) outside: Vec<OutsideForce<D>>,
     /// Whether somebody moved since the last evaluation.
