@@ -148,13 +148,11 @@ fn files(
             }
             _ => None,
         });
-    for (name, wall) in &scene.wall {
-        let read = |load| crate::recorded::read(source, name, load).err();
-        if let Some(DemError::Scene(problems)) = wall.recorded.as_ref().and_then(read) {
-            found.extend(problems);
-        }
-    }
-    for (key, file) in start.chain(walls).chain(compared) {
+    let recorded = scene.wall.iter().filter_map(|(name, wall)| {
+        let load = wall.recorded.as_ref()?;
+        Some((format!("wall.{name}.recorded.file"), &load.file))
+    });
+    for (key, file) in start.chain(walls).chain(recorded).chain(compared) {
         if let Err(problem) = source.resolve(&key, file) {
             add(found, key, problem.to_string());
         }

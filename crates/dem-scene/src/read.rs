@@ -174,7 +174,7 @@ fn kinds(root: &Json) -> Vec<(String, String)> {
 }
 
 impl Loaded {
-    /// Whether every file that the scene names is there.
+    /// Whether every file that the scene names is there, and those with loads hold what the scene takes from them.
     ///
     /// # Errors
     /// Those that are not, by their keys.
@@ -184,7 +184,17 @@ impl Loaded {
             let message = format!("there is no file `{}`", path.display());
             (!path.is_file()).then(|| SceneProblem::new(key, message))
         };
-        let problems: Vec<_> = self.files().into_iter().filter_map(missing).collect();
+        let mut problems: Vec<_> = self.files().into_iter().filter_map(missing).collect();
+        // Nothing is read from a file that is missing.
+        let whole = problems.is_empty();
+        for (name, wall) in self.scene.wall.iter().filter(|_| whole) {
+            let read = |load| crate::recorded::read(&self.source, name, load).err();
+            match wall.recorded.as_ref().and_then(read) {
+                Some(DemError::Scene(found)) => problems.extend(found),
+                Some(other) => return Err(other),
+                None => {}
+            }
+        }
         match problems.is_empty() {
             true => Ok(()),
             false => Err(DemError::Scene(problems)),
