@@ -16,6 +16,8 @@ pub struct Halo {
     owned: Vec<usize>,
     /// How many go to (first) from (second).
     sent: BTreeMap<[u32; 2], usize>,
+    /// How many each rank sends.
+    given: Vec<usize>,
 }
 
 impl Halo {
@@ -60,10 +62,12 @@ impl Halo {
             ranks,
             owned: vec![0; ranks],
             sent: BTreeMap::new(),
+            given: vec![0; ranks],
         };
         owners.iter().for_each(|o| halo.owned[*o as usize] += 1);
         for (pair, count) in counted.into_iter().flatten() {
             *halo.sent.entry(pair).or_default() += count;
+            halo.given[pair[1] as usize] += count;
         }
         halo
     }
@@ -80,23 +84,23 @@ impl Halo {
 
     /// Guests that a rank has.
     pub fn guests(&self, rank: usize) -> usize {
-        let own = self.sent.iter().filter(|([to, _], _)| *to as usize == rank);
-        own.map(|(_, n)| n).sum()
+        self.to(rank).map(|(_, count)| count).sum()
     }
 
     /// Particles that a rank sends to others, each as often as it is sent.
     pub fn sent(&self, rank: usize) -> usize {
-        let own = self
-            .sent
-            .iter()
-            .filter(|([_, from], _)| *from as usize == rank);
-        own.map(|(_, n)| n).sum()
+        self.given[rank]
     }
 
     /// Ranks that a rank has guests of, ascending.
     pub fn partners(&self, rank: usize) -> Vec<usize> {
-        let own = self.sent.keys().filter(|[to, _]| *to as usize == rank);
-        own.map(|[_, from]| *from as usize).collect()
+        self.to(rank).map(|([_, from], _)| *from as usize).collect()
+    }
+
+    /// What goes to a rank.
+    fn to(&self, rank: usize) -> impl Iterator<Item = (&[u32; 2], &usize)> {
+        let rank = rank as u32;
+        self.sent.range([rank, 0]..=[rank, u32::MAX])
     }
 }
 

@@ -73,9 +73,6 @@ impl<const D: usize> OpenBoundary<D> for Outflow {
         let g = moment.gravity.norm();
         let [present, mean] = of_the_face(places, inside);
         let one = |(place, inside): (&Place<D>, &Inside<D>)| {
-            if !inside.wet {
-                return Outside::dry();
-            }
             let z = inside.impedance;
             let depth = |level: f64| (level - moment.height(&place.centre)).max(0.0);
             let far = self.pressure + self.level.map_or(0.0, |l| inside.density * g * depth(l));
