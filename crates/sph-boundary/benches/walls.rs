@@ -174,6 +174,7 @@ impl<const D: usize> Flow<D> {
             time: 0.0,
             dt: 0.0,
             transported: Vec::new(),
+            extent: None,
         };
         world.refresh_lists().expect("positions");
         wall.geometry(&mut world).expect("geometry");

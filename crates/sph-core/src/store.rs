@@ -301,15 +301,6 @@ impl<const D: usize> Store<D> {
 
     /// Bytes of one particle over all columns.
     pub fn bytes_per_particle(&self) -> usize {
-        self.entries
-            .iter()
-            .map(|e| match &e.column {
-                Column::Scalar(_) => 8,
-                Column::Vector(_) => 8 * D,
-                Column::Index(_) => 4,
-                Column::Tensor(_) => 8 * D * D,
-                Column::SymmetricTensor(_) => 48,
-            })
-            .sum()
+        self.entries.iter().map(|e| e.column.bytes_each()).sum()
     }
 }

@@ -171,6 +171,9 @@ impl<const D: usize> Declares for ShiftVelocity<D> {
 const STABLE: f64 = 0.25;
 
 impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
+    fn needs_all(&self) -> Option<&'static str> {
+        Some("the mean velocity of all particles is taken in every evaluation")
+    }
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let Fickian {
             strength,

@@ -56,7 +56,7 @@ pub use domain::Domain;
 pub use fuse::{
     FusionEntry, Terms, fuse_all, fuse_three, fuse_three_lanes, fuse_two, fuse_two_lanes,
 };
-pub use grid::CellGrid;
+pub use grid::{CellGrid, Extent};
 pub use keep_couplings::{Keeper, Rows as CouplingRows, Tally, Weak};
 pub use kernel_sums::{kernel_sums, shepard};
 pub use kernels::KernelEntry;

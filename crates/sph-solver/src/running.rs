@@ -13,6 +13,7 @@ pub(crate) mod mach;
 pub(crate) mod next_step;
 pub(crate) mod options;
 pub(crate) mod output;
+pub(crate) mod ranked;
 pub(crate) mod run;
 pub(crate) mod series;
 pub(crate) mod stepper;

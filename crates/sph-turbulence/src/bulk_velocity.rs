@@ -57,6 +57,9 @@ impl<const D: usize> Contribution<D> for BulkVelocity {
 }
 
 impl<const D: usize> StepWork<D> for BulkVelocity {
+    fn needs_all(&self) -> Option<&'static str> {
+        Some("the momentum of all particles is added up in every step")
+    }
     fn name(&self) -> String {
         "bulk velocity".into()
     }

@@ -196,6 +196,9 @@ impl<const D: usize> ImplicitViscosity<D> {
 }
 
 impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
+    fn needs_all(&self) -> Option<&'static str> {
+        Some("it solves a system of all particles")
+    }
     fn name(&self) -> String {
         Self::NAME.into()
     }

@@ -60,6 +60,7 @@ fn vortices(ratio: f64) -> World<2> {
         time: 0.0,
         dt: 1.0,
         transported: Vec::new(),
+        extent: None,
     };
     world.rebuild_lists().unwrap();
     let positions = world.free.get(fields::POSITION).unwrap();

@@ -113,6 +113,7 @@ impl Bench {
                 time: 0.0,
                 dt: 0.0,
                 transported: Vec::new(),
+                extent: None,
             },
         };
         bench.refresh();

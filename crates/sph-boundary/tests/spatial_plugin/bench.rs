@@ -89,6 +89,7 @@ impl<const D: usize> Bench<D> {
                 time: 0.0,
                 dt: 0.0,
                 transported: Vec::new(),
+                extent: None,
             },
         };
         bench.refresh();

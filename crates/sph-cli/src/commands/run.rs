@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
 use sph_scene::{Loaded, Source};
-use sph_solver::{Identity, Observer, RunOptions, SolverError, Start, Status, Summary, run};
+use sph_solver::{
+    Identity, Observer, RunOptions, SolverError, Start, Status, Summary, run, run_on_threads,
+};
 
 use crate::arguments::RunArguments;
 use crate::commands::left_behind::{CHECKPOINT, failed_summary, going_on, remedy};
@@ -69,7 +71,10 @@ fn particles(
         threads: arguments.threads.map(usize::from),
         identity: Identity::of(loaded).map_err(located)?,
     };
-    let result = run(&loaded.scene, &options, observer);
+    let result = match arguments.ranks.map(usize::from) {
+        None | Some(1) => run(&loaded.scene, &options, observer),
+        Some(ranks) => run_on_threads(&loaded.scene, &options, ranks, observer),
+    };
     let summary = result.map_err(|error| trouble(error, arguments, &loaded.source, out))?;
     let stopped = summary.status != Status::Done;
     Ok(Ended {

@@ -42,6 +42,7 @@ pub fn world<const D: usize>(
         time: 0.0,
         dt: 1.0,
         transported: Vec::new(),
+        extent: None,
     };
     world.rebuild_lists().unwrap();
     world

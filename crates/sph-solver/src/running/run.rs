@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::ops::AddAssign;
+use std::sync::Arc;
 use std::time::Instant;
 
 use sph_core::{StepError, StepLimit, System};
+use sph_decomposition::Transport;
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
@@ -20,6 +22,7 @@ use crate::running::mach::MachWatch;
 use crate::running::next_step::next_step;
 use crate::running::options::{RunOptions, Start};
 use crate::running::output::Outputs;
+use crate::running::ranked;
 use crate::running::series::{Probes, Series};
 use crate::setup::assemble::{Assembled, assemble};
 use crate::setup::estimate::tiny_steps;
@@ -36,13 +39,38 @@ pub fn run(
     options: &RunOptions,
     observer: &mut (dyn Observer + Send),
 ) -> Result<Summary, SolverError> {
+    let summary = run_with(scene, options, None, observer)?;
+    summary.ok_or_else(|| SolverError::at("", "there is no summary of the run"))
+}
+
+/// Runs this rank's part of a scene, with the same scene and options on all ranks. The first rank alone writes, and has a summary.
+///
+/// The results are those of one process, to the bit, whatever the number of ranks.
+///
+/// # Errors
+/// As [`run`], on all ranks; a scene that cannot be divided; a rank that has ended.
+pub fn run_part(
+    scene: &Scene,
+    options: &RunOptions,
+    ranks: Arc<dyn Transport>,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Option<Summary>, SolverError> {
+    run_with(scene, options, Some(ranks), observer)
+}
+
+fn run_with(
+    scene: &Scene,
+    options: &RunOptions,
+    ranks: Option<Arc<dyn Transport>>,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Option<Summary>, SolverError> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads.unwrap_or(0))
         .build()
         .map_err(|e| SolverError::at("--threads", e.to_string()))?;
     pool.install(|| match scene.dimension {
-        3 => run_in::<3>(scene, options, observer),
-        _ => run_in::<2>(scene, options, observer),
+        3 => run_in::<3>(scene, options, ranks, observer),
+        _ => run_in::<2>(scene, options, ranks, observer),
     })
 }
 
@@ -50,9 +78,11 @@ pub(crate) struct Running<'a, const D: usize> {
     pub(crate) scene: &'a Scene,
     pub(crate) options: &'a RunOptions,
     pub(crate) parts: Assembled<D>,
+    /// All of a flow of which `parts` has this rank's part; on the first of several ranks alone.
+    pub(crate) whole: Option<Assembled<D>>,
     pub(crate) counters: Counters,
-    pub(crate) outputs: Outputs,
-    pub(crate) series: Series,
+    /// What this process writes; nothing on ranks behind the first.
+    pub(crate) files: Option<Files>,
     pub(crate) started: Instant,
     pub(crate) output_seconds: f64,
     /// The last step that was tried, s, and what limited it.
@@ -60,40 +90,47 @@ pub(crate) struct Running<'a, const D: usize> {
     pub(crate) mach: MachWatch,
 }
 
+/// What is written while a scene runs.
+pub(crate) struct Files {
+    pub(crate) outputs: Outputs,
+    pub(crate) series: Series,
+}
+
 fn run_in<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
+    ranks: Option<Arc<dyn Transport>>,
     observer: &mut (dyn Observer + Send),
-) -> Result<Summary, SolverError> {
+) -> Result<Option<Summary>, SolverError> {
     let mut parts = assemble::<D>(scene)?;
     crate::running::series::rehearse(scene, &mut parts.flow, &parts.probes)?;
     references::readable(scene)?;
     let tiny = tiny_steps(scene, &parts.flow)?;
     parts.warnings.extend(tiny);
-    let _lock = crate::running::lock::take(&options.out, observer)?;
-    sph_io::writable(&options.out)?;
-    sph_io::sweep_temporaries(&options.out)?;
-    let mut counters = begin(scene, options, &mut parts.flow, observer)?;
-    for (name, probe) in &parts.probes {
+    let writes = ranks.as_ref().is_none_or(|ranks| ranks.rank() == 0);
+    let _lock = match writes {
+        true => Some(crate::running::lock::take(&options.out, observer)?),
+        false => None,
+    };
+    if writes {
+        sph_io::writable(&options.out)?;
+        sph_io::sweep_temporaries(&options.out)?;
+    }
+    let mut counters = begin(scene, options, writes, &mut parts.flow, observer)?;
+    let whole = match ranks {
+        None => None,
+        Some(ranks) => ranked::divide(scene, options, ranks, &mut parts)?,
+    };
+    let shown = whole.as_ref().unwrap_or(&parts);
+    for (name, probe) in &shown.probes {
         if let Some(gathered) = counters.probes.remove(name) {
             probe.recall(&gathered);
         }
     }
-    let resumed = options.start.goes_on().then_some(&counters);
-    let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
-    // First what may be refused: a changed scene may measure other columns.
-    let mut series = Series::open(&options.out, parts.flow.outlets.labels(), &parts.probes, at)?;
-    let changed = options.start == Start::Changed;
-    let outputs = Outputs::open(
-        scene,
-        &parts.probes,
-        &options.out,
-        resumed.map(|c| c.outputs),
-        changed.then_some(parts.flow.world.time),
-    )?;
-    if let Some(peaks) = counters.series_peaks {
-        series.peaks = peaks.map(f64::from_bits);
-    }
+    let files = match writes {
+        true => Some(Files::open(scene, options, shown, &counters)?),
+        false => None,
+    };
     for warning in &parts.warnings {
         observer.message(&format!("note: {warning}"));
     }
@@ -101,9 +138,9 @@ fn run_in<const D: usize>(
         scene,
         options,
         parts,
+        whole,
         counters,
-        outputs,
-        series,
+        files,
         started: Instant::now(),
         output_seconds: 0.0,
         tried: (0.0, "none"),
@@ -111,6 +148,33 @@ fn run_in<const D: usize>(
     };
     let status = running.go(observer)?;
     running.finish(status)
+}
+
+impl Files {
+    fn open<const D: usize>(
+        scene: &Scene,
+        options: &RunOptions,
+        shown: &Assembled<D>,
+        counters: &Counters,
+    ) -> Result<Self, SolverError> {
+        let (flow, probes) = (&shown.flow, &shown.probes);
+        let resumed = options.start.goes_on().then_some(counters);
+        let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
+        // First what may be refused: a changed scene may measure other columns.
+        let mut series = Series::open(&options.out, flow.outlets.labels(), probes, at)?;
+        let changed = options.start == Start::Changed;
+        let outputs = Outputs::open(
+            scene,
+            probes,
+            &options.out,
+            resumed.map(|c| c.outputs),
+            changed.then_some(flow.world.time),
+        )?;
+        if let Some(peaks) = counters.series_peaks {
+            series.peaks = peaks.map(f64::from_bits);
+        }
+        Ok(Files { outputs, series })
+    }
 }
 
 /// What probes have gathered, by their names.
@@ -165,7 +229,14 @@ impl<const D: usize> Running<'_, D> {
                 self.go_back(cause, good.state(), observer)?;
                 continue;
             }
-            if self.is_to_stop(observer) {
+            let stop = match self.is_to_stop(observer) {
+                Ok(stop) => stop,
+                Err(cause) => {
+                    self.go_back(cause, good.state(), observer)?;
+                    continue;
+                }
+            };
+            if stop {
                 // The rates belong to a state; a checkpoint is taken where they are fresh.
                 if let Err(cause) = self.evaluate() {
                     return Err(self.fail(cause, good.state(), observer));
@@ -186,13 +257,15 @@ impl<const D: usize> Running<'_, D> {
             self.counters.retries = 0;
         }
         let time = self.parts.flow.world.time;
-        self.write_what_is_due(time, observer)?;
-        if let Some(cause) = self.mach.verdict(self.scene) {
+        let written = self.write_what_is_due(time, observer);
+        self.all_have_written(written)?;
+        if let Some(cause) = self.agreed(self.mach.verdict(self.scene)) {
             return Err(self.fail(cause, good.state(), observer));
         }
         if time >= self.scene.run.end {
             let mut works = self.parts.flow.works.iter();
-            if let Some(cause) = works.find_map(|w| w.verdict()) {
+            let verdict = works.find_map(|w| w.verdict());
+            if let Some(cause) = self.agreed(verdict) {
                 return Err(self.fail(cause, good.state(), observer));
             }
             return Ok(Some(Status::Done));
@@ -214,6 +287,10 @@ impl<const D: usize> Running<'_, D> {
     ) -> Result<Result<(), StepError>, SolverError> {
         let (time, end) = (self.parts.flow.world.time, self.scene.run.end);
         let limits = self.parts.flow.step_limits()?;
+        let limits = match self.parts.flow.least_limits(limits) {
+            Ok(limits) => limits,
+            Err(cause) => return Ok(Err(cause)),
+        };
         self.note_bounds(&limits);
         let (dt, limiter) = self.choose_step(&limits, time, end);
         if self.scene.run.retries > 0 {
@@ -245,7 +322,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Tells of a step that is done; whether somebody or the clock on the wall asks to stop.
-    fn is_to_stop(&self, observer: &mut (dyn Observer + Send)) -> bool {
+    fn is_to_stop(&mut self, observer: &mut (dyn Observer + Send)) -> Result<bool, StepError> {
         let (dt, limiter) = self.tried;
         let command = observer.step(&Progress {
             time: self.parts.flow.world.time,
@@ -256,7 +333,8 @@ impl<const D: usize> Running<'_, D> {
             particles: self.parts.flow.world.free.len(),
         });
         let most = self.scene.run.max_wall;
-        command == Command::Stop || most.is_some_and(|m| self.wall_seconds() > m)
+        let stop = command == Command::Stop || most.is_some_and(|m| self.wall_seconds() > m);
+        self.parts.flow.any_rank(stop)
     }
 
     pub(crate) fn evaluate(&mut self) -> Result<(), StepError> {
@@ -304,35 +382,47 @@ impl<const D: usize> Running<'_, D> {
         let end = self.scene.run.end;
         let due = |rows: u64| rows as f64 * every;
         let written = self.counters.last_row == Some(time.to_bits());
-        if !written && (time >= due(self.counters.rows) || time >= end) {
-            let dt = self.parts.flow.world.dt;
-            let balance = self
-                .series
-                .row(&mut self.parts.flow, &self.parts.probes, dt)?;
-            if let Some(told) = self.mach.look(&balance) {
-                observer.message(&told);
-            }
-            if self.counters.rows == 0 {
-                self.remember_start(&balance);
-            }
+        let row = !written && (time >= due(self.counters.rows) || time >= end);
+        let output = self.counters.next_output;
+        let output = output.is_some_and(|t| time >= f64::from_bits(t));
+        let number = (time / self.scene.run.checkpoint_interval()).floor() as u64;
+        let save = number > self.counters.checkpoints || time >= end;
+        if row || output || save {
+            self.gather(true)?;
+        }
+        if row {
+            self.write_row(observer)?;
             self.counters.rows = (time / every).floor() as u64 + 1;
             self.counters.last_row = Some(time.to_bits());
         }
-        if self
-            .counters
-            .next_output
-            .is_some_and(|t| time >= f64::from_bits(t))
-        {
-            self.outputs.write(&self.parts.flow, &self.parts.probes)?;
+        if output {
+            let shown = self.whole.as_ref().unwrap_or(&self.parts);
+            if let Some(files) = &mut self.files {
+                files.outputs.write(&shown.flow, &shown.probes)?;
+            }
             self.counters.next_output = self.next_output(time);
         }
-        let interval = self.scene.run.checkpoint_interval();
-        let number = (time / interval).floor() as u64;
-        if number > self.counters.checkpoints || time >= end {
+        if save {
             self.counters.checkpoints = number;
-            self.save()?;
+            self.save_gathered()?;
         }
         self.output_seconds += start.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    fn write_row(&mut self, observer: &mut (dyn Observer + Send)) -> Result<(), SolverError> {
+        let Some(files) = &mut self.files else {
+            return Ok(());
+        };
+        let shown = self.whole.as_mut().unwrap_or(&mut self.parts);
+        let dt = shown.flow.world.dt;
+        let balance = files.series.row(&mut shown.flow, &shown.probes, dt)?;
+        if let Some(told) = self.mach.look(&balance) {
+            observer.message(&told);
+        }
+        if self.counters.rows == 0 {
+            self.remember_start(&balance);
+        }
         Ok(())
     }
 
@@ -341,23 +431,33 @@ impl<const D: usize> Running<'_, D> {
         self.counters.initial_momentum = balance.momentum.iter().map(|m| m.to_bits()).collect();
     }
 
+    /// Writes a checkpoint of the present state.
     pub(crate) fn save(&mut self) -> Result<(), SolverError> {
-        let (position, extrema) = self.series.resume_point();
+        self.gather(false)?;
+        self.save_gathered()
+    }
+
+    pub(crate) fn save_gathered(&mut self) -> Result<(), SolverError> {
+        let Some(files) = &self.files else {
+            return Ok(());
+        };
+        let (position, extrema) = files.series.resume_point();
         self.counters.series_position = position;
         self.counters.series_extrema = extrema.map(f64::to_bits);
-        self.counters.series_peaks = Some(self.series.peaks.map(f64::to_bits));
-        self.counters.outputs = self.outputs.written;
+        self.counters.series_peaks = Some(files.series.peaks.map(f64::to_bits));
+        self.counters.outputs = files.outputs.written;
         let left = self.parts.flow.left();
         self.counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
+        let shown = self.shown();
         let counters = Counters {
             wall_seconds: self.wall_seconds(),
             stage_seconds: self.stage_seconds(),
             works: self.parts.flow.counts(),
-            probes: gathered(&self.parts.probes),
+            probes: gathered(&shown.probes),
             ..self.counters.clone()
         };
         let path = self.options.out.join(checkpoint::FILE);
-        checkpoint::save(&self.parts.flow, &path, &self.options.identity, &counters)
+        checkpoint::save(&shown.flow, &path, &self.options.identity, &counters)
     }
 
     pub(crate) fn stage_seconds(&self) -> BTreeMap<String, f64> {
@@ -369,8 +469,12 @@ impl<const D: usize> Running<'_, D> {
         all
     }
 
-    fn finish(&mut self, status: Status) -> Result<Summary, SolverError> {
-        self.outputs.animate()?;
-        self.write_summary(status, None)
+    fn finish(&mut self, status: Status) -> Result<Option<Summary>, SolverError> {
+        self.gather(true)?;
+        let Some(files) = &self.files else {
+            return Ok(None);
+        };
+        files.outputs.animate()?;
+        self.write_summary(status, None).map(Some)
     }
 }

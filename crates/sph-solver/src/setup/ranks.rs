@@ -3,18 +3,14 @@
 use serde::Serialize;
 use sph_core::{System, fields};
 use sph_decomposition::{Halo, bisect, exchanges};
-use sph_neighbours::World;
 use sph_scene::Scene;
 
 use crate::setup::assemble::assemble;
+use crate::step::cost::costs;
 use crate::{Flow, SolverError};
 
 /// Columns that do not change while a particle lives.
 const CONSTANT: [&str; 3] = [fields::MASS.name, fields::PHASE.name, fields::IDENTITY.name];
-/// Cost of a contact with a wall in terms of that of a candidate. At the start of `dam-break-spheric2` at 2 cm a contact takes
-/// 50 ns and a true neighbour 8.2 ns, of which the list of a cluster is taken to have twice as many, as in the plane.
-const CONTACT: f64 = 12.0;
-
 /// A rank's share.
 #[derive(Clone, Debug, Serialize)]
 pub struct RankUse {
@@ -94,16 +90,6 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
         bytes_per_newcomer: world.free.bytes_per_particle(),
         exchanges,
     })
-}
-
-/// Candidates of each particle, and its contacts with walls.
-fn costs<const D: usize>(world: &World<D>) -> Vec<f64> {
-    let contacts = &world.walls.contacts;
-    let cost = |i: usize| {
-        let candidates = world.lists.free.candidates(i).len();
-        candidates as f64 + CONTACT * contacts.of(i).len() as f64
-    };
-    (0..world.free.len()).map(cost).collect()
 }
 
 fn sent<const D: usize>(flow: &Flow<D>) -> Vec<ExchangeUse> {

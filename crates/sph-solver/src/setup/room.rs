@@ -75,6 +75,7 @@ impl<const D: usize> Room<D> {
             time: 0.0,
             dt: 0.0,
             transported: Vec::new(),
+            extent: None,
         };
         Ok(Room {
             world,

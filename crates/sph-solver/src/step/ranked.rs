@@ -1,0 +1,136 @@
+//! A flow of which this process has a part.
+
+use std::sync::Arc;
+
+use sph_core::{Access, StepError, StepLimit};
+use sph_decomposition::{PartError, Parts, Transport};
+use sph_neighbours::World;
+
+use crate::SolverError;
+use crate::step::cost::costs;
+use crate::step::flow::Flow;
+use crate::step::guard;
+use crate::step::stages::lock;
+
+impl<const D: usize> Flow<D> {
+    /// Leaves this rank its part; every rank holds the whole before.
+    ///
+    /// # Errors
+    /// Plugins that need all particles at once; more ranks than particles.
+    pub(crate) fn divide(&mut self, transport: Arc<dyn Transport>) -> Result<(), SolverError> {
+        if let Some(why) = self.indivisible() {
+            return Err(SolverError::at("", why));
+        }
+        let costs = costs(&self.world);
+        let rings = self.stages.iter().map(|s| s.rings());
+        let rings = rings.chain(self.works.iter().map(|w| w.rings()));
+        let rings = rings.max().unwrap_or(1);
+        let parts = Parts::divide(&mut self.world, &costs, rings, transport);
+        let parts = parts.map_err(|e| SolverError::at("", e.to_string()))?;
+        self.parts = Some(parts);
+        Ok(())
+    }
+
+    /// Why the flow cannot be divided between ranks, if it cannot.
+    pub(crate) fn indivisible(&self) -> Option<String> {
+        let works = self.works.iter().map(|w| (w.name(), w.needs_all()));
+        let stages = self.stages.iter().map(|s| (s.name(), s.needs_all()));
+        let mut all = works.chain(stages);
+        if let Some((name, why)) = all.find_map(|(name, why)| Some((name, why?))) {
+            return Some(format!("`{name}` cannot run on several ranks: {why}"));
+        }
+        let moved = self.walls.as_ref().is_some_and(|walls| {
+            let walls = lock(walls);
+            (0..self.world.walls.names.len()).any(|k| walls.feels(k))
+        });
+        let enters = self.nursery.is_some() || self.works.iter().any(|w| w.gives_birth());
+        let leaves = !self.outlets.is_empty() || self.works.iter().any(|w| !w.exits().is_empty());
+        let one = [
+            (
+                moved,
+                "a wall that the fluid moves feels the fluid of all ranks",
+            ),
+            (
+                enters,
+                "particles come in, whose numbers all ranks would have to agree on",
+            ),
+            (leaves, "particles leave, and are counted in their order"),
+            (
+                self.books.is_some(),
+                "an energy budget adds up over all particles in every step",
+            ),
+        ];
+        let found = one.into_iter().find(|(is, _)| *is);
+        found.map(|(_, why)| format!("the scene cannot run on several ranks: {why}"))
+    }
+
+    /// Checks where particles are and refreshes the lists, with all ranks where there are several.
+    pub(crate) fn refresh_lists(&mut self) -> Result<(), StepError> {
+        let Some(parts) = &mut self.parts else {
+            guard::positions(&self.world)?;
+            self.world.refresh_lists()?;
+            return Ok(());
+        };
+        let bad = guard::positions(&self.world).err();
+        let expired = self.world.lists_expired()?;
+        match parts.any(bad.is_some(), expired) {
+            Err(PartError::Elsewhere) if bad.is_some() => Err(bad.unwrap_or_else(elsewhere)),
+            Err(other) => Err(other.into()),
+            Ok(false) => Ok(self.world.forget_pruned()),
+            Ok(true) => {
+                self.world.forget_pruned();
+                Ok(parts.rebuild(&mut self.world, costs::<D>)?)
+            }
+        }
+    }
+
+    /// Builds the lists anew, with all ranks where there are several.
+    pub(crate) fn rebuild_lists(&mut self) -> Result<(), StepError> {
+        match &mut self.parts {
+            None => Ok(self.world.rebuild_lists()?),
+            Some(parts) => Ok(parts.rebuild(&mut self.world, costs::<D>)?),
+        }
+    }
+
+    /// The smallest limits of all ranks.
+    pub(crate) fn least_limits(
+        &mut self,
+        mut limits: Vec<StepLimit>,
+    ) -> Result<Vec<StepLimit>, StepError> {
+        if let Some(parts) = &mut self.parts {
+            let mut times: Vec<f64> = limits.iter().map(|l| l.dt).collect();
+            parts.least(&mut times)?;
+            limits.iter_mut().zip(times).for_each(|(l, dt)| l.dt = dt);
+        }
+        Ok(limits)
+    }
+
+    /// Whether any rank has a reason; every rank must ask.
+    pub(crate) fn any_rank(&mut self, own: bool) -> Result<bool, StepError> {
+        match &mut self.parts {
+            None => Ok(own),
+            Some(parts) => Ok(parts.any(false, own)?),
+        }
+    }
+}
+
+fn elsewhere() -> StepError {
+    PartError::Elsewhere.into()
+}
+
+/// Gives guests what work has found for their owners: what was summed over neighbours.
+pub(crate) fn tell_guests<const D: usize>(
+    parts: &mut Option<Parts<D>>,
+    world: &mut World<D>,
+    access: impl FnOnce() -> Access,
+) -> Result<(), StepError> {
+    let Some(parts) = parts else {
+        return Ok(());
+    };
+    let access = access();
+    if access.sweep && !access.writes.is_empty() {
+        parts.all_well()?;
+        parts.tell(&mut world.free, |f| access.writes.contains(f))?;
+    }
+    Ok(())
+}
