@@ -1,8 +1,10 @@
 //! Whether two binaries compute the same bits: the first steps of every shipped scene, on one and on two threads.
 //!
 //! ```sh
-//! cargo run -p sph-tests --example same_bits -- OLD/sph NEW/sph [--steps 3] [scenes/NAME.toml …]
+//! cargo run -p sph-tests --example same_bits -- OLD/sph NEW/sph [--steps 3] [--ranks] [scenes/NAME.toml …]
 //! ```
+//!
+//! With `--ranks` the second binary runs on two and on four ranks, in place of one and two threads.
 //!
 //! Compares all columns of the checkpoints, in which every column of state is; prints a checksum per scene and the
 //! columns that differ, and ends with 1 if any does.
@@ -24,10 +26,12 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     let mut steps = "3".to_string();
+    let mut split = ("--threads", [1, 2]);
     let mut scenes = Vec::new();
     while let Some(argument) = given.next() {
         match argument.as_str() {
             "--steps" => steps = given.next().unwrap_or(steps),
+            "--ranks" => split = ("--ranks", [2, 4]),
             scene => scenes.push(PathBuf::from(scene)),
         }
     }
@@ -37,8 +41,14 @@ fn main() -> ExitCode {
     let (mut same, mut other) = (0, 0);
     for scene in &scenes {
         let name = scene.file_stem().unwrap_or_default().to_string_lossy();
-        let all = [(&old, 1), (&new, 1), (&new, 2)];
-        let all = all.map(|(binary, threads)| sums(binary, scene, threads, &steps));
+        let (option, [few, more]) = split;
+        let all = [
+            (&old, "--threads", 1),
+            (&new, option, few),
+            (&new, option, more),
+        ];
+        let all =
+            all.map(|(binary, option, n)| sums(binary, scene, [option, &n.to_string()], &steps));
         match all {
             [Ok(before), Ok(one), Ok(two)] => {
                 let differ = [differing(&before, &one), differing(&before, &two)];
@@ -52,7 +62,7 @@ fn main() -> ExitCode {
                 } else {
                     other += 1;
                     let [one, two] = differ.map(|d| d.join(", "));
-                    println!("{name}: DIFFERS on one thread: {one}; on two: {two}");
+                    println!("{name}: DIFFERS with {option} {few}: {one}; {more}: {two}");
                 }
             }
             [before, one, two] => {
@@ -80,10 +90,11 @@ fn shipped() -> Vec<PathBuf> {
 }
 
 /// Checksums of the columns after the first steps, or what the binary said.
-fn sums(binary: &str, scene: &Path, threads: usize, steps: &str) -> Result<Sums, String> {
+fn sums(binary: &str, scene: &Path, split: [&str; 2], steps: &str) -> Result<Sums, String> {
     let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
     let run = Command::new(binary)
-        .args(["run", "--quiet", "--threads", &threads.to_string()])
+        .args(["run", "--quiet"])
+        .args(split)
         .args(["--set", &format!("run.max_steps={steps}"), "--out"])
         .arg(folder.path())
         .arg(scene)

@@ -28,4 +28,4 @@ pub use exchange::{Exchange, exchanges};
 pub use halo::Halo;
 pub use parts::{OWNER, Parts, Traffic};
 pub use threads::Thread;
-pub use transport::{Transport, TransportError, larger};
+pub use transport::{Transport, TransportError};

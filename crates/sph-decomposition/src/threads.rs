@@ -104,7 +104,7 @@ mod tests {
         for (rank, (all, largest, total, traded, gathered)) in found.into_iter().enumerate() {
             assert_eq!(all, vec![vec![0], vec![1], vec![2], vec![3]]);
             assert_eq!(largest[..2], [3.0, 0.0]);
-            assert!(largest[2].is_nan());
+            assert_eq!(largest[2], f64::INFINITY);
             assert_eq!(total, [6, 4]);
             let rank64 = rank as u64;
             assert_eq!(

@@ -60,7 +60,7 @@ pub trait Transport: Send + Sync + Debug {
         Ok(all)
     }
 
-    /// Replaces each value by the largest that any rank has. NaN counts as the largest.
+    /// Replaces each value by the largest that any rank has; NaN counts as infinite.
     ///
     /// # Errors
     /// As [`swap`](Self::swap).
@@ -114,10 +114,8 @@ pub trait Transport: Send + Sync + Debug {
     }
 }
 
-/// The larger one; NaN is larger than any number.
-pub fn larger(a: f64, b: f64) -> f64 {
-    match a.is_nan() || b <= a {
-        true => a,
-        false => b,
-    }
+/// The larger one; NaN counts as infinite.
+fn larger(a: f64, b: f64) -> f64 {
+    let number = |v: f64| if v.is_nan() { f64::INFINITY } else { v };
+    number(a).max(number(b))
 }

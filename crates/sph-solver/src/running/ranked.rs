@@ -15,6 +15,44 @@ use crate::running::run::{Running, run_part};
 use crate::setup::assemble::{Assembled, assemble};
 use crate::step::stages::lock;
 
+/// Whether all ranks are ready, which all must ask.
+pub(crate) fn all_ready<T>(
+    ranks: &dyn Transport,
+    ready: Result<T, SolverError>,
+) -> Result<T, SolverError> {
+    let mut failed = [f64::from(u8::from(ready.is_err()))];
+    let told = ranks.largest(&mut failed).map_err(PartError::from);
+    let ready = ready?;
+    told.map_err(StepError::from)?;
+    match failed[0] > 0.0 {
+        true => Err(StepError::from(PartError::Elsewhere).into()),
+        false => Ok(ready),
+    }
+}
+
+/// Refuses what cannot be divided between ranks, before anything is written.
+pub(crate) fn refuse_the_indivisible<const D: usize>(
+    parts: &Assembled<D>,
+    ranks: usize,
+) -> Result<(), SolverError> {
+    if parts.integrator.keeps_state() {
+        let why = "it goes back to a state within a step, which cannot follow particles to another rank: take \
+                   `symplectic-euler` for several ranks";
+        return Err(SolverError::at("integrator", why));
+    }
+    if let Some(why) = parts.flow.indivisible() {
+        return Err(SolverError::at("", why));
+    }
+    let particles = parts.flow.world.free.len();
+    match ranks > particles {
+        true => Err(SolverError::at(
+            "",
+            format!("{ranks} ranks for {particles} particles: some would own nothing"),
+        )),
+        false => Ok(()),
+    }
+}
+
 /// Leaves this rank its part; the first gets another assembly, for the whole.
 pub(crate) fn divide<const D: usize>(
     scene: &Scene,
@@ -22,11 +60,6 @@ pub(crate) fn divide<const D: usize>(
     ranks: Arc<dyn Transport>,
     parts: &mut Assembled<D>,
 ) -> Result<Option<Assembled<D>>, SolverError> {
-    if parts.integrator.keeps_state() {
-        let why = "it goes back to a state within a step, which cannot follow particles to another rank: take \
-                   `symplectic-euler` for several ranks";
-        return Err(SolverError::at("integrator", why));
-    }
     let mut whole = None;
     if ranks.rank() == 0 {
         let mut all = assemble::<D>(scene)?;

@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use sph_core::{StepError, StepLimit, System};
 use sph_decomposition::Transport;
+use sph_io::FolderLock;
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
@@ -102,17 +103,34 @@ fn run_in<const D: usize>(
     ranks: Option<Arc<dyn Transport>>,
     observer: &mut (dyn Observer + Send),
 ) -> Result<Option<Summary>, SolverError> {
+    let mut lock = None;
+    let ready = ready::<D>(scene, options, ranks.clone(), (&mut lock, &mut *observer));
+    let mut running = match ranks {
+        None => ready?,
+        Some(ranks) => ranked::all_ready(&*ranks, ready)?,
+    };
+    let status = running.go(observer)?;
+    running.finish(status)
+}
+
+/// Everything before the first step; what may be refused comes before anything is written.
+fn ready<'a, const D: usize>(
+    scene: &'a Scene,
+    options: &'a RunOptions,
+    ranks: Option<Arc<dyn Transport>>,
+    (lock, observer): (&mut Option<FolderLock>, &mut (dyn Observer + Send)),
+) -> Result<Running<'a, D>, SolverError> {
     let mut parts = assemble::<D>(scene)?;
     crate::running::series::rehearse(scene, &mut parts.flow, &parts.probes)?;
     references::readable(scene)?;
     let tiny = tiny_steps(scene, &parts.flow)?;
     parts.warnings.extend(tiny);
     let writes = ranks.as_ref().is_none_or(|ranks| ranks.rank() == 0);
-    let _lock = match writes {
-        true => Some(crate::running::lock::take(&options.out, observer)?),
-        false => None,
-    };
+    if let Some(ranks) = &ranks {
+        ranked::refuse_the_indivisible(&parts, ranks.ranks())?;
+    }
     if writes {
+        *lock = Some(crate::running::lock::take(&options.out, observer)?);
         sph_io::writable(&options.out)?;
         sph_io::sweep_temporaries(&options.out)?;
     }
@@ -134,7 +152,7 @@ fn run_in<const D: usize>(
     for warning in &parts.warnings {
         observer.message(&format!("note: {warning}"));
     }
-    let mut running = Running {
+    Ok(Running {
         scene,
         options,
         parts,
@@ -145,9 +163,7 @@ fn run_in<const D: usize>(
         output_seconds: 0.0,
         tried: (0.0, "none"),
         mach: MachWatch::default(),
-    };
-    let status = running.go(observer)?;
-    running.finish(status)
+    })
 }
 
 impl Files {

@@ -16,11 +16,8 @@ impl<const D: usize> Flow<D> {
     /// Leaves this rank its part; every rank holds the whole before.
     ///
     /// # Errors
-    /// Plugins that need all particles at once; more ranks than particles.
+    /// More ranks than particles.
     pub(crate) fn divide(&mut self, transport: Arc<dyn Transport>) -> Result<(), SolverError> {
-        if let Some(why) = self.indivisible() {
-            return Err(SolverError::at("", why));
-        }
         let costs = costs(&self.world);
         let rings = self.stages.iter().map(|s| s.rings());
         let rings = rings.chain(self.works.iter().map(|w| w.rings()));
