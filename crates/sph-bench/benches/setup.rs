@@ -68,6 +68,7 @@ pub fn world(side: usize) -> World<2> {
         dt: 1e-4,
         transported: Vec::new(),
         extent: None,
+        team: None,
     };
     world.free.add(fields::POSITION, Role::State);
     world.free.add(fields::VELOCITY, Role::State);

@@ -175,6 +175,7 @@ impl<const D: usize> Flow<D> {
             dt: 0.0,
             transported: Vec::new(),
             extent: None,
+            team: None,
         };
         world.refresh_lists().expect("positions");
         wall.geometry(&mut world).expect("geometry");

@@ -4,12 +4,14 @@
 //! since some of their neighbours are missing: it is overwritten with what their owner found. All that follows from a
 //! particle's own columns is the same on both ranks, to the bit.
 
-use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, PoisonError};
 
 use sph_core::{AnyField, Field, Index, Role, Store, Vect, fields};
 use sph_neighbours::{Extent, World};
 
 use crate::guests::{Around, Needs, positions};
+use crate::link::{Link, Partner, Partners};
 use crate::{Cuts, Divided, PartError, Thread, Transport};
 
 /// The rank that owns a particle.
@@ -33,25 +35,17 @@ pub struct Traffic {
     pub cuts: u64,
 }
 
-/// Slots that are sent to, or received from, a rank.
-type Partner = (usize, Vec<u32>);
-
 /// A rank's part of a flow.
 #[derive(Debug)]
 pub struct Parts<const D: usize> {
-    pub(crate) transport: Arc<dyn Transport>,
+    pub(crate) link: Arc<Link>,
     cuts: Cuts<D>,
-    /// Own particles that others have as guests, by rank.
-    sends: Vec<Partner>,
-    /// Guests, by their owner.
-    receives: Vec<Partner>,
-    traffic: Traffic,
+    /// Particles that went to another rank, and how often the space was cut anew.
+    changes: [u64; 2],
     /// Rebuilds since the parts were looked at.
     builds: u64,
     /// How often a stage goes from particles to their neighbours.
     rings: usize,
-    /// Whether all ranks know of the failure at hand.
-    pub(crate) told: bool,
 }
 
 impl<const D: usize> Parts<D> {
@@ -98,84 +92,79 @@ impl<const D: usize> Parts<D> {
         world.free.keep_slots(&kept);
         let points = world.lists.reference_points().clone();
         world.build_lists_from(places, points, world.lists.time);
-        let mut parts = Parts {
-            transport,
+        let link = Arc::new(Link::new(transport));
+        world.team = Some(link.clone());
+        let parts = Parts {
+            link,
             cuts,
-            sends,
-            receives: Vec::new(),
-            traffic: Traffic::default(),
+            changes: [0; 2],
             builds: 0,
             rings,
-            told: false,
         };
-        parts.know_guests(&world.free)?;
+        parts.know_guests(&world.free, sends)?;
         Ok(parts)
     }
 
     /// The ranks' connection.
     pub fn transport(&self) -> &Arc<dyn Transport> {
-        &self.transport
+        &self.link.transport
     }
 
     /// Whether this rank writes what all found.
     pub fn is_first(&self) -> bool {
-        self.transport.rank() == 0
+        self.link.transport.rank() == 0
     }
 
     /// What has been sent so far.
     pub fn traffic(&self) -> Traffic {
-        self.traffic
+        Traffic {
+            messages: self.link.messages.load(Ordering::Relaxed),
+            bytes: self.link.bytes.load(Ordering::Relaxed),
+            moved: self.changes[0],
+            cuts: self.changes[1],
+        }
     }
 
     /// How the particles are divided.
     pub fn divided(&self, free: &Store<D>) -> Divided {
-        let guests: usize = self.receives.iter().map(|(_, slots)| slots.len()).sum();
+        let partners = self.link.partners();
+        let count = |all: &[Partner]| all.iter().map(|(_, slots)| slots.len()).sum::<usize>();
+        let guests = count(&partners.receives);
         Divided {
             own: free.len() - guests,
             guests,
-            sent: self.sends.iter().map(|(_, slots)| slots.len()).sum(),
+            sent: count(&partners.sends),
         }
     }
 
     /// Finds the guests, by their owners; drops partners with whom there is nothing to share.
-    fn know_guests(&mut self, free: &Store<D>) -> Result<(), PartError> {
+    fn know_guests(&self, free: &Store<D>, mut sends: Vec<Partner>) -> Result<(), PartError> {
         let owners = free.get(OWNER)?;
-        let rank = self.transport.rank();
-        let mut receives: Vec<Partner> = (0..self.transport.ranks()).map(|r| (r, vec![])).collect();
+        let rank = self.link.transport.rank();
+        let ranks = self.link.transport.ranks();
+        let mut receives: Vec<Partner> = (0..ranks).map(|r| (r, vec![])).collect();
         for (slot, owner) in owners.iter().enumerate() {
             if *owner as usize != rank {
                 receives[*owner as usize].1.push(slot as u32);
             }
         }
-        self.receives = receives;
-        self.receives.retain(|(_, slots)| !slots.is_empty());
-        self.sends.retain(|(_, slots)| !slots.is_empty());
+        receives.retain(|(_, slots)| !slots.is_empty());
+        sends.retain(|(_, slots)| !slots.is_empty());
+        let partners = self.link.partners.write();
+        *partners.unwrap_or_else(PoisonError::into_inner) = Partners { sends, receives };
         Ok(())
     }
 
     /// Gives guests the values of their owners in the columns that are `wanted`.
     ///
     /// # Errors
-    /// Messages that fail.
+    /// Another rank that has failed; messages that fail.
     pub fn tell(
         &mut self,
         free: &mut Store<D>,
         wanted: impl Fn(&AnyField) -> bool,
     ) -> Result<(), PartError> {
-        let message = |(rank, slots): &Partner| {
-            let mut message = Vec::new();
-            free.pack(&wanted, slots, &mut message);
-            (*rank, message)
-        };
-        let out: Vec<_> = self.sends.iter().map(message).collect();
-        self.traffic.messages += out.len() as u64;
-        self.traffic.bytes += out.iter().map(|(_, m)| m.len() as u64).sum::<u64>();
-        let from: Vec<usize> = self.receives.iter().map(|(rank, _)| *rank).collect();
-        let messages = self.transport.swap(out, &from)?;
-        for ((_, slots), message) in self.receives.iter().zip(messages) {
-            free.unpack(&wanted, slots, &message)?;
-        }
-        Ok(())
+        self.link.tell(free, wanted)
     }
 
     /// Gives every particle to the rank that owns its place, finds all guests anew, and builds the lists. `cost` is that of every
@@ -190,7 +179,7 @@ impl<const D: usize> Parts<D> {
     ) -> Result<(), PartError> {
         self.balance(world, cost)?;
         world.wrap()?;
-        let rank = self.transport.rank() as u32;
+        let rank = self.link.transport.rank() as u32;
         let owners = world.free.get(OWNER)?;
         let own: Vec<u32> = (0..owners.len())
             .filter(|k| owners[*k] == rank)
@@ -203,7 +192,7 @@ impl<const D: usize> Parts<D> {
         let places = positions(world);
         let needs = Needs::of(world, self.rings);
         let to = |r: &usize| (*r, needs.slots(&places, &around[*r], |_| true));
-        let sends: Vec<Partner> = self.transport.others().iter().map(to).collect();
+        let sends: Vec<Partner> = self.link.transport.others().iter().map(to).collect();
         drop(needs);
         self.deliver(world, &sends)?;
         world.extent = Some(self.extent(&places)?);
@@ -211,9 +200,9 @@ impl<const D: usize> Parts<D> {
         if let Some(order) = &order {
             world.free.permute_derived(order);
         }
-        self.sends = sorted(sends, order.as_deref(), own);
+        let sends = sorted(sends, order.as_deref(), own);
         world.rebuild_lists()?;
-        self.know_guests(&world.free)
+        self.know_guests(&world.free, sends)
     }
 
     /// Cuts the space anew where the parts have become uneven.
@@ -227,7 +216,7 @@ impl<const D: usize> Parts<D> {
             return Ok(());
         }
         self.builds = 0;
-        let rank = self.transport.rank() as u32;
+        let rank = self.link.transport.rank() as u32;
         let owners = world.free.get(OWNER)?;
         let position = world.free.get(fields::POSITION)?;
         let costs = cost(world);
@@ -235,25 +224,25 @@ impl<const D: usize> Parts<D> {
         let costs: Vec<f64> = own().map(|(k, _)| costs[k]).collect();
         let sum: f64 = costs.iter().sum();
         let mut most = [sum];
-        self.transport.largest(&mut most)?;
+        self.link.transport.largest(&mut most)?;
         // Sums in whole numbers do not depend on their order.
         let mut total = [(sum / most[0].max(f64::MIN_POSITIVE) * 1e6) as u64];
-        self.transport.total(&mut total)?;
-        let ranks = self.transport.ranks();
+        self.link.transport.total(&mut total)?;
+        let ranks = self.link.transport.ranks();
         if 1e6 * ranks as f64 <= (1.0 + UNEVEN) * total[0] as f64 {
             return Ok(());
         }
         let places: Vec<Vect<D>> = own()
             .map(|(k, _)| world.domain.wrapped(position[k]))
             .collect();
-        self.cuts = Cuts::of(&places, &costs, ranks, &*self.transport)?;
-        self.traffic.cuts += 1;
+        self.cuts = Cuts::of(&places, &costs, ranks, &*self.link.transport)?;
+        self.changes[1] += 1;
         Ok(())
     }
 
     /// Particles go to the rank that owns their place; guests must have been dropped.
     fn move_house(&mut self, world: &mut World<D>) -> Result<(), PartError> {
-        let (rank, ranks) = (self.transport.rank(), self.transport.ranks());
+        let (rank, ranks) = (self.link.transport.rank(), self.link.transport.ranks());
         let owners: Vec<u32> = positions(world)
             .iter()
             .map(|x| self.cuts.owner(x))
@@ -266,7 +255,7 @@ impl<const D: usize> Parts<D> {
         let stay = std::mem::take(&mut leaving[rank].1);
         leaving.retain(|(_, slots)| !slots.is_empty());
         let moved: usize = leaving.iter().map(|(_, slots)| slots.len()).sum();
-        self.traffic.moved += moved as u64;
+        self.changes[0] += moved as u64;
         let leavers = self.pack(world, &leaving);
         world.free.keep_slots(&stay);
         self.receive(world, leavers)
@@ -295,16 +284,15 @@ impl<const D: usize> Parts<D> {
         out: Vec<(usize, Vec<u8>)>,
     ) -> Result<(), PartError> {
         let each = world.free.bytes_per_particle();
-        let mut numbers = vec![0; self.transport.ranks()];
+        let mut numbers = vec![0; self.link.transport.ranks()];
         for (rank, message) in &out {
             numbers[*rank] = (message.len() / each) as u64;
         }
-        self.traffic.messages += out.len() as u64;
-        self.traffic.bytes += out.iter().map(|(_, m)| m.len() as u64).sum::<u64>();
-        let mut come = self.transport.trade(&numbers)?;
-        come[self.transport.rank()] = 0;
+        self.link.count(&out);
+        let mut come = self.link.transport.trade(&numbers)?;
+        come[self.link.transport.rank()] = 0;
         let from: Vec<usize> = (0..come.len()).filter(|r| come[*r] > 0).collect();
-        let messages = self.transport.swap(out, &from)?;
+        let messages = self.link.transport.swap(out, &from)?;
         for (rank, message) in from.into_iter().zip(messages) {
             let first = world.free.len();
             let slots: Vec<u32> = (first..first + come[rank] as usize)
@@ -329,7 +317,13 @@ impl<const D: usize> Parts<D> {
                 upper: Vect::from_fn(|k, _| at(D + k)),
             }
         };
-        Ok(self.transport.all(&bytes)?.into_iter().map(read).collect())
+        Ok(self
+            .link
+            .transport
+            .all(&bytes)?
+            .into_iter()
+            .map(read)
+            .collect())
     }
 
     /// The extent of the particles of all ranks; `own` are those of this one.
@@ -341,88 +335,15 @@ impl<const D: usize> Parts<D> {
             .map(|x| -x)
             .chain(around.upper.iter().copied());
         let mut corners: Vec<f64> = numbers.collect();
-        self.transport.largest(&mut corners)?;
+        self.link.transport.largest(&mut corners)?;
         let mut points = [own.len() as u64];
-        self.transport.total(&mut points)?;
+        self.link.transport.total(&mut points)?;
         Ok(Extent {
             lower: Vect::from_fn(|k, _| -corners[k]),
             upper: Vect::from_fn(|k, _| corners[D + k]),
             points: points[0] as usize,
         })
     }
-
-    /// Gathers the particles of all ranks into a store with the same columns, but for the owner, sorted as one process would have
-    /// them, at rank 0; `along` are columns of one's own that come with them.
-    ///
-    /// # Errors
-    /// Messages that fail; a column that is missing.
-    pub fn gather(
-        &mut self,
-        world: &World<D>,
-        whole: Option<&mut World<D>>,
-    ) -> Result<(), PartError> {
-        let rank = self.transport.rank() as u32;
-        let owners = world.free.get(OWNER)?;
-        let own = |k: &usize| owners[*k] == rank;
-        let slots: Vec<u32> = (0..owners.len()).filter(own).map(|k| k as u32).collect();
-        let mut message = Vec::new();
-        let wanted = |f: &AnyField| f.name != OWNER.name;
-        world.free.pack(wanted, &slots, &mut message);
-        let reference = &world.lists.reference;
-        let numbers = slots.iter().flat_map(|s| reference[*s as usize].iter());
-        numbers.for_each(|x| message.extend_from_slice(&x.to_le_bytes()));
-        let messages = self.transport.gather(message)?;
-        match whole {
-            Some(whole) => join(world, whole, &messages),
-            None => Ok(()),
-        }
-    }
-}
-
-/// Fills the whole with what all ranks have sent.
-fn join<const D: usize>(
-    part: &World<D>,
-    whole: &mut World<D>,
-    messages: &[Vec<u8>],
-) -> Result<(), PartError> {
-    let wanted = |f: &AnyField| f.name != OWNER.name;
-    // Columns that came into being on the way.
-    let missing: Vec<_> = part
-        .free
-        .columns()
-        .map(|(name, _, role, ..)| (name, role))
-        .collect();
-    for (field, (_, role)) in part.free.fields().zip(missing) {
-        if wanted(&field) {
-            whole.free.add_any(field, role);
-        }
-    }
-    let each = part.free.parcel_bytes(wanted);
-    let with = each + 8 * D;
-    let total: usize = messages.iter().map(|m| m.len() / with).sum();
-    whole.free.set_len(total);
-    let mut reference = Vec::with_capacity(total);
-    let mut first = 0_u32;
-    for message in messages {
-        let count = message.len() / with;
-        let (columns, places) = message.split_at(count * each);
-        let slots: Vec<u32> = (first..first + count as u32).collect();
-        whole.free.unpack(wanted, &slots, columns)?;
-        for place in places.as_chunks::<8>().0.chunks_exact(D) {
-            reference.push(Vect::from_fn(|k, _| f64::from_le_bytes(place[k])));
-        }
-        first += count as u32;
-    }
-    let order = whole.order_at(&reference)?;
-    if let Some(order) = order {
-        reference = order.iter().map(|k| reference[*k as usize]).collect();
-        whole.free.keep_slots(&order);
-    }
-    whole.time = part.time;
-    whole.dt = part.dt;
-    let points = part.lists.reference_points().clone();
-    whole.build_lists_from(reference, points, part.lists.time);
-    Ok(())
 }
 
 /// The slots that are sent, after the particles have been sorted, ascending: then the guests of a rank are in the same order as

@@ -39,6 +39,7 @@ mod row;
 mod separation;
 mod shares;
 mod sweep;
+mod team;
 mod term;
 mod walk;
 mod wall_force;
@@ -73,6 +74,7 @@ pub use row::{NOBODY, Neighbourhood, Row, Scratch, There};
 pub use shares::{TermShare, shares_at};
 pub use sph_lanes::{Lane, MOST, add_scaled, dot, scaled};
 pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
+pub use team::Team;
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,
     TermEntry,

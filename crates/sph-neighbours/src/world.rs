@@ -1,10 +1,12 @@
 //! What stages and terms see of a running scene.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use sph_core::{AnyField, Field, FieldError, Scalar, Shelf, Store, Vect, fields};
 use sph_kernels::Sampler;
 
-use crate::{CellGrid, Clusters, Domain, Extent, NeighbourList, WallSet};
+use crate::{CellGrid, Clusters, Domain, Extent, NeighbourList, Team, WallSet};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
 #[derive(Default)]
@@ -72,6 +74,8 @@ pub struct World<const D: usize> {
     pub transported: Vec<AnyField>,
     /// That of all particles, where others hold some of them; `None` where all are here.
     pub extent: Option<Extent<D>>,
+    /// Others who hold particles of this flow; `None` where all are here.
+    pub team: Option<Arc<dyn Team<D>>>,
 }
 
 impl<const D: usize> World<D> {

@@ -114,6 +114,7 @@ impl Bench {
                 dt: 0.0,
                 transported: Vec::new(),
                 extent: None,
+                team: None,
             },
         };
         bench.refresh();

@@ -90,6 +90,7 @@ impl<const D: usize> Bench<D> {
                 dt: 0.0,
                 transported: Vec::new(),
                 extent: None,
+                team: None,
             },
         };
         bench.refresh();

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value as Json;
 use sph_scene::{Loaded, Source};
 use sph_solver::{
-    Identity, Observer, RunOptions, SolverError, Start, Status, Summary, run, run_on_threads, run_part,
+    Identity, Observer, RunOptions, SolverError, Start, Status, Summary, run, run_on_threads,
+    run_part,
 };
 
 use crate::arguments::RunArguments;
@@ -60,7 +61,9 @@ pub fn execute(
     look_before_writing(arguments, &out)?;
     match &opened.scene {
         AnyScene::Particles(loaded) => particles(arguments, loaded, &out, observer),
-        AnyScene::Grains(_) if arguments.ranks.is_some_and(|n| n > 1) || ranks::team().is_some() => {
+        AnyScene::Grains(_)
+            if arguments.ranks.is_some_and(|n| n > 1) || ranks::team().is_some() =>
+        {
             Err(Trouble::usage("a scene of grains runs on one rank"))
         }
         AnyScene::Grains(loaded) => grains::run::execute(arguments, loaded, &out, observer),
@@ -82,7 +85,8 @@ fn particles(
     };
     let result = match (ranks::team(), arguments.ranks.map(usize::from)) {
         (Some(_), Some(2..)) => {
-            let text = "--ranks divides this process, and mpirun has started several: leave out --ranks";
+            let text =
+                "--ranks divides this process, and mpirun has started several: leave out --ranks";
             return Err(Trouble::usage(text));
         }
         (Some(team), _) => run_part(&loaded.scene, &options, team, observer),

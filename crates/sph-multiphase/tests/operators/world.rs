@@ -43,6 +43,7 @@ pub fn world<const D: usize>(
         dt: 1.0,
         transported: Vec::new(),
         extent: None,
+        team: None,
     };
     world.rebuild_lists().unwrap();
     world

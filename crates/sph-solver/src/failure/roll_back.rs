@@ -11,9 +11,9 @@ use crate::failure::remedies::remedies;
 use crate::failure::trouble::Trouble;
 use crate::results::summary::Status;
 use crate::running::checkpoint;
+use crate::running::course::Running;
 use crate::running::driver::Observer;
 use crate::running::output::{BAD_STATE, write_everything};
-use crate::running::run::Running;
 use crate::step::snapshot::Snapshot;
 
 /// Ways within a step, in spacings, beyond which the particle is shown where it was.

@@ -10,7 +10,7 @@ use crate::results::advice::{self, Costs};
 use crate::results::balance::Balance;
 use crate::results::summary::{Drift, ErrorEntry, SCHEMA_VERSION, Status, Summary};
 use crate::results::{reference_plots, references};
-use crate::running::run::Running;
+use crate::running::course::Running;
 use crate::setup::memory::Memory;
 
 /// Mach number up to which densities stay within Ma² = 1 % of the reference (Monaghan 1994).

@@ -3,15 +3,13 @@
 use std::sync::Arc;
 
 use sph_core::{StepError, System};
-use sph_decomposition::{PartError, Thread, Transport};
+use sph_decomposition::{PartError, Transport};
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
-use crate::results::summary::Summary;
 use crate::running::beginning::begin;
-use crate::running::driver::Observer;
+use crate::running::course::Running;
 use crate::running::options::RunOptions;
-use crate::running::run::{Running, run_part};
 use crate::setup::assemble::{Assembled, assemble};
 use crate::step::stages::lock;
 
@@ -70,47 +68,6 @@ pub(crate) fn divide<const D: usize>(
     Ok(whole)
 }
 
-/// Runs a scene on several ranks that are threads of this process.
-///
-/// The results are those of one rank, to the bit. What it is good for is to see how a scene divides, without a cluster.
-///
-/// # Errors
-/// As [`run_part`].
-pub fn run_on_threads(
-    scene: &Scene,
-    options: &RunOptions,
-    ranks: usize,
-    observer: &mut (dyn Observer + Send),
-) -> Result<Summary, SolverError> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let options = &RunOptions {
-        threads: options.threads.or(Some((cores / ranks).max(1))),
-        ..options.clone()
-    };
-    std::thread::scope(|scope| {
-        let mut team = Thread::team(ranks).into_iter();
-        let first = team.next();
-        let part = |rank: Thread| move || run_part(scene, options, Arc::new(rank), &mut ());
-        let others: Vec<_> = team.map(|rank| scope.spawn(part(rank))).collect();
-        let first = match first {
-            Some(first) => run_part(scene, options, Arc::new(first), observer),
-            None => Err(SolverError::at("--ranks", "there must be one at least")),
-        };
-        for other in others {
-            let ended = other.join().unwrap_or_else(|_| Err(panicked()));
-            // The first rank has told of it, if it could.
-            if first.is_ok() {
-                ended?;
-            }
-        }
-        first?.ok_or_else(panicked)
-    })
-}
-
-fn panicked() -> SolverError {
-    SolverError::at("--ranks", "a rank ended without a result")
-}
-
 impl<const D: usize> Running<'_, D> {
     /// What is shown and measured: the whole flow, where this process has it.
     pub(crate) fn shown(&self) -> &Assembled<D> {
@@ -137,6 +94,7 @@ impl<const D: usize> Running<'_, D> {
             let moved = lock(all).put_back(set, &states, time);
             moved.map_err(|e| SolverError::at("wall", e.to_string()))?;
         }
+        whole.loads.clone_from(&flow.loads);
         whole.world.lists.builds = flow.world.lists.builds;
         whole.restored = true;
         if evaluated {

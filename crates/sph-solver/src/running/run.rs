@@ -7,26 +7,23 @@ use std::time::Instant;
 
 use sph_core::{StepError, StepLimit, System};
 use sph_decomposition::Transport;
-use sph_io::FolderLock;
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
 use crate::results::balance::Balance;
-use crate::results::references;
 use crate::results::summary::{Status, Summary};
-use crate::running::beginning::begin;
 use crate::running::checkpoint;
 use crate::running::clock::standing_still;
 use crate::running::counters::Counters;
+use crate::running::course::Running;
 use crate::running::driver::{Command, Observer, Progress};
 use crate::running::mach::MachWatch;
 use crate::running::next_step::next_step;
 use crate::running::options::{RunOptions, Start};
-use crate::running::output::Outputs;
 use crate::running::ranked;
-use crate::running::series::{Probes, Series};
-use crate::setup::assemble::{Assembled, assemble};
-use crate::setup::estimate::tiny_steps;
+use crate::running::ready::ready;
+use crate::running::series::Probes;
+use crate::setup::assemble::Assembled;
 use crate::step::guard;
 use crate::step::snapshot::Snapshot;
 
@@ -75,28 +72,6 @@ fn run_with(
     })
 }
 
-pub(crate) struct Running<'a, const D: usize> {
-    pub(crate) scene: &'a Scene,
-    pub(crate) options: &'a RunOptions,
-    pub(crate) parts: Assembled<D>,
-    /// All of a flow of which `parts` has this rank's part; on the first of several ranks alone.
-    pub(crate) whole: Option<Assembled<D>>,
-    pub(crate) counters: Counters,
-    /// What this process writes; nothing on ranks behind the first.
-    pub(crate) files: Option<Files>,
-    pub(crate) started: Instant,
-    pub(crate) output_seconds: f64,
-    /// The last step that was tried, s, and what limited it.
-    pub(crate) tried: (f64, &'static str),
-    pub(crate) mach: MachWatch,
-}
-
-/// What is written while a scene runs.
-pub(crate) struct Files {
-    pub(crate) outputs: Outputs,
-    pub(crate) series: Series,
-}
-
 fn run_in<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
@@ -111,86 +86,6 @@ fn run_in<const D: usize>(
     };
     let status = running.go(observer)?;
     running.finish(status)
-}
-
-/// Everything before the first step; what may be refused comes before anything is written.
-fn ready<'a, const D: usize>(
-    scene: &'a Scene,
-    options: &'a RunOptions,
-    ranks: Option<Arc<dyn Transport>>,
-    (lock, observer): (&mut Option<FolderLock>, &mut (dyn Observer + Send)),
-) -> Result<Running<'a, D>, SolverError> {
-    let mut parts = assemble::<D>(scene)?;
-    crate::running::series::rehearse(scene, &mut parts.flow, &parts.probes)?;
-    references::readable(scene)?;
-    let tiny = tiny_steps(scene, &parts.flow)?;
-    parts.warnings.extend(tiny);
-    let writes = ranks.as_ref().is_none_or(|ranks| ranks.rank() == 0);
-    if let Some(ranks) = &ranks {
-        ranked::refuse_the_indivisible(&parts, ranks.ranks())?;
-    }
-    if writes {
-        *lock = Some(crate::running::lock::take(&options.out, observer)?);
-        sph_io::writable(&options.out)?;
-        sph_io::sweep_temporaries(&options.out)?;
-    }
-    let mut counters = begin(scene, options, writes, &mut parts.flow, observer)?;
-    let whole = match ranks {
-        None => None,
-        Some(ranks) => ranked::divide(scene, options, ranks, &mut parts)?,
-    };
-    let shown = whole.as_ref().unwrap_or(&parts);
-    for (name, probe) in &shown.probes {
-        if let Some(gathered) = counters.probes.remove(name) {
-            probe.recall(&gathered);
-        }
-    }
-    let files = match writes {
-        true => Some(Files::open(scene, options, shown, &counters)?),
-        false => None,
-    };
-    for warning in &parts.warnings {
-        observer.message(&format!("note: {warning}"));
-    }
-    Ok(Running {
-        scene,
-        options,
-        parts,
-        whole,
-        counters,
-        files,
-        started: Instant::now(),
-        output_seconds: 0.0,
-        tried: (0.0, "none"),
-        mach: MachWatch::default(),
-    })
-}
-
-impl Files {
-    fn open<const D: usize>(
-        scene: &Scene,
-        options: &RunOptions,
-        shown: &Assembled<D>,
-        counters: &Counters,
-    ) -> Result<Self, SolverError> {
-        let (flow, probes) = (&shown.flow, &shown.probes);
-        let resumed = options.start.goes_on().then_some(counters);
-        let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
-        // First what may be refused: a changed scene may measure other columns.
-        let mut series = Series::open(&options.out, flow.outlets.labels(), probes, at)?;
-        let changed = options.start == Start::Changed;
-        let outputs = Outputs::open(
-            scene,
-            probes,
-            &options.out,
-            resumed.map(|c| c.outputs),
-            changed.then_some(flow.world.time),
-        )?;
-        if let Some(peaks) = counters.series_peaks {
-            series.peaks = peaks.map(f64::from_bits);
-        }
-        Ok(Files { outputs, series })
-    }
 }
 
 /// What probes have gathered, by their names.

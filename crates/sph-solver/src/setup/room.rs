@@ -76,6 +76,7 @@ impl<const D: usize> Room<D> {
             dt: 0.0,
             transported: Vec::new(),
             extent: None,
+            team: None,
         };
         Ok(Room {
             world,

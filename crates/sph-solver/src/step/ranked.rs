@@ -10,7 +10,6 @@ use crate::SolverError;
 use crate::step::cost::costs;
 use crate::step::flow::Flow;
 use crate::step::guard;
-use crate::step::stages::lock;
 
 impl<const D: usize> Flow<D> {
     /// Leaves this rank its part; every rank holds the whole before.
@@ -36,17 +35,9 @@ impl<const D: usize> Flow<D> {
         if let Some((name, why)) = all.find_map(|(name, why)| Some((name, why?))) {
             return Some(format!("`{name}` cannot run on several ranks: {why}"));
         }
-        let moved = self.walls.as_ref().is_some_and(|walls| {
-            let walls = lock(walls);
-            (0..self.world.walls.names.len()).any(|k| walls.feels(k))
-        });
         let enters = self.nursery.is_some() || self.works.iter().any(|w| w.gives_birth());
         let leaves = !self.outlets.is_empty() || self.works.iter().any(|w| !w.exits().is_empty());
         let one = [
-            (
-                moved,
-                "a wall that the fluid moves feels the fluid of all ranks",
-            ),
             (
                 enters,
                 "particles come in, whose numbers all ranks would have to agree on",
@@ -126,7 +117,6 @@ pub(crate) fn tell_guests<const D: usize>(
     };
     let access = access();
     if access.sweep && !access.writes.is_empty() {
-        parts.all_well()?;
         parts.tell(&mut world.free, |f| access.writes.contains(f))?;
     }
     Ok(())
