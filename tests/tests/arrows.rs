@@ -51,6 +51,7 @@ const ALLOWED: [(&str, &[&str]); 35] = [
         ],
     ),
     ("sph-decomposition", &["sph-core", "sph-neighbours"]),
+    ("sph-mpi", &["sph-decomposition"]),
     ("sph-rheology", &["sph-core"]),
     ("sph-state", &["sph-core", "sph-neighbours"]),
     (
@@ -149,8 +150,10 @@ const ALLOWED: [(&str, &[&str]); 35] = [
             "sph-bodies",
             "sph-core",
             "sph-damping",
+            "sph-decomposition",
             "sph-draw",
             "sph-io",
+            "sph-mpi",
             "sph-scene",
             "sph-solver",
             "sph-study",

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use sph_io::{Checkpoint, ColumnData};
 use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
@@ -46,6 +47,86 @@ fn a_moving_wall_gives_the_same_bits() {
 #[test]
 fn a_soil_gives_the_same_bits() {
     same_on_all_ranks(SOIL, "--set run.end=0.06");
+}
+
+/// Particles are shifted against the mean velocity of all, and a body feels the fluid of all.
+#[test]
+fn sums_over_all_ranks_do_not_depend_on_their_number() {
+    let body = "[wall.float]\nbox = [[0.3, 0.04], [0.4, 0.1]]\nfluid = \"outside\"\n\
+                condition = \"free-slip\"\nmover.rigid-body = { density = 500 }\n";
+    let flush = DAM_BREAK.replace("[walls.usaw]\n", "[walls.usaw]\nvertices = false\n");
+    let scene = format!("{flush}\n[shifting.fickian]\n{body}");
+    same_on_all_ranks(&scene, "--set run.end=0.1");
+}
+
+/// Iterations add up over ranks in an order that follows their number, so that velocities differ by what a solve leaves: a
+/// share of 1e-8 of the right-hand side in each step, times the condition of the system, at most 1 + 4 νΔt/δr².
+#[test]
+fn solves_agree_to_their_tolerance() {
+    let scene = format!("{DAM_BREAK}\n[implicit-viscosity.backward-euler]\n");
+    let bench = Bench::with(PROGRAM, &scene);
+    let (steps, viscosity) = (20.0, 50.0);
+    let set = format!(
+        "--set phase.water.rheology.newtonian.viscosity={viscosity} --set run.max_steps={steps}"
+    );
+    let velocities = |ranks: u32| {
+        let out = format!("r{ranks}");
+        let call = format!("run scene.toml --quiet --out {out} --threads 1 --ranks {ranks} {set}");
+        assert_eq!(bench.call(&call).code, Some(1), "it stops before its end");
+        let checkpoint = Checkpoint::load(bench.path(&out).join("checkpoint.sph"));
+        let checkpoint = checkpoint.expect("a checkpoint");
+        match &checkpoint.column("velocity").expect("velocities").data {
+            ColumnData::F64(v) => v.clone(),
+            _ => panic!("velocities are reals"),
+        }
+    };
+    let one = velocities(1);
+    let largest = one.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    // Δt is at most 0.4 h/c with h = 2 δr and c = 30 m/s.
+    let spacing = 0.02;
+    let dt = 0.4 * 2.0 * spacing / 30.0;
+    let condition = 1.0 + 4.0 * viscosity / 1000.0 * dt / (spacing * spacing);
+    let bound = steps * condition * 1e-8;
+    for ranks in [2, 4] {
+        let apart = one
+            .iter()
+            .zip(velocities(ranks))
+            .map(|(a, b)| (a - b).abs());
+        let apart = apart.fold(0.0, f64::max) / largest;
+        println!(
+            "{ranks} ranks: velocities differ by {apart:.1e} of the largest, bound {bound:.1e}"
+        );
+        assert!(
+            apart < bound,
+            "{ranks} ranks: {apart:.1e}, bound {bound:.1e}"
+        );
+    }
+}
+
+/// A rank that fails takes the others back with it; in the end all give up, and the first tells why.
+#[test]
+fn ranks_fail_together() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let set = "--set numerics.density_bounds=[0.99,1.005] --set run.retries=2";
+    let told = |ranks: u32| {
+        let failed = bench.call(&format!(
+            "run scene.toml --quiet --out f{ranks} --threads 1 --ranks {ranks} {set}"
+        ));
+        assert_eq!(failed.code, Some(1), "{}", failed.err);
+        assert!(
+            bench.path(&format!("f{ranks}/checkpoint.sph")).is_file(),
+            "{}",
+            failed.err
+        );
+        let line = failed.err.lines().find(|l| l.contains("the run failed at"));
+        line.unwrap_or_else(|| panic!("{}", failed.err)).to_string()
+    };
+    let one = told(1);
+    for ranks in [2, 4] {
+        let several = told(ranks);
+        let quantity = one.split(": ").nth(2).expect("a cause");
+        assert!(several.contains(quantity), "{several} for {one}");
+    }
 }
 
 #[test]

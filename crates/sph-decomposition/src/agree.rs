@@ -22,6 +22,14 @@ impl<const D: usize> Parts<D> {
         self.any(false, false).map(|_| ())
     }
 
+    /// Goes on if nobody has failed in what ranks have just done, in which some may have told the others already.
+    ///
+    /// # Errors
+    /// As [`any`](Self::any).
+    pub fn settle(&mut self, failed: bool) -> Result<(), PartError> {
+        self.link.settle(failed)
+    }
+
     /// After a failure on any rank, on all ranks: tells those that do not know of it, and gives the cause that the first rank
     /// has that knows one.
     pub fn confess(&mut self, cause: StepError) -> StepError {

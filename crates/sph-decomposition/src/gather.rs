@@ -77,6 +77,6 @@ fn join<const D: usize>(
     whole.time = part.time;
     whole.dt = part.dt;
     let points = part.lists.reference_points().clone();
-    whole.build_lists_from(reference, points, part.lists.time);
+    whole.lists_would_be_of(reference, points, part.lists.time);
     Ok(())
 }

@@ -26,6 +26,8 @@ pub(crate) struct Partners {
 pub(crate) struct Link {
     pub transport: Arc<dyn Transport>,
     pub partners: RwLock<Partners>,
+    /// How often a stage goes from particles to their neighbours.
+    pub rings: usize,
     /// Whether all ranks know of the failure at hand.
     told: AtomicBool,
     /// Whether messages failed where nobody could be told.
@@ -35,10 +37,11 @@ pub(crate) struct Link {
 }
 
 impl Link {
-    pub fn new(transport: Arc<dyn Transport>) -> Self {
+    pub fn new(transport: Arc<dyn Transport>, rings: usize) -> Self {
         Link {
             transport,
             partners: RwLock::default(),
+            rings,
             told: AtomicBool::new(false),
             lost: AtomicBool::new(false),
             messages: AtomicU64::new(0),
@@ -70,6 +73,16 @@ impl Link {
             true => Err(PartError::Elsewhere),
             false => Ok(values[1] > 0.0),
         }
+    }
+
+    /// Whether all is well at the end of something in which ranks may have failed, and told each other or not.
+    pub fn settle(&self, failed: bool) -> Result<(), PartError> {
+        if failed && self.told.swap(false, Ordering::Relaxed) {
+            return Err(PartError::Elsewhere);
+        }
+        let settled = self.any(failed, false);
+        self.told.store(false, Ordering::Relaxed);
+        settled.map(|_| ())
     }
 
     /// After a failure on any rank, on all ranks: tells those that do not know of it, and gives the cause that the first rank
@@ -144,6 +157,11 @@ impl<const D: usize> Team<D> for Link {
         let rank = self.transport.rank() as u32;
         let owners = free.unwatched(OWNER).unwrap_or(&[]);
         owners.iter().map(|o| *o == rank).collect()
+    }
+
+    fn idle(&self, free: &Store<D>) -> Option<Vec<bool>> {
+        let guests = || Team::<D>::own(self, free).iter().map(|own| !own).collect();
+        (self.rings == 1).then(guests)
     }
 
     fn largest(&self, values: &mut [f64]) -> Result<(), StepError> {

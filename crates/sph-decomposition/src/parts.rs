@@ -44,8 +44,6 @@ pub struct Parts<const D: usize> {
     changes: [u64; 2],
     /// Rebuilds since the parts were looked at.
     builds: u64,
-    /// How often a stage goes from particles to their neighbours.
-    rings: usize,
 }
 
 impl<const D: usize> Parts<D> {
@@ -90,16 +88,15 @@ impl<const D: usize> Parts<D> {
         let sends = transport.others().iter().map(to).collect();
         drop(needs);
         world.free.keep_slots(&kept);
+        let link = Arc::new(Link::new(transport, rings));
+        world.team = Some(link.clone());
         let points = world.lists.reference_points().clone();
         world.build_lists_from(places, points, world.lists.time);
-        let link = Arc::new(Link::new(transport));
-        world.team = Some(link.clone());
         let parts = Parts {
             link,
             cuts,
             changes: [0; 2],
             builds: 0,
-            rings,
         };
         parts.know_guests(&world.free, sends)?;
         Ok(parts)
@@ -190,7 +187,7 @@ impl<const D: usize> Parts<D> {
         let own = world.free.len();
         let around = self.around(world)?;
         let places = positions(world);
-        let needs = Needs::of(world, self.rings);
+        let needs = Needs::of(world, self.link.rings);
         let to = |r: &usize| (*r, needs.slots(&places, &around[*r], |_| true));
         let sends: Vec<Partner> = self.link.transport.others().iter().map(to).collect();
         drop(needs);

@@ -11,6 +11,9 @@ pub trait Team<const D: usize>: Send + Sync {
     /// Whether each particle is one's own, and not a copy of another's.
     fn own(&self, free: &Store<D>) -> Vec<bool>;
 
+    /// Whether nobody asks for what is summed over a particle's neighbours: others tell; `None` if all are asked for.
+    fn idle(&self, free: &Store<D>) -> Option<Vec<bool>>;
+
     /// Replaces each value by the largest of all ranks.
     ///
     /// # Errors

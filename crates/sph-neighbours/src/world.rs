@@ -171,6 +171,13 @@ impl<const D: usize> World<D> {
         }
     }
 
+    /// Remembers where lists were built, without building them: for whoever has the columns of a flow and asks for no list.
+    pub fn lists_would_be_of(&mut self, positions: Vec<Vect<D>>, points: Vec<Vect<D>>, time: f64) {
+        self.lists.reference = positions;
+        self.lists.reference_points = points;
+        self.lists.time = time;
+    }
+
     fn build_lists_at(&mut self, positions: Vec<Vect<D>>) {
         let points = self.walls.points.position.clone();
         self.build_lists_from(positions, points, self.time);
@@ -186,7 +193,11 @@ impl<const D: usize> World<D> {
         let lists = &mut self.lists;
         let domain = &self.domain;
         let shelf = &lists.shelf;
-        lists.free.build(&positions, &grid, reach, domain, shelf);
+        let idle = self.team.as_ref().and_then(|team| team.idle(&self.free));
+        let idle = idle.as_deref().filter(|idle| idle.len() == positions.len());
+        lists
+            .free
+            .build_but(&positions, &grid, (reach, domain), shelf, idle);
         if self.walls.points.in_sums() {
             let first = self.walls.points.corners;
             let summed = &points[first..];

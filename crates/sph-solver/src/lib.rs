@@ -24,7 +24,7 @@ mod step;
 pub use failure::error::{Failure, SolverError};
 pub use failure::findings::{Findings, Share, Sighting, Suspect};
 pub use failure::trouble::Trouble;
-pub use results::summary::{Drift, ErrorEntry, PluginInForce, Status, Summary};
+pub use results::summary::{Drift, ErrorEntry, PluginInForce, RankShare, Status, Summary};
 pub use running::driver::{Command, Observer, Progress};
 pub use running::identity::{FileMark, Identity, marks};
 pub use running::on_threads::run_on_threads;

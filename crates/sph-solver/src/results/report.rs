@@ -45,6 +45,7 @@ impl<const D: usize> Running<'_, D> {
         let neighbours = world.mean_neighbours()?;
         let work = particles as f64 * steps as f64;
         let threads = rayon::current_num_threads();
+        let ranks = self.shares.len().max(1);
         let [dt_limiters, dt_limits] = self.bounds_of_steps();
         let bounds = [&dt_limiters, &dt_limits];
         let mut advice = self.advise(wall_seconds, bounds, &stage_seconds)?;
@@ -68,8 +69,9 @@ impl<const D: usize> Running<'_, D> {
             wall_seconds,
             wall_seconds_by_stage: stage_seconds,
             threads,
+            ranks: self.shares.clone(),
             particle_steps_per_second: over(work, working),
-            nanoseconds_per_pair: over(1e9 * working * threads as f64, work * neighbours),
+            nanoseconds_per_pair: over(1e9 * working * (threads * ranks) as f64, work * neighbours),
             bytes_per_particle: world.free.bytes_per_particle(),
             memory: Memory::of(self.scene, flow, held as f64)?,
             list_builds: world.lists.builds,

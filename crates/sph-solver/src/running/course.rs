@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use sph_scene::Scene;
 
+use crate::results::summary::RankShare;
 use crate::running::counters::Counters;
 use crate::running::mach::MachWatch;
 use crate::running::options::RunOptions;
@@ -26,10 +27,29 @@ pub(crate) struct Running<'a, const D: usize> {
     /// The last step that was tried, s, and what limited it.
     pub(crate) tried: (f64, &'static str),
     pub(crate) mach: MachWatch,
+    /// Every rank's share, on the first at the end.
+    pub(crate) shares: Vec<RankShare>,
 }
 
 /// What is written while a scene runs.
 pub(crate) struct Files {
     pub(crate) outputs: Outputs,
     pub(crate) series: Series,
+}
+
+/// What is to be written.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Due {
+    /// A row of the series.
+    pub(crate) row: bool,
+    /// Fields, pictures and curves.
+    pub(crate) output: bool,
+    /// A checkpoint.
+    pub(crate) checkpoint: bool,
+}
+
+impl Due {
+    pub(crate) fn any(self) -> bool {
+        self.row || self.output || self.checkpoint
+    }
 }

@@ -7,6 +7,7 @@ use sph_decomposition::{PartError, Transport};
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
+use crate::results::summary::RankShare;
 use crate::running::beginning::begin;
 use crate::running::course::Running;
 use crate::running::options::RunOptions;
@@ -98,8 +99,48 @@ impl<const D: usize> Running<'_, D> {
         whole.world.lists.builds = flow.world.lists.builds;
         whole.restored = true;
         if evaluated {
+            let world = &mut whole.world;
+            let reference = world.lists.reference.clone();
+            let points = world.lists.reference_points().clone();
+            let (time, builds) = (world.lists.time, world.lists.builds);
+            world.forget_pruned();
+            world.build_lists_from(reference, points, time);
             whole.evaluate()?;
+            whole.world.lists.builds = builds;
         }
+        Ok(())
+    }
+
+    /// Tells the first rank what each had; every rank must ask.
+    pub(crate) fn share(&mut self) -> Result<(), SolverError> {
+        let steps = self.counters.steps.max(1) as f64;
+        let flow = &self.parts.flow;
+        let Some(parts) = &flow.parts else {
+            return Ok(());
+        };
+        let (divided, traffic) = (parts.divided(&flow.world.free), parts.traffic());
+        let own = [
+            divided.own as f64,
+            divided.guests as f64,
+            traffic.messages as f64 / steps,
+            traffic.bytes as f64 / steps,
+            traffic.moved as f64,
+        ];
+        let own = own.iter().flat_map(|x| x.to_le_bytes()).collect();
+        let all = parts.transport().gather(own);
+        let all = all.map_err(|e| StepError::from(PartError::from(e)))?;
+        let share = |message: &Vec<u8>| {
+            let numbers = message.as_chunks::<8>().0;
+            let at = |k: usize| numbers.get(k).map_or(0.0, |b| f64::from_le_bytes(*b));
+            RankShare {
+                particles: at(0) as u64,
+                guests: at(1) as u64,
+                messages_per_step: at(2),
+                bytes_per_step: at(3),
+                moved: at(4) as u64,
+            }
+        };
+        self.shares = all.iter().map(share).collect();
         Ok(())
     }
 
@@ -108,8 +149,8 @@ impl<const D: usize> Running<'_, D> {
         let Some(parts) = &mut self.parts.flow.parts else {
             return own;
         };
-        match parts.any(own.is_some(), false) {
-            Ok(_) => None,
+        match parts.settle(own.is_some()) {
+            Ok(()) => None,
             Err(elsewhere) => Some(own.unwrap_or_else(|| elsewhere.into())),
         }
     }
@@ -122,10 +163,10 @@ impl<const D: usize> Running<'_, D> {
         let Some(parts) = &mut self.parts.flow.parts else {
             return written;
         };
-        match parts.any(written.is_err(), false) {
+        match parts.settle(written.is_err()) {
             Err(PartError::Elsewhere) if written.is_err() => written,
             Err(other) => Err(StepError::from(other).into()),
-            Ok(_) => Ok(()),
+            Ok(()) => Ok(()),
         }
     }
 

@@ -71,6 +71,7 @@ pub(crate) fn ready<'a, const D: usize>(
         output_seconds: 0.0,
         tried: (0.0, "none"),
         mach: MachWatch::default(),
+        shares: Vec::new(),
     })
 }
 

@@ -15,15 +15,13 @@ use crate::results::summary::{Status, Summary};
 use crate::running::checkpoint;
 use crate::running::clock::standing_still;
 use crate::running::counters::Counters;
-use crate::running::course::Running;
+use crate::running::course::{Due, Running};
 use crate::running::driver::{Command, Observer, Progress};
-use crate::running::mach::MachWatch;
 use crate::running::next_step::next_step;
 use crate::running::options::{RunOptions, Start};
 use crate::running::ranked;
 use crate::running::ready::ready;
 use crate::running::series::Probes;
-use crate::setup::assemble::Assembled;
 use crate::step::guard;
 use crate::step::snapshot::Snapshot;
 
@@ -168,10 +166,12 @@ impl<const D: usize> Running<'_, D> {
             self.counters.retries = 0;
         }
         let time = self.parts.flow.world.time;
-        let written = self.write_what_is_due(time, observer);
-        self.all_have_written(written)?;
-        if let Some(cause) = self.agreed(self.mach.verdict(self.scene)) {
-            return Err(self.fail(cause, good.state(), observer));
+        if self.is_due(time).any() {
+            let written = self.write_what_is_due(time, observer);
+            self.all_have_written(written)?;
+            if let Some(cause) = self.agreed(self.mach.verdict(self.scene)) {
+                return Err(self.fail(cause, good.state(), observer));
+            }
         }
         if time >= self.scene.run.end {
             let mut works = self.parts.flow.works.iter();
@@ -250,8 +250,14 @@ impl<const D: usize> Running<'_, D> {
 
     pub(crate) fn evaluate(&mut self) -> Result<(), StepError> {
         let flow = &mut self.parts.flow;
-        flow.evaluate()?;
-        guard::rates(&flow.world, &flow.laws, self.scene.numerics.density_bounds)
+        let bounds = self.scene.numerics.density_bounds;
+        let done = flow.evaluate();
+        let done = done.and_then(|()| guard::rates(&flow.world, &flow.laws, bounds));
+        // No rank goes on to what is done with an evaluated state if another has none.
+        match self.agreed(done.err()) {
+            None => Ok(()),
+            Some(cause) => Err(cause),
+        }
     }
 
     pub(crate) fn wall_seconds(&self) -> f64 {
@@ -283,38 +289,45 @@ impl<const D: usize> Running<'_, D> {
         next_step(limits, factor, [time, self.target(end)], end)
     }
 
+    /// What is to be written at a time, s.
+    fn is_due(&self, time: f64) -> Due {
+        let end = self.scene.run.end;
+        let every = self.scene.output.series_interval(end);
+        let written = self.counters.last_row == Some(time.to_bits());
+        let output = self.counters.next_output;
+        let number = (time / self.scene.run.checkpoint_interval()).floor() as u64;
+        Due {
+            row: !written && (time >= self.counters.rows as f64 * every || time >= end),
+            output: output.is_some_and(|t| time >= f64::from_bits(t)),
+            checkpoint: number > self.counters.checkpoints || time >= end,
+        }
+    }
+
     fn write_what_is_due(
         &mut self,
         time: f64,
         observer: &mut (dyn Observer + Send),
     ) -> Result<(), SolverError> {
         let start = Instant::now();
-        let every = self.scene.output.series_interval(self.scene.run.end);
-        let end = self.scene.run.end;
-        let due = |rows: u64| rows as f64 * every;
-        let written = self.counters.last_row == Some(time.to_bits());
-        let row = !written && (time >= due(self.counters.rows) || time >= end);
-        let output = self.counters.next_output;
-        let output = output.is_some_and(|t| time >= f64::from_bits(t));
-        let number = (time / self.scene.run.checkpoint_interval()).floor() as u64;
-        let save = number > self.counters.checkpoints || time >= end;
-        if row || output || save {
-            self.gather(true)?;
-        }
-        if row {
+        let due = self.is_due(time);
+        let looks = self.parts.probes.iter().any(|(_, p)| p.looks_around());
+        self.gather(due.output || (due.row && looks))?;
+        if due.row {
             self.write_row(observer)?;
+            let every = self.scene.output.series_interval(self.scene.run.end);
             self.counters.rows = (time / every).floor() as u64 + 1;
             self.counters.last_row = Some(time.to_bits());
         }
-        if output {
+        if due.output {
             let shown = self.whole.as_ref().unwrap_or(&self.parts);
             if let Some(files) = &mut self.files {
                 files.outputs.write(&shown.flow, &shown.probes)?;
             }
             self.counters.next_output = self.next_output(time);
         }
-        if save {
-            self.counters.checkpoints = number;
+        if due.checkpoint {
+            let interval = self.scene.run.checkpoint_interval();
+            self.counters.checkpoints = (time / interval).floor() as u64;
             self.save_gathered()?;
         }
         self.output_seconds += start.elapsed().as_secs_f64();
@@ -382,6 +395,7 @@ impl<const D: usize> Running<'_, D> {
 
     fn finish(&mut self, status: Status) -> Result<Option<Summary>, SolverError> {
         self.gather(true)?;
+        self.share()?;
         let Some(files) = &self.files else {
             return Ok(None);
         };

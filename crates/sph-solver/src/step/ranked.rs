@@ -18,13 +18,18 @@ impl<const D: usize> Flow<D> {
     /// More ranks than particles.
     pub(crate) fn divide(&mut self, transport: Arc<dyn Transport>) -> Result<(), SolverError> {
         let costs = costs(&self.world);
-        let rings = self.stages.iter().map(|s| s.rings());
-        let rings = rings.chain(self.works.iter().map(|w| w.rings()));
-        let rings = rings.max().unwrap_or(1);
+        let rings = self.rings();
         let parts = Parts::divide(&mut self.world, &costs, rings, transport);
         let parts = parts.map_err(|e| SolverError::at("", e.to_string()))?;
         self.parts = Some(parts);
         Ok(())
+    }
+
+    /// How often a stage goes from particles to their neighbours.
+    pub(crate) fn rings(&self) -> usize {
+        let stages = self.stages.iter().map(|s| s.rings());
+        let all = stages.chain(self.works.iter().map(|w| w.rings()));
+        all.max().unwrap_or(1)
     }
 
     /// Why the flow cannot be divided between ranks, if it cannot.
