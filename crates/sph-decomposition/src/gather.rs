@@ -3,7 +3,7 @@
 use sph_core::{AnyField, Vect};
 use sph_neighbours::World;
 
-use crate::parts::OWNER;
+use crate::owner::OWNER;
 use crate::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {

@@ -6,7 +6,7 @@ use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 use sph_core::{AnyField, StepError, Store, Vect};
 use sph_neighbours::Team;
 
-use crate::parts::OWNER;
+use crate::owner::OWNER;
 use crate::{PartError, Transport};
 
 /// Slots that are sent to, or received from, a rank.

@@ -7,15 +7,13 @@
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, PoisonError};
 
-use sph_core::{AnyField, Field, Index, Role, Store, Vect, fields};
+use sph_core::{AnyField, Role, Store, Vect, fields};
 use sph_neighbours::{Extent, World};
 
 use crate::guests::{Around, Needs, positions};
 use crate::link::{Link, Partner, Partners};
+use crate::owner::OWNER;
 use crate::{Cuts, Divided, PartError, Thread, Transport};
-
-/// The rank that owns a particle.
-pub const OWNER: Field<Index> = Field::new("owner", "1", "rank that owns the particle");
 
 /// Rebuilt lists until the parts are looked at again.
 const BUILDS_TO_LOOK: u64 = 20;

@@ -38,6 +38,7 @@ mod reaction;
 mod row;
 mod separation;
 mod shares;
+mod sums;
 mod sweep;
 mod team;
 mod term;

@@ -20,3 +20,4 @@ pub(crate) mod ready;
 pub(crate) mod run;
 pub(crate) mod series;
 pub(crate) mod stepper;
+pub(crate) mod writing;

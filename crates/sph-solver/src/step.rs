@@ -9,6 +9,7 @@ pub(crate) mod drift;
 pub(crate) mod flow;
 pub(crate) mod going_back;
 pub(crate) mod guard;
+pub(crate) mod guests;
 pub(crate) mod kept_rates;
 pub(crate) mod kick;
 pub(crate) mod leaving;

@@ -47,8 +47,7 @@ impl<const D: usize> Running<'_, D> {
         let threads = rayon::current_num_threads();
         let ranks = self.shares.len().max(1);
         let [dt_limiters, dt_limits] = self.bounds_of_steps();
-        let bounds = [&dt_limiters, &dt_limits];
-        let mut advice = self.advise(wall_seconds, bounds, &stage_seconds)?;
+        let mut advice = self.advise(wall_seconds, [&dt_limiters, &dt_limits], &stage_seconds)?;
         let escaped = flow.escaped()?;
         let mach = self.say_what_is_odd(escaped, &mut warnings, &mut advice);
         let held: usize = flow.works.iter().map(|w| w.most_bytes()).sum();
@@ -80,10 +79,7 @@ impl<const D: usize> Running<'_, D> {
             advice,
             drift,
             kinetic_energy: balance.kinetic,
-            density_range: self
-                .files
-                .as_ref()
-                .map_or([0.0; 2], |f| f.series.density_range),
+            density_range: self.density_range(),
             mach,
             nearest: world.nearest()?.map(|d| d / world.spacing),
             first_trouble: self.counters.first_trouble.clone(),
@@ -100,6 +96,12 @@ impl<const D: usize> Running<'_, D> {
         };
         sph_io::write_json(self.options.out.join("summary.json"), &summary)?;
         Ok(summary)
+    }
+
+    /// Least and largest density ratio over all rows.
+    fn density_range(&self) -> [f64; 2] {
+        let files = self.files.as_ref();
+        files.map_or([0.0; 2], |f| f.series.density_range)
     }
 
     /// Errors against references, whose pictures are drawn, too.

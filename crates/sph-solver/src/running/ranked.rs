@@ -65,7 +65,7 @@ pub(crate) fn divide<const D: usize>(
         begin(scene, options, false, &mut all.flow, &mut ())?;
         whole = Some(all);
     }
-    parts.flow.divide(ranks)?;
+    parts.flow.divide(ranks).map_err(StepError::from)?;
     Ok(whole)
 }
 

@@ -17,10 +17,10 @@ use sph_state::Laws;
 use crate::step::books::Books;
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::guard;
+use crate::step::guests::tell_guests;
 use crate::step::kept_rates::Kept;
 use crate::step::nursery::Nursery;
 use crate::step::outlets::Outlets;
-use crate::step::ranked::tell_guests;
 use crate::step::snapshot::Snapshot;
 use crate::step::stages::{SharedWall, lock};
 

@@ -2,11 +2,9 @@
 
 use std::sync::Arc;
 
-use sph_core::{Access, StepError, StepLimit};
+use sph_core::{StepError, StepLimit};
 use sph_decomposition::{PartError, Parts, Transport};
-use sph_neighbours::World;
 
-use crate::SolverError;
 use crate::step::cost::costs;
 use crate::step::flow::Flow;
 use crate::step::guard;
@@ -16,11 +14,10 @@ impl<const D: usize> Flow<D> {
     ///
     /// # Errors
     /// More ranks than particles.
-    pub(crate) fn divide(&mut self, transport: Arc<dyn Transport>) -> Result<(), SolverError> {
+    pub(crate) fn divide(&mut self, transport: Arc<dyn Transport>) -> Result<(), PartError> {
         let costs = costs(&self.world);
         let rings = self.rings();
-        let parts = Parts::divide(&mut self.world, &costs, rings, transport);
-        let parts = parts.map_err(|e| SolverError::at("", e.to_string()))?;
+        let parts = Parts::divide(&mut self.world, &costs, rings, transport)?;
         self.parts = Some(parts);
         Ok(())
     }
@@ -109,20 +106,4 @@ impl<const D: usize> Flow<D> {
 
 fn elsewhere() -> StepError {
     PartError::Elsewhere.into()
-}
-
-/// Gives guests what work has found for their owners: what was summed over neighbours.
-pub(crate) fn tell_guests<const D: usize>(
-    parts: &mut Option<Parts<D>>,
-    world: &mut World<D>,
-    access: impl FnOnce() -> Access,
-) -> Result<(), StepError> {
-    let Some(parts) = parts else {
-        return Ok(());
-    };
-    let access = access();
-    if access.sweep && !access.writes.is_empty() {
-        parts.tell(&mut world.free, |f| access.writes.contains(f))?;
-    }
-    Ok(())
 }
