@@ -1,15 +1,18 @@
 //! Sums of kernel values alone: the density sum, which prunes the lists, and Shepard means.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
-use sph_lanes::{Body, Lane, dispatch_at, width};
+use sph_lanes::{Body, Lane, dispatch_at, dot, width};
 
+use crate::lane_vector::minus;
 use crate::list::CHUNK;
 use crate::members::{Members, groups};
-use crate::separation::Distances;
+use crate::separation::{Distances, places};
 use crate::sweep::wrapping;
-use crate::{Domain, NeighbourList, World};
+use crate::{Clusters, Domain, World};
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d.
 ///
@@ -133,32 +136,164 @@ impl Body for Total<'_> {
     }
 }
 
-/// Calls `use_row(target, candidates, w)` for every target and leaves what it returns in `out`: the
-/// walk behind Shepard means at walls and probes. `w` is exactly zero beyond the support.
+/// What is summed over the free particles around targets, several of which stand side by side: the sums behind Shepard means
+/// at walls.
+pub trait TargetMean<const D: usize>: Sync {
+    /// What becomes of the sums.
+    type Mean: Send;
+    /// What the targets bring along.
+    type Side<L: Lane>: Copy;
+    /// The sums.
+    type Sums<L: Lane>: Copy;
+
+    /// Puts side by side what these targets have: as many as there are lanes, or fewer.
+    fn side<L: Lane>(&self, targets: Range<usize>) -> Self::Side<L>;
+    /// Nothing yet.
+    fn zero<L: Lane>(&self) -> Self::Sums<L>;
+    /// Adds a particle: its index, the separations of the targets from it, m, and w, 1/m^d, exactly 0 beyond the support.
+    fn add<L: Lane>(
+        &self,
+        side: &Self::Side<L>,
+        particle: usize,
+        apart: &[L; D],
+        w: L,
+        sums: &mut Self::Sums<L>,
+    );
+    /// The mean at a target, in this lane of the sums.
+    fn mean<L: Lane>(&self, target: usize, sums: &Self::Sums<L>, lane: usize) -> Self::Mean;
+}
+
+/// Leaves in `out` what a mean is at every target.
+///
+/// Each sums its particles in the order of their indices, whatever the number of lanes.
 ///
 /// # Errors
 /// If the world has no positions.
-pub fn shepard<const D: usize, R: Send>(
+pub fn shepard<const D: usize, M: TargetMean<D>>(
     world: &World<D>,
     targets: &[Vect<D>],
-    list: &NeighbourList,
-    out: &mut Vec<R>,
-    use_row: impl Fn(usize, &[u32], &[f64]) -> R + Sync,
+    list: &Clusters,
+    mean: &M,
+    out: &mut Vec<M::Mean>,
 ) -> Result<(), StepError> {
     let positions = world.free.get(fields::POSITION)?;
     let kernel = &*world.kernel;
-    let domain = world.domain.any_periodic().then_some(&world.domain);
-    let rows = targets.par_iter().enumerate().with_min_len(CHUNK);
-    let means = rows.map_init(
-        || world.lists.shelf.lend::<Values>(),
-        |values, (t, x)| {
-            let row = list.row(t);
-            let w = values.fill(x, positions, row, domain, kernel);
-            use_row(t, row, w)
-        },
-    );
-    means.collect_into_vec(out);
+    let width = width();
+    let nothing = mean.zero::<f64>();
+    out.resize_with(targets.len(), || mean.mean(0, &nothing, 0));
+    let room = || world.lists.shelf.lend::<Values>();
+    let blocks = out.par_chunks_mut(CHUNK).enumerate();
+    blocks.for_each_init(room, |room, (b, out)| {
+        let values = &mut **room;
+        for all in list.of_block(b) {
+            for members in groups(all, width.lanes()) {
+                let own = members.from..members.from + members.count;
+                let mut near = targets[own.clone()].iter();
+                let around = Around {
+                    own: own.clone(),
+                    targets,
+                    positions,
+                    candidates: members.candidates,
+                    domain: near.find_map(|x| wrapping(&world.domain, x, world.reach())),
+                };
+                let needed = members.candidates.len() * width.lanes();
+                values.reserve(needed);
+                let distance2 = &mut values.distance2[..needed];
+                dispatch_at(
+                    width,
+                    DistancesAround {
+                        around: &around,
+                        out: distance2,
+                    },
+                );
+                let values = &mut values.value[..needed];
+                kernel.value(distance2, values);
+                let out = &mut out[own.start - b * CHUNK..own.end - b * CHUNK];
+                dispatch_at(
+                    width,
+                    MeanAround {
+                        around: &around,
+                        values,
+                        mean,
+                        out,
+                    },
+                );
+            }
+        }
+    });
     Ok(())
+}
+
+/// Some targets and the particles around them.
+struct Around<'a, const D: usize> {
+    own: Range<usize>,
+    targets: &'a [Vect<D>],
+    positions: &'a [Vect<D>],
+    candidates: &'a [u32],
+    /// Where images across periodic faces may be nearer.
+    domain: Option<&'a Domain<D>>,
+}
+
+impl<const D: usize> Around<'_, D> {
+    #[inline(always)]
+    fn apart<L: Lane>(&self, x: &[L; D], particle: u32) -> [L; D] {
+        let apart = minus(x, &self.positions[particle as usize]);
+        match self.domain {
+            Some(domain) => domain.nearest_images(apart),
+            None => apart,
+        }
+    }
+}
+
+/// Squared distances of all targets from all particles, `N` numbers for each particle.
+struct DistancesAround<'a, const D: usize> {
+    around: &'a Around<'a, D>,
+    out: &'a mut [f64],
+}
+
+impl<const D: usize> Body for DistancesAround<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<L: Lane>(self) {
+        let around = self.around;
+        let x = places::<D, L>(&around.targets[around.own.clone()]);
+        let out = self.out.chunks_exact_mut(L::N);
+        for (&j, out) in around.candidates.iter().zip(out) {
+            let apart = around.apart(&x, j);
+            dot(&apart, &apart).store(out);
+        }
+    }
+}
+
+/// The sums over all particles, and what becomes of them.
+struct MeanAround<'a, const D: usize, M: TargetMean<D>> {
+    around: &'a Around<'a, D>,
+    values: &'a [f64],
+    mean: &'a M,
+    out: &'a mut [M::Mean],
+}
+
+impl<const D: usize, M: TargetMean<D>> Body for MeanAround<'_, D, M> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<L: Lane>(self) {
+        let (around, mean) = (self.around, self.mean);
+        let x = places::<D, L>(&around.targets[around.own.clone()]);
+        let side = mean.side::<L>(around.own.clone());
+        let mut sums = mean.zero::<L>();
+        let values = self.values.chunks_exact(L::N);
+        for (&j, w) in around.candidates.iter().zip(values) {
+            let apart = around.apart(&x, j);
+            mean.add(&side, j as usize, &apart, L::load(w), &mut sums);
+        }
+        // A copy: single lanes are read from memory, and the sums themselves are to stay in registers.
+        let all = sums;
+        for (lane, out) in self.out.iter_mut().enumerate() {
+            *out = mean.mean(around.own.start + lane, &all, lane);
+        }
+    }
 }
 
 #[derive(Default)]

@@ -20,9 +20,9 @@ pub struct Lists<const D: usize> {
     /// Wall points around free particles.
     pub wall: NeighbourList,
     /// Free particles around the wall points that are in sums.
-    pub of_points: NeighbourList,
+    pub of_points: Clusters,
     /// Free particles around element centres.
-    pub of_elements: NeighbourList,
+    pub of_elements: Clusters,
     /// Positions of the free particles at the last build, m.
     pub reference: Vec<Vect<D>>,
     reference_points: Vec<Vect<D>>,
@@ -156,7 +156,7 @@ impl<const D: usize> World<D> {
             lists.wall.shift(first as u32);
             lists
                 .of_points
-                .build(summed, &positions, &grid, reach, domain);
+                .build_around(summed, &positions, &grid, reach, domain, shelf);
         }
         let elements = &self.walls.elements;
         if !elements.centre.is_empty() {
@@ -166,7 +166,7 @@ impl<const D: usize> World<D> {
                 .collect();
             lists
                 .of_elements
-                .build(&centres, &positions, &grid, reach, domain);
+                .build_around(&centres, &positions, &grid, reach, domain, shelf);
         }
         lists.reference_points = points;
         lists.reference = positions;
