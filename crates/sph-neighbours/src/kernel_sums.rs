@@ -8,7 +8,7 @@ use sph_kernels::Sampler;
 use sph_lanes::{Body, Lane, dispatch_at, dot, width};
 
 use crate::lane_vector::minus;
-use crate::list::CHUNK;
+use crate::list::{CHUNK, make_room};
 use crate::members::{Members, groups};
 use crate::separation::{Distances, places};
 use crate::sweep::wrapping;
@@ -181,10 +181,11 @@ pub fn shepard<const D: usize, M: TargetMean<D>>(
     let width = width();
     let nothing = mean.zero::<f64>();
     out.resize_with(targets.len(), || mean.mean(0, &nothing, 0));
-    let room = || world.lists.shelf.lend::<Values>();
+    let limit = kernel.support_radius().powi(2);
+    let room = || world.lists.shelf.lend::<(Values, Vec<u32>)>();
     let blocks = out.par_chunks_mut(CHUNK).enumerate();
     blocks.for_each_init(room, |room, (b, out)| {
-        let values = &mut **room;
+        let (values, inside) = &mut **room;
         for all in list.of_block(b) {
             for members in groups(all, width.lanes()) {
                 let own = members.from..members.from + members.count;
@@ -193,31 +194,31 @@ pub fn shepard<const D: usize, M: TargetMean<D>>(
                     own: own.clone(),
                     targets,
                     positions,
-                    candidates: members.candidates,
                     domain: near.find_map(|x| wrapping(&world.domain, x, world.reach())),
                 };
-                let needed = members.candidates.len() * width.lanes();
-                values.reserve(needed);
-                let distance2 = &mut values.distance2[..needed];
-                dispatch_at(
-                    width,
-                    DistancesAround {
-                        around: &around,
-                        out: distance2,
-                    },
-                );
-                let values = &mut values.value[..needed];
-                kernel.value(distance2, values);
-                let out = &mut out[own.start - b * CHUNK..own.end - b * CHUNK];
-                dispatch_at(
-                    width,
-                    MeanAround {
-                        around: &around,
-                        values,
-                        mean,
-                        out,
-                    },
-                );
+                let n = members.candidates.len();
+                values.reserve(n * width.lanes());
+                make_room(inside, n);
+                let body = DistancesAround {
+                    around: &around,
+                    candidates: members.candidates,
+                    limit,
+                    inside: &mut inside[..n],
+                    out: &mut values.distance2,
+                };
+                let n = dispatch_at(width, body);
+                let inside = &inside[..n];
+                let needed = inside.len() * width.lanes();
+                let value = &mut values.value[..needed];
+                kernel.value(&values.distance2[..needed], value);
+                let body = MeanAround {
+                    around: &around,
+                    inside,
+                    values: value,
+                    mean,
+                    out: &mut out[own.start - b * CHUNK..own.end - b * CHUNK],
+                };
+                dispatch_at(width, body);
             }
         }
     });
@@ -229,7 +230,6 @@ struct Around<'a, const D: usize> {
     own: Range<usize>,
     targets: &'a [Vect<D>],
     positions: &'a [Vect<D>],
-    candidates: &'a [u32],
     /// Where images across periodic faces may be nearer.
     domain: Option<&'a Domain<D>>,
 }
@@ -245,30 +245,40 @@ impl<const D: usize> Around<'_, D> {
     }
 }
 
-/// Squared distances of all targets from all particles, `N` numbers for each particle.
+/// Who is within the support of a target, and the squared distances of all targets, `N` numbers for each particle.
 struct DistancesAround<'a, const D: usize> {
     around: &'a Around<'a, D>,
+    candidates: &'a [u32],
+    limit: f64,
+    inside: &'a mut [u32],
     out: &'a mut [f64],
 }
 
 impl<const D: usize> Body for DistancesAround<'_, D> {
-    type Output = ();
+    /// How many there are.
+    type Output = usize;
 
     #[inline(always)]
-    fn call<L: Lane>(self) {
+    fn call<L: Lane>(self) -> usize {
         let around = self.around;
         let x = places::<D, L>(&around.targets[around.own.clone()]);
-        let out = self.out.chunks_exact_mut(L::N);
-        for (&j, out) in around.candidates.iter().zip(out) {
+        let limit = L::splat(self.limit);
+        let mut n = 0;
+        for &j in self.candidates {
             let apart = around.apart(&x, j);
-            dot(&apart, &apart).store(out);
+            let distance2 = dot(&apart, &apart);
+            self.inside[n] = j;
+            distance2.store(&mut self.out[n * L::N..]);
+            n += usize::from(distance2.any_less(limit));
         }
+        n
     }
 }
 
 /// The sums over all particles, and what becomes of them.
 struct MeanAround<'a, const D: usize, M: TargetMean<D>> {
     around: &'a Around<'a, D>,
+    inside: &'a [u32],
     values: &'a [f64],
     mean: &'a M,
     out: &'a mut [M::Mean],
@@ -284,7 +294,7 @@ impl<const D: usize, M: TargetMean<D>> Body for MeanAround<'_, D, M> {
         let side = mean.side::<L>(around.own.clone());
         let mut sums = mean.zero::<L>();
         let values = self.values.chunks_exact(L::N);
-        for (&j, w) in around.candidates.iter().zip(values) {
+        for (&j, w) in self.inside.iter().zip(values) {
             let apart = around.apart(&x, j);
             mean.add(&side, j as usize, &apart, L::load(w), &mut sums);
         }

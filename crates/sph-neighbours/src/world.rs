@@ -125,14 +125,14 @@ impl<const D: usize> World<D> {
         if !grid.is_sorted() {
             self.free.permute(grid.order());
         }
-        let positions = self.free.get(fields::POSITION)?.to_vec();
-        self.build_lists_at(positions);
-        Ok(())
-    }
-
-    fn build_lists_at(&mut self, positions: Vec<Vect<D>>) {
-        let points = self.walls.points.position.clone();
+        let lists = &mut self.lists;
+        let [mut positions, mut points] =
+            [&mut lists.reference, &mut lists.reference_points].map(std::mem::take);
+        positions.clear();
+        positions.extend_from_slice(self.free.get(fields::POSITION)?);
+        points.clone_from(&self.walls.points.position);
         self.build_lists_from(positions, points, self.time);
+        Ok(())
     }
 
     /// Builds all lists for given positions of the (sorted) free particles and wall points, those of a time, s.
@@ -161,9 +161,10 @@ impl<const D: usize> World<D> {
         let elements = &self.walls.elements;
         if !elements.centre.is_empty() {
             // An element stands where its corners stood.
-            let centres: Vec<Vect<D>> = (0..elements.centre.len())
-                .map(|s| elements.centre_from(s, &points, domain))
-                .collect();
+            let mut centres = shelf.lend::<Vec<Vect<D>>>();
+            let all = 0..elements.centre.len();
+            centres.clear();
+            centres.extend(all.map(|s| elements.centre_from(s, &points, domain)));
             lists
                 .of_elements
                 .build_around(&centres, &positions, &grid, reach, domain, shelf);
