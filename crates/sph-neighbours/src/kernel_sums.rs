@@ -5,12 +5,12 @@ use std::ops::Range;
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
-use sph_lanes::{Body, Lane, dispatch_at, dot, width};
+use sph_lanes::{Body, Lane, MOST, dispatch_at, dot, width};
 
 use crate::lane_vector::minus;
 use crate::list::{CHUNK, make_room};
 use crate::members::{Members, groups};
-use crate::separation::{Distances, places};
+use crate::separation::Distances;
 use crate::sweep::wrapping;
 use crate::{Clusters, Domain, World};
 
@@ -136,20 +136,19 @@ impl Body for Total<'_> {
     }
 }
 
-/// What is summed over the free particles around targets, several of which stand side by side: the sums behind Shepard means
-/// at walls.
-pub trait TargetMean<const D: usize>: Sync {
+/// `K` sums over the free particles around targets, several of which stand side by side: those behind Shepard means at walls.
+pub trait TargetMean<const D: usize, const K: usize>: Sync {
     /// What becomes of the sums.
     type Mean: Send;
-    /// What the targets bring along.
+    /// What the targets bring along, number by number in memory: from there it is loaded into lanes as a whole.
+    type Here;
+    /// The same in lanes.
     type Side<L: Lane>: Copy;
-    /// The sums.
-    type Sums<L: Lane>: Copy;
 
-    /// Puts side by side what these targets have: as many as there are lanes, or fewer.
-    fn side<L: Lane>(&self, targets: Range<usize>) -> Self::Side<L>;
-    /// Nothing yet.
-    fn zero<L: Lane>(&self) -> Self::Sums<L>;
+    /// What these targets have, at most [`MOST`].
+    fn here(&self, targets: Range<usize>) -> Self::Here;
+    /// Puts it side by side.
+    fn side<L: Lane>(&self, here: &Self::Here) -> Self::Side<L>;
     /// Adds a particle: its index, the separations of the targets from it, m, and w, 1/m^d, exactly 0 beyond the support.
     fn add<L: Lane>(
         &self,
@@ -157,10 +156,10 @@ pub trait TargetMean<const D: usize>: Sync {
         particle: usize,
         apart: &[L; D],
         w: L,
-        sums: &mut Self::Sums<L>,
+        sums: &mut [L; K],
     );
-    /// The mean at a target, in this lane of the sums.
-    fn mean<L: Lane>(&self, target: usize, sums: &Self::Sums<L>, lane: usize) -> Self::Mean;
+    /// The mean at a target from its sums.
+    fn mean(&self, target: usize, sums: [f64; K]) -> Self::Mean;
 }
 
 /// Leaves in `out` what a mean is at every target.
@@ -169,7 +168,7 @@ pub trait TargetMean<const D: usize>: Sync {
 ///
 /// # Errors
 /// If the world has no positions.
-pub fn shepard<const D: usize, M: TargetMean<D>>(
+pub fn shepard<const D: usize, const K: usize, M: TargetMean<D, K>>(
     world: &World<D>,
     targets: &[Vect<D>],
     list: &Clusters,
@@ -179,8 +178,7 @@ pub fn shepard<const D: usize, M: TargetMean<D>>(
     let positions = world.free.get(fields::POSITION)?;
     let kernel = &*world.kernel;
     let width = width();
-    let nothing = mean.zero::<f64>();
-    out.resize_with(targets.len(), || mean.mean(0, &nothing, 0));
+    out.resize_with(targets.len(), || mean.mean(0, [0.0; K]));
     let limit = kernel.support_radius().powi(2);
     let room = || world.lists.shelf.lend::<(Values, Vec<u32>)>();
     let blocks = out.par_chunks_mut(CHUNK).enumerate();
@@ -191,8 +189,7 @@ pub fn shepard<const D: usize, M: TargetMean<D>>(
                 let own = members.from..members.from + members.count;
                 let mut near = targets[own.clone()].iter();
                 let around = Around {
-                    own: own.clone(),
-                    targets,
+                    targets: in_memory(&targets[own.clone()]),
                     positions,
                     domain: near.find_map(|x| wrapping(&world.domain, x, world.reach())),
                 };
@@ -211,36 +208,67 @@ pub fn shepard<const D: usize, M: TargetMean<D>>(
                 let needed = inside.len() * width.lanes();
                 let value = &mut values.value[..needed];
                 kernel.value(&values.distance2[..needed], value);
-                let body = MeanAround {
+                let mut sums = [[0.0; MOST]; K];
+                let body = SumAround {
                     around: &around,
+                    here: &mean.here(own.clone()),
                     inside,
                     values: value,
                     mean,
-                    out: &mut out[own.start - b * CHUNK..own.end - b * CHUNK],
+                    sums: &mut sums,
                 };
                 dispatch_at(width, body);
+                for (lane, target) in own.enumerate() {
+                    let sums = std::array::from_fn(|k| sums[k][lane]);
+                    out[target - b * CHUNK] = mean.mean(target, sums);
+                }
             }
         }
     });
     Ok(())
 }
 
+/// Vectors of at most [`MOST`] targets, component by component; the last one fills what is left over.
+///
+/// Lanes that are put together number by number are taken apart by the compiler, and each goes its own way.
+pub type InMemory<const D: usize> = [[f64; MOST]; D];
+
+/// Some vectors in memory.
+///
+/// # Panics
+/// If there are none.
+pub fn in_memory<const D: usize>(vectors: &[Vect<D>]) -> InMemory<D> {
+    let last = vectors.len() - 1;
+    std::array::from_fn(|k| std::array::from_fn(|lane| vectors[lane.min(last)][k]))
+}
+
+/// The vectors in lanes.
+#[inline(always)]
+pub fn loaded<const D: usize, L: Lane>(vectors: &InMemory<D>) -> [L; D] {
+    let mut lanes = [L::splat(0.0); D];
+    for k in 0..D {
+        lanes[k] = L::load(&vectors[k]);
+    }
+    lanes
+}
+
 /// Some targets and the particles around them.
 struct Around<'a, const D: usize> {
-    own: Range<usize>,
-    targets: &'a [Vect<D>],
+    /// Places of the targets, m.
+    targets: InMemory<D>,
     positions: &'a [Vect<D>],
     /// Where images across periodic faces may be nearer.
     domain: Option<&'a Domain<D>>,
 }
 
 impl<const D: usize> Around<'_, D> {
+    /// With a branch for the domain in the loop lanes would be taken apart: it is `WRAPS`, decided before.
     #[inline(always)]
-    fn apart<L: Lane>(&self, x: &[L; D], particle: u32) -> [L; D] {
+    fn apart<L: Lane, const WRAPS: bool>(&self, x: &[L; D], particle: u32) -> [L; D] {
         let apart = minus(x, &self.positions[particle as usize]);
         match self.domain {
-            Some(domain) => domain.nearest_images(apart),
-            None => apart,
+            Some(domain) if WRAPS => domain.nearest_images(apart),
+            _ => apart,
         }
     }
 }
@@ -260,12 +288,22 @@ impl<const D: usize> Body for DistancesAround<'_, D> {
 
     #[inline(always)]
     fn call<L: Lane>(self) -> usize {
+        match self.around.domain {
+            Some(_) => self.find::<L, true>(),
+            None => self.find::<L, false>(),
+        }
+    }
+}
+
+impl<const D: usize> DistancesAround<'_, D> {
+    #[inline(always)]
+    fn find<L: Lane, const WRAPS: bool>(self) -> usize {
         let around = self.around;
-        let x = places::<D, L>(&around.targets[around.own.clone()]);
+        let x = loaded::<D, L>(&around.targets);
         let limit = L::splat(self.limit);
         let mut n = 0;
         for &j in self.candidates {
-            let apart = around.apart(&x, j);
+            let apart = around.apart::<L, WRAPS>(&x, j);
             let distance2 = dot(&apart, &apart);
             self.inside[n] = j;
             distance2.store(&mut self.out[n * L::N..]);
@@ -275,33 +313,42 @@ impl<const D: usize> Body for DistancesAround<'_, D> {
     }
 }
 
-/// The sums over all particles, and what becomes of them.
-struct MeanAround<'a, const D: usize, M: TargetMean<D>> {
+/// The sums over all particles.
+struct SumAround<'a, const D: usize, const K: usize, M: TargetMean<D, K>> {
     around: &'a Around<'a, D>,
+    here: &'a M::Here,
     inside: &'a [u32],
     values: &'a [f64],
     mean: &'a M,
-    out: &'a mut [M::Mean],
+    sums: &'a mut [[f64; MOST]; K],
 }
 
-impl<const D: usize, M: TargetMean<D>> Body for MeanAround<'_, D, M> {
+impl<const D: usize, const K: usize, M: TargetMean<D, K>> Body for SumAround<'_, D, K, M> {
     type Output = ();
 
     #[inline(always)]
     fn call<L: Lane>(self) {
+        match self.around.domain {
+            Some(_) => self.sum::<L, true>(),
+            None => self.sum::<L, false>(),
+        }
+    }
+}
+
+impl<const D: usize, const K: usize, M: TargetMean<D, K>> SumAround<'_, D, K, M> {
+    #[inline(always)]
+    fn sum<L: Lane, const WRAPS: bool>(self) {
         let (around, mean) = (self.around, self.mean);
-        let x = places::<D, L>(&around.targets[around.own.clone()]);
-        let side = mean.side::<L>(around.own.clone());
-        let mut sums = mean.zero::<L>();
+        let x = loaded::<D, L>(&around.targets);
+        let side = mean.side::<L>(self.here);
+        let mut sums = [L::splat(0.0); K];
         let values = self.values.chunks_exact(L::N);
         for (&j, w) in self.inside.iter().zip(values) {
-            let apart = around.apart(&x, j);
+            let apart = around.apart::<L, WRAPS>(&x, j);
             mean.add(&side, j as usize, &apart, L::load(w), &mut sums);
         }
-        // A copy: single lanes are read from memory, and the sums themselves are to stay in registers.
-        let all = sums;
-        for (lane, out) in self.out.iter_mut().enumerate() {
-            *out = mean.mean(around.own.start + lane, &all, lane);
+        for k in 0..K {
+            sums[k].store(&mut self.sums[k]);
         }
     }
 }

@@ -58,7 +58,7 @@ pub use fuse::{
 };
 pub use grid::CellGrid;
 pub use keep_couplings::{Keeper, Rows as CouplingRows, Tally, Weak};
-pub use kernel_sums::{TargetMean, kernel_sums, shepard};
+pub use kernel_sums::{InMemory, TargetMean, in_memory, kernel_sums, loaded, shepard};
 pub use kernels::KernelEntry;
 pub use lane_pair::LanePair;
 pub use lane_term::{FusedLanes, LanePairTerm, LaneTerm, Lanewise};

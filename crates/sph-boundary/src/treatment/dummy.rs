@@ -5,8 +5,8 @@ use std::ops::Range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{StepError, Vect, fields, register};
-use sph_lanes::{Lane, add_scaled, dot};
-use sph_neighbours::{Contacts, TargetMean, WallPoints, WallSet, World, shepard, splat, vector};
+use sph_lanes::{Lane, dot};
+use sph_neighbours::{Contacts, InMemory, TargetMean, WallPoints, WallSet, World, loaded, shepard};
 
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
@@ -206,7 +206,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
     }
 }
 
-/// Sums of w, p w and u w: pressure and velocity at a dummy particle.
+/// Sums of w, p w and u w (three components or two): pressure and velocity at a dummy particle.
 struct Means<'a, const D: usize> {
     velocity: &'a [Vect<D>],
     pressure: &'a [f64],
@@ -217,45 +217,37 @@ struct Means<'a, const D: usize> {
     slip: &'a [f64],
 }
 
-impl<const D: usize> TargetMean<D> for Means<'_, D> {
+impl<const D: usize> TargetMean<D, 5> for Means<'_, D> {
     type Mean = (f64, Vect<D>);
+    type Here = InMemory<D>;
     type Side<L: Lane> = [L; D];
-    type Sums<L: Lane> = (L, L, [L; D]);
 
-    #[inline(always)]
-    fn side<L: Lane>(&self, targets: Range<usize>) -> [L; D] {
-        self.felt.side(targets)
+    fn here(&self, targets: Range<usize>) -> InMemory<D> {
+        self.felt.of(targets)
     }
 
     #[inline(always)]
-    fn zero<L: Lane>(&self) -> Self::Sums<L> {
-        let zero = L::splat(0.0);
-        (zero, zero, [zero; D])
+    fn side<L: Lane>(&self, felt: &InMemory<D>) -> [L; D] {
+        loaded(felt)
     }
 
     #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        felt: &[L; D],
-        j: usize,
-        apart: &[L; D],
-        w: L,
-        sums: &mut Self::Sums<L>,
-    ) {
+    fn add<L: Lane>(&self, felt: &[L; D], j: usize, apart: &[L; D], w: L, sums: &mut [L; 5]) {
         let hydrostatic = L::splat(self.density[j]) * dot(felt, apart);
-        sums.0 += w;
-        sums.1 += w * (L::splat(self.pressure[j]) + hydrostatic);
-        add_scaled(&mut sums.2, &splat(&self.velocity[j]), w);
+        sums[0] += w;
+        sums[1] += w * (L::splat(self.pressure[j]) + hydrostatic);
+        for k in 0..D {
+            sums[2 + k] += L::splat(self.velocity[j][k]) * w;
+        }
     }
 
-    #[inline(always)]
-    fn mean<L: Lane>(&self, v: usize, sums: &Self::Sums<L>, lane: usize) -> (f64, Vect<D>) {
-        let (w, p, u) = (sums.0.at(lane), sums.1.at(lane), vector(&sums.2, lane));
+    fn mean(&self, v: usize, sums: [f64; 5]) -> (f64, Vect<D>) {
+        let [w, p, ..] = sums;
         let wall = self.walls[v];
         if w <= 0.0 {
             return (0.0, wall);
         }
-        let mean = u / w;
+        let mean = Vect::from_fn(|k, _| sums[2 + k]) / w;
         let surface = match self.slip.get(v) {
             Some(share) => wall + (mean - wall) * *share,
             None => wall,

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use sph_core::{StepError, Vect, fields};
-use sph_lanes::{Lane, dot};
-use sph_neighbours::{Clusters, TargetMean, World, set, shepard, splat};
+use sph_lanes::{Lane, MOST, dot};
+use sph_neighbours::{Clusters, InMemory, TargetMean, World, in_memory, loaded, shepard};
 
 /// What the fluid looks like from a place on the wall.
 #[derive(Clone, Copy, Debug)]
@@ -46,15 +46,14 @@ pub(crate) struct Felt<'a, const D: usize> {
 }
 
 impl<const D: usize> Felt<'_, D> {
-    #[inline(always)]
-    pub fn side<L: Lane>(&self, targets: Range<usize>) -> [L; D] {
-        let mut felt = splat(&self.gravity);
-        if !self.accelerations.is_empty() {
-            for (lane, t) in targets.enumerate() {
-                set(&mut felt, lane, &(self.gravity - self.accelerations[t]));
+    pub fn of(&self, targets: Range<usize>) -> InMemory<D> {
+        let mut felt = [self.gravity; MOST];
+        for (felt, t) in felt.iter_mut().zip(targets) {
+            if let Some(acceleration) = self.accelerations.get(t) {
+                *felt -= acceleration;
             }
         }
-        felt
+        in_memory(&felt)
     }
 }
 
@@ -67,19 +66,18 @@ struct Means<'a, const D: usize> {
     whole: f64,
 }
 
-impl<const D: usize> TargetMean<D> for Means<'_, D> {
+impl<const D: usize> TargetMean<D, 3> for Means<'_, D> {
     type Mean = WallMean;
+    type Here = InMemory<D>;
     type Side<L: Lane> = [L; D];
-    type Sums<L: Lane> = [L; 3];
 
-    #[inline(always)]
-    fn side<L: Lane>(&self, targets: Range<usize>) -> [L; D] {
-        self.felt.side(targets)
+    fn here(&self, targets: Range<usize>) -> InMemory<D> {
+        self.felt.of(targets)
     }
 
     #[inline(always)]
-    fn zero<L: Lane>(&self) -> [L; 3] {
-        [L::splat(0.0); 3]
+    fn side<L: Lane>(&self, felt: &InMemory<D>) -> [L; D] {
+        loaded(felt)
     }
 
     #[inline(always)]
@@ -91,9 +89,7 @@ impl<const D: usize> TargetMean<D> for Means<'_, D> {
         sums[2] += vw * (L::splat(self.pressure[j]) + hydrostatic);
     }
 
-    #[inline(always)]
-    fn mean<L: Lane>(&self, _: usize, [w, vw, p]: &[L; 3], lane: usize) -> WallMean {
-        let [w, vw, p] = [w.at(lane), vw.at(lane), p.at(lane)];
+    fn mean(&self, _: usize, [w, vw, p]: [f64; 3]) -> WallMean {
         if vw > 0.0 {
             WallMean {
                 pressure: p / vw,
