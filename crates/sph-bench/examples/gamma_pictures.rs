@@ -162,7 +162,7 @@ impl<const D: usize, M: WallMesh<D>> Field<D, M> {
         let [[left, right], [bottom, top]] = *window;
         let apart = (right - left) / ACROSS;
         let (mut points, mut values) = (Vec::new(), Vec::new());
-        let mut contacts = Vec::new();
+        let mut contacts = sph_neighbours::ContactBlock::default();
         let count = |from: f64, to: f64| ((to - from) / apart).round() as usize;
         for j in 0..count(bottom, top) {
             for i in 0..count(left, right) {

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{
-    Around, Contact, Lane, LanePair, LaneSum, Values, World, add_scaled, lattice_sum, unlike,
-    vector, walk_in_lanes, walk_some,
+    Around, Contact, ContactRow, Lane, LanePair, LaneSum, Values, World, add_scaled, lattice_sum,
+    unlike, vector, walk_in_lanes, walk_some,
 };
 
 /// What the neighbourhood of a particle says of its arrangement.
@@ -207,7 +207,7 @@ const ONE_WALL: f64 = 0.7;
 /// Σ weight(w) ∇w over the images of a particle behind the walls around it: one behind each wall, at twice the distance.
 fn images<const D: usize>(
     world: &World<D>,
-    contacts: &[Contact<D>],
+    contacts: ContactRow<'_, D>,
     weight: impl Fn(f64) -> f64,
 ) -> Vect<D> {
     let normal = |c: &Contact<D>| world.walls.elements.normal[c.element as usize];
@@ -220,7 +220,7 @@ fn images<const D: usize>(
             continue;
         }
         // The elements of a wall share its image.
-        let own = normal(contact);
+        let own = normal(&contact);
         let one_wall = contacts.iter().filter(|c| normal(c).dot(&own) > ONE_WALL);
         let all: f64 = one_wall.map(|c| c.gradient.norm()).sum();
         let share = contact.gradient.norm() / all;

@@ -26,8 +26,8 @@ struct Block {
     of: Vec<u8>,
 }
 
-/// For every free particle the free particles that may be within reach: one list for a cluster of at most
-/// [`MOST`](sph_lanes::MOST) particles that follow each other.
+/// For every free particle, or place on a wall, the free particles that may be within reach: one list for a cluster of at
+/// most [`MOST`](sph_lanes::MOST) that follow each other.
 #[derive(Clone, Debug, Default)]
 pub struct Clusters {
     blocks: Vec<Block>,
@@ -54,33 +54,56 @@ impl Clusters {
         &mut self,
         points: &[Vect<D>],
         grid: &CellGrid<D>,
+        within: (f64, &Domain<D>),
+        shelf: &Shelf,
+        idle: Option<&[bool]>,
+    ) {
+        self.build_all([points, points], grid, within, shelf, idle);
+    }
+
+    /// The same for clusters of targets that follow each other and points around them.
+    pub fn build_around<const D: usize>(
+        &mut self,
+        targets: &[Vect<D>],
+        points: &[Vect<D>],
+        grid: &CellGrid<D>,
+        reach: f64,
+        domain: &Domain<D>,
+        shelf: &Shelf,
+    ) {
+        self.build_all([targets, points], grid, (reach, domain), shelf, None);
+    }
+
+    fn build_all<const D: usize>(
+        &mut self,
+        [targets, points]: [&[Vect<D>]; 2],
+        grid: &CellGrid<D>,
         (reach, domain): (f64, &Domain<D>),
         shelf: &Shelf,
         idle: Option<&[bool]>,
     ) {
-        self.resize(points.len());
+        self.resize(targets.len());
         let width = width();
         let blocks = self.blocks.par_iter_mut().enumerate();
         let room = || shelf.lend::<(Vec<u32>, Vec<Range<usize>>)>();
         blocks.for_each_init(room, |room, (b, block)| {
             let (buffer, ranges) = &mut **room;
             let from = b * CHUNK;
-            let to = (from + CHUNK).min(points.len());
-            block.part(&points[from..to], width.lanes(), LONGEST * reach);
+            let to = (from + CHUNK).min(targets.len());
+            block.part(&targets[from..to], width.lanes(), LONGEST * reach);
             let mut used = 0;
             for c in 0..block.clusters() {
-                let members = block.span(c, from);
-                let [first, count] = members;
+                let [first, count] = block.span(c, from);
                 if idle.is_some_and(|idle| idle[first..first + count].iter().all(|idle| *idle)) {
                     block.starts.push(used as u32);
                     continue;
                 }
                 let near = Near {
+                    own: &targets[first..first + count],
                     points,
                     grid,
                     reach,
                     domain,
-                    members,
                     from: used,
                     slots: buffer,
                     ranges,
@@ -142,19 +165,19 @@ impl Clusters {
         (0..block.clusters()).map(move |c| block.members(c, from))
     }
 
-    /// Candidates of a particle's cluster, the particle itself among them.
+    /// Candidates of the cluster of a particle, itself among them, or of a place.
     #[inline(always)]
     pub fn candidates(&self, particle: usize) -> &[u32] {
         let block = &self.blocks[particle / CHUNK];
         block.row(block.of[particle % CHUNK] as usize)
     }
 
-    /// Number of particles.
+    /// Number of particles or places.
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether there is no particle.
+    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -228,12 +251,11 @@ impl Block {
 
 /// Looks for the candidates of one cluster.
 struct Near<'a, const D: usize> {
+    own: &'a [Vect<D>],
     points: &'a [Vect<D>],
     grid: &'a CellGrid<D>,
     reach: f64,
     domain: &'a Domain<D>,
-    /// First particle and how many.
-    members: [usize; 2],
     /// Slots that are filled already.
     from: usize,
     slots: &'a mut Vec<u32>,
@@ -246,8 +268,7 @@ impl<const D: usize> Body for Near<'_, D> {
 
     #[inline(always)]
     fn call<L: Lane>(self) -> usize {
-        let [first, count] = self.members;
-        let own = &self.points[first..first + count];
+        let own = self.own;
         let (mut low, mut high) = (own[0], own[0]);
         for x in own {
             (low, high) = (low.inf(x), high.sup(x));
@@ -264,7 +285,7 @@ impl<const D: usize> Body for Near<'_, D> {
             .iter()
             .any(|x| self.domain.near_periodic_face(x, self.reach));
         let mut n = 0;
-        if crosses || !self.grid.is_sorted() || count > L::N {
+        if crosses || !self.grid.is_sorted() || own.len() > L::N {
             for range in ranges.iter() {
                 for &j in &self.grid.order()[range.clone()] {
                     let near = |x: &Vect<D>| {

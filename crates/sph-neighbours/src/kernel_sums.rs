@@ -1,15 +1,18 @@
 //! Sums of kernel values alone: the density sum, which prunes the lists, and Shepard means.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
-use sph_lanes::{Body, Lane, dispatch_at, width};
+use sph_lanes::{Body, Lane, MOST, dispatch_at, dot, width};
 
-use crate::list::CHUNK;
+use crate::lane_vector::minus;
+use crate::list::{CHUNK, make_room};
 use crate::members::{Members, groups};
 use crate::separation::Distances;
 use crate::sweep::wrapping;
-use crate::{Domain, NeighbourList, World};
+use crate::{Clusters, Domain, World};
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d.
 ///
@@ -133,32 +136,221 @@ impl Body for Total<'_> {
     }
 }
 
-/// Calls `use_row(target, candidates, w)` for every target and leaves what it returns in `out`: the
-/// walk behind Shepard means at walls and probes. `w` is exactly zero beyond the support.
+/// `K` sums over the free particles around targets, several of which stand side by side: those behind Shepard means at walls.
+pub trait TargetMean<const D: usize, const K: usize>: Sync {
+    /// What becomes of the sums.
+    type Mean: Send;
+    /// What the targets bring along, number by number in memory: from there it is loaded into lanes as a whole.
+    type Here;
+    /// The same in lanes.
+    type Side<L: Lane>: Copy;
+
+    /// What these targets have, at most [`MOST`].
+    fn here(&self, targets: Range<usize>) -> Self::Here;
+    /// Puts it side by side.
+    fn side<L: Lane>(&self, here: &Self::Here) -> Self::Side<L>;
+    /// Adds a particle: its index, the separations of the targets from it, m, and w, 1/m^d, exactly 0 beyond the support.
+    fn add<L: Lane>(
+        &self,
+        side: &Self::Side<L>,
+        particle: usize,
+        apart: &[L; D],
+        w: L,
+        sums: &mut [L; K],
+    );
+    /// The mean at a target from its sums.
+    fn mean(&self, target: usize, sums: [f64; K]) -> Self::Mean;
+}
+
+/// Leaves in `out` what a mean is at every target.
+///
+/// Each sums its particles in the order of their indices, whatever the number of lanes.
 ///
 /// # Errors
 /// If the world has no positions.
-pub fn shepard<const D: usize, R: Send>(
+pub fn shepard<const D: usize, const K: usize, M: TargetMean<D, K>>(
     world: &World<D>,
     targets: &[Vect<D>],
-    list: &NeighbourList,
-    out: &mut Vec<R>,
-    use_row: impl Fn(usize, &[u32], &[f64]) -> R + Sync,
+    list: &Clusters,
+    mean: &M,
+    out: &mut Vec<M::Mean>,
 ) -> Result<(), StepError> {
     let positions = world.free.get(fields::POSITION)?;
     let kernel = &*world.kernel;
-    let domain = world.domain.any_periodic().then_some(&world.domain);
-    let rows = targets.par_iter().enumerate().with_min_len(CHUNK);
-    let means = rows.map_init(
-        || world.lists.shelf.lend::<Values>(),
-        |values, (t, x)| {
-            let row = list.row(t);
-            let w = values.fill(x, positions, row, domain, kernel);
-            use_row(t, row, w)
-        },
-    );
-    means.collect_into_vec(out);
+    let width = width();
+    out.resize_with(targets.len(), || mean.mean(0, [0.0; K]));
+    let limit = kernel.support_radius().powi(2);
+    let room = || world.lists.shelf.lend::<(Values, Vec<u32>)>();
+    let blocks = out.par_chunks_mut(CHUNK).enumerate();
+    blocks.for_each_init(room, |room, (b, out)| {
+        let (values, inside) = &mut **room;
+        for all in list.of_block(b) {
+            for members in groups(all, width.lanes()) {
+                let own = members.from..members.from + members.count;
+                let mut near = targets[own.clone()].iter();
+                let around = Around {
+                    targets: in_memory(&targets[own.clone()]),
+                    positions,
+                    domain: near.find_map(|x| wrapping(&world.domain, x, world.reach())),
+                };
+                let n = members.candidates.len();
+                values.reserve(n * width.lanes());
+                make_room(inside, n);
+                let body = DistancesAround {
+                    around: &around,
+                    candidates: members.candidates,
+                    limit,
+                    inside: &mut inside[..n],
+                    out: &mut values.distance2,
+                };
+                let n = dispatch_at(width, body);
+                let inside = &inside[..n];
+                let needed = inside.len() * width.lanes();
+                let value = &mut values.value[..needed];
+                kernel.value(&values.distance2[..needed], value);
+                let mut sums = [[0.0; MOST]; K];
+                let body = SumAround {
+                    around: &around,
+                    here: &mean.here(own.clone()),
+                    inside,
+                    values: value,
+                    mean,
+                    sums: &mut sums,
+                };
+                dispatch_at(width, body);
+                for (lane, target) in own.enumerate() {
+                    let sums = std::array::from_fn(|k| sums[k][lane]);
+                    out[target - b * CHUNK] = mean.mean(target, sums);
+                }
+            }
+        }
+    });
     Ok(())
+}
+
+/// Vectors of at most [`MOST`] targets, component by component; the last one fills what is left over.
+///
+/// Lanes that are put together number by number are taken apart by the compiler, and each goes its own way.
+pub type InMemory<const D: usize> = [[f64; MOST]; D];
+
+/// Some vectors in memory.
+///
+/// # Panics
+/// If there are none.
+pub fn in_memory<const D: usize>(vectors: &[Vect<D>]) -> InMemory<D> {
+    let last = vectors.len() - 1;
+    std::array::from_fn(|k| std::array::from_fn(|lane| vectors[lane.min(last)][k]))
+}
+
+/// The vectors in lanes.
+#[inline(always)]
+pub fn loaded<const D: usize, L: Lane>(vectors: &InMemory<D>) -> [L; D] {
+    let mut lanes = [L::splat(0.0); D];
+    for k in 0..D {
+        lanes[k] = L::load(&vectors[k]);
+    }
+    lanes
+}
+
+/// Some targets and the particles around them.
+struct Around<'a, const D: usize> {
+    /// Places of the targets, m.
+    targets: InMemory<D>,
+    positions: &'a [Vect<D>],
+    /// Where images across periodic faces may be nearer.
+    domain: Option<&'a Domain<D>>,
+}
+
+impl<const D: usize> Around<'_, D> {
+    /// With a branch for the domain in the loop lanes would be taken apart: it is `WRAPS`, decided before.
+    #[inline(always)]
+    fn apart<L: Lane, const WRAPS: bool>(&self, x: &[L; D], particle: u32) -> [L; D] {
+        let apart = minus(x, &self.positions[particle as usize]);
+        match self.domain {
+            Some(domain) if WRAPS => domain.nearest_images(apart),
+            _ => apart,
+        }
+    }
+}
+
+/// Who is within the support of a target, and the squared distances of all targets, `N` numbers for each particle.
+struct DistancesAround<'a, const D: usize> {
+    around: &'a Around<'a, D>,
+    candidates: &'a [u32],
+    limit: f64,
+    inside: &'a mut [u32],
+    out: &'a mut [f64],
+}
+
+impl<const D: usize> Body for DistancesAround<'_, D> {
+    /// How many there are.
+    type Output = usize;
+
+    #[inline(always)]
+    fn call<L: Lane>(self) -> usize {
+        match self.around.domain {
+            Some(_) => self.find::<L, true>(),
+            None => self.find::<L, false>(),
+        }
+    }
+}
+
+impl<const D: usize> DistancesAround<'_, D> {
+    #[inline(always)]
+    fn find<L: Lane, const WRAPS: bool>(self) -> usize {
+        let around = self.around;
+        let x = loaded::<D, L>(&around.targets);
+        let limit = L::splat(self.limit);
+        let mut n = 0;
+        for &j in self.candidates {
+            let apart = around.apart::<L, WRAPS>(&x, j);
+            let distance2 = dot(&apart, &apart);
+            self.inside[n] = j;
+            distance2.store(&mut self.out[n * L::N..]);
+            n += usize::from(distance2.any_less(limit));
+        }
+        n
+    }
+}
+
+/// The sums over all particles.
+struct SumAround<'a, const D: usize, const K: usize, M: TargetMean<D, K>> {
+    around: &'a Around<'a, D>,
+    here: &'a M::Here,
+    inside: &'a [u32],
+    values: &'a [f64],
+    mean: &'a M,
+    sums: &'a mut [[f64; MOST]; K],
+}
+
+impl<const D: usize, const K: usize, M: TargetMean<D, K>> Body for SumAround<'_, D, K, M> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<L: Lane>(self) {
+        match self.around.domain {
+            Some(_) => self.sum::<L, true>(),
+            None => self.sum::<L, false>(),
+        }
+    }
+}
+
+impl<const D: usize, const K: usize, M: TargetMean<D, K>> SumAround<'_, D, K, M> {
+    #[inline(always)]
+    fn sum<L: Lane, const WRAPS: bool>(self) {
+        let (around, mean) = (self.around, self.mean);
+        let x = loaded::<D, L>(&around.targets);
+        let side = mean.side::<L>(self.here);
+        let mut sums = [L::splat(0.0); K];
+        let values = self.values.chunks_exact(L::N);
+        for (&j, w) in self.inside.iter().zip(values) {
+            let apart = around.apart::<L, WRAPS>(&x, j);
+            mean.add(&side, j as usize, &apart, L::load(w), &mut sums);
+        }
+        for k in 0..K {
+            sums[k].store(&mut self.sums[k]);
+        }
+    }
 }
 
 #[derive(Default)]

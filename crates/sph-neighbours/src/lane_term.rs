@@ -180,7 +180,7 @@ impl<const D: usize, B: LaneTerm<D>> Body for SideBySide<'_, '_, D, B> {
                 each(&row, |v, pair| term.wall(here, v, pair, &mut sum));
             }
             for contact in cluster.contacts.of(from + k) {
-                term.element(here, contact, &mut sum);
+                term.element(here, &contact, &mut sum);
             }
             let inverse = cluster.renormalisation.map_or(1.0, |g| 1.0 / g[from + k]);
             term.finish(here, &sum, inverse, rates);

@@ -52,7 +52,7 @@ pub use class_rates::{ClassRate, class_rates};
 pub use cluster::Cluster;
 pub use cluster_walk::{ClusterWalk, LanePairs};
 pub use clusters::Clusters;
-pub use contacts::{Contact, Contacts};
+pub use contacts::{Contact, ContactBlock, ContactIter, ContactRow, Contacts};
 pub use couplings::{Couplings, CouplingsAt, Kinds, Visitor};
 pub use domain::Domain;
 pub use fuse::{
@@ -60,7 +60,7 @@ pub use fuse::{
 };
 pub use grid::{CellGrid, Extent};
 pub use keep_couplings::{Keeper, Rows as CouplingRows, Tally, Weak};
-pub use kernel_sums::{kernel_sums, shepard};
+pub use kernel_sums::{InMemory, TargetMean, in_memory, kernel_sums, loaded, shepard};
 pub use kernels::KernelEntry;
 pub use lane_pair::LanePair;
 pub use lane_term::{FusedLanes, LanePairTerm, LaneTerm, Lanewise};

@@ -7,7 +7,9 @@ use crate::packed::{Packed, pack};
 use crate::row::Row;
 use crate::term::Rates;
 use crate::wall_force::add_moment;
-use crate::{Contact, Interaction, NOBODY, Neighbourhood, Scratch, WallForce, World};
+use crate::{
+    ContactBlock, ContactRow, Interaction, NOBODY, Neighbourhood, Scratch, WallForce, World,
+};
 
 /// r × f; the third component alone in two dimensions.
 pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
@@ -115,27 +117,29 @@ pub fn wall_parts<const D: usize>(
             }
             row.gather(world, &positions[i], i);
             let inverse = gamma.map_or(1.0, |g| 1.0 / g[i]);
-            let sum = |free: &Row<'_, D>, walls: &Row<'_, D>, contacts: &[Contact<D>], inverse| {
-                let neighbourhood = Neighbourhood {
-                    particle: i,
-                    free: *free,
-                    states: &states,
-                    wall: *walls,
-                    contacts,
-                    inverse_renormalisation: inverse,
+            let sum =
+                |free: &Row<'_, D>, walls: &Row<'_, D>, contacts: ContactRow<'_, D>, inverse| {
+                    let neighbourhood = Neighbourhood {
+                        particle: i,
+                        free: *free,
+                        states: &states,
+                        wall: *walls,
+                        contacts,
+                        inverse_renormalisation: inverse,
+                    };
+                    let mut rates = Rates::of(Vect::zeros());
+                    bound.iter().for_each(|t| t.row(&neighbourhood, &mut rates));
+                    rates.acceleration
                 };
-                let mut rates = Rates::of(Vect::zeros());
-                bound.iter().for_each(|t| t.row(&neighbourhood, &mut rates));
-                rates.acceleration
-            };
             let (none, free) = (empty.row(), row.free.row());
             // A term may look at the free neighbours when it judges the wall's: they are there.
-            let fluid = sum(&free, &none, &[], inverse);
-            let mut rest =
-                sum(&free, &row.points.row(), &row.contacts, inverse) - sum(&free, &none, &[], 1.0);
+            let nothing = ContactRow::NONE;
+            let fluid = sum(&free, &none, nothing, inverse);
+            let mut rest = sum(&free, &row.points.row(), all(&row.contacts), inverse)
+                - sum(&free, &none, nothing, 1.0);
             let own = |wall: &u32| {
                 let (points, contacts) = row.of(world, *wall);
-                let own = sum(&free, &points.row(), &contacts, inverse) - fluid;
+                let own = sum(&free, &points.row(), all(&contacts), inverse) - fluid;
                 (*wall, own, row.share(&contacts))
             };
             let parts: Vec<_> = row.walls.iter().map(own).collect();
@@ -153,7 +157,7 @@ pub fn wall_parts<const D: usize>(
 struct WallRow<const D: usize> {
     free: Scratch<D>,
     points: Scratch<D>,
-    contacts: Vec<Contact<D>>,
+    contacts: ContactBlock<D>,
     /// Σ |∇γ_as| over all contacts, 1/m.
     gradient: f64,
     walls: Vec<u32>,
@@ -164,15 +168,19 @@ impl<const D: usize> Default for WallRow<D> {
         WallRow {
             free: Scratch::new(),
             points: Scratch::new(),
-            contacts: Vec::new(),
+            contacts: ContactBlock::default(),
             gradient: 0.0,
             walls: Vec::new(),
         }
     }
 }
 
-fn sizes<const D: usize>(contacts: &[Contact<D>]) -> f64 {
-    contacts.iter().map(|c| c.gradient.norm()).sum()
+fn all<const D: usize>(contacts: &ContactBlock<D>) -> ContactRow<'_, D> {
+    contacts.row(0..contacts.planes())
+}
+
+fn sizes<const D: usize>(contacts: &ContactBlock<D>) -> f64 {
+    all(contacts).iter().map(|c| c.gradient.norm()).sum()
 }
 
 impl<const D: usize> WallRow<D> {
@@ -192,12 +200,12 @@ impl<const D: usize> WallRow<D> {
                 .fill(x, sources, candidates, NOBODY, domain, kernel);
         }
         self.contacts.clear();
-        self.contacts.extend_from_slice(set.contacts.of(i));
+        self.contacts.push_row(set.contacts.of(i), |_| true);
         self.gradient = sizes(&self.contacts);
         self.walls.clear();
         let points = self.points.row();
         let of_points = points.index.iter().map(|v| set.points.wall[*v as usize]);
-        let contacts = self.contacts.iter();
+        let contacts = all(&self.contacts).iter();
         let of_contacts = contacts.map(|c| set.elements.wall[c.element as usize]);
         self.walls.extend(of_points.chain(of_contacts));
         self.walls.sort_unstable();
@@ -205,16 +213,18 @@ impl<const D: usize> WallRow<D> {
     }
 
     /// The points and contacts of one wall.
-    fn of(&self, world: &World<D>, wall: u32) -> (Scratch<D>, Vec<Contact<D>>) {
+    fn of(&self, world: &World<D>, wall: u32) -> (Scratch<D>, ContactBlock<D>) {
         let set = &world.walls;
         let points = self.points.only(|v| set.points.wall[v as usize] == wall);
-        let contacts = self.contacts.iter().copied();
-        let contacts = contacts.filter(|c| set.elements.wall[c.element as usize] == wall);
-        (points, contacts.collect())
+        let mut contacts = ContactBlock::default();
+        contacts.push_row(all(&self.contacts), |s| {
+            set.elements.wall[s as usize] == wall
+        });
+        (points, contacts)
     }
 
     /// The share of a wall with these contacts in what 1/γ adds.
-    fn share(&self, contacts: &[Contact<D>]) -> f64 {
+    fn share(&self, contacts: &ContactBlock<D>) -> f64 {
         match self.gradient > 0.0 {
             true => sizes(contacts) / self.gradient,
             false => 0.0,

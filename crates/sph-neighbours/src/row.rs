@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_kernels::Sampler;
 
-use crate::{Contact, Domain};
+use crate::{ContactRow, Domain};
 
 /// Pairs of one particle with one set of sources, inside the support only.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +57,7 @@ pub struct Neighbourhood<'a, const D: usize> {
     /// Its wall points.
     pub wall: Row<'a, D>,
     /// Its wall elements with their share of ∇γ.
-    pub contacts: &'a [Contact<D>],
+    pub contacts: ContactRow<'a, D>,
     /// 1/γ, 1 away from walls.
     pub inverse_renormalisation: f64,
 }

@@ -3,7 +3,9 @@
 use sph_core::{StepError, Vect};
 
 use crate::packed::{Packed, pack};
-use crate::{Interaction, Neighbourhood, Part, Rates, Rows, Scratch, Surroundings, World};
+use crate::{
+    ContactRow, Interaction, Neighbourhood, Part, Rates, Rows, Scratch, Surroundings, World,
+};
 
 /// What one term does to a particle.
 #[derive(Clone, Debug)]
@@ -40,7 +42,7 @@ pub fn shares_at<const D: usize>(
     let none = Scratch::<D>::new();
     let fluid = Neighbourhood {
         wall: none.row(),
-        contacts: &[],
+        contacts: ContactRow::NONE,
         inverse_renormalisation: 1.0,
         ..whole
     };

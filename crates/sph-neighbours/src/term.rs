@@ -196,7 +196,7 @@ pub(crate) fn free_then_walls<const D: usize, B: BoundTerm<D>>(
         each(&n.wall, |v, pair| term.wall(&here, v, pair, &mut sum));
     }
     for contact in n.contacts {
-        term.element(&here, contact, &mut sum);
+        term.element(&here, &contact, &mut sum);
     }
     term.finish(&here, &sum, n.inverse_renormalisation, rates);
 }

@@ -22,9 +22,9 @@ pub struct Lists<const D: usize> {
     /// Wall points around free particles.
     pub wall: NeighbourList,
     /// Free particles around the wall points that are in sums.
-    pub of_points: NeighbourList,
+    pub of_points: Clusters,
     /// Free particles around element centres.
-    pub of_elements: NeighbourList,
+    pub of_elements: Clusters,
     /// Positions of the free particles at the last build, m.
     pub reference: Vec<Vect<D>>,
     reference_points: Vec<Vect<D>>,
@@ -123,8 +123,13 @@ impl<const D: usize> World<D> {
         if let Some(order) = self.order()? {
             self.free.permute(&order);
         }
-        let positions = self.free.get(fields::POSITION)?.to_vec();
-        self.build_lists_at(positions);
+        let lists = &mut self.lists;
+        let [mut positions, mut points] =
+            [&mut lists.reference, &mut lists.reference_points].map(std::mem::take);
+        positions.clear();
+        positions.extend_from_slice(self.free.get(fields::POSITION)?);
+        points.clone_from(&self.walls.points.position);
+        self.build_lists_from(positions, points, self.time);
         Ok(())
     }
 
@@ -178,11 +183,6 @@ impl<const D: usize> World<D> {
         self.lists.time = time;
     }
 
-    fn build_lists_at(&mut self, positions: Vec<Vect<D>>) {
-        let points = self.walls.points.position.clone();
-        self.build_lists_from(positions, points, self.time);
-    }
-
     /// Builds all lists for given positions of the (sorted) free particles and wall points, those of a time, s.
     ///
     /// A resumed run passes positions and time of the last build, so that its lists, and with them
@@ -208,17 +208,18 @@ impl<const D: usize> World<D> {
             lists.wall.shift(first as u32);
             lists
                 .of_points
-                .build(summed, &positions, &grid, reach, domain);
+                .build_around(summed, &positions, &grid, reach, domain, shelf);
         }
         let elements = &self.walls.elements;
         if !elements.centre.is_empty() {
             // An element stands where its corners stood.
-            let centres: Vec<Vect<D>> = (0..elements.centre.len())
-                .map(|s| elements.centre_from(s, &points, domain))
-                .collect();
+            let mut centres = shelf.lend::<Vec<Vect<D>>>();
+            let all = 0..elements.centre.len();
+            centres.clear();
+            centres.extend(all.map(|s| elements.centre_from(s, &points, domain)));
             lists
                 .of_elements
-                .build(&centres, &positions, &grid, reach, domain);
+                .build_around(&centres, &positions, &grid, reach, domain, shelf);
         }
         lists.reference_points = points;
         lists.reference = positions;

@@ -1,13 +1,12 @@
 //! The force of a stress as the adjoint of a corrected velocity gradient.
 
-use std::any::Any;
 use std::sync::Arc;
 
 use nalgebra::SMatrix;
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
 use sph_neighbours::{
-    Around, BoundTerm, Contact, Fused, Interaction, Pair, Rates, RowTerm, There, Values, World,
-    walk_into,
+    BoundTerm, Contact, Interaction, Lane, LanePair, LanePairTerm, LaneSum, LaneTerm, Lanewise,
+    Neighbourhood, Pair, Rates, There, World, dot, scaled, splat, vector, walk_in_lanes,
 };
 
 use crate::strain_rate::in_space;
@@ -34,14 +33,7 @@ impl<const D: usize> Stage<World<D>> for StressCorrection<D> {
         let volume = world.free.get(fields::VOLUME)?;
         let points = &world.walls.points;
         let elements = &world.walls.elements;
-        let correction = |around: &Around<'_, D>| {
-            let rows = &around.rows;
-            let mut position = SMatrix::<f64, D, D>::zeros();
-            for (k, &j) in rows.free.index.iter().enumerate() {
-                let apart = &rows.free.separation[k];
-                let weight = volume[j as usize] * rows.free.factor[k];
-                position -= apart * (apart * weight).transpose();
-            }
+        let correction = |mut position: SMatrix<f64, D, D>, rows: &Neighbourhood<'_, D>| {
             for (k, &v) in rows.wall.index.iter().enumerate() {
                 let v = v as usize;
                 let apart = &rows.wall.separation[k];
@@ -58,14 +50,56 @@ impl<const D: usize> Stage<World<D>> for StressCorrection<D> {
                 inverse_renormalisation: rows.inverse_renormalisation,
             })
         };
-        walk_into(
-            world,
-            Values::Gradient,
-            |_| true,
-            &mut corrections,
-            correction,
-        )?;
+        let free = FreePositions { volume };
+        walk_in_lanes(world, &free, |_| true, &mut corrections, correction)?;
         Ok(world.free.put(fields::STRESS_CORRECTION, corrections)?)
+    }
+}
+
+/// −Σ V r ⊗ ∇w of free neighbours.
+struct FreePositions<'a> {
+    volume: &'a [f64],
+}
+
+impl<const D: usize> LaneSum<D> for FreePositions<'_> {
+    type Here = ();
+    type Sum = SMatrix<f64, D, D>;
+    type Side<L: Lane> = ();
+    type Sums<L: Lane> = [[L; D]; D];
+
+    #[inline(always)]
+    fn here(&self, _: usize) {}
+    #[inline(always)]
+    fn side<L: Lane>(&self, _: &[()]) {}
+    #[inline(always)]
+    fn zero<L: Lane>(&self) -> [[L; D]; D] {
+        [[L::splat(0.0); D]; D]
+    }
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &[[L; D]; D], lane: usize) -> SMatrix<f64, D, D> {
+        let mut sum = SMatrix::zeros();
+        for i in 0..D {
+            for k in 0..D {
+                sum[(i, k)] = sums[i][k].at(lane);
+            }
+        }
+        sum
+    }
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        _: &(),
+        j: usize,
+        pair: &LanePair<D, L>,
+        _value: L,
+        sums: &mut [[L; D]; D],
+    ) {
+        let weight = scaled(pair.separation, L::splat(self.volume[j]) * pair.factor);
+        for i in 0..D {
+            for k in 0..D {
+                sums[i][k] -= pair.separation[i] * weight[k];
+            }
+        }
     }
 }
 
@@ -79,7 +113,16 @@ impl<const D: usize> Stage<World<D>> for StressCorrection<D> {
 #[derive(Clone, Copy, Debug)]
 pub struct AdjointDivergence;
 
-impl<const D: usize> Interaction<D> for AdjointDivergence {
+impl AdjointDivergence {
+    /// As a term of a sweep.
+    pub fn boxed<const D: usize>() -> Box<dyn Interaction<D>> {
+        Box::new(Lanewise(AdjointDivergence))
+    }
+}
+
+impl<const D: usize> LanePairTerm<D> for AdjointDivergence {
+    type Bound<'a> = Bound<'a, D>;
+
     fn name(&self) -> String {
         "adjoint stress divergence".into()
     }
@@ -92,12 +135,12 @@ impl<const D: usize> Interaction<D> for AdjointDivergence {
             .here(fields::MASS)
     }
 
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
         let stress = world.free.get(fields::CARRIED_STRESS)?;
         let correction = world.free.get(fields::STRESS_CORRECTION)?;
         let both = stress.iter().zip(correction);
         let points = &world.walls.points;
-        Ok(Box::new(Fused(Bound {
+        Ok(Bound {
             stress: both
                 .map(|(t, c)| {
                     (t.matrix() * in_space(c).transpose())
@@ -109,20 +152,12 @@ impl<const D: usize> Interaction<D> for AdjointDivergence {
             mass: world.free.get(fields::MASS)?,
             wall_volume: &points.volume,
             wall_share: &points.share,
-        })))
-    }
-
-    fn as_any_ref(&self) -> &dyn Any {
-        self
-    }
-
-    fn into_any(self: Box<Self>) -> Box<dyn Any> {
-        self
+        })
     }
 }
 
 /// [`AdjointDivergence`] with its columns.
-struct Bound<'a, const D: usize> {
+pub struct Bound<'a, const D: usize> {
     /// τCᵀ.
     stress: Vec<SMatrix<f64, D, D>>,
     volume: &'a [f64],
@@ -133,7 +168,7 @@ struct Bound<'a, const D: usize> {
 
 /// The particle's own values.
 #[derive(Clone, Copy)]
-struct Here<const D: usize> {
+pub struct Here<const D: usize> {
     stress: SMatrix<f64, D, D>,
     per_mass: f64,
 }
@@ -157,8 +192,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
 
     #[inline(always)]
     fn free(&self, here: &Here<D>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Vect<D>) {
-        let weight = there.volume * pair.factor;
-        *sum += (here.stress + self.stress[j]) * pair.separation * weight;
+        self.add_one(here, j, there, pair, sum);
     }
 
     #[inline(always)]
@@ -175,5 +209,53 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     #[inline(always)]
     fn finish(&self, here: &Here<D>, sum: &Vect<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
         rates.acceleration += sum * (here.per_mass * inverse_gamma);
+    }
+}
+
+impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
+    /// τCᵀ.
+    type Side<L: Lane> = [[L; D]; D];
+    type Sums<L: Lane> = [L; D];
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[Here<D>]) -> [[L; D]; D] {
+        let mut side = [[L::splat(0.0); D]; D];
+        for (lane, own) in here.iter().enumerate() {
+            for i in 0..D {
+                for k in 0..D {
+                    side[i][k].set(lane, own.stress[(i, k)]);
+                }
+            }
+        }
+        side
+    }
+
+    #[inline(always)]
+    fn sums<L: Lane>(&self, sum: &Vect<D>) -> [L; D] {
+        splat(sum)
+    }
+
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &[L; D], lane: usize) -> Vect<D> {
+        vector(sums, lane)
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        here: &[[L; D]; D],
+        j: usize,
+        there: &There<D>,
+        pair: &LanePair<D, L>,
+        sums: &mut [L; D],
+    ) {
+        let weight = L::splat(there.volume) * pair.factor;
+        for i in 0..D {
+            let mut row = here[i];
+            for k in 0..D {
+                row[k] += L::splat(self.stress[j][(i, k)]);
+            }
+            sums[i] += dot(&row, &pair.separation) * weight;
+        }
     }
 }

@@ -3,7 +3,7 @@
 use std::any::Any;
 
 use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
-use sph_neighbours::{Interaction, Neighbourhood, Rates, Row, RowTerm, World};
+use sph_neighbours::{ContactRow, Interaction, Neighbourhood, Rates, Row, RowTerm, World};
 
 use crate::Rheologies;
 
@@ -142,7 +142,7 @@ impl<const D: usize> Bound<'_, D> {
                 factor: &factor,
             },
             wall: none,
-            contacts: &[],
+            contacts: ContactRow::NONE,
             ..*at
         };
         self.term.row(&others, &mut rates);

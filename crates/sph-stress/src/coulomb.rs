@@ -61,7 +61,8 @@ impl<const D: usize> CoulombFriction<D> {
             let coulomb = elements.coulomb[c.element as usize];
             coulomb.coefficient > 0.0 && !coulomb.literal
         };
-        let slides = |i: usize| soil.rubs(i) && world.walls.contacts.of(i).iter().any(rubbed);
+        let slides =
+            |i: usize| soil.rubs(i) && world.walls.contacts.of(i).iter().any(|c| rubbed(&c));
         Ok(soil.pressed(&wall_parts(world, terms, slides)?))
     }
 
@@ -203,7 +204,7 @@ impl<const D: usize> Soil<'_, D> {
             let i = particle as usize;
             let own = contacts.of(i);
             for (wall, force) in parts[i].iter().filter(|_| self.rubs(i)) {
-                let on_wall = |c: &&Contact<D>| elements.wall[c.element as usize] == *wall;
+                let on_wall = |c: &Contact<D>| elements.wall[c.element as usize] == *wall;
                 let all: f64 = own.iter().filter(on_wall).map(|c| c.gradient.norm()).sum();
                 for contact in own.iter().filter(on_wall) {
                     let s = contact.element as usize;

@@ -68,7 +68,7 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
                 gathered.point(own, &walls.points, v as usize, apart, *factor);
             }
             for contact in rows.contacts {
-                gathered.element(own, &walls.elements, contact);
+                gathered.element(own, &walls.elements, &contact);
             }
             gathered.gradient(&*self.formula, rows.inverse_renormalisation)
         })?;

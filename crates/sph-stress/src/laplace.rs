@@ -9,10 +9,10 @@ use sph_implicit::{
     Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, Preconditioner, Report,
     Rows,
 };
-use sph_neighbours::{Cluster, Values, World, walk_into};
+use sph_neighbours::{Cluster, World, walk_in_lanes};
 
 use crate::effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
-use crate::soil_surface::at_surface;
+use crate::soil_surface::Grains;
 
 /// What solves for the effective pressure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
@@ -360,14 +360,14 @@ impl<const D: usize> Solve<D> {
         let buoyant = |i: usize| soils[phase.map_or(0, |p| p[i] as usize)];
         let depth = (self.surface_depth * world.spacing).max(self.least_depth);
         let top = depth * world.gravity.norm();
-        let length = world.kernel.smoothing_length();
-        let points = &world.walls.points;
+        let positions = world.free.get(fields::POSITION)?;
         let soil = |j: usize| buoyant(j).is_some();
+        let grains = Grains { volume, soil };
         parts.clear();
         parts.resize(volume.len(), Part::Outside);
-        walk_into(world, Values::Gradient, soil, parts, |around| {
-            let density = buoyant(around.rows.particle).unwrap_or(0.0);
-            match at_surface(around, points, volume, length, soil) {
+        walk_in_lanes(world, &grains, soil, parts, |normal, rows| {
+            let density = buoyant(rows.particle).unwrap_or(0.0);
+            match grains.at_surface(world, positions, normal, rows) {
                 true => Part::Surface(density, top * density),
                 false => Part::Inside(density),
             }

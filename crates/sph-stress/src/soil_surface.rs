@@ -1,7 +1,7 @@
 //! Which particles of a soil lie at its surface.
 
 use sph_core::Vect;
-use sph_neighbours::{Around, WallPoints};
+use sph_neighbours::{Lane, LanePair, LaneSum, Neighbourhood, World, vector};
 
 /// Half angle of the empty cone above a surface particle: cos 45° in the plane, cos 30° in space.
 fn cosine<const D: usize>() -> f64 {
@@ -14,49 +14,92 @@ fn cosine<const D: usize>() -> f64 {
 /// |N| h below which a particle is taken to be surrounded evenly.
 const EVEN: f64 = 0.1;
 
-/// Whether no grain and no wall is in the cone around the outward normal N = −Σ V ∇w of the grains.
-///
-/// Everybody who is not `soil` is looked through: water and air. A particle without grains around
-/// is at the surface.
-///
-/// Source: the cone of Marrone et al. 2010, with neighbours of the soil only.
-pub fn at_surface<const D: usize>(
-    around: &Around<'_, D>,
-    points: &WallPoints<D>,
-    volume: &[f64],
-    length: f64,
-    soil: impl Fn(usize) -> bool,
-) -> bool {
-    let rows = &around.rows;
-    let mut normal = Vect::<D>::zeros();
-    let mut grains = 0;
-    for (k, &j) in rows.free.index.iter().enumerate() {
-        let j = j as usize;
-        if soil(j) {
-            grains += 1;
-            // ∇w points to the neighbour: against it is away from the grains.
-            normal -= rows.free.separation[k] * (volume[j] * rows.free.factor[k]);
+/// The soil around particles: Σ V ∇w against its outward normal, and whether there is any.
+pub(crate) struct Grains<'a, S> {
+    /// Of all particles, m^d.
+    pub volume: &'a [f64],
+    /// Who is soil. Everybody else is looked through: water and air.
+    pub soil: S,
+}
+
+impl<const D: usize, S: Fn(usize) -> bool + Sync> LaneSum<D> for Grains<'_, S> {
+    type Here = ();
+    /// The outward normal N = −Σ V ∇w, 1/m; none without grains.
+    type Sum = Option<Vect<D>>;
+    type Side<L: Lane> = ();
+    /// N and −Σ F.
+    type Sums<L: Lane> = ([L; D], L);
+
+    #[inline(always)]
+    fn here(&self, _: usize) {}
+    #[inline(always)]
+    fn side<L: Lane>(&self, _: &[()]) {}
+    #[inline(always)]
+    fn zero<L: Lane>(&self) -> Self::Sums<L> {
+        ([L::splat(0.0); D], L::splat(0.0))
+    }
+    #[inline(always)]
+    fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Option<Vect<D>> {
+        (sums.1.at(lane) > 0.0).then(|| vector(&sums.0, lane))
+    }
+    #[inline(always)]
+    fn add<L: Lane>(
+        &self,
+        _: &(),
+        j: usize,
+        pair: &LanePair<D, L>,
+        _value: L,
+        sums: &mut Self::Sums<L>,
+    ) {
+        if !(self.soil)(j) {
+            return;
         }
+        // ∇w points to the neighbour: against it is away from the grains.
+        let weight = L::splat(self.volume[j]) * pair.factor;
+        for k in 0..D {
+            sums.0[k] -= pair.separation[k] * weight;
+        }
+        sums.1 -= pair.factor;
     }
-    if grains == 0 {
-        return true;
+}
+
+impl<S: Fn(usize) -> bool> Grains<'_, S> {
+    /// Whether no grain and no wall is in the cone around the outward normal of a particle with these walls. One without
+    /// grains around is at the surface.
+    ///
+    /// Source: the cone of Marrone et al. 2010, with neighbours of the soil only.
+    pub fn at_surface<const D: usize>(
+        &self,
+        world: &World<D>,
+        positions: &[Vect<D>],
+        normal: Option<Vect<D>>,
+        rows: &Neighbourhood<'_, D>,
+    ) -> bool {
+        let Some(mut normal) = normal else {
+            return true;
+        };
+        let points = &world.walls.points;
+        // What is behind a wall counts as filled: the sum over a full neighbourhood is ∇γ.
+        for (k, &v) in rows.wall.index.iter().enumerate() {
+            let weight = points.share[v as usize] * points.volume[v as usize];
+            normal -= rows.wall.separation[k] * (weight * rows.wall.factor[k]);
+        }
+        for contact in rows.contacts {
+            normal += contact.gradient;
+        }
+        let size = normal.norm();
+        if size * world.kernel.smoothing_length() < EVEN {
+            return false;
+        }
+        let outward = normal / size;
+        let within = |apart: &Vect<D>| -apart.dot(&outward) > cosine::<D>() * apart.norm();
+        let (i, limit) = (rows.particle, world.kernel.support_radius().powi(2));
+        let blocks = |j: usize| {
+            let apart = world.domain.nearest_image(positions[i] - positions[j]);
+            j != i && (self.soil)(j) && apart.norm_squared() < limit && within(&apart)
+        };
+        let mut candidates = world.lists.nearest().candidates(i).iter();
+        let blocked = candidates.any(|j| blocks(*j as usize));
+        !blocked && !rows.wall.separation.iter().any(within)
     }
-    // What is behind a wall counts as filled: the sum over a full neighbourhood is ∇γ.
-    for (k, &v) in rows.wall.index.iter().enumerate() {
-        let weight = points.share[v as usize] * points.volume[v as usize];
-        normal -= rows.wall.separation[k] * (weight * rows.wall.factor[k]);
-    }
-    for contact in rows.contacts {
-        normal += contact.gradient;
-    }
-    let size = normal.norm();
-    if size * length < EVEN {
-        return false;
-    }
-    let outward = normal / size;
-    let within = |apart: &Vect<D>| -apart.dot(&outward) > cosine::<D>() * apart.norm();
-    let free = rows.free.index.iter().zip(rows.free.separation);
-    let mut above = free.filter(|(j, _)| soil(**j as usize));
-    let blocked = above.any(|(_, apart)| within(apart));
-    !blocked && !rows.wall.separation.iter().any(within)
 }

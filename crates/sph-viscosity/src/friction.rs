@@ -220,7 +220,7 @@ impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
 
     /// Normal and distance of the element with the largest mean kernel, the nearest one.
     #[inline(always)]
-    fn nearest(&self, i: usize) -> Option<&Contact<D>> {
+    fn nearest(&self, i: usize) -> Option<Contact<D>> {
         if !(self.rubs && self.corrected) {
             return None;
         }
@@ -231,7 +231,7 @@ impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
         let mut nearest = None;
         let mut largest = 0.0;
         for contact in self.contacts.of(i) {
-            let mean = mean(contact);
+            let mean = mean(&contact);
             if mean > largest && !self.is_open(contact.element) {
                 largest = mean;
                 nearest = Some(contact);
@@ -316,7 +316,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
     fn here(&self, i: usize) -> Self::Here {
         let nearest = self.nearest(i);
         let along = match (F::DIRECTIONAL, nearest) {
-            (true, Some(nearest)) => self.along(i, nearest),
+            (true, Some(nearest)) => self.along(i, &nearest),
             _ => Vect::zeros(),
         };
         let viscosity = self.viscosity.here(i);

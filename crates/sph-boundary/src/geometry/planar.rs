@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
-use sph_neighbours::Contact;
+use sph_neighbours::ContactBlock;
 
 use crate::geometry::checks::check_points;
 use crate::geometry::layers::layers;
@@ -208,7 +208,7 @@ impl WallMesh<2> for PlanarWalls {
         point: &Vect<2>,
         row: &[NearSegment],
         room: &mut SegmentBatch,
-        contacts: &mut Vec<Contact<2>>,
+        contacts: &mut ContactBlock<2>,
     ) -> f64 {
         let mut found = Vec::with_capacity(1);
         self.gammas(
@@ -227,7 +227,7 @@ impl WallMesh<2> for PlanarWalls {
         integrals: &Renormalisation2d,
         points: impl Iterator<Item = (&'a Vect<2>, &'a [NearSegment])>,
         batch: &mut SegmentBatch,
-        contacts: &mut Vec<Contact<2>>,
+        contacts: &mut ContactBlock<2>,
         found: &mut Vec<(f64, u32)>,
     ) {
         batch.clear();
@@ -249,14 +249,11 @@ impl WallMesh<2> for PlanarWalls {
                 let integral = integrals.weighed(batch, k);
                 sum.add(&integral, segment);
                 if integral.kernel != 0.0 {
-                    contacts.push(Contact {
-                        element,
-                        gradient: Vect::from(segment.normal) * integral.kernel,
-                        distance,
-                    });
+                    let share = std::iter::once((element, integral.kernel));
+                    contacts.push(segment.normal.into(), distance, share);
                 }
             }
-            found.push((sum.gamma(), contacts.len() as u32));
+            found.push((sum.gamma(), contacts.planes()));
             from = end;
         }
     }

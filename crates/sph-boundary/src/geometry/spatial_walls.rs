@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
-use sph_neighbours::Contact;
+use sph_neighbours::ContactBlock;
 
 use crate::geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
 use crate::integrals::spatial::{Circle, Foot, Patch, Plane, Weights};
@@ -108,7 +108,7 @@ impl SpatialWalls {
             let first = row.first()?;
             let end = self.planes.ends[self.planes.faces[first.triangle as usize] as usize];
             let same = |n: &NearTriangle| n.image == first.image && n.triangle < end;
-            let (part, rest) = row.split_at(row.partition_point(same));
+            let (part, rest) = row.split_at(first_other(row, same));
             row = rest;
             Some(part)
         })
@@ -125,6 +125,19 @@ impl SpatialWalls {
         let shift = |k: usize| corner.image[k] + i32::from(image[k]);
         from + Vect::from(self.domain.shift([shift(0), shift(1), shift(2)]))
     }
+}
+
+/// Where a row that begins with what is alike goes on with others. Steps of a fixed size are foreseen by the processor, those
+/// of a bisection are not.
+#[inline(always)]
+fn first_other<T>(row: &[T], same: impl Fn(&T) -> bool) -> usize {
+    const STEP: usize = 16;
+    let mut from = 1;
+    while row.get(from + STEP).is_some_and(&same) {
+        from += STEP;
+    }
+    let others = row[from..].iter().position(|n| !same(n));
+    others.map_or(row.len(), |k| from + k)
 }
 
 impl WallMesh<3> for SpatialWalls {
@@ -224,7 +237,7 @@ impl WallMesh<3> for SpatialWalls {
         point: &Vect<3>,
         row: &[NearTriangle],
         weights: &mut Weights,
-        contacts: &mut Vec<Contact<3>>,
+        contacts: &mut ContactBlock<3>,
     ) -> f64 {
         let radius = integrals.kernel_radius();
         let mut sum = GammaSum3d::default();
@@ -260,15 +273,17 @@ impl WallMesh<3> for SpatialWalls {
                 continue;
             }
             weights.weigh(integrals, &self.planes.patches, &foot);
-            let total: f64 = weights.all().map(|(_, weight)| weight).sum();
-            let scale = whole.kernel / total;
-            for (element, weight) in weights.all().filter(|(_, weight)| *weight > 0.0) {
-                contacts.push(Contact {
-                    element,
-                    gradient: normal * (weight * scale),
-                    distance: height,
-                });
+            let (elements, weights) = weights.all();
+            let mut total = 0.0;
+            for weight in weights {
+                total += weight;
             }
+            let scale = whole.kernel / total;
+            let share = |(&element, &weight): (&u32, &f64)| match weight > 0.0 {
+                true => (element, weight * scale),
+                false => (element, 0.0),
+            };
+            contacts.push(normal, height, elements.iter().zip(weights).map(share));
         }
         sum.gamma()
     }

@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
-use sph_neighbours::Contact;
+use sph_neighbours::ContactBlock;
 
 use crate::{BoundaryError, PeriodicBox, Pose, WallSpec};
 
@@ -125,22 +125,22 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         point: &Vect<D>,
         near: &[Self::Near],
         room: &mut Self::Room,
-        contacts: &mut Vec<Contact<D>>,
+        contacts: &mut ContactBlock<D>,
     ) -> f64;
 
-    /// γ at points, each with the elements that may be within its support, and how many contacts there are up to and
+    /// γ at points, each with the elements that may be within its support, and how many planes of contacts there are up to and
     /// including its own.
     fn gammas<'a>(
         &self,
         integrals: &Self::Integrals,
         points: impl Iterator<Item = (&'a Vect<D>, &'a [Self::Near])>,
         room: &mut Self::Room,
-        contacts: &mut Vec<Contact<D>>,
+        contacts: &mut ContactBlock<D>,
         found: &mut Vec<(f64, u32)>,
     ) {
         for (point, near) in points {
             let gamma = self.gamma(integrals, point, near, room, contacts);
-            found.push((gamma, contacts.len() as u32));
+            found.push((gamma, contacts.planes()));
         }
     }
 

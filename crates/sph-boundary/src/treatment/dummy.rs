@@ -1,13 +1,17 @@
 //! Walls of dummy particles after Adami, Hu & Adams (2012).
 
+use std::ops::Range;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{StepError, Vect, fields, register};
-use sph_neighbours::{Contacts, WallPoints, WallSet, World, shepard};
+use sph_lanes::{Lane, dot};
+use sph_neighbours::{Contacts, InMemory, TargetMean, WallPoints, WallSet, World, loaded, shepard};
 
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::{Outline, checks_by_outline};
+use crate::treatment::shepard::Felt;
 use crate::{
     BoundaryError, Condition, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallSpec,
     WallStates,
@@ -179,46 +183,75 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
         let Some(set_up) = &mut self.set_up else {
             return Ok(());
         };
-        let slip = &set_up.slip;
-        let position = world.free.get(fields::POSITION)?;
-        let velocity = world.free.get(fields::VELOCITY)?;
-        let pressure = world.free.get(fields::PRESSURE)?;
-        let density = world.free.get(fields::DENSITY)?;
         let points = &world.walls.points;
-        shepard(
-            world,
-            &points.position,
-            &world.lists.of_points,
-            &mut set_up.means,
-            |v, row, w| {
-                let (mut sum_w, mut sum_p, mut sum_u) = (0.0, 0.0, Vect::<D>::zeros());
-                let felt = match points.acceleration.get(v) {
-                    Some(acceleration) => world.gravity - acceleration,
-                    None => world.gravity,
-                };
-                for (&j, w) in row.iter().zip(w) {
-                    let j = j as usize;
-                    let apart = world.domain.nearest_image(points.position[v] - position[j]);
-                    sum_w += w;
-                    sum_p += w * (pressure[j] + density[j] * felt.dot(&apart));
-                    sum_u += velocity[j] * *w;
-                }
-                if sum_w <= 0.0 {
-                    return (0.0, points.velocity[v]);
-                }
-                let (wall, mean) = (points.velocity[v], sum_u / sum_w);
-                let surface = match slip.get(v) {
-                    Some(share) => wall + (mean - wall) * *share,
-                    None => wall,
-                };
-                (sum_p / sum_w, surface * 2.0 - mean)
+        let mean = Means {
+            velocity: world.free.get(fields::VELOCITY)?,
+            pressure: world.free.get(fields::PRESSURE)?,
+            density: world.free.get(fields::DENSITY)?,
+            felt: Felt {
+                gravity: world.gravity,
+                accelerations: &points.acceleration,
             },
-        )?;
+            walls: &points.velocity,
+            slip: &set_up.slip,
+        };
+        let list = &world.lists.of_points;
+        shepard(world, &points.position, list, &mean, &mut set_up.means)?;
         let points = &mut world.walls.points;
         for (v, &(pressure, velocity)) in set_up.means.iter().enumerate() {
             points.pressure[v] = pressure;
             points.viscous_velocity[v] = velocity;
         }
         Ok(())
+    }
+}
+
+/// Sums of w, p w and u w (three components or two): pressure and velocity at a dummy particle.
+struct Means<'a, const D: usize> {
+    velocity: &'a [Vect<D>],
+    pressure: &'a [f64],
+    density: &'a [f64],
+    felt: Felt<'a, D>,
+    /// Velocities of the walls, m/s.
+    walls: &'a [Vect<D>],
+    slip: &'a [f64],
+}
+
+impl<const D: usize> TargetMean<D, 5> for Means<'_, D> {
+    type Mean = (f64, Vect<D>);
+    type Here = InMemory<D>;
+    type Side<L: Lane> = [L; D];
+
+    fn here(&self, targets: Range<usize>) -> InMemory<D> {
+        self.felt.of(targets)
+    }
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, felt: &InMemory<D>) -> [L; D] {
+        loaded(felt)
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(&self, felt: &[L; D], j: usize, apart: &[L; D], w: L, sums: &mut [L; 5]) {
+        let hydrostatic = L::splat(self.density[j]) * dot(felt, apart);
+        sums[0] += w;
+        sums[1] += w * (L::splat(self.pressure[j]) + hydrostatic);
+        for k in 0..D {
+            sums[2 + k] += L::splat(self.velocity[j][k]) * w;
+        }
+    }
+
+    fn mean(&self, v: usize, sums: [f64; 5]) -> (f64, Vect<D>) {
+        let [w, p, ..] = sums;
+        let wall = self.walls[v];
+        if w <= 0.0 {
+            return (0.0, wall);
+        }
+        let mean = Vect::from_fn(|k, _| sums[2 + k]) / w;
+        let surface = match self.slip.get(v) {
+            Some(share) => wall + (mean - wall) * *share,
+            None => wall,
+        };
+        (p / w, surface * 2.0 - mean)
     }
 }

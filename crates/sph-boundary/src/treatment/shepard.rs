@@ -1,7 +1,10 @@
 //! Means of the fluid's state at the wall.
 
+use std::ops::Range;
+
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::{NeighbourList, World, shepard};
+use sph_lanes::{Lane, MOST, dot};
+use sph_neighbours::{Clusters, InMemory, TargetMean, World, in_memory, loaded, shepard};
 
 /// What the fluid looks like from a place on the wall.
 #[derive(Clone, Copy, Debug)]
@@ -18,38 +21,85 @@ pub(crate) fn wall_means<const D: usize>(
     world: &World<D>,
     targets: &[Vect<D>],
     accelerations: &[Vect<D>],
-    list: &NeighbourList,
+    list: &Clusters,
     whole: f64,
     out: &mut Vec<WallMean>,
 ) -> Result<(), StepError> {
-    let position = world.free.get(fields::POSITION)?;
-    let pressure = world.free.get(fields::PRESSURE)?;
-    let density = world.free.get(fields::DENSITY)?;
-    let volume = world.free.get(fields::VOLUME)?;
-    shepard(world, targets, list, out, |t, row, w| {
-        let (mut sum_w, mut sum_vw, mut sum_p) = (0.0, 0.0, 0.0);
-        let felt = match accelerations.get(t) {
-            Some(acceleration) => world.gravity - acceleration,
-            None => world.gravity,
-        };
-        for (&j, w) in row.iter().zip(w) {
-            let j = j as usize;
-            let vw = volume[j] * w;
-            let apart = world.domain.nearest_image(targets[t] - position[j]);
-            sum_w += w;
-            sum_vw += vw;
-            sum_p += vw * (pressure[j] + density[j] * felt.dot(&apart));
+    let mean = Means {
+        pressure: world.free.get(fields::PRESSURE)?,
+        density: world.free.get(fields::DENSITY)?,
+        volume: world.free.get(fields::VOLUME)?,
+        felt: Felt {
+            gravity: world.gravity,
+            accelerations,
+        },
+        whole,
+    };
+    shepard(world, targets, list, &mean, out)
+}
+
+/// g − a_w, m/s².
+pub(crate) struct Felt<'a, const D: usize> {
+    pub gravity: Vect<D>,
+    /// Of the targets; empty where no wall ever moves.
+    pub accelerations: &'a [Vect<D>],
+}
+
+impl<const D: usize> Felt<'_, D> {
+    pub fn of(&self, targets: Range<usize>) -> InMemory<D> {
+        let mut felt = [self.gravity; MOST];
+        for (felt, t) in felt.iter_mut().zip(targets) {
+            if let Some(acceleration) = self.accelerations.get(t) {
+                *felt -= acceleration;
+            }
         }
-        if sum_vw > 0.0 {
+        in_memory(&felt)
+    }
+}
+
+/// Sums of w, V w and V p w.
+struct Means<'a, const D: usize> {
+    pressure: &'a [f64],
+    density: &'a [f64],
+    volume: &'a [f64],
+    felt: Felt<'a, D>,
+    whole: f64,
+}
+
+impl<const D: usize> TargetMean<D, 3> for Means<'_, D> {
+    type Mean = WallMean;
+    type Here = InMemory<D>;
+    type Side<L: Lane> = [L; D];
+
+    fn here(&self, targets: Range<usize>) -> InMemory<D> {
+        self.felt.of(targets)
+    }
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, felt: &InMemory<D>) -> [L; D] {
+        loaded(felt)
+    }
+
+    #[inline(always)]
+    fn add<L: Lane>(&self, felt: &[L; D], j: usize, apart: &[L; D], w: L, sums: &mut [L; 3]) {
+        let vw = L::splat(self.volume[j]) * w;
+        let hydrostatic = L::splat(self.density[j]) * dot(felt, apart);
+        sums[0] += w;
+        sums[1] += vw;
+        sums[2] += vw * (L::splat(self.pressure[j]) + hydrostatic);
+    }
+
+    fn mean(&self, _: usize, [w, vw, p]: [f64; 3]) -> WallMean {
+        if vw > 0.0 {
             WallMean {
-                pressure: sum_p / sum_vw,
-                volume: sum_vw / sum_w,
+                pressure: p / vw,
+                volume: vw / w,
             }
         } else {
             WallMean {
                 pressure: 0.0,
-                volume: whole,
+                volume: self.whole,
             }
         }
-    })
+    }
 }

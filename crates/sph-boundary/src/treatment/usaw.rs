@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{StepError, Vect, fields, register};
-use sph_neighbours::{Contact, Contacts, WallSet, World};
+use sph_neighbours::{ContactBlock, Contacts, WallSet, World};
 
 use crate::error::stage_error;
 use crate::geometry::wall_mesh::WallMesh;
@@ -84,7 +84,7 @@ const BATCH: usize = 64;
 /// What is found of a batch of particles.
 #[derive(Debug, Default)]
 struct Found<R> {
-    /// γ of each particle, and contacts up to and including its own.
+    /// γ of each particle, and planes of contacts up to and including its own.
     gamma: Vec<(f64, u32)>,
     clearance: Vec<f64>,
     /// Buffers of the integrals.
@@ -175,11 +175,11 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     }
 
     /// Finds γ and contacts of all particles of the near lists, a block per batch.
-    fn find(&mut self, positions: &[Vect<D>], blocks: &mut Vec<Vec<Contact<D>>>) {
+    fn find(&mut self, positions: &[Vect<D>], blocks: &mut Vec<ContactBlock<D>>) {
         let (near, mesh, integrals) = (&self.near, &self.outline.mesh, &self.integrals);
         let batches = near.particles.par_chunks(BATCH);
         self.found.resize_with(batches.len(), Found::default);
-        blocks.resize_with(batches.len(), Vec::new);
+        blocks.resize_with(batches.len(), ContactBlock::default);
         let all = self.found.par_iter_mut().zip(blocks).zip(batches);
         all.enumerate().for_each(|(b, ((found, contacts), batch))| {
             found.clear();
@@ -192,10 +192,10 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             mesh.gammas(integrals, all, room, contacts, gamma);
             let mut from = 0;
             for (_, end) in &*gamma {
-                let own = &contacts[from..*end as usize];
-                let heights = own.iter().map(|c| c.distance).filter(|d| *d > 0.0);
+                let own = contacts.row(from..*end);
+                let heights = own.distances().filter(|d| *d > 0.0);
                 found.clearance.push(heights.fold(f64::INFINITY, f64::min));
-                from = *end as usize;
+                from = *end;
             }
         });
         self.clearance.clear();

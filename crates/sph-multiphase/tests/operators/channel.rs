@@ -4,7 +4,7 @@
 
 use sph_core::{Role, Vect, fields};
 use sph_kernels::Sampler;
-use sph_neighbours::{Contact, Domain, WallSet, World};
+use sph_neighbours::{ContactBlock, Domain, WallSet, World};
 
 use crate::world::world;
 
@@ -138,21 +138,16 @@ impl Channel {
             let kernel = &*world.kernel;
             let above = self.top.map_or(1.0, |top| gamma(kernel, top - x[1]));
             gammas.push(gamma(kernel, x[1]) + above - 1.0);
-            let mut block = Vec::new();
+            let mut block = ContactBlock::default();
             for (s, centre) in elements.centre.iter().enumerate() {
                 let apart = world.domain.nearest_image(x - centre);
                 let distance = apart.dot(&elements.normal[s]);
                 let half = 0.5 * SPACING;
                 let share = stretch(kernel, distance, apart[0] - half, apart[0] + half);
-                if share > 0.0 {
-                    block.push(Contact {
-                        element: s as u32,
-                        gradient: elements.normal[s] * share,
-                        distance,
-                    });
-                }
+                let share = std::iter::once((s as u32, share.max(0.0)));
+                block.push(elements.normal[s], distance, share);
             }
-            contacts.place(p as u32, p, 0..block.len() as u32);
+            contacts.place(p as u32, p, 0..block.planes());
             blocks.push(block);
         }
         contacts.put_blocks(blocks);

@@ -9,8 +9,6 @@ use crate::Flow;
 
 /// What lists keep free for longer rows: they are cut to a sixteenth more than they need.
 const SPARE: f64 = 17.0 / 16.0;
-/// What vectors that grow by doubling hold over what they need, in the mean.
-const GROWN: f64 = 1.5;
 /// Bytes of an element's corners, planes and edges, and of the grids in which elements are looked for: calibrated with what
 /// an allocator counted in two and three dimensions.
 const TABLES_PER_ELEMENT: f64 = 550.0;
@@ -103,9 +101,9 @@ fn lists<const D: usize>(world: &World<D>) -> f64 {
         // Nobody knows it better before the first step: they are not longer than those with the skin.
         None => free,
     };
-    let others = [&lists.wall, &lists.of_points, &lists.of_elements];
+    let others = clusters(&lists.of_points) + clusters(&lists.of_elements) + list(&lists.wall);
     let places = lists.reference.len() + lists.reference_points().len();
-    free + pruned + others.map(list).iter().sum::<f64>() + (8 * D * places) as f64
+    free + pruned + others + (8 * D * places) as f64
 }
 
 /// Bytes of one particle in copies.
@@ -131,18 +129,19 @@ fn walls<const D: usize>(world: &World<D>) -> f64 {
     // wall and its corners.
     let point = (3 * 8 * D + 4 * 8 + 4) as f64;
     let element = (3 * 8 * D + 4 * 8 + 4 + 4 * D) as f64 + TABLES_PER_ELEMENT;
-    // Elements near a particle are listed as well, with the skin, in entries of the same size.
-    let contact = (GROWN + 1.0) * size_of::<Contact<D>>() as f64;
-    // Where the contacts of a particle are, and where its elements are listed: place, motion and range, twice so that they
-    // can follow a sorted particle, and whose they are.
+    // Elements near a particle are listed as well, with the skin: some three times as many.
+    let contact = size_of::<Contact<D>>() as f64;
+    // Where the elements of a particle are listed: place, motion and range, twice so that they can follow a sorted particle,
+    // and whose they are.
     let listed = 2.0 * (8 * D + 16) as f64 + 4.0;
     let places = match contacts > 0.0 {
-        true => (12.0 + listed) * world.free.len() as f64,
+        true => listed * world.free.len() as f64,
         false => 0.0,
     };
     walls.points.position.len() as f64 * point
         + walls.elements.centre.len() as f64 * element
         + contacts * contact
+        + walls.contacts.bytes() as f64
         + places
 }
 

@@ -20,7 +20,7 @@ const KIND: &str = "elastic-force";
 impl<const D: usize> Elasticity<D> {
     fn term(&self, force: &dyn ElasticForce<D>) -> Box<dyn Interaction<D>> {
         let term = match self.0.adjoint() {
-            Some(_) => Box::new(AdjointDivergence),
+            Some(_) => AdjointDivergence::boxed(),
             None => force.term(&self.0.felt()),
         };
         match force.blend() {

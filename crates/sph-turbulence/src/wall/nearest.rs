@@ -25,9 +25,9 @@ pub(crate) fn nearest<const D: usize>(
 ) -> Option<Sight> {
     let elements = &walls.elements;
     let mean = |c: &Contact<D>| c.gradient.norm() / elements.measure[c.element as usize];
-    let mut found: Option<(f64, &Contact<D>)> = None;
+    let mut found: Option<(f64, Contact<D>)> = None;
     for contact in walls.contacts.of(particle) {
-        let mean = mean(contact);
+        let mean = mean(&contact);
         if counts(contact.element as usize) && mean > found.map_or(0.0, |f| f.0) {
             found = Some((mean, contact));
         }

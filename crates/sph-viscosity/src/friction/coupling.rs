@@ -168,7 +168,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundCoupling<D>
             let s = contact.element as usize;
             let normal = &self.elements.normal[s];
             let moving = &self.elements.velocity[s];
-            let friction = correction * self.weight(&here, contact);
+            let friction = correction * self.weight(&here, &contact);
             let leaving = (here.velocity - moving).dot(normal);
             wall += friction;
             source += (moving + normal * leaving) * friction;
@@ -195,7 +195,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundCoupling<D>
             let s = contact.element as usize;
             let normal = &self.elements.normal[s];
             let along = Block::identity() - normal * normal.transpose();
-            let friction = along * (correction * self.weight(&here, contact));
+            let friction = along * (correction * self.weight(&here, &contact));
             wall += friction;
             source += friction * self.elements.velocity[s];
         }

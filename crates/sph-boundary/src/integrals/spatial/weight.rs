@@ -1,5 +1,7 @@
 //! ∫ w dS over small triangles by quadrature.
 
+use sph_lanes::Lane;
+
 use super::Renormalisation3d;
 use super::vector::{dot, plus};
 
@@ -87,11 +89,10 @@ impl Renormalisation3d {
     fn by_rule(&self, seen: &Seen, area: f64) -> Option<f64> {
         match self.rule(seen.centre, area) {
             Rule::Six => {
-                let mut squares = [0.0; AHEAD];
-                seen.six(&mut squares);
-                let mut w = [0.0; 6];
-                self.kernel.value(&squares[..6], &mut w);
-                Some(area * mean_of_six(&w))
+                let squares = six(seen.centre, seen.slopes, seen.arms);
+                let mut w = [0.0; POINTS];
+                self.kernel.value(&squares, &mut w);
+                Some(area * mean_of_six(w))
             }
             Rule::Twelve => Some(area * self.mean_of_twelve(seen)),
             Rule::Exact => None,
@@ -138,32 +139,41 @@ pub(super) enum Rule {
     Exact,
 }
 
-/// Mean of the kernel from its values at six points.
+/// Whether [`Rule::Six`] holds for all lanes: squared distances of the centres and areas, m², and 1/h².
 #[inline(always)]
-pub(super) fn mean_of_six(w: &[f64]) -> f64 {
-    SIX_ORBITS[0][1] * (w[0] + w[1] + w[2]) + SIX_ORBITS[1][1] * (w[3] + w[4] + w[5])
+pub(super) fn is_far<L: Lane>(centre: L, area: L, per_h2: f64) -> bool {
+    let near = centre.any_less(L::splat(SIX.distance) * area);
+    let large = L::splat(SIX.area).any_less(area * L::splat(per_h2));
+    !(near || large)
 }
 
-/// Room that six squares are written into: whole registers, of which the last two numbers are the next triangle's.
-pub(super) const AHEAD: usize = 8;
+/// Mean of the kernel from its values at six points.
+#[inline(always)]
+pub(super) fn mean_of_six<L: Lane>(w: [L; POINTS]) -> L {
+    let (first, second) = (L::splat(SIX_ORBITS[0][1]), L::splat(SIX_ORBITS[1][1]));
+    first * (w[0] + w[1] + w[2]) + second * (w[3] + w[4] + w[5])
+}
 
-/// λ (3/2) − 1/2 of the points of [`Seen::six`].
-const SIX_PARTS: [f64; AHEAD] = {
-    let (a, b) = (1.5 * SIX_ORBITS[0][0] - 0.5, 1.5 * SIX_ORBITS[1][0] - 0.5);
-    [a, a, a, b, b, b, 0.0, 0.0]
-};
+/// Of [`six`].
+pub(super) const POINTS: usize = 6;
 
-impl Seen {
-    /// Squared distances of the six points, the two orbits one behind the other; what follows is no number of a point.
-    #[inline(always)]
-    pub fn six(&self, squares: &mut [f64; AHEAD]) {
-        let ([a, b, c], [d, e, f]) = (self.slopes, self.arms);
-        let (slopes, arms) = ([a, b, c, a, b, c, a, b], [d, e, f, d, e, f, d, e]);
-        for k in 0..AHEAD {
-            squares[k] = self.centre + SIX_PARTS[k] * (slopes[k] + SIX_PARTS[k] * arms[k]);
+/// λ (3/2) − 1/2 of the points of either orbit.
+const SIX_PARTS: [f64; 2] = [1.5 * SIX_ORBITS[0][0] - 0.5, 1.5 * SIX_ORBITS[1][0] - 0.5];
+
+/// Squared distances of the six points, the two orbits one behind the other, from c², t_i and ξ_i².
+#[inline(always)]
+pub(super) fn six<L: Lane>(centre: L, slopes: [L; 3], arms: [L; 3]) -> [L; POINTS] {
+    let mut squares = [centre; POINTS];
+    for orbit in 0..2 {
+        let part = L::splat(SIX_PARTS[orbit]);
+        for k in 0..3 {
+            squares[3 * orbit + k] = centre + part * (slopes[k] + part * arms[k]);
         }
     }
+    squares
+}
 
+impl Seen {
     /// With λ in the place i and (1 − λ)/2 in the others: Σ λ_i ξ_i = ξ_i (3λ − 1)/2.
     #[inline(always)]
     fn orbit(&self, single: f64, i: usize) -> f64 {

@@ -1,17 +1,20 @@
 //! ∫ w dS over many triangles of one plane, side by side.
 
-use sph_lanes::{Body, Lane, dispatch};
+use sph_lanes::{Body, Lane, MOST, dispatch};
 
 use super::Renormalisation3d;
 use super::plane::{Circle, Foot, Patch};
-use super::weight::{AHEAD, Rule, Seen, mean_of_six};
+use super::weight::{POINTS, Rule, Seen, is_far, mean_of_six, six};
 
 /// The triangles of a plane that a point sees, and what each weighs; buffers that are used again and again.
 #[derive(Debug, Default)]
 pub struct Weights {
     near: Vec<u32>,
+    /// Areas, then weights.
     weights: Vec<f64>,
+    /// Squared distances of the points, m²: those of as many triangles as there are lanes point by point, then the next.
     squares: Vec<f64>,
+    /// w there, 1/m³.
     values: Vec<f64>,
 }
 
@@ -26,9 +29,10 @@ impl Weights {
     ) -> bool {
         self.near.clear();
         self.near.resize(triangles.len(), 0);
+        let near = &mut self.near[..];
         let mut n = 0;
         for triangle in triangles {
-            self.near[n] = triangle;
+            near[n] = triangle;
             n += usize::from(circles[triangle as usize].meets(foot));
         }
         self.near.truncate(n);
@@ -38,55 +42,122 @@ impl Weights {
     /// Weighs the triangles that were found, 1/m: each as [`Renormalisation3d::weight`] does.
     pub(crate) fn weigh(&mut self, of: &Renormalisation3d, patches: &[Patch], foot: &Foot) {
         let n = self.near.len();
-        let room = 6 * n + AHEAD;
-        if self.squares.len() < room {
-            self.squares.resize(room.next_power_of_two(), 0.0);
-            self.values.resize(room.next_power_of_two(), 0.0);
+        let room = n.next_multiple_of(MOST);
+        if self.weights.len() < room {
+            let room = room.next_power_of_two();
+            self.weights.resize(room, 0.0);
+            self.squares.resize(POINTS * room, 0.0);
+            self.values.resize(POINTS * room, 0.0);
         }
-        dispatch(Squares {
-            near: &self.near,
+        let near = &self.near[..];
+        let (weights, squares) = (&mut self.weights[..], &mut self.squares[..]);
+        let (used, all_far) = dispatch(Squares {
+            near,
             patches,
             foot,
-            squares: &mut self.squares[..room],
+            per_h2: of.per_h * of.per_h,
+            areas: weights,
+            squares,
         });
-        let values = &mut self.values[..6 * n];
-        of.kernel.value(&self.squares[..6 * n], values);
-        self.weights.clear();
-        for (&triangle, w) in self.near.iter().zip(values.chunks_exact(6)) {
+        let values = &mut self.values[..POINTS * used];
+        of.kernel.value(&self.squares[..POINTS * used], values);
+        dispatch(Means { values, weights });
+        if all_far {
+            return;
+        }
+        for (&triangle, weight) in near.iter().zip(weights) {
             let patch = &patches[triangle as usize];
-            let weight = match of.rule(patch.distance2(foot), patch.area) {
-                Rule::Six => patch.area * mean_of_six(w),
-                Rule::Twelve => patch.area * of.mean_of_twelve(&patch.seen(foot)),
-                Rule::Exact => of.triangle(patch.corners(foot), [0.0, 0.0, 1.0]).kernel,
-            };
-            self.weights.push(weight);
+            match of.rule(patch.distance2(foot), patch.area) {
+                Rule::Six => {}
+                Rule::Twelve => *weight = patch.area * of.mean_of_twelve(&patch.seen(foot)),
+                Rule::Exact => {
+                    *weight = of.triangle(patch.corners(foot), [0.0, 0.0, 1.0]).kernel;
+                }
+            }
         }
     }
 
     /// The triangles that were found with their weights, 1/m.
-    pub(crate) fn all(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        self.near.iter().copied().zip(self.weights.iter().copied())
+    pub(crate) fn all(&self) -> (&[u32], &[f64]) {
+        (&self.near, &self.weights[..self.near.len()])
     }
 }
 
-/// Squared distances of the six points of every triangle, m².
+/// Areas, and squared distances of the six points of every triangle, m².
 struct Squares<'a> {
     near: &'a [u32],
     patches: &'a [Patch],
     foot: &'a Foot,
+    per_h2: f64,
+    areas: &'a mut [f64],
     squares: &'a mut [f64],
 }
 
 impl Body for Squares<'_> {
+    /// How many lanes were filled, the last ones over and over with the last triangle, and whether six points are enough
+    /// for all.
+    type Output = (usize, bool);
+
+    #[inline(always)]
+    fn call<L: Lane>(self) -> (usize, bool) {
+        let [x, y] = self.foot.place;
+        let (x, y) = (L::splat(x), L::splat(y));
+        let height2 = L::splat(self.foot.height * self.foot.height);
+        let (mut used, mut all_far) = (0, true);
+        let out = self.areas.chunks_exact_mut(L::N);
+        let out = out.zip(self.squares.chunks_exact_mut(POINTS * L::N));
+        for (near, (areas, squares)) in self.near.chunks(L::N).zip(out) {
+            let zero = L::splat(0.0);
+            let (mut centre, mut arms) = ([zero; 2], [[zero; 2]; 2]);
+            let (mut sizes, mut area) = ([zero; 3], zero);
+            for lane in 0..L::N {
+                let patch = &self.patches[near[lane.min(near.len() - 1)] as usize];
+                for k in 0..2 {
+                    centre[k].set(lane, patch.centre[k]);
+                    arms[0][k].set(lane, patch.arms[0][k]);
+                    arms[1][k].set(lane, patch.arms[1][k]);
+                }
+                for k in 0..3 {
+                    sizes[k].set(lane, patch.squares[k]);
+                }
+                area.set(lane, patch.area);
+            }
+            let (x, y) = (centre[0] - x, centre[1] - y);
+            let distance2 = x * x + y * y + height2;
+            let two = L::splat(2.0);
+            let first = two * (x * arms[0][0] + y * arms[0][1]);
+            let second = two * (x * arms[1][0] + y * arms[1][1]);
+            let slopes = [first, second, -(first + second)];
+            let six = six(distance2, slopes, sizes);
+            for k in 0..POINTS {
+                six[k].store(&mut squares[k * L::N..]);
+            }
+            area.store(areas);
+            all_far &= is_far(distance2, area, self.per_h2);
+            used += L::N;
+        }
+        (used, all_far)
+    }
+}
+
+/// Areas times means of w at the six points.
+struct Means<'a> {
+    values: &'a [f64],
+    weights: &'a mut [f64],
+}
+
+impl Body for Means<'_> {
     type Output = ();
 
     #[inline(always)]
     fn call<L: Lane>(self) {
-        for (k, &triangle) in self.near.iter().enumerate() {
-            let seen = self.patches[triangle as usize].seen(self.foot);
-            let mut squares = [0.0; AHEAD];
-            seen.six(&mut squares);
-            self.squares[6 * k..6 * k + AHEAD].copy_from_slice(&squares);
+        let values = self.values.chunks_exact(POINTS * L::N);
+        for (w, weights) in values.zip(self.weights.chunks_exact_mut(L::N)) {
+            let mut at = [L::splat(0.0); POINTS];
+            for k in 0..POINTS {
+                at[k] = L::load(&w[k * L::N..]);
+            }
+            (L::load(weights) * mean_of_six(at)).store(weights);
         }
     }
 }
@@ -158,7 +229,7 @@ mod tests {
             let found = weights.find(std::iter::repeat_n(0, 3), &[circle], &foot);
             weights.weigh(&of, &[patch], &foot);
             assert!(found || alone == 0.0, "{alone}");
-            for (_, weight) in weights.all() {
+            for weight in weights.all().1 {
                 assert!((alone - weight).abs() < 1e-12, "{alone} {weight}");
                 seen += 1;
             }
