@@ -69,10 +69,10 @@ pub use lattice::{lattice_sum, rows_sum};
 pub use list::{CHUNK, NeighbourList};
 pub use moment::trusted_inverse;
 pub use packed::{Packed, pack};
-pub use sight::Sight;
 pub use reaction::{cross, wall_forces, wall_parts};
 pub use row::{NOBODY, Neighbourhood, Row, Scratch, There};
 pub use shares::{TermShare, shares_at};
+pub use sight::Sight;
 pub use sph_lanes::{Lane, MOST, add_scaled, dot, scaled};
 pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
 pub use term::{

@@ -87,7 +87,10 @@ mod tests {
             sight.share(&x)
         };
         let sum: f64 = (0..8).map(|n| at(0.5 + f64::from(n), 0.0)).sum();
-        assert!((2.0 * sum / sight.area() - 1.0).abs() < 1.0 / 256.0, "{sum}");
+        assert!(
+            (2.0 * sum / sight.area() - 1.0).abs() < 1.0 / 256.0,
+            "{sum}"
+        );
         assert_eq!([at(0.5, 1.1), at(4.1, 0.0)], [0.0, 0.0]);
     }
 }

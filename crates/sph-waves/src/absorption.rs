@@ -92,7 +92,13 @@ impl Absorption {
 
     /// Way and velocity besides what is prescribed, `dt` later: with the depth of the water before the paddle, none if there is
     /// none.
-    pub fn next(&self, [way, velocity]: [f64; 2], seen: Option<f64>, time: f64, dt: f64) -> [f64; 2] {
+    pub fn next(
+        &self,
+        [way, velocity]: [f64; 2],
+        seen: Option<f64>,
+        time: f64,
+        dt: f64,
+    ) -> [f64; 2] {
         let made = self.made.at(time).value + self.first;
         let more = seen.map_or(0.0, |seen| seen - self.depth - made);
         let aim = -self.gain * more - way / self.back;
@@ -135,7 +141,11 @@ mod tests {
             let long = (WATER[1] / WATER[0]).sqrt();
             for over in [0.8, 1.0, 1.25, 1.5] {
                 let simple = comes_back(paddle, over * peak, [long, 0.0]);
-                assert!(at(over * peak) < simple, "{paddle:?} {over}: {} {simple}", at(over * peak));
+                assert!(
+                    at(over * peak) < simple,
+                    "{paddle:?} {over}: {} {simple}",
+                    at(over * peak)
+                );
             }
         }
     }
@@ -160,6 +170,10 @@ mod tests {
         assert!(state[0].abs() < 1e-12, "{state:?}");
         // At the start the crest of first order is a cos φ, that of second order and E X come on top.
         let first = 0.03 * 0.4_f64.cos();
-        assert!(made(0.0) > first && made(0.0) < 1.5 * first, "{}", made(0.0));
+        assert!(
+            made(0.0) > first && made(0.0) < 1.5 * first,
+            "{}",
+            made(0.0)
+        );
     }
 }

@@ -45,7 +45,13 @@ impl<const D: usize> Face<D> {
             largest.unwrap_or(0.0)
         };
         let front = most(&|p| p.dot(&along));
-        let side = |p: &Vect<D>| if D == 3 { p[1] * along[0] - p[0] * along[1] } else { 0.0 };
+        let side = |p: &Vect<D>| {
+            if D == 3 {
+                p[1] * along[0] - p[0] * along[1]
+            } else {
+                0.0
+            }
+        };
         let sideways = [-most(&|p| -side(p)), most(&side)];
         if D == 3 && sideways[1] <= sideways[0] {
             return None;
@@ -144,7 +150,11 @@ mod tests {
             let [way, velocity] = face.besides(&now, &plan);
             assert!((way - 0.01).abs() < 1e-15 && (velocity + 0.3).abs() < 1e-15);
             let top = now.movement((Vect::<3>::new(0.0, 0.0, 0.5)).into());
-            assert!((top.velocity.dot(&face.along) + 0.2).abs() < 2e-2, "{}", top.velocity);
+            assert!(
+                (top.velocity.dot(&face.along) + 0.2).abs() < 2e-2,
+                "{}",
+                top.velocity
+            );
         }
     }
 }
