@@ -21,7 +21,8 @@ pub(crate) const MEAN_WAY: f64 = 0.3;
 ///   u' = −ω/(e₀ + i E) (η − η_made) ,   or   τ du'/dt + u' = −ω/e₀ (η − η_made),   τ = E/(ω e₀)
 ///
 /// (Schäffer & Jakobsen 2003). Both are the same at the frequency of the peak, which is taken; in long waves ω/e₀ is √(g/d),
-/// as the absorption of Altomare et al. 2017 has it.
+/// as the absorption of Altomare et al. 2017 has it. Where E is negative (flaps) τ would be an advance: it is left out, and
+/// |E|/(2 e₀) of a wave comes back.
 #[derive(Clone, Debug)]
 pub(crate) struct Absorption {
     /// η of the waves that are made, at the paddle, m.
@@ -132,22 +133,31 @@ mod tests {
     }
 
     #[test]
-    fn nothing_comes_back_at_the_peak_and_less_than_from_a_filter_for_long_waves_beside_it() {
-        for paddle in [Paddle::Piston, Paddle::Flap(0.0)] {
-            let peak = TAU / 1.2;
-            let own = Absorption::of(paddle, &[], (0.0, 1.2, 0.0), false, WATER);
-            let at = |omega: f64| comes_back(paddle, omega, response(&own, omega));
-            assert!(at(peak) < 1e-12, "{paddle:?}: {}", at(peak));
-            let long = (WATER[1] / WATER[0]).sqrt();
-            for over in [0.8, 1.0, 1.25, 1.5] {
-                let simple = comes_back(paddle, over * peak, [long, 0.0]);
-                assert!(
-                    at(over * peak) < simple,
-                    "{paddle:?} {over}: {} {simple}",
-                    at(over * peak)
-                );
-            }
+    fn nothing_comes_back_to_a_piston_at_the_peak_and_less_than_with_a_gain_for_long_waves_beside_it()
+     {
+        let peak = TAU / 1.2;
+        let piston = Paddle::Piston;
+        let own = Absorption::of(piston, &[], (0.0, 1.2, 0.0), false, WATER);
+        let at = |omega: f64| comes_back(piston, omega, response(&own, omega));
+        assert!(at(peak) < 1e-12, "{}", at(peak));
+        let long = (WATER[1] / WATER[0]).sqrt();
+        for over in [0.8, 1.0, 1.25, 1.5] {
+            let simple = comes_back(piston, over * peak, [long, 0.0]);
+            let found = at(over * peak);
+            assert!(found < simple, "{over}: {found} {simple}");
         }
+    }
+
+    /// Of a flap hinged at the floor E is negative here. Without the advance −E/(2 e₀) is left.
+    #[test]
+    fn a_flap_has_no_advance() {
+        let (peak, flap) = (TAU / 1.2, Paddle::Flap(0.0));
+        let own = Absorption::of(flap, &[], (0.0, 1.2, 0.0), false, WATER);
+        assert_eq!(own.lag, 0.0);
+        let e = flap.near_field(peak, WATER[0], WATER[1]);
+        let left = -0.5 * e * own.gain / peak;
+        let found = comes_back(flap, peak, response(&own, peak));
+        assert!(found > 0.99 * left && found <= left, "{found} {left}");
     }
 
     /// The water that a paddle makes, and nothing else, leaves it alone.
