@@ -257,6 +257,13 @@ fn keep_along<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vec
         let normal = whole / size;
         *shift -= normal * (shift.dot(&normal) * (1.0 - (-size / least).exp()));
     }
+    // A mean normal is no element's own: what is left into a wall nearer than half a spacing goes.
+    for contact in world.walls.contacts.of(particle) {
+        if contact.distance < 0.5 * world.spacing {
+            let normal = world.walls.elements.normal[contact.element as usize];
+            *shift -= normal * shift.dot(&normal).min(0.0);
+        }
+    }
 }
 
 /// The largest speed of every phase against the mean velocity of all, m/s.
