@@ -30,7 +30,7 @@ use crate::waves::{Component, Waves};
 ///   τ du'/dt + u' = −ω/e₀ (η − η_made) − X'/10T,   τ = E/(ω e₀)
 ///
 /// with e₀ = H/S, E the elevation that stays at the paddle over its displacement, ω that of the peak; no wave of this frequency
-/// comes back from it, by linear theory. The last term leads it back to its place.
+/// comes back to a piston, by linear theory, and |E|/(2 e₀) of it to a flap, whose E is negative. The last term leads it back to its place.
 ///
 /// Source: Biesel 1951 (linear); Madsen 1971, as in Hughes 1993 (second order); Schäffer & Jakobsen 2003, Altomare et al. 2017
 /// (absorption; the filter with one lag is ours).
