@@ -31,8 +31,8 @@ use sph_state::Laws;
 ///
 /// Limits: where a support is less full than `surface`, and within a support of there, the
 /// component along the normal is left out, and all of it where there is no single normal (thin
-/// jets, corners); so is the component across an interface between phases, that into a wall
-/// nearer than δr/2, and all of it within reach of wall points (`vertices` of semi-analytical walls, dummy particles). (s·∇)u does not conserve momentum to rounding (1e-4 of Σm|u| in the vortices, 1.2e-3 in 1000 steps of a noisy box; `density` does).
+/// jets, corners); so is the component across an interface between phases, that along the normal of a wall within some 1.5 h of
+/// it (a shift across a wall would be a flow through it: a cylinder sank 1.6 times too fast by it), and all of it within reach of wall points (`vertices` of semi-analytical walls, dummy particles). (s·∇)u does not conserve momentum to rounding (1e-4 of Σm|u| in the vortices, 1.2e-3 in 1000 steps of a noisy box; `density` does).
 ///
 /// Source: Lind et al. 2012 (form, R, n); Sun et al. 2017 (limit,
 /// surfaces); Adami et al. 2013 (the scale: their background pressure ρc² shifts with B = 2cΔt/h); Sun et al. 2019 (transport). The walls'
@@ -213,7 +213,7 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
                         *empty = 0.0;
                     }
                 }
-                keep_off(world, i, s);
+                keep_along(world, i, s);
             });
         } else {
             shift.fill(Vect::zeros());
@@ -237,8 +237,31 @@ fn along<const D: usize>(even: &Evenness<D>, shift: Vect<D>, most: f64) -> Vect<
     }
 }
 
-/// Leaves out what leads into a wall that is nearer than half a spacing.
-fn keep_off<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vect<D>) {
+/// How fast the component along a wall's normal dies towards it: it is multiplied with exp(−h |∇γ|/0.05), of which 3 % are
+/// left a smoothing length before a flat wall and three quarters at one and a half.
+const TOWARDS_WALLS: f64 = 0.05;
+
+/// Leaves out what leads towards walls or away from them.
+///
+/// A density that takes no notice of shifts lets u = −s stand at a wall that no particle passes: fluid would flow through
+/// the wall, and the shift would bring its particles back.
+fn keep_along<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vect<D>) {
+    let least = TOWARDS_WALLS / world.kernel.smoothing_length();
+    let mut whole = Vect::zeros();
+    for contact in world.walls.contacts.of(particle) {
+        // Element by element, so that a flat wall has the same of it however it is divided, and a corner both its normals.
+        let normal = world.walls.elements.normal[contact.element as usize];
+        let left = (-contact.gradient.norm() / least).exp();
+        *shift -= normal * (shift.dot(&normal) * (1.0 - left));
+        whole += contact.gradient;
+    }
+    // Of a curved wall the last elements turn what the first have left.
+    let size = whole.norm();
+    if size > 0.0 {
+        let normal = whole / size;
+        *shift -= normal * (shift.dot(&normal) * (1.0 - (-size / least).exp()));
+    }
+    // A mean normal is no element's own: what is left into a wall nearer than half a spacing goes.
     for contact in world.walls.contacts.of(particle) {
         if contact.distance < 0.5 * world.spacing {
             let normal = world.walls.elements.normal[contact.element as usize];

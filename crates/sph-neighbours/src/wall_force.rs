@@ -15,6 +15,8 @@ pub struct WallForce<const D: usize> {
     pub pressure_force: Vect<D>,
     /// −Σ r_s × p_s S_s n_s over the wall's elements, N m.
     pub pressure_moment: [f64; 3],
+    /// Depth of the fluid before the wall, m; 0 where no mover [looks](crate::Sight) or there is none.
+    pub depth: f64,
 }
 
 impl<const D: usize> WallForce<D> {
@@ -25,6 +27,7 @@ impl<const D: usize> WallForce<D> {
             moment: [0.0; 3],
             pressure_force: Vect::zeros(),
             pressure_moment: [0.0; 3],
+            depth: 0.0,
         }
     }
 
@@ -35,6 +38,7 @@ impl<const D: usize> WallForce<D> {
             moment: [f64::NAN; 3],
             pressure_force: Vect::repeat(f64::NAN),
             pressure_moment: [f64::NAN; 3],
+            depth: 0.0,
         }
     }
 
@@ -42,11 +46,12 @@ impl<const D: usize> WallForce<D> {
     pub fn numbers(&self) -> Vec<f64> {
         let (force, pressure) = (self.force.iter(), self.pressure_force.iter());
         let both = force.chain(&self.moment).chain(pressure);
-        both.chain(&self.pressure_moment).copied().collect()
+        let both = both.chain(&self.pressure_moment);
+        both.chain([&self.depth]).copied().collect()
     }
 
     /// How many [`numbers`](Self::numbers) a force has.
-    pub const NUMBERS: usize = 2 * D + 6;
+    pub const NUMBERS: usize = 2 * D + 7;
 
     /// From its numbers, of which there are [`NUMBERS`](Self::NUMBERS); zero where some are missing.
     pub fn from_numbers(numbers: &[f64]) -> Self {
@@ -56,6 +61,7 @@ impl<const D: usize> WallForce<D> {
             moment: std::array::from_fn(|k| at(D + k)),
             pressure_force: Vect::from_fn(|k, _| at(D + 3 + k)),
             pressure_moment: std::array::from_fn(|k| at(2 * D + 3 + k)),
+            depth: at(2 * D + 6),
         }
     }
 
@@ -65,6 +71,7 @@ impl<const D: usize> WallForce<D> {
         self.pressure_force += other.pressure_force;
         add_moment(&mut self.moment, other.moment);
         add_moment(&mut self.pressure_moment, other.pressure_moment);
+        self.depth += other.depth;
     }
 }
 
@@ -84,6 +91,7 @@ mod tests {
             moment: [4.0, 5.0, 6.0],
             pressure_force: Vect::<3>::new(7.0, 8.0, 9.0),
             pressure_moment: [10.0, 11.0, 12.0],
+            depth: 13.0,
         };
         let numbers = force.numbers();
         assert_eq!(numbers.len(), WallForce::<3>::NUMBERS);

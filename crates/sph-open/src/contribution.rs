@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use sph_boundary::Wall;
 use sph_contribution::{Contribution, OwnColumn, Refusal, Setting, StepWork};
 use sph_core::{AnyField, Vect};
-use sph_state::Laws;
+use sph_state::{BoundState, Laws};
 
 use crate::faces::{Face, Faces, SharedFaces, lock};
 use crate::flux::OPEN_FLUX;
@@ -49,6 +49,7 @@ pub fn open<const D: usize>(
     let faces = Faces {
         faces: faces.collect(),
         laws: laws.clone(),
+        backgrounds: laws.iter().map(|law| at_reference(&**law)).collect(),
         whole: laws.iter().map(|l| l.reference().density * cell).collect(),
         spacing,
         elements: Vec::new(),
@@ -70,6 +71,13 @@ pub fn open<const D: usize>(
         faces: faces.clone(),
     };
     (Box::new(walls), OpenBoundaries { faces, summed })
+}
+
+/// Pressure at the reference density, Pa.
+fn at_reference(law: &dyn BoundState) -> f64 {
+    let mut pressure = [0.0];
+    law.pressure(&[law.reference().density], &mut pressure);
+    pressure[0]
 }
 
 impl<const D: usize> OpenBoundaries<D> {

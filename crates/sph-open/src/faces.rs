@@ -34,6 +34,8 @@ pub(crate) struct Faces<const D: usize> {
     pub faces: Vec<Face<D>>,
     /// Equations of state by phase.
     pub laws: Laws,
+    /// Pressure of every phase at its reference density, Pa; asked for every particle before a face.
+    pub backgrounds: Vec<f64>,
     /// Mass of a whole particle by phase, kg.
     pub whole: Vec<f64>,
     pub spacing: f64,
@@ -177,10 +179,7 @@ impl<const D: usize> Faces<D> {
 
     /// Pressure of a phase at its reference density, Pa.
     pub fn background(&self, phase: usize) -> f64 {
-        let law = &self.laws[phase];
-        let mut pressure = [0.0];
-        law.pressure(&[law.reference().density], &mut pressure);
-        pressure[0]
+        self.backgrounds[phase]
     }
 
     /// Density at an element of what passes there, kg/m³.

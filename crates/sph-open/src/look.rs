@@ -103,7 +103,9 @@ impl<const D: usize> Faces<D> {
         let phase = free.get(fields::PHASE).ok();
         let place = &self.places[k];
         let mut mix = vec![0.0; self.whole.len()];
-        let (mut filling, mut p, mut z, mut rho, mut reach) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        // Σ V w ρ, by phase: the speed of sound is asked once for each.
+        let mut weighed = vec![0.0; self.whole.len()];
+        let (mut filling, mut p, mut reach) = (0.0, 0.0, 0.0);
         let mut u = Vect::<D>::zeros();
         let mut row = Row::default();
         let limit = world.kernel.support_radius().powi(2);
@@ -127,8 +129,14 @@ impl<const D: usize> Faces<D> {
             p += vw * (over + density[j] * world.gravity.dot(&apart));
             u += velocity[j] * vw;
             row.add(&place.normal, &apart, self.spacing, vw, &velocity[j]);
-            rho += vw * density[j];
-            z += vw * density[j] * self.laws[phase].sound_speed(density[j]);
+            weighed[phase] += vw * density[j];
+        }
+        let (mut z, mut rho) = (0.0, 0.0);
+        for ((law, sum), filled) in self.laws.iter().zip(&weighed).zip(&mix) {
+            if *filled > 0.0 {
+                rho += sum;
+                z += sum * law.sound_speed(sum / filled);
+            }
         }
         if filling > 0.0 {
             mix.iter_mut().for_each(|m| *m /= filling);

@@ -2,7 +2,7 @@
 
 use sph_boundary::{BoundaryError, Wall, WallSetup, WallStates};
 use sph_core::{StepError, Vect};
-use sph_neighbours::{WallSet, World};
+use sph_neighbours::{Sight, WallSet, World};
 
 use crate::faces::{SharedFaces, lock};
 
@@ -56,6 +56,10 @@ impl<const D: usize> Wall<D> for OpenWalls<D> {
 
     fn feels(&self, wall: usize) -> bool {
         self.walls.feels(wall)
+    }
+
+    fn sights(&self) -> Vec<(usize, Sight<D>)> {
+        self.walls.sights()
     }
 
     /// The numbers of the faces stand behind those of the movers.

@@ -5,8 +5,11 @@
 //! * [`wavenumber`] is the dispersion of linear waves, [`Jonswap`] a spectrum.
 #![doc = include_str!("../README.md")]
 
+mod absorption;
 mod dispersion;
+mod face;
 mod maker;
+mod near_field;
 mod paddle;
 mod reflection;
 mod separation;

@@ -9,7 +9,10 @@ use sph_boundary::{
     SinePart, Translation,
 };
 use sph_core::{Vect, register};
+use sph_neighbours::Sight;
 
+use crate::absorption::{Absorption, MEAN_WAY};
+use crate::face::{Face, forward};
 use crate::paddle::Paddle;
 use crate::waves::{Component, Waves};
 
@@ -21,9 +24,16 @@ use crate::waves::{Component, Waves};
 ///   X₂ = H²/(32 d) [3 cosh kd/sinh³ kd − 2/(H/S)] sin 2ωt.
 ///
 /// Irregular and focused waves, and flaps, are of first order. The paddle begins where it is drawn and at rest, and rises to its
-/// motion within `ramp`. It does not absorb what comes back: a sponge before the far end does, and one behind what is tested.
+/// motion within `ramp`. With `absorb` it looks at the depth of the water within two smoothing lengths, and moves besides so that
+/// waves that come back leave through it:
 ///
-/// Source: Biesel 1951 (linear); Madsen 1971, as in Hughes 1993 (second order).
+///   τ du'/dt + u' = −ω/e₀ (η − η_made) − X'/10T,   τ = E/(ω e₀)
+///
+/// with e₀ = H/S, E the elevation that stays at the paddle over its displacement, ω that of the peak; no wave of this frequency
+/// comes back to a piston, by linear theory, and |E|/(2 e₀) of it to a flap, whose E is negative. The last term leads it back to its place.
+///
+/// Source: Biesel 1951 (linear); Madsen 1971, as in Hughes 1993 (second order); Schäffer & Jakobsen 2003, Altomare et al. 2017
+/// (absorption; the filter with one lag is ours).
 ///
 /// ```toml
 /// [wall.piston.mover.wave-maker]
@@ -54,8 +64,20 @@ pub struct WaveMaker<const D: usize> {
     /// Time in which the motion rises; two periods if left out.
     #[schemars(extend("unit" = "s", "minimum" = 0.0))]
     ramp: Option<f64>,
+    /// Whether waves that come back leave through the paddle.
+    #[serde(default)]
+    absorb: bool,
     #[serde(skip)]
     motion: RigidMotion<D>,
+    #[serde(skip)]
+    feedback: Option<Feedback<D>>,
+}
+
+/// What a paddle looks at, and what it makes of it.
+#[derive(Clone, Debug)]
+struct Feedback<const D: usize> {
+    face: Face<D>,
+    absorption: Absorption,
 }
 
 type Settled<T> = Result<T, MoverRefusal>;
@@ -176,6 +198,37 @@ impl<const D: usize> WaveMaker<D> {
         }
         Ok(parts)
     }
+
+    /// What the paddle does besides, if it absorbs.
+    fn feedback(
+        &self,
+        paddle: Paddle,
+        along: Vect<D>,
+        water: [f64; 2],
+        ramp: f64,
+        setting: &MoverSetting<'_, D>,
+    ) -> Settled<Option<Feedback<D>>> {
+        if !self.absorb {
+            return Ok(None);
+        }
+        let hinge = self.hinge.as_ref().map(|h| Vect::from_column_slice(h));
+        let reach = 2.0 * setting.smoothing_length;
+        let Some(face) = Face::of(setting, along, hinge, self.level, reach) else {
+            return refuse("absorb", "the paddle has no breadth across the waves");
+        };
+        let [_, period] = self.waves.size();
+        let waves = self.waves.components(water[0], water[1]);
+        let second = match waves.first() {
+            Some(first) => self.second_order(paddle, water[0], first)?,
+            None => false,
+        };
+        let least = MEAN_WAY * reach / (water[0] * water[1]).sqrt();
+        let timing = (ramp, period, least);
+        Ok(Some(Feedback {
+            face,
+            absorption: Absorption::of(paddle, &waves, timing, second, water),
+        }))
+    }
 }
 
 impl<const D: usize> Mover<D> for WaveMaker<D> {
@@ -189,6 +242,7 @@ impl<const D: usize> Mover<D> for WaveMaker<D> {
             return refuse("ramp", "a time from 0 on was expected");
         }
         let (paddle, along) = (self.paddle()?, self.direction()?);
+        self.feedback = self.feedback(paddle, along, water, ramp, setting)?;
         let mut parts = self.strokes(paddle, water)?;
         let mut motion = RigidMotion::default();
         match &self.hinge {
@@ -203,14 +257,12 @@ impl<const D: usize> Mover<D> for WaveMaker<D> {
                 // Small angles: the way at the still level over its height above the hinge.
                 let arm = self.level - hinge[D - 1];
                 parts.iter_mut().for_each(|p| p.amplitude /= arm);
-                // Up × along turns the top that way; in the plane angles go anticlockwise.
+                let mut axis = forward(&along);
+                // In the plane angles go anticlockwise.
                 if D == 2 {
-                    parts.iter_mut().for_each(|p| p.amplitude *= -along[0]);
+                    parts.iter_mut().for_each(|p| p.amplitude *= axis[2]);
+                    axis[2] = 1.0;
                 }
-                let axis = match D {
-                    2 => [0.0, 0.0, 1.0],
-                    _ => [-along[1], along[0], 0.0],
-                };
                 motion.rotation = Some(Rotation {
                     centre: std::array::from_fn(|k| hinge[k]),
                     axis,
@@ -230,115 +282,26 @@ impl<const D: usize> Mover<D> for WaveMaker<D> {
     fn feels(&self) -> bool {
         false
     }
-    fn next(&self, _: &RigidState<D>, _: &Load<D>, time: f64, dt: f64) -> RigidState<D> {
-        self.motion.state(time + dt)
+    fn looks(&self, now: &RigidState<D>) -> Option<Sight<D>> {
+        self.feedback.as_ref().map(|f| f.face.sight(now))
+    }
+    fn next(&self, now: &RigidState<D>, load: &Load<D>, time: f64, dt: f64) -> RigidState<D> {
+        let plan = self.motion.state(time + dt);
+        let Some(Feedback { face, absorption }) = &self.feedback else {
+            return plan;
+        };
+        let besides = face.besides(now, &self.motion.state(time));
+        let next = absorption.next(besides, load.depth, time, dt);
+        face.moved(plan, next, (next[1] - besides[1]) / dt)
     }
 }
 
 register!(
     MoverEntry [2 => WaveMaker<2>, 3 => WaveMaker<3>],
     "wave-maker",
-    "a piston or a flap that makes waves: regular, irregular, focused",
-    "Biesel 1951; Madsen 1971"
+    "a piston or a flap that makes waves: regular, irregular, focused; it may absorb what comes back",
+    "Biesel 1951; Madsen 1971; Schäffer & Jakobsen 2003"
 );
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn setting<const D: usize>() -> MoverSetting<'static, D> {
-        MoverSetting {
-            wall: "paddle",
-            walls: &[],
-            spacing: 0.02,
-            smoothing_length: 0.04,
-            densities: [1000.0; 2],
-            sound_speed: 20.0,
-            gravity: Vect::from_fn(|k, _| if k + 1 == D { -9.81 } else { 0.0 }),
-            flush: true,
-        }
-    }
-
-    fn maker<const D: usize>(text: &str) -> WaveMaker<D> {
-        toml::from_str(text).unwrap_or_else(|e| panic!("{e}"))
-    }
-
-    const REGULAR: &str = "level = 0.5\nwaves = { regular = { height = 0.06, period = 1.4 } }\n";
-
-    /// The stroke of `wavemaker-2d`: 58.85 mm of height for 50 mm.
-    #[test]
-    fn a_piston_has_the_stroke_of_linear_theory() {
-        let mut piston = maker::<2>(&format!("{REGULAR}order = 1\nramp = 0\n"));
-        piston.settle(&setting()).expect("settled");
-        let at = |t: f64| piston.next(&piston.start(), &Load::of_gravity(Vect::zeros()), t, 0.0);
-        let stroke = at(0.35).pose.translation[0] - at(1.05).pose.translation[0];
-        let transfer = 0.06 / stroke;
-        let k = crate::wavenumber(std::f64::consts::TAU / 1.4, 0.5, 9.81);
-        assert!((transfer / Paddle::Piston.transfer(k, 0.5) - 1.0).abs() < 1e-12);
-        assert!(at(0.0).velocity[0] > 0.0 && at(0.0).pose.translation[0] == 0.0);
-    }
-
-    /// In long waves the fluid of a wave of steady form has u = c η/(d + η) at all depths (Goring 1978): of second order,
-    /// X₂ = (b − a²/d)/(2kd) sin 2ωt, with b the second harmonic of Stokes' wave.
-    #[test]
-    fn second_order_is_that_of_long_waves_where_they_are_long() {
-        let (depth, period, a) = (0.5, 40.0, 1e-6);
-        let text = format!(
-            "level = {depth}\nwaves = {{ regular = {{ height = {}, period = {period} }} }}",
-            2.0 * a
-        );
-        let piston = maker::<2>(&text);
-        let parts = piston
-            .strokes(Paddle::Piston, [depth, 9.81])
-            .expect("parts");
-        let k = crate::wavenumber(std::f64::consts::TAU / period, depth, 9.81);
-        let kd: f64 = k * depth;
-        let b = a * a * k * kd.cosh() * (2.0 + (2.0 * kd).cosh()) / (4.0 * kd.sinh().powi(3));
-        let long = (b - a * a / depth) / (2.0 * kd);
-        let error = (parts[1].amplitude / long - 1.0).abs();
-        assert!(error < kd.powi(4), "{error} of {kd}");
-    }
-
-    #[test]
-    fn a_flap_turns_its_top_the_way_the_waves_run() {
-        let flap = format!("{REGULAR}hinge = [0.0, 0.1]\nramp = 0\n");
-        let mut plane = maker::<2>(&flap);
-        plane.settle(&setting()).expect("settled");
-        let top = plane.next(&plane.start(), &Load::of_gravity(Vect::zeros()), 0.1, 0.0);
-        assert!(top.movement([0.0, 0.5]).velocity[0] > 0.0);
-        let text = format!("{REGULAR}hinge = [0.0, 0.0, 0.1]\nalong = [3, 4, 0]\nramp = 0\n");
-        let mut space = maker::<3>(&text);
-        space.settle(&setting()).expect("settled");
-        let top = space.next(&space.start(), &Load::of_gravity(Vect::zeros()), 0.1, 0.0);
-        let u = top.movement([0.0, 0.0, 0.5]).velocity;
-        assert!(u[0] > 0.0 && (u[0] * 4.0 - u[1] * 3.0).abs() < 1e-12, "{u}");
-    }
-
-    #[test]
-    fn what_no_maker_can_do_is_refused_at_its_key() {
-        let refused = |text: &str| {
-            let mut maker = maker::<2>(text);
-            maker.settle(&setting()).expect_err("refused").key
-        };
-        assert_eq!(refused(&REGULAR.replace("0.5", "-0.5")), "level");
-        assert_eq!(refused(&REGULAR.replace("0.06", "0.6")), "waves.regular");
-        assert_eq!(refused(&format!("{REGULAR}hinge = [0.0, 0.7]")), "hinge");
-        assert_eq!(
-            refused(&format!("{REGULAR}hinge = [0.0, 0.0]\norder = 2")),
-            "order"
-        );
-        assert_eq!(refused(&format!("{REGULAR}along = [0.0, 1.0]")), "along");
-        assert_eq!(refused(&REGULAR.replace("1.4", "6.0")), "order");
-        let mut dry = maker::<2>(REGULAR);
-        let none = MoverSetting {
-            gravity: Vect::zeros(),
-            ..setting()
-        };
-        assert!(
-            dry.settle(&none)
-                .expect_err("refused")
-                .why
-                .contains("gravity")
-        );
-    }
-}
+mod tests;

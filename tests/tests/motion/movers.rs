@@ -89,9 +89,28 @@ fn a_piston_on_a_spring_comes_to_rest_where_the_water_balances_it() {
     );
 }
 
+/// The same block as a paddle that absorbs what comes back.
+fn absorbing() -> String {
+    let (before, rest) = PISTON
+        .split_once("[wall.piston.mover.spring]")
+        .expect("a mover");
+    let (_, after) = rest.split_once("[wall.tank]").expect("a tank");
+    let maker = "[wall.piston.mover.wave-maker]\nlevel = \"0.2 m\"\nalong = [-1.0, 0.0]\nabsorb = true\n\
+                 waves = { regular = { height = \"1 cm\", period = \"0.6 s\" } }\n";
+    format!("{before}{maker}[wall.tank]{after}")
+}
+
 #[test]
 fn what_moves_a_wall_is_resumed_and_threaded_bit_for_bit() {
-    let short = PISTON.replace("end = 5.0", "end = 0.2");
+    resumed_and_threaded(PISTON);
+    resumed_and_threaded(&absorbing());
+    // It drifts before it looks: what was seen last is in the checkpoint.
+    let drifting = absorbing().replace("[smoother", "[integrator.leap-frog]\n[smoother");
+    resumed_and_threaded(&drifting);
+}
+
+fn resumed_and_threaded(scene: &str) {
+    let short = scene.replace("end = 5.0", "end = 0.2");
     let bench = Bench::with(PROGRAM, &short.replace("every = 0.5", "every = 0.02"));
     bench.done("run scene.toml --quiet --out whole --threads 1");
     bench.done("run scene.toml --quiet --out two --threads 2");
@@ -104,7 +123,7 @@ fn what_moves_a_wall_is_resumed_and_threaded_bit_for_bit() {
     let parts = FinalState::of(&bench.path("parts"));
     assert_eq!(whole.columns["wall_states"], parts.columns["wall_states"]);
     whole.assert_same(&parts, "in two parts");
-    assert!(displacement(&bench, "whole") > 0.0);
+    assert!(displacement(&bench, "whole") != 0.0);
 }
 
 #[test]

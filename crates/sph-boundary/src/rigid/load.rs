@@ -15,6 +15,8 @@ pub struct Load<const D: usize> {
     pub contact_force: Vect<D>,
     /// Its moment about the origin, N m.
     pub contact_moment: [f64; 3],
+    /// Depth of the fluid before the wall, m, for a mover that [looks](crate::Mover::looks); none if there is no fluid.
+    pub depth: Option<f64>,
     /// Gravity, m/s²; what it does to the wall is the mover's business.
     pub gravity: Vect<D>,
 }
@@ -27,6 +29,7 @@ impl<const D: usize> Load<D> {
             moment: [0.0; 3],
             contact_force: Vect::zeros(),
             contact_moment: [0.0; 3],
+            depth: None,
             gravity,
         }
     }

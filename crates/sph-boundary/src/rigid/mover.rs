@@ -1,6 +1,7 @@
 //! What moves a wall.
 
 use sph_core::{Vect, contract};
+use sph_neighbours::Sight;
 
 use crate::{Load, MoverRefusal, MoverSetting, RigidMotion, RigidState, Touch};
 
@@ -23,6 +24,10 @@ pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
     /// Whether it asks what the fluid does to the wall; the force is then measured before every kick.
     fn feels(&self) -> bool {
         true
+    }
+    /// Where it looks at the fluid before its wall, in a state; the depth there is then in [`Load`].
+    fn looks(&self, _now: &RigidState<D>) -> Option<Sight<D>> {
+        None
     }
     /// What lines pull the wall in a state: the force of each on it, N, and its tension at the other end, N; none if it
     /// hangs on nothing.

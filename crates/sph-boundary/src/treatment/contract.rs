@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sph_core::{StepError, Vect, contract};
 use sph_kernels::Kernel;
-use sph_neighbours::{Coulomb, Domain, WallSet, World};
+use sph_neighbours::{Coulomb, Domain, Sight, WallSet, World};
 
 use crate::{BoundaryError, Drawing, Mover, RigidMotion};
 
@@ -141,6 +141,11 @@ pub trait Wall<const D: usize>: Send + Sync {
     /// Whether the mover of a wall, by its number, asks for forces.
     fn feels(&self, _wall: usize) -> bool {
         false
+    }
+
+    /// Where movers look at the fluid before their walls, by the numbers of these.
+    fn sights(&self) -> Vec<(usize, Sight<D>)> {
+        Vec::new()
     }
 
     /// [Numbers](crate::RigidState::numbers) of all walls with movers, one after the other.

@@ -1,7 +1,7 @@
 //! Outlines that move: by prescribed courses and by movers.
 
 use sph_core::Vect;
-use sph_neighbours::WallForce;
+use sph_neighbours::{Sight, WallForce};
 
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::outline::{Outline, is_piece};
@@ -70,6 +70,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             moment: whole.moment,
             contact_force: contact.force,
             contact_moment: contact.moment,
+            depth: Some(whole.depth).filter(|depth| *depth > 0.0),
             gravity,
         }
     }
@@ -78,6 +79,15 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     pub fn feels(&self, wall: usize) -> bool {
         let mover = self.specs.get(wall).and_then(|spec| spec.mover.as_ref());
         mover.is_some_and(|mover| mover.feels())
+    }
+
+    /// Where movers look at the fluid before their walls.
+    pub fn sights(&self) -> Vec<(usize, Sight<D>)> {
+        let look = |k: usize| {
+            let mover = self.specs[k].mover.as_ref()?;
+            Some((k, mover.looks(&self.states[k])?))
+        };
+        self.moved().filter_map(look).collect()
     }
 
     /// Whether any mover asks for forces.

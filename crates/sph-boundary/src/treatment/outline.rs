@@ -291,6 +291,11 @@ macro_rules! checks_by_outline {
             set_up.is_some_and(|s| s.outline.feels(wall))
         }
 
+        fn sights(&self) -> Vec<(usize, sph_neighbours::Sight<D>)> {
+            let set_up = self.set_up.as_ref();
+            set_up.map_or_else(Vec::new, |s| s.outline.sights())
+        }
+
         fn states(&self) -> WallStates {
             let set_up = self.set_up.as_ref();
             set_up.map_or(WallStates::default(), |s| s.outline.numbers())

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::wall_forces;
+use sph_neighbours::{WallForce, wall_forces};
 
 use crate::step::books::Books;
 use crate::step::clocks::MOTION;
@@ -19,6 +19,7 @@ impl<const D: usize> Flow<D> {
     pub(crate) fn kick_over(&mut self, dt: f64) -> Result<(), StepError> {
         let felt = self.felt();
         self.load_walls(&felt)?;
+        self.look_before_walls()?;
         self.before_kick()?;
         if let Some(books) = &mut self.books {
             books.before_kick(&self.world, &self.terms, &self.kinds)?;
@@ -100,6 +101,22 @@ impl<const D: usize> Flow<D> {
         // Integrals of pressure are for probes: no rank knows the pressure on all elements.
         for load in &mut self.loads {
             (load.pressure_force, load.pressure_moment) = (Vect::zeros(), [0.0; 3]);
+        }
+        Ok(())
+    }
+
+    /// Measures the depth of the fluid before walls whose movers look at it.
+    fn look_before_walls(&mut self) -> Result<(), StepError> {
+        let Some(walls) = &self.walls else {
+            return Ok(());
+        };
+        let sights = lock(walls).sights();
+        if sights.is_empty() {
+            return Ok(());
+        }
+        (self.loads).resize(self.world.walls.names.len(), WallForce::zero());
+        for (wall, sight) in sights {
+            self.loads[wall].depth = sight.depth(&self.world)?;
         }
         Ok(())
     }
