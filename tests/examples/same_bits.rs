@@ -1,11 +1,13 @@
 //! Whether two binaries compute the same bits: the first steps of every shipped scene, on one and on two threads.
 //!
 //! ```sh
-//! cargo run -p sph-tests --example same_bits -- OLD/sph NEW/sph [--steps 3] [scenes/NAME.toml …]
+//! cargo run -p sph-tests --example same_bits -- OLD/sph NEW/sph [--steps 3] [--ranks] [scenes/NAME.toml …]
 //! ```
 //!
+//! With `--ranks` the second binary runs on two and on four ranks, in place of one and two threads.
+//!
 //! Compares all columns of the checkpoints, in which every column of state is; prints a checksum per scene and the
-//! columns that differ, and ends with 1 if any does.
+//! columns that differ, with the largest difference over the largest value, and ends with 1 if any does.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -14,8 +16,8 @@ use std::process::{Command, ExitCode};
 
 use sph_io::{Checkpoint, ColumnData};
 
-/// Checksums of columns by name.
-type Sums = BTreeMap<String, u64>;
+/// Columns by name.
+type Columns = BTreeMap<String, ColumnData>;
 
 fn main() -> ExitCode {
     let mut given = std::env::args().skip(1);
@@ -24,10 +26,12 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     let mut steps = "3".to_string();
+    let mut split = ("--threads", [1, 2]);
     let mut scenes = Vec::new();
     while let Some(argument) = given.next() {
         match argument.as_str() {
             "--steps" => steps = given.next().unwrap_or(steps),
+            "--ranks" => split = ("--ranks", [2, 4]),
             scene => scenes.push(PathBuf::from(scene)),
         }
     }
@@ -37,8 +41,14 @@ fn main() -> ExitCode {
     let (mut same, mut other) = (0, 0);
     for scene in &scenes {
         let name = scene.file_stem().unwrap_or_default().to_string_lossy();
-        let all = [(&old, 1), (&new, 1), (&new, 2)];
-        let all = all.map(|(binary, threads)| sums(binary, scene, threads, &steps));
+        let (option, [few, more]) = split;
+        let all = [
+            (&old, "--threads", 1),
+            (&new, option, few),
+            (&new, option, more),
+        ];
+        let all =
+            all.map(|(binary, option, n)| columns(binary, scene, [option, &n.to_string()], &steps));
         match all {
             [Ok(before), Ok(one), Ok(two)] => {
                 let differ = [differing(&before, &one), differing(&before, &two)];
@@ -52,7 +62,7 @@ fn main() -> ExitCode {
                 } else {
                     other += 1;
                     let [one, two] = differ.map(|d| d.join(", "));
-                    println!("{name}: DIFFERS on one thread: {one}; on two: {two}");
+                    println!("{name}: DIFFERS with {option} {few}: {one}; {more}: {two}");
                 }
             }
             [before, one, two] => {
@@ -79,11 +89,12 @@ fn shipped() -> Vec<PathBuf> {
     scenes
 }
 
-/// Checksums of the columns after the first steps, or what the binary said.
-fn sums(binary: &str, scene: &Path, threads: usize, steps: &str) -> Result<Sums, String> {
+/// The columns after the first steps, or what the binary said.
+fn columns(binary: &str, scene: &Path, split: [&str; 2], steps: &str) -> Result<Columns, String> {
     let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
     let run = Command::new(binary)
-        .args(["run", "--quiet", "--threads", &threads.to_string()])
+        .args(["run", "--quiet"])
+        .args(split)
         .args(["--set", &format!("run.max_steps={steps}"), "--out"])
         .arg(folder.path())
         .arg(scene)
@@ -91,28 +102,49 @@ fn sums(binary: &str, scene: &Path, threads: usize, steps: &str) -> Result<Sums,
     let run = run.map_err(|e| format!("{binary}: {e}"))?;
     let said = || String::from_utf8_lossy(&run.stderr).trim().to_string();
     let checkpoint = Checkpoint::load(folder.path().join("checkpoint.sph")).map_err(|_| said())?;
-    let sums = checkpoint.columns.iter().map(|column| {
-        let bits: Vec<u64> = match &column.data {
-            ColumnData::F64(v) => v.iter().map(|x| x.to_bits()).collect(),
-            ColumnData::U32(v) => v.iter().map(|x| u64::from(*x)).collect(),
-            ColumnData::U64(v) => v.clone(),
-        };
-        (column.name.clone(), hash(&bits))
-    });
-    Ok(sums.collect())
+    let columns = checkpoint.columns.into_iter();
+    Ok(columns.map(|column| (column.name, column.data)).collect())
 }
 
-fn hash(of: &impl Hash) -> u64 {
+/// A checksum of all columns.
+fn hash(of: &Columns) -> u64 {
     let mut hasher = DefaultHasher::new();
-    of.hash(&mut hasher);
+    for (name, column) in of {
+        name.hash(&mut hasher);
+        bits(column).hash(&mut hasher);
+    }
     hasher.finish()
 }
 
+fn bits(column: &ColumnData) -> Vec<u64> {
+    match column {
+        ColumnData::F64(v) => v.iter().map(|x| x.to_bits()).collect(),
+        ColumnData::U32(v) => v.iter().map(|x| u64::from(*x)).collect(),
+        ColumnData::U64(v) => v.clone(),
+    }
+}
+
+/// Largest difference of two columns over the largest value, if they have as many reals.
+fn apart(one: &ColumnData, two: &ColumnData) -> Option<f64> {
+    let (ColumnData::F64(one), ColumnData::F64(two)) = (one, two) else {
+        return None;
+    };
+    let largest = one.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let apart = one.iter().zip(two).map(|(a, b)| (a - b).abs());
+    (one.len() == two.len()).then(|| apart.fold(0.0, f64::max) / largest)
+}
+
 /// Names of the columns that are not the same or not in both.
-fn differing(one: &Sums, two: &Sums) -> Vec<String> {
-    let names = one
-        .keys()
-        .chain(two.keys().filter(|k| !one.contains_key(*k)));
-    let differ = names.filter(|name| one.get(*name) != two.get(*name));
-    differ.cloned().collect()
+fn differing(one: &Columns, two: &Columns) -> Vec<String> {
+    let names = one.keys();
+    let names = names.chain(two.keys().filter(|k| !one.contains_key(*k)));
+    let told = |name: &String| {
+        let both = one.get(name).zip(two.get(name));
+        if both.is_some_and(|(a, b)| bits(a) == bits(b)) {
+            return None;
+        }
+        let apart = both.and_then(|(a, b)| apart(a, b));
+        Some(apart.map_or(name.clone(), |by| format!("{name} by {by:.1e}")))
+    };
+    names.filter_map(told).collect()
 }

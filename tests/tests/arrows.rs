@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 35] = [
+const ALLOWED: [(&str, &[&str]); 36] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation"]),
     ("dem-grains", &[]),
@@ -51,6 +51,7 @@ const ALLOWED: [(&str, &[&str]); 35] = [
         ],
     ),
     ("sph-decomposition", &["sph-core", "sph-neighbours"]),
+    ("sph-mpi", &["sph-decomposition"]),
     ("sph-rheology", &["sph-core"]),
     ("sph-state", &["sph-core", "sph-neighbours"]),
     (
@@ -149,8 +150,10 @@ const ALLOWED: [(&str, &[&str]); 35] = [
             "sph-bodies",
             "sph-core",
             "sph-damping",
+            "sph-decomposition",
             "sph-draw",
             "sph-io",
+            "sph-mpi",
             "sph-scene",
             "sph-solver",
             "sph-study",

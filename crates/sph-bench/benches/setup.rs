@@ -67,6 +67,8 @@ pub fn world(side: usize) -> World<2> {
         time: 0.0,
         dt: 1e-4,
         transported: Vec::new(),
+        extent: None,
+        team: None,
     };
     world.free.add(fields::POSITION, Role::State);
     world.free.add(fields::VELOCITY, Role::State);

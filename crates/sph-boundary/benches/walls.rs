@@ -174,6 +174,8 @@ impl<const D: usize> Flow<D> {
             time: 0.0,
             dt: 0.0,
             transported: Vec::new(),
+            extent: None,
+            team: None,
         };
         world.refresh_lists().expect("positions");
         wall.geometry(&mut world).expect("geometry");

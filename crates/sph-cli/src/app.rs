@@ -9,12 +9,14 @@ use crate::arguments::{Arguments, Command};
 use crate::commands::{
     check, compare, draw, explain, manual, new, plugins, run, scenes, schema, study, view,
 };
+use crate::ranks;
 use crate::telling::console;
 
 /// Runs the command that the process was called with.
 ///
 /// Exit codes: 0 done, 1 the run failed or was interrupted, 2 bad usage or a bad scene.
 pub fn main() -> ExitCode {
+    let _joined = ranks::join();
     ExitCode::from(command_line(std::env::args_os()))
 }
 
@@ -29,6 +31,9 @@ pub fn command_line<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item
         }
     };
     let json = arguments.command.json();
+    if !ranks::is_first() && !matches!(arguments.command, Command::Run(_)) {
+        return 0;
+    }
     let done = match &arguments.command {
         Command::Run(a) => run::command(a),
         Command::Study(a) => study::command(a),
@@ -47,7 +52,9 @@ pub fn command_line<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item
     match done {
         Ok(()) => u8::from(!console::complete()),
         Err(trouble) => {
-            trouble.report(json);
+            if ranks::is_first() {
+                trouble.report(json);
+            }
             trouble.exit_code()
         }
     }

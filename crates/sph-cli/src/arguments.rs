@@ -226,6 +226,9 @@ pub struct RunArguments {
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     pub threads: Option<u16>,
+    /// Divide the particles between so many ranks within this process: same results, for trying out what `mpirun` does
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub ranks: Option<u16>,
     /// Go on from the checkpoint in the folder of the results
     #[arg(long)]
     pub resume: bool,

@@ -19,6 +19,7 @@ mod calibration;
 mod commands;
 mod interrupt;
 pub mod library;
+mod ranks;
 mod scene_file;
 mod shipped;
 mod telling;

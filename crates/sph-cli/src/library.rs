@@ -97,6 +97,7 @@ pub fn run(
         scene: request.of(file),
         out,
         threads,
+        ranks: None,
         resume: matches!(begin, Begin::Resume | Begin::ResumeChanged),
         changed: matches!(begin, Begin::ResumeChanged),
         from: match begin {

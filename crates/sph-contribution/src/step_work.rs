@@ -33,6 +33,14 @@ pub trait StepWork<const D: usize>: Send {
     fn remembered(&self) -> Vec<AnyField> {
         Vec::new()
     }
+    /// Why it needs all particles at once, if it does ([`Stage::needs_all`](sph_core::Stage::needs_all)).
+    fn needs_all(&self) -> Option<&'static str> {
+        None
+    }
+    /// How often it goes from particles to their neighbours ([`Stage::rings`](sph_core::Stage::rings)).
+    fn rings(&self) -> usize {
+        1
+    }
     /// Scalars that it advances in time, as velocities are.
     fn advanced(&self) -> Vec<Field<Scalar>> {
         Vec::new()

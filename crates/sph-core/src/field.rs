@@ -63,6 +63,17 @@ impl<const D: usize> Column<D> {
         self.len() == 0
     }
 
+    /// Bytes of an entry.
+    pub(crate) fn bytes_each(&self) -> usize {
+        match self {
+            Column::Scalar(_) => 8,
+            Column::Vector(_) => 8 * D,
+            Column::Index(_) => 4,
+            Column::Tensor(_) => 8 * D * D,
+            Column::SymmetricTensor(_) => 48,
+        }
+    }
+
     /// `n` zero entries of the same type.
     pub(crate) fn zeros(&self, n: usize) -> Self {
         match self {

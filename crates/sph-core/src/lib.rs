@@ -28,6 +28,7 @@ mod field;
 pub mod fields;
 mod kinds;
 mod limit;
+mod parcel;
 mod plan;
 mod registry;
 mod saved;

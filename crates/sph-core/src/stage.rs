@@ -106,6 +106,15 @@ pub trait Stage<C>: Declares + Send {
     /// # Errors
     /// When a column is missing or a value is impossible; the step is then rolled back.
     fn run(&mut self, context: &mut C) -> Result<(), StepError>;
+    /// Why it needs all particles at once, if it does: it adds up over all of them, or goes through their neighbours' neighbours.
+    /// Otherwise it may run for some of them, with guests around, whose sums over neighbours are told by others after it.
+    fn needs_all(&self) -> Option<&'static str> {
+        None
+    }
+    /// How often it goes from particles to their neighbours: 2 if it takes sums over neighbours of what it has summed itself.
+    fn rings(&self) -> usize {
+        1
+    }
     /// Memory of the system that it solved last, matrix and solution, bytes; 0 where it solves none.
     fn bytes(&self) -> usize {
         0

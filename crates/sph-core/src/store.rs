@@ -149,9 +149,18 @@ impl<const D: usize> Store<D> {
     /// # Errors
     /// If nobody asked for the column, or it has another type.
     pub fn get<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
+        let found = self.unwatched(field)?;
+        self.note_read(field.name);
+        Ok(found)
+    }
+
+    /// The entries of a column for the division between ranks, which no work declares.
+    ///
+    /// # Errors
+    /// As [`get`](Self::get).
+    pub fn unwatched<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
         let entry = self.entries.iter().find(|e| e.name == field.name);
         let entry = entry.ok_or(FieldError::Missing(field.name))?;
-        self.note_read(field.name);
         K::items(&entry.column)
             .map(Vec::as_slice)
             .ok_or(FieldError::Type(field.name))
@@ -301,15 +310,6 @@ impl<const D: usize> Store<D> {
 
     /// Bytes of one particle over all columns.
     pub fn bytes_per_particle(&self) -> usize {
-        self.entries
-            .iter()
-            .map(|e| match &e.column {
-                Column::Scalar(_) => 8,
-                Column::Vector(_) => 8 * D,
-                Column::Index(_) => 4,
-                Column::Tensor(_) => 8 * D * D,
-                Column::SymmetricTensor(_) => 48,
-            })
-            .sum()
+        self.entries.iter().map(|e| e.column.bytes_each()).sum()
     }
 }

@@ -1,69 +1,52 @@
-//! Which columns guests are sent, and when.
+//! Which columns guests are told, and when.
 
-use std::collections::BTreeSet;
+use sph_core::{Access, AnyField};
 
-use sph_core::Access;
-
-/// What guests must be sent before a stage: the columns that it reads at neighbours and that have changed since they were last
-/// sent.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// What guests are told after a stage: the columns that it has summed over neighbours. All else they work out themselves.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Exchange {
     /// Place of the stage among all.
     pub stage: usize,
-    /// Names of the columns, ascending.
-    pub columns: Vec<&'static str>,
+    /// The columns.
+    pub columns: Vec<AnyField>,
 }
 
-/// What is sent in an evaluation, from what its stages touch in their order. Columns that are `constant` do not change while a
-/// particle lives: they come with a guest once. All others are stale when an evaluation begins, and after a stage has written them.
-pub fn exchanges(stages: &[Access], constant: &[&str]) -> Vec<Exchange> {
-    let mut fresh: BTreeSet<&'static str> = BTreeSet::new();
-    let mut all = Vec::new();
-    for (stage, access) in stages.iter().enumerate() {
-        let read = access.neighbours.iter().map(|f| f.name);
-        let needed: BTreeSet<&'static str> = read
-            .filter(|name| !fresh.contains(name) && !constant.contains(name))
-            .collect();
-        if !needed.is_empty() {
-            fresh.extend(&needed);
-            all.push(Exchange {
-                stage,
-                columns: needed.into_iter().collect(),
-            });
-        }
-        access.writes.iter().for_each(|f| {
-            fresh.remove(f.name);
-        });
-    }
-    all
+/// What is sent in an evaluation, from what its stages touch.
+pub fn exchanges(stages: &[Access]) -> Vec<Exchange> {
+    let sums = stages.iter().enumerate().filter(|(_, access)| access.sweep);
+    let told = sums.map(|(stage, access)| Exchange {
+        stage,
+        columns: access.writes.clone(),
+    });
+    told.filter(|exchange| !exchange.columns.is_empty())
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sph_core::fields::{DENSITY, MASS, PRESSURE, VELOCITY, VOLUME};
+    use sph_core::fields::{ACCELERATION, DENSITY, MASS, POSITION, PRESSURE, VOLUME};
 
     #[test]
-    fn a_column_is_sent_once_and_again_when_it_was_written() {
+    fn what_is_summed_over_neighbours_is_told_and_nothing_else() {
         let stages = [
-            Access::none().both(VOLUME).neighbours(MASS).writes(DENSITY),
-            Access::none().here(DENSITY).writes(PRESSURE),
-            Access::none().both(PRESSURE).both(VOLUME).writes(VELOCITY),
             Access::none()
-                .both(VELOCITY)
+                .both(POSITION)
+                .neighbours(MASS)
+                .writes(DENSITY),
+            Access::none().here(DENSITY).writes(PRESSURE).writes(VOLUME),
+            Access::none()
                 .both(PRESSURE)
-                .writes(PRESSURE),
+                .both(VOLUME)
+                .writes(ACCELERATION),
             Access::none().both(PRESSURE),
         ];
-        let sent = exchanges(&stages, &[MASS.name]);
-        let told: Vec<_> = sent.iter().map(|e| (e.stage, e.columns.clone())).collect();
-        let expected = vec![
-            (0, vec![VOLUME.name]),
-            (2, vec![PRESSURE.name]),
-            (3, vec![VELOCITY.name]),
-            (4, vec![PRESSURE.name]),
-        ];
+        let told: Vec<_> = exchanges(&stages)
+            .into_iter()
+            .map(|e| (e.stage, e.columns))
+            .collect();
+        let expected = vec![(0, vec![DENSITY.any()]), (2, vec![ACCELERATION.any()])];
         assert_eq!(told, expected);
-        assert_eq!(exchanges(&[], &[]), vec![]);
+        assert_eq!(exchanges(&[]), vec![]);
     }
 }

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
-use sph_core::Vect;
-use sph_neighbours::{CellGrid, Domain};
+use sph_core::{FieldError, fields};
+use sph_neighbours::World;
 
-/// Particles that one task looks at.
-const CHUNK: usize = 1024;
+use crate::guests::{Around, Needs};
 
-/// Guests: particles that others own and a rank needs, because they are within reach of one of its own.
+/// Guests: particles that others own and a rank needs, because they are within reach of the box around its own, or of
+/// a wall that one of its own touches.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Halo {
     ranks: usize,
@@ -21,43 +21,19 @@ pub struct Halo {
 }
 
 impl Halo {
-    /// Counts the guests of all ranks, exactly. `reach` is that of the lists, m.
+    /// Counts the guests of all ranks, where every particle of a world has an owner; `rings` is how often a stage goes from
+    /// particles to their neighbours.
+    ///
+    /// # Errors
+    /// If there is no position column.
     pub fn of<const D: usize>(
-        places: &[Vect<D>],
+        world: &World<D>,
         owners: &[u32],
         ranks: usize,
-        reach: f64,
-        domain: &Domain<D>,
-    ) -> Self {
-        let grid = CellGrid::new(places, reach, domain);
-        let near = |k: usize, there: &mut Vec<u32>| {
-            there.clear();
-            grid.ranges(&places[k], reach, |range| {
-                for &j in &grid.order()[range] {
-                    let owner = owners[j as usize];
-                    if owner == owners[k] || there.contains(&owner) {
-                        continue;
-                    }
-                    let apart = domain.nearest_image(places[k] - places[j as usize]);
-                    if apart.norm_squared() < reach * reach {
-                        there.push(owner);
-                    }
-                }
-            });
-        };
-        let chunks = (0..places.len()).into_par_iter().chunks(CHUNK);
-        let counted: Vec<BTreeMap<[u32; 2], usize>> = chunks
-            .map(|chunk| {
-                let (mut sent, mut there) = (BTreeMap::new(), Vec::new());
-                for k in chunk {
-                    near(k, &mut there);
-                    for to in &there {
-                        *sent.entry([*to, owners[k]]).or_default() += 1;
-                    }
-                }
-                sent
-            })
-            .collect();
+        rings: usize,
+    ) -> Result<Self, FieldError> {
+        let places = world.free.get(fields::POSITION)?;
+        let needs = Needs::of(world, rings);
         let mut halo = Halo {
             ranks,
             owned: vec![0; ranks],
@@ -65,11 +41,21 @@ impl Halo {
             given: vec![0; ranks],
         };
         owners.iter().for_each(|o| halo.owned[*o as usize] += 1);
-        for (pair, count) in counted.into_iter().flatten() {
-            *halo.sent.entry(pair).or_default() += count;
-            halo.given[pair[1] as usize] += count;
+        let of = |rank: usize| {
+            let own = places.iter().zip(owners);
+            let own = own.filter(|(_, o)| **o as usize == rank).map(|(x, _)| x);
+            let around = Around::of(own);
+            needs.slots(places, &around, |k| owners[k] as usize != rank)
+        };
+        let guests: Vec<Vec<u32>> = (0..ranks).into_par_iter().map(of).collect();
+        for (rank, guests) in guests.into_iter().enumerate() {
+            for guest in guests {
+                let from = owners[guest as usize];
+                *halo.sent.entry([rank as u32, from]).or_default() += 1;
+                halo.given[from as usize] += 1;
+            }
         }
-        halo
+        Ok(halo)
     }
 
     /// Number of ranks.
@@ -101,47 +87,5 @@ impl Halo {
     fn to(&self, rank: usize) -> impl Iterator<Item = (&[u32; 2], &usize)> {
         let rank = rank as u32;
         self.sent.range([rank, 0]..=[rank, u32::MAX])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::bisect;
-    use nalgebra::Vector2;
-
-    #[test]
-    fn guests_are_those_that_a_count_of_all_pairs_finds() {
-        let mut state = 1_u64;
-        let mut random = || {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (state >> 40) as f64 / (1_u64 << 24) as f64
-        };
-        let places: Vec<_> = (0..900)
-            .map(|_| Vector2::new(3.0 * random(), random()))
-            .collect();
-        let mut domain = Domain::open(Vector2::new(0.0, 0.0), Vector2::new(3.0, 1.0));
-        for periodic in [[false, false], [true, false], [true, true]] {
-            domain.periodic = periodic;
-            let owners = bisect(&places, &vec![1.0; places.len()], 6).expect("owners");
-            let reach = 0.15;
-            let halo = Halo::of(&places, &owners, 6, reach, &domain);
-            for rank in 0..6 {
-                let near = |k: usize| {
-                    let close = |j: usize| {
-                        owners[j] as usize == rank
-                            && domain.nearest_image(places[k] - places[j]).norm() < reach
-                    };
-                    owners[k] as usize != rank && (0..places.len()).any(close)
-                };
-                let guests = (0..places.len()).filter(|k| near(*k)).count();
-                assert_eq!(halo.guests(rank), guests, "rank {rank}, {periodic:?}");
-                assert!(guests > 20, "the test sees no halo");
-            }
-            let all: usize = (0..6).map(|r| halo.guests(r)).sum();
-            assert_eq!(all, (0..6).map(|r| halo.sent(r)).sum::<usize>());
-        }
     }
 }

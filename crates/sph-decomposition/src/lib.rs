@@ -1,15 +1,35 @@
 //! Parts of a domain for several machines.
 //!
 //! * [`bisect`] gives every particle an owner: cuts across the longest axis until every rank has its share of the cost.
+//!   [`Cuts`] are the same as planes in space, found by ranks that hold a part each.
 //! * [`Halo`] counts the guests: particles of others that a rank needs because they are within reach of its own.
 //! * [`exchanges`] tells which columns guests must be sent before which stage, from what stages say that they touch.
+//! * [`Transport`] is what ranks need to talk to each other; [`Thread`] is one that is a thread of this process.
+//! * [`Parts`] is a rank's part of a flow: it moves particles between ranks, tells guests what their owners found, and
+//!   gathers the whole.
 //!
 //! Everything is the same on every rank that computes it, and does not depend on threads.
 
+mod agree;
 mod bisect;
+mod cuts;
+mod error;
 mod exchange;
+mod gather;
+mod guests;
 mod halo;
+mod link;
+mod owner;
+mod parts;
+mod threads;
+mod transport;
 
 pub use bisect::{DecompositionError, bisect};
+pub use cuts::{CutError, Cuts};
+pub use error::{Divided, PartError};
 pub use exchange::{Exchange, exchanges};
 pub use halo::Halo;
+pub use owner::OWNER;
+pub use parts::{Parts, Traffic};
+pub use threads::Thread;
+pub use transport::{Transport, TransportError};

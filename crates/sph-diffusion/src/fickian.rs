@@ -171,6 +171,10 @@ impl<const D: usize> Declares for ShiftVelocity<D> {
 const STABLE: f64 = 0.25;
 
 impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
+    /// Normals are sums over what has been summed at neighbours.
+    fn rings(&self) -> usize {
+        2
+    }
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let Fickian {
             strength,
@@ -272,29 +276,35 @@ fn largest_speeds<const D: usize>(world: &World<D>) -> Result<Vec<f64>, StepErro
     let velocity = world.free.get(fields::VELOCITY)?;
     let mass = world.free.get(fields::MASS)?;
     let phase = world.free.get(fields::PHASE).ok();
-    // Batch by batch in order: the same bits whatever the number of threads.
-    let batches = velocity.par_chunks(BATCH).zip(mass.par_chunks(BATCH));
-    let sums: Vec<(Vect<D>, f64)> = batches
-        .map(|(u, m)| {
-            let momentum = u.iter().zip(m).fold(Vect::zeros(), |p, (u, m)| p + u * *m);
-            (momentum, m.iter().sum())
-        })
-        .collect();
-    let momentum: Vect<D> = sums.iter().map(|s| s.0).sum();
-    let mean = momentum / sums.iter().map(|s| s.1).sum::<f64>();
-    let phases = phase.map_or(1, |p| p.iter().max().map_or(1, |m| *m as usize + 1));
+    let (mut momentum, mut total) = (Vect::<D>::zeros(), 0.0);
+    for axis in 0..D {
+        let each = |i: usize| [mass[i], mass[i] * velocity[i][axis]];
+        [total, momentum[axis]] = world.sums(each)?;
+    }
+    let mean = momentum / total;
+    let mut phases = [phase.map_or(0.0, |p| f64::from(p.iter().max().copied().unwrap_or(0)))];
+    if let Some(team) = &world.team {
+        team.largest(&mut phases)?;
+    }
+    let phases = phases[0] as usize + 1;
     let scale = mean.norm_squared();
     let largest = |k: usize| {
         let all = velocity.par_iter().enumerate().with_min_len(BATCH);
         let of_phase = all.filter(|(i, _)| phase.is_none_or(|p| p[*i] as usize == k));
         let squares = of_phase.map(|(_, u)| (u - mean).norm_squared());
-        let largest = squares.reduce(|| 0.0, f64::max);
-        // A uniform wind differs from its own mean by rounding.
-        if largest > 1e-24 * scale {
-            largest.sqrt()
+        squares.reduce(|| 0.0, f64::max)
+    };
+    let mut squares: Vec<f64> = (0..phases).map(largest).collect();
+    if let Some(team) = &world.team {
+        team.largest(&mut squares)?;
+    }
+    // A uniform wind differs from its own mean by rounding.
+    let speed = |square: &f64| {
+        if *square > 1e-24 * scale {
+            square.sqrt()
         } else {
             0.0
         }
     };
-    Ok((0..phases).map(largest).collect())
+    Ok(squares.iter().map(speed).collect())
 }

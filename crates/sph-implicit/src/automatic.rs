@@ -124,7 +124,7 @@ impl<const D: usize> LinearSolver<D> for Automatic {
             (false, true) => &[Preconditioner::Jacobi, Preconditioner::IncompleteCholesky],
         };
         // Factors are of whole matrices.
-        let whole = operator.columns() == operator.rows();
+        let whole = operator.is_whole();
         let patience = patience::<D>(operator.rows(), mixed).filter(|_| whole);
         let mut spent = 0;
         for (k, &preconditioner) in stages.iter().enumerate() {

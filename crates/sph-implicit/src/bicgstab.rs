@@ -75,7 +75,7 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
         let (mut p, mut v, mut t) = (own(), own(), own());
         let (mut rho, mut alpha, mut omega) = (1.0, 1.0, 1.0);
         loop {
-            let next = operator.dot(&shadow, &r);
+            let next = operator.inner(&shadow, &r);
             if next == 0.0 || omega == 0.0 {
                 return Err(watch.not_positive());
             }
@@ -86,14 +86,14 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
             }
             precondition.apply(&p, &mut y[..rows]);
             operator.apply(&mut y, &mut v);
-            alpha = rho / operator.dot(&shadow, &v);
+            alpha = rho / operator.inner(&shadow, &v);
             add(&mut r, -alpha, &v);
             add(x, alpha, &y);
             precondition.apply(&r, &mut z[..rows]);
             operator.apply(&mut z, &mut t);
-            let squared = operator.dot(&t, &t);
+            let squared = operator.inner(&t, &t);
             omega = if squared > 0.0 {
-                operator.dot(&t, &r) / squared
+                operator.inner(&t, &r) / squared
             } else {
                 0.0
             };

@@ -102,14 +102,18 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
         if let Some(residual) = watch.reached(operator.norm(r))? {
             return Ok(watch.report(residual, size_of_val(&r[..])));
         }
-        let precondition = self.preconditioner.bind(operator, METHOD, shelf)?;
+        let precondition = self.preconditioner.bind(operator, METHOD, shelf);
+        if !operator.all(precondition.is_ok()) {
+            return Err(precondition.err().unwrap_or_else(|| watch.not_positive()));
+        }
+        let precondition = precondition?;
         let bytes = 4 * size_of_val(&r[..]) + precondition.bytes();
         z.resize(r.len(), Vect::zeros());
         precondition.apply(r, z);
         direction.clone_from(z);
         direction.resize(operator.columns(), Vect::zeros());
         image.resize(r.len(), Vect::zeros());
-        let mut slope = operator.dot(r, z);
+        let mut slope = operator.inner(r, z);
         let mut prepared = None;
         loop {
             if watch.iterations() == PREPARE {
@@ -119,7 +123,7 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
                 Some(prepared) => prepared.multiply(direction, image),
                 None => operator.apply(direction, image),
             }
-            let curvature = operator.dot(direction, image);
+            let curvature = operator.inner(direction, image);
             if curvature <= 0.0 || slope <= 0.0 {
                 return Err(watch.not_positive());
             }
@@ -130,7 +134,7 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
                 return Ok(watch.report(residual, bytes));
             }
             precondition.apply(r, z);
-            let next = operator.dot(r, z);
+            let next = operator.inner(r, z);
             scale_and_add(&mut direction[..z.len()], next / slope, z);
             slope = next;
         }

@@ -27,6 +27,22 @@ pub trait Operator<const D: usize>: Sync {
         part
     }
 
+    /// Σ x·y over all rows, in an order that does not depend on the number of threads; the same bits for everybody.
+    fn inner(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
+        let rows = self.rows();
+        self.total(dot(&x[..rows], &y[..rows]))
+    }
+
+    /// Whether it holds for all who share the operator; everybody must ask.
+    fn all(&self, holds: bool) -> bool {
+        holds
+    }
+
+    /// Whether all rows and what couples them are here.
+    fn is_whole(&self) -> bool {
+        self.columns() == self.rows()
+    }
+
     /// y = A x; x has a value for every column, y for every row.
     fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]);
 
@@ -60,15 +76,9 @@ impl<const D: usize> dyn Operator<D> + '_ {
         self.multiply(x, y);
     }
 
-    /// Σ x·y over all rows, in an order that does not depend on the number of threads.
-    pub(crate) fn dot(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
-        let rows = self.rows();
-        self.total(dot(&x[..rows], &y[..rows]))
-    }
-
     /// |x| over all rows.
     pub(crate) fn norm(&self, x: &[Vect<D>]) -> f64 {
-        self.dot(x, x).sqrt()
+        self.inner(x, x).sqrt()
     }
 
     /// r = b − A x.
@@ -89,7 +99,7 @@ impl<const D: usize> dyn Operator<D> + '_ {
     /// # Errors
     /// If it is not written down, or some of it is with the owners of guests.
     pub(crate) fn whole(&self, method: &'static str) -> Result<&Matrix<D>, SolveError> {
-        let whole = self.assembled().filter(|_| self.columns() == self.rows());
+        let whole = self.assembled().filter(|_| self.is_whole());
         whole.ok_or_else(|| SolveError::NotWhole {
             method: method.into(),
         })

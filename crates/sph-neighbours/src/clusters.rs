@@ -46,6 +46,18 @@ impl Clusters {
         domain: &Domain<D>,
         shelf: &Shelf,
     ) {
+        self.build_but(points, grid, (reach, domain), shelf, None);
+    }
+
+    /// The same, with nobody around clusters all of whose members are `idle`: no sum of theirs is asked for.
+    pub(crate) fn build_but<const D: usize>(
+        &mut self,
+        points: &[Vect<D>],
+        grid: &CellGrid<D>,
+        (reach, domain): (f64, &Domain<D>),
+        shelf: &Shelf,
+        idle: Option<&[bool]>,
+    ) {
         self.resize(points.len());
         let width = width();
         let blocks = self.blocks.par_iter_mut().enumerate();
@@ -57,12 +69,18 @@ impl Clusters {
             block.part(&points[from..to], width.lanes(), LONGEST * reach);
             let mut used = 0;
             for c in 0..block.clusters() {
+                let members = block.span(c, from);
+                let [first, count] = members;
+                if idle.is_some_and(|idle| idle[first..first + count].iter().all(|idle| *idle)) {
+                    block.starts.push(used as u32);
+                    continue;
+                }
                 let near = Near {
                     points,
                     grid,
                     reach,
                     domain,
-                    members: block.span(c, from),
+                    members,
                     from: used,
                     slots: buffer,
                     ranges,

@@ -7,11 +7,44 @@ use crate::Domain;
 /// Cells per search radius: smaller cells waste fewer candidates, more of them cost loops.
 const CELLS_PER_RADIUS: usize = 2;
 
+/// What the cells of a grid follow from: where points are and how many. If a process holds some of the points of others, all
+/// of them number their cells alike when they take the extent of all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent<const D: usize> {
+    /// Least coordinates, m.
+    pub lower: Vect<D>,
+    /// Largest coordinates, m.
+    pub upper: Vect<D>,
+    /// Number of points.
+    pub points: usize,
+}
+
+impl<const D: usize> Extent<D> {
+    /// That of these points; those that are nowhere do not count.
+    pub fn of(positions: &[Vect<D>]) -> Self {
+        let mut finite = positions.iter().filter(|x| x.iter().all(|c| c.is_finite()));
+        let first = finite.next().copied().unwrap_or_else(Vect::zeros);
+        let (lower, upper) = finite.fold((first, first), |(lower, upper), x| {
+            (lower.inf(x), upper.sup(x))
+        });
+        Extent {
+            lower,
+            upper,
+            points: positions.len(),
+        }
+    }
+}
+
 /// A regular grid over a set of points; row-major with the first axis fastest.
 #[derive(Clone, Debug)]
 pub struct CellGrid<const D: usize> {
     lower: Vect<D>,
     inverse_width: [f64; D],
+    /// Cells along each axis, of the whole extent.
+    all: [usize; D],
+    /// The first of them that this grid has.
+    first: [usize; D],
+    /// How many it has.
     counts: [usize; D],
     periodic: [bool; D],
     starts: Vec<u32>,
@@ -24,7 +57,36 @@ impl<const D: usize> CellGrid<D> {
     ///
     /// Points outside the box count for the cell at its edge, which is still correct.
     pub fn new(positions: &[Vect<D>], radius: f64, domain: &Domain<D>) -> Self {
-        let (mut lower, mut upper) = bounds(positions);
+        let mut grid = Self::cells(&Extent::of(positions), radius, domain);
+        grid.sort(positions);
+        grid
+    }
+
+    /// The same with the cells of a larger set of points, of which these are some: they come in the order that they have
+    /// among all. Only the cells around these points are held, along axes that are not periodic.
+    pub fn among(
+        extent: &Extent<D>,
+        positions: &[Vect<D>],
+        radius: f64,
+        domain: &Domain<D>,
+    ) -> Self {
+        let mut grid = Self::cells(extent, radius, domain);
+        let own = Extent::of(positions);
+        let corners = [own.lower, own.upper].map(|x| {
+            let at = |axis| grid.coordinate(&x, axis);
+            std::array::from_fn::<usize, D, _>(at)
+        });
+        for axis in (0..D).filter(|a| !domain.periodic[*a]) {
+            grid.first[axis] = corners[0][axis];
+            grid.counts[axis] = corners[1][axis] + 1 - corners[0][axis];
+        }
+        grid.sort(positions);
+        grid
+    }
+
+    /// All cells of an extent, with nobody in them.
+    fn cells(extent: &Extent<D>, radius: f64, domain: &Domain<D>) -> Self {
+        let (mut lower, mut upper) = (extent.lower, extent.upper);
         for axis in 0..D {
             if domain.periodic[axis] {
                 lower[axis] = domain.lower[axis];
@@ -34,13 +96,13 @@ impl<const D: usize> CellGrid<D> {
                 upper[axis] = upper[axis].min(domain.upper[axis]);
             }
         }
-        let extent = |a: usize| (upper[a] - lower[a]).max(radius);
+        let extent_along = |a: usize| (upper[a] - lower[a]).max(radius);
         // Cells number at most a few per point, however sparse the cloud is.
-        let most = 4.0 * positions.len().max(16) as f64;
+        let most = 4.0 * extent.points.max(16) as f64;
         let mut width = radius / CELLS_PER_RADIUS as f64;
         let cells = |w: f64| {
             (0..D)
-                .map(|a| (extent(a) / w).floor().max(1.0))
+                .map(|a| (extent_along(a) / w).floor().max(1.0))
                 .product::<f64>()
         };
         while cells(width) > most {
@@ -49,20 +111,20 @@ impl<const D: usize> CellGrid<D> {
         let mut counts = [1; D];
         let mut inverse_width = [0.0; D];
         for axis in 0..D {
-            counts[axis] = ((extent(axis) / width) as usize).max(1);
-            inverse_width[axis] = counts[axis] as f64 / extent(axis);
+            counts[axis] = ((extent_along(axis) / width) as usize).max(1);
+            inverse_width[axis] = counts[axis] as f64 / extent_along(axis);
         }
-        let mut grid = CellGrid {
+        CellGrid {
             lower,
             inverse_width,
+            all: counts,
+            first: [0; D],
             counts,
             periodic: domain.periodic,
             starts: Vec::new(),
             points: Vec::new(),
             sorted: true,
-        };
-        grid.sort(positions);
-        grid
+        }
     }
 
     fn sort(&mut self, positions: &[Vect<D>]) {
@@ -92,7 +154,19 @@ impl<const D: usize> CellGrid<D> {
         &self.points
     }
 
-    /// Whether the points came in cell order.
+    /// Orders the points of each cell by their identities, so that the order does not depend on how they came.
+    pub fn order_by(&mut self, identities: &[u32]) {
+        let of = |point: &u32| identities[*point as usize];
+        for cell in self.starts.windows(2) {
+            let points = &mut self.points[cell[0] as usize..cell[1] as usize];
+            if !points.is_sorted_by_key(of) {
+                points.sort_unstable_by_key(of);
+                self.sorted = false;
+            }
+        }
+    }
+
+    /// Whether the points came in this order.
     pub fn is_sorted(&self) -> bool {
         self.sorted
     }
@@ -100,7 +174,9 @@ impl<const D: usize> CellGrid<D> {
     fn coordinate(&self, x: &Vect<D>, axis: usize) -> usize {
         let c = (x[axis] - self.lower[axis]) * self.inverse_width[axis];
         // A negative or non-finite value casts to 0, a large one is clamped.
-        (c as usize).min(self.counts[axis] - 1)
+        let cell = (c as usize).min(self.all[axis] - 1);
+        cell.saturating_sub(self.first[axis])
+            .min(self.counts[axis] - 1)
     }
 
     /// The cell that a point counts for.
@@ -175,12 +251,4 @@ impl<const D: usize> CellGrid<D> {
             [(low - reach, high + reach + 1), (0, 0)]
         }
     }
-}
-
-fn bounds<const D: usize>(positions: &[Vect<D>]) -> (Vect<D>, Vect<D>) {
-    let mut finite = positions.iter().filter(|x| x.iter().all(|c| c.is_finite()));
-    let first = finite.next().copied().unwrap_or_else(Vect::zeros);
-    finite.fold((first, first), |(lower, upper), x| {
-        (lower.inf(x), upper.sup(x))
-    })
 }

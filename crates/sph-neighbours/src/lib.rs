@@ -39,7 +39,9 @@ mod row;
 mod separation;
 mod shares;
 mod sight;
+mod sums;
 mod sweep;
+mod team;
 mod term;
 mod walk;
 mod wall_force;
@@ -57,7 +59,7 @@ pub use domain::Domain;
 pub use fuse::{
     FusionEntry, Terms, fuse_all, fuse_three, fuse_three_lanes, fuse_two, fuse_two_lanes,
 };
-pub use grid::CellGrid;
+pub use grid::{CellGrid, Extent};
 pub use keep_couplings::{Keeper, Rows as CouplingRows, Tally, Weak};
 pub use kernel_sums::{kernel_sums, shepard};
 pub use kernels::KernelEntry;
@@ -75,6 +77,7 @@ pub use shares::{TermShare, shares_at};
 pub use sight::Sight;
 pub use sph_lanes::{Lane, MOST, add_scaled, dot, scaled};
 pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
+pub use team::Team;
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,
     TermEntry,

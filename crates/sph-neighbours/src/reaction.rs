@@ -48,12 +48,26 @@ pub fn wall_forces<const D: usize>(
         contacts.any(|c| wanted[walls.elements.wall[c.element as usize] as usize])
             || (points.iter()).any(|v| wanted[walls.points.wall[*v as usize] as usize])
     };
-    for (i, parts) in wall_parts(world, terms, sees)?.iter().enumerate() {
-        for (wall, force) in parts {
-            let total = &mut forces[*wall as usize];
-            total.force += force;
-            add_moment(&mut total.moment, cross(&positions[i], force));
+    let own = world.team.as_ref().map(|team| team.own(&world.free));
+    let sees = |i: usize| sees(i) && own.as_ref().is_none_or(|own| own[i]);
+    let mut parts: Vec<Vec<[f64; 6]>> = vec![Vec::new(); wanted.len()];
+    for (i, on_walls) in wall_parts(world, terms, sees)?.iter().enumerate() {
+        for (wall, force) in on_walls {
+            let mut both = [0.0; 6];
+            both[..D].copy_from_slice(force.as_slice());
+            both[3..].copy_from_slice(&cross(&positions[i], force));
+            parts[*wall as usize].push(both);
         }
+    }
+    for ((total, parts), _) in forces
+        .iter_mut()
+        .zip(&parts)
+        .zip(wanted)
+        .filter(|(_, w)| **w)
+    {
+        let sums = world.sums_of(|| parts.par_iter().with_min_len(1024).copied())?;
+        total.force = Vect::from_fn(|k, _| sums[k]);
+        total.moment = [sums[3], sums[4], sums[5]];
     }
     let elements = &world.walls.elements;
     for s in 0..elements.centre.len() {

@@ -1,10 +1,12 @@
 //! What stages and terms see of a running scene.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use sph_core::{AnyField, Field, FieldError, Scalar, Shelf, Store, Vect, fields};
 use sph_kernels::Sampler;
 
-use crate::{CellGrid, Clusters, Domain, NeighbourList, WallSet};
+use crate::{CellGrid, Clusters, Domain, Extent, NeighbourList, Team, WallSet};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
 #[derive(Default)]
@@ -70,6 +72,10 @@ pub struct World<const D: usize> {
     pub dt: f64,
     /// Rates that the sweep sums in [`Rates::more`](crate::Rates), in the order of the slots.
     pub transported: Vec<AnyField>,
+    /// That of all particles, where others hold some of them; `None` where all are here.
+    pub extent: Option<Extent<D>>,
+    /// Others who hold particles of this flow; `None` where all are here.
+    pub team: Option<Arc<dyn Team<D>>>,
 }
 
 impl<const D: usize> World<D> {
@@ -108,26 +114,68 @@ impl<const D: usize> World<D> {
         Ok(!(2.0 * free.max(wall) < skin && free + wall < skin))
     }
 
-    /// Sorts the particles by cell and builds all lists anew.
+    /// Sorts the particles by cell, and in a cell by identity, and builds all lists anew.
     ///
     /// # Errors
     /// If there is no position column.
     pub fn rebuild_lists(&mut self) -> Result<(), FieldError> {
-        let reach = self.reach();
-        let domain = self.domain.clone();
+        self.wrap()?;
+        if let Some(order) = self.order()? {
+            self.free.permute(&order);
+        }
+        let positions = self.free.get(fields::POSITION)?.to_vec();
+        self.build_lists_at(positions);
+        Ok(())
+    }
+
+    /// Moves particles into the box along its periodic axes.
+    ///
+    /// # Errors
+    /// If there is no position column.
+    pub fn wrap(&mut self) -> Result<(), FieldError> {
+        let domain = &self.domain;
         if domain.any_periodic() {
             let positions = self.free.get_mut(fields::POSITION)?;
             positions
                 .par_iter_mut()
                 .for_each(|x| *x = domain.wrapped(*x));
         }
-        let grid = CellGrid::new(self.free.get(fields::POSITION)?, reach, &self.domain);
-        if !grid.is_sorted() {
-            self.free.permute(grid.order());
-        }
-        let positions = self.free.get(fields::POSITION)?.to_vec();
-        self.build_lists_at(positions);
         Ok(())
+    }
+
+    /// The order of lists at the present positions; `None` if the particles have it.
+    ///
+    /// # Errors
+    /// If there is no position column.
+    pub fn order(&self) -> Result<Option<Vec<u32>>, FieldError> {
+        self.order_at(self.free.get(fields::POSITION)?)
+    }
+
+    /// The order of lists at other positions; `None` if the particles have it.
+    ///
+    /// # Errors
+    /// None; identities that are missing do not count.
+    pub fn order_at(&self, positions: &[Vect<D>]) -> Result<Option<Vec<u32>>, FieldError> {
+        let mut grid = self.grid(positions);
+        if let Ok(identities) = self.free.get(fields::IDENTITY) {
+            grid.order_by(identities);
+        }
+        Ok((!grid.is_sorted()).then(|| grid.order().to_vec()))
+    }
+
+    /// The cells of free particles at these positions.
+    fn grid(&self, positions: &[Vect<D>]) -> CellGrid<D> {
+        match &self.extent {
+            None => CellGrid::new(positions, self.reach(), &self.domain),
+            Some(all) => CellGrid::among(all, positions, self.reach(), &self.domain),
+        }
+    }
+
+    /// Remembers where lists were built, without building them: for whoever has the columns of a flow and asks for no list.
+    pub fn lists_would_be_of(&mut self, positions: Vec<Vect<D>>, points: Vec<Vect<D>>, time: f64) {
+        self.lists.reference = positions;
+        self.lists.reference_points = points;
+        self.lists.time = time;
     }
 
     fn build_lists_at(&mut self, positions: Vec<Vect<D>>) {
@@ -141,11 +189,15 @@ impl<const D: usize> World<D> {
     /// the order of its sums, are those of the run that was interrupted.
     pub fn build_lists_from(&mut self, positions: Vec<Vect<D>>, points: Vec<Vect<D>>, time: f64) {
         let reach = self.reach();
-        let grid = CellGrid::new(&positions, reach, &self.domain);
+        let grid = self.grid(&positions);
         let lists = &mut self.lists;
         let domain = &self.domain;
         let shelf = &lists.shelf;
-        lists.free.build(&positions, &grid, reach, domain, shelf);
+        let idle = self.team.as_ref().and_then(|team| team.idle(&self.free));
+        let idle = idle.as_deref().filter(|idle| idle.len() == positions.len());
+        lists
+            .free
+            .build_but(&positions, &grid, (reach, domain), shelf, idle);
         if self.walls.points.in_sums() {
             let first = self.walls.points.corners;
             let summed = &points[first..];
@@ -230,14 +282,19 @@ impl<const D: usize> World<D> {
         }
     }
 
+    /// Drops the lists that hold at the positions of before.
+    pub fn forget_pruned(&mut self) {
+        if let Some(pruned) = self.lists.pruned.take() {
+            self.lists.spare = pruned;
+        }
+    }
+
     /// Rebuilds the lists if they expired; says whether it did.
     ///
     /// # Errors
     /// If there is no position column.
     pub fn refresh_lists(&mut self) -> Result<bool, FieldError> {
-        if let Some(pruned) = self.lists.pruned.take() {
-            self.lists.spare = pruned;
-        }
+        self.forget_pruned();
         let expired = self.lists_expired()?;
         if expired {
             self.rebuild_lists()?;

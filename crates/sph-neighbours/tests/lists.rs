@@ -99,6 +99,8 @@ fn world(n: usize, seed: u64, order: impl Fn(usize) -> usize) -> World<2> {
         time: 0.0,
         dt: 0.0,
         transported: Vec::new(),
+        extent: None,
+        team: None,
     }
 }
 

@@ -42,6 +42,11 @@ pub trait Probe<const D: usize>: Send {
     fn force_on(&self) -> Option<&str> {
         None
     }
+    /// Whether it reads neighbour lists, contacts, or what walls carry besides forces, and not columns alone: where several
+    /// ranks run a flow, the first computes these for such probes only.
+    fn looks_around(&self) -> bool {
+        false
+    }
     /// Whether it reads the displacement of the particles, which is kept for such probes only.
     fn needs_displacement(&self) -> bool {
         false

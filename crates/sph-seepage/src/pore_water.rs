@@ -42,6 +42,9 @@ pub(crate) struct Seeps<const D: usize> {
 }
 
 impl<const D: usize> StepWork<D> for Seeps<D> {
+    fn needs_all(&self) -> Option<&'static str> {
+        Some("water flows through a net of all pores")
+    }
     fn name(&self) -> String {
         "seepage".into()
     }

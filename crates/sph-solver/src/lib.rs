@@ -7,6 +7,7 @@
 //! * [`assemble()`]: scene → [`Flow`]: columns, stages in order, step limits.
 //! * [`Flow`]: one evaluation, one step; a [`sph_core::System`] for the integrator.
 //! * [`run()`]: steps, outputs, checkpoints, roll-back, references, summary.
+//! * [`run_part()`]: the same on one of several ranks, with a part of the particles.
 //! * [`Stepper`]: the same in memory, step by step, with columns that may be changed in between.
 //! * [`examine()`]: the numbers that follow from a scene, without running it.
 //! * [`rheometer`]: a law by its name, sheared alone; [`kernels`]: a kernel by its name.
@@ -23,11 +24,12 @@ mod step;
 pub use failure::error::{Failure, SolverError};
 pub use failure::findings::{Findings, Share, Sighting, Suspect};
 pub use failure::trouble::Trouble;
-pub use results::summary::{Drift, ErrorEntry, PluginInForce, Status, Summary};
+pub use results::summary::{Drift, ErrorEntry, PluginInForce, RankShare, Status, Summary};
 pub use running::driver::{Command, Observer, Progress};
 pub use running::identity::{FileMark, Identity, marks};
+pub use running::on_threads::run_on_threads;
 pub use running::options::{RunOptions, Start};
-pub use running::run::run;
+pub use running::run::{run, run_part};
 pub use running::stepper::Stepper;
 pub use setup::assemble::{Assembled, assemble};
 pub use setup::calibration::Calibration;

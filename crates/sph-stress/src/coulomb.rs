@@ -122,6 +122,9 @@ impl<const D: usize> CoulombFriction<D> {
 }
 
 impl<const D: usize> StepWork<D> for CoulombFriction<D> {
+    fn needs_all(&self) -> Option<&'static str> {
+        Some("walls rub by what all particles before an element press on it")
+    }
     fn name(&self) -> String {
         "friction on walls".into()
     }

@@ -212,6 +212,9 @@ impl<const D: usize> Declares for Solve<D> {
 }
 
 impl<const D: usize> Stage<World<D>> for Solve<D> {
+    fn needs_all(&self) -> Option<&'static str> {
+        Some("it solves a system of all particles")
+    }
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         match self.due(world) {
             true => self.solve(world).map(drop),

@@ -68,11 +68,11 @@ impl<const D: usize> StepWork<D> for BulkVelocity {
     }
     fn after_kick(&mut self, world: &mut World<D>, _: f64) -> Result<(), StepError> {
         let axis = self.axis as usize;
-        let mut velocity = world.free.take(fields::VELOCITY)?;
+        let velocity = world.free.get(fields::VELOCITY)?;
         let mass = world.free.get(fields::MASS)?;
-        let total: f64 = mass.iter().sum();
-        let both = velocity.iter().zip(mass);
-        let momentum: f64 = both.map(|(u, m)| m * u[axis]).sum();
+        let each = |i: usize| [mass[i], mass[i] * velocity[i][axis]];
+        let [total, momentum] = world.sums(each)?;
+        let mut velocity = world.free.take(fields::VELOCITY)?;
         let push = self.velocity - momentum / total;
         velocity.iter_mut().for_each(|u| u[axis] += push);
         Ok(world.free.put(fields::VELOCITY, velocity)?)

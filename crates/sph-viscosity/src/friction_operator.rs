@@ -2,9 +2,10 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
+use rayon::prelude::*;
 use sph_core::{Shelf, Vect};
-use sph_implicit::{Assembly, Block, Diagonal, Entries, Entry, Matrix, Operator, Rows};
-use sph_neighbours::{CouplingsAt, Neighbourhood, Visitor};
+use sph_implicit::{Assembly, Block, Diagonal, Entries, Entry, Matrix, Operator, Rows, dot};
+use sph_neighbours::{CouplingsAt, Neighbourhood, Team, Visitor, World};
 
 use crate::{BoundCoupling, CouplingRow};
 
@@ -57,6 +58,31 @@ pub struct FrictionOperator<'a, const D: usize> {
     rows: RowsOf<'a, D>,
     matrix: OnceLock<Matrix<D>>,
     matrices: &'a Mutex<Matrices<D>>,
+    /// Others with rows of the same system, and which rows are one's own.
+    shared: Option<Shared<D>>,
+}
+
+/// A system whose rows are divided between ranks: copies of others' rows are here as well, and follow their owners in every product.
+struct Shared<const D: usize> {
+    team: Arc<dyn Team<D>>,
+    own: Vec<bool>,
+}
+
+/// Rows of a sum in one go.
+const BATCH: usize = 4096;
+
+impl<const D: usize> Shared<D> {
+    fn inner(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
+        let batches = x.par_chunks(BATCH).zip(y.par_chunks(BATCH));
+        let parts = batches
+            .zip(self.own.par_chunks(BATCH))
+            .map(|((x, y), own)| {
+                let rows = x.iter().zip(y).zip(own).filter(|(_, own)| **own);
+                rows.map(|((x, y), _)| x.dot(y)).sum::<f64>()
+            });
+        let parts: Vec<f64> = parts.collect();
+        self.team.add(parts.iter().sum())
+    }
 }
 
 impl<'a, const D: usize> FrictionOperator<'a, D> {
@@ -65,8 +91,14 @@ impl<'a, const D: usize> FrictionOperator<'a, D> {
         coupling_bytes: usize,
         rows: RowsOf<'a, D>,
         matrices: &'a Mutex<Matrices<D>>,
+        world: &World<D>,
     ) -> Self {
+        let shared = world.team.as_ref().map(|team| Shared {
+            team: team.clone(),
+            own: team.own(&world.free),
+        });
         FrictionOperator {
+            shared,
             couplings,
             coupling_bytes,
             rows,
@@ -106,7 +138,14 @@ impl<'a, const D: usize> FrictionOperator<'a, D> {
     ) -> (sph_implicit::Pattern, sph_implicit::Values<E>) {
         let size = [self.couplings.blocks(), own.len()];
         assembly.fill_blocks(size, |block, rows| {
-            self.couplings.each(block, &mut Writer { own, rows });
+            let mut writer = Writer {
+                own,
+                rows,
+                mine: self.shared.as_ref().map(|shared| &shared.own[..]),
+                particle: 0,
+                left_out: E::ZERO,
+            };
+            self.couplings.each(block, &mut writer);
         });
         let pattern = std::mem::take(&mut assembly.pattern);
         (pattern, std::mem::take(&mut assembly.values))
@@ -132,25 +171,38 @@ impl<const D: usize> Drop for FrictionOperator<'_, D> {
     }
 }
 
-/// Writes rows of a matrix.
+/// Writes rows of a matrix; what couples rows of different ranks stands on the diagonal alone.
 struct Writer<'a, E, const D: usize> {
     own: &'a [E],
     rows: &'a mut Rows<E, D>,
+    mine: Option<&'a [bool]>,
+    particle: usize,
+    left_out: E,
 }
 
 impl<E: Entry<D>, const D: usize> Visitor<D> for Writer<'_, E, D> {
     #[inline(always)]
-    fn begin(&mut self, _: usize, most: usize) {
+    fn begin(&mut self, particle: usize, most: usize) {
         self.rows.begin(most);
+        (self.particle, self.left_out) = (particle, E::ZERO);
     }
     #[inline(always)]
     fn pair(&mut self, neighbour: u32, [even, along]: [f64; 2], separation: &Vect<D>) {
         let entry = E::central(even, along, separation);
-        self.rows.couple(neighbour, &entry, true);
+        let own = |particle: usize| self.mine.is_none_or(|mine| mine[particle]);
+        let counts = own(self.particle) && own(neighbour as usize);
+        if !counts {
+            self.left_out = self.left_out.plus(&entry);
+        }
+        self.rows.couple(neighbour, &entry, counts);
     }
     #[inline(always)]
     fn end(&mut self, particle: usize) {
-        self.rows.end(self.own[particle], Vect::zeros());
+        let own = match self.mine {
+            None => self.own[particle],
+            Some(_) => self.own[particle].plus(&self.left_out),
+        };
+        self.rows.end(own, Vect::zeros());
     }
 }
 
@@ -187,10 +239,38 @@ impl<const D: usize> Operator<D> for FrictionOperator<'_, D> {
                     .sums(x, y, |i, sum| own[i].apply(&x[i]) + sum);
             }
         }
+        if let Some(shared) = &self.shared {
+            shared.team.mirror(y);
+        }
+    }
+
+    fn import(&self, x: &mut [Vect<D>]) {
+        if let Some(shared) = &self.shared {
+            shared.team.mirror(x);
+        }
+    }
+
+    fn inner(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
+        match &self.shared {
+            None => dot(x, y),
+            Some(shared) => shared.inner(x, y),
+        }
+    }
+
+    fn all(&self, holds: bool) -> bool {
+        match &self.shared {
+            None => holds,
+            Some(shared) => shared.team.most(f64::from(u8::from(!holds))) == 0.0,
+        }
+    }
+
+    fn is_whole(&self) -> bool {
+        self.shared.is_none()
     }
 
     fn prepared<'a>(&'a self, shelf: &'a Shelf) -> Option<Box<dyn Operator<D> + 'a>> {
-        self.matrix.get().and_then(|matrix| matrix.prepared(shelf))
+        let whole = self.matrix.get().filter(|_| self.shared.is_none());
+        whole.and_then(|matrix| matrix.prepared(shelf))
     }
 
     fn diagonal(&self) -> Option<Diagonal<'_, D>> {
@@ -201,9 +281,14 @@ impl<const D: usize> Operator<D> for FrictionOperator<'_, D> {
     }
 
     fn stiffness(&self) -> Option<f64> {
-        Some(match self.rows {
+        // Rows of copies lack couplings, and are softer than those of their owners.
+        let here = match self.rows {
             RowsOf::Scalar(own, whole) => stiffness::<f64, D>(own, whole),
             RowsOf::Block(own, whole) => stiffness(own, whole),
+        };
+        Some(match &self.shared {
+            None => here,
+            Some(shared) => shared.team.most(here),
         })
     }
 

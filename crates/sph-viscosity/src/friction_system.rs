@@ -136,6 +136,7 @@ impl<const D: usize> FrictionSystem<D> {
             couplings.bytes(),
             rows,
             &self.matrices,
+            world,
         ))
     }
 }

@@ -104,6 +104,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             if again {
                 for stage in &mut self.lagged.stages {
                     stage.run(world)?;
+                    tell(stage.access(), world)?;
                 }
             }
             let mut velocity = std::mem::take(&mut self.velocity);
@@ -157,6 +158,10 @@ impl<const D: usize> ImplicitViscosity<D> {
         let mut right = std::mem::take(&mut system.right);
         let rows = right.iter_mut().zip(ahead).zip(&system.mass);
         rows.for_each(|((b, u), m)| *b += u * *m);
+        if let Some(team) = &world.team {
+            team.begin_solve()?;
+            team.mirror(&mut right);
+        }
         let operator = system.operator(world)?;
         if share < 1.0 || !again {
             self.start.image.resize(earlier.len(), Vect::zeros());
@@ -196,6 +201,11 @@ impl<const D: usize> ImplicitViscosity<D> {
 }
 
 impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
+    fn needs_all(&self) -> Option<&'static str> {
+        let elastic =
+            "it solves for stresses of elastic soils, whose yielding is judged over all particles";
+        self.lagged.stiffens.then_some(elastic)
+    }
     fn name(&self) -> String {
         Self::NAME.into()
     }
@@ -291,6 +301,14 @@ fn unstiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Resu
     Ok(())
 }
 
+/// Gives copies of others' particles what a stage has summed over the neighbours of these.
+fn tell<const D: usize>(access: Access, world: &mut World<D>) -> Result<(), StepError> {
+    match world.team.clone() {
+        Some(team) if access.sweep => team.tell(&mut world.free, &access.writes),
+        _ => Ok(()),
+    }
+}
+
 /// √(Σm|u − u'|²/Σm(|u|² + Δt²|g|²)) of a velocity against the world's, with what drives the flow:
 /// next to rest nobody needs to know the velocity better than what one step could give it.
 fn relative_change<const D: usize>(
@@ -301,11 +319,10 @@ fn relative_change<const D: usize>(
     let mass = world.free.get(fields::MASS)?;
     let last = world.free.get(fields::VELOCITY)?;
     let kick = dt * dt * (world.gravity + world.driving).norm_squared();
-    let mut sums = [0.0, 0.0];
-    for ((u, l), m) in velocity.iter().zip(last).zip(mass) {
-        sums[0] += m * (u - l).norm_squared();
-        sums[1] += m * (u.norm_squared() + kick);
-    }
+    let sums = world.sums(|i| {
+        let (u, l, m) = (velocity[i], last[i], mass[i]);
+        [m * (u - l).norm_squared(), m * (u.norm_squared() + kick)]
+    })?;
     Ok(match sums[1] > 0.0 {
         true => (sums[0] / sums[1]).sqrt(),
         false => 0.0,

@@ -1,7 +1,7 @@
 //! Where a solve starts.
 
 use sph_core::Vect;
-use sph_implicit::{Operator, dot};
+use sph_implicit::Operator;
 
 /// Vectors of a start, for their memory.
 #[derive(Default)]
@@ -28,8 +28,8 @@ impl<const D: usize> Start<D> {
         operator.multiply(&self.ahead, &mut self.image_ahead);
         let missing = right.iter().zip(&self.image).map(|(b, a)| b - a);
         put(&mut self.missing, missing);
-        let along = dot(&self.ahead, &self.missing);
-        let curvature = dot(&self.ahead, &self.image_ahead);
+        let along = operator.inner(&self.ahead, &self.missing);
+        let curvature = operator.inner(&self.ahead, &self.image_ahead);
         let part = if curvature > 0.0 {
             along / curvature
         } else {

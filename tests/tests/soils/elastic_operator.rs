@@ -60,6 +60,8 @@ fn vortices(ratio: f64) -> World<2> {
         time: 0.0,
         dt: 1.0,
         transported: Vec::new(),
+        extent: None,
+        team: None,
     };
     world.rebuild_lists().unwrap();
     let positions = world.free.get(fields::POSITION).unwrap();

@@ -113,6 +113,8 @@ impl Bench {
                 time: 0.0,
                 dt: 0.0,
                 transported: Vec::new(),
+                extent: None,
+                team: None,
             },
         };
         bench.refresh();

@@ -89,6 +89,8 @@ impl<const D: usize> Bench<D> {
                 time: 0.0,
                 dt: 0.0,
                 transported: Vec::new(),
+                extent: None,
+                team: None,
             },
         };
         bench.refresh();

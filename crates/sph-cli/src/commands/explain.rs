@@ -96,7 +96,7 @@ fn ranks_text(split: &Ranks) -> String {
          besides\n",
         split.bytes_per_guest, split.bytes_per_newcomer
     ));
-    let header = ["before", "bytes", "columns"];
+    let header = ["after", "bytes", "columns"];
     let mut rows = vec![header.map(String::from).to_vec()];
     rows.extend(
         split

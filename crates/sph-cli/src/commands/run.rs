@@ -4,12 +4,16 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
 use sph_scene::{Loaded, Source};
-use sph_solver::{Identity, Observer, RunOptions, SolverError, Start, Status, Summary, run};
+use sph_solver::{
+    Identity, Observer, RunOptions, SolverError, Start, Status, Summary, run, run_on_threads,
+    run_part,
+};
 
 use crate::arguments::RunArguments;
 use crate::commands::left_behind::{CHECKPOINT, failed_summary, going_on, remedy};
 use crate::commands::{grains, outcome};
 use crate::interrupt;
+use crate::ranks;
 use crate::scene_file::{AnyScene, Opened, open};
 use crate::telling::console;
 use crate::telling::progress::Watcher;
@@ -29,11 +33,16 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
         AnyScene::Particles(_) => "particle",
         AnyScene::Grains(_) => "grain",
     };
-    let watcher = Watcher::new(arguments.quiet, start, interrupt::flag());
+    let quiet = arguments.quiet || !ranks::is_first();
+    let watcher = Watcher::new(quiet, start, interrupt::flag());
     let mut watcher = watcher.counting(noun);
     let ended = execute(arguments, &opened, &mut watcher);
     watcher.finish();
-    conclude(arguments, &ended?, &out)
+    let ended = ended?;
+    match ranks::is_first() {
+        true => conclude(arguments, &ended, &out),
+        false => Ok(()),
+    }
 }
 
 /// The folder of the results.
@@ -52,6 +61,11 @@ pub fn execute(
     look_before_writing(arguments, &out)?;
     match &opened.scene {
         AnyScene::Particles(loaded) => particles(arguments, loaded, &out, observer),
+        AnyScene::Grains(_)
+            if arguments.ranks.is_some_and(|n| n > 1) || ranks::team().is_some() =>
+        {
+            Err(Trouble::usage("a scene of grains runs on one rank"))
+        }
         AnyScene::Grains(loaded) => grains::run::execute(arguments, loaded, &out, observer),
     }
 }
@@ -69,8 +83,29 @@ fn particles(
         threads: arguments.threads.map(usize::from),
         identity: Identity::of(loaded).map_err(located)?,
     };
-    let result = run(&loaded.scene, &options, observer);
+    let result = match (ranks::team(), arguments.ranks.map(usize::from)) {
+        (Some(_), Some(2..)) => {
+            let text =
+                "--ranks divides this process, and mpirun has started several: leave out --ranks";
+            return Err(Trouble::usage(text));
+        }
+        (Some(team), _) => run_part(&loaded.scene, &options, team, observer),
+        (None, Some(ranks @ 2..)) => {
+            run_on_threads(&loaded.scene, &options, ranks, observer).map(Some)
+        }
+        (None, _) => run(&loaded.scene, &options, observer).map(Some),
+    };
     let summary = result.map_err(|error| trouble(error, arguments, &loaded.source, out))?;
+    let Some(summary) = summary else {
+        // Another rank has it.
+        return Ok(Ended {
+            interrupted: None,
+            told: Told {
+                json: Json::Null,
+                text: String::new(),
+            },
+        });
+    };
     let stopped = summary.status != Status::Done;
     Ok(Ended {
         interrupted: stopped.then_some((summary.simulated_seconds, summary.steps)),

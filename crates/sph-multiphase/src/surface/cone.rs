@@ -57,6 +57,10 @@ impl Declares for FreeSurface {
 }
 
 impl<const D: usize> Stage<World<D>> for FreeSurface {
+    /// Particles at the surface, then those near them.
+    fn rings(&self) -> usize {
+        2
+    }
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut places = vec![Place::Inside; world.free.len()];
         walk_into(

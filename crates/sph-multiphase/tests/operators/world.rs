@@ -42,6 +42,8 @@ pub fn world<const D: usize>(
         time: 0.0,
         dt: 1.0,
         transported: Vec::new(),
+        extent: None,
+        team: None,
     };
     world.rebuild_lists().unwrap();
     world

@@ -19,5 +19,7 @@ pub fn world<const D: usize>(free: Store<D>, spacing: f64) -> World<D> {
         time: 0.0,
         dt: 1.0,
         transported: Vec::new(),
+        extent: None,
+        team: None,
     }
 }

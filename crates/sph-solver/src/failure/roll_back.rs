@@ -11,9 +11,9 @@ use crate::failure::remedies::remedies;
 use crate::failure::trouble::Trouble;
 use crate::results::summary::Status;
 use crate::running::checkpoint;
+use crate::running::course::Running;
 use crate::running::driver::Observer;
 use crate::running::output::{BAD_STATE, write_everything};
-use crate::running::run::Running;
 use crate::step::snapshot::Snapshot;
 
 /// Ways within a step, in spacings, beyond which the particle is shown where it was.
@@ -30,6 +30,7 @@ impl<const D: usize> Running<'_, D> {
         snapshot: Option<&Snapshot<D>>,
         observer: &mut (dyn Observer + Send),
     ) -> Result<(), SolverError> {
+        let cause = self.known_to_all(cause);
         self.note_trouble(&cause);
         let Some(kept) = snapshot.filter(|_| self.counters.retries < self.scene.run.retries) else {
             return Err(self.fail(cause, snapshot, observer));
@@ -60,7 +61,10 @@ impl<const D: usize> Running<'_, D> {
         snapshot: Option<&Snapshot<D>>,
         observer: &mut (dyn Observer + Send),
     ) -> SolverError {
+        let cause = self.known_to_all(cause);
         self.note_trouble(&cause);
+        // The bad state, as far as it can be had.
+        let _ = self.gather(false);
         let (time, step) = (self.parts.flow.world.time, self.counters.steps);
         let mut failure = Failure {
             first: self.counters.first_trouble.clone().unwrap_or_default(),
@@ -80,16 +84,13 @@ impl<const D: usize> Running<'_, D> {
             pictures: Vec::new(),
         };
         self.look_at_the_bad_state(&mut failure);
-        let out = &self.options.out;
-        let bad = out.join(BAD_STATE);
-        let written = write_everything(&self.parts.flow, &bad).is_ok();
-        failure.bad_state = written.then_some(bad);
-        let number = failure.findings.particle.as_ref().map(|p| p.number);
-        let place = number.and_then(|n| self.place(n, snapshot));
-        let title = format!("{}: failed", self.scene.title);
-        let flow = &self.parts.flow;
-        failure.pictures = bad_pictures::draw(flow, &failure.cause, place, &title, out);
+        if self.files.is_some() {
+            self.draw_the_bad_state(&mut failure, snapshot);
+        }
         self.go_to_the_last_good_state(&mut failure, snapshot);
+        if self.files.is_none() {
+            return SolverError::Failed(Box::new(failure));
+        }
         self.sum_up(&mut failure);
         match self.write_summary(Status::Failed, Some(&failure)) {
             Ok(summary) => failure.summary = Some(Box::new(summary)),
@@ -100,9 +101,21 @@ impl<const D: usize> Running<'_, D> {
         SolverError::Failed(Box::new(failure))
     }
 
+    fn draw_the_bad_state(&self, failure: &mut Failure, snapshot: Option<&Snapshot<D>>) {
+        let out = &self.options.out;
+        let bad = out.join(BAD_STATE);
+        let flow = &self.shown().flow;
+        let written = write_everything(flow, &bad).is_ok();
+        failure.bad_state = written.then_some(bad);
+        let number = failure.findings.particle.as_ref().map(|p| p.number);
+        let place = number.and_then(|n| self.place(n, snapshot));
+        let title = format!("{}: failed", self.scene.title);
+        failure.pictures = bad_pictures::draw(flow, &failure.cause, place, &title, out);
+    }
+
     /// Who it was, where, and what acted on it if the bad state was evaluated.
     fn look_at_the_bad_state(&mut self, failure: &mut Failure) {
-        let flow = &self.parts.flow;
+        let flow = &self.shown().flow;
         let Some((k, named)) = flow.suspect(&failure.cause) else {
             return;
         };
@@ -124,14 +137,16 @@ impl<const D: usize> Running<'_, D> {
         });
         // Densities and accelerations are judged after the sweep; what fails earlier has none of this state.
         let judged = ["density", "acceleration"];
-        if judged.contains(&failure.findings.cause.quantity.as_str()) {
+        // A whole that was gathered is not evaluated.
+        let evaluated = self.whole.is_none();
+        if evaluated && judged.contains(&failure.findings.cause.quantity.as_str()) {
             failure.findings.after = flow.shares_on(k);
         }
     }
 
     /// Where a particle is, or was before it went where no picture goes.
     fn place(&self, number: u32, snapshot: Option<&Snapshot<D>>) -> Option<Vect<D>> {
-        let flow = &self.parts.flow;
+        let flow = &self.shown().flow;
         let now = flow.world.free.get(fields::POSITION).ok()?[flow.place_of(number)?];
         let before = snapshot.and_then(|s| s.position_of(number));
         let far = FAR * flow.world.spacing;
@@ -152,16 +167,16 @@ impl<const D: usize> Running<'_, D> {
             return self.offer_an_earlier_checkpoint(failure);
         };
         let back = snapshot.restore(&mut self.parts.flow);
-        let good = back.map_err(StepError::from).and_then(|()| self.evaluate());
-        if good.is_err() {
+        let good = back.and_then(|()| self.evaluate());
+        if self.agreed(good.err()).is_some() {
             return self.offer_an_earlier_checkpoint(failure);
         }
         // Whoever goes on from here has all retries again.
         self.counters.retries = 0;
-        if self.save().is_ok() {
+        if self.gather(true).is_ok() && self.save_gathered().is_ok() {
             failure.checkpoint = Some(self.options.out.join(checkpoint::FILE));
         }
-        let flow = &self.parts.flow;
+        let flow = &self.shown().flow;
         let particle = &mut failure.findings.particle;
         let place = particle.as_ref().and_then(|p| flow.place_of(p.number));
         if let Some((particle, k)) = particle.as_mut().zip(place) {

@@ -10,7 +10,7 @@ use crate::results::advice::{self, Costs};
 use crate::results::balance::Balance;
 use crate::results::summary::{Drift, ErrorEntry, SCHEMA_VERSION, Status, Summary};
 use crate::results::{reference_plots, references};
-use crate::running::run::Running;
+use crate::running::course::Running;
 use crate::setup::memory::Memory;
 
 /// Mach number up to which densities stay within Ma² = 1 % of the reference (Monaghan 1994).
@@ -23,9 +23,9 @@ impl<const D: usize> Running<'_, D> {
         status: Status,
         failure: Option<&Failure>,
     ) -> Result<Summary, SolverError> {
-        let flow = &self.parts.flow;
+        let flow = &self.shown().flow;
         let world = &flow.world;
-        let mut warnings = self.parts.warnings.clone();
+        let mut warnings = self.shown().warnings.clone();
         if let Some(failure) = failure {
             warnings.push(failure.to_string());
             warnings.extend(failure.findings.advice.iter().cloned());
@@ -45,9 +45,9 @@ impl<const D: usize> Running<'_, D> {
         let neighbours = world.mean_neighbours()?;
         let work = particles as f64 * steps as f64;
         let threads = rayon::current_num_threads();
+        let ranks = self.shares.len().max(1);
         let [dt_limiters, dt_limits] = self.bounds_of_steps();
-        let bounds = [&dt_limiters, &dt_limits];
-        let mut advice = self.advise(wall_seconds, bounds, &stage_seconds)?;
+        let mut advice = self.advise(wall_seconds, [&dt_limiters, &dt_limits], &stage_seconds)?;
         let escaped = flow.escaped()?;
         let mach = self.say_what_is_odd(escaped, &mut warnings, &mut advice);
         let held: usize = flow.works.iter().map(|w| w.most_bytes()).sum();
@@ -56,7 +56,7 @@ impl<const D: usize> Running<'_, D> {
             scene: self.scene.title.clone(),
             status,
             version: env!("CARGO_PKG_VERSION").into(),
-            plugins: self.parts.plugins.clone(),
+            plugins: self.shown().plugins.clone(),
             dimension: D,
             particles,
             wall_points: world.walls.points.position.len(),
@@ -68,8 +68,9 @@ impl<const D: usize> Running<'_, D> {
             wall_seconds,
             wall_seconds_by_stage: stage_seconds,
             threads,
+            ranks: self.shares.clone(),
             particle_steps_per_second: over(work, working),
-            nanoseconds_per_pair: over(1e9 * working * threads as f64, work * neighbours),
+            nanoseconds_per_pair: over(1e9 * working * (threads * ranks) as f64, work * neighbours),
             bytes_per_particle: world.free.bytes_per_particle(),
             memory: Memory::of(self.scene, flow, held as f64)?,
             list_builds: world.lists.builds,
@@ -78,7 +79,7 @@ impl<const D: usize> Running<'_, D> {
             advice,
             drift,
             kinetic_energy: balance.kinetic,
-            density_range: self.series.density_range,
+            density_range: self.density_range(),
             mach,
             nearest: world.nearest()?.map(|d| d / world.spacing),
             first_trouble: self.counters.first_trouble.clone(),
@@ -86,7 +87,7 @@ impl<const D: usize> Running<'_, D> {
             density_constant_range: flow.density_constant_range(),
             escaped,
             left: flow.left().map(|(to, left)| (to.clone(), left)).collect(),
-            relaxation: self.parts.relaxation,
+            relaxation: self.shown().relaxation,
             open_boundaries: flow.counts_of(sph_open::PASSING),
             implicit_viscosity: flow.counts_of(ImplicitViscosity::<D>::NAME),
             errors,
@@ -97,13 +98,19 @@ impl<const D: usize> Running<'_, D> {
         Ok(summary)
     }
 
+    /// Least and largest density ratio over all rows.
+    fn density_range(&self) -> [f64; 2] {
+        let files = self.files.as_ref();
+        files.map_or([0.0; 2], |f| f.series.density_range)
+    }
+
     /// Errors against references, whose pictures are drawn, too.
     fn compare(
         &self,
         warnings: &mut Vec<String>,
     ) -> Result<BTreeMap<String, ErrorEntry>, SolverError> {
         let (scene, out) = (self.scene, &self.options.out);
-        let (flow, solutions) = (&self.parts.flow, &self.parts.solutions);
+        let (flow, solutions) = (&self.shown().flow, &self.shown().solutions);
         let series = out.join("series.csv");
         let errors = references::errors(scene, flow, solutions, &series, warnings)?;
         if let Err(error) = reference_plots::plots(scene, out) {
@@ -133,7 +140,7 @@ impl<const D: usize> Running<'_, D> {
             steps: self.counters.steps,
             wall_seconds,
             dt_limiters,
-            remedies: &self.parts.flow.remedies_of_bounds()?,
+            remedies: &self.shown().flow.remedies_of_bounds()?,
             dt_limits,
             stages,
         }))
@@ -141,22 +148,25 @@ impl<const D: usize> Running<'_, D> {
 
     /// Changes of conserved quantities since the start.
     fn drift(&self, balance: &Balance<D>) -> Drift {
-        let flow = &self.parts.flow;
+        let flow = &self.shown().flow;
         let [mass, energy] = self.counters.initial.map(f64::from_bits);
         let then = &self.counters.initial_momentum;
         let momentum = balance.momentum.iter().zip(then);
         let momentum = momentum.map(|(now, then)| (now - f64::from_bits(*then)).powi(2));
         let momentum = momentum.sum::<f64>().sqrt();
         let over = |x: f64, scale: f64| if scale > 0.0 { x / scale } else { 0.0 };
-        let [highest, _] = self.series.peaks;
+        let Some(series) = self.files.as_ref().map(|f| &f.series) else {
+            return Drift::default();
+        };
+        let [highest, _] = series.peaks;
         Drift {
             mass: over(
                 balance.mass + flow.mass_left() - flow.world.free.born().mass - mass,
                 mass,
             ),
-            momentum: over(momentum, self.series.momentum_scale),
-            energy: over(balance.energy() - energy, self.series.energy_scale),
-            energy_rise: over((highest - energy).max(0.0), self.series.energy_scale),
+            momentum: over(momentum, series.momentum_scale),
+            energy: over(balance.energy() - energy, series.energy_scale),
+            energy_rise: over((highest - energy).max(0.0), series.energy_scale),
         }
     }
 
@@ -168,13 +178,13 @@ impl<const D: usize> Running<'_, D> {
         warnings: &mut Vec<String>,
         advice: &mut Vec<String>,
     ) -> f64 {
-        let flow = &self.parts.flow;
+        let flow = &self.shown().flow;
         advice.extend(flow.works.iter().flat_map(|w| w.advice(&flow.world)));
         if escaped > 0 {
             warnings.push(format!("{escaped} particles are behind a wall at the end"));
         }
         warnings.extend(flow.works.iter().flat_map(|w| w.warnings()));
-        let [_, mach] = self.series.peaks;
+        let mach = self.files.as_ref().map_or(0.0, |f| f.series.peaks[1]);
         if mach > INCOMPRESSIBLE {
             advice.push(format!(
                 "the largest speed was {mach:.2} of the speed of sound: above {INCOMPRESSIBLE} the density \

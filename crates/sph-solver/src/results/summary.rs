@@ -54,6 +54,21 @@ pub struct ErrorEntry {
     pub against: String,
 }
 
+/// What one of several ranks had, at the end of a run.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct RankShare {
+    /// Particles that it owned.
+    pub particles: u64,
+    /// Copies of others'.
+    pub guests: u64,
+    /// Messages to neighbours per step.
+    pub messages_per_step: f64,
+    /// Bytes in them per step.
+    pub bytes_per_step: f64,
+    /// Particles that went from it to others during the run.
+    pub moved: u64,
+}
+
 /// Relative change of what should be conserved.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Drift {
@@ -104,6 +119,9 @@ pub struct Summary {
     pub wall_seconds_by_stage: BTreeMap<String, f64>,
     /// Threads of the last part.
     pub threads: usize,
+    /// Every rank's share; nothing where one process ran all.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ranks: Vec<RankShare>,
     /// Particles times steps per second.
     pub particle_steps_per_second: f64,
     /// Wall nanoseconds × threads / (particles × steps × true neighbours), outputs excluded.

@@ -10,10 +10,11 @@ use crate::running::counters::Counters;
 use crate::running::driver::Observer;
 use crate::running::options::{RunOptions, Start};
 
-/// Puts the flow where the run begins, and gives what has been counted until there.
+/// Puts the flow where the run begins, and gives what has been counted until there. Who `writes` clears the folder.
 pub fn begin<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
+    writes: bool,
     flow: &mut Flow<D>,
     observer: &mut (dyn Observer + Send),
 ) -> Result<Counters, SolverError> {
@@ -44,7 +45,7 @@ pub fn begin<const D: usize>(
         counters.started_at = Some(time.to_bits());
     }
     // An old checkpoint must not be resumed into the files of this run.
-    if file.exists() {
+    if writes && file.exists() {
         observer.message(&format!(
             "note: the earlier run in {} is overwritten (--resume would have gone on with it)",
             options.out.display()

@@ -2,27 +2,21 @@
 
 use std::collections::BTreeMap;
 use std::ops::AddAssign;
-use std::time::Instant;
+use std::sync::Arc;
 
 use sph_core::{StepError, StepLimit, System};
+use sph_decomposition::Transport;
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
-use crate::results::balance::Balance;
-use crate::results::references;
 use crate::results::summary::{Status, Summary};
-use crate::running::beginning::begin;
-use crate::running::checkpoint;
 use crate::running::clock::standing_still;
-use crate::running::counters::Counters;
+use crate::running::course::Running;
 use crate::running::driver::{Command, Observer, Progress};
-use crate::running::mach::MachWatch;
 use crate::running::next_step::next_step;
 use crate::running::options::{RunOptions, Start};
-use crate::running::output::Outputs;
-use crate::running::series::{Probes, Series};
-use crate::setup::assemble::{Assembled, assemble};
-use crate::setup::estimate::tiny_steps;
+use crate::running::ranked;
+use crate::running::ready::ready;
 use crate::step::guard;
 use crate::step::snapshot::Snapshot;
 
@@ -36,87 +30,55 @@ pub fn run(
     options: &RunOptions,
     observer: &mut (dyn Observer + Send),
 ) -> Result<Summary, SolverError> {
+    let summary = run_with(scene, options, None, observer)?;
+    summary.ok_or_else(|| SolverError::at("", "there is no summary of the run"))
+}
+
+/// Runs this rank's part of a scene, with the same scene and options on all ranks. The first rank alone writes, and has a summary.
+///
+/// The results are those of one process, to the bit, whatever the number of ranks.
+///
+/// # Errors
+/// As [`run`], on all ranks; a scene that cannot be divided; a rank that has ended.
+pub fn run_part(
+    scene: &Scene,
+    options: &RunOptions,
+    ranks: Arc<dyn Transport>,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Option<Summary>, SolverError> {
+    run_with(scene, options, Some(ranks), observer)
+}
+
+fn run_with(
+    scene: &Scene,
+    options: &RunOptions,
+    ranks: Option<Arc<dyn Transport>>,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Option<Summary>, SolverError> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads.unwrap_or(0))
         .build()
         .map_err(|e| SolverError::at("--threads", e.to_string()))?;
     pool.install(|| match scene.dimension {
-        3 => run_in::<3>(scene, options, observer),
-        _ => run_in::<2>(scene, options, observer),
+        3 => run_in::<3>(scene, options, ranks, observer),
+        _ => run_in::<2>(scene, options, ranks, observer),
     })
-}
-
-pub(crate) struct Running<'a, const D: usize> {
-    pub(crate) scene: &'a Scene,
-    pub(crate) options: &'a RunOptions,
-    pub(crate) parts: Assembled<D>,
-    pub(crate) counters: Counters,
-    pub(crate) outputs: Outputs,
-    pub(crate) series: Series,
-    pub(crate) started: Instant,
-    pub(crate) output_seconds: f64,
-    /// The last step that was tried, s, and what limited it.
-    pub(crate) tried: (f64, &'static str),
-    pub(crate) mach: MachWatch,
 }
 
 fn run_in<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
+    ranks: Option<Arc<dyn Transport>>,
     observer: &mut (dyn Observer + Send),
-) -> Result<Summary, SolverError> {
-    let mut parts = assemble::<D>(scene)?;
-    crate::running::series::rehearse(scene, &mut parts.flow, &parts.probes)?;
-    references::readable(scene)?;
-    let tiny = tiny_steps(scene, &parts.flow)?;
-    parts.warnings.extend(tiny);
-    let _lock = crate::running::lock::take(&options.out, observer)?;
-    sph_io::writable(&options.out)?;
-    sph_io::sweep_temporaries(&options.out)?;
-    let mut counters = begin(scene, options, &mut parts.flow, observer)?;
-    for (name, probe) in &parts.probes {
-        if let Some(gathered) = counters.probes.remove(name) {
-            probe.recall(&gathered);
-        }
-    }
-    let resumed = options.start.goes_on().then_some(&counters);
-    let at = resumed.map(|c| (c.series_position, c.series_extrema.map(f64::from_bits)));
-    // First what may be refused: a changed scene may measure other columns.
-    let mut series = Series::open(&options.out, parts.flow.outlets.labels(), &parts.probes, at)?;
-    let changed = options.start == Start::Changed;
-    let outputs = Outputs::open(
-        scene,
-        &parts.probes,
-        &options.out,
-        resumed.map(|c| c.outputs),
-        changed.then_some(parts.flow.world.time),
-    )?;
-    if let Some(peaks) = counters.series_peaks {
-        series.peaks = peaks.map(f64::from_bits);
-    }
-    for warning in &parts.warnings {
-        observer.message(&format!("note: {warning}"));
-    }
-    let mut running = Running {
-        scene,
-        options,
-        parts,
-        counters,
-        outputs,
-        series,
-        started: Instant::now(),
-        output_seconds: 0.0,
-        tried: (0.0, "none"),
-        mach: MachWatch::default(),
+) -> Result<Option<Summary>, SolverError> {
+    let mut lock = None;
+    let ready = ready::<D>(scene, options, ranks.clone(), (&mut lock, &mut *observer));
+    let mut running = match ranks {
+        None => ready?,
+        Some(ranks) => ranked::all_ready(&*ranks, ready)?,
     };
     let status = running.go(observer)?;
     running.finish(status)
-}
-
-/// What probes have gathered, by their names.
-fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {
-    let all = probes.iter().map(|(name, p)| (name.clone(), p.gathered()));
-    all.filter(|(_, gathered)| !gathered.is_empty()).collect()
 }
 
 /// The state before the last step, if any was kept.
@@ -165,7 +127,14 @@ impl<const D: usize> Running<'_, D> {
                 self.go_back(cause, good.state(), observer)?;
                 continue;
             }
-            if self.is_to_stop(observer) {
+            let stop = match self.is_to_stop(observer) {
+                Ok(stop) => stop,
+                Err(cause) => {
+                    self.go_back(cause, good.state(), observer)?;
+                    continue;
+                }
+            };
+            if stop {
                 // The rates belong to a state; a checkpoint is taken where they are fresh.
                 if let Err(cause) = self.evaluate() {
                     return Err(self.fail(cause, good.state(), observer));
@@ -186,13 +155,17 @@ impl<const D: usize> Running<'_, D> {
             self.counters.retries = 0;
         }
         let time = self.parts.flow.world.time;
-        self.write_what_is_due(time, observer)?;
-        if let Some(cause) = self.mach.verdict(self.scene) {
-            return Err(self.fail(cause, good.state(), observer));
+        if self.is_due(time).any() {
+            let written = self.write_what_is_due(time, observer);
+            self.all_have_written(written)?;
+            if let Some(cause) = self.agreed(self.mach.verdict(self.scene)) {
+                return Err(self.fail(cause, good.state(), observer));
+            }
         }
         if time >= self.scene.run.end {
             let mut works = self.parts.flow.works.iter();
-            if let Some(cause) = works.find_map(|w| w.verdict()) {
+            let verdict = works.find_map(|w| w.verdict());
+            if let Some(cause) = self.agreed(verdict) {
                 return Err(self.fail(cause, good.state(), observer));
             }
             return Ok(Some(Status::Done));
@@ -214,6 +187,10 @@ impl<const D: usize> Running<'_, D> {
     ) -> Result<Result<(), StepError>, SolverError> {
         let (time, end) = (self.parts.flow.world.time, self.scene.run.end);
         let limits = self.parts.flow.step_limits()?;
+        let limits = match self.parts.flow.least_limits(limits) {
+            Ok(limits) => limits,
+            Err(cause) => return Ok(Err(cause)),
+        };
         self.note_bounds(&limits);
         let (dt, limiter) = self.choose_step(&limits, time, end);
         if self.scene.run.retries > 0 {
@@ -245,7 +222,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Tells of a step that is done; whether somebody or the clock on the wall asks to stop.
-    fn is_to_stop(&self, observer: &mut (dyn Observer + Send)) -> bool {
+    fn is_to_stop(&mut self, observer: &mut (dyn Observer + Send)) -> Result<bool, StepError> {
         let (dt, limiter) = self.tried;
         let command = observer.step(&Progress {
             time: self.parts.flow.world.time,
@@ -256,20 +233,27 @@ impl<const D: usize> Running<'_, D> {
             particles: self.parts.flow.world.free.len(),
         });
         let most = self.scene.run.max_wall;
-        command == Command::Stop || most.is_some_and(|m| self.wall_seconds() > m)
+        let stop = command == Command::Stop || most.is_some_and(|m| self.wall_seconds() > m);
+        self.parts.flow.any_rank(stop)
     }
 
     pub(crate) fn evaluate(&mut self) -> Result<(), StepError> {
         let flow = &mut self.parts.flow;
-        flow.evaluate()?;
-        guard::rates(&flow.world, &flow.laws, self.scene.numerics.density_bounds)
+        let bounds = self.scene.numerics.density_bounds;
+        let done = flow.evaluate();
+        let done = done.and_then(|()| guard::rates(&flow.world, &flow.laws, bounds));
+        // No rank goes on to what is done with an evaluated state if another has none.
+        match self.agreed(done.err()) {
+            None => Ok(()),
+            Some(cause) => Err(cause),
+        }
     }
 
     pub(crate) fn wall_seconds(&self) -> f64 {
         self.counters.wall_seconds + self.started.elapsed().as_secs_f64()
     }
 
-    fn next_output(&self, time: f64) -> Option<u64> {
+    pub(crate) fn next_output(&self, time: f64) -> Option<u64> {
         self.scene
             .output
             .next_after(time, self.scene.run.end)
@@ -294,72 +278,6 @@ impl<const D: usize> Running<'_, D> {
         next_step(limits, factor, [time, self.target(end)], end)
     }
 
-    fn write_what_is_due(
-        &mut self,
-        time: f64,
-        observer: &mut (dyn Observer + Send),
-    ) -> Result<(), SolverError> {
-        let start = Instant::now();
-        let every = self.scene.output.series_interval(self.scene.run.end);
-        let end = self.scene.run.end;
-        let due = |rows: u64| rows as f64 * every;
-        let written = self.counters.last_row == Some(time.to_bits());
-        if !written && (time >= due(self.counters.rows) || time >= end) {
-            let dt = self.parts.flow.world.dt;
-            let balance = self
-                .series
-                .row(&mut self.parts.flow, &self.parts.probes, dt)?;
-            if let Some(told) = self.mach.look(&balance) {
-                observer.message(&told);
-            }
-            if self.counters.rows == 0 {
-                self.remember_start(&balance);
-            }
-            self.counters.rows = (time / every).floor() as u64 + 1;
-            self.counters.last_row = Some(time.to_bits());
-        }
-        if self
-            .counters
-            .next_output
-            .is_some_and(|t| time >= f64::from_bits(t))
-        {
-            self.outputs.write(&self.parts.flow, &self.parts.probes)?;
-            self.counters.next_output = self.next_output(time);
-        }
-        let interval = self.scene.run.checkpoint_interval();
-        let number = (time / interval).floor() as u64;
-        if number > self.counters.checkpoints || time >= end {
-            self.counters.checkpoints = number;
-            self.save()?;
-        }
-        self.output_seconds += start.elapsed().as_secs_f64();
-        Ok(())
-    }
-
-    fn remember_start(&mut self, balance: &Balance<D>) {
-        self.counters.initial = [balance.mass.to_bits(), balance.energy().to_bits()];
-        self.counters.initial_momentum = balance.momentum.iter().map(|m| m.to_bits()).collect();
-    }
-
-    pub(crate) fn save(&mut self) -> Result<(), SolverError> {
-        let (position, extrema) = self.series.resume_point();
-        self.counters.series_position = position;
-        self.counters.series_extrema = extrema.map(f64::to_bits);
-        self.counters.series_peaks = Some(self.series.peaks.map(f64::to_bits));
-        self.counters.outputs = self.outputs.written;
-        let left = self.parts.flow.left();
-        self.counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
-        let counters = Counters {
-            wall_seconds: self.wall_seconds(),
-            stage_seconds: self.stage_seconds(),
-            works: self.parts.flow.counts(),
-            probes: gathered(&self.parts.probes),
-            ..self.counters.clone()
-        };
-        let path = self.options.out.join(checkpoint::FILE);
-        checkpoint::save(&self.parts.flow, &path, &self.options.identity, &counters)
-    }
-
     pub(crate) fn stage_seconds(&self) -> BTreeMap<String, f64> {
         let mut all = self.counters.stage_seconds.clone();
         for timing in self.parts.flow.timings() {
@@ -369,8 +287,13 @@ impl<const D: usize> Running<'_, D> {
         all
     }
 
-    fn finish(&mut self, status: Status) -> Result<Summary, SolverError> {
-        self.outputs.animate()?;
-        self.write_summary(status, None)
+    fn finish(&mut self, status: Status) -> Result<Option<Summary>, SolverError> {
+        self.gather(true)?;
+        self.share()?;
+        let Some(files) = &self.files else {
+            return Ok(None);
+        };
+        files.outputs.animate()?;
+        self.write_summary(status, None).map(Some)
     }
 }

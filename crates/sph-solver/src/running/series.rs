@@ -93,14 +93,13 @@ impl Series {
         )
     }
 
-    /// Measures and appends a row.
+    /// Measures and appends a row; forces on walls have been [measured](measure_walls).
     pub fn row<const D: usize>(
         &mut self,
-        flow: &mut Flow<D>,
+        flow: &Flow<D>,
         probes: &Probes<D>,
         dt: f64,
     ) -> Result<Balance<D>, SolverError> {
-        measure_walls(flow, probes)?;
         let balance = Balance::of(flow)?;
         let mut row = vec![flow.world.time, dt];
         row.extend(balance.momentum.iter());
@@ -156,7 +155,10 @@ pub fn rehearse<const D: usize>(
 }
 
 /// Measures the forces on walls that probes read.
-fn measure_walls<const D: usize>(flow: &mut Flow<D>, probes: &Probes<D>) -> Result<(), StepError> {
+pub fn measure_walls<const D: usize>(
+    flow: &mut Flow<D>,
+    probes: &Probes<D>,
+) -> Result<(), StepError> {
     let read: Vec<&str> = probes.iter().filter_map(|(_, p)| p.force_on()).collect();
     match read.is_empty() {
         true => Ok(()),

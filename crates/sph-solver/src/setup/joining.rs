@@ -91,6 +91,7 @@ pub(crate) fn joined<const D: usize>(
         outlets: given.outlets,
         nursery: None,
         books: None,
+        parts: None,
         work_kinds: planned.work_kinds,
     };
     flow.reset_timings();

@@ -3,17 +3,11 @@
 use serde::Serialize;
 use sph_core::{System, fields};
 use sph_decomposition::{Halo, bisect, exchanges};
-use sph_neighbours::World;
 use sph_scene::Scene;
 
 use crate::setup::assemble::assemble;
+use crate::step::cost::costs;
 use crate::{Flow, SolverError};
-
-/// Columns that do not change while a particle lives.
-const CONSTANT: [&str; 3] = [fields::MASS.name, fields::PHASE.name, fields::IDENTITY.name];
-/// Cost of a contact with a wall in terms of that of a candidate. At the start of `dam-break-spheric2` at 2 cm a contact takes
-/// 50 ns and a true neighbour 8.2 ns, of which the list of a cluster is taken to have twice as many, as in the plane.
-const CONTACT: f64 = 12.0;
 
 /// A rank's share.
 #[derive(Clone, Debug, Serialize)]
@@ -30,7 +24,7 @@ pub struct RankUse {
     pub partners: Vec<usize>,
 }
 
-/// What is sent before a stage.
+/// What is sent after a stage.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExchangeUse {
     /// The stage.
@@ -48,7 +42,7 @@ pub struct Ranks {
     pub ranks: Vec<RankUse>,
     /// Largest cost over the mean, less one.
     pub imbalance: f64,
-    /// What is sent before which stage.
+    /// What is sent after which stage.
     pub exchanges: Vec<ExchangeUse>,
     /// Bytes per guest in an evaluation.
     pub bytes_per_guest: usize,
@@ -73,7 +67,7 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
     let places = world.free.get(fields::POSITION)?;
     let costs = costs(world);
     let owners = bisect(places, &costs, ranks).map_err(|e| SolverError::at("", e.to_string()))?;
-    let halo = Halo::of(places, &owners, ranks, world.reach(), &world.domain);
+    let halo = Halo::of(world, &owners, ranks, flow.rings())?;
     let mut cost = vec![0.0; ranks];
     let all = owners.iter().zip(&costs);
     all.for_each(|(owner, c)| cost[*owner as usize] += c);
@@ -96,31 +90,17 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
     })
 }
 
-/// Candidates of each particle, and its contacts with walls.
-fn costs<const D: usize>(world: &World<D>) -> Vec<f64> {
-    let contacts = &world.walls.contacts;
-    let cost = |i: usize| {
-        let candidates = world.lists.free.candidates(i).len();
-        candidates as f64 + CONTACT * contacts.of(i).len() as f64
-    };
-    (0..world.free.len()).map(cost).collect()
-}
-
 fn sent<const D: usize>(flow: &Flow<D>) -> Vec<ExchangeUse> {
     let stages: Vec<_> = flow.stages.iter().map(|s| s.access()).collect();
-    let bytes = |name: &str| {
-        let columns = flow.world.free.columns();
-        let mut own = columns.filter(|column| column.0 == name);
-        own.next()
-            .map_or(0, |(.., components, values)| match values {
-                sph_core::Plain::Real(_) => 8 * components,
-                sph_core::Plain::Index(_) => 4,
-            })
+    let free = &flow.world.free;
+    let one = |exchange: sph_decomposition::Exchange| {
+        let columns = exchange.columns.iter().filter(|f| free.has(f.name));
+        ExchangeUse {
+            stage: flow.stages[exchange.stage].name(),
+            bytes: free.parcel_bytes(|f| exchange.columns.contains(f)),
+            columns: columns.map(|f| f.name.to_string()).collect(),
+        }
     };
-    let one = |exchange: sph_decomposition::Exchange| ExchangeUse {
-        stage: flow.stages[exchange.stage].name(),
-        bytes: exchange.columns.iter().map(|name| bytes(name)).sum(),
-        columns: exchange.columns.iter().map(ToString::to_string).collect(),
-    };
-    exchanges(&stages, &CONSTANT).into_iter().map(one).collect()
+    let all = exchanges(&stages).into_iter().map(one);
+    all.filter(|told| told.bytes > 0).collect()
 }

@@ -75,6 +75,8 @@ impl<const D: usize> Room<D> {
             time: 0.0,
             dt: 0.0,
             transported: Vec::new(),
+            extent: None,
+            team: None,
         };
         Ok(Room {
             world,

@@ -10,12 +10,14 @@ use sph_contribution::{Limiter, OutsideForce, StepWork};
 use sph_core::{
     Access, Evolved, Field, Recall, Role, Scalar, Stage, StepError, StepLimit, System, fields,
 };
+use sph_decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
 use sph_state::Laws;
 
 use crate::step::books::Books;
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::guard;
+use crate::step::guests::tell_guests;
 use crate::step::kept_rates::Kept;
 use crate::step::nursery::Nursery;
 use crate::step::outlets::Outlets;
@@ -67,6 +69,8 @@ pub struct Flow<const D: usize> {
     pub(crate) nursery: Option<Nursery<D>>,
     /// Who gives energy and who takes it, where a probe asks.
     pub(crate) books: Option<Books<D>>,
+    /// What this process has of a flow that is divided between several.
+    pub(crate) parts: Option<Parts<D>>,
 }
 
 impl<const D: usize> Flow<D> {
@@ -172,6 +176,7 @@ impl<const D: usize> Flow<D> {
             let done = work(&mut **one, &mut self.world);
             let ended = self.world.free.unwatch(|| one.name());
             ended.and(done)?;
+            tell_guests(&mut self.parts, &mut self.world, || one.access())?;
             self.timings[first + k].spent += start.elapsed();
         }
         Ok(())
@@ -182,8 +187,7 @@ impl<const D: usize> Flow<D> {
         wanted: impl Fn(&dyn Stage<World<D>>) -> bool,
     ) -> Result<(), StepError> {
         let start = Instant::now();
-        guard::positions(&self.world)?;
-        self.world.refresh_lists()?;
+        self.refresh_lists()?;
         self.timings[LISTS].spent += start.elapsed();
         self.moved = false;
         let restored = std::mem::take(&mut self.restored);
@@ -206,6 +210,7 @@ impl<const D: usize> Flow<D> {
             self.world.free.watch(|| stage.access());
             let ran = stage.run(&mut self.world);
             self.world.free.unwatch(|| stage.name()).and(ran)?;
+            tell_guests(&mut self.parts, &mut self.world, || stage.access())?;
             self.timings[MOTION + 1 + k].spent += start.elapsed();
         }
         Ok(())

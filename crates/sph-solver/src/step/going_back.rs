@@ -1,6 +1,6 @@
 //! A flow is copied before a step, and put back when the step fails.
 
-use sph_core::FieldError;
+use sph_core::{FieldError, StepError};
 
 use crate::Flow;
 use crate::step::snapshot::Snapshot;
@@ -13,12 +13,12 @@ impl<const D: usize> Snapshot<D> {
 
     /// Puts the state back. If the particles were sorted meanwhile, they return to their
     /// order; those that left since come back, those that came in are gone.
-    pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), FieldError> {
+    pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), StepError> {
         let walls = (flow.walls.as_ref(), &mut flow.loads);
         self.put_back(&mut flow.world, walls)?;
         // What the evaluation of this state has left is among it.
         flow.restored = true;
-        flow.world.rebuild_lists()
+        flow.rebuild_lists()
     }
 }
 

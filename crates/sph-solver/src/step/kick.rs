@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use rayon::prelude::*;
-use sph_core::{StepError, fields};
+use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{WallForce, wall_forces};
 
 use crate::step::books::Books;
@@ -98,6 +98,10 @@ impl<const D: usize> Flow<D> {
         }
         let terms: Vec<_> = self.terms.iter().map(|t| &**t).collect();
         self.loads = wall_forces(&self.world, &terms, felt)?;
+        // Integrals of pressure are for probes: no rank knows the pressure on all elements.
+        for load in &mut self.loads {
+            (load.pressure_force, load.pressure_moment) = (Vect::zeros(), [0.0; 3]);
+        }
         Ok(())
     }
 

@@ -8,6 +8,10 @@ impl<const D: usize> Flow<D> {
     /// Refreshes the lists. Where that sorts the particles, their derived columns are sorted, too: pressures and volumes of
     /// the last evaluation remain those of the same particles.
     pub(crate) fn refresh_lists_and_derived(&mut self) -> Result<(), StepError> {
+        if self.parts.is_some() {
+            // Derived columns go with the particles.
+            return self.refresh_lists();
+        }
         crate::step::guard::positions(&self.world)?;
         if !self.world.lists_expired()? {
             self.world.refresh_lists()?;

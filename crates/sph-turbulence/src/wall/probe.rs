@@ -24,6 +24,9 @@ pub struct FrictionVelocityProbe {
 }
 
 impl<const D: usize> Probe<D> for FrictionVelocityProbe {
+    fn looks_around(&self) -> bool {
+        true
+    }
     fn columns(&self) -> Vec<ProbeColumn> {
         vec![
             ProbeColumn::named("", "m/s"),

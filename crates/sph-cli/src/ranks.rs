@@ -1,0 +1,39 @@
+//! The processes that `mpirun` has started with this one.
+
+use std::sync::{Arc, OnceLock};
+
+use sph_decomposition::Transport;
+
+static TEAM: OnceLock<Arc<dyn Transport>> = OnceLock::new();
+
+/// Stays in the job as long as this lives.
+pub struct Joined {
+    #[cfg(feature = "mpi")]
+    _job: Option<sph_mpi::Job>,
+}
+
+/// Joins the job that `mpirun` has started, if it has.
+#[cfg(feature = "mpi")]
+pub fn join() -> Joined {
+    let job = sph_mpi::Job::join();
+    if let Some(job) = &job {
+        let _ = TEAM.set(job.rank());
+    }
+    Joined { _job: job }
+}
+
+/// Nothing: this program was built without MPI.
+#[cfg(not(feature = "mpi"))]
+pub fn join() -> Joined {
+    Joined {}
+}
+
+/// All ranks, if there are several.
+pub fn team() -> Option<Arc<dyn Transport>> {
+    TEAM.get().filter(|team| team.ranks() > 1).cloned()
+}
+
+/// Whether this process speaks and writes: the first of several, or the only one.
+pub fn is_first() -> bool {
+    team().is_none_or(|team| team.rank() == 0)
+}

@@ -1,0 +1,148 @@
+//! Particles as bytes: how they go from one process to another.
+
+use nalgebra::SMatrix;
+
+use crate::field::{AnyField, Column};
+use crate::{FieldError, Store, Symmetric, Vect};
+
+/// Takes the next item off a message.
+struct Reader<'a>(&'a [u8]);
+
+impl Reader<'_> {
+    fn real(&mut self) -> f64 {
+        f64::from_le_bytes(self.take())
+    }
+
+    fn take<const N: usize>(&mut self) -> [u8; N] {
+        let (item, rest) = self.0.split_first_chunk().unwrap_or((&[0; N], &[]));
+        self.0 = rest;
+        *item
+    }
+}
+
+fn put(to: &mut Vec<u8>, value: f64) {
+    to.extend_from_slice(&value.to_le_bytes());
+}
+
+impl<const D: usize> Store<D> {
+    /// Bytes of one particle over the columns that are `wanted`.
+    pub fn parcel_bytes(&self, wanted: impl Fn(&AnyField) -> bool) -> usize {
+        let all = self.entries.iter().filter(|e| wanted(&e.field));
+        all.map(|e| e.column.bytes_each()).sum()
+    }
+
+    /// Adds the entries of these slots to a message, column by column, of the columns that are `wanted`.
+    pub fn pack(&self, wanted: impl Fn(&AnyField) -> bool, slots: &[u32], to: &mut Vec<u8>) {
+        to.reserve(slots.len() * self.parcel_bytes(&wanted));
+        let at = || slots.iter().map(|s| *s as usize);
+        for entry in self.entries.iter().filter(|e| wanted(&e.field)) {
+            match &entry.column {
+                Column::Scalar(v) => at().for_each(|s| put(to, v[s])),
+                Column::Vector(v) => at().for_each(|s| v[s].iter().for_each(|x| put(to, *x))),
+                Column::Index(v) => at().for_each(|s| to.extend_from_slice(&v[s].to_le_bytes())),
+                Column::Tensor(v) => at().for_each(|s| v[s].iter().for_each(|x| put(to, *x))),
+                Column::SymmetricTensor(v) => {
+                    at().for_each(|s| v[s].0.iter().for_each(|x| put(to, *x)));
+                }
+            }
+        }
+    }
+
+    /// Overwrites the entries of these slots with what [`pack`](Self::pack) made of a store with the same columns.
+    ///
+    /// # Errors
+    /// If the message has another length.
+    pub fn unpack(
+        &mut self,
+        wanted: impl Fn(&AnyField) -> bool,
+        slots: &[u32],
+        from: &[u8],
+    ) -> Result<(), FieldError> {
+        let expected = slots.len() * self.parcel_bytes(&wanted);
+        if from.len() != expected {
+            return Err(FieldError::Length("message", from.len(), expected));
+        }
+        let mut from = Reader(from);
+        let at = || slots.iter().map(|s| *s as usize);
+        for entry in self.entries.iter_mut().filter(|e| wanted(&e.field)) {
+            match &mut entry.column {
+                Column::Scalar(v) => at().for_each(|s| v[s] = from.real()),
+                Column::Vector(v) => at().for_each(|s| v[s] = Vect::from_fn(|_, _| from.real())),
+                Column::Index(v) => at().for_each(|s| v[s] = u32::from_le_bytes(from.take())),
+                Column::Tensor(v) => at().for_each(|s| v[s] = SMatrix::from_fn(|_, _| from.real())),
+                Column::SymmetricTensor(v) => at().for_each(|s| {
+                    v[s] = Symmetric(std::array::from_fn(|_| from.real()));
+                }),
+            }
+        }
+        Ok(())
+    }
+
+    /// Keeps the particles of these slots, in this order, with all their columns.
+    pub fn keep_slots(&mut self, slots: &[u32]) {
+        fn keep<T: Copy>(items: &mut Vec<T>, slots: &[u32]) {
+            *items = slots.iter().map(|s| items[*s as usize]).collect();
+        }
+        for entry in &mut self.entries {
+            match &mut entry.column {
+                Column::Scalar(v) => keep(v, slots),
+                Column::Vector(v) => keep(v, slots),
+                Column::Index(v) => keep(v, slots),
+                Column::Tensor(v) => keep(v, slots),
+                Column::SymmetricTensor(v) => keep(v, slots),
+            }
+        }
+        self.len = slots.len();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::{Index, Scalar, SymmetricTensor, Tensor, Vector};
+    use crate::{Field, Role};
+
+    const S: Field<Scalar> = Field::new("s", "1", "a scalar");
+    const V: Field<Vector> = Field::new("v", "1", "a vector");
+    const I: Field<Index> = Field::new("i", "1", "an index");
+    const T: Field<Tensor> = Field::new("t", "1", "a tensor");
+    const Y: Field<SymmetricTensor> = Field::new("y", "1", "a symmetric tensor");
+
+    fn store(len: usize) -> Store<2> {
+        let mut store = Store::new(len);
+        store.add(S, Role::State);
+        store.add(V, Role::Derived);
+        store.add(I, Role::State);
+        store.add(T, Role::State);
+        store.add(Y, Role::Derived);
+        store
+    }
+
+    #[test]
+    fn what_is_packed_arrives_in_the_slots_that_are_named() {
+        let mut from = store(3);
+        *from.get_mut(S).unwrap() = vec![1.0, -0.0, f64::NAN];
+        *from.get_mut(V).unwrap() = (0..3).map(|k| Vect::<2>::new(f64::from(k), 0.5)).collect();
+        *from.get_mut(I).unwrap() = vec![7, 8, u32::MAX];
+        from.get_mut(T).unwrap()[2][(0, 1)] = 3.0;
+        from.get_mut(Y).unwrap()[2].0[5] = 4.0;
+        let mut message = Vec::new();
+        from.pack(|_| true, &[2, 0], &mut message);
+        assert_eq!(message.len(), 2 * from.bytes_per_particle());
+        let mut to = store(4);
+        to.unpack(|_| true, &[1, 3], &message).unwrap();
+        assert!(to.get(S).unwrap()[1].is_nan() && to.get(S).unwrap()[3] == 1.0);
+        assert_eq!(to.get(V).unwrap()[1], Vect::<2>::new(2.0, 0.5));
+        assert_eq!(to.get(I).unwrap(), [0, u32::MAX, 0, 7]);
+        assert_eq!(to.get(T).unwrap()[1][(0, 1)], 3.0);
+        assert_eq!(to.get(Y).unwrap()[1].0[5], 4.0);
+        assert!(to.unpack(|_| true, &[1], &message).is_err(), "too long");
+        to.keep_slots(&[3, 1]);
+        assert_eq!((to.len(), to.get(I).unwrap()), (2, &[7, u32::MAX][..]));
+        let only = |f: &AnyField| f.name == I.name;
+        message.clear();
+        from.pack(only, &[1], &mut message);
+        to.unpack(only, &[0], &message).unwrap();
+        assert_eq!(to.get(I).unwrap(), [8, u32::MAX]);
+    }
+}

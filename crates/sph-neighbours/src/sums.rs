@@ -1,0 +1,96 @@
+//! Sums over all particles of a flow, whoever holds them.
+
+use rayon::prelude::*;
+use sph_core::StepError;
+
+use crate::World;
+
+/// Bits of the largest value in a sum: with as many as these, 2⁴⁶ values cannot overflow 128 bits.
+const BITS: i32 = 80;
+const LIMBS: usize = 4;
+const BATCH: usize = 4096;
+
+impl<const D: usize> World<D> {
+    /// Sums over all particles, of those of other ranks, too: each value in whole numbers of 2⁻⁸⁰ of the largest one, so that the
+    /// sum does not depend on the order, the threads, nor on who holds which particle.
+    ///
+    /// # Errors
+    /// If another rank has failed.
+    pub fn sums<const N: usize>(
+        &self,
+        each: impl Fn(usize) -> [f64; N] + Sync,
+    ) -> Result<[f64; N], StepError> {
+        let own = self.team.as_ref().map(|team| team.own(&self.free));
+        let counts = |i: &usize| own.as_ref().is_none_or(|own| own[*i]);
+        let all = || (0..self.free.len()).into_par_iter().with_min_len(BATCH);
+        self.sums_of(|| all().filter(counts).map(&each))
+    }
+
+    /// The same of values that are made twice; of several ranks each has some.
+    ///
+    /// # Errors
+    /// As [`sums`](Self::sums).
+    pub fn sums_of<const N: usize, I: ParallelIterator<Item = [f64; N]>>(
+        &self,
+        all: impl Fn() -> I,
+    ) -> Result<[f64; N], StepError> {
+        let larger = |a: [f64; N], b: [f64; N]| std::array::from_fn(|k| a[k].max(b[k]));
+        let sizes = all().map(|values| values.map(f64::abs));
+        let mut largest = sizes.reduce(|| [0.0; N], larger);
+        if let Some(team) = &self.team {
+            team.largest(&mut largest)?;
+        }
+        // Powers of two: scaling rounds nothing.
+        let shifts = largest.map(|m| BITS - exponent(m));
+        let whole = |values: [f64; N]| {
+            std::array::from_fn(|k| scaled(values[k], shifts[k]).round_ties_even() as i128)
+        };
+        let plus = |a: [i128; N], b: [i128; N]| std::array::from_fn(|k| a[k].wrapping_add(b[k]));
+        let mut sums = all().map(whole).reduce(|| [0; N], plus);
+        if let Some(team) = &self.team {
+            let limb = |sum: i128, k: usize| (sum as u128 >> (32 * k)) as u64 & 0xFFFF_FFFF;
+            let mut limbs: Vec<u64> = sums
+                .iter()
+                .flat_map(|sum| (0..LIMBS).map(|k| limb(*sum, k)))
+                .collect();
+            team.total(&mut limbs)?;
+            for (sum, limbs) in sums.iter_mut().zip(limbs.chunks(LIMBS)) {
+                let joined = |all: u128, (k, limb): (usize, &u64)| {
+                    all.wrapping_add(u128::from(*limb) << (32 * k))
+                };
+                *sum = limbs.iter().enumerate().fold(0, joined) as i128;
+            }
+        }
+        Ok(std::array::from_fn(|k| scaled(sums[k] as f64, -shifts[k])))
+    }
+}
+
+/// The power of two that is larger than a value; 0 for what has none.
+fn exponent(value: f64) -> i32 {
+    match value.is_normal() {
+        true => ((value.to_bits() >> 52) & 0x7FF) as i32 - 1022,
+        false => 0,
+    }
+}
+
+/// value · 2^shift, in two steps where one would overflow.
+fn scaled(value: f64, shift: i32) -> f64 {
+    let half = shift / 2;
+    value * 2_f64.powi(half) * 2_f64.powi(shift - half)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scaling_is_exact_and_the_largest_value_has_all_its_bits() {
+        for value in [1.0, 0.1, 3.7e200, 5.1e-200, 1.0 / 3.0] {
+            let shift = BITS - exponent(value);
+            let whole = scaled(value, shift);
+            assert!(whole < 2_f64.powi(BITS) && whole >= 2_f64.powi(BITS - 1));
+            assert_eq!(scaled(whole, -shift), value);
+        }
+        assert_eq!(exponent(0.0), 0);
+    }
+}

@@ -1,0 +1,180 @@
+//! A run on several ranks: the first gathers what all have found, and writes it.
+
+use std::sync::Arc;
+
+use sph_core::{StepError, System};
+use sph_decomposition::{PartError, Transport};
+use sph_scene::Scene;
+
+use crate::failure::error::SolverError;
+use crate::results::summary::RankShare;
+use crate::running::beginning::begin;
+use crate::running::course::Running;
+use crate::running::options::RunOptions;
+use crate::setup::assemble::{Assembled, assemble};
+use crate::step::stages::lock;
+
+/// Whether all ranks are ready, which all must ask.
+pub(crate) fn all_ready<T>(
+    ranks: &dyn Transport,
+    ready: Result<T, SolverError>,
+) -> Result<T, SolverError> {
+    let mut failed = [f64::from(u8::from(ready.is_err()))];
+    let told = ranks.largest(&mut failed).map_err(PartError::from);
+    let ready = ready?;
+    told.map_err(StepError::from)?;
+    match failed[0] > 0.0 {
+        true => Err(StepError::from(PartError::Elsewhere).into()),
+        false => Ok(ready),
+    }
+}
+
+/// Refuses what cannot be divided between ranks, before anything is written.
+pub(crate) fn refuse_the_indivisible<const D: usize>(
+    parts: &Assembled<D>,
+    ranks: usize,
+) -> Result<(), SolverError> {
+    if parts.integrator.keeps_state() {
+        let why = "it goes back to a state within a step, which cannot follow particles to another rank: take \
+                   `symplectic-euler` for several ranks";
+        return Err(SolverError::at("integrator", why));
+    }
+    if let Some(why) = parts.flow.indivisible() {
+        return Err(SolverError::at("", why));
+    }
+    let particles = parts.flow.world.free.len();
+    match ranks > particles {
+        true => Err(SolverError::at(
+            "",
+            format!("{ranks} ranks for {particles} particles: some would own nothing"),
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Leaves this rank its part; the first gets another assembly, for the whole.
+pub(crate) fn divide<const D: usize>(
+    scene: &Scene,
+    options: &RunOptions,
+    ranks: Arc<dyn Transport>,
+    parts: &mut Assembled<D>,
+) -> Result<Option<Assembled<D>>, SolverError> {
+    let mut whole = None;
+    if ranks.rank() == 0 {
+        let mut all = assemble::<D>(scene)?;
+        begin(scene, options, false, &mut all.flow, &mut ())?;
+        whole = Some(all);
+    }
+    parts.flow.divide(ranks).map_err(StepError::from)?;
+    Ok(whole)
+}
+
+impl<const D: usize> Running<'_, D> {
+    /// What is shown and measured: the whole flow, where this process has it.
+    pub(crate) fn shown(&self) -> &Assembled<D> {
+        self.whole.as_ref().unwrap_or(&self.parts)
+    }
+
+    /// Brings the whole flow to the state of all ranks; with all that is derived from it, if it is to be `evaluated`. Every rank
+    /// must ask. Nothing where one process runs all.
+    pub(crate) fn gather(&mut self, evaluated: bool) -> Result<(), SolverError> {
+        let flow = &mut self.parts.flow;
+        let Some(parts) = &mut flow.parts else {
+            return Ok(());
+        };
+        parts.all_well().map_err(StepError::from)?;
+        let whole = self.whole.as_mut().map(|w| &mut w.flow);
+        let Some(whole) = whole else {
+            return Ok(parts.gather(&flow.world, None).map_err(StepError::from)?);
+        };
+        let gathered = parts.gather(&flow.world, Some(&mut whole.world));
+        gathered.map_err(StepError::from)?;
+        if let (Some(own), Some(all)) = (&flow.walls, &whole.walls) {
+            let states = lock(own).states();
+            let (set, time) = (&mut whole.world.walls, flow.world.time);
+            let moved = lock(all).put_back(set, &states, time);
+            moved.map_err(|e| SolverError::at("wall", e.to_string()))?;
+        }
+        whole.loads.clone_from(&flow.loads);
+        whole.world.lists.builds = flow.world.lists.builds;
+        whole.restored = true;
+        if evaluated {
+            let world = &mut whole.world;
+            let reference = world.lists.reference.clone();
+            let points = world.lists.reference_points().clone();
+            let (time, builds) = (world.lists.time, world.lists.builds);
+            world.forget_pruned();
+            world.build_lists_from(reference, points, time);
+            whole.evaluate()?;
+            whole.world.lists.builds = builds;
+        }
+        Ok(())
+    }
+
+    /// Tells the first rank what each had; every rank must ask.
+    pub(crate) fn share(&mut self) -> Result<(), SolverError> {
+        let steps = self.counters.steps.max(1) as f64;
+        let flow = &self.parts.flow;
+        let Some(parts) = &flow.parts else {
+            return Ok(());
+        };
+        let (divided, traffic) = (parts.divided(&flow.world.free), parts.traffic());
+        let own = [
+            divided.own as f64,
+            divided.guests as f64,
+            traffic.messages as f64 / steps,
+            traffic.bytes as f64 / steps,
+            traffic.moved as f64,
+        ];
+        let own = own.iter().flat_map(|x| x.to_le_bytes()).collect();
+        let all = parts.transport().gather(own);
+        let all = all.map_err(|e| StepError::from(PartError::from(e)))?;
+        let share = |message: &Vec<u8>| {
+            let numbers = message.as_chunks::<8>().0;
+            let at = |k: usize| numbers.get(k).map_or(0.0, |b| f64::from_le_bytes(*b));
+            RankShare {
+                particles: at(0) as u64,
+                guests: at(1) as u64,
+                messages_per_step: at(2),
+                bytes_per_step: at(3),
+                moved: at(4) as u64,
+            }
+        };
+        self.shares = all.iter().map(share).collect();
+        Ok(())
+    }
+
+    /// A cause to end the run that any rank has, which all must ask for.
+    pub(crate) fn agreed(&mut self, own: Option<StepError>) -> Option<StepError> {
+        let Some(parts) = &mut self.parts.flow.parts else {
+            return own;
+        };
+        match parts.settle(own.is_some()) {
+            Ok(()) => None,
+            Err(elsewhere) => Some(own.unwrap_or_else(|| elsewhere.into())),
+        }
+    }
+
+    /// Ends the run on all ranks if one could not write.
+    pub(crate) fn all_have_written(
+        &mut self,
+        written: Result<(), SolverError>,
+    ) -> Result<(), SolverError> {
+        let Some(parts) = &mut self.parts.flow.parts else {
+            return written;
+        };
+        match parts.settle(written.is_err()) {
+            Err(PartError::Elsewhere) if written.is_err() => written,
+            Err(other) => Err(StepError::from(other).into()),
+            Ok(()) => Ok(()),
+        }
+    }
+
+    /// Tells the other ranks of a failure that they may not know of; gives the cause that the first of those has who know one.
+    pub(crate) fn known_to_all(&mut self, cause: StepError) -> StepError {
+        match &mut self.parts.flow.parts {
+            None => cause,
+            Some(parts) => parts.confess(cause),
+        }
+    }
+}

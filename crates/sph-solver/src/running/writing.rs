@@ -1,0 +1,121 @@
+//! What a run writes on its way: rows, pictures, fields, checkpoints.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use crate::failure::error::SolverError;
+use crate::results::balance::Balance;
+use crate::running::checkpoint;
+use crate::running::counters::Counters;
+use crate::running::course::{Due, Running};
+use crate::running::driver::Observer;
+use crate::running::series::{Probes, measure_walls};
+
+/// What probes have gathered, by their names.
+fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {
+    let all = probes.iter().map(|(name, p)| (name.clone(), p.gathered()));
+    all.filter(|(_, gathered)| !gathered.is_empty()).collect()
+}
+
+impl<const D: usize> Running<'_, D> {
+    /// What is to be written at a time, s.
+    pub(crate) fn is_due(&self, time: f64) -> Due {
+        let end = self.scene.run.end;
+        let every = self.scene.output.series_interval(end);
+        let written = self.counters.last_row == Some(time.to_bits());
+        let output = self.counters.next_output;
+        let number = (time / self.scene.run.checkpoint_interval()).floor() as u64;
+        Due {
+            row: !written && (time >= self.counters.rows as f64 * every || time >= end),
+            output: output.is_some_and(|t| time >= f64::from_bits(t)),
+            checkpoint: number > self.counters.checkpoints || time >= end,
+        }
+    }
+
+    pub(crate) fn write_what_is_due(
+        &mut self,
+        time: f64,
+        observer: &mut (dyn Observer + Send),
+    ) -> Result<(), SolverError> {
+        let start = Instant::now();
+        let due = self.is_due(time);
+        let looks = self.parts.probes.iter().any(|(_, p)| p.looks_around());
+        self.gather(due.output || (due.row && looks))?;
+        if due.row {
+            // On several ranks all measure together, whoever writes.
+            measure_walls(&mut self.parts.flow, &self.parts.probes)?;
+            if let Some(whole) = &mut self.whole {
+                let forces = &self.parts.flow.world.walls.forces;
+                whole.flow.world.walls.forces.clone_from(forces);
+            }
+            self.write_row(observer)?;
+            let every = self.scene.output.series_interval(self.scene.run.end);
+            self.counters.rows = (time / every).floor() as u64 + 1;
+            self.counters.last_row = Some(time.to_bits());
+        }
+        if due.output {
+            let shown = self.whole.as_ref().unwrap_or(&self.parts);
+            if let Some(files) = &mut self.files {
+                files.outputs.write(&shown.flow, &shown.probes)?;
+            }
+            self.counters.next_output = self.next_output(time);
+        }
+        if due.checkpoint {
+            let interval = self.scene.run.checkpoint_interval();
+            self.counters.checkpoints = (time / interval).floor() as u64;
+            self.save_gathered()?;
+        }
+        self.output_seconds += start.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    fn write_row(&mut self, observer: &mut (dyn Observer + Send)) -> Result<(), SolverError> {
+        let Some(files) = &mut self.files else {
+            return Ok(());
+        };
+        let shown = self.whole.as_ref().unwrap_or(&self.parts);
+        let dt = shown.flow.world.dt;
+        let balance = files.series.row(&shown.flow, &shown.probes, dt)?;
+        if let Some(told) = self.mach.look(&balance) {
+            observer.message(&told);
+        }
+        if self.counters.rows == 0 {
+            self.remember_start(&balance);
+        }
+        Ok(())
+    }
+
+    fn remember_start(&mut self, balance: &Balance<D>) {
+        self.counters.initial = [balance.mass.to_bits(), balance.energy().to_bits()];
+        self.counters.initial_momentum = balance.momentum.iter().map(|m| m.to_bits()).collect();
+    }
+
+    /// Writes a checkpoint of the present state.
+    pub(crate) fn save(&mut self) -> Result<(), SolverError> {
+        self.gather(false)?;
+        self.save_gathered()
+    }
+
+    pub(crate) fn save_gathered(&mut self) -> Result<(), SolverError> {
+        let Some(files) = &self.files else {
+            return Ok(());
+        };
+        let (position, extrema) = files.series.resume_point();
+        self.counters.series_position = position;
+        self.counters.series_extrema = extrema.map(f64::to_bits);
+        self.counters.series_peaks = Some(files.series.peaks.map(f64::to_bits));
+        self.counters.outputs = files.outputs.written;
+        let left = self.parts.flow.left();
+        self.counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
+        let shown = self.shown();
+        let counters = Counters {
+            wall_seconds: self.wall_seconds(),
+            stage_seconds: self.stage_seconds(),
+            works: self.parts.flow.counts(),
+            probes: gathered(&shown.probes),
+            ..self.counters.clone()
+        };
+        let path = self.options.out.join(checkpoint::FILE);
+        checkpoint::save(&shown.flow, &path, &self.options.identity, &counters)
+    }
+}

@@ -1,0 +1,109 @@
+//! A flow of which this process has a part.
+
+use std::sync::Arc;
+
+use sph_core::{StepError, StepLimit};
+use sph_decomposition::{PartError, Parts, Transport};
+
+use crate::step::cost::costs;
+use crate::step::flow::Flow;
+use crate::step::guard;
+
+impl<const D: usize> Flow<D> {
+    /// Leaves this rank its part; every rank holds the whole before.
+    ///
+    /// # Errors
+    /// More ranks than particles.
+    pub(crate) fn divide(&mut self, transport: Arc<dyn Transport>) -> Result<(), PartError> {
+        let costs = costs(&self.world);
+        let rings = self.rings();
+        let parts = Parts::divide(&mut self.world, &costs, rings, transport)?;
+        self.parts = Some(parts);
+        Ok(())
+    }
+
+    /// How often a stage goes from particles to their neighbours.
+    pub(crate) fn rings(&self) -> usize {
+        let stages = self.stages.iter().map(|s| s.rings());
+        let all = stages.chain(self.works.iter().map(|w| w.rings()));
+        all.max().unwrap_or(1)
+    }
+
+    /// Why the flow cannot be divided between ranks, if it cannot.
+    pub(crate) fn indivisible(&self) -> Option<String> {
+        let works = self.works.iter().map(|w| (w.name(), w.needs_all()));
+        let stages = self.stages.iter().map(|s| (s.name(), s.needs_all()));
+        let mut all = works.chain(stages);
+        if let Some((name, why)) = all.find_map(|(name, why)| Some((name, why?))) {
+            return Some(format!("`{name}` cannot run on several ranks: {why}"));
+        }
+        let enters = self.nursery.is_some() || self.works.iter().any(|w| w.gives_birth());
+        let leaves = !self.outlets.is_empty() || self.works.iter().any(|w| !w.exits().is_empty());
+        let one = [
+            (
+                enters,
+                "particles come in, whose numbers all ranks would have to agree on",
+            ),
+            (leaves, "particles leave, and are counted in their order"),
+            (
+                self.books.is_some(),
+                "an energy budget adds up over all particles in every step",
+            ),
+        ];
+        let found = one.into_iter().find(|(is, _)| *is);
+        found.map(|(_, why)| format!("the scene cannot run on several ranks: {why}"))
+    }
+
+    /// Checks where particles are and refreshes the lists, with all ranks where there are several.
+    pub(crate) fn refresh_lists(&mut self) -> Result<(), StepError> {
+        let Some(parts) = &mut self.parts else {
+            guard::positions(&self.world)?;
+            self.world.refresh_lists()?;
+            return Ok(());
+        };
+        let bad = guard::positions(&self.world).err();
+        let expired = self.world.lists_expired()?;
+        match parts.any(bad.is_some(), expired) {
+            Err(PartError::Elsewhere) if bad.is_some() => Err(bad.unwrap_or_else(elsewhere)),
+            Err(other) => Err(other.into()),
+            Ok(false) => Ok(self.world.forget_pruned()),
+            Ok(true) => {
+                self.world.forget_pruned();
+                Ok(parts.rebuild(&mut self.world, costs::<D>)?)
+            }
+        }
+    }
+
+    /// Builds the lists anew, with all ranks where there are several.
+    pub(crate) fn rebuild_lists(&mut self) -> Result<(), StepError> {
+        match &mut self.parts {
+            None => Ok(self.world.rebuild_lists()?),
+            Some(parts) => Ok(parts.rebuild(&mut self.world, costs::<D>)?),
+        }
+    }
+
+    /// The smallest limits of all ranks.
+    pub(crate) fn least_limits(
+        &mut self,
+        mut limits: Vec<StepLimit>,
+    ) -> Result<Vec<StepLimit>, StepError> {
+        if let Some(parts) = &mut self.parts {
+            let mut times: Vec<f64> = limits.iter().map(|l| l.dt).collect();
+            parts.least(&mut times)?;
+            limits.iter_mut().zip(times).for_each(|(l, dt)| l.dt = dt);
+        }
+        Ok(limits)
+    }
+
+    /// Whether any rank has a reason; every rank must ask.
+    pub(crate) fn any_rank(&mut self, own: bool) -> Result<bool, StepError> {
+        match &mut self.parts {
+            None => Ok(own),
+            Some(parts) => Ok(parts.any(false, own)?),
+        }
+    }
+}
+
+fn elsewhere() -> StepError {
+    PartError::Elsewhere.into()
+}
