@@ -1,12 +1,8 @@
 //! How deep the fluid is before a wall.
 
-use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
 use crate::World;
-
-/// Particles that one task sums.
-const BATCH: usize = 4096;
 
 /// Where a wall looks at the fluid before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,20 +47,15 @@ impl<const D: usize> Sight<D> {
         0.5 * self.reach * breadth
     }
 
-    /// Depth of the fluid, m: Σ V f over ∫ f.
+    /// Depth of the fluid, m: Σ V f over ∫ f, with the particles of all ranks.
     ///
     /// # Errors
-    /// If there are no positions or volumes.
+    /// If there are no positions or volumes, or another rank has failed.
     pub fn depth(&self, world: &World<D>) -> Result<f64, StepError> {
         let position = world.free.get(fields::POSITION)?;
         let volume = world.free.get(fields::VOLUME)?;
-        // Batch by batch in order: the same bits whatever the number of threads.
-        let batches = position.par_chunks(BATCH).zip(volume.par_chunks(BATCH));
-        let of = |(x, v): (&[Vect<D>], &[f64])| -> f64 {
-            x.iter().zip(v).map(|(x, v)| v * self.share(x)).sum()
-        };
-        let sums: Vec<f64> = batches.map(of).collect();
-        Ok(sums.iter().sum::<f64>() / self.area())
+        let [sum] = world.sums(|i| [volume[i] * self.share(&position[i])])?;
+        Ok(sum / self.area())
     }
 }
 
