@@ -102,11 +102,10 @@ impl<const D: usize> ContactBlock<D> {
         }
     }
 
-    /// Bytes held.
+    /// Bytes that its contacts need; buffers may hold more.
     pub fn bytes(&self) -> usize {
-        let one = size_of::<u32>() * self.elements.capacity();
-        one + size_of::<f64>() * self.weights.capacity()
-            + size_of::<Run<D>>() * self.runs.capacity()
+        let one = size_of::<u32>() * self.elements.len();
+        one + size_of::<f64>() * self.weights.len() + size_of::<Run<D>>() * self.runs.len()
     }
 }
 
@@ -243,10 +242,10 @@ impl<const D: usize> Contacts<D> {
         self.particles.is_empty()
     }
 
-    /// Bytes held.
+    /// Bytes that all contacts need; buffers may hold more.
     pub fn bytes(&self) -> usize {
         let blocks = self.blocks.iter().map(ContactBlock::bytes).sum::<usize>();
-        blocks + size_of::<Place>() * self.places.capacity() + 4 * self.particles.capacity()
+        blocks + size_of::<Place>() * self.places.len() + 4 * self.particles.len()
     }
 
     /// Forgets the contacts, so that `particles` free ones have none, and hands out the blocks for new ones.

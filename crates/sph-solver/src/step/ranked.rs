@@ -8,7 +8,6 @@ use sph_decomposition::{PartError, Parts, Transport};
 use crate::step::cost::costs;
 use crate::step::flow::Flow;
 use crate::step::guard;
-use crate::step::stages::lock;
 
 impl<const D: usize> Flow<D> {
     /// Leaves this rank its part; every rank holds the whole before.
@@ -40,13 +39,7 @@ impl<const D: usize> Flow<D> {
         }
         let enters = self.nursery.is_some() || self.works.iter().any(|w| w.gives_birth());
         let leaves = !self.outlets.is_empty() || self.works.iter().any(|w| !w.exits().is_empty());
-        let looks = self.walls.as_ref();
-        let looks = looks.is_some_and(|walls| !lock(walls).sights().is_empty());
         let one = [
-            (
-                looks,
-                "a wave maker that absorbs looks at all the fluid before it",
-            ),
             (
                 enters,
                 "particles come in, whose numbers all ranks would have to agree on",
