@@ -347,9 +347,8 @@ impl<const D: usize, const K: usize, M: TargetMean<D, K>> SumAround<'_, D, K, M>
             let apart = around.apart::<L, WRAPS>(&x, j);
             mean.add(&side, j as usize, &apart, L::load(w), &mut sums);
         }
-        for k in 0..K {
-            sums[k].store(&mut self.sums[k]);
-        }
+        let all = sums.into_iter().zip(self.sums);
+        all.for_each(|(sum, to)| sum.store(to));
     }
 }
 

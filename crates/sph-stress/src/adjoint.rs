@@ -95,9 +95,9 @@ impl<const D: usize> LaneSum<D> for FreePositions<'_> {
         sums: &mut [[L; D]; D],
     ) {
         let weight = scaled(pair.separation, L::splat(self.volume[j]) * pair.factor);
-        for i in 0..D {
-            for k in 0..D {
-                sums[i][k] -= pair.separation[i] * weight[k];
+        for (row, along) in sums.iter_mut().zip(pair.separation) {
+            for (sum, weight) in row.iter_mut().zip(weight) {
+                *sum -= along * weight;
             }
         }
     }
@@ -221,9 +221,9 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
     fn side<L: Lane>(&self, here: &[Here<D>]) -> [[L; D]; D] {
         let mut side = [[L::splat(0.0); D]; D];
         for (lane, own) in here.iter().enumerate() {
-            for i in 0..D {
-                for k in 0..D {
-                    side[i][k].set(lane, own.stress[(i, k)]);
+            for (i, row) in side.iter_mut().enumerate() {
+                for (k, stress) in row.iter_mut().enumerate() {
+                    stress.set(lane, own.stress[(i, k)]);
                 }
             }
         }
@@ -250,12 +250,12 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         sums: &mut [L; D],
     ) {
         let weight = L::splat(there.volume) * pair.factor;
-        for i in 0..D {
-            let mut row = here[i];
-            for k in 0..D {
-                row[k] += L::splat(self.stress[j][(i, k)]);
+        for (i, (sum, own)) in sums.iter_mut().zip(here).enumerate() {
+            let mut row = *own;
+            for (k, stress) in row.iter_mut().enumerate() {
+                *stress += L::splat(self.stress[j][(i, k)]);
             }
-            sums[i] += dot(&row, &pair.separation) * weight;
+            *sum += dot(&row, &pair.separation) * weight;
         }
     }
 }

@@ -66,7 +66,10 @@ impl<const D: usize> Flow<D> {
         match parts.any(bad.is_some(), expired) {
             Err(PartError::Elsewhere) if bad.is_some() => Err(bad.unwrap_or_else(elsewhere)),
             Err(other) => Err(other.into()),
-            Ok(false) => Ok(self.world.forget_pruned()),
+            Ok(false) => {
+                self.world.forget_pruned();
+                Ok(())
+            }
             Ok(true) => {
                 self.world.forget_pruned();
                 Ok(parts.rebuild(&mut self.world, costs::<D>)?)

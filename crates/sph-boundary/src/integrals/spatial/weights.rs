@@ -117,8 +117,8 @@ impl Body for Squares<'_> {
                     arms[0][k].set(lane, patch.arms[0][k]);
                     arms[1][k].set(lane, patch.arms[1][k]);
                 }
-                for k in 0..3 {
-                    sizes[k].set(lane, patch.squares[k]);
+                for (size, square) in sizes.iter_mut().zip(patch.squares) {
+                    size.set(lane, square);
                 }
                 area.set(lane, patch.area);
             }
