@@ -47,7 +47,7 @@ impl MpiRank {
 
 /// What is sent of a message, piece by piece.
 fn pieces(message: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let whole = message.len() % PIECE == 0;
+    let whole = message.len().is_multiple_of(PIECE);
     let last: Option<&[u8]> = whole.then_some(&[]);
     message.chunks(PIECE).chain(last)
 }
