@@ -218,9 +218,7 @@ fn a_killed_rank_ends_the_job_and_others_go_on_from_the_checkpoint() {
         "{:?}",
         killed.elapsed()
     );
-    if ended.success() {
-        println!("the run was over before it was killed");
-    }
+    assert!(!ended.success(), "the run was over before it was killed");
     bench.done("run scene.toml --quiet --out killed --threads 1 --ranks 2 --resume");
     whole.assert_same(&FinalState::of(&bench.path("killed")), "killed and resumed");
     assert_eq!(row, series(&bench.path("killed")));
