@@ -69,7 +69,7 @@ fn join<const D: usize>(
         }
         first += count as u32;
     }
-    let order = whole.order_at(&reference)?;
+    let order = whole.order_at(&reference);
     if let Some(order) = order {
         reference = order.iter().map(|k| reference[*k as usize]).collect();
         whole.free.keep_slots(&order);

@@ -1,6 +1,6 @@
 //! Whom other ranks need copies of.
 
-use sph_core::{Vect, fields};
+use sph_core::Vect;
 use sph_neighbours::{CellGrid, Domain, World};
 
 /// A box around the particles of a rank; upside down where there is none.
@@ -125,10 +125,4 @@ impl<'a, const D: usize> Needs<'a, D> {
         let needed = |k: &usize| offered(*k) && self.at(&places[*k], rank);
         (0..places.len()).filter(needed).map(|k| k as u32).collect()
     }
-}
-
-/// Positions of the free particles of a world; none where there is no column.
-pub fn positions<const D: usize>(world: &World<D>) -> Vec<Vect<D>> {
-    let column = world.free.get(fields::POSITION);
-    column.map(<[_]>::to_vec).unwrap_or_default()
 }

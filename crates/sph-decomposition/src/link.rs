@@ -109,6 +109,16 @@ impl Link {
         }
     }
 
+    /// Sends what `pack` makes of the particles that others have copies of; gives what comes for the guests, owner by owner.
+    fn swapped(&self, pack: impl Fn(&[u32]) -> Vec<u8>) -> Result<Vec<Vec<u8>>, PartError> {
+        let partners = self.partners();
+        let sends = partners.sends.iter();
+        let out: Vec<_> = sends.map(|(rank, slots)| (*rank, pack(slots))).collect();
+        self.count(&out);
+        let from: Vec<usize> = partners.receives.iter().map(|(rank, _)| *rank).collect();
+        Ok(self.transport.swap(out, &from)?)
+    }
+
     /// Gives guests the values of their owners in the columns that are `wanted`.
     pub fn tell<const D: usize>(
         &self,
@@ -116,33 +126,23 @@ impl Link {
         wanted: impl Fn(&AnyField) -> bool,
     ) -> Result<(), PartError> {
         self.any(false, false)?;
-        let partners = self.partners();
-        let message = |(rank, slots): &Partner| {
+        let messages = self.swapped(|slots| {
             let mut message = Vec::new();
             free.pack(&wanted, slots, &mut message);
-            (*rank, message)
-        };
-        let out: Vec<_> = partners.sends.iter().map(message).collect();
-        self.count(&out);
-        let from: Vec<usize> = partners.receives.iter().map(|(rank, _)| *rank).collect();
-        let messages = self.transport.swap(out, &from)?;
-        for ((_, slots), message) in partners.receives.iter().zip(messages) {
+            message
+        })?;
+        for ((_, slots), message) in self.partners().receives.iter().zip(messages) {
             free.unpack(&wanted, slots, &message)?;
         }
         Ok(())
     }
 
     fn mirrored<const D: usize>(&self, values: &mut [Vect<D>]) -> Result<(), PartError> {
-        let partners = self.partners();
-        let message = |(rank, slots): &Partner| {
+        let messages = self.swapped(|slots| {
             let all = slots.iter().flat_map(|s| values[*s as usize].iter());
-            (*rank, all.flat_map(|x| x.to_le_bytes()).collect())
-        };
-        let out: Vec<_> = partners.sends.iter().map(message).collect();
-        self.count(&out);
-        let from: Vec<usize> = partners.receives.iter().map(|(rank, _)| *rank).collect();
-        let messages = self.transport.swap(out, &from)?;
-        for ((_, slots), message) in partners.receives.iter().zip(messages) {
+            all.flat_map(|x| x.to_le_bytes()).collect()
+        })?;
+        for ((_, slots), message) in self.partners().receives.iter().zip(messages) {
             let numbers = message.as_chunks::<8>().0.chunks_exact(D);
             for (slot, numbers) in slots.iter().zip(numbers) {
                 values[*slot as usize] = Vect::from_fn(|k, _| f64::from_le_bytes(numbers[k]));

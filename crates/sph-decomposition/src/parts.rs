@@ -10,7 +10,7 @@ use std::sync::{Arc, PoisonError};
 use sph_core::{AnyField, Role, Store, Vect, fields};
 use sph_neighbours::{Extent, World};
 
-use crate::guests::{Around, Needs, positions};
+use crate::guests::{Around, Needs};
 use crate::link::{Link, Partner, Partners};
 use crate::owner::OWNER;
 use crate::{Cuts, Divided, PartError, Thread, Transport};
@@ -184,7 +184,7 @@ impl<const D: usize> Parts<D> {
         self.move_house(world)?;
         let own = world.free.len();
         let around = self.around(world)?;
-        let places = positions(world);
+        let places = world.free.get(fields::POSITION)?.to_vec();
         let needs = Needs::of(world, self.link.rings);
         let to = |r: &usize| (*r, needs.slots(&places, &around[*r], |_| true));
         let sends: Vec<Partner> = self.link.transport.others().iter().map(to).collect();
@@ -196,7 +196,7 @@ impl<const D: usize> Parts<D> {
             world.free.permute_derived(order);
         }
         let sends = sorted(sends, order.as_deref(), own);
-        world.rebuild_lists()?;
+        world.rebuild_lists_in(order.as_deref())?;
         self.know_guests(&world.free, sends)
     }
 
@@ -238,10 +238,8 @@ impl<const D: usize> Parts<D> {
     /// Particles go to the rank that owns their place; guests must have been dropped.
     fn move_house(&mut self, world: &mut World<D>) -> Result<(), PartError> {
         let (rank, ranks) = (self.link.transport.rank(), self.link.transport.ranks());
-        let owners: Vec<u32> = positions(world)
-            .iter()
-            .map(|x| self.cuts.owner(x))
-            .collect();
+        let places = world.free.get(fields::POSITION)?.iter();
+        let owners: Vec<u32> = places.map(|x| self.cuts.owner(x)).collect();
         world.free.set_index(OWNER.name, &owners)?;
         let mut leaving: Vec<Partner> = (0..ranks).map(|r| (r, vec![])).collect();
         for (slot, owner) in owners.iter().enumerate() {

@@ -292,12 +292,12 @@ fn largest_speeds<const D: usize>(world: &World<D>) -> Result<Vec<f64>, StepErro
     let velocity = world.free.get(fields::VELOCITY)?;
     let mass = world.free.get(fields::MASS)?;
     let phase = world.free.get(fields::PHASE).ok();
-    let (mut momentum, mut total) = (Vect::<D>::zeros(), 0.0);
-    for axis in 0..D {
-        let each = |i: usize| [mass[i], mass[i] * velocity[i][axis]];
-        [total, momentum[axis]] = world.sums(each)?;
-    }
-    let mean = momentum / total;
+    // Mass and momentum, of which the last component is not there in the plane.
+    let sums = world.sums(|i| {
+        let part = |axis: usize| velocity[i].get(axis).map_or(0.0, |u| mass[i] * u);
+        [mass[i], part(0), part(1), part(2)]
+    })?;
+    let mean = Vect::<D>::from_fn(|k, _| sums[1 + k]) / sums[0];
     let mut phases = [phase.map_or(0.0, |p| f64::from(p.iter().max().copied().unwrap_or(0)))];
     if let Some(team) = &world.team {
         team.largest(&mut phases)?;

@@ -120,8 +120,17 @@ impl<const D: usize> World<D> {
     /// If there is no position column.
     pub fn rebuild_lists(&mut self) -> Result<(), FieldError> {
         self.wrap()?;
-        if let Some(order) = self.order()? {
-            self.free.permute(&order);
+        let order = self.order()?;
+        self.rebuild_lists_in(order.as_deref())
+    }
+
+    /// The same for particles whose [order](Self::order) is known.
+    ///
+    /// # Errors
+    /// If there is no position column.
+    pub fn rebuild_lists_in(&mut self, order: Option<&[u32]>) -> Result<(), FieldError> {
+        if let Some(order) = order {
+            self.free.permute(order);
         }
         let lists = &mut self.lists;
         let [mut positions, mut points] =
@@ -153,19 +162,16 @@ impl<const D: usize> World<D> {
     /// # Errors
     /// If there is no position column.
     pub fn order(&self) -> Result<Option<Vec<u32>>, FieldError> {
-        self.order_at(self.free.get(fields::POSITION)?)
+        Ok(self.order_at(self.free.get(fields::POSITION)?))
     }
 
     /// The order of lists at other positions; `None` if the particles have it.
-    ///
-    /// # Errors
-    /// None; identities that are missing do not count.
-    pub fn order_at(&self, positions: &[Vect<D>]) -> Result<Option<Vec<u32>>, FieldError> {
+    pub fn order_at(&self, positions: &[Vect<D>]) -> Option<Vec<u32>> {
         let mut grid = self.grid(positions);
         if let Ok(identities) = self.free.get(fields::IDENTITY) {
             grid.order_by(identities);
         }
-        Ok((!grid.is_sorted()).then(|| grid.order().to_vec()))
+        (!grid.is_sorted()).then(|| grid.order().to_vec())
     }
 
     /// The cells of free particles at these positions.
