@@ -3,6 +3,7 @@
 use nalgebra::SMatrix;
 
 use crate::field::{AnyField, Column};
+use crate::store::Entry;
 use crate::{FieldError, Store, Symmetric, Vect};
 
 /// Takes the next item off a message.
@@ -76,6 +77,17 @@ impl<const D: usize> Store<D> {
             }
         }
         Ok(())
+    }
+
+    /// A copy of all particles with all their columns, of which nobody has left or been born.
+    pub fn copied(&self) -> Store<D> {
+        let entries = self.entries.iter().map(|entry| Entry {
+            column: entry.column.clone(),
+            ..*entry
+        });
+        let mut copied = Store::new(self.len);
+        copied.entries = entries.collect();
+        copied
     }
 
     /// Keeps the particles of these slots, in this order, with all their columns.

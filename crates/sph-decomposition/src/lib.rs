@@ -19,6 +19,7 @@ mod gather;
 mod guests;
 mod halo;
 mod link;
+mod lookup;
 mod owner;
 mod parts;
 mod threads;

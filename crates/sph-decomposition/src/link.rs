@@ -137,6 +137,7 @@ impl Link {
         Ok(())
     }
 
+    /// Of vectors of D components: places, or single numbers.
     fn mirrored<const D: usize>(&self, values: &mut [Vect<D>]) -> Result<(), PartError> {
         let messages = self.swapped(|slots| {
             let all = slots.iter().flat_map(|s| values[*s as usize].iter());
@@ -184,6 +185,12 @@ impl<const D: usize> Team<D> for Link {
     }
 
     fn mirror(&self, values: &mut [Vect<D>]) {
+        if self.mirrored(values).is_err() {
+            self.lost.store(true, Ordering::Relaxed);
+        }
+    }
+
+    fn mirror_scalars(&self, values: &mut [Vect<1>]) {
         if self.mirrored(values).is_err() {
             self.lost.store(true, Ordering::Relaxed);
         }

@@ -251,13 +251,13 @@ impl<const D: usize> Parts<D> {
         self.changes[0] += moved as u64;
         let leavers = self.pack(world, &leaving);
         world.free.keep_slots(&stay);
-        self.receive(world, leavers)
+        self.receive(&mut world.free, leavers)
     }
 
     /// Guests come in behind the rank's own.
     fn deliver(&mut self, world: &mut World<D>, sends: &[Partner]) -> Result<(), PartError> {
         let messages = self.pack(world, sends);
-        self.receive(world, messages)
+        self.receive(&mut world.free, messages)
     }
 
     fn pack(&self, world: &World<D>, to: &[Partner]) -> Vec<(usize, Vec<u8>)> {
@@ -271,12 +271,12 @@ impl<const D: usize> Parts<D> {
     }
 
     /// Sends whole particles, and adds those that come at the end.
-    fn receive(
-        &mut self,
-        world: &mut World<D>,
+    pub(crate) fn receive(
+        &self,
+        free: &mut Store<D>,
         out: Vec<(usize, Vec<u8>)>,
     ) -> Result<(), PartError> {
-        let each = world.free.bytes_per_particle();
+        let each = free.bytes_per_particle();
         let mut numbers = vec![0; self.link.transport.ranks()];
         for (rank, message) in &out {
             numbers[*rank] = (message.len() / each) as u64;
@@ -287,12 +287,12 @@ impl<const D: usize> Parts<D> {
         let from: Vec<usize> = (0..come.len()).filter(|r| come[*r] > 0).collect();
         let messages = self.link.transport.swap(out, &from)?;
         for (rank, message) in from.into_iter().zip(messages) {
-            let first = world.free.len();
+            let first = free.len();
             let slots: Vec<u32> = (first..first + come[rank] as usize)
                 .map(|k| k as u32)
                 .collect();
-            world.free.set_len(first + slots.len());
-            world.free.unpack(|_| true, &slots, &message)?;
+            free.set_len(first + slots.len());
+            free.unpack(|_| true, &slots, &message)?;
         }
         Ok(())
     }

@@ -17,11 +17,6 @@ pub struct LimitCoefficients {
 pub trait Integrator: Send {
     /// Its stable shares of the time scales.
     fn coefficients(&self) -> LimitCoefficients;
-    /// Whether it goes back to a state that it kept in the middle of a step: such a state cannot follow particles that go to
-    /// another rank.
-    fn keeps_state(&self) -> bool {
-        false
-    }
     /// Whether a step is one kick over all of it and then one drift over all of it.
     fn kicks_once(&self) -> bool {
         false

@@ -60,10 +60,6 @@ impl Integrator for LeapFrog {
         }
     }
 
-    fn keeps_state(&self) -> bool {
-        true
-    }
-
     fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<(), StepError> {
         system.kick(0.5 * dt)?;
         system.drift(dt)?;

@@ -62,10 +62,6 @@ impl Integrator for PredictorCorrector {
         }
     }
 
-    fn keeps_state(&self) -> bool {
-        true
-    }
-
     fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<(), StepError> {
         system.keep()?;
         system.drift(dt)?;

@@ -62,10 +62,6 @@ impl Integrator for Verlet {
         }
     }
 
-    fn keeps_state(&self) -> bool {
-        true
-    }
-
     fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<(), StepError> {
         system.drift(0.5 * dt)?;
         system.keep()?;

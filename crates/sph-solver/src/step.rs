@@ -10,6 +10,7 @@ pub(crate) mod flow;
 pub(crate) mod going_back;
 pub(crate) mod guard;
 pub(crate) mod guests;
+pub(crate) mod kept_image;
 pub(crate) mod kept_rates;
 pub(crate) mod kick;
 pub(crate) mod leaving;

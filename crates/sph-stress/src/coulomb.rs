@@ -77,29 +77,13 @@ impl<const D: usize> CoulombFriction<D> {
         let particles = contacts.particles.par_iter().with_min_len(512);
         let pulls = particles.map(|&i| soil.pull(i as usize, pressed, dt));
         let pulls: Vec<Pull<D>> = pulls.collect();
-        let mut forces = vec![WallForce::zero(); world.walls.names.len()];
         let mut velocity = world.free.take(fields::VELOCITY)?;
-        let position = world.free.get(fields::POSITION)?;
-        let mass = world.free.get(fields::MASS)?;
-        let elements = &world.walls.elements;
         for (&particle, pull) in contacts.particles.iter().zip(&pulls) {
-            let i = particle as usize;
-            velocity[i] += pull.change;
-            for contact in contacts.of(i).iter().filter(|_| pull.gradient > 0.0) {
-                let s = contact.element as usize;
-                if elements.coulomb[s].coefficient > 0.0 {
-                    let share = contact.gradient.norm() / pull.gradient;
-                    let force = -pull.change * (mass[i] * share / dt);
-                    forces[elements.wall[s] as usize].add(&WallForce {
-                        force,
-                        moment: cross(&position[i], &force),
-                        ..WallForce::zero()
-                    });
-                }
-            }
+            velocity[particle as usize] += pull.change;
         }
-        self.forces = forces;
-        Ok(world.free.put(fields::VELOCITY, velocity)?)
+        world.free.put(fields::VELOCITY, velocity)?;
+        self.forces = felt(world, &pulls, dt)?;
+        Ok(())
     }
 
     fn soil<'a>(&'a self, world: &'a World<D>) -> Result<Soil<'a, D>, StepError> {
@@ -123,8 +107,9 @@ impl<const D: usize> CoulombFriction<D> {
 }
 
 impl<const D: usize> StepWork<D> for CoulombFriction<D> {
-    fn needs_all(&self) -> Option<&'static str> {
-        Some("walls rub by what all particles before an element press on it")
+    /// What a particle presses on a wall holds sums over its neighbours, and an element sums that up.
+    fn rings(&self) -> usize {
+        2
     }
     fn name(&self) -> String {
         "friction on walls".into()
@@ -163,6 +148,54 @@ struct Pull<const D: usize> {
     change: Vect<D>,
     /// Σ |∇γ_as| of the elements with friction, 1/m.
     gradient: f64,
+}
+
+/// Forces on every wall in a kick of `dt`, in the order of their numbers.
+fn felt<const D: usize>(
+    world: &World<D>,
+    pulls: &[Pull<D>],
+    dt: f64,
+) -> Result<Vec<WallForce<D>>, StepError> {
+    let (elements, contacts) = (&world.walls.elements, &world.walls.contacts);
+    let position = world.free.get(fields::POSITION)?;
+    let mass = world.free.get(fields::MASS)?;
+    let own = world.team.as_ref().map(|team| team.own(&world.free));
+    let rubs = |wall: usize| {
+        let all = elements.coulomb.iter().zip(&elements.wall);
+        all.into_iter()
+            .any(|(c, w)| *w as usize == wall && c.coefficient > 0.0)
+    };
+    let on = |wall: usize| {
+        let part = |(&particle, pull): (&u32, &Pull<D>)| {
+            let i = particle as usize;
+            let rubbed = |c: &Contact<D>| {
+                let s = c.element as usize;
+                elements.wall[s] as usize == wall && elements.coulomb[s].coefficient > 0.0
+            };
+            let rubbed = contacts.of(i).iter().filter(rubbed);
+            let gradient: f64 = rubbed.map(|c| c.gradient.norm()).sum();
+            if gradient == 0.0 || own.as_ref().is_some_and(|own| !own[i]) {
+                return [0.0; 6];
+            }
+            let force = -pull.change * (mass[i] * gradient / (pull.gradient * dt));
+            let mut both = [0.0; 6];
+            both[..D].copy_from_slice(force.as_slice());
+            both[3..].copy_from_slice(&cross(&position[i], &force));
+            both
+        };
+        let all = contacts.particles.par_iter().zip(pulls).with_min_len(512);
+        let sums = world.sums_of(|| all.clone().map(part))?;
+        Ok(WallForce {
+            force: Vect::from_fn(|k, _| sums[k]),
+            moment: [sums[3], sums[4], sums[5]],
+            ..WallForce::zero()
+        })
+    };
+    let force = |wall: usize| match rubs(wall) {
+        true => on(wall),
+        false => Ok(WallForce::zero()),
+    };
+    (0..world.walls.names.len()).map(force).collect()
 }
 
 /// Sums over the particles before an element.

@@ -63,6 +63,22 @@ impl<const D: usize> ElasticMotion<D> {
     /// If a column is missing.
     pub fn apply(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         self.gradient.run(world)?;
+        self.advance(world, dt)
+    }
+
+    /// The same between two steps of a force: copies of others' particles follow their owners at once.
+    ///
+    /// # Errors
+    /// As [`apply`](Self::apply).
+    pub fn apply_within(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        self.gradient.run(world)?;
+        if let Some(team) = world.team.clone() {
+            team.tell(&mut world.free, &self.gradient.access().writes)?;
+        }
+        self.advance(world, dt)
+    }
+
+    fn advance(&self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         if world.free.has(fields::STRAIN_RATE.name) {
             StrainRate.run(world)?;
         }

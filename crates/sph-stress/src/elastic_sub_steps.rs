@@ -72,7 +72,17 @@ impl<const D: usize> ElasticSubSteps<D> {
     ) -> Result<f64, StepError> {
         let count = self.count(dt);
         let part = dt / count as f64;
+        let team = world.team.clone();
         self.find_touched(world)?;
+        if let Some(team) = &team {
+            // Whether copies of others' particles have soil around, their owners know.
+            team.begin_solve()?;
+            let told = self.touched.iter().map(|t| f64::from(u8::from(*t)));
+            let mut told: Vec<Vect<1>> = told.map(|t| Vect::from([t])).collect();
+            team.mirror_scalars(&mut told);
+            let all = self.touched.iter_mut().zip(&told);
+            all.for_each(|(touched, told)| *touched = told[0] > 0.0);
+        }
         pack(world, &mut self.states, Packed::of([&*self.term]))?;
         let particles = world.free.len();
         self.acceleration.resize(particles, Vect::zeros());
@@ -92,6 +102,9 @@ impl<const D: usize> ElasticSubSteps<D> {
                 |i| touched[i],
                 &mut self.acceleration,
             )?;
+            if let Some(team) = &team {
+                team.mirror(&mut self.acceleration);
+            }
             let mut velocity = world.free.take(fields::VELOCITY)?;
             let others = world.free.get(fields::ACCELERATION)?;
             let all = velocity.par_iter_mut().zip(&self.acceleration).zip(others);
@@ -102,7 +115,7 @@ impl<const D: usize> ElasticSubSteps<D> {
             });
             world.free.put(fields::VELOCITY, velocity)?;
             if step < count {
-                motion.apply(world, part)?;
+                motion.apply_within(world, part)?;
             }
         }
         let velocity = world.free.get(fields::VELOCITY)?;

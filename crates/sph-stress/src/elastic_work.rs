@@ -34,11 +34,6 @@ impl<const D: usize> ElasticWork<D> {
 }
 
 impl<const D: usize> StepWork<D> for ElasticWork<D> {
-    fn needs_all(&self) -> Option<&'static str> {
-        self.sub_steps
-            .is_some()
-            .then_some("stresses are advanced in steps within steps")
-    }
     fn name(&self) -> String {
         match self.sub_steps {
             Some(_) => "elastic sub-steps".into(),

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, register};
 use sph_implicit::{
     Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, Preconditioner, Report,
-    Rows,
 };
-use sph_neighbours::{Cluster, World, walk_in_lanes};
+use sph_neighbours::{SharedRows, World, walk_in_lanes};
 
+use crate::bed_system::{Couplings, DividedMatrix, Part, start};
 use crate::effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 use crate::soil_surface::Grains;
 
@@ -116,6 +116,7 @@ impl Laplace {
             surface_depth: self.surface_depth,
             least_depth: 0.5 * self.grain_diameter.unwrap_or(0.0),
             interval: self.interval,
+            whole: self.solver == PressureSolver::Jacobi,
             solver: match self.solver {
                 PressureSolver::ConjugateGradient => Box::new(ConjugateGradient {
                     preconditioner: Preconditioner::IncompleteDiagonal,
@@ -160,6 +161,8 @@ struct Solve<const D: usize> {
     least_depth: f64,
     /// Time between solves over √(δr/|g|).
     interval: f64,
+    /// Whether the solver asks for the rows of all ranks.
+    whole: bool,
     /// Of systems with one component.
     solver: Box<dyn LinearSolver<1>>,
     /// The memory of former solves.
@@ -172,27 +175,6 @@ struct Room {
     parts: Vec<Part>,
     assembly: Assembly<f64, 1>,
     pressure: Vec<Vect<1>>,
-}
-
-/// What a particle is to the problem.
-#[derive(Clone, Copy, PartialEq)]
-enum Part {
-    /// No soil.
-    Outside,
-    /// Soil with the given Δρ, kg/m³, whose pressure is known, Pa.
-    Surface(f64, f64),
-    /// Soil with the given Δρ, kg/m³.
-    Inside(f64),
-}
-
-impl Part {
-    /// The pressure that is not solved for, Pa.
-    fn known(self) -> f64 {
-        match self {
-            Part::Surface(_, pressure) => pressure,
-            _ => 0.0,
-        }
-    }
 }
 
 impl<const D: usize> Declares for Solve<D> {
@@ -213,7 +195,9 @@ impl<const D: usize> Declares for Solve<D> {
 
 impl<const D: usize> Stage<World<D>> for Solve<D> {
     fn needs_all(&self) -> Option<&'static str> {
-        Some("it solves a system of all particles")
+        self.whole.then_some(
+            "its solver sweeps over the rows of all particles: take `conjugate-gradient`",
+        )
     }
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         match self.due(world) {
@@ -248,7 +232,13 @@ impl<const D: usize> Solve<D> {
             pressure: x,
         } = room;
         self.parts(world, parts)?;
+        let shared = SharedRows::of(world);
+        if let Some(shared) = &shared {
+            shared.team.begin_solve()?;
+            self.copied(world, shared, parts)?;
+        }
         let system = Couplings {
+            own: shared.as_ref().map(|shared| &shared.own[..]),
             parts,
             volume: world.free.get(fields::VOLUME)?,
             gravity: world.gravity,
@@ -265,7 +255,14 @@ impl<const D: usize> Solve<D> {
                 .zip(&*parts)
                 .map(|(p, part)| start(*p, part)),
         );
-        let solved = self.solver.solve(&matrix, &assembly.sources, x);
+        let sources = &assembly.sources;
+        let solved = match shared {
+            None => self.solver.solve(&matrix, sources, x),
+            Some(shared) => {
+                let divided = DividedMatrix::new(&matrix, shared);
+                self.solver.solve(&divided, sources, x)
+            }
+        };
         pressure
             .iter_mut()
             .zip(&*x)
@@ -282,64 +279,6 @@ impl<const D: usize> Solve<D> {
     }
 }
 
-/// What couples the pressures.
-struct Couplings<'a, const D: usize> {
-    parts: &'a [Part],
-    volume: &'a [f64],
-    gravity: Vect<D>,
-}
-
-impl<const D: usize> Couplings<'_, D> {
-    /// Adds the rows of a cluster.
-    fn add(&self, cluster: &mut Cluster<'_, D>, rows: &mut Rows<f64, 1>) {
-        let all = cluster.candidates();
-        for (lane, i) in cluster.members().enumerate() {
-            let Part::Inside(buoyant) = self.parts[i] else {
-                rows.begin(0);
-                rows.end(1.0, Vect::from([self.parts[i].known()]));
-                continue;
-            };
-            rows.begin(all.len());
-            let (mut held, mut source) = (0.0, 0.0);
-            let factors = cluster.factor().iter().skip(lane).step_by(cluster.lanes());
-            for (&column, factor) in all.iter().zip(factors) {
-                let j = column as usize;
-                let coupling = -self.volume[i] * self.volume[j] * factor;
-                if coupling == 0.0 {
-                    continue;
-                }
-                let density = match self.parts[j] {
-                    Part::Inside(density) => {
-                        rows.couple(column, &coupling, true);
-                        density
-                    }
-                    Part::Surface(density, pressure) => {
-                        held += coupling;
-                        source += coupling * pressure;
-                        density
-                    }
-                    Part::Outside => continue,
-                };
-                let mean = 0.5 * (buoyant + density);
-                source += coupling * mean * self.gravity.dot(&cluster.separation(i, j));
-            }
-            // Soil that fills a closed box has no surface: the level is then that of zero.
-            let own = held + FAINT * rows.sum() + f64::MIN_POSITIVE;
-            rows.end(own, Vect::from([source]));
-        }
-    }
-}
-
-/// Share of a row's couplings that keeps a system without a surface regular.
-const FAINT: f64 = 1e-9;
-
-fn start(pressure: f64, part: &Part) -> Vect<1> {
-    Vect::from([match part {
-        Part::Inside(_) => pressure,
-        _ => part.known(),
-    }])
-}
-
 impl<const D: usize> Solve<D> {
     /// Whether a multiple of the interval has passed within the last step: the same for a run that
     /// was interrupted.
@@ -350,27 +289,58 @@ impl<const D: usize> Solve<D> {
         passed || world.time <= 0.0 || !(interval > 0.0 && interval.is_finite())
     }
 
-    fn parts(&self, world: &World<D>, parts: &mut Vec<Part>) -> Result<(), StepError> {
-        let volume = world.free.get(fields::VOLUME)?;
+    /// Δρ of every particle, kg/m³; `None` where it is no soil.
+    fn densities<'a>(
+        &'a self,
+        world: &'a World<D>,
+    ) -> Result<impl Fn(usize) -> Option<f64> + Sync + 'a, StepError> {
         let phase = match self.buoyant.len() {
             1 => None,
             _ => Some(world.free.get(fields::PHASE)?),
         };
         let soils = &self.buoyant[..];
-        let buoyant = |i: usize| soils[phase.map_or(0, |p| p[i] as usize)];
+        Ok(move |i: usize| soils[phase.map_or(0, |p| p[i] as usize)])
+    }
+
+    /// What stands over Δρ in the pressure of surface particles, m²/s².
+    fn top(&self, world: &World<D>) -> f64 {
         let depth = (self.surface_depth * world.spacing).max(self.least_depth);
-        let top = depth * world.gravity.norm();
+        depth * world.gravity.norm()
+    }
+
+    /// Whether copies of others' particles are at the surface, their owners know.
+    fn copied(
+        &self,
+        world: &World<D>,
+        shared: &SharedRows<D>,
+        parts: &mut [Part],
+    ) -> Result<(), StepError> {
+        let (buoyant, top) = (self.densities(world)?, self.top(world));
+        let surface = |part: &Part| matches!(part, Part::Surface(..));
+        let told = parts.iter().map(|p| f64::from(u8::from(surface(p))));
+        let mut told: Vec<Vect<1>> = told.map(|x| Vect::from([x])).collect();
+        shared.team.mirror_scalars(&mut told);
+        for (i, part) in parts
+            .iter_mut()
+            .enumerate()
+            .filter(|(i, _)| !shared.own[*i])
+        {
+            *part = Part::of(buoyant(i), told[i][0] > 0.0, top);
+        }
+        Ok(())
+    }
+
+    fn parts(&self, world: &World<D>, parts: &mut Vec<Part>) -> Result<(), StepError> {
+        let volume = world.free.get(fields::VOLUME)?;
+        let (buoyant, top) = (self.densities(world)?, self.top(world));
         let positions = world.free.get(fields::POSITION)?;
         let soil = |j: usize| buoyant(j).is_some();
         let grains = Grains { volume, soil };
         parts.clear();
         parts.resize(volume.len(), Part::Outside);
         walk_in_lanes(world, &grains, soil, parts, |normal, rows| {
-            let density = buoyant(rows.particle).unwrap_or(0.0);
-            match grains.at_surface(world, positions, normal, rows) {
-                true => Part::Surface(density, top * density),
-                false => Part::Inside(density),
-            }
+            let surface = grains.at_surface(world, positions, normal, rows);
+            Part::of(buoyant(rows.particle), surface, top)
         })
     }
 }

@@ -17,6 +17,7 @@
 //! Nothing here runs in a scene whose laws do not ask for it.
 
 mod adjoint;
+mod bed_system;
 mod blend;
 mod blended;
 mod carried;

@@ -2,10 +2,9 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use rayon::prelude::*;
 use sph_core::{Shelf, Vect};
 use sph_implicit::{Assembly, Block, Diagonal, Entries, Entry, Matrix, Operator, Rows, dot};
-use sph_neighbours::{CouplingsAt, Neighbourhood, Team, Visitor, World};
+use sph_neighbours::{CouplingsAt, Neighbourhood, SharedRows, Visitor, World};
 
 use crate::{BoundCoupling, CouplingRow};
 
@@ -59,30 +58,7 @@ pub struct FrictionOperator<'a, const D: usize> {
     matrix: OnceLock<Matrix<D>>,
     matrices: &'a Mutex<Matrices<D>>,
     /// Others with rows of the same system, and which rows are one's own.
-    shared: Option<Shared<D>>,
-}
-
-/// A system whose rows are divided between ranks: copies of others' rows are here as well, and follow their owners in every product.
-struct Shared<const D: usize> {
-    team: Arc<dyn Team<D>>,
-    own: Vec<bool>,
-}
-
-/// Rows of a sum in one go.
-const BATCH: usize = 4096;
-
-impl<const D: usize> Shared<D> {
-    fn inner(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
-        let batches = x.par_chunks(BATCH).zip(y.par_chunks(BATCH));
-        let parts = batches
-            .zip(self.own.par_chunks(BATCH))
-            .map(|((x, y), own)| {
-                let rows = x.iter().zip(y).zip(own).filter(|(_, own)| **own);
-                rows.map(|((x, y), _)| x.dot(y)).sum::<f64>()
-            });
-        let parts: Vec<f64> = parts.collect();
-        self.team.add(parts.iter().sum())
-    }
+    shared: Option<SharedRows<D>>,
 }
 
 impl<'a, const D: usize> FrictionOperator<'a, D> {
@@ -93,12 +69,8 @@ impl<'a, const D: usize> FrictionOperator<'a, D> {
         matrices: &'a Mutex<Matrices<D>>,
         world: &World<D>,
     ) -> Self {
-        let shared = world.team.as_ref().map(|team| Shared {
-            team: team.clone(),
-            own: team.own(&world.free),
-        });
         FrictionOperator {
-            shared,
+            shared: SharedRows::of(world),
             couplings,
             coupling_bytes,
             rows,
@@ -260,7 +232,7 @@ impl<const D: usize> Operator<D> for FrictionOperator<'_, D> {
     fn all(&self, holds: bool) -> bool {
         match &self.shared {
             None => holds,
-            Some(shared) => shared.team.most(f64::from(u8::from(!holds))) == 0.0,
+            Some(shared) => shared.all(holds),
         }
     }
 

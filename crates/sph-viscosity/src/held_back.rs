@@ -45,15 +45,16 @@ impl HeldBack {
         let viscosity = free.get(fields::VISCOSITY)?;
         let stiffness = free.get(fields::ELASTIC_STIFFNESS)?;
         let rate = free.get(fields::STRAIN_RATE)?;
-        let [mut all, mut taken, mut power, mut lawful] = [0.0; 4];
-        for i in (0..mass.len()).filter(|i| stiffness[*i] > 0.0) {
-            let change = (ahead[i] - velocity[i]) * (mass[i] / dt);
-            all += mass[i] * weight;
-            taken += change.norm();
-            power += change.dot(&velocity[i]);
-            let eta = viscosity[i] + stiffness[i] * world.dt;
-            lawful += volume[i] * eta * rate[i] * rate[i];
-        }
+        let [all, taken, power, lawful] = world.sums(|i| match stiffness[i] > 0.0 {
+            false => [0.0; 4],
+            true => {
+                let change = (ahead[i] - velocity[i]) * (mass[i] / dt);
+                let eta = viscosity[i] + stiffness[i] * world.dt;
+                let lawful = volume[i] * eta * rate[i] * rate[i];
+                let power = change.dot(&velocity[i]);
+                [mass[i] * weight, change.norm(), power, lawful]
+            }
+        })?;
         let held = match all > 0.0 && power > lawful {
             true => (1.0 - lawful / power) * taken / all,
             false => 0.0,

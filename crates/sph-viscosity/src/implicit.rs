@@ -201,11 +201,6 @@ impl<const D: usize> ImplicitViscosity<D> {
 }
 
 impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
-    fn needs_all(&self) -> Option<&'static str> {
-        let elastic =
-            "it solves for stresses of elastic soils, whose yielding is judged over all particles";
-        self.lagged.stiffens.then_some(elastic)
-    }
     fn name(&self) -> String {
         Self::NAME.into()
     }

@@ -34,11 +34,6 @@ pub(crate) fn refuse_the_indivisible<const D: usize>(
     parts: &Assembled<D>,
     ranks: usize,
 ) -> Result<(), SolverError> {
-    if parts.integrator.keeps_state() {
-        let why = "it goes back to a state within a step, which cannot follow particles to another rank: take \
-                   `symplectic-euler` for several ranks";
-        return Err(SolverError::at("integrator", why));
-    }
     if let Some(why) = parts.flow.indivisible() {
         return Err(SolverError::at("", why));
     }
@@ -96,6 +91,7 @@ impl<const D: usize> Running<'_, D> {
             moved.map_err(|e| SolverError::at("wall", e.to_string()))?;
         }
         whole.loads.clone_from(&flow.loads);
+        whole.world.free.set_taken(flow.world.free.taken().to_vec());
         whole.world.lists.builds = flow.world.lists.builds;
         whole.restored = true;
         if evaluated {

@@ -85,6 +85,7 @@ pub(crate) fn joined<const D: usize>(
         restored: false,
         kept: Snapshot::default(),
         kept_rates: Default::default(),
+        kept_image: Default::default(),
         laws: given.laws,
         kinematic_viscosities: given.kinematic_viscosities,
         timings: Vec::new(),

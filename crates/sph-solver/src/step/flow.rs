@@ -18,6 +18,7 @@ use crate::step::books::Books;
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::guard;
 use crate::step::guests::tell_guests;
+use crate::step::kept_image::KeptImage;
 use crate::step::kept_rates::Kept;
 use crate::step::nursery::Nursery;
 use crate::step::outlets::Outlets;
@@ -53,6 +54,8 @@ pub struct Flow<const D: usize> {
     pub(crate) kept: Snapshot<D>,
     /// Accelerations and scalar rates of the kept state.
     pub(crate) kept_rates: Kept<D>,
+    /// The same particles, where some of them may go to another rank.
+    pub(crate) kept_image: KeptImage<D>,
     pub(crate) laws: Laws,
     /// η/ρ₀ of every phase, m²/s.
     pub(crate) kinematic_viscosities: Vec<f64>,
@@ -114,6 +117,7 @@ impl<const D: usize> System for Flow<D> {
         self.kept
             .save(&self.world, self.walls.as_ref(), &self.loads)?;
         self.kept_rates.keep(&self.world.free, &self.evolved)?;
+        self.kept_image.keep(self.parts.as_ref(), &self.world);
         Ok(())
     }
 
@@ -122,6 +126,7 @@ impl<const D: usize> System for Flow<D> {
             Recall::State => self.written_by_stages(),
             Recall::Motion | Recall::Scalars => Vec::new(),
         };
+        self.kept_follows()?;
         let named = (&self.integrated[..], &by_stages[..]);
         let walls = (self.walls.as_ref(), &mut self.loads);
         self.kept.recall(&mut self.world, walls, what, named)?;
@@ -129,6 +134,7 @@ impl<const D: usize> System for Flow<D> {
     }
 
     fn average_rates(&mut self) -> Result<(), StepError> {
+        self.kept_follows()?;
         let places = self.kept.places(&self.world.free)?;
         let free = &mut self.world.free;
         self.kept_rates

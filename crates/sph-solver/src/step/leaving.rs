@@ -16,10 +16,16 @@ impl<const D: usize> Flow<D> {
     pub(crate) fn let_out(&mut self, dt: f64) -> Result<(), StepError> {
         // First those who look at wall contacts, which are by slots.
         self.by_works(dt)?;
-        self.by_outlets()?;
-        match self.world.free.is_empty() {
-            false => Ok(()),
-            true => Err(StepError::Stage {
+        let gone = self.by_outlets()?;
+        let here = !self.world.free.is_empty();
+        // A rank may have nobody left.
+        let somebody = match gone {
+            true => self.any_rank(here)?,
+            false => here || self.parts.is_some(),
+        };
+        match somebody {
+            true => Ok(()),
+            false => Err(StepError::Stage {
                 stage: "outlets".into(),
                 reason: "all particles have left: let the run end before".into(),
             }),
@@ -85,33 +91,58 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Takes out who is in an outlet.
-    fn by_outlets(&mut self) -> Result<(), StepError> {
+    /// Takes out who is in an outlet; whether anybody is, on any rank.
+    fn by_outlets(&mut self) -> Result<bool, StepError> {
         if self.outlets.all.is_empty() {
-            return Ok(());
+            return Ok(false);
         }
         let all = &self.outlets.all;
-        let free = &mut self.world.free;
+        let free = &self.world.free;
         let by = |x: &sph_core::Vect<D>| all.iter().position(|o| o.contains(&(*x).into()));
         let position = free.get(fields::POSITION)?;
         let places = || position.par_iter().with_min_len(2048).map(by);
-        if places().all(|outlet| outlet.is_none()) {
-            return Ok(());
+        let some = places().any(|outlet| outlet.is_some());
+        let left: Vec<Option<usize>> = match some {
+            true => places().collect(),
+            false => Vec::new(),
+        };
+        if !self.any_rank(some)? {
+            return Ok(false);
         }
-        let left: Vec<Option<usize>> = places().collect();
-        let mass = free.get(fields::MASS)?;
+        self.count_leavers(&left)?;
+        if some {
+            let leaves: Vec<bool> = left.iter().map(Option::is_some).collect();
+            self.world.free.take_out(&leaves);
+        }
+        Ok(true)
+    }
+
+    /// Counts who leaves by which outlet, on all ranks, in the order of identities.
+    fn count_leavers(&mut self, left: &[Option<usize>]) -> Result<(), StepError> {
+        let free = &self.world.free;
+        let (identity, mass) = (free.get(fields::IDENTITY)?, free.get(fields::MASS)?);
         let phase = free.get(fields::PHASE).ok();
-        let mut taken = free.taken().to_vec();
+        let own = self.world.team.as_ref().map(|team| team.own(free));
         let phases = self.laws.len();
+        let mut leavers = Vec::new();
         for (k, outlet) in left.iter().enumerate() {
-            let Some(outlet) = outlet else { continue };
-            let count = &mut taken[outlet * phases + phase.map_or(0, |p| p[k] as usize)];
-            count.mass += mass[k];
+            // Copies of others' particles leave as their owners do, who count them.
+            if let Some(outlet) = outlet.filter(|_| own.as_ref().is_none_or(|own| own[k])) {
+                let place = outlet * phases + phase.map_or(0, |p| p[k] as usize);
+                leavers.push([u64::from(identity[k]), place as u64, mass[k].to_bits()]);
+            }
+        }
+        if let Some(parts) = &self.parts {
+            leavers = parts.of_all(&leavers)?;
+        }
+        leavers.sort_unstable();
+        let mut taken = self.world.free.taken().to_vec();
+        for [_, place, mass] in leavers {
+            let count = &mut taken[place as usize];
+            count.mass += f64::from_bits(mass);
             count.particles += 1;
         }
-        let leaves: Vec<bool> = left.iter().map(Option::is_some).collect();
-        free.take_out(&leaves);
-        free.set_taken(taken);
+        self.world.free.set_taken(taken);
         Ok(())
     }
 

@@ -38,16 +38,15 @@ impl<const D: usize> Flow<D> {
             return Some(format!("`{name}` cannot run on several ranks: {why}"));
         }
         let enters = self.nursery.is_some() || self.works.iter().any(|w| w.gives_birth());
-        let leaves = !self.outlets.is_empty() || self.works.iter().any(|w| !w.exits().is_empty());
+        let leaves = self.works.iter().any(|w| !w.exits().is_empty());
         let one = [
             (
                 enters,
                 "particles come in, whose numbers all ranks would have to agree on",
             ),
-            (leaves, "particles leave, and are counted in their order"),
             (
-                self.books.is_some(),
-                "an energy budget adds up over all particles in every step",
+                leaves,
+                "particles leave through open faces, and are counted in their order",
             ),
         ];
         let found = one.into_iter().find(|(is, _)| *is);

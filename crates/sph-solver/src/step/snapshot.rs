@@ -46,6 +46,11 @@ impl<const D: usize> Snapshot<D> {
         Ok(())
     }
 
+    /// Takes the columns of the same particles in another order, or of others; the clock and the walls stay.
+    pub(crate) fn follow(&mut self, free: &Store<D>) -> Result<(), FieldError> {
+        free.save_state(&mut self.columns)
+    }
+
     /// Where the particle of a number was.
     pub fn position_of(&self, number: u32) -> Option<Vect<D>> {
         let identity = self.columns.get(fields::IDENTITY);
