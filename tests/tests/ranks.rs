@@ -55,7 +55,9 @@ fn sums_over_all_ranks_do_not_depend_on_their_number() {
     let body = "[wall.float]\nbox = [[0.3, 0.04], [0.4, 0.1]]\nfluid = \"outside\"\n\
                 condition = \"free-slip\"\nmover.rigid-body = { density = 500 }\n";
     let flush = DAM_BREAK.replace("[walls.usaw]\n", "[walls.usaw]\nvertices = false\n");
-    let scene = format!("{flush}\n[shifting.fickian]\n{body}");
+    let probes = "[probe.float]\nkind = \"wall-force\"\nwall = \"float\"\n\
+                  [probe.tank]\nkind = \"wall-force\"\nwall = \"tank\"\n";
+    let scene = format!("{flush}\n[shifting.fickian]\n{body}{probes}");
     same_on_all_ranks(&scene, "--set run.end=0.1");
 }
 
@@ -64,6 +66,13 @@ fn sums_over_all_ranks_do_not_depend_on_their_number() {
 fn outlets_give_the_same_bits() {
     let scene = format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.3\n");
     same_on_all_ranks(&scene, "--set run.end=0.3");
+}
+
+/// Particles are born at faces and leave through others, on whatever rank.
+#[test]
+fn open_faces_give_the_same_bits() {
+    let scene = include_str!("../../scenes/channel-open-2d.toml");
+    same_on_all_ranks(scene, "--set run.end=0.2 --set numerics.spacing=0.0625");
 }
 
 /// The books of energy are those of one process.
@@ -167,9 +176,9 @@ fn a_run_goes_on_with_another_number_of_ranks() {
 
 #[test]
 fn what_cannot_be_divided_is_refused_before_anything_is_written() {
-    let enters = include_str!("../../scenes/channel-open-2d.toml");
+    let seeps = include_str!("../../scenes/permeameter.toml");
     for (scene, ranks, why) in [
-        (enters, 2, "cannot run on several ranks: particles come in"),
+        (seeps, 2, "`seepage` cannot run on several ranks"),
         (DAM_BREAK, 256, "some would own nothing"),
     ] {
         let bench = Bench::with(PROGRAM, scene);

@@ -175,6 +175,14 @@ impl<const D: usize> Team<D> for Link {
         Ok(self.transport.total(numbers).map_err(PartError::from)?)
     }
 
+    fn gather(&self, own: &[u64]) -> Result<Vec<u64>, StepError> {
+        self.any(false, false)?;
+        let bytes: Vec<u8> = own.iter().flat_map(|x| x.to_le_bytes()).collect();
+        let all = self.transport.all(&bytes).map_err(PartError::from)?;
+        let words = all.iter().flat_map(|message| message.as_chunks::<8>().0);
+        Ok(words.map(|b| u64::from_le_bytes(*b)).collect())
+    }
+
     fn tell(&self, free: &mut Store<D>, columns: &[AnyField]) -> Result<(), StepError> {
         Ok(Link::tell(self, free, |f| columns.contains(f))?)
     }

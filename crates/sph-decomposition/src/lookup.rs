@@ -1,4 +1,4 @@
-//! Particles of an earlier order, and numbers of all ranks.
+//! Particles of an earlier moment, who have gone to other ranks since.
 
 use sph_core::{AnyField, Slots, Store, fields};
 
@@ -7,22 +7,6 @@ use crate::owner::OWNER;
 use crate::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {
-    /// What all ranks have, in the order of the ranks. Every rank must ask.
-    ///
-    /// # Errors
-    /// Another rank that has failed; messages that fail.
-    pub fn of_all<const N: usize>(&self, own: &[[u64; N]]) -> Result<Vec<[u64; N]>, PartError> {
-        self.link.any(false, false)?;
-        let bytes: Vec<u8> = own.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
-        let all = self.link.transport.all(&bytes)?;
-        let read = |message: &Vec<u8>| -> Vec<[u64; N]> {
-            let words = message.as_chunks::<8>().0;
-            let words: Vec<u64> = words.iter().map(|b| u64::from_le_bytes(*b)).collect();
-            words.as_chunks::<N>().0.to_vec()
-        };
-        Ok(all.iter().flat_map(read).collect())
-    }
-
     /// Brings an earlier copy of this rank's particles into the order of now: who has come since is asked of who had it then,
     /// who has gone is left out. Every rank must ask.
     ///

@@ -162,6 +162,23 @@ impl<const D: usize> Parts<D> {
         self.link.tell(free, wanted)
     }
 
+    /// Gives newborn particles to the ranks that own their places.
+    ///
+    /// # Errors
+    /// A column that is missing.
+    pub fn house(
+        &self,
+        free: &mut Store<D>,
+        newborn: std::ops::Range<usize>,
+        places: &[Vect<D>],
+    ) -> Result<(), PartError> {
+        let owners = free.get_mut(OWNER)?;
+        for (slot, place) in newborn.zip(places) {
+            owners[slot] = self.cuts.owner(place);
+        }
+        Ok(())
+    }
+
     /// Gives every particle to the rank that owns its place, finds all guests anew, and builds the lists. `cost` is that of every
     /// particle of this rank.
     ///

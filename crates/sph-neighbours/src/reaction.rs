@@ -6,7 +6,6 @@ use sph_core::{StepError, Vect, fields};
 use crate::packed::{Packed, pack};
 use crate::row::Row;
 use crate::term::Rates;
-use crate::wall_force::add_moment;
 use crate::{
     ContactBlock, ContactRow, Interaction, NOBODY, Neighbourhood, Scratch, WallForce, World,
 };
@@ -71,17 +70,46 @@ pub fn wall_forces<const D: usize>(
         total.force = Vect::from_fn(|k, _| sums[k]);
         total.moment = [sums[3], sums[4], sums[5]];
     }
-    let elements = &world.walls.elements;
-    for s in 0..elements.centre.len() {
-        let total = &mut forces[elements.wall[s] as usize];
-        let force = elements.normal[s] * (-elements.pressure[s] * elements.measure[s]);
-        total.pressure_force += force;
-        add_moment(
-            &mut total.pressure_moment,
-            cross(&elements.centre[s], &force),
-        );
+    for (wall, total) in forces.iter_mut().enumerate().filter(|(w, _)| wanted[*w]) {
+        let sums = pressure_on(world, wall as u32)?;
+        total.pressure_force = Vect::from_fn(|k, _| sums[k]);
+        total.pressure_moment = [sums[3], sums[4], sums[5]];
     }
     Ok(forces)
+}
+
+/// Force and moment of the pressure on the elements of a wall.
+fn pressure_on<const D: usize>(world: &World<D>, wall: u32) -> Result<[f64; 6], StepError> {
+    let elements = &world.walls.elements;
+    let own = world.team.as_ref().map(|team| team.own(&world.free));
+    let identity = world.free.get(fields::IDENTITY).ok();
+    let position = world.free.get(fields::POSITION)?;
+    let support = world.kernel.support_radius().powi(2);
+    // Of several ranks the one adds an element that has the first particle within its mean: it has all of them.
+    let counts = |s: usize| {
+        let (Some(own), Some(identity)) = (&own, identity) else {
+            return true;
+        };
+        let near = |j: &usize| {
+            let apart = world
+                .domain
+                .nearest_image(position[*j] - elements.centre[s]);
+            apart.norm_squared() < support
+        };
+        let around = world.lists.of_elements.candidates(s).iter();
+        let first = around.map(|j| *j as usize).filter(near);
+        first.min_by_key(|j| identity[*j]).is_some_and(|j| own[j])
+    };
+    let part = |s: usize| {
+        let force = elements.normal[s] * (-elements.pressure[s] * elements.measure[s]);
+        let mut both = [0.0; 6];
+        both[..D].copy_from_slice(force.as_slice());
+        both[3..].copy_from_slice(&cross(&elements.centre[s], &force));
+        both
+    };
+    let all = (0..elements.centre.len()).into_par_iter().with_min_len(256);
+    let on = all.filter(|s| elements.wall[*s] == wall && counts(*s));
+    world.sums_of(|| on.clone().map(part))
 }
 
 /// What every wanted particle exerts on which wall, N: the parts of [`wall_forces`]. Nothing for particles

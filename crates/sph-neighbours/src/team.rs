@@ -28,6 +28,12 @@ pub trait Team<const D: usize>: Send + Sync {
     /// As [`largest`](Self::largest).
     fn total(&self, numbers: &mut [u64]) -> Result<(), StepError>;
 
+    /// The numbers of all ranks, one rank's behind the other's.
+    ///
+    /// # Errors
+    /// As [`largest`](Self::largest).
+    fn gather(&self, own: &[u64]) -> Result<Vec<u64>, StepError>;
+
     /// Gives copies the values of their owners in these columns.
     ///
     /// # Errors

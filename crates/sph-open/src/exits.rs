@@ -29,6 +29,91 @@ struct Behind<const D: usize> {
     ports: [(usize, Vect<D>); 2],
 }
 
+impl<const D: usize> Behind<D> {
+    /// Share of its mass that the second port gets.
+    fn part(&self) -> f64 {
+        let [(_, apart), second] = self.ports;
+        let between = apart - second.1;
+        let part = (apart.dot(&between) / between.norm_squared()).clamp(0.0, 1.0);
+        if part.is_finite() { part } else { 0.0 }
+    }
+}
+
+/// Who passes faces at the end of a step.
+#[derive(Default)]
+pub(crate) struct Gone<const D: usize> {
+    /// Particles here, each with the number of its face.
+    pub here: Vec<(u32, usize)>,
+    /// Where all stood, those of other ranks among them, in the order of identities.
+    pub places: Vec<Vect<D>>,
+}
+
+/// What a particle that leaves hands over.
+struct Leaver<const D: usize> {
+    identity: u64,
+    ports: [usize; 2],
+    part: f64,
+    phase: usize,
+    mass: f64,
+    place: Vect<D>,
+}
+
+impl<const D: usize> Leaver<D> {
+    const WORDS: usize = 6 + D;
+
+    fn write(&self, to: &mut Vec<u64>) {
+        let [first, second] = self.ports.map(|port| port as u64);
+        to.extend([self.identity, first, second, self.phase as u64]);
+        to.extend([self.part, self.mass].map(f64::to_bits));
+        to.extend(self.place.iter().map(|x| x.to_bits()));
+    }
+
+    fn read(from: &[u64]) -> Self {
+        let real = |k: usize| f64::from_bits(from[k]);
+        Leaver {
+            identity: from[0],
+            ports: [from[1] as usize, from[2] as usize],
+            phase: from[3] as usize,
+            part: real(4),
+            mass: real(5),
+            place: Vect::from_fn(|k, _| real(6 + k)),
+        }
+    }
+}
+
+/// The leavers of all ranks, in the order of identities: copies of others' particles are counted where they are at home.
+fn of_all<const D: usize>(
+    world: &World<D>,
+    behind: &[Behind<D>],
+) -> Result<Vec<Leaver<D>>, StepError> {
+    let (position, identity) = (
+        world.free.get(fields::POSITION)?,
+        world.free.get(fields::IDENTITY)?,
+    );
+    let own = world.team.as_ref().map(|team| team.own(&world.free));
+    let counts = |b: &&Behind<D>| own.as_ref().is_none_or(|own| own[b.particle as usize]);
+    let leaver = |b: &Behind<D>| Leaver {
+        identity: u64::from(identity[b.particle as usize]),
+        ports: b.ports.map(|(port, _)| port),
+        part: b.part(),
+        phase: b.phase,
+        mass: b.mass,
+        place: position[b.particle as usize],
+    };
+    let mut all: Vec<Leaver<D>> = behind.iter().filter(counts).map(leaver).collect();
+    if let Some(team) = &world.team {
+        let mut words = Vec::new();
+        all.iter().for_each(|leaver| leaver.write(&mut words));
+        let words = team.gather(&words)?;
+        all = words
+            .chunks_exact(Leaver::<D>::WORDS)
+            .map(Leaver::read)
+            .collect();
+    }
+    all.sort_unstable_by_key(|leaver| leaver.identity);
+    Ok(all)
+}
+
 impl<const D: usize> Faces<D> {
     /// Ports grow by what comes in and fade by what goes out in `dt` seconds.
     pub fn pass(&mut self, dt: f64) {
@@ -77,29 +162,31 @@ impl<const D: usize> Faces<D> {
         self.memory.dt = dt;
     }
 
-    /// Particles behind an open face, each with the number of it, if some particle has waited long enough to leave or to be
-    /// born; their mass goes to the ports.
-    pub fn leaving(&mut self, world: &World<D>) -> Result<Vec<(u32, usize)>, StepError> {
+    /// Particles behind an open face, if some particle has waited long enough to leave or to be born; their mass goes to the ports.
+    pub fn leaving(&mut self, world: &World<D>) -> Result<Gone<D>, StepError> {
         let behind = self.behind(world)?;
         let late = (0..self.elements.len()).filter_map(|k| self.ripeness(k));
         let depths = behind.iter().map(|b| b.depth / self.spacing);
-        self.due = late.chain(depths).fold(0.0, f64::max) >= LATE;
+        let mut late = [late.chain(depths).fold(0.0, f64::max)];
+        if let Some(team) = &world.team {
+            team.largest(&mut late)?;
+        }
+        self.due = late[0] >= LATE;
         if !self.due {
-            return Ok(Vec::new());
+            return Ok(Gone::default());
         }
         let phases = self.whole.len();
-        for b in &behind {
-            let [(first, apart), second] = b.ports;
-            let between = apart - second.1;
-            let part = (apart.dot(&between) / between.norm_squared()).clamp(0.0, 1.0);
-            let part = if part.is_finite() { part } else { 0.0 };
-            self.memory.mass[first * phases + b.phase] += (1.0 - part) * b.mass;
-            self.memory.mass[second.0 * phases + b.phase] += part * b.mass;
-            self.memory.totals[b.face * phases + b.phase]
-                .died
-                .add(b.mass);
+        let all = of_all(world, &behind)?;
+        for b in &all {
+            self.memory.mass[b.ports[0] * phases + b.phase] += (1.0 - b.part) * b.mass;
+            self.memory.mass[b.ports[1] * phases + b.phase] += b.part * b.mass;
+            let face = self.face_of[b.ports[0]];
+            self.memory.totals[face * phases + b.phase].died.add(b.mass);
         }
-        Ok(behind.iter().map(|b| (b.particle, b.face)).collect())
+        Ok(Gone {
+            here: behind.iter().map(|b| (b.particle, b.face)).collect(),
+            places: all.iter().map(|b| b.place).collect(),
+        })
     }
 
     /// Particles behind an open face.

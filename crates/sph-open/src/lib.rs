@@ -5,6 +5,7 @@
 //! * [`open`] puts the faces around the wall treatment of a scene, and gives the [`OpenBoundaries`] that let mass through.
 #![doc = include_str!("../README.md")]
 
+mod agreed;
 mod budget;
 mod contract;
 mod contribution;

@@ -12,12 +12,12 @@ use crate::{Inside, Moment};
 const WET: f64 = 0.15;
 
 /// The fluid in front of an element.
-struct Looked<const D: usize> {
-    inside: Inside<D>,
+pub(crate) struct Looked<const D: usize> {
+    pub inside: Inside<D>,
     /// How far before it that mean stands, m.
-    reach: f64,
-    row: Vect<D>,
-    mix: Vec<f64>,
+    pub reach: f64,
+    pub row: Vect<D>,
+    pub mix: Vec<f64>,
 }
 
 impl<const D: usize> Faces<D> {
@@ -28,6 +28,7 @@ impl<const D: usize> Faces<D> {
             .into_par_iter()
             .map(|k| self.before(world, k))
             .collect::<Result<_, _>>()?;
+        let looked = self.agreed(world, looked)?;
         for (k, seen) in looked.into_iter().enumerate() {
             self.present[k] = seen.inside.velocity;
             self.inside[k] = self.arriving(k, &seen);

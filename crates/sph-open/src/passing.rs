@@ -30,6 +30,7 @@ impl<const D: usize> StepWork<D> for Passing<D> {
             .here(fields::VELOCITY)
             .here(fields::MASS)
             .here(fields::DENSITY)
+            .here(fields::IDENTITY)
             .where_there(fields::PHASE);
         match self.summed {
             false => access,
@@ -73,11 +74,9 @@ impl<const D: usize> StepWork<D> for Passing<D> {
     ) -> Result<Vec<(u32, usize)>, StepError> {
         let gone = lock(&self.faces).leaving(world)?;
         if self.summed {
-            let position = world.free.get(fields::POSITION)?;
-            let places: Vec<Vect<D>> = gone.iter().map(|(p, _)| position[*p as usize]).collect();
-            Faces::even_out(world, &places, 1.0)?;
+            Faces::even_out(world, &gone.places, 1.0)?;
         }
-        Ok(gone)
+        Ok(gone.here)
     }
 
     fn gives_birth(&self) -> bool {

@@ -92,6 +92,7 @@ impl<const D: usize> Running<'_, D> {
         }
         whole.loads.clone_from(&flow.loads);
         whole.world.free.set_taken(flow.world.free.taken().to_vec());
+        whole.world.free.set_born(flow.world.free.born());
         whole.world.lists.builds = flow.world.lists.builds;
         whole.restored = true;
         if evaluated {

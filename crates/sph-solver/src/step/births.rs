@@ -72,9 +72,14 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Gives newborn particles their columns.
-    fn fill(&mut self, nursery: &Nursery<D>, all: &[Newborn<D>]) -> Result<(), FieldError> {
+    fn fill(&mut self, nursery: &Nursery<D>, all: &[Newborn<D>]) -> Result<(), StepError> {
         let free = &mut self.world.free;
         let slots = free.give_birth(all.len())?;
+        if let Some(parts) = &self.parts {
+            // All ranks bear all; who is at home elsewhere goes when the lists are built.
+            let places: Vec<_> = all.iter().map(|n| n.position).collect();
+            parts.house(free, slots.clone(), &places)?;
+        }
         let mut born = free.born();
         for (slot, newborn) in slots.clone().zip(all) {
             born.mass += newborn.mass;
@@ -133,6 +138,11 @@ impl<const D: usize> Flow<D> {
             for ((now, before), _) in all.filter(|(_, id)| **id < first) {
                 *now = before;
             }
+        }
+        if let Some(parts) = &mut self.parts {
+            // It is a sum over neighbours.
+            let integrated: Vec<_> = self.integrated.iter().map(|f| f.any()).collect();
+            parts.tell(&mut self.world.free, |f| integrated.contains(f))?;
         }
         Ok(())
     }

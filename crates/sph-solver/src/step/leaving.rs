@@ -15,8 +15,8 @@ impl<const D: usize> Flow<D> {
     /// If nobody is left.
     pub(crate) fn let_out(&mut self, dt: f64) -> Result<(), StepError> {
         // First those who look at wall contacts, which are by slots.
-        self.by_works(dt)?;
-        let gone = self.by_outlets()?;
+        let gone = self.by_works(dt)?;
+        let gone = self.by_outlets()? || gone;
         let here = !self.world.free.is_empty();
         // A rank may have nobody left.
         let somebody = match gone {
@@ -49,8 +49,9 @@ impl<const D: usize> Flow<D> {
         self.world.free.set_taken(taken);
     }
 
-    /// Takes out whom work lets out, and counts them.
-    fn by_works(&mut self, dt: f64) -> Result<(), StepError> {
+    /// Takes out whom work lets out, and counts them; whether anybody went, on any rank.
+    fn by_works(&mut self, dt: f64) -> Result<bool, StepError> {
+        let mut some = false;
         let mut first = self.outlets.all.len();
         for k in 0..self.works.len() {
             let work = &mut self.works[k];
@@ -61,34 +62,25 @@ impl<const D: usize> Flow<D> {
             self.world.free.watch(|| work.access());
             let gone = work.departures(&mut self.world, dt);
             self.world.free.unwatch(|| work.name())?;
-            self.take_out(&gone?, first)?;
+            some |= self.take_out(&gone?, first)?;
             first += exits;
         }
-        Ok(())
+        Ok(some)
     }
 
-    fn take_out(&mut self, gone: &[(u32, usize)], first: usize) -> Result<(), StepError> {
-        if gone.is_empty() {
-            return Ok(());
+    fn take_out(&mut self, gone: &[(u32, usize)], first: usize) -> Result<bool, StepError> {
+        if !self.any_rank(!gone.is_empty())? {
+            return Ok(false);
         }
-        let free = &mut self.world.free;
-        let mass = free.get(fields::MASS)?;
-        let phase = free.get(fields::PHASE).ok();
-        let mut taken = free.taken().to_vec();
-        let mut leaves = vec![false; free.len()];
-        for (p, exit) in gone {
-            let p = *p as usize;
-            let q = phase.map_or(0, |q| q[p]);
-            let by = (first + exit) as u32;
-            if let Some(count) = taken.iter_mut().find(|t| t.outlet == by && t.phase == q) {
-                count.mass += mass[p];
-                count.particles += 1;
-            }
-            leaves[p] = true;
+        let leavers = gone.iter().map(|(p, exit)| (*p as usize, first + exit));
+        self.count_leavers(leavers)?;
+        if !gone.is_empty() {
+            let free = &mut self.world.free;
+            let mut leaves = vec![false; free.len()];
+            gone.iter().for_each(|(p, _)| leaves[*p as usize] = true);
+            free.take_out(&leaves);
         }
-        free.take_out(&leaves);
-        free.set_taken(taken);
-        Ok(())
+        Ok(true)
     }
 
     /// Takes out who is in an outlet; whether anybody is, on any rank.
@@ -109,7 +101,8 @@ impl<const D: usize> Flow<D> {
         if !self.any_rank(some)? {
             return Ok(false);
         }
-        self.count_leavers(&left)?;
+        let leavers = left.iter().enumerate();
+        self.count_leavers(leavers.filter_map(|(k, outlet)| Some((k, (*outlet)?))))?;
         if some {
             let leaves: Vec<bool> = left.iter().map(Option::is_some).collect();
             self.world.free.take_out(&leaves);
@@ -117,29 +110,33 @@ impl<const D: usize> Flow<D> {
         Ok(true)
     }
 
-    /// Counts who leaves by which outlet, on all ranks, in the order of identities.
-    fn count_leavers(&mut self, left: &[Option<usize>]) -> Result<(), StepError> {
+    /// Counts who leaves by which exit, on all ranks, in the order of identities.
+    fn count_leavers(
+        &mut self,
+        left: impl Iterator<Item = (usize, usize)>,
+    ) -> Result<(), StepError> {
         let free = &self.world.free;
         let (identity, mass) = (free.get(fields::IDENTITY)?, free.get(fields::MASS)?);
         let phase = free.get(fields::PHASE).ok();
         let own = self.world.team.as_ref().map(|team| team.own(free));
         let phases = self.laws.len();
-        let mut leavers = Vec::new();
-        for (k, outlet) in left.iter().enumerate() {
-            // Copies of others' particles leave as their owners do, who count them.
-            if let Some(outlet) = outlet.filter(|_| own.as_ref().is_none_or(|own| own[k])) {
-                let place = outlet * phases + phase.map_or(0, |p| p[k] as usize);
-                leavers.push([u64::from(identity[k]), place as u64, mass[k].to_bits()]);
-            }
+        // Copies of others' particles leave as their owners do, who count them.
+        let counts = |k: usize| own.as_ref().is_none_or(|own| own[k]);
+        let left = left.filter(|(k, _)| counts(*k));
+        let leavers = left.flat_map(|(k, exit)| {
+            let place = exit * phases + phase.map_or(0, |p| p[k] as usize);
+            [u64::from(identity[k]), place as u64, mass[k].to_bits()]
+        });
+        let mut leavers: Vec<u64> = leavers.collect();
+        if let Some(team) = &self.world.team {
+            leavers = team.gather(&leavers)?;
         }
-        if let Some(parts) = &self.parts {
-            leavers = parts.of_all(&leavers)?;
-        }
+        let (leavers, _) = leavers.as_chunks_mut::<3>();
         leavers.sort_unstable();
         let mut taken = self.world.free.taken().to_vec();
         for [_, place, mass] in leavers {
-            let count = &mut taken[place as usize];
-            count.mass += f64::from_bits(mass);
+            let count = &mut taken[*place as usize];
+            count.mass += f64::from_bits(*mass);
             count.particles += 1;
         }
         self.world.free.set_taken(taken);

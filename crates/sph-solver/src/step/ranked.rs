@@ -34,23 +34,8 @@ impl<const D: usize> Flow<D> {
         let works = self.works.iter().map(|w| (w.name(), w.needs_all()));
         let stages = self.stages.iter().map(|s| (s.name(), s.needs_all()));
         let mut all = works.chain(stages);
-        if let Some((name, why)) = all.find_map(|(name, why)| Some((name, why?))) {
-            return Some(format!("`{name}` cannot run on several ranks: {why}"));
-        }
-        let enters = self.nursery.is_some() || self.works.iter().any(|w| w.gives_birth());
-        let leaves = self.works.iter().any(|w| !w.exits().is_empty());
-        let one = [
-            (
-                enters,
-                "particles come in, whose numbers all ranks would have to agree on",
-            ),
-            (
-                leaves,
-                "particles leave through open faces, and are counted in their order",
-            ),
-        ];
-        let found = one.into_iter().find(|(is, _)| *is);
-        found.map(|(_, why)| format!("the scene cannot run on several ranks: {why}"))
+        let (name, why) = all.find_map(|(name, why)| Some((name, why?)))?;
+        Some(format!("`{name}` cannot run on several ranks: {why}"))
     }
 
     /// Checks where particles are and refreshes the lists, with all ranks where there are several.

@@ -59,6 +59,7 @@ impl<const D: usize> Declares for WallState<D> {
             .neighbours(fields::PRESSURE)
             .neighbours(fields::DENSITY)
             .neighbours(fields::VOLUME)
+            .here(fields::IDENTITY)
             .where_there(fields::PHASE)
             .writes(WALL_STATE)
     }

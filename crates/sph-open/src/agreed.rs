@@ -1,0 +1,117 @@
+//! What is in front of faces, where the particles are divided between ranks: all know all of it, and let the same pass.
+
+use sph_core::{StepError, Vect, fields};
+use sph_neighbours::World;
+
+use crate::Inside;
+use crate::faces::Faces;
+use crate::look::Looked;
+
+impl<const D: usize> Looked<D> {
+    fn write(&self, to: &mut Vec<u64>) {
+        let inside = &self.inside;
+        to.push(u64::from(inside.wet));
+        let scalars = [
+            inside.pressure,
+            inside.impedance,
+            inside.density,
+            inside.mean_pressure,
+            self.reach,
+        ];
+        let vectors = [&inside.velocity, &inside.mean, &self.row];
+        let numbers = scalars
+            .into_iter()
+            .chain(vectors.into_iter().flat_map(|v| v.iter().copied()));
+        to.extend(numbers.chain(self.mix.iter().copied()).map(f64::to_bits));
+    }
+
+    fn read(from: &[u64]) -> Self {
+        let real = |k: usize| f64::from_bits(from[k]);
+        let vector = |n: usize| Vect::from_fn(|k, _| real(6 + n * D + k));
+        Looked {
+            inside: Inside {
+                wet: from[0] != 0,
+                pressure: real(1),
+                impedance: real(2),
+                density: real(3),
+                mean_pressure: real(4),
+                velocity: vector(0),
+                mean: vector(1),
+            },
+            reach: real(5),
+            row: vector(2),
+            mix: (6 + 3 * D..from.len()).map(real).collect(),
+        }
+    }
+}
+
+impl<const D: usize> Faces<D> {
+    /// The means of all ranks. Each element is looked at where the particle of the lowest number before it is at home: there are
+    /// all others before it, or copies of them.
+    pub(crate) fn agreed(
+        &self,
+        world: &World<D>,
+        looked: Vec<Looked<D>>,
+    ) -> Result<Vec<Looked<D>>, StepError> {
+        let Some(team) = &world.team else {
+            return Ok(looked);
+        };
+        let own = team.own(&world.free);
+        let (position, identity) = (
+            world.free.get(fields::POSITION)?,
+            world.free.get(fields::IDENTITY)?,
+        );
+        let support = world.kernel.support_radius().powi(2);
+        let looks = |k: usize| {
+            let near = |j: &usize| {
+                let apart = world
+                    .domain
+                    .nearest_image(self.places[k].centre - position[*j]);
+                apart.norm_squared() < support
+            };
+            let around = world
+                .lists
+                .of_elements
+                .candidates(self.elements[k] as usize);
+            let around = around.iter().map(|j| *j as usize).filter(near);
+            around.min_by_key(|j| identity[*j]).is_some_and(|j| own[j])
+        };
+        let each = 6 + 3 * D + self.whole.len();
+        let mut words = Vec::new();
+        for (k, seen) in looked.iter().enumerate().filter(|(k, _)| looks(*k)) {
+            words.push(k as u64);
+            seen.write(&mut words);
+        }
+        let words = team.gather(&words)?;
+        let elements = 0..self.elements.len();
+        let mut all: Vec<Looked<D>> = elements.map(|k| self.nothing(k)).collect();
+        for message in words.chunks_exact(1 + each) {
+            if let Some(seen) = all.get_mut(message[0] as usize) {
+                *seen = Looked::read(&message[1..]);
+            }
+        }
+        Ok(all)
+    }
+
+    /// What is seen where no particle is near.
+    fn nothing(&self, k: usize) -> Looked<D> {
+        let (mean_pressure, mean) = match self.memory.dt > 0.0 {
+            true => self.memory.mean[k],
+            false => (0.0, Vect::zeros()),
+        };
+        Looked {
+            inside: Inside {
+                wet: false,
+                pressure: 0.0,
+                velocity: Vect::zeros(),
+                impedance: 1.0,
+                density: 0.0,
+                mean,
+                mean_pressure,
+            },
+            reach: 0.0,
+            row: Vect::zeros(),
+            mix: vec![0.0; self.whole.len()],
+        }
+    }
+}
