@@ -41,9 +41,8 @@ impl<const D: usize> Parts<D> {
     /// # Errors
     /// As [`any`](Self::any).
     pub fn least(&mut self, values: &mut [f64]) -> Result<(), PartError> {
-        self.all_well()?;
         values.iter_mut().for_each(|v| *v = -*v);
-        self.link.transport.largest(values)?;
+        self.link.agree(false, values)?;
         values.iter_mut().for_each(|v| *v = -*v);
         Ok(())
     }

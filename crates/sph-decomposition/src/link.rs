@@ -59,20 +59,30 @@ impl Link {
         self.bytes.fetch_add(bytes, Ordering::Relaxed);
     }
 
-    /// Whether anybody says yes, if nobody has failed. Every message between ranks is preceded by this, so that a rank that fails
-    /// anywhere in a step reaches the others, who wait here.
-    pub fn any(&self, failed: bool, yes: bool) -> Result<bool, PartError> {
+    /// Replaces each value by the largest of all ranks, if nobody has failed. Every message between ranks is preceded by this or
+    /// is this, so that a rank that fails anywhere in a step reaches the others, who wait here.
+    pub fn agree(&self, failed: bool, values: &mut [f64]) -> Result<(), PartError> {
         let failed = failed || self.lost.load(Ordering::Relaxed);
-        let mut values = [failed, yes].map(|b| f64::from(u8::from(b)));
-        let sent = self.transport.largest(&mut values);
+        let mut all = values.to_vec();
+        all.push(f64::from(u8::from(failed)));
+        let sent = self.transport.largest(&mut all);
+        let failed = all.pop().is_some_and(|failed| failed > 0.0);
         // Who has no connection has nobody to tell.
-        let told = values[0] > 0.0 || sent.is_err();
+        let told = failed || sent.is_err();
         self.told.store(told, Ordering::Relaxed);
         sent?;
+        values.copy_from_slice(&all);
         match told {
             true => Err(PartError::Elsewhere),
-            false => Ok(values[1] > 0.0),
+            false => Ok(()),
         }
+    }
+
+    /// Whether anybody says yes, if nobody has failed.
+    pub fn any(&self, failed: bool, yes: bool) -> Result<bool, PartError> {
+        let mut said = [f64::from(u8::from(yes))];
+        self.agree(failed, &mut said)?;
+        Ok(said[0] > 0.0)
     }
 
     /// Whether all is well at the end of something in which ranks may have failed, and told each other or not.
@@ -166,8 +176,7 @@ impl<const D: usize> Team<D> for Link {
     }
 
     fn largest(&self, values: &mut [f64]) -> Result<(), StepError> {
-        self.any(false, false)?;
-        Ok(self.transport.largest(values).map_err(PartError::from)?)
+        Ok(self.agree(false, values)?)
     }
 
     fn total(&self, numbers: &mut [u64]) -> Result<(), StepError> {

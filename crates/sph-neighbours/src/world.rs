@@ -182,6 +182,18 @@ impl<const D: usize> World<D> {
         }
     }
 
+    /// Gives back the memory of all lists, which have to be built before anybody asks for neighbours.
+    pub fn forget_lists(&mut self) {
+        let lists = &mut self.lists;
+        lists.pruned = None;
+        lists.free = Clusters::default();
+        lists.spare = Clusters::default();
+        lists.of_points = Clusters::default();
+        lists.of_elements = Clusters::default();
+        lists.wall = NeighbourList::default();
+        lists.shelf = Shelf::default();
+    }
+
     /// Remembers where lists were built, without building them: for whoever has the columns of a flow and asks for no list.
     pub fn lists_would_be_of(&mut self, positions: Vec<Vect<D>>, points: Vec<Vect<D>>, time: f64) {
         self.lists.reference = positions;

@@ -47,21 +47,22 @@ pub(crate) fn refuse_the_indivisible<const D: usize>(
     }
 }
 
-/// Leaves this rank its part; the first gets another assembly, for the whole.
+/// Leaves this rank its part; the first gets another assembly, for the whole, once it holds no more than its part.
 pub(crate) fn divide<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
     ranks: Arc<dyn Transport>,
     parts: &mut Assembled<D>,
 ) -> Result<Option<Assembled<D>>, SolverError> {
-    let mut whole = None;
-    if ranks.rank() == 0 {
-        let mut all = assemble::<D>(scene)?;
-        begin(scene, options, false, &mut all.flow, &mut ())?;
-        whole = Some(all);
-    }
+    let first = ranks.rank() == 0;
     parts.flow.divide(ranks).map_err(StepError::from)?;
-    Ok(whole)
+    if !first {
+        return Ok(None);
+    }
+    let mut all = assemble::<D>(scene)?;
+    begin(scene, options, false, &mut all.flow, &mut ())?;
+    all.flow.world.forget_lists();
+    Ok(Some(all))
 }
 
 impl<const D: usize> Running<'_, D> {
@@ -82,6 +83,8 @@ impl<const D: usize> Running<'_, D> {
         let Some(whole) = whole else {
             return Ok(parts.gather(&flow.world, None).map_err(StepError::from)?);
         };
+        // Only what is evaluated has neighbours.
+        whole.world.forget_lists();
         let gathered = parts.gather(&flow.world, Some(&mut whole.world));
         gathered.map_err(StepError::from)?;
         if let (Some(own), Some(all)) = (&flow.walls, &whole.walls) {
