@@ -189,10 +189,15 @@ fn a_run_goes_on_with_another_number_of_ranks() {
 
 #[test]
 fn what_cannot_be_divided_is_refused_before_anything_is_written() {
-    let seeps = without_references(include_str!("../../scenes/permeameter.toml"));
-    let seeps = seeps.as_str();
+    let bed = without_references(include_str!("../../scenes/saturated-bed-at-rest.toml"));
+    let laplace = "[effective-pressure.laplace]";
+    let sweeps = bed.replace(laplace, &format!("{laplace}\nsolver = \"jacobi\""));
     for (scene, ranks, why) in [
-        (seeps, 2, "`seepage` cannot run on several ranks"),
+        (
+            sweeps.as_str(),
+            2,
+            "`effective pressure` cannot run on several ranks",
+        ),
         (DAM_BREAK, 256, "some would own nothing"),
     ] {
         let bench = Bench::with(PROGRAM, scene);

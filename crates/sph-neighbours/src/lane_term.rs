@@ -145,6 +145,10 @@ struct SideBySide<'a, 'c, const D: usize, B> {
 impl<const D: usize, B: LaneTerm<D>> Body for SideBySide<'_, '_, D, B> {
     type Output = ();
 
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "iterators of the library would be calls here"
+    )]
     #[inline(always)]
     fn call<L: Lane>(self) {
         let SideBySide {
@@ -164,11 +168,10 @@ impl<const D: usize, B: LaneTerm<D>> Body for SideBySide<'_, '_, D, B> {
         let side = term.side::<L>(&heres[..L::N]);
         let x = places::<D, L>(&cluster.positions[from..from + count]);
         let mut sums = term.sums::<L>(&term.zero());
-        let distances = cluster.buffers.distance2.chunks_exact(L::N);
-        let factors = cluster.buffers.factor.chunks_exact(L::N);
-        for (&j, (distance2, factor)) in candidates.iter().zip(distances.zip(factors)) {
-            let j = j as usize;
-            let pair = cluster.pair(&x, j, distance2, factor);
+        let (distances, factors) = (&cluster.buffers.distance2, &cluster.buffers.factor);
+        for k in 0..candidates.len() {
+            let (j, lanes) = (candidates[k] as usize, k * L::N..(k + 1) * L::N);
+            let pair = cluster.pair(&x, j, &distances[lanes.clone()], &factors[lanes]);
             term.add(&side, j, &cluster.states[j], &pair, &mut sums);
         }
         // A copy: single lanes are read from memory, and the sums themselves are to stay in registers.

@@ -101,6 +101,10 @@ struct SideBySide<'a, 'c, const D: usize, S: LaneSum<D>> {
 impl<const D: usize, S: LaneSum<D>> Body for SideBySide<'_, '_, D, S> {
     type Output = ();
 
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "iterators of the library would be calls here"
+    )]
     #[inline(always)]
     fn call<L: Lane>(self) {
         let SideBySide { sum, cluster, out } = self;
@@ -116,12 +120,10 @@ impl<const D: usize, S: LaneSum<D>> Body for SideBySide<'_, '_, D, S> {
         let side = sum.side::<L>(&heres[..L::N]);
         let x = places::<D, L>(&cluster.positions[from..from + count]);
         let mut sums = sum.zero::<L>();
-        let distances = cluster.buffers.distance2.chunks_exact(L::N);
-        let factors = cluster.buffers.factor.chunks_exact(L::N);
-        let all = candidates.iter().zip(distances.zip(factors)).enumerate();
-        for (k, (&j, (distance2, factor))) in all {
-            let j = j as usize;
-            let pair = cluster.pair(&x, j, distance2, factor);
+        let (distances, factors) = (&cluster.buffers.distance2, &cluster.buffers.factor);
+        for k in 0..candidates.len() {
+            let (j, lanes) = (candidates[k] as usize, k * L::N..(k + 1) * L::N);
+            let pair = cluster.pair(&x, j, &distances[lanes.clone()], &factors[lanes]);
             let value = match S::VALUES {
                 true => L::load(&cluster.buffers.value[k * L::N..]),
                 false => L::splat(0.0),

@@ -77,7 +77,7 @@ pub use shares::{TermShare, shares_at};
 pub use sight::Sight;
 pub use sph_lanes::{Lane, MOST, add_scaled, dot, scaled};
 pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
-pub use team::{SharedRows, Team};
+pub use team::{SharedRows, Team, inner};
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,
     TermEntry,

@@ -3,8 +3,12 @@
 use nalgebra::SMatrix;
 use sph_contribution::StepWork;
 use sph_core::{Access, AnyField, Field, Scalar, StepError, Vect, fields};
-use sph_implicit::{ConjugateGradient, Entries, LinearSolver, Matrix, Pattern, Values};
-use sph_neighbours::{Around, Interaction, Neighbourhood, World, trusted_inverse, walk_some};
+use sph_implicit::{
+    ConjugateGradient, DividedMatrix, Entries, LinearSolver, Matrix, Pattern, Values,
+};
+use sph_neighbours::{
+    Around, Interaction, Neighbourhood, SharedRows, World, trusted_inverse, walk_some,
+};
 
 use crate::contract::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
 use crate::exchange::Exchange;
@@ -42,8 +46,9 @@ pub(crate) struct Seeps<const D: usize> {
 }
 
 impl<const D: usize> StepWork<D> for Seeps<D> {
-    fn needs_all(&self) -> Option<&'static str> {
-        Some("water flows through a net of all pores")
+    /// Links go by depths, which are sums over neighbours, and so do sizes that are evened out.
+    fn rings(&self) -> usize {
+        2
     }
     fn name(&self) -> String {
         "seepage".into()
@@ -263,7 +268,13 @@ impl PoreWater {
         for (k, &i) in grounds.enumerate() {
             rank[i as usize] = k as u32;
         }
+        let shared = SharedRows::of(world);
+        if let Some(shared) = &shared {
+            shared.team.begin_solve()?;
+        }
+        let own = |i: u32| shared.as_ref().is_none_or(|s| s.own[i as usize]);
         let (mut pattern, mut values) = (Pattern::default(), Values::default());
+        let mut places = Vec::new();
         pattern.starts.push(0);
         let (mut right, mut x) = (Vec::new(), Vec::new());
         for (&particle, links) in net.particles.iter().zip(&net.links) {
@@ -278,20 +289,29 @@ impl PoreWater {
             for link in links {
                 source += link.conductance * link.drop;
                 match soil(link.to) {
-                    true => {
+                    // Rows of copies are with their owners.
+                    true if own(particle) => {
                         pattern.columns.push(rank[link.to as usize]);
                         values.others.push(-link.conductance);
                     }
+                    true => {}
                     false => source += link.conductance * present[link.to as usize],
                 }
             }
+            places.push(particle);
             values.diagonal.push(all + faint);
             pattern.starts.push(pattern.columns.len() as u32);
             right.push(Vect::<1>::from([source]));
             x.push(Vect::<1>::from([start]));
         }
         let matrix = Matrix::new(pattern, Entries::Scalar(values));
-        let solved = self.solver.solve(&matrix, &right, &mut x);
+        let solved = match shared {
+            None => self.solver.solve(&matrix, &right, &mut x),
+            Some(shared) => {
+                let divided = DividedMatrix::new(&matrix, shared, Some(&places));
+                self.solver.solve(&divided, &right, &mut x)
+            }
+        };
         solved.map_err(|e| StepError::Stage {
             stage: "seepage".into(),
             reason: e.to_string(),

@@ -1,10 +1,8 @@
 //! The system of the effective pressure: who is in it, and what couples them.
 
-use std::sync::OnceLock;
-
 use sph_core::Vect;
-use sph_implicit::{Entries, Matrix, Operator, Pattern, Rows, Values};
-use sph_neighbours::{Cluster, SharedRows};
+use sph_implicit::Rows;
+use sph_neighbours::Cluster;
 
 /// What a particle is to the problem.
 #[derive(Clone, Copy, PartialEq)]
@@ -108,74 +106,4 @@ pub(crate) fn start(pressure: f64, part: &Part) -> Vect<1> {
         Part::Inside(_) => pressure,
         _ => part.known(),
     }])
-}
-
-/// A matrix whose rows are divided between ranks. Its columns are one's own particles and copies of others', which follow their
-/// owners in every product.
-pub(crate) struct DividedMatrix<'a, const D: usize> {
-    matrix: &'a Matrix<1>,
-    rows: SharedRows<D>,
-    inside: OnceLock<Matrix<1>>,
-}
-
-impl<'a, const D: usize> DividedMatrix<'a, D> {
-    /// Of the rows of one's own.
-    pub fn new(matrix: &'a Matrix<1>, rows: SharedRows<D>) -> Self {
-        DividedMatrix {
-            matrix,
-            rows,
-            inside: OnceLock::new(),
-        }
-    }
-
-    /// The matrix without what couples rows of different ranks: its preconditioner reaches as far.
-    fn cut(&self) -> Matrix<1> {
-        let mut pattern = Pattern {
-            starts: vec![0],
-            columns: Vec::new(),
-        };
-        let mut cut = Values::default();
-        if let Entries::Scalar(values) = &self.matrix.entries {
-            cut.diagonal.clone_from(&values.diagonal);
-            for i in 0..self.matrix.rows() {
-                let row = self.matrix.pattern.row(i);
-                for (j, value) in row
-                    .clone()
-                    .map(|k| (self.matrix.pattern.columns[k], values.others[k]))
-                {
-                    if self.rows.own[j as usize] {
-                        pattern.columns.push(j);
-                        cut.others.push(value);
-                    }
-                }
-                pattern.starts.push(pattern.columns.len() as u32);
-            }
-        }
-        Matrix::new(pattern, Entries::Scalar(cut))
-    }
-}
-
-impl<const D: usize> Operator<1> for DividedMatrix<'_, D> {
-    fn rows(&self) -> usize {
-        self.matrix.rows()
-    }
-    fn multiply(&self, x: &[Vect<1>], y: &mut [Vect<1>]) {
-        self.matrix.multiply(x, y);
-        self.rows.team.mirror_scalars(y);
-    }
-    fn import(&self, x: &mut [Vect<1>]) {
-        self.rows.team.mirror_scalars(x);
-    }
-    fn inner(&self, x: &[Vect<1>], y: &[Vect<1>]) -> f64 {
-        self.rows.inner(x, y)
-    }
-    fn all(&self, holds: bool) -> bool {
-        self.rows.all(holds)
-    }
-    fn is_whole(&self) -> bool {
-        false
-    }
-    fn assembled(&self) -> Option<&Matrix<1>> {
-        Some(self.inside.get_or_init(|| self.cut()))
-    }
 }

@@ -6,11 +6,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, register};
 use sph_implicit::{
-    Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, Preconditioner, Report,
+    Assembly, ConjugateGradient, DividedMatrix, Entries, Jacobi, LinearSolver, Matrix,
+    Preconditioner, Report,
 };
 use sph_neighbours::{SharedRows, World, walk_in_lanes};
 
-use crate::bed_system::{Couplings, DividedMatrix, Part, start};
+use crate::bed_system::{Couplings, Part, start};
 use crate::effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
 use crate::soil_surface::Grains;
 
@@ -259,7 +260,7 @@ impl<const D: usize> Solve<D> {
         let solved = match shared {
             None => self.solver.solve(&matrix, sources, x),
             Some(shared) => {
-                let divided = DividedMatrix::new(&matrix, shared);
+                let divided = DividedMatrix::new(&matrix, shared, None);
                 self.solver.solve(&divided, sources, x)
             }
         };
