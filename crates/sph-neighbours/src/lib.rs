@@ -37,6 +37,7 @@ mod packed;
 mod reaction;
 mod row;
 mod separation;
+mod shared_rows;
 mod shares;
 mod sight;
 mod sums;
@@ -73,11 +74,12 @@ pub use moment::trusted_inverse;
 pub use packed::{Packed, pack};
 pub use reaction::{cross, wall_forces, wall_parts};
 pub use row::{NOBODY, Neighbourhood, Row, Scratch, There};
+pub use shared_rows::{SharedRows, inner};
 pub use shares::{TermShare, shares_at};
 pub use sight::Sight;
 pub use sph_lanes::{Lane, MOST, add_scaled, dot, scaled};
 pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
-pub use team::{SharedRows, Team, inner};
+pub use team::Team;
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,
     TermEntry,

@@ -1,11 +1,6 @@
 //! Others who hold particles of the same flow.
 
-use std::sync::Arc;
-
-use rayon::prelude::*;
 use sph_core::{AnyField, StepError, Store, Vect};
-
-use crate::World;
 
 /// The ranks between which a flow is divided, as work sees them that needs more than the particles at hand. All ranks call the
 /// same methods in the same order.
@@ -57,46 +52,4 @@ pub trait Team<const D: usize>: Send + Sync {
 
     /// The sum of all ranks' parts, in the order of the ranks.
     fn add(&self, part: f64) -> f64;
-}
-
-/// Rows of a system that are divided between ranks: copies of others' rows are here as well, and follow their owners in every product.
-pub struct SharedRows<const D: usize> {
-    /// The others.
-    pub team: Arc<dyn Team<D>>,
-    /// Which rows are one's own.
-    pub own: Vec<bool>,
-}
-
-/// Rows of a sum in one go.
-const BATCH: usize = 4096;
-
-impl<const D: usize> SharedRows<D> {
-    /// Those of a world; none where all rows are here.
-    pub fn of(world: &World<D>) -> Option<Self> {
-        world.team.as_ref().map(|team| SharedRows {
-            team: team.clone(),
-            own: team.own(&world.free),
-        })
-    }
-
-    /// Σ x·y over the rows of all ranks; the same bits for all of them.
-    pub fn inner<const C: usize>(&self, x: &[Vect<C>], y: &[Vect<C>]) -> f64 {
-        self.team.add(inner(x, y, &self.own))
-    }
-
-    /// Whether it holds on all ranks.
-    pub fn all(&self, holds: bool) -> bool {
-        self.team.most(f64::from(u8::from(!holds))) == 0.0
-    }
-}
-
-/// Σ x·y over the rows that are one's own, in an order that does not depend on threads.
-pub fn inner<const C: usize>(x: &[Vect<C>], y: &[Vect<C>], own: &[bool]) -> f64 {
-    let batches = x.par_chunks(BATCH).zip(y.par_chunks(BATCH));
-    let parts = batches.zip(own.par_chunks(BATCH)).map(|((x, y), own)| {
-        let rows = x.iter().zip(y).zip(own).filter(|(_, own)| **own);
-        rows.map(|((x, y), _)| x.dot(y)).sum::<f64>()
-    });
-    let parts: Vec<f64> = parts.collect();
-    parts.iter().sum()
 }

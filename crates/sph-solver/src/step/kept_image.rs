@@ -1,10 +1,8 @@
 //! The kept state of particles that may go to another rank within a step.
 
-use sph_core::{StepError, Store};
-use sph_decomposition::Parts;
+use sph_core::Store;
+use sph_decomposition::{PartError, Parts};
 use sph_neighbours::World;
-
-use crate::step::flow::Flow;
 
 /// All particles of a rank as they were when the state was kept; nothing where one process has all.
 #[derive(Default)]
@@ -22,23 +20,23 @@ impl<const D: usize> KeptImage<D> {
             self.builds = world.lists.builds;
         }
     }
-}
 
-impl<const D: usize> Flow<D> {
-    /// Brings what is kept to the particles that this rank has now, if some have gone and come since.
-    pub(crate) fn kept_follows(&mut self) -> Result<(), StepError> {
-        let (Some(parts), Some(image)) = (&self.parts, &mut self.kept_image.free) else {
-            return Ok(());
+    /// The copies in the order of the particles that this rank has now, if some have gone and come since.
+    pub(crate) fn follow(
+        &mut self,
+        parts: Option<&Parts<D>>,
+        world: &World<D>,
+    ) -> Result<Option<&Store<D>>, PartError> {
+        let (Some(parts), Some(free)) = (parts, &mut self.free) else {
+            return Ok(None);
         };
         // All ranks build their lists together.
-        let builds = self.world.lists.builds;
-        if builds == self.kept_image.builds {
-            return Ok(());
+        let builds = world.lists.builds;
+        if builds == self.builds {
+            return Ok(None);
         }
-        parts.follow(image, &self.world.free)?;
-        self.kept.follow(image)?;
-        self.kept_rates.keep(image, &self.evolved)?;
-        self.kept_image.builds = builds;
-        Ok(())
+        parts.follow(free, &world.free)?;
+        self.builds = builds;
+        Ok(Some(free))
     }
 }

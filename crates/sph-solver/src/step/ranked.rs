@@ -69,6 +69,16 @@ impl<const D: usize> Flow<D> {
         }
     }
 
+    /// Brings what is kept within a step to the particles that this rank has now.
+    pub(crate) fn kept_follows(&mut self) -> Result<(), StepError> {
+        let image = &mut self.kept_image;
+        if let Some(free) = image.follow(self.parts.as_ref(), &self.world)? {
+            self.kept.follow(free)?;
+            self.kept_rates.keep(free, &self.evolved)?;
+        }
+        Ok(())
+    }
+
     /// The smallest limits of all ranks.
     pub(crate) fn least_limits(
         &mut self,
