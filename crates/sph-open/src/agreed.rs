@@ -17,6 +17,7 @@ impl<const D: usize> Looked<D> {
             inside.density,
             inside.mean_pressure,
             self.reach,
+            self.filled,
         ];
         let vectors = [&inside.velocity, &inside.mean, &self.row];
         let numbers = scalars
@@ -27,7 +28,7 @@ impl<const D: usize> Looked<D> {
 
     fn read(from: &[u64]) -> Self {
         let real = |k: usize| f64::from_bits(from[k]);
-        let vector = |n: usize| Vect::from_fn(|k, _| real(6 + n * D + k));
+        let vector = |n: usize| Vect::from_fn(|k, _| real(7 + n * D + k));
         Looked {
             inside: Inside {
                 wet: from[0] != 0,
@@ -39,8 +40,9 @@ impl<const D: usize> Looked<D> {
                 mean: vector(1),
             },
             reach: real(5),
+            filled: real(6),
             row: vector(2),
-            mix: (6 + 3 * D..from.len()).map(real).collect(),
+            mix: (7 + 3 * D..from.len()).map(real).collect(),
         }
     }
 }
@@ -76,7 +78,7 @@ impl<const D: usize> Faces<D> {
             let around = around.iter().map(|j| *j as usize).filter(near);
             around.min_by_key(|j| identity[*j]).is_some_and(|j| own[j])
         };
-        let each = 6 + 3 * D + self.whole.len();
+        let each = 7 + 3 * D + self.whole.len();
         let mut words = Vec::new();
         for (k, seen) in looked.iter().enumerate().filter(|(k, _)| looks(*k)) {
             words.push(k as u64);
@@ -110,6 +112,7 @@ impl<const D: usize> Faces<D> {
                 mean_pressure,
             },
             reach: 0.0,
+            filled: 0.0,
             row: Vect::zeros(),
             mix: vec![0.0; self.whole.len()],
         }

@@ -62,6 +62,8 @@ pub fn open<const D: usize>(
         outside: Vec::new(),
         rows: Vec::new(),
         mix: Vec::new(),
+        full: Vec::new(),
+        filled: Vec::new(),
         memory: Memory::new(0, 0, 0),
         due: false,
     };

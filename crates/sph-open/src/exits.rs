@@ -116,25 +116,38 @@ fn of_all<const D: usize>(
 
 impl<const D: usize> Faces<D> {
     /// Ports grow by what comes in and fade by what goes out in `dt` seconds.
+    ///
+    /// Through an element that has fluid before a part of it, this part passes. What a port holds where the fluid has gone
+    /// goes with it.
     pub fn pass(&mut self, dt: f64) {
         let phases = self.whole.len();
         for k in 0..self.elements.len() {
             let place = self.places[k];
             let normal = self.through(k).dot(&place.normal);
             let face = self.face_of[k];
+            let wetted = match self.outside[k].imposed {
+                true => place.measure,
+                false => place.measure * self.filled[k],
+            };
+            let dry = !self.inside[k].wet && self.faces[face].law.lets_out();
             if normal > 0.0 {
                 let q = self.phase(k);
-                let mass = self.density(k, q) * normal * place.measure * dt;
+                let mass = self.density(k, q) * normal * wetted * dt;
                 self.memory.mass[k * phases + q] += mass;
                 self.memory.totals[face * phases + q].entered.add(mass);
             } else if normal < 0.0 {
                 let faded = (-normal * dt / (ROWS * self.spacing)).min(1.0);
                 for q in 0..phases {
-                    let out = -normal * place.measure * dt * self.mix[k * phases + q];
+                    let out = -normal * wetted * dt * self.mix[k * phases + q];
                     let density = self.density(k, q);
                     let port = &mut self.memory.mass[k * phases + q];
                     let mass = density * out + *port * faded;
                     *port -= mass;
+                    self.memory.totals[face * phases + q].left.add(mass);
+                }
+            } else if dry {
+                for q in 0..phases {
+                    let mass = std::mem::take(&mut self.memory.mass[k * phases + q]);
                     self.memory.totals[face * phases + q].left.add(mass);
                 }
             }

@@ -8,6 +8,7 @@ use sph_neighbours::{Passed, WallSet};
 use sph_state::Laws;
 
 use crate::memory::Memory;
+use crate::row::near;
 use crate::{Inside, OpenBoundary, Outside, Place};
 
 /// How late births and deaths may be, as a share of a row: lists are built anew where particles come or go, and the rows that
@@ -56,6 +57,10 @@ pub(crate) struct Faces<const D: usize> {
     pub rows: Vec<Vect<D>>,
     /// Shares of the phases in front of every element, phases innermost.
     pub mix: Vec<f64>,
+    /// What [`filled`](Self::filled) sums up where the face is full, by element.
+    pub full: Vec<f64>,
+    /// Share of every element that has fluid before it.
+    pub filled: Vec<f64>,
     pub memory: Memory<D>,
     /// Whether particles come and go at the end of this step.
     pub due: bool,
@@ -105,6 +110,9 @@ impl<const D: usize> Faces<D> {
         self.smooth = (0..self.places.len())
             .map(|k| self.around(k, kernel))
             .collect();
+        self.full = (0..self.places.len())
+            .map(|k| self.when_full(k, kernel))
+            .collect();
         self.add_ports(walls);
         let (ports, phases) = (self.elements.len(), self.whole.len());
         let nothing = Inside {
@@ -121,6 +129,7 @@ impl<const D: usize> Faces<D> {
         self.outside = vec![Outside::dry(); ports];
         self.rows = vec![Vect::zeros(); ports];
         self.mix = vec![0.0; ports * phases];
+        self.filled = vec![0.0; ports];
         self.memory = Memory::new(ports, phases, self.faces.len());
         walls.passed = self.passed(walls);
     }
@@ -128,17 +137,30 @@ impl<const D: usize> Faces<D> {
     /// Weights of the mean of a velocity that is given on the face, as the fluid's own is taken: over rows of particles in front
     /// of it.
     fn around(&self, k: usize, kernel: &dyn Sampler) -> Vec<(u32, f64)> {
-        let rows = (kernel.support_radius() / self.spacing).ceil() as usize;
-        let heights = (0..rows).map(|row| (row as f64 + 0.5) * self.spacing);
-        let weight = |j: usize| {
-            let apart = self.places[k].centre - self.places[j].centre;
-            let r = |height: f64| (apart.norm_squared() + height * height).sqrt();
-            let sum: f64 = heights.clone().map(|h| kernel.at(r(h)).0).sum();
-            self.places[j].measure * sum
-        };
         let own = self.faces[self.face_of[k]].elements.clone();
-        let all = own.map(|j| (j as u32, weight(j)));
+        let all = own.map(|j| (j as u32, self.rows_before(k, j, kernel)));
         all.filter(|(_, w)| *w > 0.0).collect()
+    }
+
+    /// Σ S w over the rows of particles before an element, as seen from another.
+    fn rows_before(&self, k: usize, j: usize, kernel: &dyn Sampler) -> f64 {
+        let rows = (kernel.support_radius() / self.spacing).ceil() as usize;
+        let apart = (self.places[k].centre - self.places[j].centre).norm_squared();
+        let row = |row: usize| {
+            let height = (row as f64 + 0.5) * self.spacing;
+            kernel.at((apart + height * height).sqrt()).0
+        };
+        self.places[j].measure * (0..rows).map(row).sum::<f64>()
+    }
+
+    /// Weight Σ V w of the [row](crate::row::Row) before an element where its face is full.
+    fn when_full(&self, k: usize, kernel: &dyn Sampler) -> f64 {
+        let own = self.faces[self.face_of[k]].elements.clone();
+        let one = |j: usize| {
+            let apart = self.places[k].centre - self.places[j].centre;
+            near(apart.norm_squared(), self.spacing) * self.rows_before(k, j, kernel)
+        };
+        own.map(one).sum::<f64>() * self.spacing
     }
 
     fn add_ports(&self, walls: &mut WallSet<D>) {

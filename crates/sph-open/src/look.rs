@@ -11,6 +11,10 @@ use crate::{Inside, Moment};
 /// Least Σ V w of the fluid before an element, of the ½ of a filled half space, for a mean that means something.
 const WET: f64 = 0.15;
 
+/// Share of the weight of a full row from which on an element is full: particles that are not on a lattice weigh more or less
+/// than one.
+const FULL: f64 = 0.8;
+
 /// The fluid in front of an element.
 pub(crate) struct Looked<const D: usize> {
     pub inside: Inside<D>,
@@ -18,6 +22,7 @@ pub(crate) struct Looked<const D: usize> {
     pub reach: f64,
     pub row: Vect<D>,
     pub mix: Vec<f64>,
+    pub filled: f64,
 }
 
 impl<const D: usize> Faces<D> {
@@ -33,6 +38,7 @@ impl<const D: usize> Faces<D> {
             self.present[k] = seen.inside.velocity;
             self.inside[k] = self.arriving(k, &seen);
             self.rows[k] = seen.row;
+            self.filled[k] = seen.filled;
             self.mix[k * phases..(k + 1) * phases].copy_from_slice(&seen.mix);
         }
         let moment = Moment {
@@ -157,12 +163,14 @@ impl<const D: usize> Faces<D> {
             mean,
             mean_pressure,
         };
+        let filled = (row.weight() / (FULL * self.full[k])).min(1.0);
         let row = row.velocity(self.spacing).unwrap_or(u);
         Ok(Looked {
             inside,
             reach,
             row,
             mix,
+            filled,
         })
     }
 }

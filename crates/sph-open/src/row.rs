@@ -12,6 +12,11 @@ pub(crate) struct Row<const D: usize> {
     velocities: [Vect<D>; 2],
 }
 
+/// Share with which a row counts who is beside a place by the square of a distance, m²: exp(−2 t²/δr²).
+pub(crate) fn near(squared: f64, spacing: f64) -> f64 {
+    (-2.0 * squared / (spacing * spacing)).exp()
+}
+
 impl<const D: usize> Default for Row<D> {
     fn default() -> Self {
         Row {
@@ -25,7 +30,7 @@ impl<const D: usize> Row<D> {
     /// Adds a particle on the way `apart` before the place, with its share in a mean.
     pub fn add(&mut self, n: &Vect<D>, apart: &Vect<D>, spacing: f64, share: f64, u: &Vect<D>) {
         let along = apart - n * apart.dot(n);
-        let w = share * (-2.0 * along.norm_squared() / (spacing * spacing)).exp();
+        let w = share * near(along.norm_squared(), spacing);
         // Along a line; over a surface the mean is taken.
         let t = if D == 2 {
             along[1] * n[0] - along[0] * n[1]
@@ -36,6 +41,11 @@ impl<const D: usize> Row<D> {
         all.for_each(|(sum, x)| *sum += x);
         self.velocities[0] += u * w;
         self.velocities[1] += u * (w * t);
+    }
+
+    /// Σ w of all that were added.
+    pub fn weight(&self) -> f64 {
+        self.weights[0]
     }
 
     /// The velocity at the place; nothing where no particle is near.
