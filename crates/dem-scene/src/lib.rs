@@ -52,6 +52,7 @@ mod fields;
 mod frames;
 mod highest_point;
 mod laws;
+mod level;
 mod measure;
 mod model;
 mod names;

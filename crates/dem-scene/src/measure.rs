@@ -6,6 +6,7 @@ use dem_grains::{GrainSystem, Wall};
 
 use crate::fields::displacements;
 use crate::highest_point::highest;
+use crate::level::level;
 use crate::model::Model;
 use crate::names::planes;
 use crate::origin::Origin;
@@ -17,7 +18,8 @@ pub fn unit(probe: &Probe) -> &'static str {
         Probe::Stress { .. } | Probe::EffectiveStress { .. } | Probe::Deviator { .. } => "Pa",
         Probe::Amplitude { .. } => "Pa",
         Probe::Pressure { over: None, .. } => "Pa",
-        Probe::Top {} | Probe::Settlement {} | Probe::Displacement { .. } => "m",
+        Probe::Top {} | Probe::Settlement {} => "m",
+        Probe::Level { .. } | Probe::Displacement { .. } => "m",
         _ => "",
     }
 }
@@ -75,6 +77,10 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
         Probe::Deviator { axis } => deviator(grains, axis.number()),
         Probe::Porosity { axis, from, to } => porosity(grains, axis.number(), *from, *to),
         Probe::Top {} => Some(highest(grains)),
+        Probe::Level { axis, from, to } => {
+            let room = scene.r#box.as_ref()?;
+            level(grains, [room.low, room.high], axis.number(), [*from, *to])
+        }
         Probe::Settlement {} => {
             let heights = displacements(grains, origin);
             let sum: f64 = heights.iter().map(|u| u[2]).sum();

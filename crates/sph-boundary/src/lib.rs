@@ -93,6 +93,7 @@ pub use geometry::wall_end::{FreeEnd, WallEnd};
 pub use geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
 pub use integrals::gamma::{Contact, GammaSum, Renormalisation2d, SegmentBatch, SegmentIntegral};
 pub use integrals::spatial::{FacetIntegral, GammaSum3d, Renormalisation3d, Weights};
+pub use rigid::bend::Bend;
 pub use rigid::course::{Course, SinePart, Stage};
 pub use rigid::load::{Load, MoverRefusal, MoverSetting, Touch};
 pub use rigid::motion::{RigidMotion, Rotation, Translation};

@@ -74,7 +74,9 @@ pub use scene_text::{
 };
 pub use tables::body::{Body, Cutout, Filling, Pressure};
 pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
-pub use tables::motion::{AngularRamp, AngularSine, Motion, Ramp, Rotation, Sine, Translate};
+pub use tables::motion::{
+    AngularRamp, AngularSine, Levels, Motion, Ramp, Rotation, Sine, Translate,
+};
 pub use tables::numerics::{Numerics, Periodic, PressureOf, ReferencePressure, Relax, Run};
 pub use tables::outlet::Outlet;
 pub use tables::output::Output;

@@ -2,6 +2,7 @@
 
 mod damping;
 mod displacement;
+mod levels;
 mod movers;
 mod moving_walls_3d;
 mod outlets;

@@ -6,7 +6,7 @@ use scene_text::{SceneProblem, suggestion};
 
 use super::add;
 use crate::names::planes;
-use crate::tables::{Probe, Reference, Scene};
+use crate::tables::{Axis, Probe, Reference, Scene};
 
 /// What is wrong with a probe.
 pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Vec<SceneProblem>) {
@@ -46,10 +46,13 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Vec<SceneProb
                 add(found, at("kind"), "needs a closed `[box]`");
             }
         }
+        Probe::Level { .. } if scene.r#box.is_none() => add(found, at("kind"), "needs a `[box]`"),
+        Probe::Level { axis: Axis::Z, .. } => add(found, at("axis"), "must be x or y"),
         _ => {}
     }
     if let Probe::Pressure { from, to, .. }
     | Probe::Gradient { from, to, .. }
+    | Probe::Level { from, to, .. }
     | Probe::Porosity { from, to, .. } = probe
         && from >= to
     {

@@ -83,6 +83,19 @@ pub enum Probe {
     },
     /// Highest point of a grain, m.
     Top {},
+    /// Mean height of the bed's surface in a strip, m: of the grains as seen from above, and of the floor between them. Water
+    /// of another scene follows it (`[wall.NAME.bed]` there).
+    Level {
+        /// Axis along which the strip is cut out, x or y.
+        #[serde(default)]
+        axis: Axis,
+        /// Its begin, m.
+        #[schemars(extend("unit" = "m"))]
+        from: f64,
+        /// Its end, m.
+        #[schemars(extend("unit" = "m"))]
+        to: f64,
+    },
     /// How much lower the mean height of the grains is than at the start, m.
     Settlement {},
     /// Share of the final dry strain that is reached, with `[oedometer]`.

@@ -128,7 +128,8 @@ impl WallMesh<2> for PlanarWalls {
         }
         let pieces = without_shared(&lines, &groups(walls), spacing)?;
         let (wall_of, lines): (Vec<usize>, Vec<Polyline>) = pieces.into_iter().unzip();
-        let mesh = SegmentMesh::build(&lines, spacing, domain)?;
+        let mut mesh = SegmentMesh::build(&lines, spacing, domain)?;
+        mesh.bend_by(wall_of.iter().map(|w| walls[*w].motion.clone()).collect());
         let names = walls.iter().map(|w| w.drawing.name().to_string()).collect();
         Ok(PlanarWalls {
             grid: OnceLock::new(),

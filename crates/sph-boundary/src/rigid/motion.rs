@@ -1,8 +1,10 @@
 //! Prescribed rigid motion of a wall.
 
+use std::sync::Arc;
+
 use sph_core::Vect;
 
-use crate::{Course, Movement, Pose, RigidState};
+use crate::{Bend, Course, Movement, Pose, RigidState, Stage};
 
 /// A translation along a direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +33,9 @@ pub struct RigidMotion<const D: usize = 2> {
     pub translations: Vec<Translation<D>>,
     /// Rotation.
     pub rotation: Option<Rotation<D>>,
+    /// What bends the wall; it counts its time from 0. It leaves the wall where translations and rotation put it, so have
+    /// one or the other.
+    pub bend: Option<Arc<Bend>>,
     /// Start, s; the courses count from here.
     pub start: f64,
     /// Stop, s.
@@ -42,6 +47,7 @@ impl<const D: usize> Default for RigidMotion<D> {
         RigidMotion {
             translations: Vec::new(),
             rotation: None,
+            bend: None,
             start: 0.0,
             stop: f64::INFINITY,
         }
@@ -65,6 +71,7 @@ impl<const D: usize> RigidMotion<D> {
         let shifts = |t: &Translation<D>| t.course.moves() && t.along != [0.0; D];
         self.translations.iter().any(shifts)
             || self.rotation.as_ref().is_some_and(|r| r.course.moves())
+            || self.bend.is_some()
     }
 
     /// Whether all its numbers are finite and its courses sound.
@@ -79,6 +86,7 @@ impl<const D: usize> RigidMotion<D> {
         };
         self.translations.iter().all(sound)
             && self.rotation.iter().all(turns)
+            && self.bend.iter().all(|b| D == 2 && b.is_sound())
             && self.start.is_finite()
             && !self.stop.is_nan()
     }
@@ -98,6 +106,9 @@ impl<const D: usize> RigidMotion<D> {
             ),
             None => Pose::default(),
         };
+        if self.bend.is_some() {
+            pose.moment = time;
+        }
         for shift in &self.translations {
             let s = shift.course.at(t).value;
             for k in 0..D {
@@ -136,7 +147,32 @@ impl<const D: usize> RigidMotion<D> {
 
     /// Velocity and acceleration of a point of the wall at its present position.
     pub fn movement(&self, point: [f64; D], time: f64) -> Movement<D> {
-        self.state(time).movement(point)
+        let mut movement = self.state(time).movement(point);
+        self.add_bending(&mut movement, point, time);
+        movement
+    }
+
+    /// Adds the rate and the acceleration of the bend at a point of the wall.
+    pub(crate) fn add_bending(&self, movement: &mut Movement<D>, point: [f64; D], time: f64) {
+        let bending = self.bending(point, time);
+        movement.velocity[D - 1] += bending.rate;
+        movement.acceleration[D - 1] += bending.acceleration;
+    }
+
+    fn bending(&self, point: [f64; D], time: f64) -> Stage {
+        let bend = self.bend.as_ref();
+        bend.map_or(Stage::default(), |b| b.at(point[0], time))
+    }
+
+    /// From where a place of the wall was drawn to where it is in a pose.
+    pub(crate) fn map(&self, pose: &Pose<D>) -> impl Fn([f64; D]) -> [f64; D] + use<D> {
+        let (bend, rigid, moment) = (self.bend.clone(), pose.map(), pose.moment);
+        move |mut x| {
+            if let Some(bend) = &bend {
+                x[D - 1] += bend.at(x[0], moment).value;
+            }
+            rigid(x)
+        }
     }
 }
 

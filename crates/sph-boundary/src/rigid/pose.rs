@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 
-/// x = c + R (X − c) + b, with X the reference position.
+/// x = c + R (X − c) + b, with X the reference position, lifted by the wall's [`Bend`](crate::Bend) at its moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<const D: usize = 2> {
     /// b, m.
@@ -11,6 +11,8 @@ pub struct Pose<const D: usize = 2> {
     pub rotation: [[f64; D]; D],
     /// c, in the reference position, m.
     pub centre: [f64; D],
+    /// The time at which the bend of the wall is taken, s; 0 for walls without one.
+    pub moment: f64,
 }
 
 impl<const D: usize> Default for Pose<D> {
@@ -19,6 +21,7 @@ impl<const D: usize> Default for Pose<D> {
             translation: [0.0; D],
             rotation: identity(),
             centre: [0.0; D],
+            moment: 0.0,
         }
     }
 }

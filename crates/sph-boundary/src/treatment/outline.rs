@@ -76,13 +76,23 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// Velocity and acceleration of the wall: its motion and the velocity of its surface.
     pub fn movement(&self, wall: usize, point: &Vect<D>) -> Movement<D> {
         let mut movement = self.states[wall].movement((*point).into());
-        movement.velocity += self.specs[wall].surface_velocity;
+        let spec = &self.specs[wall];
+        let moment = self.states[wall].pose.moment;
+        spec.motion
+            .add_bending(&mut movement, (*point).into(), moment);
+        movement.velocity += spec.surface_velocity;
         movement
     }
 
     /// From where a place of a wall was drawn to where it is.
     pub fn maps(&self) -> Vec<impl Fn([f64; D]) -> [f64; D] + use<D, M>> {
-        self.states.iter().map(|s| s.pose.map()).collect()
+        let walls = self.specs.iter().zip(&self.states);
+        walls.map(|(spec, s)| spec.motion.map(&s.pose)).collect()
+    }
+
+    /// Whether any wall changes its shape.
+    pub fn bends(&self) -> bool {
+        self.specs.iter().any(|s| s.motion.bend.is_some())
     }
 
     /// How far queries of the mesh may look, m.

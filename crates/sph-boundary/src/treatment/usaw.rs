@@ -122,11 +122,14 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     /// Positions, normals and movements of points and elements.
     fn place(&mut self, walls: &mut WallSet<D>) {
         let nodes: Vec<_> = self.outline.mesh.points().collect();
-        if walls.points.in_density() {
+        let bends = self.outline.bends();
+        if walls.points.in_density() || bends {
             // All anew: shares follow from the time alone, whatever places a wall has been to.
             for (v, node) in nodes.iter().enumerate() {
                 walls.points.share[v] = node.theta * node.size;
             }
+        }
+        if walls.points.in_density() {
             for (v, share) in self.outline.covered(&nodes) {
                 walls.points.share[v] = share;
             }
@@ -153,6 +156,9 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             elements.centre[s] = element.centre;
             elements.normal[s] = element.normal;
             elements.velocity[s] = movement.velocity;
+            if bends {
+                elements.measure[s] = element.measure;
+            }
             if let Some(acceleration) = elements.acceleration.get_mut(s) {
                 *acceleration = movement.acceleration;
             }

@@ -1,6 +1,8 @@
 //! Walls that move: where they are, how fast, and that γ is that of a wall drawn there.
 
-use sph_boundary::{Course, Polyline, RigidMotion, Rotation};
+use std::sync::Arc;
+
+use sph_boundary::{Bend, Course, Polyline, RigidMotion, Rotation};
 use sph_core::Vect;
 
 use crate::bench::{Bench, Random, fixed, wide};
@@ -123,4 +125,67 @@ fn a_belt_has_the_velocity_of_its_surface_and_stays() {
     let belt = Vect::<2>::new(1.5, 0.0);
     assert!(walls.points.velocity.iter().all(|u| *u == belt));
     assert!(walls.elements.velocity.iter().all(|u| *u == belt));
+}
+
+/// The block sheared upwards: its left end rises, its right end sinks.
+fn bent() -> RigidMotion {
+    RigidMotion {
+        bend: Some(Arc::new(Bend {
+            places: vec![-1.0, 1.0],
+            lifts: [0.06, -0.04].map(|speed| Course::Steady { speed }).into(),
+        })),
+        ..RigidMotion::default()
+    }
+}
+
+fn bending(name: &str, time: f64) -> Bench {
+    let mut spec = fixed(block());
+    spec.motion = bent();
+    let mut bench = Bench::new(name, &[spec], 0.5, wide(), around());
+    bench.world.time = time;
+    bench.wall.move_to(&mut bench.world.walls, time).unwrap();
+    bench.refresh();
+    bench
+}
+
+#[test]
+fn a_bent_wall_is_the_wall_drawn_so_with_its_angles_and_lengths() {
+    for time in [0.0, 0.7, 1.9] {
+        let mut shape = block();
+        let lift = |x: f64| time * (0.01 - 0.05 * x);
+        shape.points.iter_mut().for_each(|p| p[1] += lift(p[0]));
+        let drawn = Bench::new("usaw", &[fixed(shape)], 0.5, wide(), around());
+        let moved = bending("usaw", time);
+        let (a, b) = (&moved.world.walls, &drawn.world.walls);
+        assert!(farthest(&a.points.position, &b.points.position) < 1e-14);
+        assert!(farthest(&a.elements.centre, &b.elements.centre) < 1e-14);
+        assert!(farthest(&a.elements.normal, &b.elements.normal) < 1e-14);
+        let worst = |a: &[f64], b: &[f64]| {
+            let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+            apart.fold(0.0, f64::max)
+        };
+        let lengths = worst(&a.elements.measure, &b.elements.measure);
+        let shares = worst(&a.points.share, &b.points.share);
+        let gammas = worst(moved.gamma(), drawn.gamma());
+        let all = [lengths, shares, gammas];
+        assert!(
+            all.iter().all(|d| *d < 1e-13),
+            "t = {time}: lengths, shares, γ off by {all:?}"
+        );
+    }
+}
+
+#[test]
+fn the_velocity_of_a_bending_wall_is_the_rate_of_its_position() {
+    let step = 1e-3;
+    for name in ["usaw", "dummy-particles"] {
+        let at = |time: f64| bending(name, time).world.walls;
+        let (before, here, after) = (at(1.0 - step), at(1.0), at(1.0 + step));
+        let places = before.points.position.iter().zip(&after.points.position);
+        for ((a, b), velocity) in places.zip(&here.points.velocity) {
+            // Lifts are linear in time: nothing but rounding, 1e-15/1e-3.
+            let error = ((b - a) / (2.0 * step) - velocity).norm();
+            assert!(error < 1e-11, "{name}: {error:e}");
+        }
+    }
 }

@@ -1,8 +1,8 @@
 //! The motion of walls.
 
-use crate::Motion;
 use crate::checks::dimension::Dimension;
 use crate::checks::problems::Problems;
+use crate::{Levels, Motion};
 
 /// Checks the vectors, the times and the courses of a motion.
 pub(crate) fn check(motion: &Motion, of: Dimension, path: &str, found: &mut Problems) {
@@ -15,6 +15,9 @@ pub(crate) fn check(motion: &Motion, of: Dimension, path: &str, found: &mut Prob
             path,
             "the key `centre` is missing: centre of the rotation at the start",
         );
+    }
+    if let Some(levels) = &motion.levels {
+        check_levels(levels, motion, of, &format!("{path}.levels"), found);
     }
     if motion.stop.is_some_and(|stop| stop <= motion.start) {
         let message = format!("it must be later than the start at {} s", motion.start);
@@ -36,6 +39,30 @@ pub(crate) fn check(motion: &Motion, of: Dimension, path: &str, found: &mut Prob
             let message = "the rotation is given here and by `angular_velocity`: choose one";
             found.add(path, message);
         }
+    }
+}
+
+/// Levels stand alone, in the plane, one column for each of the places, which ascend.
+fn check_levels(levels: &Levels, rest: &Motion, of: Dimension, path: &str, found: &mut Problems) {
+    csv(&Some(levels.file.clone()), path, found);
+    if of.0 != 2 {
+        found.add(path, "walls follow levels in two dimensions only");
+    }
+    let turns = rest.rotate.is_some() || rest.angular_velocity != 0.0;
+    let shifts = rest.velocity.is_some() || !rest.translate.is_empty();
+    if turns || shifts || rest.start != 0.0 || rest.stop.is_some() {
+        let message = "a wall that follows levels has no other motion, start or stop";
+        found.add(path, message);
+    }
+    let (places, columns) = (levels.places.len(), levels.columns.len());
+    if places != columns {
+        let message = format!("{columns} columns for {places} places");
+        found.add(format!("{path}.columns"), message);
+    }
+    if let Some(k) = levels.places.windows(2).position(|p| p[0] >= p[1]) {
+        let (before, after) = (levels.places[k], levels.places[k + 1]);
+        let message = format!("places must ascend, {after} m follows {before} m");
+        found.add(format!("{path}.places"), message);
     }
 }
 

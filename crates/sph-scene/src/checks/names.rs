@@ -114,6 +114,10 @@ pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problem
             let path = motion.translate_path(&motion_path, k);
             motion.translate[k].path = located(&motion.translate[k].file, &path, source, found);
         }
+        if let Some(levels) = &mut motion.levels {
+            let path = format!("{motion_path}.levels");
+            levels.path = located(&Some(levels.file.clone()), &path, source, found);
+        }
         if let Some(rotate) = &mut motion.rotate {
             let path = format!("{motion_path}.rotate");
             rotate.path = located(&rotate.file, &path, source, found);

@@ -30,6 +30,8 @@ pub struct Motion {
     pub translate: Vec<Translate>,
     /// Rotation.
     pub rotate: Option<Rotation>,
+    /// Levels that the wall follows instead, place by place: a floor on a bed that settles. Two dimensions only.
+    pub levels: Option<Levels>,
     /// Time at which the motion starts, s.
     #[serde(default)]
     #[schemars(extend("unit" = "s", "minimum" = 0.0))]
@@ -37,6 +39,29 @@ pub struct Motion {
     /// Time at which the motion stops, s; never if left out.
     #[schemars(extend("unit" = "s", "minimum" = 0.0))]
     pub stop: Option<f64>,
+}
+
+/// Places of the wall are lifted by what a level has risen since the start, linear between places along x; courses of
+/// levels are smooth between the rows of the table, at rest before the first and after the last.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Levels {
+    /// A table with a column `time` (s) and one of levels (m) for each place, relative to the scene's folder: `series.csv` of a
+    /// run, for example.
+    pub file: String,
+    /// Where the levels were taken, ascending along x, m.
+    #[schemars(length(min = 1), extend("unit" = "m"))]
+    pub places: Vec<f64>,
+    /// The columns of these places.
+    #[schemars(length(min = 1))]
+    pub columns: Vec<String>,
+    /// Time of the table at which the run starts, s; the wall is drawn as it is then.
+    #[serde(default)]
+    #[schemars(extend("unit" = "s"))]
+    pub start: f64,
+    /// The file with its folder, set when the scene is read.
+    #[serde(skip)]
+    pub path: Option<PathBuf>,
 }
 
 /// Translation along a direction; exactly one of `speed`, `ramp`, `sine`, `table` and `file`.

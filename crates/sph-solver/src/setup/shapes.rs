@@ -1,13 +1,15 @@
 //! The scene's walls and bodies as geometry: files read, shapes drawn.
 
+use std::sync::Arc;
+
 use sph_boundary::{
-    BoundaryError, Condition, Course, Drawing, Polyline, RigidMotion, Rotation, Surface,
+    Bend, BoundaryError, Condition, Course, Drawing, Polyline, RigidMotion, Rotation, Surface,
     Translation, WallSpec, thin_plate,
 };
-use sph_core::Vect;
 use sph_core::plausible::Quantity;
+use sph_core::{Vect, suggestion};
 use sph_neighbours::Coulomb;
-use sph_scene::{Facets, FrictionForm, Line, Region, Scene};
+use sph_scene::{Facets, FrictionForm, Levels, Line, Region, Scene};
 
 use crate::failure::error::SolverError;
 
@@ -172,6 +174,9 @@ fn motion_of<const D: usize>(
     let Some(motion) = &wall.motion else {
         return Ok(RigidMotion::default());
     };
+    if let Some(levels) = &motion.levels {
+        return levels_of(levels, &format!("{place}.motion.levels"));
+    }
     let courses = motion.courses(&format!("{place}.motion"));
     let courses = courses.map_err(|problem| SolverError::Scene(vec![problem]))?;
     let course = |course: sph_scene::Course| match course {
@@ -204,7 +209,54 @@ fn motion_of<const D: usize>(
             axis: turning.axis,
             course: course(turning.course),
         }),
+        bend: None,
         start: courses.start,
         stop: courses.stop,
+    })
+}
+
+/// The bend of a wall that follows levels: at each place what they rose from the start of the run on.
+fn levels_of<const D: usize>(levels: &Levels, place: &str) -> Result<RigidMotion<D>, SolverError> {
+    let at = |key: &str, why: String| SolverError::at(format!("{place}.{key}"), why);
+    let Some(path) = &levels.path else {
+        return Err(at("file", "the table is missing".to_string()));
+    };
+    let table = sph_io::read_table(path).map_err(|e| at("file", e.to_string()))?;
+    let column = |key: &str, name: &str| {
+        let names = || table.columns.iter().map(|c| c.name.as_str());
+        let why = || {
+            format!(
+                "the table has no column `{name}`{}",
+                suggestion(name, names())
+            )
+        };
+        table.column(name).ok_or_else(|| at(key, why()))
+    };
+    let times = column("file", "time")?;
+    if times.last().is_none_or(|last| *last <= levels.start) {
+        let why = format!("the table has no row after {} s", levels.start);
+        return Err(at("start", why));
+    }
+    let mut lifts = Vec::with_capacity(levels.columns.len());
+    for name in &levels.columns {
+        let rows = times.iter().zip(column("columns", name)?);
+        let rows: Arc<[[f64; 2]]> = rows.map(|(t, z)| [t - levels.start, *z]).collect();
+        let whole = Course::Table { rows: rows.clone() };
+        if !whole.is_sound() {
+            let why = "it needs two rows at least, times that rise, and finite numbers";
+            return Err(at("file", why.to_string()));
+        }
+        // Where the wall is drawn is where the level is at the start of the run.
+        let begin = rows[0][1] + whole.at(0.0).value;
+        let later = rows.iter().filter(|row| row[0] > 0.0);
+        let rows = std::iter::once([0.0, begin]).chain(later.copied());
+        lifts.push(Course::Table {
+            rows: rows.collect(),
+        });
+    }
+    let places = levels.places.clone();
+    Ok(RigidMotion {
+        bend: Some(Arc::new(Bend { places, lifts })),
+        ..RigidMotion::default()
     })
 }

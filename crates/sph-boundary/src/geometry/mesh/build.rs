@@ -10,6 +10,7 @@ use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::Polyline;
 use crate::geometry::sides::Sides;
 use crate::geometry::wall_end::{FreeEnd, WallEnd};
+use crate::rigid::motion::RigidMotion;
 use crate::rigid::pose::Pose;
 
 /// Two segments folded onto each other within this angle leave the fluid all around their vertex.
@@ -55,6 +56,7 @@ impl SegmentMesh {
             domain: *domain,
             reference: Vec::new(),
             poses: vec![Pose::default(); polylines.len()],
+            motions: vec![RigidMotion::default(); polylines.len()],
             sides: Sides::default(),
         };
         let first_vertices = first_vertices(polylines, &joints, spacing);
@@ -173,6 +175,11 @@ impl SegmentMesh {
             self.vertices[segment.vertices[0]].next = Some(s);
             self.vertices[segment.vertices[1]].previous = Some(s);
         }
+        self.find_angles();
+    }
+
+    /// Fluid angles of the vertices, and the segments' shares of them.
+    pub(super) fn find_angles(&mut self) {
         for vertex in &mut self.vertices {
             if let (Some(previous), Some(next)) = (vertex.previous, vertex.next) {
                 vertex.theta = fluid_angle(

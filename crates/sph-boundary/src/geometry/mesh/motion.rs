@@ -3,13 +3,19 @@
 use super::segment_mesh::SegmentMesh;
 use crate::error::BoundaryError;
 use crate::geometry::sides::Sides;
+use crate::rigid::motion::RigidMotion;
 use crate::rigid::pose::Pose;
 
 impl SegmentMesh {
+    /// Says how the walls move, one motion per wall; only a bend matters to the mesh.
+    pub(crate) fn bend_by(&mut self, motions: Vec<RigidMotion<2>>) {
+        self.motions = motions;
+    }
+
     /// Moves every wall to its pose, one per wall, given with respect to the reference position.
     ///
-    /// Positions never accumulate rounding: they are computed from the reference. Fluid angles do
-    /// not change. Walls whose pose is unchanged cost nothing. A [`SegmentGrid`](crate::SegmentGrid)
+    /// Positions never accumulate rounding: they are computed from the reference. Fluid angles change only where walls
+    /// bend. Walls whose pose is unchanged cost nothing. A [`SegmentGrid`](crate::SegmentGrid)
     /// must be built again afterwards.
     ///
     /// # Errors
@@ -29,7 +35,8 @@ impl SegmentMesh {
             return Ok(());
         }
         self.sides = Sides::default();
-        let maps: Vec<_> = poses.iter().map(Pose::map).collect();
+        let walls = self.motions.iter().zip(poses);
+        let maps: Vec<_> = walls.map(|(motion, pose)| motion.map(pose)).collect();
         for (vertex, reference) in self.vertices.iter_mut().zip(&self.reference) {
             if moved[vertex.wall] {
                 vertex.position = maps[vertex.wall](*reference);
@@ -39,6 +46,9 @@ impl SegmentMesh {
             if moved[self.segments[segment].wall] {
                 self.measure(segment);
             }
+        }
+        if self.motions.iter().any(|motion| motion.bend.is_some()) {
+            self.find_angles();
         }
         for free in &mut self.free_ends {
             free.position = self.vertices[free.vertex].position;

@@ -4,6 +4,7 @@ use crate::error::WallWarning;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::sides::Sides;
 use crate::geometry::wall_end::FreeEnd;
+use crate::rigid::motion::RigidMotion;
 use crate::rigid::pose::Pose;
 
 /// A node of the wall.
@@ -80,6 +81,8 @@ pub struct SegmentMesh {
     /// Positions of the vertices before any motion, m.
     pub(super) reference: Vec<[f64; 2]>,
     pub(super) poses: Vec<Pose>,
+    /// How each wall moves.
+    pub(super) motions: Vec<RigidMotion<2>>,
     pub(crate) sides: Sides,
 }
 

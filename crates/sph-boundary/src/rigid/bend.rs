@@ -1,0 +1,79 @@
+//! Walls that change their shape: places along x that are lifted.
+
+use crate::rigid::course::{Course, Stage};
+
+/// A lift along y, linear between places along x and constant beyond the first and the last: a floor that follows the
+/// level of a bed. In the plane only.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bend {
+    /// Places along x where the wall is drawn, ascending, m.
+    pub places: Vec<f64>,
+    /// The lift at each place over time, m.
+    pub lifts: Vec<Course>,
+}
+
+impl Bend {
+    /// Lift (m), its rate and its acceleration at a place (m) and a time (s).
+    #[must_use]
+    pub fn at(&self, x: f64, time: f64) -> Stage {
+        let after = self.places.partition_point(|p| *p <= x);
+        let (next, before) = (after.min(self.places.len() - 1), after.saturating_sub(1));
+        let here = self.lifts[before].at(time);
+        if next == before {
+            return here;
+        }
+        let there = self.lifts[next].at(time);
+        let [from, to] = [self.places[before], self.places[next]];
+        let share = ((x - from) / (to - from)).max(0.0);
+        let between = |a: f64, b: f64| a + share * (b - a);
+        Stage {
+            value: between(here.value, there.value),
+            rate: between(here.rate, there.rate),
+            acceleration: between(here.acceleration, there.acceleration),
+        }
+    }
+
+    /// Whether it is one: as many lifts as places, which ascend.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let places = &self.places;
+        !places.is_empty()
+            && places.len() == self.lifts.len()
+            && places.iter().all(|x| x.is_finite())
+            && places.windows(2).all(|p| p[0] < p[1])
+            && self.lifts.iter().all(Course::is_sound)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lift_is_linear_between_places_and_keeps_what_it_has_beyond() {
+        let bend = Bend {
+            places: vec![1.0, 2.0, 4.0],
+            lifts: [1.0, 3.0, -1.0]
+                .map(|speed| Course::Steady { speed })
+                .into(),
+        };
+        assert!(bend.is_sound());
+        for (x, rate) in [
+            (0.0, 1.0),
+            (1.0, 1.0),
+            (1.5, 2.0),
+            (2.0, 3.0),
+            (3.5, 0.0),
+            (4.0, -1.0),
+            (9.0, -1.0),
+        ] {
+            let stage = bend.at(x, 0.5);
+            assert_eq!([stage.value, stage.rate], [0.5 * rate, rate], "at {x} m");
+        }
+        let none = Bend {
+            places: Vec::new(),
+            lifts: Vec::new(),
+        };
+        assert!(!none.is_sound());
+    }
+}
