@@ -24,7 +24,7 @@ pub struct Inside<const D: usize> {
     pub wet: bool,
     /// Pressure at the element, over that of the reference density, Pa.
     pub pressure: f64,
-    /// Velocity, m/s.
+    /// Velocity, m/s; of what little there is, where it is not wet.
     pub velocity: Vect<D>,
     /// ρc, kg/(m² s).
     pub impedance: f64,

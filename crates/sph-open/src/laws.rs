@@ -26,15 +26,22 @@ pub(crate) fn imposed_velocity<const D: usize>(place: &Place<D>, normal: f64) ->
 
 /// What a pressure that is imposed makes of the velocity: the characteristic that leaves the fluid carries p − ρc u_n to
 /// the face (u_n inwards).
+///
+/// Above a surface there is no pressure, and the element goes with the water below it: one at rest would be a wall to
+/// those that see it, all within a support of the surface.
 pub(crate) fn imposed_pressure<const D: usize>(
     place: &Place<D>,
     inside: &Inside<D>,
     pressure: f64,
 ) -> Outside<D> {
-    if !inside.wet {
-        return Outside::dry();
-    }
     let within = inside.velocity.dot(&place.normal);
+    if !inside.wet {
+        return Outside {
+            velocity: inside.velocity - place.normal * within.max(0.0),
+            pressure: 0.0,
+            imposed: false,
+        };
+    }
     let normal = within + (pressure - inside.pressure) / inside.impedance;
     Outside {
         velocity: passing(place, inside, normal),
