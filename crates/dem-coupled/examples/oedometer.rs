@@ -54,7 +54,8 @@ fn main() -> Result<(), Failure> {
         .side(4, drained())
         .side(5, drained());
     let mut system = CoupledSystem::new(grains, setup)?;
-    let coefficient = system.mobility(2)? * load / strain;
+    let mobility = system.mobility(2)?;
+    let coefficient = mobility * load / strain;
     let count = system.grains().grains().len();
     let diameter = 2.0 * system.grains().grains().radii().iter().sum::<f64>() / count as f64;
     let plain = Terzaghi {
@@ -72,6 +73,7 @@ fn main() -> Result<(), Failure> {
     println!(
         "# T_v, p/load in the middle, U, Terzaghi p, U, with L - 1.2 d_50 p, U, steps, meshes"
     );
+    let mut settled = Vec::new();
     for factor in [
         0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.5, 2.0,
     ] {
@@ -82,6 +84,7 @@ fn main() -> Result<(), Failure> {
             .layer_pressure(2, middle - 0.5 * diameter, middle + 0.5 * diameter)
             .unwrap_or(f64::NAN);
         let u = (high - height(system.grains())) / high / strain;
+        settled.push((time, u));
         print!("{factor:.2} {:.4} {u:.4}", p / load);
         for theory in [plain, short] {
             print!(
@@ -92,5 +95,40 @@ fn main() -> Result<(), Failure> {
         }
         println!("  {} {}", system.grains().steps(), system.meshes());
     }
+    at_last(&mut system, [mobility, load, strain, high], short, &settled)
+}
+
+/// What large strains leave (Catalano 2012, §4.4.2): permeability, modulus, and which C_v tells U better from T_v = 0.1 to 1.
+fn at_last(
+    system: &mut CoupledSystem,
+    [mobility, load, strain, high]: [f64; 4],
+    first: Terzaghi,
+    settled: &[(f64, f64)],
+) -> Result<(), Failure> {
+    let now = height(system.grains());
+    let (wet, after) = ((high - now) / high, system.mobility(2)?);
+    let last = Terzaghi {
+        coefficient: after * load / wet,
+        drainage: first.drainage - 0.5 * (high - now),
+    };
+    let error = |theory: &Terzaghi| {
+        let range = first.time(0.1) * 0.999..first.time(1.0) * 1.001;
+        let inside = settled.iter().filter(|(t, _)| range.contains(t));
+        let squares: Vec<f64> = inside
+            .map(|(t, u)| (u - theory.consolidation(*t)).powi(2))
+            .collect();
+        (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+    };
+    println!(
+        "# at last: strain {wet:.3e} (dry {strain:.3e}), K {mobility:.3e} to {after:.3e} m2/(Pa s), {:+.1} %, C_v {:.4} to {:.4}",
+        1e2 * (after / mobility - 1.0),
+        first.coefficient,
+        last.coefficient
+    );
+    println!(
+        "# RMS of U, T_v = 0.1 to 1: {:.4} with the first C_v, {:.4} with the last",
+        error(&first),
+        error(&last)
+    );
     Ok(())
 }

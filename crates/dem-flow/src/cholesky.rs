@@ -3,7 +3,7 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
@@ -11,11 +11,14 @@ use faer::{Conj, Mat, Par, Side, Spec};
 
 use crate::FlowError;
 use crate::matrix::Matrix;
+use crate::substitution;
 
 /// A = L Lᵀ. One thread: the same bits with any number of them.
 pub struct Cholesky {
     symbolic: SymbolicCholesky<u32>,
     factor: Vec<f64>,
+    /// Memory of a solve: the unknowns in the order of elimination, and what supernodes sum.
+    room: [Vec<f64>; 2],
     stack: MemBuffer,
 }
 
@@ -44,6 +47,7 @@ impl Cholesky {
         Ok(Self {
             symbolic,
             factor,
+            room: Default::default(),
             stack: MemBuffer::try_new(room).map_err(|_| no_memory())?,
         })
     }
@@ -65,6 +69,16 @@ impl Cholesky {
     }
 
     pub fn solve(&mut self, right: &[f64]) -> Vec<f64> {
+        if let (SymbolicCholeskyRaw::Supernodal(nodes), Some(order)) =
+            (self.symbolic.raw(), self.symbolic.perm())
+        {
+            let (from, to) = order.arrays();
+            let [x, sums] = &mut self.room;
+            x.clear();
+            x.extend(from.iter().map(|i| right[*i as usize]));
+            substitution::solve(nodes, &self.factor, x, sums);
+            return to.iter().map(|i| x[*i as usize]).collect();
+        }
         let mut dense = Mat::from_fn(right.len(), 1, |r, _| right[r]);
         let factor = LltRef::new(&self.symbolic, &self.factor);
         let stack = MemStack::new(&mut self.stack);

@@ -47,8 +47,10 @@ mod inscribed;
 mod matrix;
 mod registry;
 mod solid_angle;
+mod substitution;
 mod system;
 mod throat;
+mod vertex_cover;
 mod volume;
 
 pub use boundary::Boundary;

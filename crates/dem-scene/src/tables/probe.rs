@@ -84,7 +84,7 @@ pub enum Probe {
     /// Highest point of a grain, m.
     Top {},
     /// Mean height of the bed's surface in a strip, m: of the grains as seen from above, and of the floor between them. Water
-    /// of another scene follows it (`[wall.NAME.bed]` there).
+    /// of another scene follows it (`[wall.NAME.motion.levels]` there).
     Level {
         /// Axis along which the strip is cut out, x or y.
         #[serde(default)]
