@@ -54,8 +54,8 @@ impl<'a> Node<'a> {
             let columns: [_; TOGETHER] = std::array::from_fn(|k| self.column(j + k).1);
             add_all(columns, std::array::from_fn(|k| own[j + k]), sums);
         }
-        for j in whole..self.width {
-            add(self.column(j).1, own[j], sums);
+        for (j, known) in own.iter().enumerate().skip(whole) {
+            add(self.column(j).1, *known, sums);
         }
         for (row, sum) in self.below.iter().zip(sums) {
             x[*row as usize] -= *sum;
@@ -75,9 +75,9 @@ impl<'a> Node<'a> {
             let products = products(columns, known);
             own[j..].iter_mut().zip(products).for_each(|(y, p)| *y -= p);
         }
-        for j in whole..self.width {
+        for (j, value) in own.iter_mut().enumerate().skip(whole) {
             let [product] = products([self.column(j).1], known);
-            own[j] -= product;
+            *value -= product;
         }
         for j in (0..self.width).rev() {
             let (triangle, _) = self.column(j);
