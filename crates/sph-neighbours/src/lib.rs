@@ -74,7 +74,7 @@ pub use moment::trusted_inverse;
 pub use packed::{Packed, pack};
 pub use reaction::{cross, wall_forces, wall_parts};
 pub use row::{NOBODY, Neighbourhood, Row, Scratch, There};
-pub use shared_rows::{SharedRows, inner};
+pub use shared_rows::{SharedElements, SharedRows, inner};
 pub use shares::{TermShare, shares_at};
 pub use sight::Sight;
 pub use sph_lanes::{Lane, MOST, add_scaled, dot, scaled};

@@ -7,7 +7,8 @@ use crate::packed::{Packed, pack};
 use crate::row::Row;
 use crate::term::Rates;
 use crate::{
-    ContactBlock, ContactRow, Interaction, NOBODY, Neighbourhood, Scratch, WallForce, World,
+    ContactBlock, ContactRow, Interaction, NOBODY, Neighbourhood, Scratch, SharedElements,
+    WallForce, World,
 };
 
 /// r × f; the third component alone in two dimensions.
@@ -81,25 +82,8 @@ pub fn wall_forces<const D: usize>(
 /// Force and moment of the pressure on the elements of a wall.
 fn pressure_on<const D: usize>(world: &World<D>, wall: u32) -> Result<[f64; 6], StepError> {
     let elements = &world.walls.elements;
-    let own = world.team.as_ref().map(|team| team.own(&world.free));
-    let identity = world.free.get(fields::IDENTITY).ok();
-    let position = world.free.get(fields::POSITION)?;
-    let support = world.kernel.support_radius().powi(2);
-    // Of several ranks the one adds an element that has the first particle within its mean: it has all of them.
-    let counts = |s: usize| {
-        let (Some(own), Some(identity)) = (&own, identity) else {
-            return true;
-        };
-        let near = |j: &usize| {
-            let apart = world
-                .domain
-                .nearest_image(position[*j] - elements.centre[s]);
-            apart.norm_squared() < support
-        };
-        let around = world.lists.of_elements.candidates(s).iter();
-        let first = around.map(|j| *j as usize).filter(near);
-        first.min_by_key(|j| identity[*j]).is_some_and(|j| own[j])
-    };
+    let shared = SharedElements::of(world)?;
+    let counts = |s: usize| shared.as_ref().is_none_or(|shared| shared.own(s));
     let part = |s: usize| {
         let force = elements.normal[s] * (-elements.pressure[s] * elements.measure[s]);
         let mut both = [0.0; 6];

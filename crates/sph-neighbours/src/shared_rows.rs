@@ -1,9 +1,9 @@
-//! Rows of systems that are divided between ranks.
+//! Rows of systems, and elements of walls, that are divided between ranks.
 
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use sph_core::Vect;
+use sph_core::{FieldError, Vect, fields};
 
 use crate::{Team, World};
 
@@ -47,4 +47,47 @@ pub fn inner<const C: usize>(x: &[Vect<C>], y: &[Vect<C>], own: &[bool]) -> f64 
     });
     let parts: Vec<f64> = parts.collect();
     parts.iter().sum()
+}
+
+/// Which elements of walls are one's own: those whose mean over the fluid has the particle of the lowest number at home here.
+/// All others in the mean are then here too, or copies of them.
+pub struct SharedElements<'a, const D: usize> {
+    world: &'a World<D>,
+    own: Vec<bool>,
+    identity: &'a [u32],
+    position: &'a [Vect<D>],
+}
+
+impl<'a, const D: usize> SharedElements<'a, D> {
+    /// Those of a world with lists; none where all particles are here.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn of(world: &'a World<D>) -> Result<Option<Self>, FieldError> {
+        let Some(team) = &world.team else {
+            return Ok(None);
+        };
+        Ok(Some(SharedElements {
+            world,
+            own: team.own(&world.free),
+            identity: world.free.get(fields::IDENTITY)?,
+            position: world.free.get(fields::POSITION)?,
+        }))
+    }
+
+    /// Whether an element is one's own; nobody's, where no particle is within a support of it.
+    pub fn own(&self, element: usize) -> bool {
+        let world = self.world;
+        let support = world.kernel.support_radius().powi(2);
+        let centre = &world.walls.elements.centre[element];
+        let near = |j: &usize| {
+            let apart = world.domain.nearest_image(self.position[*j] - centre);
+            apart.norm_squared() < support
+        };
+        let around = world.lists.of_elements.candidates(element).iter();
+        let first = around.map(|j| *j as usize).filter(near);
+        first
+            .min_by_key(|j| self.identity[*j])
+            .is_some_and(|j| self.own[j])
+    }
 }

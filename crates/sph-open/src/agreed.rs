@@ -1,7 +1,7 @@
 //! What is in front of faces, where the particles are divided between ranks: all know all of it, and let the same pass.
 
-use sph_core::{StepError, Vect, fields};
-use sph_neighbours::World;
+use sph_core::{StepError, Vect};
+use sph_neighbours::{SharedElements, World};
 
 use crate::Inside;
 use crate::faces::Faces;
@@ -48,36 +48,16 @@ impl<const D: usize> Looked<D> {
 }
 
 impl<const D: usize> Faces<D> {
-    /// The means of all ranks. Each element is looked at where the particle of the lowest number before it is at home: there are
-    /// all others before it, or copies of them.
+    /// The means of all ranks. Each [element](SharedElements) is looked at on one.
     pub(crate) fn agreed(
         &self,
         world: &World<D>,
         looked: Vec<Looked<D>>,
     ) -> Result<Vec<Looked<D>>, StepError> {
-        let Some(team) = &world.team else {
+        let (Some(team), Some(shared)) = (&world.team, SharedElements::of(world)?) else {
             return Ok(looked);
         };
-        let own = team.own(&world.free);
-        let (position, identity) = (
-            world.free.get(fields::POSITION)?,
-            world.free.get(fields::IDENTITY)?,
-        );
-        let support = world.kernel.support_radius().powi(2);
-        let looks = |k: usize| {
-            let near = |j: &usize| {
-                let apart = world
-                    .domain
-                    .nearest_image(self.places[k].centre - position[*j]);
-                apart.norm_squared() < support
-            };
-            let around = world
-                .lists
-                .of_elements
-                .candidates(self.elements[k] as usize);
-            let around = around.iter().map(|j| *j as usize).filter(near);
-            around.min_by_key(|j| identity[*j]).is_some_and(|j| own[j])
-        };
+        let looks = |k: usize| shared.own(self.elements[k] as usize);
         let each = 7 + 3 * D + self.whole.len();
         let mut words = Vec::new();
         for (k, seen) in looked.iter().enumerate().filter(|(k, _)| looks(*k)) {
