@@ -42,7 +42,7 @@ fn last(series: &str, name: &str) -> f64 {
     let head = rows.next().expect("a head");
     let place = head.into_iter().position(|c| c.starts_with(name));
     let place = place.unwrap_or_else(|| panic!("no column {name}"));
-    let value = rows.last().and_then(|mut row| row.nth(place));
+    let value = rows.next_back().and_then(|mut row| row.nth(place));
     value.and_then(|v| v.parse().ok()).expect("a number")
 }
 
