@@ -33,7 +33,7 @@ fn array<'py>(py: Python<'py>, field: FieldData<'static>) -> PyResult<Bound<'py,
 /// A VTU file of a run: `time`, `points`, `point_data`, `cell_data` (arrays with units) and `cells`.
 #[pyfunction]
 pub fn read_vtu(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
-    let read = py.detach(|| sph_io::read_vtu(&path));
+    let read = py.detach(|| sph_io::read_piece(&path));
     let (piece, time) = read.map_err(|e| errors::file(py, &e))?;
     let all = PyDict::new(py);
     all.set_item("name", piece.name.as_ref())?;

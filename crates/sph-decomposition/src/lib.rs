@@ -16,6 +16,7 @@ mod cuts;
 mod error;
 mod exchange;
 mod gather;
+mod gather_walls;
 mod guests;
 mod halo;
 mod link;

@@ -45,15 +45,14 @@ pub struct Parts<const D: usize> {
 }
 
 impl<const D: usize> Parts<D> {
-    /// Leaves a rank its part of a flow that every rank holds as a whole; `rings` is how often a stage goes from particles to
-    /// their neighbours. The lists must have been built; they are built anew for
-    /// the same positions.
+    /// Leaves a rank its part of the particles, which every rank holds as a whole; `rings` is how often a stage goes from particles
+    /// to their neighbours. The places of the lists must be known; lists are built for the part alone. All particles are taken
+    /// to cost the same: the parts are looked at when lists are built next.
     ///
     /// # Errors
     /// More ranks than particles; a column that is missing.
     pub fn divide(
         world: &mut World<D>,
-        costs: &[f64],
         rings: usize,
         transport: Arc<dyn Transport>,
     ) -> Result<Self, PartError> {
@@ -64,7 +63,7 @@ impl<const D: usize> Parts<D> {
             return Err(crate::DecompositionError::TooManyRanks { ranks, particles }.into());
         }
         let cuts = match Thread::team(1).first() {
-            Some(alone) => Cuts::of(&reference, costs, ranks, alone)?,
+            Some(alone) => Cuts::of(&reference, &vec![1.0; particles], ranks, alone)?,
             None => return Err(crate::DecompositionError::NoRanks.into()),
         };
         let owners: Vec<u32> = reference.iter().map(|x| cuts.owner(x)).collect();
@@ -94,7 +93,7 @@ impl<const D: usize> Parts<D> {
             link,
             cuts,
             changes: [0; 2],
-            builds: 0,
+            builds: BUILDS_TO_LOOK - 1,
         };
         parts.know_guests(&world.free, sends)?;
         Ok(parts)

@@ -52,7 +52,7 @@ impl Frames {
         entries.sort_by(|a, b| a.time.total_cmp(&b.time));
         let first = entries.first();
         let first = first.ok_or_else(|| DrawError::NoFrames(folder.to_path_buf()))?;
-        let (piece, _) = sph_io::read_vtu(&first.particles)?;
+        let (piece, _) = sph_io::read_piece(&first.particles)?;
         let spacing = spacing(&piece.points);
         Ok(Frames { entries, spacing })
     }
@@ -83,9 +83,9 @@ impl Frames {
     /// # Errors
     /// A file that cannot be read.
     pub fn read(&self, entry: &Entry) -> Result<Snapshot, DrawError> {
-        let (piece, time) = sph_io::read_vtu(&entry.particles)?;
+        let (piece, time) = sph_io::read_piece(&entry.particles)?;
         let walls = match &entry.walls {
-            Some(path) => drawn(&sph_io::read_vtu(path)?.0, self.spacing),
+            Some(path) => drawn(&sph_io::read_piece(path)?.0, self.spacing),
             None => Vec::new(),
         };
         Ok(Snapshot::new(piece, time, walls, self.spacing))

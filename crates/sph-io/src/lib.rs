@@ -6,7 +6,7 @@
 //!
 //! | subject | write | read |
 //! |---|---|---|
-//! | fields for ParaView | [`PvdSeries`], [`write_vtu`] from a [`Frame`] of [`Piece`]s | [`read_vtu`], [`list_pvd`]; ParaView, VTK |
+//! | fields for ParaView | [`PvdSeries`], [`write_vtu`] from a [`Frame`] of [`Piece`]s | [`read_piece`], [`list_pvd`]; ParaView, VTK |
 //! | tables | [`write_table`] | [`read_table`], [`read_columns`] |
 //! | time series | [`SeriesWriter`] | [`read_table`], [`read_columns`] |
 //! | restart | [`Checkpoint::save`] | [`Checkpoint::load`] |
@@ -65,6 +65,7 @@ pub use files::summary::write_json;
 pub use files::table::{Table, TableColumn, read_columns, read_table};
 pub use paraview::frame::{Cells, FieldData, FieldValues, Frame, Location, Piece};
 pub use paraview::pvd::{Listed, PvdSeries, list_pvd};
+pub use paraview::pvtu::{read_piece, write_share};
 pub use paraview::vtu::write_vtu;
 pub use paraview::vtu_read::read_vtu;
 pub use paraview::xml::escape;

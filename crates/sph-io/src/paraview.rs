@@ -2,6 +2,7 @@
 
 pub mod frame;
 pub mod pvd;
+pub mod pvtu;
 pub mod vtu;
 pub mod vtu_read;
 pub mod xml;

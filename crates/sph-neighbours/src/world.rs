@@ -142,6 +142,21 @@ impl<const D: usize> World<D> {
         Ok(())
     }
 
+    /// Puts the particles into the order of lists at their places, without building these: for whoever gives most of them away.
+    ///
+    /// # Errors
+    /// If there is no position column.
+    pub fn sort(&mut self) -> Result<(), FieldError> {
+        self.wrap()?;
+        if let Some(order) = self.order()? {
+            self.free.permute(&order);
+        }
+        let places = self.free.get(fields::POSITION)?.to_vec();
+        let points = self.walls.points.position.clone();
+        self.lists_would_be_of(places, points, self.time);
+        Ok(())
+    }
+
     /// Moves particles into the box along its periodic axes.
     ///
     /// # Errors
@@ -243,62 +258,6 @@ impl<const D: usize> World<D> {
         lists.reference = positions;
         lists.time = time;
         lists.builds += 1;
-    }
-
-    /// Mean number of neighbours within the support, wall points included.
-    ///
-    /// # Errors
-    /// If there is no position column.
-    pub fn mean_neighbours(&self) -> Result<f64, FieldError> {
-        let positions = self.free.get(fields::POSITION)?;
-        let limit = self.kernel.support_radius().powi(2);
-        let near =
-            |a: &Vect<D>, b: &Vect<D>| self.domain.nearest_image(a - b).norm_squared() < limit;
-        let points = &self.walls.points.position;
-        let count = |i: usize| {
-            let x = &positions[i];
-            let free = self.lists.free.candidates(i).iter();
-            let free = free.filter(|&&j| j as usize != i && near(x, &positions[j as usize]));
-            let wall = match self.walls.points.in_sums() {
-                false => &[][..],
-                true => self.lists.wall.row(i),
-            };
-            free.count()
-                + wall
-                    .iter()
-                    .filter(|&&v| near(x, &points[v as usize]))
-                    .count()
-        };
-        let total: usize = (0..positions.len())
-            .into_par_iter()
-            .with_min_len(256)
-            .map(count)
-            .sum();
-        Ok(total as f64 / positions.len().max(1) as f64)
-    }
-
-    /// Least and mean distance of a free particle to the free one nearest to it, m, of those that have one
-    /// within the support.
-    ///
-    /// # Errors
-    /// If there is no position column.
-    pub fn nearest(&self) -> Result<[f64; 2], FieldError> {
-        let positions = self.free.get(fields::POSITION)?;
-        let limit = self.kernel.support_radius();
-        let nearest = |(i, x): (usize, &Vect<D>)| {
-            let others = self.lists.free.candidates(i).iter();
-            let distance = others
-                .filter(|&&j| j as usize != i)
-                .map(|&j| self.domain.nearest_image(x - positions[j as usize]).norm())
-                .fold(f64::INFINITY, f64::min);
-            (distance < limit).then_some(distance)
-        };
-        let all: Vec<f64> = positions.iter().enumerate().filter_map(nearest).collect();
-        let least = all.iter().copied().fold(f64::INFINITY, f64::min);
-        match all.is_empty() {
-            true => Ok([0.0; 2]),
-            false => Ok([least, all.iter().sum::<f64>() / all.len() as f64]),
-        }
     }
 
     /// Drops the lists that hold at the positions of before.

@@ -15,6 +15,7 @@ pub(crate) mod next_step;
 pub(crate) mod on_threads;
 pub(crate) mod options;
 pub(crate) mod output;
+pub(crate) mod pieces;
 pub(crate) mod ranked;
 pub(crate) mod ready;
 pub(crate) mod run;

@@ -25,6 +25,7 @@ pub(crate) mod relax;
 pub(crate) mod relaxation;
 pub(crate) mod room;
 pub(crate) mod shapes;
+pub(crate) mod share;
 pub(crate) mod soil_remarks;
 pub(crate) mod sound;
 pub(crate) mod start;

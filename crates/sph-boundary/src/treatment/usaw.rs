@@ -180,8 +180,14 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         false
     }
 
-    /// Finds γ and contacts of all particles of the near lists, a block per batch.
-    fn find(&mut self, positions: &[Vect<D>], blocks: &mut Vec<ContactBlock<D>>) {
+    /// Finds γ and contacts of all particles of the near lists, a block per batch; none of those that are `idle`, whose sums
+    /// nobody asks for.
+    fn find(
+        &mut self,
+        positions: &[Vect<D>],
+        idle: Option<&[bool]>,
+        blocks: &mut Vec<ContactBlock<D>>,
+    ) {
         let (near, mesh, integrals) = (&self.near, &self.outline.mesh, &self.integrals);
         let batches = near.particles.par_chunks(BATCH);
         self.found.resize_with(batches.len(), Found::default);
@@ -190,17 +196,24 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         all.enumerate().for_each(|(b, ((found, contacts), batch))| {
             found.clear();
             contacts.clear();
-            let all = batch
-                .iter()
-                .enumerate()
-                .map(|(k, &particle)| (&positions[particle as usize], near.row(b * BATCH + k)));
+            let is_idle = |particle: u32| idle.is_some_and(|idle| idle[particle as usize]);
+            let elements = |k: usize, particle| match is_idle(particle) {
+                true => &[],
+                false => near.row(b * BATCH + k),
+            };
+            let all = batch.iter().enumerate();
+            let all = all.map(|(k, &p)| (&positions[p as usize], elements(k, p)));
             let Found { gamma, room, .. } = found;
             mesh.gammas(integrals, all, room, contacts, gamma);
             let mut from = 0;
-            for (_, end) in &*gamma {
+            for ((_, end), particle) in gamma.iter().zip(batch) {
                 let own = contacts.row(from..*end);
                 let heights = own.distances().filter(|d| *d > 0.0);
-                found.clearance.push(heights.fold(f64::INFINITY, f64::min));
+                // Of whom nothing was found nothing is known.
+                found.clearance.push(match is_idle(*particle) {
+                    true => 0.0,
+                    false => heights.fold(f64::INFINITY, f64::min),
+                });
                 from = *end;
             }
         });
@@ -275,7 +288,8 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         let positions = world.free.get(fields::POSITION)?;
         let contacts = &mut world.walls.contacts;
         let mut blocks = contacts.take_blocks(positions.len());
-        set_up.find(positions, &mut blocks);
+        let idle = world.team.as_ref().and_then(|team| team.idle(&world.free));
+        set_up.find(positions, idle.as_deref(), &mut blocks);
         contacts.put_blocks(blocks);
         let batches = set_up.near.particles.chunks(BATCH).zip(&set_up.found);
         for (b, (batch, found)) in batches.enumerate() {

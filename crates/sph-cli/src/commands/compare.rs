@@ -114,7 +114,8 @@ impl Comparison {
                 continue;
             };
             common += 1;
-            let [a, b] = [&one.path, &twin.path].map(|p| sph_io::read_vtu(p).map(Table::of_piece));
+            let [a, b] =
+                [&one.path, &twin.path].map(|p| sph_io::read_piece(p).map(Table::of_piece));
             let (columns, told) = differences(&format!("fields of {}", one.name), &a?, &b?);
             for remark in told {
                 match remarks.iter_mut().find(|(known, ..)| *known == remark) {

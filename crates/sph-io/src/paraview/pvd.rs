@@ -13,6 +13,7 @@ use crate::error::{IoError, Result};
 use crate::files::atomic::{Durability, write_atomic};
 use crate::files::folder::writable;
 use crate::paraview::frame::Frame;
+use crate::paraview::pvtu::{file_name, write_pvtu, write_share};
 use crate::paraview::vtu::write_vtu;
 use crate::paraview::xml::{attributes, escape};
 
@@ -105,7 +106,19 @@ impl PvdSeries {
     /// Writes the pieces of `frame`, lists them, and returns their paths.
     ///
     /// The time must be later than that of the frame before.
+    ///
+    /// # Errors
+    /// A file that cannot be written; pieces that do not fit together.
     pub fn write(&mut self, frame: &Frame) -> Result<Vec<PathBuf>> {
+        self.write_among(frame, 1)
+    }
+
+    /// The same where several `ranks` write the first piece together: this one's share of it is in the frame, those of the
+    /// others are theirs to [write](crate::write_share).
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    pub fn write_among(&mut self, frame: &Frame, ranks: usize) -> Result<Vec<PathBuf>> {
         let refuse = |problem: String| Err(IoError::input(&self.path, problem));
         if let Some(last) = self.entries.last()
             && frame.time.partial_cmp(&last.time) != Some(std::cmp::Ordering::Greater)
@@ -119,14 +132,22 @@ impl PvdSeries {
         let (folder, prefix) = (self.folder(), self.stem());
         let mut added = Vec::with_capacity(frame.pieces.len());
         let mut written = Vec::with_capacity(frame.pieces.len());
-        for piece in &frame.pieces {
+        for (number, piece) in frame.pieces.iter().enumerate() {
             let name = piece.name.to_string();
-            let file = format!("{}_{:06}.vtu", file_name(&name), frame.index);
+            let shared = number == 0 && ranks > 1;
+            let kind = if shared { "pvtu" } else { "vtu" };
+            let file = format!("{}_{:06}.{kind}", file_name(&name), frame.index);
             let path = folder.join(&file);
             if written.contains(&path) {
                 return refuse(format!("two pieces are named `{name}`"));
             }
-            write_vtu(&path, piece, frame.time)?;
+            match shared {
+                false => write_vtu(&path, piece, frame.time)?,
+                true => {
+                    write_share(&folder, piece, (frame.index, 0), frame.time)?;
+                    write_pvtu(&path, piece, frame.index, ranks)?;
+                }
+            }
             added.push(Entry {
                 time: frame.time,
                 part: self.part(&name, &added),
@@ -257,18 +278,4 @@ fn distinct_times(entries: &[Entry]) -> Vec<f64> {
     let mut times: Vec<f64> = entries.iter().map(|e| e.time).collect();
     times.dedup();
     times
-}
-
-/// `name` with everything but letters, digits, `-` and `_` replaced.
-fn file_name(name: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    let name: String = name
-        .chars()
-        .map(|c| if plain(c) { c } else { '_' })
-        .collect();
-    if name.is_empty() {
-        "piece".into()
-    } else {
-        name
-    }
 }

@@ -92,6 +92,8 @@ impl<const D: usize> Running<'_, D> {
             return SolverError::Failed(Box::new(failure));
         }
         self.sum_up(&mut failure);
+        // Of a bad state as much as can be had.
+        let _ = self.look_around();
         match self.write_summary(Status::Failed, Some(&failure)) {
             Ok(summary) => failure.summary = Some(Box::new(summary)),
             Err(error) => {

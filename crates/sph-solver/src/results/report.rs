@@ -42,7 +42,7 @@ impl<const D: usize> Running<'_, D> {
         let stage_seconds = self.stage_seconds();
         let wall_seconds = self.wall_seconds();
         let working = wall_seconds - stage_seconds.get("output").copied().unwrap_or(0.0);
-        let neighbours = world.mean_neighbours()?;
+        let neighbours = self.around.mean_neighbours();
         let work = particles as f64 * steps as f64;
         let threads = rayon::current_num_threads();
         let ranks = self.shares.len().max(1);
@@ -72,7 +72,7 @@ impl<const D: usize> Running<'_, D> {
             particle_steps_per_second: over(work, working),
             nanoseconds_per_pair: over(1e9 * working * (threads * ranks) as f64, work * neighbours),
             bytes_per_particle: world.free.bytes_per_particle(),
-            memory: Memory::of(self.scene, flow, held as f64)?,
+            memory: Memory::of(self.scene, &self.parts.flow, held as f64)?,
             list_builds: world.lists.builds,
             dt_limiters,
             dt_limits,
@@ -81,13 +81,13 @@ impl<const D: usize> Running<'_, D> {
             kinetic_energy: balance.kinetic,
             density_range: self.density_range(),
             mach,
-            nearest: world.nearest()?.map(|d| d / world.spacing),
+            nearest: self.around.nearest().map(|d| d / world.spacing),
             first_trouble: self.counters.first_trouble.clone(),
             failure: failure.map(|f| f.findings.clone()),
             density_constant_range: flow.density_constant_range(),
             escaped,
             left: flow.left().map(|(to, left)| (to.clone(), left)).collect(),
-            relaxation: self.shown().relaxation,
+            relaxation: self.parts.relaxation,
             open_boundaries: flow.counts_of(sph_open::PASSING),
             implicit_viscosity: flow.counts_of(ImplicitViscosity::<D>::NAME),
             errors,

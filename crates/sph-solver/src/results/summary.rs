@@ -67,6 +67,9 @@ pub struct RankShare {
     pub bytes_per_step: f64,
     /// Particles that went from it to others during the run.
     pub moved: u64,
+    /// What the flow's part held at the end, bytes; on the first without the columns of the whole.
+    #[serde(default)]
+    pub memory_bytes: f64,
 }
 
 /// Relative change of what should be conserved.

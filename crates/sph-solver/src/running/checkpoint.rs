@@ -119,13 +119,14 @@ fn refused(path: &Path, reason: impl Into<String>) -> SolverError {
 }
 
 /// Puts a saved state into the assembled flow of a scene, which must be the same as before if an identity is
-/// given; returns what the driver saved.
+/// given; returns what the driver saved. A flow that had no lists gets none.
 pub fn load<const D: usize>(
     flow: &mut Flow<D>,
     scene: &Scene,
     path: &Path,
     identity: Option<&Identity>,
 ) -> Result<Counters, SolverError> {
+    let blank = flow.is_blank();
     let (checkpoint, meta) = read::<D, Counters>(path)?;
     let mut counters = meta.run;
     if let Some(why) = identity.and_then(|now| now.differs_from(&meta.identity)) {
@@ -153,8 +154,11 @@ pub fn load<const D: usize>(
     }
     set_clock(flow, &meta.clock, &checkpoint, true, path)?;
     let list_time = meta.clock.list_time.map_or(flow.world.time, f64::from_bits);
-    flow.world
-        .build_lists_from(reference, wall_reference, list_time);
+    let world = &mut flow.world;
+    match blank {
+        true => world.lists_would_be_of(reference, wall_reference, list_time),
+        false => world.build_lists_from(reference, wall_reference, list_time),
+    }
     flow.world.lists.builds = meta.clock.list_builds;
     flow.restored = true;
     Ok(counters)
@@ -168,6 +172,7 @@ pub fn start_from<const D: usize>(
     scene: &Scene,
     path: &Path,
 ) -> Result<(), SolverError> {
+    let blank = flow.is_blank();
     let (checkpoint, meta) = read::<D, serde::de::IgnoredAny>(path)?;
     believable(&meta.clock, scene, path)?;
     let identity = checkpoint.column(fields::IDENTITY.name).map(|c| &c.data);
@@ -182,7 +187,10 @@ pub fn start_from<const D: usize>(
     }
     fill(flow, &checkpoint, &meta.clock, path)?;
     set_clock(flow, &meta.clock, &checkpoint, false, path)?;
-    flow.world.rebuild_lists()?;
+    match blank {
+        true => flow.world.sort()?,
+        false => flow.world.rebuild_lists()?,
+    }
     Ok(())
 }
 

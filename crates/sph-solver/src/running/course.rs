@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use sph_neighbours::Nearby;
 use sph_scene::Scene;
 
 use crate::results::summary::RankShare;
@@ -29,6 +30,8 @@ pub(crate) struct Running<'a, const D: usize> {
     pub(crate) mach: MachWatch,
     /// Every rank's share, on the first at the end.
     pub(crate) shares: Vec<RankShare>,
+    /// What the particles of all ranks have near them, at the end.
+    pub(crate) around: Nearby,
 }
 
 /// What is written while a scene runs.

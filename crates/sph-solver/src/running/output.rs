@@ -2,16 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use sph_core::{Plain, fields};
-use sph_io::{
-    Cells, ColourMap, FieldData, FieldValues, Frame, IoError, Location, Picture, Piece, PvdSeries,
-    View,
-};
+use sph_io::{ColourMap, FieldData, Frame, IoError, Picture, PvdSeries, View};
 use sph_probes::{SURFACE_DISTANCE, surface_distance};
 use sph_scene::{PictureRange, Scene};
 
 use crate::failure::bad_pictures;
-use crate::running::drawn_flow::{column_of, drawn_walls, padded};
+use crate::running::drawn_flow::{column_of, drawn_walls};
+use crate::running::pieces::{own_particles, particles, points, walls};
 use crate::running::series::Probes;
 use crate::{Flow, SolverError};
 
@@ -20,6 +17,12 @@ pub const BAD_STATE: &str = "bad_state.vtu";
 
 /// Folders of numbered files.
 const FOLDERS: [&str; 3] = ["pictures", "fields", "curves"];
+
+/// Whether outputs show how far particles are from the surface, which is found from lists and contacts.
+pub(crate) fn shows_depths(scene: &Scene) -> bool {
+    let mut shown = scene.output.fields.iter().chain(&scene.output.picture);
+    shown.any(|name| name == SURFACE_DISTANCE.name)
+}
 
 /// Writes frames, pictures and curves into a run's folder.
 pub struct Outputs {
@@ -84,11 +87,13 @@ impl Outputs {
         })
     }
 
-    /// Writes everything the scene asks for at the flow's present time.
+    /// Writes everything the scene asks for at the flow's present time; `among` has this process' part of it and the number of
+    /// ranks, where these write frames together.
     pub fn write<const D: usize>(
         &mut self,
         flow: &Flow<D>,
         probes: &Probes<D>,
+        among: Option<(&Flow<D>, usize)>,
     ) -> Result<(), SolverError> {
         let time = flow.world.time;
         let points = points(flow)?;
@@ -101,17 +106,22 @@ impl Outputs {
         };
         if let Some(series) = &mut self.series {
             let wanted = |name: &str| self.fields.iter().any(|f| f == name);
-            let mut pieces = pieces(flow, &points, wanted);
+            let mut fluid = match among {
+                Some((part, _)) => own_particles(part, wanted)?,
+                None => particles(&flow.world.free, &points, wanted),
+            };
             if wanted(depth.name) {
                 let field = FieldData::scalar(depth.name, depth.unit, &depths[..]);
-                pieces[0].fields.push(field);
+                fluid.fields.push(field);
             }
+            let mut pieces = vec![fluid];
+            pieces.extend(walls(&flow.world));
             let frame = Frame {
                 time,
                 index: self.written,
                 pieces,
             };
-            series.write(&frame)?;
+            series.write_among(&frame, among.map_or(1, |(_, ranks)| ranks))?;
         }
         for name in &self.pictures {
             let drawn = match name == depth.name {
@@ -187,10 +197,14 @@ fn forget_earlier_run(folder: &Path) {
             .extension()
             .and_then(|e| e.to_str())
             .unwrap_or_default();
-        let number = stem.rsplit_once('_').map_or("", |(_, n)| n);
-        matches!(kind, "png" | "vtu" | "csv")
-            && number.len() >= 4
-            && number.bytes().all(|b| b.is_ascii_digit())
+        // The share of a rank has its number behind that of the frame.
+        let (before, last) = stem.rsplit_once('_').unwrap_or_default();
+        let rank = last.strip_prefix('r').is_some_and(is_number);
+        let number = match rank {
+            true => before.rsplit_once('_').map_or("", |(_, n)| n),
+            false => last,
+        };
+        matches!(kind, "png" | "vtu" | "pvtu" | "csv") && number.len() >= 4 && is_number(number)
     };
     for sub in FOLDERS {
         let entries = std::fs::read_dir(folder.join(sub))
@@ -204,97 +218,16 @@ fn forget_earlier_run(folder: &Path) {
     }
 }
 
+fn is_number(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
+}
+
 /// A frame of all columns, for the state in which a run failed.
 pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<(), SolverError> {
     let points = points(flow)?;
-    let mut pieces = pieces(flow, &points, |_| true);
-    sph_io::write_vtu(path, &pieces.swap_remove(0), flow.world.time)?;
+    let piece = particles(&flow.world.free, &points, |_| true);
+    sph_io::write_vtu(path, &piece, flow.world.time)?;
     Ok(())
-}
-
-fn points<const D: usize>(flow: &Flow<D>) -> Result<Vec<[f64; 3]>, SolverError> {
-    let position = flow.world.free.get(fields::POSITION)?;
-    Ok(position.iter().map(padded).collect())
-}
-
-/// A vector field padded to three components.
-fn vectors<const D: usize>(
-    name: &'static str,
-    unit: &'static str,
-    values: &[sph_core::Vect<D>],
-) -> FieldData<'static> {
-    FieldData {
-        name: name.into(),
-        unit: unit.into(),
-        location: Location::Point,
-        components: 3,
-        data: FieldValues::F64(values.iter().flat_map(padded).collect()),
-    }
-}
-
-fn pieces<'a, const D: usize>(
-    flow: &'a Flow<D>,
-    points: &'a [[f64; 3]],
-    wanted: impl Fn(&str) -> bool,
-) -> Vec<Piece<'a>> {
-    let world = &flow.world;
-    let mut data = Vec::new();
-    for (name, unit, _, components, values) in world.free.columns() {
-        let always = name == fields::IDENTITY.name || name == fields::PHASE.name;
-        if name == fields::POSITION.name || !(always || wanted(name)) {
-            continue;
-        }
-        data.push(match values {
-            Plain::Index(v) => FieldData::integer(name, v.to_vec()),
-            Plain::Real(v) if components == 1 => FieldData::scalar(name, unit, v.into_owned()),
-            Plain::Real(v) if components != D => {
-                FieldData::tensor(name, unit, components, v.into_owned())
-            }
-            Plain::Real(v) => {
-                let vector = |c: &[f64]| sph_core::Vect::<D>::from_column_slice(c);
-                vectors(
-                    name,
-                    unit,
-                    &v.chunks_exact(D).map(vector).collect::<Vec<_>>(),
-                )
-            }
-        });
-    }
-    let mut pieces = vec![Piece {
-        name: "fluid".into(),
-        points: points.into(),
-        cells: Cells::Vertices,
-        fields: data,
-    }];
-    let walls = &world.walls;
-    if !walls.is_empty() {
-        let p = &walls.points;
-        let mut data = vec![
-            FieldData::scalar("pressure", "Pa", &p.pressure[..]),
-            FieldData::scalar("share", "1", &p.share[..]),
-            vectors("velocity", "m/s", &p.velocity),
-            FieldData::integer("wall", &p.wall[..]),
-        ];
-        let elements = &walls.elements;
-        let cells = match D {
-            2 if !elements.corners.is_empty() => {
-                data.push(vectors("normal", "1", &elements.normal).at_cells());
-                let pressure = FieldData::scalar("element_pressure", "Pa", &elements.pressure[..]);
-                data.push(pressure.at_cells());
-                let segments = elements.corners.iter().map(|c| [c[0], c[1]]);
-                Cells::Segments(segments.collect())
-            }
-            _ => Cells::Vertices,
-        };
-        let points: Vec<[f64; 3]> = p.position.iter().map(padded).collect();
-        pieces.push(Piece {
-            name: "walls".into(),
-            points: points.into(),
-            cells,
-            fields: data,
-        });
-    }
-    pieces
 }
 
 /// A column of a probe's table as a map over the first two.

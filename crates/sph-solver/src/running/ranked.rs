@@ -4,50 +4,34 @@ use std::sync::Arc;
 
 use sph_core::{StepError, System};
 use sph_decomposition::{PartError, Transport};
+use sph_neighbours::Nearby;
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
 use crate::results::summary::RankShare;
 use crate::running::beginning::begin;
 use crate::running::course::Running;
-use crate::running::options::RunOptions;
-use crate::setup::assemble::{Assembled, assemble};
+use crate::running::options::{RunOptions, Start};
+use crate::setup::assemble::{Assembled, assemble_share};
+use crate::setup::memory::Memory;
+use crate::setup::share::Share;
 use crate::step::stages::lock;
 
-/// Whether all ranks are ready, which all must ask.
-pub(crate) fn all_ready<T>(
-    ranks: &dyn Transport,
-    ready: Result<T, SolverError>,
-) -> Result<T, SolverError> {
-    let mut failed = [f64::from(u8::from(ready.is_err()))];
-    let told = ranks.largest(&mut failed).map_err(PartError::from);
-    let ready = ready?;
-    told.map_err(StepError::from)?;
-    match failed[0] > 0.0 {
-        true => Err(StepError::from(PartError::Elsewhere).into()),
-        false => Ok(ready),
+/// What a process assembles: on ranks only where particles settle first does each hold the whole for a while.
+pub(crate) fn share(
+    scene: &Scene,
+    options: &RunOptions,
+    ranks: Option<&Arc<dyn Transport>>,
+) -> Share {
+    match (ranks, &options.start) {
+        (None, _) => Share::Whole,
+        (Some(_), Start::Afresh) if scene.numerics.relax.is_some() => Share::Whole,
+        (Some(ranks), Start::Afresh) => Share::Part(ranks.clone()),
+        (Some(_), _) => Share::Blank,
     }
 }
 
-/// Refuses what cannot be divided between ranks, before anything is written.
-pub(crate) fn refuse_the_indivisible<const D: usize>(
-    parts: &Assembled<D>,
-    ranks: usize,
-) -> Result<(), SolverError> {
-    if let Some(why) = parts.flow.indivisible() {
-        return Err(SolverError::at("", why));
-    }
-    let particles = parts.flow.world.free.len();
-    match ranks > particles {
-        true => Err(SolverError::at(
-            "",
-            format!("{ranks} ranks for {particles} particles: some would own nothing"),
-        )),
-        false => Ok(()),
-    }
-}
-
-/// Leaves this rank its part; the first gets another assembly, for the whole, once it holds no more than its part.
+/// Leaves this rank its part, if it has more; the first gets columns for the whole besides.
 pub(crate) fn divide<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
@@ -55,13 +39,14 @@ pub(crate) fn divide<const D: usize>(
     parts: &mut Assembled<D>,
 ) -> Result<Option<Assembled<D>>, SolverError> {
     let first = ranks.rank() == 0;
-    parts.flow.divide(ranks).map_err(StepError::from)?;
+    if parts.flow.parts.is_none() {
+        parts.flow.divide(ranks).map_err(StepError::from)?;
+    }
     if !first {
         return Ok(None);
     }
-    let mut all = assemble::<D>(scene)?;
+    let mut all = assemble_share::<D>(scene, &Share::Blank)?;
     begin(scene, options, false, &mut all.flow, &mut ())?;
-    all.flow.world.forget_lists();
     Ok(Some(all))
 }
 
@@ -111,6 +96,39 @@ impl<const D: usize> Running<'_, D> {
         Ok(())
     }
 
+    /// Whether somebody measures what needs lists and contacts.
+    pub(crate) fn looks_around(&self) -> bool {
+        self.parts.probes.iter().any(|(_, p)| p.looks_around())
+    }
+
+    /// Counts what is near the particles of this process.
+    pub(crate) fn look_around(&mut self) -> Result<(), SolverError> {
+        let flow = &self.parts.flow;
+        let free = &flow.world.free;
+        if flow.world.lists.free.len() != free.len() {
+            return Ok(());
+        }
+        self.around = match &flow.parts {
+            None => flow.world.nearby(|_| true)?,
+            Some(parts) => {
+                let own = parts.own(free).map_err(StepError::from)?;
+                flow.world.nearby(|k| own[k])?
+            }
+        };
+        Ok(())
+    }
+
+    /// Gives the walls of the whole flow the pressures that the ranks found; every rank must ask.
+    pub(crate) fn gather_walls(&mut self) -> Result<(), SolverError> {
+        let flow = &self.parts.flow;
+        let Some(parts) = &flow.parts else {
+            return Ok(());
+        };
+        let whole = self.whole.as_mut().map(|w| &mut w.flow.world);
+        let gathered = parts.gather_walls(&flow.world, whole);
+        Ok(gathered.map_err(StepError::from)?)
+    }
+
     /// Tells the first rank what each had; every rank must ask.
     pub(crate) fn share(&mut self) -> Result<(), SolverError> {
         let steps = self.counters.steps.max(1) as f64;
@@ -118,6 +136,7 @@ impl<const D: usize> Running<'_, D> {
         let Some(parts) = &flow.parts else {
             return Ok(());
         };
+        let near = self.around;
         let (divided, traffic) = (parts.divided(&flow.world.free), parts.traffic());
         let own = [
             divided.own as f64,
@@ -125,22 +144,39 @@ impl<const D: usize> Running<'_, D> {
             traffic.messages as f64 / steps,
             traffic.bytes as f64 / steps,
             traffic.moved as f64,
+            Memory::of(self.scene, flow, 0.0)?.total(),
+            near.particles as f64,
+            near.neighbours as f64,
+            near.accompanied as f64,
+            near.least,
+            near.distances,
         ];
         let own = own.iter().flat_map(|x| x.to_le_bytes()).collect();
         let all = parts.transport().gather(own);
         let all = all.map_err(|e| StepError::from(PartError::from(e)))?;
-        let share = |message: &Vec<u8>| {
+        let read = |message: &Vec<u8>| {
             let numbers = message.as_chunks::<8>().0;
             let at = |k: usize| numbers.get(k).map_or(0.0, |b| f64::from_le_bytes(*b));
-            RankShare {
+            let share = RankShare {
                 particles: at(0) as u64,
                 guests: at(1) as u64,
                 messages_per_step: at(2),
                 bytes_per_step: at(3),
                 moved: at(4) as u64,
-            }
+                memory_bytes: at(5),
+            };
+            let near = Nearby {
+                particles: at(6) as u64,
+                neighbours: at(7) as u64,
+                accompanied: at(8) as u64,
+                least: at(9),
+                distances: at(10),
+            };
+            (share, near)
         };
-        self.shares = all.iter().map(share).collect();
+        let (shares, near): (Vec<_>, Vec<_>) = all.iter().map(read).unzip();
+        self.shares = shares;
+        self.around = near.into_iter().fold(Nearby::NONE, Nearby::joined);
         Ok(())
     }
 

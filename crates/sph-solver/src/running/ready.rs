@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use sph_decomposition::Transport;
 use sph_io::FolderLock;
+use sph_neighbours::Nearby;
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
@@ -18,8 +19,9 @@ use crate::running::options::{RunOptions, Start};
 use crate::running::output::Outputs;
 use crate::running::series::{Series, rehearse};
 use crate::running::{lock, ranked};
-use crate::setup::assemble::{Assembled, assemble};
+use crate::setup::assemble::{Assembled, assemble_share};
 use crate::setup::estimate::tiny_steps;
+use crate::setup::share::refuse_the_indivisible;
 
 /// Everything before the first step; what may be refused comes before anything is written.
 pub(crate) fn ready<'a, const D: usize>(
@@ -28,14 +30,19 @@ pub(crate) fn ready<'a, const D: usize>(
     ranks: Option<Arc<dyn Transport>>,
     (held, observer): (&mut Option<FolderLock>, &mut (dyn Observer + Send)),
 ) -> Result<Running<'a, D>, SolverError> {
-    let mut parts = assemble::<D>(scene)?;
-    rehearse(scene, &mut parts.flow, &parts.probes)?;
+    let share = ranked::share(scene, options, ranks.as_ref());
+    let mut parts = assemble_share::<D>(scene, &share)?;
+    let begun = !parts.flow.is_blank();
+    if begun {
+        rehearse(scene, &mut parts.flow, &parts.probes)?;
+        let limits = parts.flow.step_limits()?;
+        let limits = parts.flow.least_limits(limits)?;
+        parts.warnings.extend(tiny_steps(scene, &limits)?);
+    }
     references::readable(scene)?;
-    let tiny = tiny_steps(scene, &parts.flow)?;
-    parts.warnings.extend(tiny);
     let writes = ranks.as_ref().is_none_or(|ranks| ranks.rank() == 0);
     if let Some(ranks) = &ranks {
-        ranked::refuse_the_indivisible(&parts, ranks.ranks())?;
+        refuse_the_indivisible(&parts.flow, ranks.ranks())?;
     }
     if writes {
         *held = Some(lock::take(&options.out, observer)?);
@@ -72,6 +79,7 @@ pub(crate) fn ready<'a, const D: usize>(
         tried: (0.0, "none"),
         mach: MachWatch::default(),
         shares: Vec::new(),
+        around: Nearby::NONE,
     })
 }
 

@@ -15,8 +15,8 @@ use crate::running::course::Running;
 use crate::running::driver::{Command, Observer, Progress};
 use crate::running::next_step::next_step;
 use crate::running::options::{RunOptions, Start};
-use crate::running::ranked;
 use crate::running::ready::ready;
+use crate::setup::share::all_ready;
 use crate::step::guard;
 use crate::step::snapshot::Snapshot;
 
@@ -75,7 +75,7 @@ fn run_in<const D: usize>(
     let ready = ready::<D>(scene, options, ranks.clone(), (&mut lock, &mut *observer));
     let mut running = match ranks {
         None => ready?,
-        Some(ranks) => ranked::all_ready(&*ranks, ready)?,
+        Some(ranks) => all_ready(&*ranks, ready)?,
     };
     let status = running.go(observer)?;
     running.finish(status)
@@ -288,7 +288,8 @@ impl<const D: usize> Running<'_, D> {
     }
 
     fn finish(&mut self, status: Status) -> Result<Option<Summary>, SolverError> {
-        self.gather(true)?;
+        self.gather(self.looks_around())?;
+        self.look_around()?;
         self.share()?;
         let Some(files) = &self.files else {
             return Ok(None);

@@ -9,6 +9,8 @@ use crate::running::checkpoint;
 use crate::running::counters::Counters;
 use crate::running::course::{Due, Running};
 use crate::running::driver::Observer;
+use crate::running::output::shows_depths;
+use crate::running::pieces::write_own_share;
 use crate::running::series::{Probes, measure_walls};
 
 /// What probes have gathered, by their names.
@@ -39,8 +41,12 @@ impl<const D: usize> Running<'_, D> {
     ) -> Result<(), SolverError> {
         let start = Instant::now();
         let due = self.is_due(time);
-        let looks = self.parts.probes.iter().any(|(_, p)| p.looks_around());
-        self.gather(due.output || (due.row && looks))?;
+        let measures = (due.row || due.output) && self.looks_around();
+        let shows = due.output && shows_depths(self.scene);
+        self.gather(measures || shows)?;
+        if due.output && self.scene.output.vtk {
+            self.gather_walls()?;
+        }
         if due.row {
             // On several ranks all measure together, whoever writes.
             measure_walls(&mut self.parts.flow, &self.parts.probes)?;
@@ -54,10 +60,8 @@ impl<const D: usize> Running<'_, D> {
             self.counters.last_row = Some(time.to_bits());
         }
         if due.output {
-            let shown = self.whole.as_ref().unwrap_or(&self.parts);
-            if let Some(files) = &mut self.files {
-                files.outputs.write(&shown.flow, &shown.probes)?;
-            }
+            self.write_output()?;
+            self.counters.outputs += 1;
             self.counters.next_output = self.next_output(time);
         }
         if due.checkpoint {
@@ -67,6 +71,27 @@ impl<const D: usize> Running<'_, D> {
         }
         self.output_seconds += start.elapsed().as_secs_f64();
         Ok(())
+    }
+
+    /// Fields, pictures and curves. Ranks write the particles of a frame together, but where these have a depth that the first
+    /// alone has found.
+    fn write_output(&mut self) -> Result<(), SolverError> {
+        let parts = self.parts.flow.parts.as_ref();
+        let team = parts.map(|p| (p.transport().rank(), p.transport().ranks()));
+        let together = self.scene.output.vtk && !shows_depths(self.scene);
+        let among = team.filter(|(_, ranks)| together && *ranks > 1);
+        let shown = self.whole.as_ref().unwrap_or(&self.parts);
+        match (&mut self.files, among) {
+            (Some(files), among) => {
+                let among = among.map(|(_, ranks)| (&self.parts.flow, ranks));
+                files.outputs.write(&shown.flow, &shown.probes, among)
+            }
+            (None, Some((rank, _))) => {
+                let place = (self.counters.outputs, rank);
+                write_own_share(self.scene, &self.parts.flow, &self.options.out, place)
+            }
+            (None, None) => Ok(()),
+        }
     }
 
     fn write_row(&mut self, observer: &mut (dyn Observer + Send)) -> Result<(), SolverError> {

@@ -29,9 +29,10 @@ use crate::setup::probe_setup;
 use crate::setup::relaxation::Relaxation;
 use crate::setup::room::Room;
 use crate::setup::shapes::Drawn;
+use crate::setup::share::Share;
 use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
-use crate::setup::start::{Start, start};
+use crate::setup::start::{Start, phases_of_bodies, start};
 use crate::setup::wall_speeds;
 use crate::step::accounts;
 use crate::step::flow::Flow;
@@ -66,6 +67,17 @@ pub struct Assembled<const D: usize> {
 /// # Errors
 /// Every problem of the scene, with its path; nothing is written.
 pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverError> {
+    assemble_share(scene, &Share::Whole)
+}
+
+/// The same of what a process begins with. Where this is a part of the flow, all ranks assemble together.
+///
+/// # Errors
+/// Besides, what cannot be divided; another rank that has failed.
+pub(crate) fn assemble_share<const D: usize>(
+    scene: &Scene,
+    share: &Share,
+) -> Result<Assembled<D>, SolverError> {
     let mut drawn = Drawn::<D>::of(scene)?;
     crate::setup::estimate::refuse_the_absurd(scene, &drawn)?;
     let mut choices = Choices::<D>::of(scene).map_err(SolverError::Scene)?;
@@ -93,7 +105,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     let mut free = state(scene, &*formulation, &parts, placed.positions.len())?;
     open_faces::check_values(scene, &entering, &parts)?;
     let outlets = Outlets::of(scene, &placed, &mut free).map_err(SolverError::Scene)?;
-    give_places(&mut free, &placed)?;
+    give_places(scene, &mut free, &placed)?;
     let mut world = World { free, ..room };
     let about = About {
         scene,
@@ -127,12 +139,13 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
         columns: &columns().collect::<Vec<_>>(),
     };
     flow.know_exits(scene);
-    let relaxation = start(&beginning, &mut flow)?;
+    flow.world.wrap()?;
+    warnings.extend(ground.remarks(scene, &flow)?);
+    warnings.extend(lattices::remarks(scene, &flow, &placed.body)?);
+    let relaxation = start(&beginning, share, &mut flow)?;
     let integrator = &*choices.integrator;
     accounts::open(scene, &choices.probes, integrator, &*formulation, &mut flow)?;
     flow.nursery = nursery(scene, formulation, columns().collect(), &flow);
-    warnings.extend(ground.remarks(scene, &flow)?);
-    warnings.extend(lattices::remarks(scene, &flow, &placed.body)?);
     Ok(Assembled {
         flow,
         integrator: choices.integrator,
@@ -250,11 +263,21 @@ fn state<const D: usize>(
     Ok(free)
 }
 
-fn give_places<const D: usize>(free: &mut Store<D>, placed: &Placed<D>) -> Result<(), SolverError> {
+/// Gives particles their places, identities and phases.
+fn give_places<const D: usize>(
+    scene: &Scene,
+    free: &mut Store<D>,
+    placed: &Placed<D>,
+) -> Result<(), SolverError> {
     let count = free.len() as u32;
     free.get_mut(fields::POSITION)?
         .copy_from_slice(&placed.positions);
     *free.get_mut(fields::IDENTITY)? = (0..count).collect();
+    if free.has(fields::PHASE.name) {
+        let phases: Vec<u32> = phases_of_bodies(scene);
+        let of = placed.body.iter().map(|body| phases[*body as usize]);
+        *free.get_mut(fields::PHASE)? = of.collect();
+    }
     free.set_born(Born {
         identities: count,
         ..Born::default()

@@ -4,7 +4,6 @@ use serde::Serialize;
 use sph_core::StepLimit;
 use sph_scene::{Scene, estimate};
 
-use crate::Flow;
 use crate::defaults;
 use crate::failure::error::SolverError;
 use crate::setup::shapes::Drawn;
@@ -62,12 +61,8 @@ const TINY: f64 = 1e-8;
 ///
 /// # Errors
 /// If a limit cannot be computed, or if steps are so short that time would stand still.
-pub fn tiny_steps<const D: usize>(
-    scene: &Scene,
-    flow: &Flow<D>,
-) -> Result<Option<String>, SolverError> {
-    let limits = flow.step_limits()?;
-    let Some(least) = StepLimit::least(&limits) else {
+pub fn tiny_steps(scene: &Scene, limits: &[StepLimit]) -> Result<Option<String>, SolverError> {
+    let Some(least) = StepLimit::least(limits) else {
         return Ok(None);
     };
     let dt = least.dt * scene.run.safety;

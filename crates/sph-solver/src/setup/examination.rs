@@ -101,7 +101,7 @@ fn examine_in<const D: usize>(scene: &Scene) -> Result<Examination, SolverError>
     let mut assembled = assemble::<D>(scene)?;
     crate::running::series::rehearse(scene, &mut assembled.flow, &assembled.probes)?;
     crate::results::references::readable(scene)?;
-    let tiny = tiny_steps(scene, &assembled.flow)?;
+    let tiny = tiny_steps(scene, &assembled.flow.step_limits()?)?;
     assembled.warnings.extend(tiny);
     let limits = assembled.flow.step_limits()?;
     let dt = StepLimit::least(&limits).map_or(scene.run.end, |l| l.dt) * scene.run.safety;

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use sph_core::fields;
+use sph_neighbours::CellGrid;
 use sph_scene::{OFF_LATTICE, Scene};
 
 use crate::step::stages::lock;
@@ -70,14 +71,22 @@ pub fn remarks<const D: usize>(
     let walls = flow.walls.as_ref().map(lock);
     // Where the first row belongs, in spacings from the wall.
     let first = walls.as_ref().map_or(1.0, |w| 1.0 - w.lattice_offset());
+    // A single body touches nobody, and lists need not be there yet.
+    let reach = CONTACT * world.spacing;
+    let grid = (names.len() > 1).then(|| CellGrid::new(position, reach, &world.domain));
     for (k, x) in position.iter().enumerate() {
         let mut nearest: BTreeMap<u32, f64> = BTreeMap::new();
-        for j in world.lists.free.candidates(k).iter().map(|j| *j as usize) {
+        let mut look = |j: usize| {
             if body(j) > body(k) {
                 let apart = world.domain.nearest_image(x - position[j]).norm() / world.spacing;
                 let least = nearest.entry(body(j)).or_insert(f64::INFINITY);
                 *least = least.min(apart);
             }
+        };
+        if let Some(grid) = &grid {
+            grid.ranges(x, reach, |range| {
+                grid.order()[range].iter().for_each(|j| look(*j as usize));
+            });
         }
         for (other, apart) in nearest.into_iter().filter(|(_, d)| *d < CONTACT) {
             contacts.entry([body(k), other]).or_default().add(apart);

@@ -1,7 +1,7 @@
 //! The state of all particles before the first step.
 
 use sph_contribution::{Birth, Initial, OwnColumn};
-use sph_core::fields;
+use sph_core::{StepError, StepLimit, fields};
 use sph_multiphase::Formulation;
 use sph_neighbours::World;
 use sph_probes::Solution;
@@ -13,6 +13,7 @@ use crate::setup::layers::Layers;
 use crate::setup::relax::relax;
 use crate::setup::relaxation::Relaxation;
 use crate::setup::shapes::Drawn;
+use crate::setup::share::{Share, all_ready, refuse_the_indivisible};
 use crate::step::flow::Flow;
 
 /// What the first state of all particles is made from.
@@ -31,32 +32,70 @@ pub(crate) struct Start<'a, const D: usize> {
     pub columns: &'a [OwnColumn<D>],
 }
 
-/// Sorts the particles and gives them their initial state.
+/// Number of the phase of every body, in the scene's order of names.
+pub(crate) fn phases_of_bodies(scene: &Scene) -> Vec<u32> {
+    let of = |body: &sph_scene::Body| scene.phase.keys().position(|p| *p == body.phase);
+    let all = scene.body.values();
+    all.map(|body| of(body).unwrap_or(0) as u32).collect()
+}
+
+/// Sorts the particles and gives them their initial state; those of a rank's part if this is its `share`.
 pub(crate) fn start<const D: usize>(
     given: &Start<'_, D>,
+    share: &Share,
     flow: &mut Flow<D>,
 ) -> Result<Option<Relaxation>, SolverError> {
+    let relaxation = match share {
+        Share::Blank => return Ok(None),
+        Share::Whole => {
+            let world = &mut flow.world;
+            world.rebuild_lists()?;
+            relax(given.scene, given.drawn, world, flow.walls.as_ref())?
+        }
+        Share::Part(ranks) => {
+            refuse_the_indivisible(flow, ranks.ranks())?;
+            flow.world.sort()?;
+            let divided = flow.divide(ranks.clone());
+            divided.map_err(StepError::from)?;
+            None
+        }
+    };
+    let begun = give_state(given, relaxation, flow);
+    if let Share::Part(ranks) = share {
+        all_ready(&**ranks, begun)?;
+        flow.tell_all()?;
+    } else {
+        begun?;
+    }
+    let limits = flow.step_limits()?;
+    let limits = flow.least_limits(limits)?;
+    let least = StepLimit::least(&limits).map_or(0.0, |l| l.dt);
+    flow.world.dt = given.scene.run.safety * least;
+    Ok(relaxation)
+}
+
+/// Gives the particles of a process their initial state.
+fn give_state<const D: usize>(
+    given: &Start<'_, D>,
+    relaxation: Option<Relaxation>,
+    flow: &mut Flow<D>,
+) -> Result<(), SolverError> {
     let Start { scene, drawn, .. } = given;
     let world = &mut flow.world;
-    world.rebuild_lists()?;
-    let relaxation = relax(scene, drawn, world, flow.walls.as_ref())?;
-    let phases: Vec<&String> = scene.phase.keys().collect();
     let layers = Layers::of(scene, &drawn.regions);
+    let phase_of = phases_of_bodies(scene);
     let mut states = Vec::new();
-    let mut phase_of = Vec::new();
-    for ((name, body), region) in scene.body.iter().zip(&drawn.regions) {
-        let phase = phases.iter().position(|p| **p == body.phase).unwrap_or(0);
+    for (k, ((name, body), region)) in scene.body.iter().zip(&drawn.regions).enumerate() {
         let field = given.initial.iter().find(|(n, _)| n == name);
         let field = field.map(|(_, f)| &**f);
         states.push(InitialState::new(
             scene,
             body,
             region,
-            &*flow.laws[phase],
+            &*flow.laws[phase_of[k] as usize],
             field,
             layers.as_ref(),
         ));
-        phase_of.push(phase as u32);
     }
     let identity = world.free.get(fields::IDENTITY)?.to_vec();
     let position = world.free.get(fields::POSITION)?.to_vec();
@@ -74,10 +113,8 @@ pub(crate) fn start<const D: usize>(
             velocity += sph_core::Vect::<D>::from(sph_scene::noise(identity[k], noise, seed));
         }
         world.free.get_mut(fields::VELOCITY)?[k] = velocity;
-        if world.free.has(fields::PHASE.name) {
-            world.free.get_mut(fields::PHASE)?[k] = phase_of[body(k)];
-        }
     }
+    let phases: Vec<&String> = scene.phase.keys().collect();
     let bodies: Vec<&str> = scene.body.keys().map(String::as_str).collect();
     for column in given.columns {
         let name = |k: usize| {
@@ -89,11 +126,7 @@ pub(crate) fn start<const D: usize>(
     if let Some(walls) = &flow.walls {
         crate::step::stages::lock(walls).geometry(world)?;
     }
-    given.formulation.rebase(world)?;
-    let limits = flow.step_limits()?;
-    let least = sph_core::StepLimit::least(&limits).map_or(0.0, |l| l.dt);
-    flow.world.dt = scene.run.safety * least;
-    Ok(relaxation)
+    Ok(given.formulation.rebase(world)?)
 }
 
 /// Gives a column of a contribution its values at the start; `names` has the phase and the body of a particle.

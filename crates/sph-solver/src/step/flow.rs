@@ -85,6 +85,11 @@ impl<const D: usize> Flow<D> {
         self.limiters.iter().map(|l| l.limit(&self.world)).collect()
     }
 
+    /// Whether nothing has been looked for near particles yet.
+    pub(crate) fn is_blank(&self) -> bool {
+        self.world.lists.reference.is_empty()
+    }
+
     /// What lengthens each bound, by its name, where its plugin knows.
     pub(crate) fn remedies_of_bounds(&self) -> Result<BTreeMap<String, String>, StepError> {
         let mut all = BTreeMap::new();

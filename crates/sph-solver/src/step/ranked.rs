@@ -10,14 +10,13 @@ use crate::step::flow::Flow;
 use crate::step::guard;
 
 impl<const D: usize> Flow<D> {
-    /// Leaves this rank its part; every rank holds the whole before.
+    /// Leaves this rank its part; every rank holds the places and columns of the whole before.
     ///
     /// # Errors
     /// More ranks than particles.
     pub(crate) fn divide(&mut self, transport: Arc<dyn Transport>) -> Result<(), PartError> {
-        let costs = costs(&self.world);
         let rings = self.rings();
-        let parts = Parts::divide(&mut self.world, &costs, rings, transport)?;
+        let parts = Parts::divide(&mut self.world, rings, transport)?;
         self.parts = Some(parts);
         Ok(())
     }
@@ -90,6 +89,14 @@ impl<const D: usize> Flow<D> {
             limits.iter_mut().zip(times).for_each(|(l, dt)| l.dt = dt);
         }
         Ok(limits)
+    }
+
+    /// Tells guests all that their owners know.
+    pub(crate) fn tell_all(&mut self) -> Result<(), StepError> {
+        match &mut self.parts {
+            None => Ok(()),
+            Some(parts) => Ok(parts.tell(&mut self.world.free, |_| true)?),
+        }
     }
 
     /// Whether any rank has a reason; every rank must ask.

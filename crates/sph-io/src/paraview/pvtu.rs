@@ -1,0 +1,231 @@
+//! ParaView's `.pvtu`: a piece whose points several processes wrote, each into a `.vtu` of its own.
+//!
+//! It has no numbers: it names the arrays that all files have, and the files, which lie beside it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::error::{IoError, Result};
+use crate::files::atomic::{Durability, write_atomic};
+use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece};
+use crate::paraview::vtu::write_vtu;
+use crate::paraview::vtu_read::read_vtu;
+use crate::paraview::xml::{attributes, escape};
+
+/// Writes a process's share of a piece of frame `index` at `time` (s) into a folder, `fluid_000003_r1.vtu` for rank 1, and
+/// returns its path.
+///
+/// # Errors
+/// A file that cannot be written; a piece whose parts do not fit together.
+pub fn write_share(
+    folder: impl AsRef<Path>,
+    piece: &Piece,
+    (index, rank): (usize, usize),
+    time: f64,
+) -> Result<PathBuf> {
+    let path = folder
+        .as_ref()
+        .join(share_name(&file_name(&piece.name), index, rank));
+    write_vtu(&path, piece, time)?;
+    Ok(path)
+}
+
+/// `name` with everything but letters, digits, `-` and `_` replaced.
+pub(crate) fn file_name(name: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    let name: String = name
+        .chars()
+        .map(|c| if plain(c) { c } else { '_' })
+        .collect();
+    if name.is_empty() {
+        "piece".into()
+    } else {
+        name
+    }
+}
+
+fn share_name(name: &str, index: usize, rank: usize) -> String {
+    format!("{name}_{index:06}_r{rank}.vtu")
+}
+
+/// Writes the list of the shares of a piece of points; `piece` has the arrays that all shares have, whatever is in them.
+pub(crate) fn write_pvtu(path: &Path, piece: &Piece, index: usize, ranks: usize) -> Result<()> {
+    let mut xml = String::from(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
+         header_type=\"UInt64\">\n  <PUnstructuredGrid GhostLevel=\"0\">\n",
+    );
+    for (tag, location) in [
+        ("PPointData", Location::Point),
+        ("PCellData", Location::Cell),
+    ] {
+        xml.push_str(&format!("    <{tag}>\n"));
+        for field in piece.fields.iter().filter(|f| f.location == location) {
+            let (kind, name) = (kind(&field.data), escape(&field.name));
+            xml.push_str(&format!(
+                "      <PDataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{}\"/>\n",
+                field.components
+            ));
+        }
+        xml.push_str(&format!("    </{tag}>\n"));
+    }
+    xml.push_str(
+        "    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n    </PPoints>\n",
+    );
+    let name = file_name(&piece.name);
+    for rank in 0..ranks {
+        let file = share_name(&name, index, rank);
+        xml.push_str(&format!("    <Piece Source=\"{file}\"/>\n"));
+    }
+    xml.push_str("  </PUnstructuredGrid>\n</VTKFile>\n");
+    write_atomic(path, Durability::Process, |file| {
+        file.write_all(xml.as_bytes())
+    })
+}
+
+fn kind(values: &FieldValues) -> &'static str {
+    match values {
+        FieldValues::F64(_) => "Float64",
+        FieldValues::U32(_) => "UInt32",
+        FieldValues::I64(_) => "Int64",
+    }
+}
+
+/// Reads a piece that one process wrote, or several, and its time (s); its name is that of the file without its number.
+///
+/// # Errors
+/// A file that cannot be read, or that is not one of this crate.
+pub fn read_piece(path: impl AsRef<Path>) -> Result<(Piece<'static>, f64)> {
+    let path = path.as_ref();
+    if path.extension().is_none_or(|e| e != "pvtu") {
+        return read_vtu(path);
+    }
+    let unfit = |problem: &str| IoError::Unfit {
+        path: path.to_path_buf(),
+        problem: format!("it is not a PVTU file of this program: {problem}"),
+    };
+    let text = fs::read_to_string(path).map_err(|e| IoError::read(path, e))?;
+    let mut whole: Option<(Piece<'static>, f64)> = None;
+    for tag in text.split("<Piece ").skip(1) {
+        let (tag, _) = tag.split_once('>').ok_or_else(|| unfit("a tag is cut"))?;
+        let found = attributes(tag).ok_or_else(|| unfit("a tag cannot be read"))?;
+        let source = found.iter().find(|(name, _)| *name == "Source");
+        let (_, source) = source.ok_or_else(|| unfit("a piece has no file"))?;
+        let (mut share, time) = read_vtu(path.with_file_name(source))?;
+        whole = Some(match whole {
+            None => {
+                let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+                let name = stem.rsplit_once('_').map_or(&*stem, |(name, _)| name);
+                share.name = name.to_string().into();
+                (share, time)
+            }
+            Some((all, at)) if at == time => (
+                joined(all, share).ok_or_else(|| unfit("its files differ"))?,
+                at,
+            ),
+            Some(_) => return Err(unfit("its files are of several times")),
+        });
+    }
+    whole.ok_or_else(|| unfit("it names no file"))
+}
+
+/// Two shares of points one after the other; nothing if they have other fields, or cells that are more than points.
+fn joined(mut all: Piece<'static>, more: Piece<'static>) -> Option<Piece<'static>> {
+    let points = matches!(
+        (&all.cells, &more.cells),
+        (Cells::Vertices, Cells::Vertices)
+    );
+    if !points || all.fields.len() != more.fields.len() {
+        return None;
+    }
+    all.points.to_mut().extend_from_slice(&more.points);
+    let fields = std::mem::take(&mut all.fields).into_iter();
+    let fields = fields.zip(more.fields).map(both);
+    all.fields = fields.collect::<Option<_>>()?;
+    Some(all)
+}
+
+fn both((a, b): (FieldData<'static>, FieldData<'static>)) -> Option<FieldData<'static>> {
+    if a.name != b.name || a.components != b.components || a.location != b.location {
+        return None;
+    }
+    let data = match (a.data, b.data) {
+        (FieldValues::F64(mut v), FieldValues::F64(w)) => {
+            v.to_mut().extend_from_slice(&w);
+            FieldValues::F64(v)
+        }
+        (FieldValues::U32(mut v), FieldValues::U32(w)) => {
+            v.to_mut().extend_from_slice(&w);
+            FieldValues::U32(v)
+        }
+        (FieldValues::I64(mut v), FieldValues::I64(w)) => {
+            v.to_mut().extend_from_slice(&w);
+            FieldValues::I64(v)
+        }
+        _ => return None,
+    };
+    Some(FieldData { data, ..a })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::PvdSeries;
+    use crate::paraview::frame::Frame;
+
+    fn share(first: u32, count: u32) -> Piece<'static> {
+        let numbers = first..first + count;
+        let points: Vec<[f64; 3]> = numbers.clone().map(|k| [f64::from(k), 0.5, 0.0]).collect();
+        let pressure: Vec<f64> = numbers.clone().map(|k| f64::from(k) * 10.0).collect();
+        Piece {
+            name: "fluid".into(),
+            points: points.into(),
+            cells: Cells::Vertices,
+            fields: vec![
+                FieldData::integer("identity", numbers.collect::<Vec<u32>>()),
+                FieldData::scalar("pressure", "Pa", pressure),
+            ],
+        }
+    }
+
+    #[test]
+    fn what_two_ranks_wrote_is_read_as_one_piece() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut series = PvdSeries::create(folder.path().join("fields.pvd")).unwrap();
+        let below = folder.path().join("fields");
+        write_share(&below, &share(3, 2), (0, 1), 0.25).unwrap();
+        let frame = Frame {
+            time: 0.25,
+            index: 0,
+            pieces: vec![share(0, 3)],
+        };
+        let written = series.write_among(&frame, 2).unwrap();
+        assert!(written[0].ends_with("fields/fluid_000000.pvtu"));
+        let (piece, time) = read_piece(&written[0]).unwrap();
+        assert_eq!((time, &*piece.name, piece.points.len()), (0.25, "fluid", 5));
+        let FieldValues::U32(identities) = &piece.fields[0].data else {
+            panic!("identities expected")
+        };
+        assert_eq!(identities[..], [0, 1, 2, 3, 4]);
+        let FieldValues::F64(pressures) = &piece.fields[1].data else {
+            panic!("reals expected")
+        };
+        assert_eq!(pressures[..], [0.0, 10.0, 20.0, 30.0, 40.0]);
+    }
+
+    #[test]
+    fn shares_that_do_not_fit_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fluid_000000.pvtu");
+        write_share(folder.path(), &share(0, 1), (0, 0), 0.0).unwrap();
+        write_pvtu(&path, &share(0, 1), 0, 2).unwrap();
+        assert!(read_piece(&path).is_err(), "one share is missing");
+        let mut other = share(1, 1);
+        other.fields.pop();
+        write_share(folder.path(), &other, (0, 1), 0.0).unwrap();
+        let said = read_piece(&path).unwrap_err().to_string();
+        assert!(said.contains("differ"), "{said}");
+        write_share(folder.path(), &share(1, 1), (0, 1), 0.5).unwrap();
+        let said = read_piece(&path).unwrap_err().to_string();
+        assert!(said.contains("times"), "{said}");
+    }
+}

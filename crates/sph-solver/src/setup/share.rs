@@ -1,0 +1,52 @@
+//! How much of a flow a process begins with.
+
+use std::sync::Arc;
+
+use sph_core::StepError;
+use sph_decomposition::{PartError, Transport};
+
+use crate::Flow;
+use crate::failure::error::SolverError;
+
+/// How much of a flow a process begins with.
+pub(crate) enum Share {
+    /// All of it.
+    Whole,
+    /// The part of a rank: lists are built and forces found for this alone.
+    Part(Arc<dyn Transport>),
+    /// Columns, plugins and walls; places, and no state: for one that comes from elsewhere.
+    Blank,
+}
+
+/// Refuses what cannot be divided between ranks.
+pub(crate) fn refuse_the_indivisible<const D: usize>(
+    flow: &Flow<D>,
+    ranks: usize,
+) -> Result<(), SolverError> {
+    if let Some(why) = flow.indivisible() {
+        return Err(SolverError::at("", why));
+    }
+    let particles = flow.world.free.len();
+    match ranks > particles {
+        true => Err(SolverError::at(
+            "",
+            format!("{ranks} ranks for {particles} particles: some would own nothing"),
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Whether all ranks are ready, which all must ask.
+pub(crate) fn all_ready<T>(
+    ranks: &dyn Transport,
+    ready: Result<T, SolverError>,
+) -> Result<T, SolverError> {
+    let mut failed = [f64::from(u8::from(ready.is_err()))];
+    let told = ranks.largest(&mut failed).map_err(PartError::from);
+    let ready = ready?;
+    told.map_err(StepError::from)?;
+    match failed[0] > 0.0 {
+        true => Err(StepError::from(PartError::Elsewhere).into()),
+        false => Ok(ready),
+    }
+}
