@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sph_io::{Checkpoint, ColumnData};
+use sph_io::{Checkpoint, ColumnData, FieldValues, Piece};
 
 /// Everything of a results folder that a resumed run must reproduce.
 #[derive(Debug, PartialEq)]
@@ -14,8 +14,9 @@ pub struct FinalState {
     pub columns: BTreeMap<String, Vec<u64>>,
     /// The time series.
     pub series: String,
-    /// Every file of fields, by name.
-    pub fields: BTreeMap<PathBuf, Vec<u8>>,
+    /// Every piece of every frame, by its name and time: numbers as bits, those of particles in the order of their identities,
+    /// since ranks write them in another.
+    pub fields: BTreeMap<String, BTreeMap<String, Vec<u64>>>,
 }
 
 impl FinalState {
@@ -32,12 +33,15 @@ impl FinalState {
             };
             (column.name.clone(), bits)
         });
-        let frames = files_with_extension(folder, "vtu").into_iter().map(|path| {
-            let name = path
-                .strip_prefix(folder)
-                .expect("below the folder")
-                .to_path_buf();
-            (name, std::fs::read(path).expect("a file of fields"))
+        let list = folder.join("fields.pvd");
+        let frames = match list.exists() {
+            true => sph_io::list_pvd(list).expect("a list of frames"),
+            false => Vec::new(),
+        };
+        let frames = frames.into_iter().map(|listed| {
+            let (piece, _) = sph_io::read_piece(&listed.path).expect("a piece of a frame");
+            let name = format!("{} at {:?} s", listed.name, listed.time);
+            (name, arrays(&piece))
         });
         FinalState {
             clock: [bits("time"), bits("dt")],
@@ -73,15 +77,49 @@ impl FinalState {
             "{what}: length of series.csv"
         );
         let names = |s: &Self| s.fields.keys().cloned().collect::<Vec<_>>();
-        assert_eq!(names(self), names(other), "{what}: files of fields");
-        for (name, bytes) in &self.fields {
-            assert!(
-                *bytes == other.fields[name],
-                "{what}: {} differs",
-                name.display()
-            );
+        assert_eq!(names(self), names(other), "{what}: pieces of frames");
+        for (name, arrays) in &self.fields {
+            let there = &other.fields[name];
+            let differ = arrays.iter().find(|(k, v)| there.get(*k) != Some(v));
+            let differ = differ.map(|(array, _)| array);
+            assert_eq!(differ, None, "{what}: an array of {name}");
+            assert_eq!(arrays.len(), there.len(), "{what}: arrays of {name}");
         }
     }
+}
+
+/// The arrays of a piece by their names, as bits, in the order of identities where it has them.
+fn arrays(piece: &Piece<'_>) -> BTreeMap<String, Vec<u64>> {
+    let bits = |data: &FieldValues<'_>| -> Vec<u64> {
+        match data {
+            FieldValues::F64(v) => v.iter().map(|x| x.to_bits()).collect(),
+            FieldValues::U32(v) => v.iter().map(|x| u64::from(*x)).collect(),
+            FieldValues::I64(v) => v.iter().map(|x| *x as u64).collect(),
+        }
+    };
+    let identities = piece.fields.iter().find(|f| f.name == "identity");
+    let order = identities.map(|f| {
+        let identities = bits(&f.data);
+        let mut order: Vec<usize> = (0..identities.len()).collect();
+        order.sort_by_key(|k| identities[*k]);
+        order
+    });
+    let sorted = |values: Vec<u64>, each: usize| match &order {
+        None => values,
+        Some(order) => {
+            let tuple = |k: &usize| values[k * each..(k + 1) * each].to_vec();
+            order.iter().flat_map(tuple).collect()
+        }
+    };
+    let places = piece.points.as_flattened().iter().map(|x| x.to_bits());
+    let mut all = BTreeMap::from([("position".to_string(), sorted(places.collect(), 3))]);
+    for field in &piece.fields {
+        all.insert(
+            field.name.to_string(),
+            sorted(bits(&field.data), field.components),
+        );
+    }
+    all
 }
 
 /// All files below a folder with an extension, sorted.
