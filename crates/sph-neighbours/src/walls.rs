@@ -171,4 +171,26 @@ impl<const D: usize> WallSet<D> {
     pub fn is_empty(&self) -> bool {
         self.points.position.is_empty() && self.elements.centre.is_empty()
     }
+
+    /// Takes over where the same walls are in another set, and what has passed and pulled there; not what walls feel.
+    pub fn follow(&mut self, other: &Self) {
+        if !(other.frames.is_empty() && other.passed.is_empty()) {
+            let (points, there) = (&mut self.points, &other.points);
+            points.position.clone_from(&there.position);
+            points.velocity.clone_from(&there.velocity);
+            points.viscous_velocity.clone_from(&there.viscous_velocity);
+            points.share.clone_from(&there.share);
+            points.acceleration.clone_from(&there.acceleration);
+            points.slip.clone_from(&there.slip);
+            let (elements, there) = (&mut self.elements, &other.elements);
+            elements.centre.clone_from(&there.centre);
+            elements.normal.clone_from(&there.normal);
+            elements.velocity.clone_from(&there.velocity);
+            elements.measure.clone_from(&there.measure);
+            elements.acceleration.clone_from(&there.acceleration);
+        }
+        self.frames.clone_from(&other.frames);
+        self.passed.clone_from(&other.passed);
+        self.pulls.clone_from(&other.pulls);
+    }
 }

@@ -25,7 +25,7 @@ impl<const D: usize> Running<'_, D> {
     ) -> Result<Summary, SolverError> {
         let flow = &self.shown().flow;
         let world = &flow.world;
-        let mut warnings = self.shown().warnings.clone();
+        let mut warnings = self.parts.warnings.clone();
         if let Some(failure) = failure {
             warnings.push(failure.to_string());
             warnings.extend(failure.findings.advice.iter().cloned());
@@ -50,13 +50,13 @@ impl<const D: usize> Running<'_, D> {
         let mut advice = self.advise(wall_seconds, [&dt_limiters, &dt_limits], &stage_seconds)?;
         let escaped = flow.escaped()?;
         let mach = self.say_what_is_odd(escaped, &mut warnings, &mut advice);
-        let held: usize = flow.works.iter().map(|w| w.most_bytes()).sum();
+        let held: usize = self.parts.flow.works.iter().map(|w| w.most_bytes()).sum();
         let summary = Summary {
             schema_version: SCHEMA_VERSION,
             scene: self.scene.title.clone(),
             status,
             version: env!("CARGO_PKG_VERSION").into(),
-            plugins: self.shown().plugins.clone(),
+            plugins: self.parts.plugins.clone(),
             dimension: D,
             particles,
             wall_points: world.walls.points.position.len(),
@@ -88,8 +88,8 @@ impl<const D: usize> Running<'_, D> {
             escaped,
             left: flow.left().map(|(to, left)| (to.clone(), left)).collect(),
             relaxation: self.parts.relaxation,
-            open_boundaries: flow.counts_of(sph_open::PASSING),
-            implicit_viscosity: flow.counts_of(ImplicitViscosity::<D>::NAME),
+            open_boundaries: self.parts.flow.counts_of(sph_open::PASSING),
+            implicit_viscosity: self.parts.flow.counts_of(ImplicitViscosity::<D>::NAME),
             errors,
             warnings,
             files: listing(&self.options.out),

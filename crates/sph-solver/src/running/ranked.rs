@@ -4,25 +4,27 @@ use std::sync::Arc;
 
 use sph_core::{StepError, System};
 use sph_decomposition::{PartError, Transport};
-use sph_neighbours::Nearby;
+use sph_neighbours::{Nearby, WallSet};
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
 use crate::results::summary::RankShare;
 use crate::running::beginning::begin;
+use crate::running::counters::Counters;
 use crate::running::course::Running;
 use crate::running::options::{RunOptions, Start};
+use crate::running::output::shows_depths;
 use crate::setup::assemble::{Assembled, assemble_share};
 use crate::setup::memory::Memory;
 use crate::setup::share::Share;
 use crate::step::stages::lock;
 
 /// What a process assembles: on ranks only where particles settle first does each hold the whole for a while.
-pub(crate) fn share(
+pub(crate) fn share<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
     ranks: Option<&Arc<dyn Transport>>,
-) -> Share {
+) -> Share<D> {
     match (ranks, &options.start) {
         (None, _) => Share::Whole,
         (Some(_), Start::Afresh) if scene.numerics.relax.is_some() => Share::Whole,
@@ -31,23 +33,37 @@ pub(crate) fn share(
     }
 }
 
-/// Leaves this rank its part, if it has more; the first gets columns for the whole besides.
-pub(crate) fn divide<const D: usize>(
+/// Columns for the whole at the first of several ranks, which has a part: among the walls of this, without lists and contacts,
+/// but where somebody looks around in it.
+pub(crate) fn columns_of_all<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
-    ranks: Arc<dyn Transport>,
-    parts: &mut Assembled<D>,
-) -> Result<Option<Assembled<D>>, SolverError> {
-    let first = ranks.rank() == 0;
-    if parts.flow.parts.is_none() {
-        parts.flow.divide(ranks).map_err(StepError::from)?;
+    parts: &Assembled<D>,
+    counters: &Counters,
+) -> Result<Assembled<D>, SolverError> {
+    if looks_around(scene, parts) {
+        let mut all = assemble_share::<D>(scene, Share::Blank)?;
+        begin(scene, options, false, &mut all.flow, &mut ())?;
+        return Ok(all);
     }
-    if !first {
-        return Ok(None);
-    }
-    let mut all = assemble_share::<D>(scene, &Share::Blank)?;
-    begin(scene, options, false, &mut all.flow, &mut ())?;
-    Ok(Some(all))
+    let standing = parts.flow.walls.as_ref().map(|walls| {
+        let set = &parts.flow.world.walls;
+        let set = WallSet {
+            names: set.names.clone(),
+            points: set.points.clone(),
+            elements: set.elements.clone(),
+            ..WallSet::default()
+        };
+        (walls.clone(), set)
+    });
+    let mut all = assemble_share::<D>(scene, Share::Columns(standing))?;
+    all.flow.recount(&counters.left);
+    Ok(all)
+}
+
+/// Whether somebody measures or shows what needs lists and contacts.
+fn looks_around<const D: usize>(scene: &Scene, all: &Assembled<D>) -> bool {
+    shows_depths(scene) || all.probes.iter().any(|(_, p)| p.looks_around())
 }
 
 impl<const D: usize> Running<'_, D> {
@@ -72,12 +88,15 @@ impl<const D: usize> Running<'_, D> {
         whole.world.forget_lists();
         let gathered = parts.gather(&flow.world, Some(&mut whole.world));
         gathered.map_err(StepError::from)?;
-        if let (Some(own), Some(all)) = (&flow.walls, &whole.walls) {
+        if let (Some(own), Some(all)) = (&flow.walls, &whole.walls)
+            && !Arc::ptr_eq(own, all)
+        {
             let states = lock(own).states();
             let (set, time) = (&mut whole.world.walls, flow.world.time);
             let moved = lock(all).put_back(set, &states, time);
             moved.map_err(|e| SolverError::at("wall", e.to_string()))?;
         }
+        whole.world.walls.follow(&flow.world.walls);
         whole.loads.clone_from(&flow.loads);
         whole.world.free.set_taken(flow.world.free.taken().to_vec());
         whole.world.free.set_born(flow.world.free.born());

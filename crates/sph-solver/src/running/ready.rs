@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use sph_core::StepError;
 use sph_decomposition::Transport;
 use sph_io::FolderLock;
 use sph_neighbours::Nearby;
@@ -31,7 +32,7 @@ pub(crate) fn ready<'a, const D: usize>(
     (held, observer): (&mut Option<FolderLock>, &mut (dyn Observer + Send)),
 ) -> Result<Running<'a, D>, SolverError> {
     let share = ranked::share(scene, options, ranks.as_ref());
-    let mut parts = assemble_share::<D>(scene, &share)?;
+    let mut parts = assemble_share::<D>(scene, share)?;
     let begun = !parts.flow.is_blank();
     if begun {
         rehearse(scene, &mut parts.flow, &parts.probes)?;
@@ -50,9 +51,13 @@ pub(crate) fn ready<'a, const D: usize>(
         sph_io::sweep_temporaries(&options.out)?;
     }
     let mut counters = begin(scene, options, writes, &mut parts.flow, observer)?;
-    let whole = match ranks {
-        None => None,
-        Some(ranks) => ranked::divide(scene, options, ranks, &mut parts)?,
+    if let Some(ranks) = ranks.filter(|_| parts.flow.parts.is_none()) {
+        parts.flow.divide(ranks).map_err(StepError::from)?;
+    }
+    let parted = parts.flow.parts.is_some();
+    let whole = match writes && parted {
+        true => Some(ranked::columns_of_all(scene, options, &parts, &counters)?),
+        false => None,
     };
     let shown = whole.as_ref().unwrap_or(&parts);
     for (name, probe) in &shown.probes {

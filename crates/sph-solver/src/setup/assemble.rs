@@ -67,7 +67,7 @@ pub struct Assembled<const D: usize> {
 /// # Errors
 /// Every problem of the scene, with its path; nothing is written.
 pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverError> {
-    assemble_share(scene, &Share::Whole)
+    assemble_share(scene, Share::Whole)
 }
 
 /// The same of what a process begins with. Where this is a part of the flow, all ranks assemble together.
@@ -76,7 +76,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
 /// Besides, what cannot be divided; another rank that has failed.
 pub(crate) fn assemble_share<const D: usize>(
     scene: &Scene,
-    share: &Share,
+    mut share: Share<D>,
 ) -> Result<Assembled<D>, SolverError> {
     let mut drawn = Drawn::<D>::of(scene)?;
     crate::setup::estimate::refuse_the_absurd(scene, &drawn)?;
@@ -92,7 +92,10 @@ pub(crate) fn assemble_share<const D: usize>(
         walls,
         placed,
         mut warnings,
-    } = Room::of(scene, &drawn, &mut choices)?;
+    } = match &mut share {
+        Share::Columns(standing) => Room::among(scene, &drawn, &mut choices, standing.take())?,
+        _ => Room::of(scene, &drawn, &mut choices)?,
+    };
     warnings.extend(open_faces::check(scene, opened.as_ref(), walls.as_ref())?);
     let ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
@@ -142,7 +145,7 @@ pub(crate) fn assemble_share<const D: usize>(
     flow.world.wrap()?;
     warnings.extend(ground.remarks(scene, &flow)?);
     warnings.extend(lattices::remarks(scene, &flow, &placed.body)?);
-    let relaxation = start(&beginning, share, &mut flow)?;
+    let relaxation = start(&beginning, &share, &mut flow)?;
     let integrator = &*choices.integrator;
     accounts::open(scene, &choices.probes, integrator, &*formulation, &mut flow)?;
     flow.nursery = nursery(scene, formulation, columns().collect(), &flow);

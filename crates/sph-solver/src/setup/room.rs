@@ -13,6 +13,7 @@ use crate::setup::choices::Choices;
 use crate::setup::domain::{check_periods, domain_of};
 use crate::setup::placement::{Placed, place};
 use crate::setup::shapes::Drawn;
+use crate::setup::share::Standing;
 use crate::setup::walls::{build_walls, wall_problem};
 use crate::step::stages::SharedWall;
 
@@ -38,21 +39,13 @@ impl<const D: usize> Room<D> {
         drawn: &Drawn<D>,
         choices: &mut Choices<D>,
     ) -> Result<Self, SolverError> {
-        let spacing = scene.numerics.spacing;
-        let h = scene.numerics.smoothing_ratio * spacing;
-        let kernel = choices.kernel.sampler(D, h);
-        let support = kernel.support_radius() / spacing;
-        if let Some(why) = Quantity::refused("kernel support over the spacing", support) {
-            return Err(SolverError::at("numerics.smoothing_ratio", why));
-        }
-        let skin = scene.numerics.skin.unwrap_or(defaults::SKIN);
-        let domain = domain_of(scene, drawn);
-        check_periods(&domain, kernel.support_radius() * (1.0 + skin))?;
+        let mut world = empty(scene, drawn, choices)?;
+        let h = world.kernel.smoothing_length();
         let mut warnings = scene.remarks.clone();
-        let mut wall_set = WallSet::default();
         if let Some(walls) = &mut choices.walls {
             let shape = &*choices.kernel;
-            wall_set = build_walls(scene, &drawn.walls, &mut **walls, shape, &domain, h)?;
+            let domain = &world.domain;
+            world.walls = build_walls(scene, &drawn.walls, &mut **walls, shape, domain, h)?;
             warnings.extend(walls.warnings());
         }
         let placed = place(scene, &drawn.regions, choices.walls.as_deref());
@@ -62,22 +55,6 @@ impl<const D: usize> Room<D> {
             let ends = walls.check_free_ends(&placed.positions);
             ends.map_err(|e| wall_problem(scene, &e))?;
         }
-        let world = World {
-            free: Store::new(0),
-            walls: wall_set,
-            lists: Default::default(),
-            domain,
-            kernel,
-            spacing,
-            skin,
-            gravity: scene.gravity::<D>(),
-            driving: scene.driving::<D>(),
-            time: 0.0,
-            dt: 0.0,
-            transported: Vec::new(),
-            extent: None,
-            team: None,
-        };
         Ok(Room {
             world,
             walls: choices.walls.take().map(|w| Arc::new(Mutex::new(w))),
@@ -85,4 +62,66 @@ impl<const D: usize> Room<D> {
             warnings,
         })
     }
+
+    /// The same among walls that stand already, without a particle.
+    ///
+    /// # Errors
+    /// The key of the scene that is wrong.
+    pub(crate) fn among(
+        scene: &Scene,
+        drawn: &Drawn<D>,
+        choices: &mut Choices<D>,
+        standing: Option<Standing<D>>,
+    ) -> Result<Self, SolverError> {
+        let mut world = empty(scene, drawn, choices)?;
+        choices.walls = None;
+        let walls = standing.map(|(walls, set)| {
+            world.walls = set;
+            walls
+        });
+        Ok(Room {
+            world,
+            walls,
+            placed: Placed {
+                positions: Vec::new(),
+                body: Vec::new(),
+                warnings: Vec::new(),
+            },
+            warnings: Vec::new(),
+        })
+    }
+}
+
+/// A box with a kernel and nothing in it.
+fn empty<const D: usize>(
+    scene: &Scene,
+    drawn: &Drawn<D>,
+    choices: &Choices<D>,
+) -> Result<World<D>, SolverError> {
+    let spacing = scene.numerics.spacing;
+    let h = scene.numerics.smoothing_ratio * spacing;
+    let kernel = choices.kernel.sampler(D, h);
+    let support = kernel.support_radius() / spacing;
+    if let Some(why) = Quantity::refused("kernel support over the spacing", support) {
+        return Err(SolverError::at("numerics.smoothing_ratio", why));
+    }
+    let skin = scene.numerics.skin.unwrap_or(defaults::SKIN);
+    let domain = domain_of(scene, drawn);
+    check_periods(&domain, kernel.support_radius() * (1.0 + skin))?;
+    Ok(World {
+        free: Store::new(0),
+        walls: WallSet::default(),
+        lists: Default::default(),
+        domain,
+        kernel,
+        spacing,
+        skin,
+        gravity: scene.gravity::<D>(),
+        driving: scene.driving::<D>(),
+        time: 0.0,
+        dt: 0.0,
+        transported: Vec::new(),
+        extent: None,
+        team: None,
+    })
 }

@@ -4,19 +4,26 @@ use std::sync::Arc;
 
 use sph_core::StepError;
 use sph_decomposition::{PartError, Transport};
+use sph_neighbours::WallSet;
 
 use crate::Flow;
 use crate::failure::error::SolverError;
+use crate::step::stages::SharedWall;
 
 /// How much of a flow a process begins with.
-pub(crate) enum Share {
+pub(crate) enum Share<const D: usize> {
     /// All of it.
     Whole,
     /// The part of a rank: lists are built and forces found for this alone.
     Part(Arc<dyn Transport>),
     /// Columns, plugins and walls; places, and no state: for one that comes from elsewhere.
     Blank,
+    /// Columns and plugins alone, without a particle, among walls that stand already: for what others gather.
+    Columns(Option<Standing<D>>),
 }
+
+/// Walls that stand already: the plugin, and what pair sums know of them.
+pub(crate) type Standing<const D: usize> = (SharedWall<D>, WallSet<D>);
 
 /// Refuses what cannot be divided between ranks.
 pub(crate) fn refuse_the_indivisible<const D: usize>(

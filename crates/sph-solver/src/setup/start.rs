@@ -42,11 +42,11 @@ pub(crate) fn phases_of_bodies(scene: &Scene) -> Vec<u32> {
 /// Sorts the particles and gives them their initial state; those of a rank's part if this is its `share`.
 pub(crate) fn start<const D: usize>(
     given: &Start<'_, D>,
-    share: &Share,
+    share: &Share<D>,
     flow: &mut Flow<D>,
 ) -> Result<Option<Relaxation>, SolverError> {
     let relaxation = match share {
-        Share::Blank => return Ok(None),
+        Share::Blank | Share::Columns(_) => return Ok(None),
         Share::Whole => {
             let world = &mut flow.world;
             world.rebuild_lists()?;
