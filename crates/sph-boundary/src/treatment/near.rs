@@ -216,10 +216,19 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             elements.clear();
             mesh.near_all(places, radius, counts, elements);
         });
-        self.make_room(found.iter().map(|found| found.elements.len()).sum());
+        let more = found.iter().map(|found| found.elements.len()).sum();
+        self.make_room(more);
+        // A search for most particles comes once: its memory is not kept, and given back on the way.
+        let most = 2 * room.stale.len() > self.rows.len();
+        if most {
+            self.elements.reserve_exact(more);
+        }
         let mut from = self.elements.len() as u32;
-        for (batch, found) in room.stale.chunks(BATCH).zip(&*found) {
+        for (batch, found) in room.stale.chunks(BATCH).zip(&mut *found) {
             self.elements.extend_from_slice(&found.elements);
+            if most {
+                found.elements = Vec::new();
+            }
             for (&i, &count) in batch.iter().zip(&found.counts) {
                 self.rows[i as usize] = Row {
                     place: positions[i as usize],
@@ -229,6 +238,9 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
                 };
                 from += count;
             }
+        }
+        if most {
+            room.found = Vec::new();
         }
         self.room = room;
         self.particles.clear();

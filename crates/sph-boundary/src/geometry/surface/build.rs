@@ -71,6 +71,8 @@ impl TriangleMesh {
             poses: vec![Pose::default(); surfaces.len()],
             sides: std::sync::OnceLock::new(),
         };
+        let triangles = filled.iter().flatten().map(|f| f.triangles.len());
+        mesh.triangles.reserve_exact(triangles.sum());
         for (patch, filling) in patches.iter().zip(filled) {
             let filling = filling.map_err(|reason| SurfaceError::NotMeshed {
                 wall: surfaces[patch.wall].name.clone(),
