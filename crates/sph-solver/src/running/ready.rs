@@ -70,6 +70,7 @@ pub(crate) fn ready<'a, const D: usize>(
         started: Instant::now(),
         output_seconds: 0.0,
         tried: (0.0, "none"),
+        limits: Vec::new(),
         mach: MachWatch::default(),
         shares: Vec::new(),
     })
