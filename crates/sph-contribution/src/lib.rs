@@ -27,7 +27,7 @@ pub use limiter::Limiter;
 pub use limits::{ForceLimit, SoundLimit};
 pub use newborn::Newborn;
 pub use refusal::Refusal;
-pub use step_work::{OutsideForce, StepWork, StoredEnergy};
+pub use step_work::{Forces, OutsideForce, StepWork, StoredEnergy};
 
 /// Stages of an evaluation.
 pub type Stages<const D: usize> = Vec<Box<dyn sph_core::Stage<sph_neighbours::World<D>>>>;

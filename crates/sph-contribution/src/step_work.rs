@@ -11,6 +11,27 @@ use crate::Newborn;
 /// A force that acts outside of the interaction sweep.
 pub type OutsideForce<const D: usize> = Arc<dyn Interaction<D>>;
 
+/// All forces that act: the terms of the sweep, then those outside of it.
+#[derive(Clone, Copy)]
+pub struct Forces<'a, const D: usize> {
+    /// The terms of the sweep.
+    pub sweep: &'a [Box<dyn Interaction<D>>],
+    /// What acts outside of it.
+    pub outside: &'a [OutsideForce<D>],
+}
+
+impl<'a, const D: usize> Forces<'a, D> {
+    /// One after the other.
+    pub fn iter(&self) -> impl Iterator<Item = &'a dyn Interaction<D>> + use<'a, D> {
+        let sweep = self
+            .sweep
+            .iter()
+            .map(|term| -> &'a dyn Interaction<D> { &**term });
+        let outside = self.outside.iter();
+        sweep.chain(outside.map(|force| -> &'a dyn Interaction<D> { &**force }))
+    }
+}
+
 /// An energy that single particles store, J, by their index.
 pub type StoredEnergy<'a> = Box<dyn Fn(usize) -> f64 + Sync + 'a>;
 
@@ -68,7 +89,7 @@ pub trait StepWork<const D: usize>: Send {
     fn before_kick(
         &mut self,
         _world: &mut World<D>,
-        _forces: &[&dyn Interaction<D>],
+        _forces: Forces<'_, D>,
     ) -> Result<(), StepError> {
         Ok(())
     }

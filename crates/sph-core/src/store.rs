@@ -66,11 +66,11 @@ impl<const D: usize> Store<D> {
         }
     }
 
-    /// Holds what follows to the columns of `access`, in builds with debug assertions alone; several may be at work
-    /// within each other.
-    pub fn watch(&self, access: impl FnOnce() -> Access) {
+    /// Holds what follows to the columns of all that is `declared`, in builds with debug assertions alone; several may be
+    /// at work within each other.
+    pub fn watch<'a>(&self, declared: impl IntoIterator<Item = &'a Access>) {
         if cfg!(debug_assertions) {
-            self.watch.begin(&access());
+            self.watch.begin(declared);
         }
     }
 

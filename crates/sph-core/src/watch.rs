@@ -2,12 +2,21 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use crate::{Access, fields};
+use crate::{Access, AnyField, fields};
 
 /// Who is at work, the innermost last, with what they touched.
 #[derive(Default)]
-pub(crate) struct Watch(Mutex<Vec<Watched>>);
+pub(crate) struct Watch(Mutex<AtWork>);
 
+#[derive(Default)]
+struct AtWork {
+    /// Those at work, and behind them the buffers of those who were.
+    all: Vec<Watched>,
+    /// How many are at work.
+    depth: usize,
+}
+
+#[derive(Default)]
 struct Watched {
     reads: Vec<&'static str>,
     writes: Vec<&'static str>,
@@ -15,46 +24,69 @@ struct Watched {
 }
 
 impl Watch {
-    fn all(&self) -> MutexGuard<'_, Vec<Watched>> {
+    fn at_work(&self) -> MutexGuard<'_, AtWork> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    pub fn begin(&self, access: &Access) {
-        let names = |fields: &[crate::AnyField]| fields.iter().map(|f| f.name).collect();
-        let mut reads: Vec<_> = names(&access.reads());
-        reads.extend(access.where_there.iter().map(|f| f.name));
-        // Nobody walks over neighbours without their places, and what walls cut off.
-        if access.sweep {
-            reads.extend([fields::POSITION.name, fields::RENORMALISATION.name]);
+    /// Somebody begins who may touch what all of these declare.
+    pub fn begin<'a>(&self, declared: impl IntoIterator<Item = &'a Access>) {
+        let mut at_work = self.at_work();
+        let place = at_work.depth;
+        at_work.depth += 1;
+        if at_work.all.len() == place {
+            at_work.all.push(Watched::default());
         }
-        self.all().push(Watched {
-            reads,
-            writes: names(&access.writes),
-            undeclared: Vec::new(),
-        });
+        let own = &mut at_work.all[place];
+        own.reads.clear();
+        own.writes.clear();
+        own.undeclared.clear();
+        declared.into_iter().for_each(|access| own.allow(access));
     }
 
     /// What was touched without being declared since the last beginning.
     pub fn end(&self) -> Vec<String> {
-        self.all().pop().map_or(Vec::new(), |w| w.undeclared)
+        let mut at_work = self.at_work();
+        let Some(place) = at_work.depth.checked_sub(1) else {
+            return Vec::new();
+        };
+        at_work.depth = place;
+        std::mem::take(&mut at_work.all[place].undeclared)
     }
 
     pub fn read(&self, name: &'static str) {
-        if let Some(last) = self.all().last_mut() {
+        if let Some(last) = self.at_work().innermost() {
             let known = last.reads.contains(&name) || last.writes.contains(&name);
             last.note(known, "reads", name);
         }
     }
 
     pub fn write(&self, name: &'static str) {
-        if let Some(last) = self.all().last_mut() {
+        if let Some(last) = self.at_work().innermost() {
             let known = last.writes.contains(&name);
             last.note(known, "writes", name);
         }
     }
 }
 
+impl AtWork {
+    fn innermost(&mut self) -> Option<&mut Watched> {
+        self.all[..self.depth].last_mut()
+    }
+}
+
 impl Watched {
+    fn allow(&mut self, access: &Access) {
+        let name = |field: &AnyField| field.name;
+        let reads = [&access.here, &access.neighbours, &access.where_there];
+        self.reads.extend(reads.into_iter().flatten().map(name));
+        // Nobody walks over neighbours without their places, and what walls cut off.
+        if access.sweep {
+            let always = [fields::POSITION.name, fields::RENORMALISATION.name];
+            self.reads.extend(always);
+        }
+        self.writes.extend(access.writes.iter().map(name));
+    }
+
     fn note(&mut self, known: bool, does: &str, name: &str) {
         if known {
             return;

@@ -1,5 +1,7 @@
 //! From the clusters of the neighbour lists to a matrix.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use sph_core::{StepError, Vect};
 use sph_neighbours::{CHUNK, Cluster, ClusterWalk, World};
@@ -12,8 +14,8 @@ use crate::{Entry, Pattern, Values};
 /// It is kept from step to step for its memory: to ask for tens of megabytes anew in every step costs a tenth of it.
 #[derive(Clone, Debug)]
 pub struct Assembly<E, const C: usize> {
-    /// Where entries are.
-    pub pattern: Pattern,
+    /// Where entries are; a matrix may share it.
+    pub pattern: Arc<Pattern>,
     /// What they are.
     pub values: Values<E>,
     /// Parts of the right-hand side, one per row.
@@ -25,7 +27,7 @@ impl<E, const C: usize> Default for Assembly<E, C> {
     /// No rows.
     fn default() -> Self {
         Assembly {
-            pattern: Pattern::default(),
+            pattern: Arc::default(),
             values: Values::default(),
             sources: Vec::new(),
             parts: Vec::new(),
@@ -181,6 +183,13 @@ impl<E: Entry<C>, const C: usize> Assembly<E, C> {
             parts,
         } = self;
         let entries = parts.iter().map(|p| p.used).sum();
+        if Arc::get_mut(pattern).is_none() {
+            // A factorisation still has the last one.
+            *pattern = Arc::default();
+        }
+        let Some(pattern) = Arc::get_mut(pattern) else {
+            unreachable!("nobody else has it yet");
+        };
         pattern.starts.clear();
         pattern.starts.reserve(rows + 1);
         pattern.starts.push(0);

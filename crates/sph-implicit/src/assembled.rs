@@ -14,8 +14,8 @@ impl<const D: usize> Operator<D> for Matrix<D> {
         Matrix::multiply(self, x, y);
     }
 
-    fn prepared<'a>(&'a self, shelf: &'a Shelf) -> Option<Box<dyn Operator<D> + 'a>> {
-        Some(Box::new(Halved::of(self, shelf)))
+    fn prepared<'a>(&'a self, shelf: &'a Shelf) -> Option<Halved<'a, D>> {
+        Some(Halved::of(self, shelf))
     }
 
     fn assembled(&self) -> Option<&Matrix<D>> {

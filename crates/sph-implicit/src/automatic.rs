@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Shelf, Vect, register};
 
+use crate::conjugate_gradient::ITERATIONS;
 use crate::{
     Cholesky, ConjugateGradient, Diagonal, LinearSolver, LinearSolverEntry, Operator,
     Preconditioner, Report, SolveError,
@@ -112,8 +113,8 @@ impl<const D: usize> LinearSolver<D> for Automatic {
             let mut plain = ConjugateGradient {
                 tolerance: self.tolerance,
                 preconditioner: Preconditioner::None,
+                iterations: ITERATIONS,
                 shelf: self.shelf.clone(),
-                ..ConjugateGradient::default()
             };
             return plain.solve_roughly(operator, right, x, enough);
         };
@@ -129,13 +130,12 @@ impl<const D: usize> LinearSolver<D> for Automatic {
         let mut spent = 0;
         for (k, &preconditioner) in stages.iter().enumerate() {
             let last = k + 1 == stages.len();
-            let usual = ConjugateGradient::default().iterations;
             let mut solver = ConjugateGradient {
                 tolerance: self.tolerance,
                 preconditioner,
                 iterations: match last {
                     false => BLOCK_PATIENCE,
-                    true => patience.unwrap_or(usual),
+                    true => patience.unwrap_or(ITERATIONS),
                 },
                 shelf: self.shelf.clone(),
             };

@@ -58,13 +58,13 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
             residual: self.tolerance,
             iterations: self.iterations,
         };
-        let mut watch = Watch::new(METHOD, tolerance, operator, right)?;
+        let shelf = Shelf::default();
+        let mut watch = Watch::new(METHOD, tolerance, operator, right, &shelf)?;
         let mut r = Vec::new();
         operator.residual(right, x, &mut r);
         if let Some(residual) = watch.reached(operator.norm(&r))? {
             return Ok(watch.report(residual, size_of_val(&r[..])));
         }
-        let shelf = Shelf::default();
         let precondition = self.preconditioner.bind(operator, METHOD, &shelf)?;
         let bytes = 7 * size_of_val(&r[..]) + precondition.bytes();
         let rows = right.len();

@@ -54,12 +54,14 @@ impl Default for ConjugateGradient {
         ConjugateGradient {
             preconditioner: Preconditioner::default(),
             tolerance: 1e-8,
-            iterations: 2000,
+            iterations: ITERATIONS,
             shelf: Arc::default(),
         }
     }
 }
 
+/// Iterations after which it gives up, unless a scene says otherwise.
+pub(crate) const ITERATIONS: usize = 2000;
 const METHOD: &str = "conjugate gradients";
 /// Iterations after which the matrix is put into a form that is read faster: to do so takes as long as two products.
 const PREPARE: usize = 3;
@@ -89,8 +91,8 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
             residual: self.tolerance.max(enough),
             iterations: self.iterations,
         };
-        let mut watch = Watch::new(METHOD, tolerance, operator, right)?;
         let shelf = &*self.shelf;
+        let mut watch = Watch::new(METHOD, tolerance, operator, right, shelf)?;
         let mut vectors = shelf.lend::<Vectors<D>>();
         let Vectors {
             r,

@@ -16,7 +16,7 @@ const MOST: usize = 1 << 16;
 /// The same operator as a [`Matrix`], read in 0.6 to 0.7 of the time: of pairs within a part of rows there is one entry.
 ///
 /// The parts depend on the number of rows alone, and so does the order of the sums: by rounding another one than the matrix has.
-pub(crate) struct Halved<'a, const D: usize>(Kind<'a, D>);
+pub struct Halved<'a, const D: usize>(Kind<'a, D>);
 
 enum Kind<'a, const D: usize> {
     Scalar(Parts<'a, f64>),
@@ -25,7 +25,7 @@ enum Kind<'a, const D: usize> {
 
 impl<'a, const D: usize> Halved<'a, D> {
     /// Of a matrix, in memory that is kept.
-    pub fn of(matrix: &'a Matrix<D>, shelf: &'a Shelf) -> Self {
+    pub(crate) fn of(matrix: &'a Matrix<D>, shelf: &'a Shelf) -> Self {
         let pattern = &matrix.pattern;
         Halved(match &matrix.entries {
             Entries::Scalar(values) => Kind::Scalar(Parts::of::<D>(pattern, values, shelf)),

@@ -30,8 +30,8 @@ impl<const D: usize> LinearSolver<D> for Jacobi {
             residual: self.tolerance,
             iterations: self.sweeps,
         };
-        let mut watch = Watch::new(METHOD, tolerance, operator, right)?;
         let shelf = Shelf::default();
+        let mut watch = Watch::new(METHOD, tolerance, operator, right, &shelf)?;
         let diagonal = Preconditioner::BlockJacobi.bind(operator, METHOD, &shelf)?;
         let mut r = Vec::new();
         let mut step = vec![Vect::zeros(); right.len()];

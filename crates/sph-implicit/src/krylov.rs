@@ -1,6 +1,6 @@
 //! What the iterative solvers have in common.
 
-use sph_core::Vect;
+use sph_core::{Lent, Shelf, Vect};
 
 use crate::{Operator, Report, SolveError};
 
@@ -14,14 +14,14 @@ pub struct Tolerance {
 }
 
 /// The bookkeeping of one solve.
-pub(crate) struct Watch {
+pub(crate) struct Watch<'s> {
     method: &'static str,
     tolerance: Tolerance,
     scale: f64,
-    history: Vec<f64>,
+    history: Lent<'s, Vec<f64>>,
 }
 
-impl Watch {
+impl<'s> Watch<'s> {
     /// # Errors
     /// If the right-hand side is not finite.
     pub fn new<const D: usize>(
@@ -29,14 +29,17 @@ impl Watch {
         tolerance: Tolerance,
         operator: &dyn Operator<D>,
         right: &[Vect<D>],
+        shelf: &'s Shelf,
     ) -> Result<Self, SolveError> {
         let scale = operator.norm(right);
+        let mut history = shelf.lend::<Vec<f64>>();
+        history.clear();
         match scale.is_finite() {
             true => Ok(Watch {
                 method,
                 tolerance,
                 scale,
-                history: Vec::new(),
+                history,
             }),
             false => Err(SolveError::NotFinite {
                 method: method.into(),
@@ -69,7 +72,7 @@ impl Watch {
                 method: self.method.into(),
                 wanted: self.tolerance.residual,
                 iterations: self.iterations(),
-                history: std::mem::take(&mut self.history),
+                history: self.history.clone(),
             }),
             false => Ok(None),
         }

@@ -49,6 +49,7 @@ pub use conjugate_gradient::ConjugateGradient;
 pub use divided::DividedMatrix;
 pub use entry::{Block, Entry};
 pub use error::SolveError;
+pub use halved::Halved;
 pub use incomplete::Incomplete;
 pub use jacobi::Jacobi;
 pub use krylov::Tolerance;

@@ -131,6 +131,11 @@ impl<const D: usize> Matrix<D> {
         }
     }
 
+    /// Entries on a pattern that is shared.
+    pub fn on(pattern: Arc<Pattern>, entries: Entries<D>) -> Self {
+        Matrix { pattern, entries }
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.pattern.len()

@@ -2,6 +2,7 @@
 
 use sph_core::{Shelf, Vect};
 
+use crate::halved::Halved;
 use crate::vector::dot;
 use crate::{Diagonal, Matrix, SolveError};
 
@@ -47,7 +48,7 @@ pub trait Operator<const D: usize>: Sync {
     fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]);
 
     /// The same operator in a form that is worth its making where many products are asked for; none where there is no such form.
-    fn prepared<'a>(&'a self, _shelf: &'a Shelf) -> Option<Box<dyn Operator<D> + 'a>> {
+    fn prepared<'a>(&'a self, _shelf: &'a Shelf) -> Option<Halved<'a, D>> {
         None
     }
 

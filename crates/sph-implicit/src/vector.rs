@@ -5,17 +5,24 @@ use sph_core::Vect;
 
 /// Members of one partial sum.
 const PART: usize = 2048;
+/// Partial sums that are made side by side.
+const TOGETHER: usize = 64;
 
 /// Σ x·y.
 pub fn dot<const D: usize>(x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
     let part =
         |(x, y): (&[Vect<D>], &[Vect<D>])| -> f64 { x.iter().zip(y).map(|(a, b)| a.dot(b)).sum() };
-    let parts: Vec<f64> = x
-        .par_chunks(PART)
-        .zip(y.par_chunks(PART))
-        .map(part)
-        .collect();
-    parts.iter().sum()
+    let all = x.chunks(TOGETHER * PART).zip(y.chunks(TOGETHER * PART));
+    let mut sum = 0.0;
+    for (x, y) in all {
+        let mut sums = [0.0; TOGETHER];
+        let parts = x.par_chunks(PART).zip(y.par_chunks(PART));
+        let count = parts.len();
+        let parts = parts.zip(&mut sums);
+        parts.for_each(|(both, sum)| *sum = part(both));
+        sum = sums[..count].iter().fold(sum, |sum, part| sum + part);
+    }
+    sum
 }
 
 /// |x|.

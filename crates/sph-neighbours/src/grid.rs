@@ -50,6 +50,28 @@ pub struct CellGrid<const D: usize> {
     starts: Vec<u32>,
     points: Vec<u32>,
     sorted: bool,
+    /// The cell of each point, and the next place in each cell: kept for their memory.
+    cells: Vec<u32>,
+    next: Vec<u32>,
+}
+
+impl<const D: usize> Default for CellGrid<D> {
+    /// No cells.
+    fn default() -> Self {
+        CellGrid {
+            lower: Vect::zeros(),
+            inverse_width: [0.0; D],
+            all: [0; D],
+            first: [0; D],
+            counts: [0; D],
+            periodic: [false; D],
+            starts: Vec::new(),
+            points: Vec::new(),
+            sorted: true,
+            cells: Vec::new(),
+            next: Vec::new(),
+        }
+    }
 }
 
 impl<const D: usize> CellGrid<D> {
@@ -57,35 +79,41 @@ impl<const D: usize> CellGrid<D> {
     ///
     /// Points outside the box count for the cell at its edge, which is still correct.
     pub fn new(positions: &[Vect<D>], radius: f64, domain: &Domain<D>) -> Self {
-        let mut grid = Self::cells(&Extent::of(positions), radius, domain);
-        grid.sort(positions);
+        let mut grid = Self::default();
+        grid.renew(positions, radius, domain);
         grid
+    }
+
+    /// The same in the memory of this grid.
+    pub fn renew(&mut self, positions: &[Vect<D>], radius: f64, domain: &Domain<D>) {
+        self.cells(&Extent::of(positions), radius, domain);
+        self.sort(positions);
     }
 
     /// The same with the cells of a larger set of points, of which these are some: they come in the order that they have
     /// among all. Only the cells around these points are held, along axes that are not periodic.
-    pub fn among(
+    pub fn renew_among(
+        &mut self,
         extent: &Extent<D>,
         positions: &[Vect<D>],
         radius: f64,
         domain: &Domain<D>,
-    ) -> Self {
-        let mut grid = Self::cells(extent, radius, domain);
+    ) {
+        self.cells(extent, radius, domain);
         let own = Extent::of(positions);
         let corners = [own.lower, own.upper].map(|x| {
-            let at = |axis| grid.coordinate(&x, axis);
+            let at = |axis| self.coordinate(&x, axis);
             std::array::from_fn::<usize, D, _>(at)
         });
         for axis in (0..D).filter(|a| !domain.periodic[*a]) {
-            grid.first[axis] = corners[0][axis];
-            grid.counts[axis] = corners[1][axis] + 1 - corners[0][axis];
+            self.first[axis] = corners[0][axis];
+            self.counts[axis] = corners[1][axis] + 1 - corners[0][axis];
         }
-        grid.sort(positions);
-        grid
+        self.sort(positions);
     }
 
-    /// All cells of an extent, with nobody in them.
-    fn cells(extent: &Extent<D>, radius: f64, domain: &Domain<D>) -> Self {
+    /// All cells of an extent, with nobody in them yet.
+    fn cells(&mut self, extent: &Extent<D>, radius: f64, domain: &Domain<D>) {
         let (mut lower, mut upper) = (extent.lower, extent.upper);
         for axis in 0..D {
             if domain.periodic[axis] {
@@ -114,23 +142,19 @@ impl<const D: usize> CellGrid<D> {
             counts[axis] = ((extent_along(axis) / width) as usize).max(1);
             inverse_width[axis] = counts[axis] as f64 / extent_along(axis);
         }
-        CellGrid {
-            lower,
-            inverse_width,
-            all: counts,
-            first: [0; D],
-            counts,
-            periodic: domain.periodic,
-            starts: Vec::new(),
-            points: Vec::new(),
-            sorted: true,
-        }
+        (self.lower, self.inverse_width) = (lower, inverse_width);
+        (self.all, self.first, self.counts) = (counts, [0; D], counts);
+        self.periodic = domain.periodic;
     }
 
     fn sort(&mut self, positions: &[Vect<D>]) {
-        let cells: Vec<u32> = positions.iter().map(|x| self.cell_of(x) as u32).collect();
+        let mut cells = std::mem::take(&mut self.cells);
+        cells.clear();
+        cells.extend(positions.iter().map(|x| self.cell_of(x) as u32));
         let total: usize = self.counts.iter().product();
-        let mut starts = vec![0u32; total + 1];
+        let starts = &mut self.starts;
+        starts.clear();
+        starts.resize(total + 1, 0);
         for &c in &cells {
             starts[c as usize + 1] += 1;
         }
@@ -138,15 +162,15 @@ impl<const D: usize> CellGrid<D> {
             starts[c + 1] += starts[c];
         }
         self.sorted = cells.is_sorted();
-        let mut next = starts.clone();
-        let mut points = vec![0u32; positions.len()];
+        self.next.clone_from(starts);
+        self.points.clear();
+        self.points.resize(positions.len(), 0);
         for (i, &c) in cells.iter().enumerate() {
-            let slot = &mut next[c as usize];
-            points[*slot as usize] = i as u32;
+            let slot = &mut self.next[c as usize];
+            self.points[*slot as usize] = i as u32;
             *slot += 1;
         }
-        self.starts = starts;
-        self.points = points;
+        self.cells = cells;
     }
 
     /// The points in cell order: entry `k` is the index of the point at place `k`.

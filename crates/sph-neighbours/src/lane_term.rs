@@ -12,7 +12,9 @@ use crate::lane_pair::LanePair;
 use crate::members::Members;
 use crate::separation::places;
 use crate::term::{each, free_then_walls};
-use crate::{BoundTerm, Interaction, Neighbourhood, Pair, Part, Rates, RowTerm, There, World};
+use crate::{
+    BoundTerm, Interaction, Neighbourhood, Pair, Part, Rates, RowTerm, There, WithTerm, World,
+};
 
 impl<const D: usize> From<&Pair<D>> for LanePair<D, f64> {
     #[inline(always)]
@@ -106,6 +108,9 @@ impl<const D: usize, T: LanePairTerm<D>> Interaction<D> for Lanewise<T> {
     }
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
         Ok(Box::new(FusedLanes(self.0.bind(world)?)))
+    }
+    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+        with(&FusedLanes(self.0.bind(world)?))
     }
     fn parts<'a>(&'a self, world: &'a World<D>) -> Result<Vec<Part<'a, D>>, StepError> {
         self.0.parts(world)

@@ -73,7 +73,7 @@ pub use lattice::{lattice_sum, rows_sum};
 pub use list::{CHUNK, NeighbourList};
 pub use moment::trusted_inverse;
 pub use nearby::Nearby;
-pub use packed::{Packed, pack};
+pub use packed::{Declared, Packed, pack};
 pub use reaction::{cross, wall_forces, wall_parts};
 pub use row::{NOBODY, Neighbourhood, Row, Scratch, There};
 pub use shared_rows::{SharedElements, SharedRows, inner};
@@ -84,7 +84,7 @@ pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_wit
 pub use team::Team;
 pub use term::{
     BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,
-    TermEntry,
+    TermEntry, WithTerm,
 };
 pub use walk::{Around, Rows, Surroundings, Values, walk, walk_into, walk_some};
 pub use wall_force::WallForce;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use sph_core::Vect;
+use sph_core::{Shelf, Vect};
 
 use crate::{CellGrid, Domain};
 
@@ -62,19 +62,33 @@ impl NeighbourList {
         reach: f64,
         domain: &Domain<D>,
     ) {
+        let shelf = Shelf::default();
+        self.build_on(&shelf, [targets, sources], grid, (reach, domain));
+    }
+
+    /// The same with the buffers of a shelf.
+    pub(crate) fn build_on<const D: usize>(
+        &mut self,
+        shelf: &Shelf,
+        [targets, sources]: [&[Vect<D>]; 2],
+        grid: &CellGrid<D>,
+        (reach, domain): (f64, &Domain<D>),
+    ) {
         self.len = targets.len();
         self.blocks
             .resize_with(targets.len().div_ceil(CHUNK), Block::default);
         let reach2 = reach * reach;
+        let room = || shelf.lend::<(Vec<u32>, Around)>();
         self.blocks
             .par_iter_mut()
             .enumerate()
-            .for_each_init(Vec::new, |buffer, (b, block)| {
+            .for_each_init(room, |room, (b, block)| {
+                let (buffer, around) = &mut **room;
                 block.begin();
                 let mut len = 0;
                 let from = b * CHUNK;
                 let to = (from + CHUNK).min(targets.len());
-                let mut around = Around::default();
+                around.cell = None;
                 for x in &targets[from..to] {
                     around.go_to(x, grid, reach);
                     let room = len + around.places;

@@ -1,7 +1,7 @@
 //! What most terms read of a neighbour, packed so that one load serves all of them.
 
 use rayon::prelude::*;
-use sph_core::{StepError, Vect, fields};
+use sph_core::{Access, StepError, Vect, fields};
 
 use crate::{Interaction, There, World};
 
@@ -17,17 +17,37 @@ pub struct Packed {
 impl Packed {
     /// What these terms read of neighbours.
     pub fn of<'t, const D: usize>(terms: impl IntoIterator<Item = &'t dyn Interaction<D>>) -> Self {
-        terms.into_iter().fold(Packed::default(), Packed::and)
+        let all = terms.into_iter().map(|term| term.access());
+        all.fold(Packed::default(), |packed, access| packed.and(&access))
     }
 
-    fn and<const D: usize>(self, term: &dyn Interaction<D>) -> Self {
-        let access = term.access();
+    fn and(self, access: &Access) -> Self {
         let reads = |name: &str| access.neighbours.iter().any(|f| f.name == name);
         Packed {
             velocity: self.velocity || reads(fields::VELOCITY.name),
             volume: self.volume || reads(fields::VOLUME.name),
             pressure: self.pressure || reads(fields::PRESSURE.name),
             density: self.density || reads(fields::DENSITY.name),
+        }
+    }
+}
+
+/// What the terms of a sweep declare, asked once and not in every step.
+#[derive(Clone, Debug, Default)]
+pub struct Declared {
+    /// The columns of every term, in their order.
+    pub accesses: Vec<Access>,
+    /// What they read of neighbours.
+    pub packed: Packed,
+}
+
+impl Declared {
+    /// What these terms declare.
+    pub fn of<'t, const D: usize>(terms: impl IntoIterator<Item = &'t dyn Interaction<D>>) -> Self {
+        let accesses: Vec<_> = terms.into_iter().map(|term| term.access()).collect();
+        Declared {
+            packed: accesses.iter().fold(Packed::default(), Packed::and),
+            accesses,
         }
     }
 }

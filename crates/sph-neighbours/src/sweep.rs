@@ -8,8 +8,8 @@ use sph_lanes::{Width, width};
 use crate::cluster::{Buffers, Cluster};
 use crate::list::CHUNK;
 use crate::members::{Members, groups};
-use crate::packed::{Packed, pack};
-use crate::term::{Interaction, Rates, RowTerm, TRANSPORTED};
+use crate::packed::{Declared, pack};
+use crate::term::{Interaction, Rates, RowTerm, TRANSPORTED, WithTerm};
 use crate::{Clusters, Domain, NOBODY, Neighbourhood, There, World};
 
 /// Sums all terms of all particles.
@@ -28,13 +28,13 @@ pub fn interactions<const D: usize>(
     acceleration: &mut [Vect<D>],
     scalar: Option<&mut [f64]>,
 ) -> Result<(), StepError> {
-    let packed = Packed::of(terms.iter().map(|t| &**t));
+    let declared = Declared::of(terms.iter().map(|t| &**t));
     let sums = Sums {
         acceleration,
         scalar,
         more: &mut [],
     };
-    all_sums(world, states, packed, terms, sums)
+    all_sums(world, states, &declared, terms, sums)
 }
 
 /// Where a sweep leaves what it sums, one entry per particle.
@@ -47,49 +47,80 @@ pub struct Sums<'a, const D: usize> {
     pub more: &'a mut [[f64; TRANSPORTED]],
 }
 
-/// As [`interactions`], with further scalars, for terms that are known to read what is `packed`.
+/// As [`interactions`], with further scalars, for terms of which it is known what they have `declared`.
 ///
 /// # Errors
 /// If a term misses a column.
 pub fn all_sums<const D: usize>(
     world: &World<D>,
     states: &mut Vec<There<D>>,
-    packed: Packed,
+    declared: &Declared,
     terms: &[Box<dyn Interaction<D>>],
     sums: Sums<'_, D>,
 ) -> Result<(), StepError> {
-    let bound = terms.iter().map(|t| declared(world, &**t));
-    let bound = bound.collect::<Result<Vec<_>, _>>()?;
-    pack(world, states, packed)?;
-    let kernel = &*world.kernel;
-    match &bound[..] {
-        [one] => interactions_with(world, states, kernel, &**one, sums),
-        _ => interactions_with(world, states, kernel, &Several(&bound), sums),
+    pack(world, states, declared.packed)?;
+    let mut sums = Some(sums);
+    with_all(
+        world,
+        declared,
+        terms,
+        None,
+        &mut |term| match sums.take() {
+            Some(sums) => interactions_with(world, states, &*world.kernel, term, sums),
+            None => Ok(()),
+        },
+    )
+}
+
+/// Lends all terms as one to `with`, each held to what it declares while it looks its columns up.
+///
+/// Every term is on the stack of the one before it, so that no step asks for memory.
+fn with_all<const D: usize>(
+    world: &World<D>,
+    declared: &Declared,
+    terms: &[Box<dyn Interaction<D>>],
+    before: Option<&dyn RowTerm<D>>,
+    with: &mut WithTerm<'_, D>,
+) -> Result<(), StepError> {
+    let Some((term, rest)) = terms.split_first() else {
+        return with(before.unwrap_or(&Nothing));
+    };
+    let place = declared.accesses.len().checked_sub(terms.len());
+    world.free.watch(place.map(|k| &declared.accesses[k]));
+    let mut looked_up = false;
+    let done = term.lend(world, &mut |bound| {
+        looked_up = true;
+        world.free.unwatch(|| term.name())?;
+        match before {
+            None => with_all(world, declared, rest, Some(bound), with),
+            Some(before) => with_all(world, declared, rest, Some(&Both(before, bound)), with),
+        }
+    });
+    match looked_up {
+        true => done,
+        false => world.free.unwatch(|| term.name()).and(done),
     }
 }
 
-/// A term with its columns, held to those that it declares.
-fn declared<'a, const D: usize>(
-    world: &'a World<D>,
-    term: &'a dyn Interaction<D>,
-) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
-    world.free.watch(|| term.access());
-    let bound = term.bind(world);
-    world.free.unwatch(|| term.name()).and(bound)
+/// A sweep without terms.
+struct Nothing;
+
+impl<const D: usize> RowTerm<D> for Nothing {
+    fn row(&self, _: &Neighbourhood<'_, D>, _: &mut Rates<D>) {}
+    fn cluster(&self, _: &mut Cluster<'_, D>, _: &mut [Rates<D>]) {}
 }
 
-struct Several<'a, 'b, const D: usize>(&'a [Box<dyn RowTerm<D> + 'b>]);
+/// A term after those before it.
+struct Both<'a, const D: usize>(&'a dyn RowTerm<D>, &'a dyn RowTerm<D>);
 
-impl<const D: usize> RowTerm<D> for Several<'_, '_, D> {
+impl<const D: usize> RowTerm<D> for Both<'_, D> {
     fn row(&self, neighbourhood: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
-        for term in self.0 {
-            term.row(neighbourhood, rates);
-        }
+        self.0.row(neighbourhood, rates);
+        self.1.row(neighbourhood, rates);
     }
     fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
-        for term in self.0 {
-            term.cluster(cluster, rates);
-        }
+        self.0.cluster(cluster, rates);
+        self.1.cluster(cluster, rates);
     }
 }
 
@@ -173,26 +204,27 @@ pub fn accelerations_of<const D: usize>(
     wanted: impl Fn(usize) -> bool + Sync,
     acceleration: &mut [Vect<D>],
 ) -> Result<(), StepError> {
-    let bound = term.bind(world)?;
     let sweep = Sweep::new(world, states, &*world.kernel)?;
     let start = Rates::of(Vect::zeros());
-    let all = acceleration.par_chunks_mut(CHUNK).enumerate();
-    all.for_each_init(
-        || world.lists.shelf.lend::<Room<D>>(),
-        |room, (c, a)| {
-            let (buffers, rates) = &mut **room;
-            rates.clear();
-            rates.resize(a.len(), start);
-            sweep.block(&*bound, &wanted, buffers, c, rates);
-            for (k, (a, rates)) in a.iter_mut().zip(rates.iter()).enumerate() {
-                *a = match wanted(c * CHUNK + k) {
-                    true => rates.acceleration,
-                    false => Vect::zeros(),
-                };
-            }
-        },
-    );
-    Ok(())
+    term.lend(world, &mut |bound| {
+        let all = acceleration.par_chunks_mut(CHUNK).enumerate();
+        all.for_each_init(
+            || world.lists.shelf.lend::<Room<D>>(),
+            |room, (c, a)| {
+                let (buffers, rates) = &mut **room;
+                rates.clear();
+                rates.resize(a.len(), start);
+                sweep.block(bound, &wanted, buffers, c, rates);
+                for (k, (a, rates)) in a.iter_mut().zip(rates.iter()).enumerate() {
+                    *a = match wanted(c * CHUNK + k) {
+                        true => rates.acceleration,
+                        false => Vect::zeros(),
+                    };
+                }
+            },
+        );
+        Ok(())
+    })
 }
 
 /// Buffers of a thread, and the rates of its block.

@@ -111,6 +111,27 @@ pub trait RowTerm<const D: usize>: Sync {
     }
 }
 
+impl<const D: usize, T: RowTerm<D> + ?Sized> RowTerm<D> for &T {
+    fn row(&self, neighbourhood: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        (**self).row(neighbourhood, rates);
+    }
+    fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
+        (**self).cluster(cluster, rates);
+    }
+}
+
+impl<const D: usize, T: RowTerm<D> + ?Sized> RowTerm<D> for Box<T> {
+    fn row(&self, neighbourhood: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        (**self).row(neighbourhood, rates);
+    }
+    fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
+        (**self).cluster(cluster, rates);
+    }
+}
+
+/// What is done with a term that has its columns.
+pub type WithTerm<'w, const D: usize> = dyn FnMut(&dyn RowTerm<D>) -> Result<(), StepError> + 'w;
+
 /// A term on its own: its name, and the term with its columns.
 pub type Part<'a, const D: usize> = (String, Box<dyn RowTerm<D> + 'a>);
 
@@ -126,6 +147,14 @@ pub trait Interaction<const D: usize>: Send + Sync {
     /// # Errors
     /// If a column is missing.
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError>;
+    /// Lends the term with its columns to `with`, once. The sweep asks for it in this way: [`Term`] and
+    /// [`Lanewise`](crate::Lanewise) have it on the stack, and no step asks for memory.
+    ///
+    /// # Errors
+    /// If a column is missing, and those of `with`.
+    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+        with(&*self.bind(world)?)
+    }
     /// The terms that this one is fused of, each on its own.
     ///
     /// # Errors
@@ -158,6 +187,9 @@ impl<const D: usize, T: PairTerm<D>> Interaction<D> for Term<T> {
     }
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
         Ok(Box::new(Fused(self.0.bind(world)?)))
+    }
+    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+        with(&Fused(self.0.bind(world)?))
     }
     fn parts<'a>(&'a self, world: &'a World<D>) -> Result<Vec<Part<'a, D>>, StepError> {
         self.0.parts(world)

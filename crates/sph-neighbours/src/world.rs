@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use sph_core::{AnyField, Field, FieldError, Scalar, Shelf, Store, Vect, fields};
+use sph_core::{AnyField, Field, FieldError, Lent, Scalar, Shelf, Store, Vect, fields};
 use sph_kernels::Sampler;
 
 use crate::{CellGrid, Clusters, Domain, Extent, NeighbourList, Team, WallSet};
@@ -182,7 +182,7 @@ impl<const D: usize> World<D> {
 
     /// The order of lists at other positions; `None` if the particles have it.
     pub fn order_at(&self, positions: &[Vect<D>]) -> Option<Vec<u32>> {
-        let mut grid = self.grid(positions);
+        let mut grid = self.grid(positions, &self.lists.shelf);
         if let Ok(identities) = self.free.get(fields::IDENTITY) {
             grid.order_by(identities);
         }
@@ -190,11 +190,18 @@ impl<const D: usize> World<D> {
     }
 
     /// The cells of free particles at these positions.
-    fn grid(&self, positions: &[Vect<D>]) -> CellGrid<D> {
+    fn grid<'s>(&self, positions: &[Vect<D>], shelf: &'s Shelf) -> Lent<'s, CellGrid<D>> {
+        let mut grid = shelf.lend::<CellGrid<D>>();
         match &self.extent {
-            None => CellGrid::new(positions, self.reach(), &self.domain),
-            Some(all) => CellGrid::among(all, positions, self.reach(), &self.domain),
+            None => grid.renew(positions, self.reach(), &self.domain),
+            Some(all) => grid.renew_among(all, positions, self.reach(), &self.domain),
         }
+        grid
+    }
+
+    /// Buffers of whatever walks over the lists.
+    pub fn shelf(&self) -> &Shelf {
+        &self.lists.shelf
     }
 
     /// Gives back the memory of all lists, which have to be built before anybody asks for neighbours.
@@ -221,27 +228,39 @@ impl<const D: usize> World<D> {
     /// A resumed run passes positions and time of the last build, so that its lists, and with them
     /// the order of its sums, are those of the run that was interrupted.
     pub fn build_lists_from(&mut self, positions: Vec<Vect<D>>, points: Vec<Vect<D>>, time: f64) {
+        // Grids stand on it while the lists are changed.
+        let shelf = std::mem::take(&mut self.lists.shelf);
+        self.build_lists_on(&shelf, &positions, &points);
+        let lists = &mut self.lists;
+        lists.shelf = shelf;
+        lists.reference_points = points;
+        lists.reference = positions;
+        lists.time = time;
+        lists.builds += 1;
+    }
+
+    fn build_lists_on(&mut self, shelf: &Shelf, positions: &[Vect<D>], points: &[Vect<D>]) {
         let reach = self.reach();
-        let grid = self.grid(&positions);
+        let grid = self.grid(positions, shelf);
         let lists = &mut self.lists;
         let domain = &self.domain;
-        let shelf = &lists.shelf;
         let idle = self.team.as_ref().and_then(|team| team.idle(&self.free));
         let idle = idle.as_deref().filter(|idle| idle.len() == positions.len());
         lists
             .free
-            .build_but(&positions, &grid, (reach, domain), shelf, idle);
+            .build_but(positions, &grid, (reach, domain), shelf, idle);
         if self.walls.points.in_sums() {
             let first = self.walls.points.corners;
             let summed = &points[first..];
-            let wall_grid = CellGrid::new(summed, reach, domain);
+            let mut wall_grid = shelf.lend::<CellGrid<D>>();
+            wall_grid.renew(summed, reach, domain);
             lists
                 .wall
-                .build(&positions, summed, &wall_grid, reach, domain);
+                .build_on(shelf, [positions, summed], &wall_grid, (reach, domain));
             lists.wall.shift(first as u32);
             lists
                 .of_points
-                .build_around(summed, &positions, &grid, reach, domain, shelf);
+                .build_around(summed, positions, &grid, reach, domain, shelf);
         }
         let elements = &self.walls.elements;
         if !elements.centre.is_empty() {
@@ -249,15 +268,11 @@ impl<const D: usize> World<D> {
             let mut centres = shelf.lend::<Vec<Vect<D>>>();
             let all = 0..elements.centre.len();
             centres.clear();
-            centres.extend(all.map(|s| elements.centre_from(s, &points, domain)));
+            centres.extend(all.map(|s| elements.centre_from(s, points, domain)));
             lists
                 .of_elements
-                .build_around(&centres, &positions, &grid, reach, domain, shelf);
+                .build_around(&centres, positions, &grid, reach, domain, shelf);
         }
-        lists.reference_points = points;
-        lists.reference = positions;
-        lists.time = time;
-        lists.builds += 1;
     }
 
     /// Drops the lists that hold at the positions of before.

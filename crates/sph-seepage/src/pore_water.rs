@@ -1,14 +1,12 @@
 //! The flow through the pores of a soil: its pressure, its flux, and what it carries across the surface.
 
 use nalgebra::SMatrix;
-use sph_contribution::StepWork;
+use sph_contribution::{Forces, StepWork};
 use sph_core::{Access, AnyField, Field, Scalar, StepError, Vect, fields};
 use sph_implicit::{
     ConjugateGradient, DividedMatrix, Entries, LinearSolver, Matrix, Pattern, Values,
 };
-use sph_neighbours::{
-    Around, Interaction, Neighbourhood, SharedRows, World, trusted_inverse, walk_some,
-};
+use sph_neighbours::{Around, Neighbourhood, SharedRows, World, trusted_inverse, walk_some};
 
 use crate::contract::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
 use crate::exchange::Exchange;
@@ -72,11 +70,7 @@ impl<const D: usize> StepWork<D> for Seeps<D> {
     fn remembered(&self) -> Vec<AnyField> {
         vec![SEEPAGE_VELOCITY.any(), SEEPAGE_PRESSURE.any()]
     }
-    fn before_kick(
-        &mut self,
-        world: &mut World<D>,
-        _: &[&dyn Interaction<D>],
-    ) -> Result<(), StepError> {
+    fn before_kick(&mut self, world: &mut World<D>, _: Forces<'_, D>) -> Result<(), StepError> {
         let velocity = world.free.get(fields::VELOCITY)?;
         self.earlier.clear();
         self.earlier.extend_from_slice(velocity);

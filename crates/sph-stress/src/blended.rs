@@ -3,7 +3,9 @@
 use std::any::Any;
 
 use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
-use sph_neighbours::{ContactRow, Interaction, Neighbourhood, Rates, Row, RowTerm, World};
+use sph_neighbours::{
+    ContactRow, Interaction, Neighbourhood, Rates, Row, RowTerm, WithTerm, World,
+};
 
 use crate::Rheologies;
 
@@ -45,6 +47,18 @@ impl<const D: usize> Blended<D> {
     }
 }
 
+/// Phases of all particles, and which of them act wholly.
+type Apart<'a> = (&'a [u32], &'a [bool]);
+
+impl<const D: usize> Blended<D> {
+    fn apart<'a>(&'a self, world: &'a World<D>) -> Result<Option<Apart<'a>>, StepError> {
+        match self.apart.is_empty() {
+            true => Ok(None),
+            false => Ok(Some((world.free.get(fields::PHASE)?, &self.apart))),
+        }
+    }
+}
+
 impl<const D: usize> Interaction<D> for Blended<D> {
     fn name(&self) -> String {
         format!("share of {}", self.term.name())
@@ -59,15 +73,18 @@ impl<const D: usize> Interaction<D> for Blended<D> {
     }
 
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
-        let phase = match self.apart.is_empty() {
-            true => None,
-            false => Some(world.free.get(fields::PHASE)?),
-        };
         Ok(Box::new(Bound {
             term: self.term.bind(world)?,
             share: world.free.get(self.share)?,
-            apart: phase.map(|phase| (phase, &self.apart[..])),
+            apart: self.apart(world)?,
         }))
+    }
+
+    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+        let share = world.free.get(self.share)?;
+        let apart = self.apart(world)?;
+        self.term
+            .lend(world, &mut |term| with(&Bound { term, share, apart }))
     }
 
     fn as_any_ref(&self) -> &dyn Any {
@@ -80,14 +97,13 @@ impl<const D: usize> Interaction<D> for Blended<D> {
 }
 
 /// [`Blended`] with its columns.
-struct Bound<'a, const D: usize> {
-    term: Box<dyn RowTerm<D> + 'a>,
+struct Bound<'a, T> {
+    term: T,
     share: &'a [f64],
-    /// Phases of all particles, and which of them act wholly.
-    apart: Option<(&'a [u32], &'a [bool])>,
+    apart: Option<Apart<'a>>,
 }
 
-impl<const D: usize> RowTerm<D> for Bound<'_, D> {
+impl<const D: usize, T: RowTerm<D>> RowTerm<D> for Bound<'_, T> {
     fn row(&self, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let share = self.share[at.particle];
         if share == 1.0 {
@@ -109,9 +125,12 @@ fn nothing<const D: usize>() -> Rates<D> {
     Rates::of(Vect::zeros())
 }
 
-impl<const D: usize> Bound<'_, D> {
+impl<T> Bound<'_, T> {
     /// The part of neighbours that act wholly.
-    fn of_others(&self, at: &Neighbourhood<'_, D>) -> Rates<D> {
+    fn of_others<const D: usize>(&self, at: &Neighbourhood<'_, D>) -> Rates<D>
+    where
+        T: RowTerm<D>,
+    {
         let mut rates = nothing();
         let Some((phase, apart)) = self.apart else {
             return rates;

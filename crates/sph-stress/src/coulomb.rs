@@ -1,7 +1,7 @@
 //! Grains that slide on a wall.
 
 use rayon::prelude::*;
-use sph_contribution::StepWork;
+use sph_contribution::{Forces, StepWork};
 use sph_core::{Access, Field, Scalar, StepError, Symmetric, Vect, fields};
 use sph_neighbours::{Contact, Interaction, WallForce, World, cross, wall_parts};
 
@@ -128,9 +128,10 @@ impl<const D: usize> StepWork<D> for CoulombFriction<D> {
     fn before_kick(
         &mut self,
         world: &mut World<D>,
-        forces: &[&dyn Interaction<D>],
+        forces: Forces<'_, D>,
     ) -> Result<(), StepError> {
-        self.pressed = self.pressed(world, forces)?;
+        let forces: Vec<_> = forces.iter().collect();
+        self.pressed = self.pressed(world, &forces)?;
         Ok(())
     }
     fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {

@@ -93,7 +93,9 @@ impl<const D: usize> ElasticMotion<D> {
                     out.fill(Symmetric::ZERO);
                     return;
                 };
-                let gradients: Vec<Matrix3<f64>> = gradient[run].iter().map(in_space).collect();
+                let mut gradients = world.shelf().lend::<Vec<Matrix3<f64>>>();
+                gradients.clear();
+                gradients.extend(gradient[run].iter().map(in_space));
                 elastic.advance(inputs, &gradients, dt, out);
             })?;
         Ok(world.free.put(fields::ELASTIC_STRESS, stress)?)

@@ -27,6 +27,7 @@ use crate::{CarriedStress, ElasticMotion, Felt};
 pub struct ElasticSubSteps<const D: usize> {
     /// The force.
     pub term: OutsideForce<D>,
+    packed: Packed,
     felt: Felt,
     longest: f64,
     states: Vec<There<D>>,
@@ -40,6 +41,7 @@ impl<const D: usize> ElasticSubSteps<D> {
     /// For a force that reads no velocity, the laws of the scene, and the longest sub-step, s.
     pub fn new(term: OutsideForce<D>, felt: Felt, longest: f64) -> Self {
         ElasticSubSteps {
+            packed: Packed::of([&*term]),
             term,
             felt,
             longest,
@@ -83,7 +85,7 @@ impl<const D: usize> ElasticSubSteps<D> {
             let all = self.touched.iter_mut().zip(&told);
             all.for_each(|(touched, told)| *touched = told[0] > 0.0);
         }
-        pack(world, &mut self.states, Packed::of([&*self.term]))?;
+        pack(world, &mut self.states, self.packed)?;
         let particles = world.free.len();
         self.acceleration.resize(particles, Vect::zeros());
         let more = 0.5 * (1.0 - 1.0 / count as f64);

@@ -1,7 +1,5 @@
 //! The effective pressure as a harmonic function of place.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, register};
@@ -245,9 +243,8 @@ impl<const D: usize> Solve<D> {
             gravity: world.gravity,
         };
         assembly.fill(world, |cluster, rows| system.add(cluster, rows))?;
-        let pattern = std::mem::take(&mut assembly.pattern);
         let values = std::mem::take(&mut assembly.values);
-        let matrix = Matrix::new(pattern, Entries::Scalar(values));
+        let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
         let mut pressure = world.free.take(fields::EFFECTIVE_PRESSURE)?;
         x.clear();
         x.extend(
@@ -272,7 +269,6 @@ impl<const D: usize> Solve<D> {
         if let Entries::Scalar(values) = matrix.entries {
             assembly.values = values;
         }
-        assembly.pattern = Arc::try_unwrap(matrix.pattern).unwrap_or_default();
         solved.map_err(|e| StepError::Stage {
             stage: "effective pressure".into(),
             reason: e.to_string(),

@@ -11,13 +11,16 @@ pub trait Coupling<const D: usize>: Send + Sync {
     fn access(&self) -> Access;
     /// Whether C and W mix the components of the velocity.
     fn mixes_components(&self) -> bool;
-    /// Looks the columns up.
+    /// Lends the coupling with its columns to `with`, once.
     ///
     /// # Errors
-    /// If a column is missing.
-    fn bind<'a>(&'a self, world: &'a World<D>)
-    -> Result<Box<dyn BoundCoupling<D> + 'a>, StepError>;
+    /// If a column is missing, and those of `with`.
+    fn lend(&self, world: &World<D>, with: &mut WithCoupling<'_, D>) -> Result<(), StepError>;
 }
+
+/// What is done with a coupling that has its columns.
+pub type WithCoupling<'w, const D: usize> =
+    dyn FnMut(&dyn BoundCoupling<D>) -> Result<(), StepError> + 'w;
 
 /// What a particle gets from walls.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,9 @@
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use sph_core::{Shelf, Vect};
-use sph_implicit::{Assembly, Block, Diagonal, Entries, Entry, Matrix, Operator, Rows, dot};
+use sph_implicit::{
+    Assembly, Block, Diagonal, Entries, Entry, Halved, Matrix, Operator, Pattern, Rows, Values, dot,
+};
 use sph_neighbours::{CouplingsAt, Neighbourhood, SharedRows, Visitor, World};
 
 use crate::{BoundCoupling, CouplingRow};
@@ -94,11 +96,11 @@ impl<'a, const D: usize> FrictionOperator<'a, D> {
         match self.rows {
             RowsOf::Scalar(own, _) => {
                 let (pattern, values) = self.of_pairs(own, &mut matrices.scalar);
-                Matrix::new(pattern, Entries::Scalar(values))
+                Matrix::on(pattern, Entries::Scalar(values))
             }
             RowsOf::Block(own, _) => {
                 let (pattern, values) = self.of_pairs(own, &mut matrices.block);
-                Matrix::new(pattern, Entries::Block(values))
+                Matrix::on(pattern, Entries::Block(values))
             }
         }
     }
@@ -107,7 +109,7 @@ impl<'a, const D: usize> FrictionOperator<'a, D> {
         &self,
         own: &[E],
         assembly: &mut Assembly<E, D>,
-    ) -> (sph_implicit::Pattern, sph_implicit::Values<E>) {
+    ) -> (Arc<Pattern>, Values<E>) {
         let size = [self.couplings.blocks(), own.len()];
         assembly.fill_blocks(size, |block, rows| {
             let mut writer = Writer {
@@ -119,26 +121,21 @@ impl<'a, const D: usize> FrictionOperator<'a, D> {
             };
             self.couplings.each(block, &mut writer);
         });
-        let pattern = std::mem::take(&mut assembly.pattern);
-        (pattern, std::mem::take(&mut assembly.values))
+        let values = std::mem::take(&mut assembly.values);
+        (assembly.pattern.clone(), values)
     }
 }
 
 impl<const D: usize> Drop for FrictionOperator<'_, D> {
     /// Lets the memory of the matrix be used again.
     fn drop(&mut self) {
-        let Some(Matrix { pattern, entries }) = self.matrix.take() else {
+        let Some(matrix) = self.matrix.take() else {
             return;
         };
-        let pattern = Arc::try_unwrap(pattern).unwrap_or_default();
         let mut matrices = held(self.matrices);
-        match entries {
-            Entries::Scalar(values) => {
-                (matrices.scalar.pattern, matrices.scalar.values) = (pattern, values);
-            }
-            Entries::Block(values) => {
-                (matrices.block.pattern, matrices.block.values) = (pattern, values);
-            }
+        match matrix.entries {
+            Entries::Scalar(values) => matrices.scalar.values = values,
+            Entries::Block(values) => matrices.block.values = values,
         }
     }
 }
@@ -240,7 +237,7 @@ impl<const D: usize> Operator<D> for FrictionOperator<'_, D> {
         self.shared.is_none()
     }
 
-    fn prepared<'a>(&'a self, shelf: &'a Shelf) -> Option<Box<dyn Operator<D> + 'a>> {
+    fn prepared<'a>(&'a self, shelf: &'a Shelf) -> Option<Halved<'a, D>> {
         let whole = self.matrix.get().filter(|_| self.shared.is_none());
         whole.and_then(|matrix| matrix.prepared(shelf))
     }

@@ -101,21 +101,22 @@ impl<const D: usize> FrictionSystem<D> {
         weak: Option<Weak<'_, D>>,
         [ahead, dt]: [f64; 2],
     ) -> Result<(), StepError> {
-        let bound = coupling.bind(world)?;
-        let part = Part {
-            coupling: &*bound,
-            weak,
-            mass: &self.mass,
-            ahead,
-            dt,
-        };
         self.mixes = coupling.mixes_components();
-        let couplings = &mut self.couplings;
-        let right = &mut self.right;
-        match self.mixes {
-            false => part.fill(world, couplings, &mut self.scalar, right),
-            true => part.fill(world, couplings, &mut self.block, right),
-        }
+        coupling.lend(world, &mut |bound| {
+            let part = Part {
+                coupling: bound,
+                weak,
+                mass: &self.mass,
+                ahead,
+                dt,
+            };
+            let couplings = &mut self.couplings;
+            let right = &mut self.right;
+            match self.mixes {
+                false => part.fill(world, couplings, &mut self.scalar, right),
+                true => part.fill(world, couplings, &mut self.block, right),
+            }
+        })
     }
 
     /// The system's left side, for a world that stands where it was filled.

@@ -7,8 +7,8 @@
 use std::time::Instant;
 
 use serde_json::Value as Json;
-use sph_contribution::{OutsideForce, Stages, StepWork};
-use sph_core::{Access, StepError, Vect, fields};
+use sph_contribution::{Forces, OutsideForce, Stages, StepWork};
+use sph_core::{Access, Stage, StepError, Vect, fields};
 use sph_implicit::{LinearSolver, Operator, TimeScheme};
 use sph_neighbours::{Interaction, World};
 
@@ -104,7 +104,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             if again {
                 for stage in &mut self.lagged.stages {
                     stage.run(world)?;
-                    tell(stage.access(), world)?;
+                    tell(&**stage, world)?;
                 }
             }
             let mut velocity = std::mem::take(&mut self.velocity);
@@ -222,11 +222,7 @@ impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
     fn force(&self) -> Option<OutsideForce<D>> {
         Some(self.force.clone())
     }
-    fn before_kick(
-        &mut self,
-        world: &mut World<D>,
-        _: &[&dyn Interaction<D>],
-    ) -> Result<(), StepError> {
+    fn before_kick(&mut self, world: &mut World<D>, _: Forces<'_, D>) -> Result<(), StepError> {
         let velocity = world.free.get(fields::VELOCITY)?;
         self.earlier.clear();
         self.earlier.extend_from_slice(velocity);
@@ -297,10 +293,17 @@ fn unstiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Resu
 }
 
 /// Gives copies of others' particles what a stage has summed over the neighbours of these.
-fn tell<const D: usize>(access: Access, world: &mut World<D>) -> Result<(), StepError> {
-    match world.team.clone() {
-        Some(team) if access.sweep => team.tell(&mut world.free, &access.writes),
-        _ => Ok(()),
+fn tell<const D: usize>(
+    stage: &dyn Stage<World<D>>,
+    world: &mut World<D>,
+) -> Result<(), StepError> {
+    let Some(team) = world.team.clone() else {
+        return Ok(());
+    };
+    let access = stage.access();
+    match access.sweep {
+        true => team.tell(&mut world.free, &access.writes),
+        false => Ok(()),
     }
 }
 

@@ -26,7 +26,7 @@ mod viscosity_source;
 mod viscous_limit;
 
 pub use contract::{Viscosity, ViscousOperator, ViscousOperatorEntry};
-pub use coupling::{BoundCoupling, Coupling, CouplingRow};
+pub use coupling::{BoundCoupling, Coupling, CouplingRow, WithCoupling};
 pub use eddy_viscosity::{EddyViscosity, EddyViscosityEntry};
 pub use espanol_revenga::{EspanolRevenga, WithTransposed};
 pub use friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm};

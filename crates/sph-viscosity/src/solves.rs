@@ -61,7 +61,10 @@ impl Solves {
     pub(crate) fn add(&mut self, report: &Report, seconds: f64, matrix: usize) {
         self.wall_seconds += seconds;
         self.most_bytes = self.most_bytes.max(matrix + report.bytes);
-        *self.by_method.entry(report.method.to_string()).or_default() += 1;
+        match self.by_method.get_mut(report.method) {
+            Some(count) => *count += 1,
+            None => *self.by_method.entry(report.method.into()).or_default() += 1,
+        }
         let all: u64 = self.by_method.values().sum();
         self.mean_iterations += (report.iterations as f64 - self.mean_iterations) / all as f64;
         self.most_iterations = self.most_iterations.max(report.iterations);

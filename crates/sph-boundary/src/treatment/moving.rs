@@ -152,6 +152,9 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         if !std::mem::take(&mut self.put_back) {
             self.listed.clone_from(&self.states);
         }
+        if !self.moves() {
+            return Ok(ask(&self.mesh));
+        }
         let states = self.states_at(time, &self.listed);
         let poses = |states: &[RigidState<D>]| states.iter().map(|s| s.pose).collect::<Vec<_>>();
         let (there, here) = (poses(&states), poses(&self.states));

@@ -69,6 +69,8 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     clearance: Vec<f64>,
     /// What the fluid was last like at points and elements; kept for its memory.
     means: [Vec<WallMean>; 2],
+    /// Elements around each corner.
+    around: Vec<u32>,
 }
 
 register!(
@@ -269,6 +271,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             found: Vec::new(),
             clearance: Vec::new(),
             means: Default::default(),
+            around: Vec::new(),
         };
         set_up.place(&mut walls);
         self.set_up = Some(set_up);
@@ -346,16 +349,17 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             walls.elements.volume[s] = mean.volume;
         }
         if walls.points.corners > 0 {
-            pressure_at_corners(walls);
+            pressure_at_corners(walls, &mut set_up.around);
         }
         Ok(())
     }
 }
 
 /// Means over the elements around each corner, for pictures.
-fn pressure_at_corners<const D: usize>(walls: &mut WallSet<D>) {
+fn pressure_at_corners<const D: usize>(walls: &mut WallSet<D>, around: &mut Vec<u32>) {
     let (points, elements) = (&mut walls.points, &walls.elements);
-    let mut around = vec![0u32; points.pressure.len()];
+    around.clear();
+    around.resize(points.pressure.len(), 0);
     points.pressure[..points.corners].fill(0.0);
     for (corners, pressure) in elements.corners.iter().zip(&elements.pressure) {
         for corner in corners.map(|c| c as usize) {
@@ -365,6 +369,6 @@ fn pressure_at_corners<const D: usize>(walls: &mut WallSet<D>) {
     }
     let corners = points.corners;
     for (pressure, n) in points.pressure[..corners].iter_mut().zip(around) {
-        *pressure /= f64::from(n.max(1));
+        *pressure /= f64::from((*n).max(1));
     }
 }

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use sph_core::StepLimit;
 use sph_neighbours::Nearby;
 use sph_scene::Scene;
 
@@ -27,6 +28,8 @@ pub(crate) struct Running<'a, const D: usize> {
     pub(crate) output_seconds: f64,
     /// The last step that was tried, s, and what limited it.
     pub(crate) tried: (f64, &'static str),
+    /// Bounds of the step at hand.
+    pub(crate) limits: Vec<StepLimit>,
     pub(crate) mach: MachWatch,
     /// Every rank's share, on the first at the end.
     pub(crate) shares: Vec<RankShare>,

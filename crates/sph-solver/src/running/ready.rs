@@ -36,8 +36,8 @@ pub(crate) fn ready<'a, const D: usize>(
     let begun = !parts.flow.is_blank();
     if begun {
         rehearse(scene, &mut parts.flow, &parts.probes)?;
-        let limits = parts.flow.step_limits()?;
-        let limits = parts.flow.least_limits(limits)?;
+        let mut limits = parts.flow.step_limits()?;
+        parts.flow.least_limits(&mut limits)?;
         parts.warnings.extend(tiny_steps(scene, &limits)?);
     }
     references::readable(scene)?;
@@ -82,6 +82,7 @@ pub(crate) fn ready<'a, const D: usize>(
         started: Instant::now(),
         output_seconds: 0.0,
         tried: (0.0, "none"),
+        limits: Vec::new(),
         mach: MachWatch::default(),
         shares: Vec::new(),
         around: Nearby::NONE,

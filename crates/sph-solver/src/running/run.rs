@@ -186,13 +186,10 @@ impl<const D: usize> Running<'_, D> {
         observer: &mut (dyn Observer + Send),
     ) -> Result<Result<(), StepError>, SolverError> {
         let (time, end) = (self.parts.flow.world.time, self.scene.run.end);
-        let limits = self.parts.flow.step_limits()?;
-        let limits = match self.parts.flow.least_limits(limits) {
-            Ok(limits) => limits,
+        let (dt, limiter) = match self.chosen_step(time, end)? {
+            Ok(chosen) => chosen,
             Err(cause) => return Ok(Err(cause)),
         };
-        self.note_bounds(&limits);
-        let (dt, limiter) = self.choose_step(&limits, time, end);
         if self.scene.run.retries > 0 {
             good.snapshot.take(&self.parts.flow)?;
             good.taken = true;
@@ -258,6 +255,23 @@ impl<const D: usize> Running<'_, D> {
             .output
             .next_after(time, self.scene.run.end)
             .map(f64::to_bits)
+    }
+
+    /// The next step and what limits it, noted with all bounds.
+    fn chosen_step(
+        &mut self,
+        time: f64,
+        end: f64,
+    ) -> Result<Result<(f64, &'static str), StepError>, SolverError> {
+        let mut limits = std::mem::take(&mut self.limits);
+        let flow = &mut self.parts.flow;
+        flow.step_limits_into(&mut limits)?;
+        let chosen = flow.least_limits(&mut limits).map(|()| {
+            self.note_bounds(&limits);
+            self.choose_step(&limits, time, end)
+        });
+        self.limits = limits;
+        Ok(chosen)
     }
 
     fn note_bounds(&mut self, limits: &[StepLimit]) {

@@ -9,6 +9,7 @@ use sph_state::Laws;
 
 use crate::setup::builder::Part;
 use crate::setup::planning::Planned;
+use crate::step::declared::Columns;
 use crate::step::flow::Flow;
 use crate::step::outlets::Outlets;
 use crate::step::snapshot::Snapshot;
@@ -80,6 +81,7 @@ pub(crate) fn joined<const D: usize>(
         evolved: given.evolved,
         integrated,
         outside,
+        columns: Columns::default(),
         works,
         moved: true,
         restored: false,
@@ -95,6 +97,7 @@ pub(crate) fn joined<const D: usize>(
         parts: None,
         work_kinds: planned.work_kinds,
     };
+    flow.ask_all();
     flow.reset_timings();
     allocate(&mut flow);
     flow
@@ -103,13 +106,10 @@ pub(crate) fn joined<const D: usize>(
 /// Allocates every column that a planned stage touches.
 fn allocate<const D: usize>(flow: &mut Flow<D>) {
     let touched: Vec<AnyField> = flow
+        .columns
         .stages
         .iter()
-        .flat_map(|s| {
-            let access = s.access();
-            let reads = access.reads();
-            access.writes.into_iter().chain(reads)
-        })
+        .flat_map(|access| access.writes.iter().copied().chain(access.reads()))
         .filter(|f| f.name != WALL_STATE.name && f.name != fields::PHASE.name)
         .collect();
     for field in touched {

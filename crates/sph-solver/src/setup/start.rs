@@ -67,8 +67,8 @@ pub(crate) fn start<const D: usize>(
     } else {
         begun?;
     }
-    let limits = flow.step_limits()?;
-    let limits = flow.least_limits(limits)?;
+    let mut limits = flow.step_limits()?;
+    flow.least_limits(&mut limits)?;
     let least = StepLimit::least(&limits).map_or(0.0, |l| l.dt);
     flow.world.dt = given.scene.run.safety * least;
     Ok(relaxation)

@@ -23,8 +23,8 @@ impl<const D: usize> Flow<D> {
 
     fn bear(&mut self, nursery: &Nursery<D>, dt: f64) -> Result<(), StepError> {
         let mut all: Vec<Newborn<D>> = Vec::new();
-        for work in &mut self.works {
-            self.world.free.watch(|| work.access());
+        for (work, access) in self.works.iter_mut().zip(&self.columns.works) {
+            self.world.free.watch([access]);
             let born = work.births(&mut self.world, dt);
             let ended = self.world.free.unwatch(|| work.name());
             ended?;

@@ -3,10 +3,11 @@
 use std::time::Instant;
 
 use rayon::prelude::*;
-use sph_core::{Access, AnyField, StepError, fields};
+use sph_core::{AnyField, StepError, fields};
 use sph_probes::EnergyWork;
 
 use crate::step::clocks::MOTION;
+use crate::step::declared::writes_any;
 use crate::step::flow::Flow;
 use crate::step::stages::lock;
 
@@ -33,8 +34,7 @@ impl<const D: usize> Flow<D> {
         self.timings[MOTION].spent += start.elapsed();
         self.book_turns(EnergyWork::Walls)?;
         if self.moved && self.works.iter().any(|w| w.needs_state_in_drifts()) {
-            let gives = |a: &Access| STATE.iter().any(|f| a.writes.contains(f));
-            self.run_stages(|stage| gives(&stage.access()))?;
+            self.run_stages(|stage| writes_any(stage, &STATE))?;
         }
         self.each_work(|work, world| work.before_drift(world, dt))?;
         self.book_turns(EnergyWork::Others)?;

@@ -8,7 +8,8 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use sph_contribution::{Limiter, OutsideForce, StepWork};
 use sph_core::{
-    Access, Evolved, Field, Recall, Role, Scalar, Stage, StepError, StepLimit, System, fields,
+    Access, AnyField, Evolved, Field, Recall, Role, Scalar, Stage, StepError, StepLimit, System,
+    fields,
 };
 use sph_decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
@@ -16,6 +17,7 @@ use sph_state::Laws;
 
 use crate::step::books::Books;
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
+use crate::step::declared::{Columns, writes_any};
 use crate::step::guard;
 use crate::step::guests::tell_guests;
 use crate::step::kept_image::KeptImage;
@@ -46,6 +48,8 @@ pub struct Flow<const D: usize> {
     pub(crate) work_kinds: Vec<&'static str>,
     /// Forces outside of the sweep.
     pub(crate) outside: Vec<OutsideForce<D>>,
+    /// What all of these declare.
+    pub(crate) columns: Columns,
     /// Whether somebody moved since the last evaluation.
     pub(crate) moved: bool,
     /// Whether the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
@@ -82,7 +86,18 @@ impl<const D: usize> Flow<D> {
     /// # Errors
     /// If a limiter misses a column.
     pub fn step_limits(&self) -> Result<Vec<StepLimit>, StepError> {
-        self.limiters.iter().map(|l| l.limit(&self.world)).collect()
+        let mut limits = Vec::with_capacity(self.limiters.len());
+        self.step_limits_into(&mut limits)?;
+        Ok(limits)
+    }
+
+    /// The same into a buffer.
+    pub(crate) fn step_limits_into(&self, limits: &mut Vec<StepLimit>) -> Result<(), StepError> {
+        limits.clear();
+        for limiter in &self.limiters {
+            limits.push(limiter.limit(&self.world)?);
+        }
+        Ok(())
     }
 
     /// Whether nothing has been looked for near particles yet.
@@ -113,9 +128,8 @@ impl<const D: usize> System for Flow<D> {
 
     fn evaluate_forces(&mut self) -> Result<(), StepError> {
         let state = [fields::DENSITY, fields::VOLUME, fields::PRESSURE].map(|f| f.any());
-        let gives_state = |a: &Access| a.writes.iter().any(|f| state.contains(f));
         self.refresh_lists_and_derived()?;
-        self.run_stages(|stage| !gives_state(&stage.access()))
+        self.run_stages(|stage| !writes_any(stage, &state))
     }
 
     fn keep(&mut self) -> Result<(), StepError> {
@@ -170,33 +184,30 @@ impl<const D: usize> Flow<D> {
         &mut self,
         work: impl FnMut(&mut dyn StepWork<D>, &mut World<D>) -> Result<(), StepError>,
     ) -> Result<(), StepError> {
-        self.each_work_with(std::iter::empty, work)
+        self.each_work_with(&[], work)
     }
 
     /// The same, where all may read more columns than their own.
-    pub(crate) fn each_work_with<A: Iterator<Item = Access>>(
+    pub(crate) fn each_work_with(
         &mut self,
-        more: impl Fn() -> A,
+        more: &[Access],
         mut work: impl FnMut(&mut dyn StepWork<D>, &mut World<D>) -> Result<(), StepError>,
     ) -> Result<(), StepError> {
         let first = MOTION + 1 + self.stages.len();
         for (k, one) in self.works.iter_mut().enumerate() {
             let start = Instant::now();
-            let access = || more().fold(one.access(), Access::and);
-            self.world.free.watch(access);
+            let access = &self.columns.works[k];
+            self.world.free.watch(more.iter().chain([access]));
             let done = work(&mut **one, &mut self.world);
             let ended = self.world.free.unwatch(|| one.name());
             ended.and(done)?;
-            tell_guests(&mut self.parts, &mut self.world, || one.access())?;
+            tell_guests(&mut self.parts, &mut self.world, access)?;
             self.timings[first + k].spent += start.elapsed();
         }
         Ok(())
     }
 
-    pub(crate) fn run_stages(
-        &mut self,
-        wanted: impl Fn(&dyn Stage<World<D>>) -> bool,
-    ) -> Result<(), StepError> {
+    pub(crate) fn run_stages(&mut self, wanted: impl Fn(&Access) -> bool) -> Result<(), StepError> {
         let start = Instant::now();
         self.refresh_lists()?;
         self.timings[LISTS].spent += start.elapsed();
@@ -207,21 +218,20 @@ impl<const D: usize> Flow<D> {
             false => Vec::new(),
         };
         // What only writes state has been done: a solve would start from its own result.
-        let done = |stage: &dyn Stage<World<D>>| {
-            restored && {
-                let writes = stage.access().writes;
-                !writes.is_empty() && writes.iter().all(|f| state.contains(&f.name))
-            }
+        let done = |writes: &[AnyField]| {
+            let known = |f: &AnyField| state.contains(&f.name);
+            restored && !writes.is_empty() && writes.iter().all(known)
         };
         for (k, stage) in self.stages.iter_mut().enumerate() {
-            if !wanted(&**stage) || done(&**stage) {
+            let access = &self.columns.stages[k];
+            if !wanted(access) || done(&access.writes) {
                 continue;
             }
             let start = Instant::now();
-            self.world.free.watch(|| stage.access());
+            self.world.free.watch([access]);
             let ran = stage.run(&mut self.world);
             self.world.free.unwatch(|| stage.name()).and(ran)?;
-            tell_guests(&mut self.parts, &mut self.world, || stage.access())?;
+            tell_guests(&mut self.parts, &mut self.world, access)?;
             self.timings[MOTION + 1 + k].spent += start.elapsed();
         }
         Ok(())
@@ -304,7 +314,7 @@ impl<const D: usize> Flow<D> {
 
     /// Names of the columns that the stages of the plan write.
     pub(crate) fn written_by_stages(&self) -> Vec<&'static str> {
-        let writes = self.stages.iter().flat_map(|s| s.access().writes);
+        let writes = self.columns.stages.iter().flat_map(|a| &a.writes);
         writes.map(|f| f.name).collect()
     }
 

@@ -62,6 +62,7 @@ mod tests {
         let parts = crate::assemble::<2>(&scene.scene).unwrap_or_else(|e| panic!("{e}"));
         let mut flow = parts.flow;
         flow.stages.push(Box::new(Counting));
+        flow.ask_all();
         flow.reset_timings();
         flow.evaluate().unwrap();
         let seen = |flow: &Flow<2>| flow.world.free.get(SEEN).unwrap().to_vec();

@@ -89,7 +89,10 @@ pub fn rates<const D: usize>(
 ) -> Result<(), StepError> {
     let density = world.free.get(fields::DENSITY)?;
     let phase = world.free.get(fields::PHASE).ok();
-    let references: Vec<f64> = laws.iter().map(|l| l.reference().density).collect();
+    let mut references = world.shelf().lend::<Vec<f64>>();
+    references.clear();
+    references.extend(laws.iter().map(|l| l.reference().density));
+    let references = &references[..];
     let reference = |i: usize| phase.map_or(references[0], |p| references[p[i] as usize]);
     let inside = |i: usize, rho: f64| {
         let ratio = rho / reference(i);

@@ -8,12 +8,11 @@ use sph_neighbours::World;
 pub(crate) fn tell_guests<const D: usize>(
     parts: &mut Option<Parts<D>>,
     world: &mut World<D>,
-    access: impl FnOnce() -> Access,
+    access: &Access,
 ) -> Result<(), StepError> {
     let Some(parts) = parts else {
         return Ok(());
     };
-    let access = access();
     if access.sweep && !access.writes.is_empty() {
         parts.tell(&mut world.free, |f| access.writes.contains(f))?;
     }

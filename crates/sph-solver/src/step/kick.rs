@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use rayon::prelude::*;
+use sph_contribution::Forces;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{WallForce, wall_forces};
 
@@ -62,17 +63,13 @@ impl<const D: usize> Flow<D> {
     fn after_booked_kick(&mut self, books: &mut Books<D>, dt: f64) -> Result<(), StepError> {
         let kicker = self.works.iter().position(|w| w.kicks());
         books.kicked(&self.world, dt, kicker)?;
-        let access = books.access();
         let mut number = 0;
-        self.each_work_with(
-            || std::iter::once(access.clone()),
-            |work, world| {
-                work.after_kick(world, dt)?;
-                books.worked(world, number)?;
-                number += 1;
-                Ok(())
-            },
-        )?;
+        self.each_work_with(&[books.access()], |work, world| {
+            work.after_kick(world, dt)?;
+            books.worked(world, number)?;
+            number += 1;
+            Ok(())
+        })?;
         books.settled(&mut self.world, dt)
     }
 
@@ -83,12 +80,12 @@ impl<const D: usize> Flow<D> {
         };
         let walls = lock(walls);
         let names = &self.world.walls.names;
+        if !(0..names.len()).any(|k| walls.feels(k)) {
+            return Vec::new();
+        }
         let movers: Vec<bool> = (0..names.len()).map(|k| walls.feels(k)).collect();
         let all_of_it = |name: &String| (names.iter().zip(&movers)).any(|(n, f)| *f && n == name);
-        match movers.contains(&true) {
-            true => names.iter().map(all_of_it).collect(),
-            false => Vec::new(),
-        }
+        names.iter().map(all_of_it).collect()
     }
 
     /// Measures what the terms of the sweep do to walls whose movers ask for it, with the velocities of the sweep.
@@ -145,11 +142,15 @@ impl<const D: usize> Flow<D> {
     /// What is asked before a kick; it may bind all terms, so that it reads their columns, too.
     fn before_kick(&mut self) -> Result<(), StepError> {
         let terms = self.terms.clone();
-        let outside = self.outside.clone();
-        let forces: Vec<_> = (terms.iter().map(|t| &**t))
-            .chain(outside.iter().map(|f| &**f))
-            .collect();
-        let reads = || forces.iter().map(|t| t.access());
-        self.each_work_with(reads, |work, world| work.before_kick(world, &forces))
+        let outside = std::mem::take(&mut self.outside);
+        let forces = Forces {
+            sweep: &terms,
+            outside: &outside,
+        };
+        let reads = std::mem::take(&mut self.columns.forces);
+        let done = self.each_work_with(&reads, |work, world| work.before_kick(world, forces));
+        self.columns.forces = reads;
+        self.outside = outside;
+        done
     }
 }

@@ -59,7 +59,7 @@ impl<const D: usize> Flow<D> {
             if exits == 0 {
                 continue;
             }
-            self.world.free.watch(|| work.access());
+            self.world.free.watch([&self.columns.works[k]]);
             let gone = work.departures(&mut self.world, dt);
             self.world.free.unwatch(|| work.name())?;
             some |= self.take_out(&gone?, first)?;

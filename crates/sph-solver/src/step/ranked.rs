@@ -78,17 +78,14 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// The smallest limits of all ranks.
-    pub(crate) fn least_limits(
-        &mut self,
-        mut limits: Vec<StepLimit>,
-    ) -> Result<Vec<StepLimit>, StepError> {
+    /// Limits become the smallest of all ranks.
+    pub(crate) fn least_limits(&mut self, limits: &mut [StepLimit]) -> Result<(), StepError> {
         if let Some(parts) = &mut self.parts {
             let mut times: Vec<f64> = limits.iter().map(|l| l.dt).collect();
             parts.least(&mut times)?;
             limits.iter_mut().zip(times).for_each(|(l, dt)| l.dt = dt);
         }
-        Ok(limits)
+        Ok(())
     }
 
     /// Tells guests all that their owners know.

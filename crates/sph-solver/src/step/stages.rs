@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sph_boundary::Wall;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, Vect, fields};
 use sph_multiphase::Diffused;
-use sph_neighbours::{Interaction, Packed, Sums, TRANSPORTED, There, World, all_sums};
+use sph_neighbours::{Declared, Interaction, Sums, TRANSPORTED, There, World, all_sums};
 
 /// Stands for all that walls carry; not a column of the free particles.
 pub const WALL_STATE: Field<Scalar> = Field::new(
@@ -79,7 +79,7 @@ pub struct InteractionSweep<const D: usize> {
     diffused: Option<Diffused>,
     /// Whether walls exist.
     walls: bool,
-    packed: Packed,
+    declared: Declared,
     /// Buffer of the packed states.
     states: Vec<There<D>>,
     /// Buffer of rates that terms sum besides.
@@ -94,7 +94,7 @@ impl<const D: usize> InteractionSweep<D> {
         walls: bool,
     ) -> Self {
         InteractionSweep {
-            packed: Packed::of(terms.iter().map(|t| &**t)),
+            declared: Declared::of(terms.iter().map(|t| &**t)),
             terms,
             diffused,
             walls,
@@ -119,7 +119,7 @@ impl<const D: usize> InteractionSweep<D> {
             scalar,
             more: &mut self.more,
         };
-        all_sums(world, &mut self.states, self.packed, &self.terms, sums)
+        all_sums(world, &mut self.states, &self.declared, &self.terms, sums)
     }
 
     /// Rates into their columns.

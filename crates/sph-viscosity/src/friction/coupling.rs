@@ -9,7 +9,7 @@ use sph_neighbours::{
 
 use super::{Bound, Here, PairFriction, Sum, ViscousTerm};
 use crate::viscosity_source::BoundViscosity;
-use crate::{BoundCoupling, Coupling, CouplingRow, ViscositySource};
+use crate::{BoundCoupling, Coupling, CouplingRow, ViscositySource, WithCoupling};
 
 impl<const D: usize, F: PairFriction<D>, S: ViscositySource> Coupling<D> for ViscousTerm<F, S> {
     fn access(&self) -> Access {
@@ -18,11 +18,8 @@ impl<const D: usize, F: PairFriction<D>, S: ViscositySource> Coupling<D> for Vis
     fn mixes_components(&self) -> bool {
         F::DIRECTIONAL
     }
-    fn bind<'a>(
-        &'a self,
-        world: &'a World<D>,
-    ) -> Result<Box<dyn BoundCoupling<D> + 'a>, StepError> {
-        Ok(Box::new(LanePairTerm::bind(self, world)?))
+    fn lend(&self, world: &World<D>, with: &mut WithCoupling<'_, D>) -> Result<(), StepError> {
+        with(&LanePairTerm::bind(self, world)?)
     }
 }
 
