@@ -115,6 +115,10 @@ pub trait Stage<C>: Declares + Send {
     fn rings(&self) -> usize {
         1
     }
+    /// Whether it may run for some of the particles, and then for the others, as the context asks.
+    fn halves(&self) -> bool {
+        false
+    }
     /// Memory of the system that it solved last, matrix and solution, bytes; 0 where it solves none.
     fn bytes(&self) -> usize {
         0

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 
 use sph_core::{AnyField, StepError, Store, Vect};
-use sph_neighbours::Team;
+use sph_neighbours::{Team, World};
 
 use crate::owner::OWNER;
 use crate::{PartError, Transport};
@@ -119,14 +119,24 @@ impl Link {
         }
     }
 
-    /// Sends what `pack` makes of the particles that others have copies of; gives what comes for the guests, owner by owner.
-    fn swapped(&self, pack: impl Fn(&[u32]) -> Vec<u8>) -> Result<Vec<Vec<u8>>, PartError> {
+    /// What `pack` makes of the particles that others have copies of, by their ranks.
+    fn packed(&self, pack: impl Fn(&[u32]) -> Vec<u8>) -> Vec<(usize, Vec<u8>)> {
         let partners = self.partners();
         let sends = partners.sends.iter();
-        let out: Vec<_> = sends.map(|(rank, slots)| (*rank, pack(slots))).collect();
+        sends.map(|(rank, slots)| (*rank, pack(slots))).collect()
+    }
+
+    /// Sends messages to those who have copies, and does some `work` meanwhile; gives what comes for the guests, owner by owner.
+    fn swapped(
+        &self,
+        out: Vec<(usize, Vec<u8>)>,
+        work: &mut dyn FnMut(),
+    ) -> Result<Vec<Vec<u8>>, PartError> {
         self.count(&out);
+        let partners = self.partners();
         let from: Vec<usize> = partners.receives.iter().map(|(rank, _)| *rank).collect();
-        Ok(self.transport.swap(out, &from)?)
+        drop(partners);
+        Ok(self.transport.swap_during(out, &from, work)?)
     }
 
     /// Gives guests the values of their owners in the columns that are `wanted`.
@@ -136,23 +146,55 @@ impl Link {
         wanted: impl Fn(&AnyField) -> bool,
     ) -> Result<(), PartError> {
         self.any(false, false)?;
-        let messages = self.swapped(|slots| {
+        let out = self.columns(free, &wanted);
+        let messages = self.swapped(out, &mut || ())?;
+        self.take_in(free, &wanted, &messages)
+    }
+
+    /// The same; does some `work` while the messages are on their way.
+    pub fn tell_during<const D: usize>(
+        &self,
+        world: &mut World<D>,
+        wanted: impl Fn(&AnyField) -> bool,
+        mut work: impl FnMut(&mut World<D>),
+    ) -> Result<(), PartError> {
+        self.any(false, false)?;
+        let out = self.columns(&world.free, &wanted);
+        let messages = self.swapped(out, &mut || work(world))?;
+        self.take_in(&mut world.free, &wanted, &messages)
+    }
+
+    fn columns<const D: usize>(
+        &self,
+        free: &Store<D>,
+        wanted: impl Fn(&AnyField) -> bool,
+    ) -> Vec<(usize, Vec<u8>)> {
+        self.packed(|slots| {
             let mut message = Vec::new();
             free.pack(&wanted, slots, &mut message);
             message
-        })?;
+        })
+    }
+
+    fn take_in<const D: usize>(
+        &self,
+        free: &mut Store<D>,
+        wanted: impl Fn(&AnyField) -> bool,
+        messages: &[Vec<u8>],
+    ) -> Result<(), PartError> {
         for ((_, slots), message) in self.partners().receives.iter().zip(messages) {
-            free.unpack(&wanted, slots, &message)?;
+            free.unpack(&wanted, slots, message)?;
         }
         Ok(())
     }
 
     /// Of vectors of D components: places, or single numbers.
     fn mirrored<const D: usize>(&self, values: &mut [Vect<D>]) -> Result<(), PartError> {
-        let messages = self.swapped(|slots| {
+        let out = self.packed(|slots| {
             let all = slots.iter().flat_map(|s| values[*s as usize].iter());
             all.flat_map(|x| x.to_le_bytes()).collect()
-        })?;
+        });
+        let messages = self.swapped(out, &mut || ())?;
         for ((_, slots), message) in self.partners().receives.iter().zip(messages) {
             let numbers = message.as_chunks::<8>().0.chunks_exact(D);
             for (slot, numbers) in slots.iter().zip(numbers) {

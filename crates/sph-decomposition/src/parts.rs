@@ -161,6 +161,28 @@ impl<const D: usize> Parts<D> {
         self.link.tell(free, wanted)
     }
 
+    /// The same; does some `work` while the messages are on their way.
+    ///
+    /// # Errors
+    /// As [`tell`](Self::tell).
+    pub fn tell_during(
+        &self,
+        world: &mut World<D>,
+        wanted: impl Fn(&AnyField) -> bool,
+        work: impl FnMut(&mut World<D>),
+    ) -> Result<(), PartError> {
+        self.link.tell_during(world, wanted, work)
+    }
+
+    /// Whether each of so many particles is sent to another rank.
+    pub fn sent(&self, particles: usize) -> Vec<bool> {
+        let mut sent = vec![false; particles];
+        for (_, slots) in &self.link.partners().sends {
+            slots.iter().for_each(|slot| sent[*slot as usize] = true);
+        }
+        sent
+    }
+
     /// Gives newborn particles to the ranks that own their places.
     ///
     /// # Errors

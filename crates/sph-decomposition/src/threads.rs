@@ -48,15 +48,17 @@ impl Transport for Thread {
         self.to.len()
     }
 
-    fn swap(
+    fn swap_during(
         &self,
         out: Vec<(usize, Vec<u8>)>,
         from: &[usize],
+        work: &mut dyn FnMut(),
     ) -> Result<Vec<Vec<u8>>, TransportError> {
         for (rank, message) in out {
             let sent = self.to[rank].send(message);
             sent.map_err(|_| TransportError::Gone(rank))?;
         }
+        work();
         let receive = |rank: &usize| {
             let queue = &self.from[*rank];
             let queue = queue.lock().unwrap_or_else(PoisonError::into_inner);

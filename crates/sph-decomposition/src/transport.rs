@@ -32,6 +32,19 @@ pub trait Transport: Send + Sync + Debug {
         &self,
         out: Vec<(usize, Vec<u8>)>,
         from: &[usize],
+    ) -> Result<Vec<Vec<u8>>, TransportError> {
+        self.swap_during(out, from, &mut || ())
+    }
+
+    /// As [`swap`](Self::swap); does some `work` while the messages are on their way.
+    ///
+    /// # Errors
+    /// As [`swap`](Self::swap).
+    fn swap_during(
+        &self,
+        out: Vec<(usize, Vec<u8>)>,
+        from: &[usize],
+        work: &mut dyn FnMut(),
     ) -> Result<Vec<Vec<u8>>, TransportError>;
 
     /// The messages of all ranks, in their order.

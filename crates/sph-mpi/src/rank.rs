@@ -61,10 +61,11 @@ impl Transport for MpiRank {
         self.ranks
     }
 
-    fn swap(
+    fn swap_during(
         &self,
         out: Vec<(usize, Vec<u8>)>,
         from: &[usize],
+        work: &mut dyn FnMut(),
     ) -> Result<Vec<Vec<u8>>, TransportError> {
         let pieces: Vec<(i32, &[u8])> = out
             .iter()
@@ -76,6 +77,7 @@ impl Transport for MpiRank {
                 let to = world.process_at_rank(*rank);
                 sent.add(to.immediate_send(scope, *piece));
             }
+            work();
             let received = from.iter().map(|rank| self.receive(*rank)).collect();
             sent.wait_all(&mut Vec::new());
             received

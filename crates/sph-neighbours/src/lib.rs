@@ -22,6 +22,7 @@ mod couplings;
 mod domain;
 mod fuse;
 mod grid;
+mod half;
 mod keep_couplings;
 mod kernel_sums;
 mod kernels;
@@ -62,6 +63,7 @@ pub use fuse::{
     FusionEntry, Terms, fuse_all, fuse_three, fuse_three_lanes, fuse_two, fuse_two_lanes,
 };
 pub use grid::{CellGrid, Extent};
+pub use half::{Half, is_wanted};
 pub use keep_couplings::{Keeper, Rows as CouplingRows, Tally, Weak};
 pub use kernel_sums::{InMemory, TargetMean, in_memory, kernel_sums, loaded, shepard};
 pub use kernels::KernelEntry;

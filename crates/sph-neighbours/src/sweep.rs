@@ -6,6 +6,7 @@ use sph_kernels::Sampler;
 use sph_lanes::{Width, width};
 
 use crate::cluster::{Buffers, Cluster};
+use crate::half::{Half, is_wanted};
 use crate::list::CHUNK;
 use crate::members::{Members, groups};
 use crate::packed::{Declared, pack};
@@ -58,7 +59,9 @@ pub fn all_sums<const D: usize>(
     terms: &[Box<dyn Interaction<D>>],
     sums: Sums<'_, D>,
 ) -> Result<(), StepError> {
-    pack(world, states, declared.packed)?;
+    if !world.lists.half.as_ref().is_some_and(Half::is_second) {
+        pack(world, states, declared.packed)?;
+    }
     let mut sums = Some(sums);
     with_all(
         world,
@@ -142,12 +145,15 @@ where
     let sweep = Sweep::new(world, states, kernel)?;
     let start = Rates::of(world.gravity + world.driving);
     let shelf = || world.lists.shelf.lend::<Room<D>>();
+    let half = world.lists.half.as_ref();
     let work = |room: &mut Room<D>, block: usize, particles: usize| {
         let (buffers, rates) = room;
         rates.clear();
         rates.resize(particles, start);
-        sweep.block(term, |_| true, buffers, block, rates);
+        sweep.block(term, |i| is_wanted(half, i), buffers, block, rates);
     };
+    // Those of a block who are asked for, by their places in it.
+    let wanted = |(block, k): (usize, usize)| is_wanted(half, block * CHUNK + k);
     let Sums {
         acceleration,
         scalar,
@@ -159,14 +165,16 @@ where
             all.zip(scalar.par_chunks_mut(CHUNK))
                 .for_each_init(shelf, |room, ((c, a), s)| {
                     work(room, c, a.len());
-                    for ((a, s), rates) in a.iter_mut().zip(s).zip(&room.1) {
+                    let all = a.iter_mut().zip(s).zip(&room.1).enumerate();
+                    for (_, ((a, s), rates)) in all.filter(|(k, _)| wanted((c, *k))) {
                         (*a, *s) = (rates.acceleration, rates.scalar);
                     }
                 });
         }
         (None, []) => all.for_each_init(shelf, |room, (c, a)| {
             work(room, c, a.len());
-            for (a, rates) in a.iter_mut().zip(&room.1) {
+            let all = a.iter_mut().zip(&room.1).enumerate();
+            for (_, (a, rates)) in all.filter(|(k, _)| wanted((c, *k))) {
                 *a = rates.acceleration;
             }
         }),
@@ -175,7 +183,8 @@ where
             all.zip(scalars)
                 .for_each_init(shelf, |room, ((c, a), (s, m))| {
                     work(room, c, a.len());
-                    for (((a, s), m), rates) in a.iter_mut().zip(s).zip(m).zip(&room.1) {
+                    let all = a.iter_mut().zip(s).zip(m).zip(&room.1).enumerate();
+                    for (_, (((a, s), m), rates)) in all.filter(|(k, _)| wanted((c, *k))) {
                         (*a, *s, *m) = (rates.acceleration, rates.scalar, rates.more);
                     }
                 });
@@ -184,7 +193,8 @@ where
             all.zip(more.par_chunks_mut(CHUNK))
                 .for_each_init(shelf, |room, ((c, a), m)| {
                     work(room, c, a.len());
-                    for ((a, m), rates) in a.iter_mut().zip(m).zip(&room.1) {
+                    let all = a.iter_mut().zip(m).zip(&room.1).enumerate();
+                    for (_, ((a, m), rates)) in all.filter(|(k, _)| wanted((c, *k))) {
                         (*a, *m) = (rates.acceleration, rates.more);
                     }
                 });

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sph_core::{AnyField, Field, FieldError, Lent, Scalar, Shelf, Store, Vect, fields};
 use sph_kernels::Sampler;
 
-use crate::{CellGrid, Clusters, Domain, Extent, NeighbourList, Team, WallSet};
+use crate::{CellGrid, Clusters, Domain, Extent, Half, NeighbourList, Team, WallSet};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
 #[derive(Default)]
@@ -28,6 +28,8 @@ pub struct Lists<const D: usize> {
     /// Positions of the free particles at the last build, m.
     pub reference: Vec<Vect<D>>,
     reference_points: Vec<Vect<D>>,
+    /// Which particles a sweep is asked for, where it runs in halves.
+    pub half: Option<Half>,
     /// Builds so far.
     pub builds: u64,
     /// Time of the last build, s: the walls were where they are at that time.

@@ -19,7 +19,7 @@ use crate::step::books::Books;
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::declared::{Columns, writes_any};
 use crate::step::guard;
-use crate::step::guests::tell_guests;
+use crate::step::guests::{run_and_tell, tell_guests};
 use crate::step::kept_image::KeptImage;
 use crate::step::kept_rates::Kept;
 use crate::step::nursery::Nursery;
@@ -228,10 +228,7 @@ impl<const D: usize> Flow<D> {
                 continue;
             }
             let start = Instant::now();
-            self.world.free.watch([access]);
-            let ran = stage.run(&mut self.world);
-            self.world.free.unwatch(|| stage.name()).and(ran)?;
-            tell_guests(&mut self.parts, &mut self.world, access)?;
+            run_and_tell(&mut **stage, access, &mut self.parts, &mut self.world)?;
             self.timings[MOTION + 1 + k].spent += start.elapsed();
         }
         Ok(())

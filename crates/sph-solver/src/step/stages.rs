@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sph_boundary::Wall;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, Vect, fields};
 use sph_multiphase::Diffused;
-use sph_neighbours::{Declared, Interaction, Sums, TRANSPORTED, There, World, all_sums};
+use sph_neighbours::{Declared, Interaction, Sums, TRANSPORTED, There, World, all_sums, is_wanted};
 
 /// Stands for all that walls carry; not a column of the free particles.
 pub const WALL_STATE: Field<Scalar> = Field::new(
@@ -169,9 +169,12 @@ impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
                 let density = free.get(fields::DENSITY)?;
                 let volume = free.get(fields::VOLUME)?;
                 let gamma = free.get(fields::RENORMALISATION).ok();
+                let half = world.lists.half.as_ref();
                 let rates = scalar.par_iter_mut().zip(density).zip(volume).enumerate();
                 rates.with_min_len(2048).for_each(|(i, ((rate, rho), v))| {
-                    *rate *= (diffused.per_density)(*rho, *v, gamma.map_or(1.0, |g| g[i]));
+                    if is_wanted(half, i) {
+                        *rate *= (diffused.per_density)(*rho, *v, gamma.map_or(1.0, |g| g[i]));
+                    }
                 });
                 world.free.put(field, scalar)?;
             }
@@ -179,5 +182,8 @@ impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
         }
         self.spread(world)?;
         Ok(world.free.put(fields::ACCELERATION, acceleration)?)
+    }
+    fn halves(&self) -> bool {
+        true
     }
 }

@@ -1,0 +1,53 @@
+//! Sweeps in two halves: first who is sent to others, then the rest, while the messages are on their way.
+
+use crate::{CHUNK, World};
+
+/// Which particles a sweep is to sum for; what it has summed for the others stays.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Half {
+    /// Whether each particle, or one of its cluster, is sent to others.
+    edge: Vec<bool>,
+    /// Whether the others are asked for.
+    inner: bool,
+}
+
+impl Half {
+    /// The first half: clusters with a particle that is `sent`. Lists must have been built.
+    pub fn first<const D: usize>(world: &World<D>, sent: &[bool]) -> Self {
+        let mut edge = vec![false; sent.len()];
+        let lists = world.lists.nearest();
+        for block in 0..sent.len().div_ceil(CHUNK) {
+            for members in lists.of_block(block) {
+                let own = members.from..members.from + members.count;
+                let some = sent[own.clone()].iter().any(|sent| *sent);
+                edge[own].fill(some);
+            }
+        }
+        Half { edge, inner: false }
+    }
+
+    /// The other half.
+    pub fn second(self) -> Self {
+        Half {
+            inner: true,
+            ..self
+        }
+    }
+
+    /// Whether this is the second one.
+    pub fn is_second(&self) -> bool {
+        self.inner
+    }
+
+    /// Whether a particle is asked for.
+    #[inline]
+    pub fn wants(&self, particle: usize) -> bool {
+        self.edge[particle] != self.inner
+    }
+}
+
+/// Whether a particle is asked for: all are where nobody halves.
+#[inline]
+pub fn is_wanted(half: Option<&Half>, particle: usize) -> bool {
+    half.is_none_or(|half| half.wants(particle))
+}
