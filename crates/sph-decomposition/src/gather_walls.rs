@@ -1,7 +1,7 @@
 //! What walls feel, at one rank, for files.
 
 use sph_core::{Store, Vect, fields};
-use sph_neighbours::{CellGrid, World};
+use sph_neighbours::{Clusters, World};
 
 use crate::owner::OWNER;
 use crate::{PartError, Parts};
@@ -16,8 +16,9 @@ impl<const D: usize> Parts<D> {
         Ok(free.get(OWNER)?.iter().map(|o| *o == rank).collect())
     }
 
-    /// Gives the points and elements of the walls at rank 0, which has the `whole`, the pressures that the ranks found there: each
-    /// that of the rank whose own particles are nearest. It has all particles that a mean is taken over, if there are any.
+    /// Gives the points and elements of the walls at rank 0, which has the `whole`, the pressures that the ranks found there. A rank
+    /// that has a particle of its own within reach has all that the mean is taken over, so that all such have found the same.
+    /// It knows the corners of such elements as well, and every rank knows open faces.
     ///
     /// # Errors
     /// Messages that fail; a column that is missing.
@@ -27,31 +28,35 @@ impl<const D: usize> Parts<D> {
         whole: Option<&mut World<D>>,
     ) -> Result<(), PartError> {
         let own = self.own(&world.free)?;
-        let positions = world.free.get(fields::POSITION)?.iter().zip(&own);
-        let own: Vec<Vect<D>> = positions
-            .filter(|(_, own)| **own)
-            .map(|(x, _)| *x)
-            .collect();
+        let positions = world.free.get(fields::POSITION)?;
+        let support = world.kernel.support_radius();
+        let knows = |lists: &Clusters, place: usize, at: &Vect<D>| {
+            let near = |k: &u32| {
+                let apart = world.domain.nearest_image(positions[*k as usize] - at);
+                own[*k as usize] && apart.norm() < support
+            };
+            place < lists.len() && lists.candidates(place).iter().any(near)
+        };
         let (points, elements) = (&world.walls.points, &world.walls.elements);
-        let places = points.position.iter().chain(&elements.centre);
-        let pressures = points.pressure.iter().chain(&elements.pressure);
-        // Means at elements are spread over their neighbours.
-        let reach = 2.0 * world.reach();
-        let grid = CellGrid::new(&own, reach, &world.domain);
-        let mut message = Vec::new();
-        for (number, (place, pressure)) in places.zip(pressures).enumerate() {
-            let mut least = f64::INFINITY;
-            grid.ranges(place, reach, |range| {
-                for k in &grid.order()[range] {
-                    let apart = world.domain.nearest_image(own[*k as usize] - place);
-                    least = least.min(apart.norm_squared());
-                }
-            });
-            if least.is_finite() {
-                message.extend_from_slice(&(number as u32).to_le_bytes());
-                message.extend_from_slice(&least.to_le_bytes());
-                message.extend_from_slice(&pressure.to_le_bytes());
+        let (first, lists) = (points.corners, &world.lists);
+        let mut known = vec![false; points.pressure.len() + elements.pressure.len()];
+        let (of_points, of_elements) = known.split_at_mut(points.pressure.len());
+        for (k, at) in points.position.iter().enumerate().skip(first) {
+            of_points[k] = points.in_density() && knows(&lists.of_points, k - first, at);
+        }
+        for (k, at) in elements.centre.iter().enumerate() {
+            of_elements[k] = knows(&lists.of_elements, k, at);
+            if of_elements[k] && first > 0 {
+                // All around such a corner are within the reach of this rank.
+                let corners = elements.corners[k].iter();
+                corners.for_each(|corner| of_points[*corner as usize] = true);
             }
+        }
+        let pressures = points.pressure.iter().chain(&elements.pressure);
+        let mut message = Vec::new();
+        for (number, (pressure, _)) in pressures.zip(&known).enumerate().filter(|(_, (_, k))| **k) {
+            message.extend_from_slice(&(number as u32).to_le_bytes());
+            message.extend_from_slice(&pressure.to_le_bytes());
         }
         let messages = self.link.transport.gather(message)?;
         let Some(whole) = whole else {
@@ -62,29 +67,22 @@ impl<const D: usize> Parts<D> {
         points.share.clone_from(&world.walls.points.share);
         points.velocity.clone_from(&world.walls.points.velocity);
         elements.pressure.clone_from(&world.walls.elements.pressure);
-        let corners = points.pressure.len();
-        let mut nearest = vec![f64::INFINITY; corners + elements.pressure.len()];
+        let behind = points.pressure.len();
         for entry in messages.iter().flat_map(|m| m.as_chunks::<ENTRY>().0) {
-            let (number, rest) = entry.split_at(4);
+            let (number, pressure) = entry.split_at(4);
             let number = u32::from_le_bytes(bytes(number)) as usize;
-            let (apart, pressure) = rest.split_at(8);
-            let apart = f64::from_le_bytes(bytes(apart));
-            // Of ranks that are as near the first is taken: they have found the same.
-            if nearest.get(number).is_some_and(|least| apart < *least) {
-                nearest[number] = apart;
-                let pressure = f64::from_le_bytes(bytes(pressure));
-                match number.checked_sub(corners) {
-                    None => points.pressure[number] = pressure,
-                    Some(element) => elements.pressure[element] = pressure,
-                }
+            let pressure = f64::from_le_bytes(bytes(pressure));
+            match number.checked_sub(behind) {
+                None => points.pressure[number] = pressure,
+                Some(element) => elements.pressure[element] = pressure,
             }
         }
         Ok(())
     }
 }
 
-/// Bytes of a number, a squared distance and a pressure.
-const ENTRY: usize = 20;
+/// Bytes of a number and a pressure.
+const ENTRY: usize = 12;
 
 /// The first bytes of a slice.
 fn bytes<const N: usize>(from: &[u8]) -> [u8; N] {

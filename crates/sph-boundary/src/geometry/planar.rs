@@ -223,6 +223,15 @@ impl WallMesh<2> for PlanarWalls {
     }
 
     /// The segments of all points side by side: a point alone sees too few to fill vectors.
+    fn clearance(&self, point: &Vect<2>, near: &[NearSegment]) -> f64 {
+        let heights = near.iter().map(|near| {
+            let [start, _] = self.mesh.seen_from([point[0], point[1]], *near);
+            let normal: Vect<2> = self.segment(near.segment).normal.into();
+            -Vect::<2>::from(start).dot(&normal)
+        });
+        heights.filter(|h| *h > 0.0).fold(f64::INFINITY, f64::min)
+    }
+
     fn gammas<'a>(
         &self,
         integrals: &Renormalisation2d,

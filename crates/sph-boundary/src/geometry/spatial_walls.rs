@@ -231,6 +231,17 @@ impl WallMesh<3> for SpatialWalls {
     /// γ and the sum of ∇γ are exact over every planar face; the sum is shared out to the face's
     /// triangles by quadrature. A face counts where the disc of its plane within the support meets one of its triangles,
     /// whatever else stands in the row.
+    fn clearance(&self, point: &Vect<3>, near: &[NearTriangle]) -> f64 {
+        let heights = self.faces(near).map(|part| {
+            let first = &self.mesh.triangles()[part[0].triangle as usize];
+            let corner = Corner::new(&self.mesh, first.nodes[0], first.images[0]);
+            -self
+                .seen(&corner, part[0].image, point)
+                .dot(&Vect::from(first.normal))
+        });
+        heights.filter(|h| *h > 0.0).fold(f64::INFINITY, f64::min)
+    }
+
     fn gamma(
         &self,
         integrals: &Renormalisation3d,

@@ -144,6 +144,10 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         }
     }
 
+    /// Least height of a point over the planes of the elements near it, of those that it is in front of, m; infinite where there
+    /// is none. No element is nearer.
+    fn clearance(&self, point: &Vect<D>, near: &[Self::Near]) -> f64;
+
     /// Where the walls keep a particle off, among the places nearer than `reach` metres.
     fn hindrances(
         &self,

@@ -208,12 +208,12 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             let Found { gamma, room, .. } = found;
             mesh.gammas(integrals, all, room, contacts, gamma);
             let mut from = 0;
-            for ((_, end), particle) in gamma.iter().zip(batch) {
+            for (k, ((_, end), particle)) in gamma.iter().zip(batch).enumerate() {
                 let own = contacts.row(from..*end);
                 let heights = own.distances().filter(|d| *d > 0.0);
-                // Of whom nothing was found nothing is known.
+                let place = &positions[*particle as usize];
                 found.clearance.push(match is_idle(*particle) {
-                    true => 0.0,
+                    true => mesh.clearance(place, near.row(b * BATCH + k)),
                     false => heights.fold(f64::INFINITY, f64::min),
                 });
                 from = *end;
