@@ -1,5 +1,6 @@
 //! From the clusters of the neighbour lists to a matrix.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -155,6 +156,25 @@ impl<E: Entry<C>, const C: usize> Assembly<E, C> {
         let walk = ClusterWalk::new(world)?;
         self.fill_blocks([walk.blocks(), walk.particles()], |block, rows| {
             walk.each(block, |members| cluster(members, rows));
+        });
+        Ok(())
+    }
+
+    /// The same where `others` adds a row for each member of a cluster in which no member is `wanted`: nobody looks around
+    /// there.
+    ///
+    /// # Errors
+    /// If the world has no positions.
+    pub fn fill_wanted<const D: usize>(
+        &mut self,
+        world: &World<D>,
+        wanted: impl Fn(usize) -> bool + Sync,
+        cluster: impl Fn(&mut Rows<E, C>, &mut Cluster<'_, D>) + Sync,
+        others: impl Fn(&mut Rows<E, C>, Range<usize>) + Sync,
+    ) -> Result<(), StepError> {
+        let walk = ClusterWalk::new(world)?;
+        self.fill_blocks([walk.blocks(), walk.particles()], |block, rows| {
+            walk.each_wanted(block, rows, &wanted, &cluster, &others);
         });
         Ok(())
     }

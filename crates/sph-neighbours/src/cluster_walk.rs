@@ -1,5 +1,7 @@
 //! Walks over clusters that make rows of matrices, and what else is no sum.
 
+use std::ops::Range;
+
 use sph_core::{Shelf, StepError};
 use sph_kernels::Sampler;
 use sph_lanes::{Body, Lane, MOST, dispatch_at};
@@ -43,10 +45,26 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
 
     /// Calls `visit` with the clusters of a block in the order of their particles, without packed states.
     pub fn each(&self, block: usize, mut visit: impl FnMut(&mut Cluster<'_, D>)) {
+        self.each_wanted(block, &mut visit, |_| true, |visit, c| visit(c), |_, _| ());
+    }
+
+    /// The same with what is at hand; where no member is `wanted` nobody looks around, and `others` gets the members.
+    pub fn each_wanted<S>(
+        &self,
+        block: usize,
+        hand: &mut S,
+        wanted: impl Fn(usize) -> bool,
+        visit: impl Fn(&mut S, &mut Cluster<'_, D>),
+        others: impl Fn(&mut S, Range<usize>),
+    ) {
         let mut room = self.shelf.lend::<Room<D>>();
         for cluster in self.sweep.clusters(block) {
             for members in groups(cluster, self.lanes) {
-                visit(&mut self.sweep.measured(&mut room.0, members));
+                let own = members.from..members.from + members.count;
+                match own.clone().any(&wanted) {
+                    true => visit(hand, &mut self.sweep.measured(&mut room.0, members)),
+                    false => others(hand, own),
+                }
             }
         }
     }
@@ -72,6 +90,11 @@ pub trait LanePairs<const D: usize, const M: usize>: Sync {
 }
 
 impl<const D: usize> Cluster<'_, D> {
+    /// Runs a body with the lanes of the cluster.
+    pub fn dispatch<B: Body>(&self, body: B) -> B::Output {
+        dispatch_at(self.width, body)
+    }
+
     /// The numbers of all pairs: for each candidate, for each of the `M` numbers, one per lane.
     pub fn numbers<const M: usize, P: LanePairs<D, M>>(&self, pairs: &P, out: &mut Vec<f64>) {
         let needed = self.candidates().len() * M * self.lanes();

@@ -81,7 +81,7 @@ pub use row::{NOBODY, Neighbourhood, Row, Scratch, There};
 pub use shared_rows::{SharedElements, SharedRows, inner};
 pub use shares::{TermShare, shares_at};
 pub use sight::Sight;
-pub use sph_lanes::{Lane, MOST, add_scaled, dot, scaled};
+pub use sph_lanes::{Body, Lane, MOST, add_scaled, dot, scaled};
 pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
 pub use team::Team;
 pub use term::{

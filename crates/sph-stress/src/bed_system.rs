@@ -1,8 +1,8 @@
 //! The system of the effective pressure: who is in it, and what couples them.
 
-use sph_core::Vect;
+use sph_core::{Shelf, Vect};
 use sph_implicit::Rows;
-use sph_neighbours::Cluster;
+use sph_neighbours::{Body, Cluster, Lane, LanePair, LanePairs, MOST, dot, splat};
 
 /// What a particle is to the problem.
 #[derive(Clone, Copy, PartialEq)]
@@ -54,46 +54,138 @@ pub(crate) struct Couplings<'a, const D: usize> {
     pub gravity: Vect<D>,
 }
 
+/// What a cluster leaves for its rows.
+#[derive(Default)]
+struct Room {
+    /// c and what it adds to the source, for every candidate, one number per lane each.
+    numbers: Vec<f64>,
+    /// Columns that are coupled to anybody, and their c, one number per lane.
+    columns: Vec<u32>,
+    couplings: Vec<f64>,
+}
+
 impl<const D: usize> Couplings<'_, D> {
-    /// Adds the rows of a cluster.
-    pub fn add(&self, cluster: &mut Cluster<'_, D>, rows: &mut Rows<f64, 1>) {
-        let all = cluster.candidates();
+    /// Whether a particle has a pressure that is solved for, in a row that is not with another owner.
+    pub fn is_solved(&self, i: usize) -> bool {
+        self.parts[i].inside().is_some() && self.own.is_none_or(|own| own[i])
+    }
+
+    /// Adds the row of a pressure that is known.
+    pub fn add_known(&self, i: usize, rows: &mut Rows<f64, 1>) {
+        rows.begin(0);
+        rows.end(1.0, Vect::from([self.parts[i].known()]));
+    }
+
+    /// Adds the rows of a cluster: their sums side by side, in the order of the columns as one row alone would.
+    pub fn add(&self, cluster: &Cluster<'_, D>, rows: &mut Rows<f64, 1>, shelf: &Shelf) {
+        let mut room = shelf.lend::<Room>();
+        let room = &mut *room;
+        cluster.numbers(self, &mut room.numbers);
+        let (diagonals, sources) = cluster.dispatch(SideBySide {
+            parts: self.parts,
+            candidates: cluster.candidates(),
+            room,
+        });
         for (lane, i) in cluster.members().enumerate() {
-            // Rows of copies are with their owners.
-            let own = self.own.is_none_or(|own| own[i]);
-            let Some(buoyant) = self.parts[i].inside().filter(|_| own) else {
-                rows.begin(0);
-                rows.end(1.0, Vect::from([self.parts[i].known()]));
+            if !self.is_solved(i) {
+                self.add_known(i, rows);
                 continue;
-            };
-            rows.begin(all.len());
-            let (mut held, mut source) = (0.0, 0.0);
-            let factors = cluster.factor().iter().skip(lane).step_by(cluster.lanes());
-            for (&column, factor) in all.iter().zip(factors) {
-                let j = column as usize;
-                let coupling = -self.volume[i] * self.volume[j] * factor;
-                if coupling == 0.0 {
-                    continue;
-                }
-                let density = match self.parts[j] {
-                    Part::Inside(density) => {
-                        rows.couple(column, &coupling, true);
-                        density
-                    }
-                    Part::Surface(density, pressure) => {
-                        held += coupling;
-                        source += coupling * pressure;
-                        density
-                    }
-                    Part::Outside => continue,
-                };
-                let mean = 0.5 * (buoyant + density);
-                source += coupling * mean * self.gravity.dot(&cluster.separation(i, j));
             }
-            // Soil that fills a closed box has no surface: the level is then that of zero.
-            let own = held + FAINT * rows.sum() + f64::MIN_POSITIVE;
-            rows.end(own, Vect::from([source]));
+            rows.begin(room.columns.len());
+            let couplings = room.couplings.chunks_exact(cluster.lanes());
+            for (&column, couplings) in room.columns.iter().zip(couplings) {
+                let coupling = couplings[lane];
+                rows.couple(column, &coupling, coupling != 0.0);
+            }
+            rows.close(diagonals[lane], Vect::from([sources[lane]]));
         }
+    }
+}
+
+impl<const D: usize> LanePairs<D, 2> for Couplings<'_, D> {
+    /// V, m^d, and Δρ, kg/m³.
+    type Here = [f64; 2];
+    type Side<L: Lane> = [L; 2];
+
+    #[inline(always)]
+    fn here(&self, i: usize) -> [f64; 2] {
+        [self.volume[i], self.parts[i].inside().unwrap_or(0.0)]
+    }
+
+    #[inline(always)]
+    fn side<L: Lane>(&self, here: &[[f64; 2]]) -> [L; 2] {
+        let mut side = [L::splat(0.0); 2];
+        for (lane, own) in here.iter().enumerate() {
+            side[0].set(lane, own[0]);
+            side[1].set(lane, own[1]);
+        }
+        side
+    }
+
+    /// c = −V_a V_b F_ab, and c Δρ g·(r_a − r_b).
+    #[inline(always)]
+    fn numbers<L: Lane>(&self, here: &[L; 2], j: usize, pair: &LanePair<D, L>) -> [L; 2] {
+        let density = match self.parts[j] {
+            Part::Outside => return [L::splat(0.0); 2],
+            Part::Surface(density, _) | Part::Inside(density) => density,
+        };
+        let coupling = -here[0] * L::splat(self.volume[j]) * pair.factor;
+        let mean = L::splat(0.5) * (here[1] + L::splat(density));
+        let weight = dot(&splat(&self.gravity), &pair.separation);
+        [coupling, coupling * mean * weight]
+    }
+}
+
+/// Sums of the rows of a cluster.
+struct SideBySide<'a> {
+    parts: &'a [Part],
+    candidates: &'a [u32],
+    room: &'a mut Room,
+}
+
+impl Body for SideBySide<'_> {
+    /// Diagonals and sources.
+    type Output = ([f64; MOST], [f64; MOST]);
+
+    #[inline(always)]
+    fn call<L: Lane>(self) -> Self::Output {
+        let Room {
+            numbers,
+            columns,
+            couplings,
+        } = self.room;
+        columns.clear();
+        couplings.clear();
+        let zero = L::splat(0.0);
+        let (mut held, mut sum, mut source) = (zero, zero, zero);
+        for (&column, both) in self.candidates.iter().zip(numbers.chunks_exact(2 * L::N)) {
+            let coupling = L::load(both);
+            match self.parts[column as usize] {
+                Part::Outside => continue,
+                Part::Inside(_) => {
+                    if !coupling.any_nonzero() {
+                        continue;
+                    }
+                    columns.push(column);
+                    couplings.extend_from_slice(&both[..L::N]);
+                    sum += coupling;
+                }
+                Part::Surface(_, pressure) => {
+                    held += coupling;
+                    source += coupling * L::splat(pressure);
+                }
+            }
+            source += L::load(&both[L::N..]);
+        }
+        // Soil that fills a closed box has no surface: the level is then that of zero.
+        let mut diagonal = held + L::splat(FAINT) * sum + L::splat(f64::MIN_POSITIVE);
+        for coupling in couplings.chunks_exact(L::N) {
+            diagonal += L::load(coupling);
+        }
+        let mut out = ([0.0; MOST], [0.0; MOST]);
+        diagonal.store(&mut out.0);
+        source.store(&mut out.1);
+        out
     }
 }
 

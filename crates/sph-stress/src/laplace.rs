@@ -242,7 +242,12 @@ impl<const D: usize> Solve<D> {
             volume: world.free.get(fields::VOLUME)?,
             gravity: world.gravity,
         };
-        assembly.fill(world, |cluster, rows| system.add(cluster, rows))?;
+        assembly.fill_wanted(
+            world,
+            |i| system.is_solved(i),
+            |rows, cluster| system.add(cluster, rows, world.shelf()),
+            |rows, others| others.for_each(|i| system.add_known(i, rows)),
+        )?;
         let values = std::mem::take(&mut assembly.values);
         let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
         let mut pressure = world.free.take(fields::EFFECTIVE_PRESSURE)?;
