@@ -118,6 +118,26 @@ mod tests {
     }
 
     #[test]
+    fn work_is_done_before_messages_are_waited_for() {
+        let (done, is_done) = std::sync::mpsc::channel();
+        let (done, is_done) = (std::sync::Mutex::new(done), std::sync::Mutex::new(is_done));
+        let found = each(2, |at| {
+            if at.rank() == 1 {
+                // Sends nothing until the other has done its work, which would never come if that waited first.
+                let is_done = is_done.lock().expect("one rank");
+                let waited = is_done.recv_timeout(std::time::Duration::from_secs(60));
+                waited.expect("work of the other rank");
+            }
+            let other = 1 - at.rank();
+            let out = vec![(other, vec![at.rank() as u8])];
+            at.swap_during(out, &[other], &mut || {
+                let _ = done.lock().expect("one at a time").send(());
+            })
+        });
+        assert_eq!(found, [Ok(vec![vec![1]]), Ok(vec![vec![0]])]);
+    }
+
+    #[test]
     fn who_waits_for_a_rank_that_has_ended_is_told() {
         let found = each(3, |at| match at.rank() {
             1 => Ok(()),

@@ -22,3 +22,13 @@ impl<const D: usize> Operator<D> for Matrix<D> {
         Some(self)
     }
 }
+
+impl<const D: usize> Operator<D> for Halved<'_, D> {
+    fn rows(&self) -> usize {
+        Halved::rows(self)
+    }
+
+    fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
+        Halved::multiply(self, x, y);
+    }
+}

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sph_core::{Lent, Shelf, Vect};
 
 use crate::matrix::{Entries, Values};
-use crate::{Block, Entry, Matrix, Operator, Pattern};
+use crate::{Block, Entry, Matrix, Pattern};
 
 /// Least number of rows of a part.
 const PART: usize = 2048;
@@ -32,17 +32,17 @@ impl<'a, const D: usize> Halved<'a, D> {
             Entries::Block(values) => Kind::Block(Parts::of::<D>(pattern, values, shelf)),
         })
     }
-}
 
-impl<const D: usize> Operator<D> for Halved<'_, D> {
-    fn rows(&self) -> usize {
+    /// Rows.
+    pub fn rows(&self) -> usize {
         match &self.0 {
             Kind::Scalar(parts) => parts.diagonal.len(),
             Kind::Block(parts) => parts.diagonal.len(),
         }
     }
 
-    fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
+    /// y = A x.
+    pub fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
         match &self.0 {
             Kind::Scalar(parts) => parts.multiply(x, y),
             Kind::Block(parts) => parts.multiply(x, y),

@@ -22,7 +22,7 @@ from pathlib import Path
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkOutputWindow
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
 
 complaints = []
 
@@ -46,7 +46,9 @@ def observer(where):
 
 
 def read(path):
-    reader = vtkXMLUnstructuredGridReader()
+    # What several ranks wrote together is a list of files.
+    shared = Path(path).suffix == ".pvtu"
+    reader = vtkXMLPUnstructuredGridReader() if shared else vtkXMLUnstructuredGridReader()
     check(reader.CanReadFile(str(path)), f"{path}: VTK cannot read this file")
     for event in ("ErrorEvent", "WarningEvent"):
         reader.AddObserver(event, observer(path))

@@ -1,6 +1,6 @@
 //! Sweeps in two halves: first who is sent to others, then the rest, while the messages are on their way.
 
-use crate::{CHUNK, World};
+use crate::{CHUNK, Clusters};
 
 /// Which particles a sweep is to sum for; what it has summed for the others stays.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,10 +12,9 @@ pub struct Half {
 }
 
 impl Half {
-    /// The first half: clusters with a particle that is `sent`. Lists must have been built.
-    pub fn first<const D: usize>(world: &World<D>, sent: &[bool]) -> Self {
+    /// The first half: clusters with a particle that is `sent`. The `lists` are those of the sweep.
+    pub fn first(lists: &Clusters, sent: &[bool]) -> Self {
         let mut edge = vec![false; sent.len()];
-        let lists = world.lists.nearest();
         for block in 0..sent.len().div_ceil(CHUNK) {
             for members in lists.of_block(block) {
                 let own = members.from..members.from + members.count;

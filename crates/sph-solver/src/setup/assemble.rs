@@ -80,9 +80,7 @@ pub(crate) fn assemble_share<const D: usize>(
 ) -> Result<Assembled<D>, SolverError> {
     let mut drawn = Drawn::<D>::of(scene)?;
     crate::setup::estimate::refuse_the_absurd(scene, &drawn)?;
-    let mut choices = Choices::<D>::of(scene).map_err(SolverError::Scene)?;
-    choices.probes.extend(field_error::probes(scene)?);
-    probe_setup::prepare(scene, &mut choices.probes)?;
+    let mut choices = chosen::<D>(scene)?;
     let laws = bind_laws::<D>(scene, &drawn, &choices)?;
     movers::settle(scene, &mut drawn, &mut choices, &laws)?;
     refuse_fast_walls(scene, &drawn, &laws)?;
@@ -92,10 +90,7 @@ pub(crate) fn assemble_share<const D: usize>(
         walls,
         placed,
         mut warnings,
-    } = match &mut share {
-        Share::Columns(standing) => Room::among(scene, &drawn, &mut choices, standing.take())?,
-        _ => Room::of(scene, &drawn, &mut choices)?,
-    };
+    } = Room::for_share(scene, &drawn, &mut choices, &mut share)?;
     warnings.extend(open_faces::check(scene, opened.as_ref(), walls.as_ref())?);
     let ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
@@ -141,10 +136,7 @@ pub(crate) fn assemble_share<const D: usize>(
         formulation: &*formulation,
         columns: &columns().collect::<Vec<_>>(),
     };
-    flow.know_exits(scene);
-    flow.world.wrap()?;
-    warnings.extend(ground.remarks(scene, &flow)?);
-    warnings.extend(lattices::remarks(scene, &flow, &placed.body)?);
+    warnings.extend(remarks(scene, &ground, &placed, &mut flow)?);
     let relaxation = start(&beginning, &share, &mut flow)?;
     let integrator = &*choices.integrator;
     accounts::open(scene, &choices.probes, integrator, &*formulation, &mut flow)?;
@@ -160,6 +152,28 @@ pub(crate) fn assemble_share<const D: usize>(
         height: height(scene, &drawn.regions),
         body_of: placed.body,
     })
+}
+
+/// The plugins of a scene, with all probes ready.
+fn chosen<const D: usize>(scene: &Scene) -> Result<Choices<D>, SolverError> {
+    let mut choices = Choices::<D>::of(scene).map_err(SolverError::Scene)?;
+    choices.probes.extend(field_error::probes(scene)?);
+    probe_setup::prepare(scene, &mut choices.probes)?;
+    Ok(choices)
+}
+
+/// What is odd about the places of the particles, which are brought into the box.
+fn remarks<const D: usize>(
+    scene: &Scene,
+    ground: &Ground,
+    placed: &Placed<D>,
+    flow: &mut Flow<D>,
+) -> Result<Vec<String>, SolverError> {
+    flow.know_exits(scene);
+    flow.world.wrap()?;
+    let mut all = ground.remarks(scene, flow)?;
+    all.extend(lattices::remarks(scene, flow, &placed.body)?);
+    Ok(all)
 }
 
 /// What newborn particles begin with, where some may come in.

@@ -13,7 +13,7 @@ use crate::setup::choices::Choices;
 use crate::setup::domain::{check_periods, domain_of};
 use crate::setup::placement::{Placed, place};
 use crate::setup::shapes::Drawn;
-use crate::setup::share::Standing;
+use crate::setup::share::{Share, Standing};
 use crate::setup::walls::{build_walls, wall_problem};
 use crate::step::stages::SharedWall;
 
@@ -30,6 +30,22 @@ pub(crate) struct Room<const D: usize> {
 }
 
 impl<const D: usize> Room<D> {
+    /// That of a share of a flow: [`among`](Self::among) walls that stand already, else [`of`](Self::of) the scene.
+    ///
+    /// # Errors
+    /// The key of the scene that is wrong.
+    pub(crate) fn for_share(
+        scene: &Scene,
+        drawn: &Drawn<D>,
+        choices: &mut Choices<D>,
+        share: &mut Share<D>,
+    ) -> Result<Self, SolverError> {
+        match share {
+            Share::Columns(standing) => Room::among(scene, drawn, choices, standing.take()),
+            _ => Room::of(scene, drawn, choices),
+        }
+    }
+
     /// Builds the walls and fills the bodies; takes the wall plugin out of the choices.
     ///
     /// # Errors

@@ -100,6 +100,17 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
+    /// Asks everybody what they declare; after a change of who is at work.
+    pub(crate) fn ask_all(&mut self) {
+        let sweep = self.terms.iter().map(|term| term.access());
+        let outside = self.outside.iter().map(|force| force.access());
+        self.columns = Columns {
+            stages: self.stages.iter().map(|stage| stage.access()).collect(),
+            works: self.works.iter().map(|work| work.access()).collect(),
+            forces: sweep.chain(outside).collect(),
+        };
+    }
+
     /// Whether nothing has been looked for near particles yet.
     pub(crate) fn is_blank(&self) -> bool {
         self.world.lists.reference.is_empty()

@@ -32,7 +32,7 @@ pub(crate) fn run_and_tell<const D: usize>(
         return tell_guests(parts, world, access);
     };
     let sent = own.sent(world.free.len());
-    world.lists.half = Some(Half::first(world, &sent));
+    world.lists.half = Some(Half::first(world.lists.nearest(), &sent));
     let done = in_halves(stage, access, own, world);
     world.lists.half = None;
     done
