@@ -54,7 +54,7 @@ pub(crate) fn columns_of_all<const D: usize>(
             elements: set.elements.clone(),
             ..WallSet::default()
         };
-        (walls.clone(), set)
+        Box::new((walls.clone(), set))
     });
     let mut all = assemble_share::<D>(scene, Share::Columns(standing))?;
     all.flow.recount(&counters.left);

@@ -87,11 +87,12 @@ impl<const D: usize> Room<D> {
         scene: &Scene,
         drawn: &Drawn<D>,
         choices: &mut Choices<D>,
-        standing: Option<Standing<D>>,
+        standing: Option<Box<Standing<D>>>,
     ) -> Result<Self, SolverError> {
         let mut world = empty(scene, drawn, choices)?;
         choices.walls = None;
-        let walls = standing.map(|(walls, set)| {
+        let walls = standing.map(|standing| {
+            let (walls, set) = *standing;
             world.walls = set;
             walls
         });

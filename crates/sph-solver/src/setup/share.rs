@@ -19,7 +19,7 @@ pub(crate) enum Share<const D: usize> {
     /// Columns, plugins and walls; places, and no state: for one that comes from elsewhere.
     Blank,
     /// Columns and plugins alone, without a particle, among walls that stand already: for what others gather.
-    Columns(Option<Standing<D>>),
+    Columns(Option<Box<Standing<D>>>),
 }
 
 /// Walls that stand already: the plugin, and what pair sums know of them.
