@@ -17,6 +17,8 @@ pub struct FinalState {
     /// Every piece of every frame, by its name and time: numbers as bits, those of particles in the order of their identities,
     /// since ranks write them in another.
     pub fields: BTreeMap<String, BTreeMap<String, Vec<u64>>>,
+    /// Every file of fields, by name.
+    pub files: BTreeMap<PathBuf, Vec<u8>>,
 }
 
 impl FinalState {
@@ -43,7 +45,13 @@ impl FinalState {
             let name = format!("{} at {:?} s", listed.name, listed.time);
             (name, arrays(&piece))
         });
+        let files = files_with_extension(folder, "vtu").into_iter().map(|path| {
+            let name = path.strip_prefix(folder).expect("below the folder");
+            let bytes = std::fs::read(&path).expect("a file of fields");
+            (name.to_path_buf(), bytes)
+        });
         FinalState {
+            files: files.collect(),
             clock: [bits("time"), bits("dt")],
             columns: columns.collect(),
             series: std::fs::read_to_string(folder.join("series.csv")).expect("a series"),
@@ -85,7 +93,33 @@ impl FinalState {
             assert_eq!(differ, None, "{what}: an array of {name}");
             assert_eq!(arrays.len(), there.len(), "{what}: arrays of {name}");
         }
+        // Only what one process wrote has the same bytes: particles are in another order in files of several.
+        let alone = [self, other].iter().all(|s| s.is_of_one_process());
+        let compared = |name: &PathBuf| alone || !is_of_particles(name);
+        let names = |s: &Self| {
+            let names = s.files.keys().filter(|name| compared(name));
+            names.cloned().collect::<Vec<_>>()
+        };
+        assert_eq!(names(self), names(other), "{what}: files of fields");
+        for name in names(self) {
+            let same = self.files[&name] == other.files[&name];
+            assert!(same, "{what}: {} differs", name.display());
+        }
     }
+}
+
+impl FinalState {
+    /// Whether no rank has written a share of a frame, `fluid_000003_r1.vtu`.
+    fn is_of_one_process(&self) -> bool {
+        let stems = self.files.keys().filter_map(|name| name.file_stem());
+        let mut last = stems.filter_map(|stem| stem.to_str()?.rsplit_once('_'));
+        !last.any(|(_, last)| last.starts_with('r'))
+    }
+}
+
+fn is_of_particles(name: &Path) -> bool {
+    let stem = name.file_stem().and_then(|stem| stem.to_str());
+    stem.is_some_and(|stem| stem.starts_with("fluid_"))
 }
 
 /// The arrays of a piece by their names, as bits, in the order of identities where it has them.
