@@ -104,6 +104,17 @@ const ALLOWED: [(&str, &[&str]); 36] = [
         ],
     ),
     (
+        "sph-pressure",
+        &[
+            "sph-core",
+            "sph-neighbours",
+            "sph-state",
+            "sph-contribution",
+            "sph-implicit",
+            "sph-multiphase",
+        ],
+    ),
+    (
         "sph-stress",
         &[
             "sph-core",
@@ -154,6 +165,7 @@ const ALLOWED: [(&str, &[&str]); 36] = [
             "sph-draw",
             "sph-io",
             "sph-mpi",
+            "sph-pressure",
             "sph-scene",
             "sph-solver",
             "sph-study",

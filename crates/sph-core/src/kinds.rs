@@ -57,7 +57,7 @@ const fn at(place: Place, name: &'static str) -> KindInfo {
 }
 
 /// Those that the crates of this project have; others register theirs with [`kind!`](crate::kind).
-static OWN: [KindInfo; 22] = [
+static OWN: [KindInfo; 23] = [
     one("kernel", DEFAULT),
     one("formulation", DEFAULT),
     one("integrator", DEFAULT),
@@ -71,6 +71,7 @@ static OWN: [KindInfo; 22] = [
         "effective-pressure",
         "that of the equation of state if left out",
     ),
+    one("pressure", "that of the equation of state if left out"),
     one("seepage", NONE),
     one("eddy-viscosity", NONE),
     one("smoother", NONE),

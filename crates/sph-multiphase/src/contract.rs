@@ -1,9 +1,9 @@
 //! What formulations and interface models are.
 
-use sph_contribution::{Limiter, Stages};
-use sph_core::{Evolved, Field, Scalar, StepError, contract};
+use sph_contribution::{Limiter, Setting, Stages};
+use sph_core::{Evolved, Field, Scalar, Stage, StepError, contract};
 use sph_neighbours::{Interaction, World};
-use sph_state::Laws;
+use sph_state::{Laws, PressureStage};
 
 /// How density diffusion reaches what a formulation integrates.
 #[derive(Clone, Copy)]
@@ -55,6 +55,29 @@ pub trait Formulation<const D: usize>: Send + Sync {
 contract!(
     /// A formulation that a scene may name.
     pub FormulationEntry, "formulation", "density and the pressure gradient that belongs to it", Formulation<D>
+);
+
+/// What a [`PressureScheme`] works with.
+pub struct Acting<const D: usize> {
+    /// The stage that applies the equations of state.
+    pub state: PressureStage,
+    /// −D lnρ/Dt by motion, 1/s, as [`Formulation::dilatation`].
+    pub dilatation: Box<dyn Interaction<D>>,
+    /// Whether the scene names what free surfaces are; [`FREE_SURFACE`](crate::FREE_SURFACE) is then there.
+    pub surfaces: bool,
+}
+
+/// Which pressure acts in a step, where it is not that of the equation of state at its beginning.
+pub trait PressureScheme<const D: usize>: Send + Sync {
+    /// The stage that writes [`PRESSURE`](sph_core::fields::PRESSURE); it finds there that of the step before.
+    fn stage(&self, acting: Acting<D>) -> Box<dyn Stage<World<D>>>;
+    /// Bounds on the step, in the place of those of sound.
+    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>>;
+}
+
+contract!(
+    /// A pressure scheme that a scene may name.
+    pub PressureEntry, "pressure", "which pressure acts in a step", PressureScheme<D>
 );
 
 /// A force where phases meet.

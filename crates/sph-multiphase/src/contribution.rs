@@ -2,28 +2,28 @@
 
 use std::sync::Arc;
 
-use sph_contribution::{Contribution, Limiter, Refusal, Setting, SoundLimit, Stages, StepWork};
-use sph_core::AnyField;
+use sph_contribution::{
+    Contribution, Limiter, OwnColumn, Refusal, Setting, SoundLimit, Stages, StepWork,
+};
+use sph_core::{AnyField, fields};
 use sph_neighbours::Terms;
 use sph_state::PressureStage;
 
-use crate::{Dilatation, Formulation, InterfaceLimit, InterfaceModel};
+use crate::{Acting, Dilatation, Formulation, InterfaceLimit, InterfaceModel, PressureScheme};
 
 /// The formulation that a scene names, with its equations of state.
-pub struct Compressible<const D: usize>(pub Arc<dyn Formulation<D>>);
+pub struct Compressible<const D: usize> {
+    /// What density is.
+    pub formulation: Arc<dyn Formulation<D>>,
+    /// Which pressure acts; that of the equations of state if there is none.
+    pub scheme: Option<Box<dyn PressureScheme<D>>>,
+    /// Whether the scene names what free surfaces are.
+    pub surfaces: bool,
+}
 
-impl<const D: usize> Contribution<D> for Compressible<D> {
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        let mut stages = self.0.stages();
-        stages.push(Box::new(PressureStage {
-            laws: setting.laws.clone(),
-        }));
-        stages
-    }
-    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
-        vec![self.0.pressure_term()]
-    }
-    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
+impl<const D: usize> Compressible<D> {
+    /// Bounds of sound.
+    fn sound_limits(setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
         let sound = SoundLimit {
             courant: setting.courant,
             laws: setting.laws.clone(),
@@ -33,14 +33,49 @@ impl<const D: usize> Contribution<D> for Compressible<D> {
         limits.extend(interfaces.map(|limit| Box::new(limit) as Box<dyn Limiter<D>>));
         limits
     }
+}
+
+impl<const D: usize> Contribution<D> for Compressible<D> {
+    fn columns(&self) -> Vec<OwnColumn<D>> {
+        // A scheme starts from the pressure of the step before.
+        let scheme = self.scheme.iter();
+        scheme
+            .map(|_| OwnColumn::zero(fields::PRESSURE.any()))
+            .collect()
+    }
+    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+        let mut stages = self.formulation.stages();
+        let state = PressureStage {
+            laws: setting.laws.clone(),
+        };
+        stages.push(match &self.scheme {
+            None => Box::new(state),
+            Some(scheme) => scheme.stage(Acting {
+                state,
+                dilatation: self.formulation.dilatation(),
+                surfaces: self.surfaces,
+            }),
+        });
+        stages
+    }
+    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
+        vec![self.formulation.pressure_term()]
+    }
+    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
+        match &self.scheme {
+            None => Self::sound_limits(setting),
+            Some(scheme) => scheme.limiters(setting),
+        }
+    }
     fn works(
         &mut self,
         _: &Setting<'_, D>,
         _: &[AnyField],
     ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        let compressed = self.0.compressed().into_iter();
-        let works = compressed
-            .map(|c| -> Box<dyn StepWork<D>> { Box::new(Dilatation::new(c, self.0.divergence())) });
+        let compressed = self.formulation.compressed().into_iter();
+        let works = compressed.map(|c| -> Box<dyn StepWork<D>> {
+            Box::new(Dilatation::new(c, self.formulation.divergence()))
+        });
         Ok(works.collect())
     }
 }

@@ -4,6 +4,7 @@
 //!   [`ColagrossiLandrini`], [`Grenier`], [`Krimi`]. [`Dilatation`] is the work of those that integrate continuity.
 //! * [`InterfaceModel`] is a kind of plugin, a force where phases meet: [`SurfaceTension`], [`GrenierInterface`],
 //!   [`MicroMixing`], [`InterfaceFriction`].
+//! * [`PressureScheme`] is a kind of plugin, which pressure acts in a step; none is here.
 //! * [`SurfaceEntry`] is a kind of plugin, what free surfaces are: [`ConeTest`].
 //! * [`AcousticDamper`] takes sound away.
 //! * The combinations of pressure, friction and smoothing that are compiled into one loop.
@@ -32,7 +33,8 @@ mod volume;
 pub use acoustic_damper::AcousticDamper;
 pub use colagrossi_landrini::ColagrossiLandrini;
 pub use contract::{
-    Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, InterfaceModel,
+    Acting, Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, InterfaceModel,
+    PressureEntry, PressureScheme,
 };
 pub use contribution::{Compressible, Meeting};
 pub use dilatation::Dilatation;

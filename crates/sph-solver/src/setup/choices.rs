@@ -8,7 +8,9 @@ use sph_diffusion::{Shifting, ShiftingEntry, Smoother, SmootherEntry};
 use sph_implicit::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
 use sph_integrators::{Integrator, IntegratorEntry};
 use sph_kernels::Kernel;
-use sph_multiphase::{Formulation, FormulationEntry, InterfaceEntry, InterfaceModel};
+use sph_multiphase::{
+    Formulation, FormulationEntry, InterfaceEntry, InterfaceModel, PressureEntry, PressureScheme,
+};
 use sph_neighbours::{KernelEntry, TermEntry, Terms};
 use sph_open::{OpenBoundary, OpenBoundaryEntry};
 use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry};
@@ -53,6 +55,8 @@ pub type ImplicitSolve<const D: usize> = (Box<dyn TimeScheme>, Box<dyn LinearSol
 /// What acts on the particles.
 pub struct Physics<const D: usize> {
     pub formulation: Arc<dyn Formulation<D>>,
+    /// Which pressure acts; that of the equations of state if there is none.
+    pub pressure: Option<Box<dyn PressureScheme<D>>>,
     pub viscous_operator: Box<dyn ViscousOperator<D>>,
     /// Explicitly if there is none.
     pub implicit_viscosity: Option<ImplicitSolve<D>>,
@@ -138,6 +142,7 @@ impl Builder<'_> {
         let laws = scene.phase.keys().filter_map(|phase| scene.rheology(phase));
         let rheologies: Rheologies = self.each::<D, RheologyEntry>(laws.collect()).into();
         let formulation = self.one::<D, FormulationEntry>();
+        let pressure = self.one::<D, PressureEntry>();
         let viscous_operator = self.one::<D, ViscousOperatorEntry>();
         let implicit_viscosity = self.implicit_viscosity::<D>();
         let eddy_viscosity = self.one::<D, EddyViscosityEntry>();
@@ -165,6 +170,7 @@ impl Builder<'_> {
         let contributions = self.contributions::<D>();
         Some(Physics {
             formulation: formulation?.into(),
+            pressure,
             viscous_operator: viscous_operator?,
             implicit_viscosity,
             velocity_gradient: velocity_gradient.map(Arc::from),

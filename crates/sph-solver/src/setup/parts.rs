@@ -49,10 +49,12 @@ pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>, shown: &[String
         implicit_share: physics.implicit_viscosity.as_ref().map(share),
         grain_pressure: physics.effective_pressure.is_some(),
     });
-    let mut all: Vec<Part<D>> = vec![(
-        "formulation",
-        Box::new(Compressible(physics.formulation.clone())),
-    )];
+    let compressible = Compressible {
+        formulation: physics.formulation.clone(),
+        scheme: physics.pressure,
+        surfaces: scene.choice("surface").is_some(),
+    };
+    let mut all: Vec<Part<D>> = vec![("formulation", Box::new(compressible))];
     if let Some(effective) = physics.effective_pressure {
         let laws = physics.rheologies;
         let part = GrainPressure { effective, laws };

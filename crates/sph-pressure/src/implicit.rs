@@ -1,0 +1,83 @@
+//! The plugin: when pressure acts.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_contribution::{Limiter, Setting, SoundLimit};
+use sph_core::{Stage, register};
+use sph_implicit::Automatic;
+use sph_multiphase::{Acting, PressureEntry, PressureScheme};
+use sph_neighbours::World;
+
+use crate::limit::FlowLimit;
+use crate::stage::SolvePressure;
+
+/// The pressure of the end of the step: p = p(ρ) − ρc²Δt D{uⁿ⁺¹} with uⁿ⁺¹ = uⁿ + Δt (g − ∇p/ρ), that is
+///
+/// γ_aV_a/(ρ_ac_a²) p_a + Δt² Σ_b V_aV_b|F_ab| [(1/ρ_a + 1/ρ_b)(p_a − p_b) − 2 g·r_ab] =
+/// γ_aV_a [p(ρ_a)/(ρ_ac_a²) − Δt D_a{uⁿ}].
+///
+/// Symbols: p(ρ) equation of state (Pa), c speed of sound (m/s), D{u} the rate at which the formulation's density falls
+/// (1/s), F = w'/r (1/m^(d+2)), Δt the last step (s). The system is symmetric and compressible: with cΔt ≪ h it is
+/// p(ρ), with cΔt ≫ h a projection. What deviates from the hydrostatic gradient has no flux into walls. Sound does not bound
+/// the step: Δt ≤ `courant` h/|u|; sound faster than h/Δt is damped as by backward Euler.
+///
+/// Where a scene has a free surface, `[surface.cone-test]` tells which particles are at it: what their supports lack is at
+/// the pressure 0. Other forces than gravity and pressure (friction, stresses, surface tension) are not in the prediction;
+/// pressure answers them through the density, one step later. First order in time.
+///
+/// Source: after Kwatra et al. 2009 (semi-implicit compressible flow) and Cummins & Rudman 1999 (the one-ring sum); the form of
+/// gravity at walls, the surfaces and the step ours.
+///
+/// ```toml
+/// [pressure.implicit]
+/// courant = 0.2
+/// ```
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ImplicitPressure {
+    /// C of Δt ≤ C h/|u|.
+    #[schemars(
+        range(max = 1.0),
+        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours")
+    )]
+    pub courant: f64,
+    /// Relative residual at which the solve ends.
+    #[schemars(
+        range(max = 0.1),
+        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours")
+    )]
+    pub tolerance: f64,
+}
+
+impl Default for ImplicitPressure {
+    fn default() -> Self {
+        ImplicitPressure {
+            courant: 0.2,
+            tolerance: 1e-5,
+        }
+    }
+}
+
+impl<const D: usize> PressureScheme<D> for ImplicitPressure {
+    fn stage(&self, acting: Acting<D>) -> Box<dyn Stage<World<D>>> {
+        Box::new(SolvePressure::new(acting, Automatic::to(self.tolerance)))
+    }
+    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
+        let sound = SoundLimit {
+            courant: setting.courant,
+            laws: setting.laws.clone(),
+        };
+        vec![Box::new(FlowLimit {
+            courant: self.courant,
+            sound,
+        })]
+    }
+}
+
+register!(
+    PressureEntry [2, 3],
+    ImplicitPressure,
+    "implicit",
+    "pressure of the end of the step: steps longer than those of sound",
+    "after Kwatra et al. 2009; Cummins & Rudman 1999"
+);

@@ -1,0 +1,218 @@
+//! The stage that solves for the pressure.
+
+use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
+use sph_implicit::{Assembly, Automatic, DividedMatrix, Entries, LinearSolver, Matrix};
+use sph_multiphase::{Acting, FREE_SURFACE, Place};
+use sph_neighbours::{Interaction, SharedRows, There, World, interactions, lattice_sum};
+use sph_state::PressureStage;
+
+use crate::system::{Couplings, Part};
+
+const NAME: &str = "implicit pressure";
+
+/// Density over that at rest at which a law is asked for its largest tension.
+const TORN: f64 = 0.5;
+
+/// Applies the equations of state, and solves for the pressure of the end of the step.
+pub(crate) struct SolvePressure<const D: usize> {
+    state: PressureStage,
+    /// The rate at which the density falls.
+    dilatation: [Box<dyn Interaction<D>>; 1],
+    surfaces: bool,
+    /// The lowest pressure of every law, Pa.
+    floors: Vec<f64>,
+    solver: Automatic,
+    room: Room<D>,
+}
+
+/// What a solve fills anew, kept for its memory.
+struct Room<const D: usize> {
+    states: Vec<There<D>>,
+    rate: Vec<f64>,
+    /// The sweep sums accelerations, too; nobody reads them.
+    unused: Vec<Vect<D>>,
+    parts: Vec<Part>,
+    assembly: Assembly<f64, 1>,
+    pressure: Vec<Vect<1>>,
+}
+
+impl<const D: usize> SolvePressure<D> {
+    pub fn new(acting: Acting<D>, solver: Automatic) -> Self {
+        let floor = |law: &Box<dyn sph_state::BoundState>| {
+            let mut pressure = [0.0];
+            law.pressure(&[TORN * law.reference().density], &mut pressure);
+            pressure[0]
+        };
+        SolvePressure {
+            floors: acting.state.laws.iter().map(floor).collect(),
+            state: acting.state,
+            dilatation: [acting.dilatation],
+            surfaces: acting.surfaces,
+            solver,
+            room: Room {
+                states: Vec::new(),
+                rate: Vec::new(),
+                unused: Vec::new(),
+                parts: Vec::new(),
+                assembly: Assembly::default(),
+                pressure: Vec::new(),
+            },
+        }
+    }
+}
+
+impl<const D: usize> Declares for SolvePressure<D> {
+    fn name(&self) -> String {
+        NAME.into()
+    }
+    fn access(&self) -> Access {
+        let access = self.state.access().and(self.dilatation[0].access());
+        let access = access
+            .both(fields::POSITION)
+            .both(fields::VOLUME)
+            .both(fields::DENSITY)
+            .where_there(fields::RENORMALISATION)
+            .where_there(fields::PHASE);
+        match self.surfaces {
+            true => access.here(FREE_SURFACE),
+            false => access,
+        }
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let x = &mut self.room.pressure;
+        x.clear();
+        x.extend(
+            world
+                .free
+                .get(fields::PRESSURE)?
+                .iter()
+                .map(|p| Vect::from([*p])),
+        );
+        self.state.run(world)?;
+        match world.dt > 0.0 && world.dt.is_finite() {
+            true => self.solve(world),
+            false => Ok(()),
+        }
+    }
+    fn bytes(&self) -> usize {
+        let Assembly {
+            pattern, values, ..
+        } = &self.room.assembly;
+        size_of_val(&pattern.starts[..])
+            + size_of_val(&pattern.columns[..])
+            + size_of_val(&values.diagonal[..])
+            + size_of_val(&values.others[..])
+            + size_of_val(&self.room.pressure[..])
+    }
+}
+
+impl<const D: usize> SolvePressure<D> {
+    fn solve(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        self.diverge(world)?;
+        self.fill_parts(world)?;
+        let shared = SharedRows::of(world);
+        if let Some(shared) = &shared {
+            shared.team.begin_solve()?;
+        }
+        let Room {
+            parts,
+            assembly,
+            pressure: x,
+            ..
+        } = &mut self.room;
+        let system = Couplings {
+            own: shared.as_ref().map(|shared| &shared.own[..]),
+            volume: world.free.get(fields::VOLUME)?,
+            density: world.free.get(fields::DENSITY)?,
+            parts,
+            gravity: world.gravity,
+            squared_step: world.dt * world.dt,
+            full: full_support(world),
+        };
+        assembly.fill_wanted(
+            world,
+            |i| system.is_own(i),
+            |rows, cluster| system.add(cluster, rows, world.shelf()),
+            |rows, others| others.for_each(|_| Couplings::<D>::add_other(rows)),
+        )?;
+        let values = std::mem::take(&mut assembly.values);
+        let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
+        let sources = &assembly.sources;
+        let solved = match shared {
+            None => self.solver.solve(&matrix, sources, x),
+            Some(shared) => {
+                let divided = DividedMatrix::new(&matrix, shared, None);
+                self.solver.solve(&divided, sources, x)
+            }
+        };
+        if let Entries::Scalar(values) = matrix.entries {
+            assembly.values = values;
+        }
+        solved.map_err(|e| StepError::Stage {
+            stage: NAME.into(),
+            reason: e.to_string(),
+        })?;
+        self.spread(world)
+    }
+
+    /// D{u} of all particles.
+    fn diverge(&mut self, world: &World<D>) -> Result<(), StepError> {
+        let Room {
+            states,
+            rate,
+            unused,
+            ..
+        } = &mut self.room;
+        let n = world.free.len();
+        rate.clear();
+        rate.resize(n, 0.0);
+        unused.resize(n, Vect::zeros());
+        interactions(world, states, &self.dilatation, unused, Some(rate))
+    }
+
+    /// What every row has of its own.
+    fn fill_parts(&mut self, world: &World<D>) -> Result<(), StepError> {
+        let free = &world.free;
+        let volume = free.get(fields::VOLUME)?;
+        let density = free.get(fields::DENSITY)?;
+        let pressure = free.get(fields::PRESSURE)?;
+        let gamma = free.get(fields::RENORMALISATION).ok();
+        let phase = free.get(fields::PHASE).ok();
+        let surface = match self.surfaces {
+            true => Some(free.get(FREE_SURFACE)?),
+            false => None,
+        };
+        let Room { parts, rate, .. } = &mut self.room;
+        parts.clear();
+        parts.extend((0..volume.len()).map(|i| {
+            let law = &self.state.laws[phase.map_or(0, |p| p[i] as usize)];
+            let size = volume[i] * gamma.map_or(1.0, |g| g[i]);
+            let stiffness = density[i] * law.sound_speed(density[i]).powi(2);
+            let compliance = size / stiffness;
+            Part {
+                compliance,
+                source: compliance * pressure[i] - world.dt * size * rate[i],
+                surface: surface.is_some_and(|s| s[i] >= Place::At.number()),
+            }
+        }));
+        Ok(())
+    }
+
+    /// The solution to its column; a law's largest tension is that of the solution, too.
+    fn spread(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut pressure = world.free.take(fields::PRESSURE)?;
+        let phase = world.free.get(fields::PHASE).ok();
+        for (i, (p, x)) in pressure.iter_mut().zip(&self.room.pressure).enumerate() {
+            *p = x[0].max(self.floors[phase.map_or(0, |k| k[i] as usize)]);
+        }
+        Ok(world.free.put(fields::PRESSURE, pressure)?)
+    }
+}
+
+/// Σ 2V|F| on the lattice, 1/m².
+fn full_support<const D: usize>(world: &World<D>) -> f64 {
+    2.0 * world.spacing.powi(D as i32) * lattice_sum(world, |pair| -pair.factor)
+}
