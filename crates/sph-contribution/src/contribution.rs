@@ -18,6 +18,8 @@ pub struct Setting<'a, const D: usize> {
     pub density: Evolved,
     /// Whether densities are sums over positions, which every motion of particles changes.
     pub summed: bool,
+    /// Whether pressure is that of the end of the step, which no density that a step adds can overshoot.
+    pub pressure_ahead: bool,
     /// The Courant number C of c Δt ≤ C h, for speeds of sound and elastic waves.
     pub courant: f64,
     /// C of νΔt ≤ C h².

@@ -119,6 +119,10 @@ pub trait Stage<C>: Declares + Send {
     fn halves(&self) -> bool {
         false
     }
+    /// Whether it begins with what it wrote the last time: its columns are then part of the state.
+    fn remembers(&self) -> bool {
+        false
+    }
     /// Memory of the system that it solved last, matrix and solution, bytes; 0 where it solves none.
     fn bytes(&self) -> usize {
         0

@@ -48,6 +48,9 @@ impl<const D: usize> Smoother<D> for BrezziPitkaranta {
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
         Box::new(Lanewise(self.of(laws)))
     }
+    fn of_pressures(&self) -> bool {
+        true
+    }
     fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         DiffusionLimit::of(self.strength, laws)
     }

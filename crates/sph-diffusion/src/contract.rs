@@ -14,6 +14,11 @@ pub trait Smoother<const D: usize>: Send {
     /// The term; it adds dρ/dt to [`Rates::scalar`](sph_neighbours::Rates). It may read the phase
     /// column where there are several laws.
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>>;
+    /// Whether it evens out pressures, and not densities: there is no bound on it where the pressure is that of the end of the
+    /// step.
+    fn of_pressures(&self) -> bool {
+        false
+    }
     /// Up to which step it evens out instead of overshooting.
     fn limiter(&self, _laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         None

@@ -20,7 +20,10 @@ impl<const D: usize> Contribution<D> for Smoothed<D> {
         true
     }
     fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
-        self.0.limiter(setting.laws).into_iter().collect()
+        match setting.pressure_ahead && self.0.of_pressures() {
+            true => Vec::new(),
+            false => self.0.limiter(setting.laws).into_iter().collect(),
+        }
     }
     fn remedy(&self, path: &str) -> Option<String> {
         Some(format!("lower the strength in {path}"))

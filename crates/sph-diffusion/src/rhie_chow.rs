@@ -62,6 +62,9 @@ impl<const D: usize> Smoother<D> for RhieChow {
             slowness: self.strength / fastest(laws),
         }))
     }
+    fn of_pressures(&self) -> bool {
+        true
+    }
     fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         DiffusionLimit::of(self.strength, laws)
     }

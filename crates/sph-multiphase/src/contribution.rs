@@ -2,10 +2,8 @@
 
 use std::sync::Arc;
 
-use sph_contribution::{
-    Contribution, Limiter, OwnColumn, Refusal, Setting, SoundLimit, Stages, StepWork,
-};
-use sph_core::{AnyField, fields};
+use sph_contribution::{Contribution, Limiter, Refusal, Setting, SoundLimit, Stages, StepWork};
+use sph_core::AnyField;
 use sph_neighbours::Terms;
 use sph_state::PressureStage;
 
@@ -36,13 +34,6 @@ impl<const D: usize> Compressible<D> {
 }
 
 impl<const D: usize> Contribution<D> for Compressible<D> {
-    fn columns(&self) -> Vec<OwnColumn<D>> {
-        // A scheme starts from the pressure of the step before.
-        let scheme = self.scheme.iter();
-        scheme
-            .map(|_| OwnColumn::zero(fields::PRESSURE.any()))
-            .collect()
-    }
     fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
         let mut stages = self.formulation.stages();
         let state = PressureStage {

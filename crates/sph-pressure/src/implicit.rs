@@ -19,7 +19,7 @@ use crate::stage::SolvePressure;
 /// Symbols: p(ρ) equation of state (Pa), c speed of sound (m/s), D{u} the rate at which the formulation's density falls
 /// (1/s), F = w'/r (1/m^(d+2)), Δt the last step (s). The system is symmetric and compressible: with cΔt ≪ h it is
 /// p(ρ), with cΔt ≫ h a projection. What deviates from the hydrostatic gradient has no flux into walls. Sound does not bound
-/// the step: Δt ≤ `courant` h/|u|; sound faster than h/Δt is damped as by backward Euler.
+/// the step: Δt ≤ `courant` h/(|u| + √(|g|h)); sound faster than h/Δt is damped as by backward Euler.
 ///
 /// Where a scene has a free surface, `[surface.cone-test]` tells which particles are at it: what their supports lack is at
 /// the pressure 0. Other forces than gravity and pressure (friction, stresses, surface tension) are not in the prediction;
@@ -35,7 +35,7 @@ use crate::stage::SolvePressure;
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ImplicitPressure {
-    /// C of Δt ≤ C h/|u|.
+    /// C of Δt ≤ C h/(|u| + √(|g|h)).
     #[schemars(
         range(max = 1.0),
         extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours")

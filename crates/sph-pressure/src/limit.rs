@@ -8,7 +8,8 @@ use sph_neighbours::World;
 /// How much longer a step may be than the one before, which the pressure was solved for.
 const GROWTH: f64 = 1.1;
 
-/// Δt ≤ C h/|u|max, at the start that of sound and then a tenth more from step to step.
+/// Δt ≤ C h/(|u|max + √(|g| h)), at the start that of sound and then a tenth more from step to step; √(|g| h) is the speed of the
+/// shortest waves on a free surface.
 pub struct FlowLimit {
     /// C.
     pub courant: f64,
@@ -28,14 +29,15 @@ impl<const D: usize> Limiter<D> for FlowLimit {
             }
         });
         let fastest = squared.reduce(|| 0.0, f64::max).sqrt();
-        let flow = self.courant * world.kernel.smoothing_length() / fastest;
+        let h = world.kernel.smoothing_length();
+        let flow = self.courant * h / (fastest + (world.gravity.norm() * h).sqrt());
         let sound = self.sound.limit(world)?.dt;
         let longest = sound.max(GROWTH * world.dt);
         Ok(StepLimit::new("flow", flow.min(longest)))
     }
     fn formula(&self) -> String {
         format!(
-            "flow: dt <= {} h / |u|, and {GROWTH} times the last",
+            "flow: dt <= {} h / (|u| + sqrt(|g| h)), and {GROWTH} times the last",
             self.courant
         )
     }

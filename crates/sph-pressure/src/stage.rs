@@ -97,6 +97,9 @@ impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
             false => Ok(()),
         }
     }
+    fn remembers(&self) -> bool {
+        true
+    }
     fn bytes(&self) -> usize {
         let Assembly {
             pattern, values, ..
@@ -189,13 +192,17 @@ impl<const D: usize> SolvePressure<D> {
         parts.clear();
         parts.extend((0..volume.len()).map(|i| {
             let law = &self.state.laws[phase.map_or(0, |p| p[i] as usize)];
-            let size = volume[i] * gamma.map_or(1.0, |g| g[i]);
+            let gamma = gamma.map_or(1.0, |g| g[i]);
+            let size = volume[i] * gamma;
             let stiffness = density[i] * law.sound_speed(density[i]).powi(2);
             let compliance = size / stiffness;
             Part {
                 compliance,
                 source: compliance * pressure[i] - world.dt * size * rate[i],
-                surface: surface.is_some_and(|s| s[i] >= Place::At.number()),
+                open: match surface {
+                    Some(surface) if surface[i] >= Place::At.number() => gamma,
+                    _ => 0.0,
+                },
             }
         }));
         Ok(())

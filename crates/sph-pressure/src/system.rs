@@ -29,9 +29,13 @@ pub(crate) struct Part {
     pub compliance: f64,
     /// Compliance times the pressure of the equation of state, less Δt γ V D{u}, m^d.
     pub source: f64,
-    /// Whether it is at a free surface: what its support lacks is at the pressure 0.
-    pub surface: bool,
+    /// γ at a free surface, 0 elsewhere: what the support lacks without walls is at the pressure 0.
+    pub open: f64,
 }
+
+/// Share of a support that is lacking at a surface, at least: the first row below a flat one lacks twice as much, and a cone that
+/// is empty beside a wall less.
+const LACK: f64 = 0.15;
 
 /// What a cluster leaves for its rows.
 #[derive(Default)]
@@ -83,11 +87,10 @@ impl<const D: usize> Couplings<'_, D> {
 
     /// What a support that is cut by a free surface lacks, as if there were fluid at the pressure 0.
     fn held(&self, i: usize, coupling: f64) -> f64 {
-        match self.parts[i].surface {
-            true => {
-                let full = self.squared_step * self.full * self.volume[i] / self.density[i];
-                (full - coupling).max(0.0)
-            }
+        let share = self.parts[i].open * self.volume[i] / self.density[i];
+        let full = self.squared_step * self.full * share;
+        match coupling < (1.0 - LACK) * full {
+            true => full - coupling,
             false => 0.0,
         }
     }

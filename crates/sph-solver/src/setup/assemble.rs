@@ -228,6 +228,7 @@ impl<const D: usize> About<'_, D> {
             viscosities: self.viscosities,
             density: diffused.evolved,
             summed: self.formulation.compressed().is_none(),
+            pressure_ahead: self.scene.choice("pressure").is_some(),
             courant: coefficients.courant,
             viscous: coefficients.viscous,
             kicks_once: self.integrator.kicks_once(),

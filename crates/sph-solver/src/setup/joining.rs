@@ -112,11 +112,14 @@ fn allocate<const D: usize>(flow: &mut Flow<D>) {
         .flat_map(|access| access.writes.iter().copied().chain(access.reads()))
         .filter(|f| f.name != WALL_STATE.name && f.name != fields::PHASE.name)
         .collect();
+    let remembering = flow.stages.iter().zip(&flow.columns.stages);
+    let remembering = remembering.filter(|(stage, _)| stage.remembers());
+    let remembered: Vec<AnyField> = remembering.flat_map(|(_, a)| a.writes.clone()).collect();
     for field in touched {
         // Drifts may sort particles between their halves: the shift must be sorted, too.
         // Solves for the effective pressure start from the last one.
         let kept = [fields::SHIFT_VELOCITY.name, fields::EFFECTIVE_PRESSURE.name];
-        let role = match kept.contains(&field.name) {
+        let role = match kept.contains(&field.name) || remembered.contains(&field) {
             true => Role::State,
             false => Role::Derived,
         };
