@@ -13,7 +13,7 @@ use crate::stage::SolvePressure;
 
 /// The pressure of the end of the step: p = p(ρ) − ρc²Δt D{uⁿ⁺¹} with uⁿ⁺¹ = uⁿ + Δt (g − ∇p/ρ), that is
 ///
-/// γ_aV_a/(ρ_ac_a²) p_a + Δt² Σ_b V_aV_b|F_ab| [(1/ρ_a + 1/ρ_b)(p_a − p_b) − 2 g·r_ab] =
+/// γ_aV_a/(ρ_ac_a²) p_a + Δt² Σ_b V_aV_b|F_ab| {[1/(γ_aρ_a) + 1/(γ_bρ_b)](p_a − p_b) − (1/γ_a + 1/γ_b) g·r_ab} =
 /// γ_aV_a [p(ρ_a)/(ρ_ac_a²) − Δt D_a{uⁿ}].
 ///
 /// Symbols: p(ρ) equation of state (Pa), c speed of sound (m/s), D{u} the rate at which the formulation's density falls
@@ -22,7 +22,7 @@ use crate::stage::SolvePressure;
 /// the step: Δt ≤ `courant` h/(|u| + √(|g|h)); sound faster than h/Δt is damped as by backward Euler.
 ///
 /// Where a scene has a free surface, `[surface.cone-test]` tells which particles are at it: what their supports lack is at
-/// the pressure 0. Other forces than gravity and pressure (friction, stresses, surface tension) are not in the prediction;
+/// the pressure of their equation of state, between 0 and that of a row of water, ρ|g|δr. Other forces than gravity and pressure (friction, stresses, surface tension) are not in the prediction;
 /// pressure answers them through the density, one step later. First order in time.
 ///
 /// Source: after Kwatra et al. 2009 (semi-implicit compressible flow) and Cummins & Rudman 1999 (the one-ring sum); the form of
@@ -30,7 +30,7 @@ use crate::stage::SolvePressure;
 ///
 /// ```toml
 /// [pressure.implicit]
-/// courant = 0.2
+/// courant = 0.05
 /// ```
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -52,7 +52,7 @@ pub struct ImplicitPressure {
 impl Default for ImplicitPressure {
     fn default() -> Self {
         ImplicitPressure {
-            courant: 0.2,
+            courant: 0.05,
             tolerance: 1e-5,
         }
     }

@@ -130,6 +130,7 @@ impl<const D: usize> SolvePressure<D> {
             own: shared.as_ref().map(|shared| &shared.own[..]),
             volume: world.free.get(fields::VOLUME)?,
             density: world.free.get(fields::DENSITY)?,
+            gamma: world.free.get(fields::RENORMALISATION).ok(),
             parts,
             gravity: world.gravity,
             squared_step: world.dt * world.dt,
@@ -188,6 +189,7 @@ impl<const D: usize> SolvePressure<D> {
             true => Some(free.get(FREE_SURFACE)?),
             false => None,
         };
+        let row = world.gravity.norm() * world.spacing;
         let Room { parts, rate, .. } = &mut self.room;
         parts.clear();
         parts.extend((0..volume.len()).map(|i| {
@@ -199,6 +201,8 @@ impl<const D: usize> SolvePressure<D> {
             Part {
                 compliance,
                 source: compliance * pressure[i] - world.dt * size * rate[i],
+                // A row of fluid at the most: a density that is noise has no say.
+                outside: pressure[i].clamp(0.0, row * density[i]),
                 open: match surface {
                     Some(surface) if surface[i] >= Place::At.number() => gamma,
                     _ => 0.0,

@@ -12,6 +12,8 @@ pub(crate) struct Couplings<'a, const D: usize> {
     pub volume: &'a [f64],
     /// ρ, kg/m³.
     pub density: &'a [f64],
+    /// γ, where there are walls that cut supports.
+    pub gamma: Option<&'a [f64]>,
     /// What else stands in a row.
     pub parts: &'a [Part],
     /// m/s².
@@ -29,8 +31,10 @@ pub(crate) struct Part {
     pub compliance: f64,
     /// Compliance times the pressure of the equation of state, less Δt γ V D{u}, m^d.
     pub source: f64,
-    /// γ at a free surface, 0 elsewhere: what the support lacks without walls is at the pressure 0.
+    /// γ at a free surface, 0 elsewhere: what the support lacks besides walls is at the pressure `outside`.
     pub open: f64,
+    /// Pa.
+    pub outside: f64,
 }
 
 /// Share of a support that is lacking at a surface, at least: the first row below a flat one lacks twice as much, and a cone that
@@ -79,14 +83,22 @@ impl<const D: usize> Couplings<'_, D> {
                 rows.couple(column, &others[lane], others[lane] != 0.0);
             }
             let part = self.parts[i];
-            let held = part.compliance + self.held(i, couplings[lane]);
-            let source = Vect::from([part.source + sources[lane]]);
-            rows.close(held + couplings[lane], source);
+            let lacking = self.lacking(i, couplings[lane]);
+            let held = part.compliance + lacking;
+            let source = part.source + sources[lane] + lacking * part.outside;
+            rows.close(held + couplings[lane], Vect::from([source]));
         }
     }
 
-    /// What a support that is cut by a free surface lacks, as if there were fluid at the pressure 0.
-    fn held(&self, i: usize, coupling: f64) -> f64 {
+    /// 1/γ: by it the gradient of the pressure grows beside walls, and nothing that moves a particle may be more than what is
+    /// solved for.
+    #[inline(always)]
+    fn growth(&self, i: usize) -> f64 {
+        self.gamma.map_or(1.0, |gamma| 1.0 / gamma[i])
+    }
+
+    /// What a support that is cut by a free surface lacks of its couplings.
+    fn lacking(&self, i: usize, coupling: f64) -> f64 {
         let share = self.parts[i].open * self.volume[i] / self.density[i];
         let full = self.squared_step * self.full * share;
         match coupling < (1.0 - LACK) * full {
@@ -97,32 +109,39 @@ impl<const D: usize> Couplings<'_, D> {
 }
 
 impl<const D: usize> LanePairs<D, 2> for Couplings<'_, D> {
-    /// Δt² V, s² m^d, and 1/ρ, m³/kg.
-    type Here = [f64; 2];
-    type Side<L: Lane> = [L; 2];
+    /// Δt² V, s² m^d, 1/γ, and 1/(γρ), m³/kg.
+    type Here = [f64; 3];
+    type Side<L: Lane> = [L; 3];
 
     #[inline(always)]
-    fn here(&self, i: usize) -> [f64; 2] {
-        [self.squared_step * self.volume[i], 1.0 / self.density[i]]
+    fn here(&self, i: usize) -> [f64; 3] {
+        let growth = self.growth(i);
+        let size = self.squared_step * self.volume[i];
+        [size, growth, growth / self.density[i]]
     }
 
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[[f64; 2]]) -> [L; 2] {
-        let mut side = [L::splat(0.0); 2];
+    fn side<L: Lane>(&self, here: &[[f64; 3]]) -> [L; 3] {
+        let mut side = [L::splat(0.0); 3];
         for (lane, own) in here.iter().enumerate() {
-            side[0].set(lane, own[0]);
-            side[1].set(lane, own[1]);
+            side.iter_mut()
+                .zip(own)
+                .for_each(|(s, own)| s.set(lane, *own));
         }
         side
     }
 
-    /// c = −Δt² V_a V_b F_ab (1/ρ_a + 1/ρ_b), and −2 Δt² V_a V_b F_ab g·(r_a − r_b).
+    /// c = −Δt² V_a V_b F_ab [1/(γ_aρ_a) + 1/(γ_bρ_b)], and −Δt² V_a V_b F_ab (1/γ_a + 1/γ_b) g·(r_a − r_b).
     #[inline(always)]
-    fn numbers<L: Lane>(&self, here: &[L; 2], j: usize, pair: &LanePair<D, L>) -> [L; 2] {
+    fn numbers<L: Lane>(&self, here: &[L; 3], j: usize, pair: &LanePair<D, L>) -> [L; 2] {
         let flux = -here[0] * L::splat(self.volume[j]) * pair.factor;
-        let lightness = here[1] + L::splat(1.0 / self.density[j]);
+        let growth = self.growth(j);
+        let lightness = here[2] + L::splat(growth / self.density[j]);
         let weight = dot(&splat(&self.gravity), &pair.separation);
-        [flux * lightness, L::splat(2.0) * flux * weight]
+        [
+            flux * lightness,
+            (here[1] + L::splat(growth)) * flux * weight,
+        ]
     }
 }
 
