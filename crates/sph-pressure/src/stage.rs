@@ -203,10 +203,7 @@ impl<const D: usize> SolvePressure<D> {
                 source: compliance * pressure[i] - world.dt * size * rate[i],
                 // A row of fluid at the most: a density that is noise has no say.
                 outside: pressure[i].clamp(0.0, row * density[i]),
-                open: match surface {
-                    Some(surface) if surface[i] >= Place::At.number() => gamma,
-                    _ => 0.0,
-                },
+                open: surface.is_some_and(|s| s[i] >= Place::Near.number()),
             }
         }));
         Ok(())

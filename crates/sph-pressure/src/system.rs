@@ -31,15 +31,11 @@ pub(crate) struct Part {
     pub compliance: f64,
     /// Compliance times the pressure of the equation of state, less Δt γ V D{u}, m^d.
     pub source: f64,
-    /// γ at a free surface, 0 elsewhere: what the support lacks besides walls is at the pressure `outside`.
-    pub open: f64,
+    /// Whether a free surface is within reach: what the support lacks besides walls is at the pressure `outside`.
+    pub open: bool,
     /// Pa.
     pub outside: f64,
 }
-
-/// Share of a support that is lacking at a surface, at least: the first row below a flat one lacks twice as much, and a cone that
-/// is empty beside a wall less.
-const LACK: f64 = 0.15;
 
 /// What a cluster leaves for its rows.
 #[derive(Default)]
@@ -99,10 +95,9 @@ impl<const D: usize> Couplings<'_, D> {
 
     /// What a support that is cut by a free surface lacks of its couplings.
     fn lacking(&self, i: usize, coupling: f64) -> f64 {
-        let share = self.parts[i].open * self.volume[i] / self.density[i];
-        let full = self.squared_step * self.full * share;
-        match coupling < (1.0 - LACK) * full {
-            true => full - coupling,
+        let full = self.squared_step * self.full * self.volume[i] / self.density[i];
+        match self.parts[i].open {
+            true => (full - coupling).max(0.0),
             false => 0.0,
         }
     }

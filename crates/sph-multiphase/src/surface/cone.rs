@@ -126,6 +126,11 @@ fn place<const D: usize>(world: &World<D>, around: &Around<'_, D>) -> Place {
     let Some(inwards) = gradient.try_normalize(0.0) else {
         return Place::Inside;
     };
+    // A support that walls fill has no outward normal but noise, which may face the wall.
+    let faces = |normal: &Vect<D>| normal.dot(&inwards) > CONE * normal.norm();
+    if rows.contacts.iter().any(|contact| faces(&contact.gradient)) {
+        return Place::Inside;
+    }
     // Separations point from the neighbour to the particle.
     let pairs = rows.free.separation.iter().zip(rows.free.distance2);
     let mut seen = pairs.map(|(r, r2)| (r.dot(&inwards), r2));
