@@ -45,6 +45,12 @@ fn an_implicit_viscosity_gives_the_same_bits_with_every_solver() {
 }
 
 #[test]
+fn a_pressure_of_the_end_of_the_step_gives_the_same_bits() {
+    let tables = "[pressure.implicit]\n[surface.cone-test]";
+    same_for_all_threads(&format!("{DAM_BREAK}\n{tables}\n"), "");
+}
+
+#[test]
 fn blocks_outer_iterations_and_other_schemes_give_the_same_bits() {
     let blocks = "[viscous-operator.monaghan-gingold]";
     let mud =

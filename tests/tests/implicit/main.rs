@@ -1,5 +1,6 @@
-//! Viscosity from the end of the step: its matrix, its orders, and what it refuses.
+//! Viscosity and pressure from the end of the step: their matrix, their orders, and what is refused.
 
 mod input;
 mod matrix;
 mod order;
+mod pressure;

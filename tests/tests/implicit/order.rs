@@ -5,7 +5,7 @@ use sph_scene::parse;
 use sph_solver::assemble;
 
 /// Vortices that decay by e^−0.5 in the time that sound takes over half the box.
-fn vortices(integrator: &str, viscosity: &str) -> String {
+pub fn vortices(integrator: &str, viscosity: &str) -> String {
     format!(
         r#"
         title = "vortices"
@@ -40,7 +40,7 @@ fn vortices(integrator: &str, viscosity: &str) -> String {
 const SPAN: f64 = 0.05;
 
 /// Velocities after the span, by identity.
-fn after(text: &str, steps: usize) -> Vec<Vect<2>> {
+pub fn after(text: &str, steps: usize) -> Vec<Vect<2>> {
     let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
     let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
     let dt = SPAN / steps as f64;

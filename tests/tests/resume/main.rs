@@ -71,6 +71,16 @@ fn a_killed_run_resumes_bit_for_bit_from_several_moments() {
 }
 
 #[test]
+fn a_pressure_that_is_solved_for_goes_on_where_it_was() {
+    let tables = "[pressure.implicit]\n[surface.cone-test]";
+    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}\n{tables}\n"));
+    let whole = uninterrupted(&bench);
+    assert!(whole.state.columns.contains_key("pressure"));
+    let resumed = killed_and_resumed(&bench, 0.11, 1);
+    whole.assert_same(&resumed, "with a pressure of the end of the step");
+}
+
+#[test]
 fn another_number_of_threads_resumes_it_too() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let whole = uninterrupted(&bench);

@@ -2,6 +2,7 @@
 
 use sph_damping as _;
 use sph_io::Table;
+use sph_pressure as _;
 
 use crate::shipped::{finished, whole};
 
@@ -23,6 +24,31 @@ fn a_settled_tank_is_hydrostatic_to_0_85_per_cent_and_still_to_1_5e_4() {
     run.error("pressure", 0.015, 0.0114);
     run.error("pressure-l2", 0.01, 0.0085);
     run.error("rest", 1e-3, 1.5e-4);
+}
+
+/// With c = 313 m/s in place of 31 sound is a hundred times as fast as the waves, and bounds explicit steps to 0.4 h/c.
+#[test]
+fn a_tank_ten_times_as_stiff_takes_a_twentieth_of_the_steps_of_sound_where_pressure_is_solved_for()
+{
+    let run = finished(
+        "hydrostatic-tank",
+        &[
+            "pressure.implicit={}",
+            "surface.cone-test={}",
+            "phase.water.speed_of_sound=313",
+            "numerics.spacing=0.08",
+            "run.end=2",
+        ],
+    );
+    let of_sound = 2.0 / (0.4 * 0.16 / 313.0);
+    let steps = run.summary.steps as f64;
+    assert!(
+        20.0 * steps < of_sound,
+        "{steps} steps, measured 346, for {of_sound:.0}"
+    );
+    // A row of water; explicitly 0.025 after 9784 steps.
+    run.error("pressure", 0.08 / 1.04, 0.0426);
+    run.error("pressure-l2", 0.08 / 1.04, 0.0367);
 }
 
 /// From the lattice, which no step of relaxing leaves at such a tolerance, it starts with a bang.
