@@ -4,9 +4,9 @@
     python3 scripts/water_wedge.py 45 scenes/data/wedge_of_water.csv        # needs numpy and scipy; ten seconds
 
 Lengths are in Ut, speeds in U, pressures in ρU² (U the speed before, t the time since the edge met the wall). The half
-x > 0 is the upper half plane of ζ: 0 where the axis meets the wall, 1 at the tip of the jet, infinity far up. The wall is
-0 < ζ < 1, the surface ζ > 1. The surface keeps its arc length s from the tip (|u − r| = s), so that h = ∫√(dw'dz), w' the
-complex velocity, maps the flow to a triangle with the angles π/2, π/4, π/4 (Wagner 1932):
+x > 0 is the upper half plane of ζ: 0 where the axis meets the wall, 1 at the tip of the jet, infinity far up. The wall
+is 0 < ζ < 1, the surface ζ > 1. The surface keeps its arc length s from the tip (|u − r| = s), so that h = ∫√(dw'dz),
+w' the complex velocity, maps the flow to a triangle with the angles π/2, π/4, π/4 (Wagner 1932):
 
     h'² = C²/[ζ (1 − ζ)^{3/2}]        w' = ∫ h'²/z' dζ
     ln z' = ln K − ½ ln ζ − (θ₁/π) ln(1 − ζ) − (1/π) ∫₁^∞ θ'(τ) ln[(τ − ζ)/τ] dτ
@@ -136,8 +136,9 @@ def main():
         k = np.searchsorted(s, 30)
         edge = z[k] - s[k] * direction[k]
         law = momentum(flow, 10)
-        print(f"{count} points: contact {np.degrees(flow.contact):.4f}°, tip {flow.tip:.5f}, p {p[0]:.5f} in the middle,")
-        print(f"  at most {p.max():.5f} at {x[p.argmax()]:.4f}, ∫p dx {force:.5f}, by momentum {law:.5f}, edge {edge:.4f}")
+        print(f"{count} points: contact {np.degrees(flow.contact):.4f}°, tip {flow.tip:.5f}, p {p[0]:.5f}")
+        print(f"  at most {p.max():.5f} at {x[p.argmax()]:.4f}, edge {edge:.4f}")
+        print(f"  half of the force: ∫p dx {force:.5f}, by momentum {law:.5f}")
     if len(sys.argv) > 2:
         write(sys.argv[2], flow, x, p, force)
 
@@ -145,10 +146,13 @@ def main():
 def write(path, flow, x, p, force):
     """The table: one over the place on the wall, which is a time, the pressure there; and what grows with time."""
     with open(path, "w", encoding="utf-8") as out:
-        out.write(f"""# A wedge of water, half angle {sys.argv[1]} degrees, lands with its edge on a flat rigid wall; no gravity: similar to itself
-# Source: computed for this project by scripts/water_wedge.py: conformal map to Wagner's triangle, integral equation for the surface
-# tau = U t/x at a place x of the wall, p over rho U^2; front = tip of the jet over x; force = force on the whole wall over rho U^2 x
-# Contact angle {np.degrees(flow.contact):.3f} degrees, tip at {flow.tip:.4f} U t, p {p[0]:.4f} in the middle and at most {p.max():.4f} rho U^2 at {x[p.argmax()]:.3f} U t
+        out.write(f"""# A wedge of water, half angle {sys.argv[1]} degrees, lands with its edge on a flat rigid wall
+# No gravity: the flow is similar to itself
+# Source: computed for this project by scripts/water_wedge.py: Wagner's triangle, integral equation for the surface
+# tau = U t/x at a place x of the wall, p over rho U^2; front = tip of the jet over x
+# force = that on the whole wall over rho U^2 x
+# Contact angle {np.degrees(flow.contact):.3f} degrees, tip at {flow.tip:.4f} U t
+# p {p[0]:.4f} in the middle, at most {p.max():.4f} rho U^2 at {x[p.argmax()]:.3f} U t
 tau,p,front,force
 """)
         for tau in np.round(np.concatenate([np.arange(0.2, 1.0, 0.01), np.arange(1.0, 5.001, 0.05)]), 4):
