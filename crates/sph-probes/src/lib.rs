@@ -65,6 +65,7 @@ pub use solutions::cantilever::Cantilever;
 pub use solutions::couette::Couette;
 pub use solutions::elastic_shear_wave::ElasticShearWave;
 pub use solutions::elliptical_drop::EllipticalDrop;
+pub use solutions::duct_poiseuille::DuctPoiseuille;
 pub use solutions::hagen_poiseuille::HagenPoiseuille;
 pub use solutions::hydrostatic::Hydrostatic;
 pub use solutions::poiseuille::Poiseuille;
