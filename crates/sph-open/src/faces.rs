@@ -210,6 +210,15 @@ impl<const D: usize> Faces<D> {
             .sum()
     }
 
+    /// The share with which a port takes part in sums: that which it has, without its mean over the rows that leave.
+    ///
+    /// A row at the distance φ δr from the face lacks (φ − ½) δr of fluid behind it, −½ to ½ as it comes nearer: 0 in the mean.
+    /// What a port holds beyond that came from particles that carried more than the law took out; as a share θ in the
+    /// pressure gradient it would hold the fluid up by 2 p θ δr w(0), with w the kernel summed along the face.
+    pub fn in_sums(&self, element: usize) -> f64 {
+        self.share(element) - self.memory.surplus[element]
+    }
+
     /// The velocity with which fluid passes an element, m/s: what is imposed, or that of the row in front of it and what the law
     /// adds.
     pub fn through(&self, element: usize) -> Vect<D> {
@@ -246,7 +255,7 @@ impl<const D: usize> Faces<D> {
             walls.points.velocity[v] = through;
             walls.points.viscous_velocity[v] = through;
             walls.points.volume[v] = walls.elements.volume[own[0] as usize];
-            walls.points.share[v] = self.share(k);
+            walls.points.share[v] = self.in_sums(k);
         }
         walls.passed = self.passed(walls);
     }
