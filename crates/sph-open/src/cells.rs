@@ -158,3 +158,66 @@ impl<const D: usize> Rectangle<D> {
         [0, 1].map(|k| (place.dot(&self.axes[k]) - self.from[k]) / self.sides[k])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sph_neighbours::{Elements, WallPoints};
+
+    /// Two squares and a triangle in a plane, as walls are cut.
+    fn strip() -> WallSet<3> {
+        let corner = |x: f64, y: f64| Vect::<3>::new(x, y, 0.5);
+        let position = vec![
+            corner(0.0, 0.0),
+            corner(1.0, 0.0),
+            corner(2.0, 0.0),
+            corner(0.0, 1.0),
+            corner(1.0, 1.0),
+            corner(2.0, 1.0),
+            corner(3.0, 0.0),
+        ];
+        let corners = vec![[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [2, 6, 5]];
+        let middle = |c: &[u32; 3]| c.iter().map(|c| position[*c as usize]).sum::<Vect<3>>() / 3.0;
+        WallSet {
+            names: vec!["face".into()],
+            elements: Elements {
+                centre: corners.iter().map(middle).collect(),
+                normal: vec![Vect::<3>::new(0.0, 0.0, 1.0); 5],
+                measure: vec![0.5; 5],
+                wall: vec![0; 5],
+                corners,
+                ..Elements::default()
+            },
+            points: WallPoints {
+                position,
+                ..WallPoints::default()
+            },
+            ..WallSet::default()
+        }
+    }
+
+    #[test]
+    fn triangles_of_a_square_are_one_element() {
+        let cells = cells(&strip(), "face");
+        let own: Vec<_> = cells.iter().map(|c| c.elements.clone()).collect();
+        assert_eq!(own, [vec![0, 1], vec![2, 3], vec![4]]);
+        assert!((cells[1].place.centre - Vect::<3>::new(1.5, 0.5, 0.5)).norm() < 1e-15);
+        assert_eq!(cells[1].place.measure, 1.0);
+        // A trapezium is no rectangle.
+        assert_eq!(cells[0].place.rectangle, None);
+    }
+
+    #[test]
+    fn a_rectangle_has_coordinates() {
+        let mut walls = strip();
+        walls.elements.wall[4] = 1;
+        walls.names.push("other".into());
+        let cells = cells(&walls, "face");
+        let at: Vec<_> = cells
+            .iter()
+            .map(|c| [c.place.along, c.place.across])
+            .collect();
+        assert_eq!(at, [[0.25, 0.5], [0.75, 0.5]]);
+        assert_eq!(cells[0].place.rectangle, Some([2.0, 1.0]));
+    }
+}

@@ -67,7 +67,11 @@ impl<const D: usize> Memory<D> {
 
     /// How many numbers there are.
     pub fn count(&self) -> usize {
-        self.mass.len() + self.surplus.len() + 2 * (D + 1) * self.mean.len() + PER_TOTAL * self.totals.len() + 1
+        self.mass.len()
+            + self.surplus.len()
+            + 2 * (D + 1) * self.mean.len()
+            + PER_TOTAL * self.totals.len()
+            + 1
     }
 
     /// All of it.

@@ -135,7 +135,13 @@ mod tests {
         let n = Vect::<3>::new(0.0, 0.0, 1.0);
         let mut row = Row::<3>::default();
         for x in [-0.1, 0.1] {
-            row.add(&n, &Vect::<3>::new(x, 0.0, 0.05), 0.1, 1.0, &Vect::<3>::new(0.0, 0.0, 2.0));
+            row.add(
+                &n,
+                &Vect::<3>::new(x, 0.0, 0.05),
+                0.1,
+                1.0,
+                &Vect::<3>::new(0.0, 0.0, 2.0),
+            );
         }
         assert_eq!(row.velocity(0.1).map(|u| u[2]), Some(2.0));
         assert_eq!(Row::<3>::default().velocity(0.1), None);

@@ -59,7 +59,7 @@ impl Solution<3> for DuctPoiseuille {
 }
 
 register!(
-    SolutionEntry [3],
+    SolutionEntry[3],
     DuctPoiseuille,
     "duct-poiseuille",
     "developed flow in a rectangular duct",
