@@ -169,7 +169,7 @@ fn a_rate_comes_in_and_leaves_below_a_level() {
         )
         .replace(
             "[wall.inlet.open-boundary.velocity-inlet]\nvelocity = \"1 m/s\"\nphase = \"mud\"",
-            "[wall.inlet.open-boundary.flow-rate]\nrate = \"0.15 m³/s\"\nphase = \"water\"",
+            "[wall.inlet.open-boundary.flow-rate]\nrate = 0.15\nphase = \"water\"",
         )
         .replace(
             "[wall.outlet.open-boundary.outflow]\nmemory = \"1 s\"",

@@ -19,7 +19,7 @@ use crate::{
 ///
 /// ```toml
 /// [wall.inlet.open-boundary.flow-rate]
-/// rate = "0.05 m²/s"
+/// rate = 0.05                      # m³/s, here m²/s
 /// ```
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
