@@ -22,6 +22,7 @@
 mod axis;
 mod births;
 mod boxes;
+mod duct;
 mod error;
 mod evolve;
 mod field;
@@ -43,6 +44,7 @@ mod watch;
 
 pub use axis::Axis;
 pub use boxes::{BoxTree, Corners};
+pub use duct::rectangular_duct;
 pub use error::{FieldError, PlanError, RegistryError, StepError};
 pub use evolve::{Evolved, Recall, System};
 pub use field::{AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector};

@@ -77,15 +77,19 @@ impl<'a, const D: usize> SharedElements<'a, D> {
 
     /// Whether an element is one's own; nobody's, where no particle is within a support of it.
     pub fn own(&self, element: usize) -> bool {
+        let centre = &self.world.walls.elements.centre[element];
+        self.own_around(centre, self.world.lists.of_elements.candidates(element))
+    }
+
+    /// The same of a place on a wall, with all particles that may be within a support of it.
+    pub fn own_around(&self, place: &Vect<D>, candidates: &[u32]) -> bool {
         let world = self.world;
         let support = world.kernel.support_radius().powi(2);
-        let centre = &world.walls.elements.centre[element];
         let near = |j: &usize| {
-            let apart = world.domain.nearest_image(self.position[*j] - centre);
+            let apart = world.domain.nearest_image(self.position[*j] - place);
             apart.norm_squared() < support
         };
-        let around = world.lists.of_elements.candidates(element).iter();
-        let first = around.map(|j| *j as usize).filter(near);
+        let first = candidates.iter().map(|j| *j as usize).filter(near);
         first
             .min_by_key(|j| self.identity[*j])
             .is_some_and(|j| self.own[j])

@@ -57,7 +57,9 @@ impl<const D: usize> Faces<D> {
         let (Some(team), Some(shared)) = (&world.team, SharedElements::of(world)?) else {
             return Ok(looked);
         };
-        let looks = |k: usize| shared.own(self.elements[k] as usize);
+        let looks = |k: usize| {
+            shared.own_around(&self.places[k].centre, world.lists.of_points.candidates(k))
+        };
         let each = 7 + 3 * D + self.whole.len();
         let mut words = Vec::new();
         for (k, seen) in looked.iter().enumerate().filter(|(k, _)| looks(*k)) {

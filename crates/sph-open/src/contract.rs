@@ -13,8 +13,14 @@ pub struct Place<const D: usize> {
     pub normal: Vect<D>,
     /// Length or area, m^(d−1).
     pub measure: f64,
-    /// How far along the face its centre is, 0 to 1 from the first corner of the drawing; ½ in three dimensions.
+    /// How far along the face its centre is, 0 to 1: in two dimensions from the first corner of the drawing, in three along the
+    /// first axis in a [rectangle](Self::rectangle).
     pub along: f64,
+    /// The same along the second axis in a rectangle; ½ elsewhere.
+    pub across: f64,
+    /// Sides of the face along these axes, m, where it is a plane rectangle in three dimensions whose sides go along axes of
+    /// space (but for a tilt).
+    pub rectangle: Option<[f64; 2]>,
 }
 
 /// The fluid in front of an element, as a mean over its support.
@@ -131,6 +137,13 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     /// # Errors
     /// The key that does not fit.
     fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal>;
+    /// Checks it against the elements of its face, which are not known before the walls are built.
+    ///
+    /// # Errors
+    /// The key that does not fit.
+    fn fit(&self, _places: &[Place<D>]) -> Result<(), OpenRefusal> {
+        Ok(())
+    }
     /// What comes in.
     fn entering(&self) -> Entering {
         Entering::default()

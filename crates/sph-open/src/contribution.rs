@@ -12,7 +12,7 @@ use crate::flux::OPEN_FLUX;
 use crate::memory::Memory;
 use crate::passing::Passing;
 use crate::walls::OpenWalls;
-use crate::{Entering, OpenBoundary};
+use crate::{Entering, OpenBoundary, OpenRefusal};
 
 /// The open faces of a scene as a contribution.
 pub struct OpenBoundaries<const D: usize> {
@@ -92,6 +92,16 @@ impl<const D: usize> OpenBoundaries<D> {
             (faces.faces[*face].name.clone(), x)
         };
         all.map(place).collect()
+    }
+
+    /// What laws find wrong with the elements of their faces, each with the name of the face.
+    pub fn misfits(&self) -> Vec<(String, OpenRefusal)> {
+        let faces = lock(&self.faces);
+        let one = |face: &Face<D>| {
+            let refusal = face.law.fit(&faces.places[face.elements.clone()]).err()?;
+            Some((face.name.clone(), refusal))
+        };
+        faces.faces.iter().filter_map(one).collect()
     }
 
     /// What comes in by every face, with its name.

@@ -118,7 +118,7 @@ impl<const D: usize> Faces<D> {
     /// Ports grow by what comes in and fade by what goes out in `dt` seconds.
     ///
     /// Through an element that has fluid before a part of it, this part passes. What a port holds where the fluid has gone
-    /// goes with it.
+    /// goes with it. The mean of what a port of an outlet holds, over five rows, is [left out of sums](Faces::in_sums).
     pub fn pass(&mut self, dt: f64) {
         let phases = self.whole.len();
         for k in 0..self.elements.len() {
@@ -129,14 +129,15 @@ impl<const D: usize> Faces<D> {
                 true => place.measure,
                 false => place.measure * self.filled[k],
             };
+            let faded = (normal.abs() * dt / (ROWS * self.spacing)).min(1.0);
             let dry = !self.inside[k].wet && self.faces[face].law.lets_out();
             if normal > 0.0 {
                 let q = self.phase(k);
                 let mass = self.density(k, q) * normal * wetted * dt;
                 self.memory.mass[k * phases + q] += mass;
                 self.memory.totals[face * phases + q].entered.add(mass);
+                self.memory.surplus[k] -= self.memory.surplus[k] * faded;
             } else if normal < 0.0 {
-                let faded = (-normal * dt / (ROWS * self.spacing)).min(1.0);
                 for q in 0..phases {
                     let out = -normal * wetted * dt * self.mix[k * phases + q];
                     let density = self.density(k, q);
@@ -145,7 +146,9 @@ impl<const D: usize> Faces<D> {
                     *port -= mass;
                     self.memory.totals[face * phases + q].left.add(mass);
                 }
+                self.memory.surplus[k] += (self.share(k) - self.memory.surplus[k]) * faded;
             } else if dry {
+                self.memory.surplus[k] = 0.0;
                 for q in 0..phases {
                     let mass = std::mem::take(&mut self.memory.mass[k * phases + q]);
                     self.memory.totals[face * phases + q].left.add(mass);

@@ -7,6 +7,7 @@ use sph_kernels::Sampler;
 use sph_neighbours::{Passed, WallSet};
 use sph_state::Laws;
 
+use crate::cells::cells;
 use crate::memory::Memory;
 use crate::row::near;
 use crate::{Inside, OpenBoundary, Outside, Place};
@@ -40,9 +41,9 @@ pub(crate) struct Faces<const D: usize> {
     /// Mass of a whole particle by phase, kg.
     pub whole: Vec<f64>,
     pub spacing: f64,
-    /// Elements of the walls, face by face.
-    pub elements: Vec<u32>,
-    /// The open element of an element of the walls, or [`CLOSED`].
+    /// Elements of the walls of every [cell](crate::cells::Cell), face by face.
+    pub elements: Vec<Vec<u32>>,
+    /// The number in `elements` of an element of the walls, or [`CLOSED`].
     pub open: Vec<u32>,
     pub places: Vec<Place<D>>,
     pub face_of: Vec<usize>,
@@ -77,33 +78,19 @@ pub(crate) fn lock<const D: usize>(faces: &SharedFaces<D>) -> MutexGuard<'_, Fac
 impl<const D: usize> Faces<D> {
     /// Finds its elements among those of the walls, and gives every one a port.
     pub fn find(&mut self, walls: &mut WallSet<D>, kernel: &dyn Sampler) {
-        let elements = &walls.elements;
-        self.open = vec![CLOSED; elements.centre.len()];
+        self.open = vec![CLOSED; walls.elements.centre.len()];
         self.elements.clear();
         self.places.clear();
         self.face_of.clear();
         for (f, face) in self.faces.iter_mut().enumerate() {
             let first = self.elements.len();
-            let own = |s: &usize| walls.names[elements.wall[*s] as usize] == face.name;
-            let own: Vec<usize> = (0..elements.centre.len()).filter(own).collect();
-            let whole: f64 = own.iter().map(|s| elements.measure[*s]).sum();
-            let mut before = 0.0;
-            for s in own {
-                self.open[s] = self.elements.len() as u32;
-                self.elements.push(s as u32);
+            for cell in cells(walls, &face.name) {
+                for s in &cell.elements {
+                    self.open[*s as usize] = self.elements.len() as u32;
+                }
+                self.elements.push(cell.elements);
+                self.places.push(cell.place);
                 self.face_of.push(f);
-                let measure = elements.measure[s];
-                self.places.push(Place {
-                    centre: elements.centre[s],
-                    normal: elements.normal[s],
-                    measure,
-                    along: if D == 2 {
-                        (before + 0.5 * measure) / whole
-                    } else {
-                        0.5
-                    },
-                });
-                before += measure;
             }
             face.elements = first..self.elements.len();
         }
@@ -146,6 +133,9 @@ impl<const D: usize> Faces<D> {
     fn rows_before(&self, k: usize, j: usize, kernel: &dyn Sampler) -> f64 {
         let rows = (kernel.support_radius() / self.spacing).ceil() as usize;
         let apart = (self.places[k].centre - self.places[j].centre).norm_squared();
+        if apart >= kernel.support_radius().powi(2) {
+            return 0.0;
+        }
         let row = |row: usize| {
             let height = (row as f64 + 0.5) * self.spacing;
             kernel.at((apart + height * height).sqrt()).0
@@ -167,7 +157,7 @@ impl<const D: usize> Faces<D> {
         let points = &mut walls.points;
         points.ports = true;
         let cell = self.spacing.powi(D as i32);
-        for (place, &s) in self.places.iter().zip(&self.elements) {
+        for (place, own) in self.places.iter().zip(&self.elements) {
             points.position.push(place.centre);
             points.velocity.push(Vect::zeros());
             points.viscous_velocity.push(Vect::zeros());
@@ -175,7 +165,7 @@ impl<const D: usize> Faces<D> {
             points.volume.push(cell);
             points.pressure.push(0.0);
             points.grip.push(0.0);
-            points.wall.push(walls.elements.wall[s as usize]);
+            points.wall.push(walls.elements.wall[own[0] as usize]);
             // Where no wall moves or slips these are empty.
             if !points.acceleration.is_empty() {
                 points.acceleration.push(Vect::zeros());
@@ -220,6 +210,15 @@ impl<const D: usize> Faces<D> {
             .sum()
     }
 
+    /// The share with which a port takes part in sums: that which it has, without its mean over the rows that leave.
+    ///
+    /// A row at the distance φ δr from the face lacks (φ − ½) δr of fluid behind it, −½ to ½ as it comes nearer: 0 in the mean.
+    /// What a port holds beyond that came from particles that carried more than the law took out; as a share θ in the
+    /// pressure gradient it would hold the fluid up by 2 p θ δr w(0), with w the kernel summed along the face.
+    pub fn in_sums(&self, element: usize) -> f64 {
+        self.share(element) - self.memory.surplus[element]
+    }
+
     /// The velocity with which fluid passes an element, m/s: what is imposed, or that of the row in front of it and what the law
     /// adds.
     pub fn through(&self, element: usize) -> Vect<D> {
@@ -243,18 +242,20 @@ impl<const D: usize> Faces<D> {
     /// Hands what the laws say to whoever looks at walls.
     pub fn tell(&self, walls: &mut WallSet<D>) {
         let first = walls.points.corners;
-        for (k, &s) in self.elements.iter().enumerate() {
-            let (s, v) = (s as usize, first + k);
+        for (k, own) in self.elements.iter().enumerate() {
+            let v = first + k;
             let outside = &self.outside[k];
             let pressure = outside.pressure + self.background(self.phase(k));
-            walls.elements.pressure[s] = pressure;
             let through = self.through(k);
-            walls.elements.velocity[s] = through;
+            for s in own.iter().map(|s| *s as usize) {
+                walls.elements.pressure[s] = pressure;
+                walls.elements.velocity[s] = through;
+            }
             walls.points.pressure[v] = pressure;
             walls.points.velocity[v] = through;
             walls.points.viscous_velocity[v] = through;
-            walls.points.volume[v] = walls.elements.volume[s];
-            walls.points.share[v] = self.share(k);
+            walls.points.volume[v] = walls.elements.volume[own[0] as usize];
+            walls.points.share[v] = self.in_sums(k);
         }
         walls.passed = self.passed(walls);
     }

@@ -37,7 +37,7 @@ impl<const D: usize> Faces<D> {
             true => 0.5 * dt / self.memory.dt,
             false => 0.0,
         };
-        let shares: Vec<f64> = (0..self.elements.len()).map(|k| self.share(k)).collect();
+        let shares: Vec<f64> = (0..self.elements.len()).map(|k| self.in_sums(k)).collect();
         let first = world.walls.points.corners;
         let one = |i: usize, constant: &mut f64, last: &mut f64| {
             let mut through = 0.0;

@@ -7,6 +7,7 @@
 
 mod agreed;
 mod budget;
+mod cells;
 mod contract;
 mod contribution;
 mod course;
@@ -17,6 +18,7 @@ mod laws;
 mod look;
 mod memory;
 mod passing;
+mod profile;
 mod row;
 mod walls;
 
@@ -25,7 +27,7 @@ pub use contract::{
     Place,
 };
 pub use contribution::{OpenBoundaries, open};
-pub use course::Profile;
 pub use flux::OPEN_FLUX;
 pub use laws::{FlowRate, Level, Outflow, Pressure, VelocityInlet};
 pub use passing::PASSING;
+pub use profile::Profile;

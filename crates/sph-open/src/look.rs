@@ -116,11 +116,7 @@ impl<const D: usize> Faces<D> {
         let mut u = Vect::<D>::zeros();
         let mut row = Row::default();
         let limit = world.kernel.support_radius().powi(2);
-        for &j in world
-            .lists
-            .of_elements
-            .candidates(self.elements[k] as usize)
-        {
+        for &j in world.lists.of_points.candidates(k) {
             let j = j as usize;
             let apart = world.domain.nearest_image(place.centre - position[j]);
             let r2 = apart.norm_squared();

@@ -6,10 +6,12 @@ use sph_core::Vect;
 /// profile, and a flux that is too large beside a wall draws the fluid to it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Row<const D: usize> {
-    /// Σ w, Σ w t and Σ w t².
+    /// Σ w, Σ w t and Σ w t², with t along the first axis of the face.
     weights: [f64; 3],
-    /// Σ w u and Σ w t u.
-    velocities: [Vect<D>; 2],
+    /// Σ w s, Σ w s t and Σ w s², with s along the second; 0 in the plane.
+    across: [f64; 3],
+    /// Σ w u, Σ w t u and Σ w s u.
+    velocities: [Vect<D>; 3],
 }
 
 /// Share with which a row counts who is beside a place by the square of a distance, m²: exp(−2 t²/δr²).
@@ -21,26 +23,30 @@ impl<const D: usize> Default for Row<D> {
     fn default() -> Self {
         Row {
             weights: [0.0; 3],
-            velocities: [Vect::zeros(); 2],
+            across: [0.0; 3],
+            velocities: [Vect::zeros(); 3],
         }
     }
 }
+
+/// Least determinant of a fit, over that of particles a spacing apart: below it nobody is beside the others.
+const FLAT: f64 = 1e-2;
 
 impl<const D: usize> Row<D> {
     /// Adds a particle on the way `apart` before the place, with its share in a mean.
     pub fn add(&mut self, n: &Vect<D>, apart: &Vect<D>, spacing: f64, share: f64, u: &Vect<D>) {
         let along = apart - n * apart.dot(n);
         let w = share * near(along.norm_squared(), spacing);
-        // Along a line; over a surface the mean is taken.
-        let t = if D == 2 {
-            along[1] * n[0] - along[0] * n[1]
-        } else {
-            0.0
-        };
+        let [t, s] = coordinates(n, &along);
         let all = self.weights.iter_mut().zip([w, w * t, w * t * t]);
         all.for_each(|(sum, x)| *sum += x);
         self.velocities[0] += u * w;
         self.velocities[1] += u * (w * t);
+        if D > 2 {
+            let all = self.across.iter_mut().zip([w * s, w * s * t, w * s * s]);
+            all.for_each(|(sum, x)| *sum += x);
+            self.velocities[2] += u * (w * s);
+        }
     }
 
     /// Σ w of all that were added.
@@ -51,10 +57,93 @@ impl<const D: usize> Row<D> {
     /// The velocity at the place; nothing where no particle is near.
     pub fn velocity(&self, spacing: f64) -> Option<Vect<D>> {
         let [w, t, tt] = self.weights;
+        if D > 2 {
+            return self.over_a_surface(spacing);
+        }
         let determinant = w * tt - t * t;
-        if determinant > 1e-2 * (w * spacing).powi(2) {
+        if determinant > FLAT * (w * spacing).powi(2) {
             return Some((self.velocities[0] * tt - self.velocities[1] * t) / determinant);
         }
         (w > 0.0).then(|| self.velocities[0] / w)
+    }
+
+    /// By the first row of the inverse of the symmetric 3 × 3 matrix of the moments.
+    fn over_a_surface(&self, spacing: f64) -> Option<Vect<D>> {
+        let [w, t, tt] = self.weights;
+        let [s, st, ss] = self.across;
+        let inverse = [tt * ss - st * st, s * st - t * ss, t * st - s * tt];
+        let determinant = w * inverse[0] + t * inverse[1] + s * inverse[2];
+        if determinant > FLAT * FLAT * w.powi(3) * spacing.powi(4) {
+            let sum = self.velocities.iter().zip(inverse).map(|(u, x)| u * x);
+            return Some(sum.sum::<Vect<D>>() / determinant);
+        }
+        (w > 0.0).then(|| self.velocities[0] / w)
+    }
+}
+
+/// Coordinates of a vector in the face with the unit normal n.
+fn coordinates<const D: usize>(n: &Vect<D>, along: &Vect<D>) -> [f64; 2] {
+    if D == 2 {
+        return [along[1] * n[0] - along[0] * n[1], 0.0];
+    }
+    // e₁ is a coordinate axis far from n, without its part along n; e₂ = n × e₁.
+    let axis = if n[0].abs() < 0.6 { 0 } else { 1 };
+    let unit = Vect::<D>::from_fn(|k, _| if k == axis { 1.0 } else { 0.0 });
+    let e = (unit - n * n[axis]).normalize();
+    let f = [
+        n[1] * e[2] - n[2] * e[1],
+        n[2] * e[0] - n[0] * e[2],
+        n[0] * e[1] - n[1] * e[0],
+    ];
+    [
+        along.dot(&e),
+        f[0] * along[0] + f[1] * along[1] + f[2] * along[2],
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A velocity that is linear along the face is found at the place, wherever the particles are.
+    #[test]
+    fn a_linear_velocity_over_a_surface_is_exact() {
+        let n = Vect::<3>::new(1.0, 2.0, -2.0) / 3.0;
+        let (spacing, at_place) = (0.1, Vect::<3>::new(0.3, -0.2, 0.7));
+        let slope = [
+            Vect::<3>::new(1.0, 0.5, 0.0),
+            Vect::<3>::new(0.0, -2.0, 1.0),
+            Vect::<3>::new(0.3, 0.0, 0.9),
+        ];
+        let mut row = Row::<3>::default();
+        for k in 0..7 {
+            let x = [0.03, 0.11, -0.06].map(|f| 0.1 * (f64::from(k) * (1.0 + 37.0 * f)).sin());
+            let apart = Vect::<3>::from(x);
+            let along = apart - n * apart.dot(&n);
+            let u = slope
+                .iter()
+                .zip(along.iter())
+                .fold(at_place, |u, (s, x)| u + s * *x);
+            row.add(&n, &apart, spacing, 0.7 + 0.1 * f64::from(k), &u);
+        }
+        let off = row.velocity(spacing).map(|u| (u - at_place).norm());
+        assert!(off.is_some_and(|off| off < 1e-12), "{off:?}");
+    }
+
+    #[test]
+    fn where_all_are_on_a_line_the_mean_is_taken() {
+        let n = Vect::<3>::new(0.0, 0.0, 1.0);
+        let mut row = Row::<3>::default();
+        for x in [-0.1, 0.1] {
+            row.add(
+                &n,
+                &Vect::<3>::new(x, 0.0, 0.05),
+                0.1,
+                1.0,
+                &Vect::<3>::new(0.0, 0.0, 2.0),
+            );
+        }
+        assert_eq!(row.velocity(0.1).map(|u| u[2]), Some(2.0));
+        assert_eq!(Row::<3>::default().velocity(0.1), None);
     }
 }

@@ -63,6 +63,7 @@ pub use solutions::bifluid_poiseuille::BifluidPoiseuille;
 pub use solutions::bingham_poiseuille::BinghamPoiseuille;
 pub use solutions::cantilever::Cantilever;
 pub use solutions::couette::Couette;
+pub use solutions::duct_poiseuille::DuctPoiseuille;
 pub use solutions::elastic_shear_wave::ElasticShearWave;
 pub use solutions::elliptical_drop::EllipticalDrop;
 pub use solutions::hagen_poiseuille::HagenPoiseuille;

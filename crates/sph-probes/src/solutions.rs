@@ -5,6 +5,7 @@ pub(crate) mod bifluid_poiseuille;
 pub(crate) mod bingham_poiseuille;
 pub(crate) mod cantilever;
 pub(crate) mod couette;
+pub(crate) mod duct_poiseuille;
 pub(crate) mod elastic_shear_wave;
 pub(crate) mod elliptical_drop;
 pub(crate) mod hagen_poiseuille;

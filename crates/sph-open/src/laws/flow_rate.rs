@@ -19,7 +19,7 @@ use crate::{
 ///
 /// ```toml
 /// [wall.inlet.open-boundary.flow-rate]
-/// rate = "0.05 m²/s"
+/// rate = 0.05                      # m³/s, here m²/s
 /// ```
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -47,6 +47,9 @@ impl<const D: usize> OpenBoundary<D> for FlowRate {
         check_course(&self.over_time, setting)?;
         check_speed("rate", 0.0, setting)
     }
+    fn fit(&self, places: &[Place<D>]) -> Result<(), OpenRefusal> {
+        self.profile.fit(places)
+    }
     fn entering(&self) -> Entering {
         Entering {
             phase: self.phase.clone(),
@@ -64,10 +67,10 @@ impl<const D: usize> OpenBoundary<D> for FlowRate {
     ) -> Vec<Outside<D>> {
         let now = self.rate * factor(&self.over_time, moment.time);
         let each = || places.iter().zip(inside);
-        let weight = |place: &Place<D>| self.profile.at(place.along) * place.measure;
+        let weight = |place: &Place<D>| self.profile.at(place) * place.measure;
         let wet: f64 = each().filter(|(_, i)| i.wet).map(|(p, _)| weight(p)).sum();
         let one = |(place, inside): (&Place<D>, &Inside<D>)| match inside.wet && wet > 0.0 {
-            true => imposed_velocity(place, now / wet * self.profile.at(place.along)),
+            true => imposed_velocity(place, now / wet * self.profile.at(place)),
             false => Outside::dry(),
         };
         each().map(one).collect()

@@ -54,6 +54,9 @@ impl<const D: usize> OpenBoundary<D> for VelocityInlet {
         let largest = times.reduce(f64::max).unwrap_or(1.0) * self.profile.largest();
         check_speed("velocity", self.velocity * largest, setting)
     }
+    fn fit(&self, places: &[Place<D>]) -> Result<(), OpenRefusal> {
+        self.profile.fit(places)
+    }
     fn entering(&self) -> Entering {
         Entering {
             phase: self.phase.clone(),
@@ -65,7 +68,7 @@ impl<const D: usize> OpenBoundary<D> for VelocityInlet {
     }
     fn outside(&self, places: &[Place<D>], _: &[Inside<D>], moment: &Moment<D>) -> Vec<Outside<D>> {
         let now = self.velocity * factor(&self.over_time, moment.time);
-        let one = |place: &Place<D>| imposed_velocity(place, now * self.profile.at(place.along));
+        let one = |place: &Place<D>| imposed_velocity(place, now * self.profile.at(place));
         places.iter().map(one).collect()
     }
 }

@@ -35,10 +35,6 @@ pub(crate) fn settle<const D: usize>(
     let Some((first, _)) = given.first() else {
         return Ok(None);
     };
-    if D != 2 {
-        let why = "open faces are known in two dimensions only";
-        return Err(SolverError::at(path(scene, first, ""), why));
-    }
     let walls = choices.walls.take();
     let Some(walls) = walls.filter(|w| w.renormalises() && w.lattice_offset() > 0.0) else {
         return Err(SolverError::at(path(scene, first, ""), OTHER_WALLS));
@@ -91,10 +87,10 @@ fn path(scene: &Scene, wall: &str, key: &str) -> String {
     choice.map_or(format!("wall.{wall}"), |c| c.inside(key))
 }
 
-/// Refuses faces that something blocks; remarks on those by which more comes in than can leave. Nothing without open faces.
+/// Refuses faces that do not fit their law, and those that something blocks; remarks on those by which more comes in than can leave. Nothing without open faces.
 ///
 /// # Errors
-/// The law of a face before which there is no room.
+/// The law of a face that it does not fit, or before which there is no room.
 pub(crate) fn check<const D: usize>(
     scene: &Scene,
     opened: Option<&OpenBoundaries<D>>,
@@ -103,6 +99,13 @@ pub(crate) fn check<const D: usize>(
     let Some(opened) = opened else {
         return Ok(Vec::new());
     };
+    let misfits = opened.misfits().into_iter();
+    let misfits: Vec<_> = misfits
+        .map(|(wall, refusal)| SceneProblem::new(path(scene, &wall, &refusal.key), refusal.why))
+        .collect();
+    if !misfits.is_empty() {
+        return Err(SolverError::Scene(misfits));
+    }
     let mut blocked = Vec::<SceneProblem>::new();
     if let Some(walls) = walls {
         let walls = lock(walls);

@@ -1,0 +1,221 @@
+//! Open faces in space, `[wall.NAME.open-boundary.PLUGIN]` on triangles.
+
+use std::path::Path;
+
+use serde_json::Value as Json;
+use sph_scene::parse;
+use sph_solver::{Identity, RunOptions, SolverError, Start, Summary, assemble, run};
+use sph_tests::FinalState;
+
+/// A duct of four by five by eight rows between an inlet and an outlet.
+const DUCT: &str = r#"
+title = "an open duct"
+dimension = 3
+[run]
+end = 0.6
+checkpoint_every = 0.1
+[numerics]
+spacing = 0.1
+[kernel.wendland-c2]
+[formulation.hu-adams]
+[integrator.symplectic-euler]
+[smoother.brezzi-pitkaranta]
+strength = 0.04
+[walls.usaw]
+vertices = false
+[wall.duct]
+box = [[0.0, 0.0, 0.0], [0.8, 0.5, 0.4]]
+open = ["x-", "x+"]
+[wall.inlet]
+box = [[0.0, 0.0, 0.0], [0.8, 0.5, 0.4]]
+open = ["x+", "y-", "y+", "z-", "z+"]
+[wall.inlet.open-boundary.velocity-inlet]
+velocity = "1 m/s"
+phase = "mud"
+[wall.outlet]
+box = [[0.0, 0.0, 0.0], [0.8, 0.5, 0.4]]
+open = ["x-", "y-", "y+", "z-", "z+"]
+[wall.outlet.open-boundary.outflow]
+memory = "1 s"
+[phase.water]
+density = 1.0
+speed_of_sound = 12.0
+rheology.newtonian = { viscosity = "0.01 Pa s" }
+[phase.mud]
+density = 1.6
+speed_of_sound = 12.0
+rheology.newtonian = { viscosity = "0.1 Pa s" }
+[body.water]
+phase = "water"
+box = [[0.0, 0.0, 0.0], [0.8, 0.5, 0.4]]
+velocity = [1.0, 0.0, 0.0]
+[output]
+every = 0.6
+vtk = false
+"#;
+
+fn into(folder: &Path, text: &str, threads: usize, start: Start) -> Summary {
+    let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    let options = RunOptions {
+        out: folder.to_path_buf(),
+        start,
+        threads: Some(threads),
+        identity: Identity::of_text(DUCT),
+    };
+    run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a folder")
+}
+
+fn passed(summary: &Summary) -> &Json {
+    let passed = summary.open_boundaries.as_ref().expect("a budget");
+    let unbalanced = passed["unbalanced"].as_f64().expect("a number");
+    assert!(
+        unbalanced < 1e-12,
+        "{unbalanced:e} of what passed is missing"
+    );
+    passed
+}
+
+fn number(of: &Json, face: &str, key: &str) -> f64 {
+    of[face][key].as_f64().unwrap_or(0.0)
+}
+
+#[test]
+fn what_comes_in_less_what_goes_out_is_what_is_held() {
+    let out = folder();
+    let summary = into(out.path(), DUCT, 2, Start::Afresh);
+    let passed = passed(&summary);
+    let entered = number(passed, "inlet.mud", "entered");
+    // ρ u S t, with the density that the pressure at the face makes.
+    assert!(
+        (entered / (1.6 * 0.2 * 0.6) - 1.0).abs() < 0.02,
+        "{entered} kg came in"
+    );
+    let faces = ["inlet.mud", "outlet.mud", "outlet.water"];
+    let sum = |key: &str| faces.iter().map(|f| number(passed, f, key)).sum::<f64>();
+    let state = FinalState::of(out.path());
+    let masses = state.columns["mass"].iter().map(|b| f64::from_bits(*b));
+    let missing = sum("entered") - sum("left") - sum("held") - (masses.sum::<f64>() - 0.16);
+    assert!(
+        missing.abs() < 1e-12 * sum("entered"),
+        "{missing:e} kg is missing"
+    );
+    assert!(number(passed, "outlet.water", "died") > 0.05, "{passed}");
+}
+
+#[test]
+fn particles_come_and_go_at_the_same_step_with_the_same_bits_on_any_threads_and_resumed() {
+    let outs: Vec<_> = (0..4).map(|_| folder()).collect();
+    let path = |k: usize| outs[k].path();
+    into(path(0), DUCT, 1, Start::Afresh);
+    let whole = FinalState::of(path(0));
+    for (k, threads) in [(1, 2), (2, 4)] {
+        into(path(k), DUCT, threads, Start::Afresh);
+        FinalState::of(path(k)).assert_same(&whole, &format!("{threads} threads"));
+    }
+    let part = DUCT.replace("end = 0.6\n", "end = 0.6\nmax_steps = 60\n");
+    into(path(3), &part, 1, Start::Afresh);
+    into(path(3), DUCT, 2, Start::Resumed);
+    FinalState::of(path(3)).assert_same(&whole, "resumed");
+}
+
+/// A duct without friction with a flow that is the same everywhere: nothing may change it. Bounds are those of the plane.
+#[test]
+fn a_uniform_flow_passes_both_faces_as_if_they_were_not_there() {
+    let text = DUCT
+        .replace("phase = \"mud\"\n", "phase = \"water\"\n")
+        .replace("[wall.duct]", "[wall.duct]\ncondition = \"free-slip\"")
+        .replace("end = 0.6", "end = 2.0")
+        .replace("every = 0.6", "every = 2.0");
+    let out = folder();
+    let summary = into(out.path(), &text, 2, Start::Afresh);
+    passed(&summary);
+    let state = FinalState::of(out.path());
+    let velocity: Vec<f64> = state.columns["velocity"]
+        .iter()
+        .map(|b| f64::from_bits(*b))
+        .collect();
+    let off = velocity
+        .chunks(3)
+        .map(|u| (u[0] - 1.0).hypot(u[1]).hypot(u[2]))
+        .fold(0.0, f64::max);
+    let [least, largest] = summary.density_range;
+    println!("velocity off by {off}, density {least} to {largest}");
+    assert!(
+        off < 0.012 && least > 0.999 && largest < 1.001,
+        "velocity off by {off}, density {least} to {largest}"
+    );
+}
+
+/// A river of six rows: a rate comes in below the surface, a level stands behind the outlet.
+#[test]
+fn a_rate_comes_in_and_leaves_below_a_level() {
+    let text = DUCT
+        .replace(
+            "spacing = 0.1\n",
+            "spacing = 0.1\ngravity = [0.0, 0.0, -9.81]\n",
+        )
+        .replace(
+            "0.4]]\nopen = [\"x-\", \"x+\"]",
+            "0.8]]\nopen = [\"x-\", \"x+\"]\ncondition = \"free-slip\"",
+        )
+        .replace("0.4]]\nopen", "0.8]]\nopen")
+        .replace(
+            "0.4]]\nvelocity = [1.0",
+            "0.6]]\npressure = \"hydrostatic\"\nvelocity = [0.5",
+        )
+        .replace(
+            "[wall.inlet.open-boundary.velocity-inlet]\nvelocity = \"1 m/s\"\nphase = \"mud\"",
+            "[wall.inlet.open-boundary.flow-rate]\nrate = 0.15\nphase = \"water\"",
+        )
+        .replace(
+            "[wall.outlet.open-boundary.outflow]\nmemory = \"1 s\"",
+            "[wall.outlet.open-boundary.level]\nlevel = \"0.6 m\"",
+        )
+        .replace("speed_of_sound = 12.0", "speed_of_sound = 35.0");
+    let out = folder();
+    let summary = into(out.path(), &text, 2, Start::Afresh);
+    let passed = passed(&summary);
+    let entered = number(passed, "inlet.water", "entered") / (0.15 * 0.6);
+    // The pressure makes water denser by ρ g h/c² at most.
+    let denser = 1.0 + 9.81 * 0.8 / (35.0 * 35.0);
+    assert!(
+        entered > 1.0 - 1e-9 && entered < denser,
+        "{entered} of the rate"
+    );
+    assert!(
+        number(passed, "outlet.water", "left") > 0.5 * 0.15 * 0.6,
+        "{passed}"
+    );
+}
+
+/// Problems of a scene, as a user sees them.
+fn assert_refused(text: &str, path: &str, why: &str) {
+    let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
+    match assemble::<3>(&loaded.scene) {
+        Err(SolverError::Scene(all)) => {
+            let found = all
+                .iter()
+                .any(|p| p.path == path && p.message.contains(why));
+            assert!(found, "{all:?}");
+        }
+        Err(other) => panic!("{other}"),
+        Ok(_) => panic!("it was let through"),
+    }
+}
+
+#[test]
+fn profiles_that_a_face_cannot_have_are_refused_at_their_key() {
+    let key = "wall.inlet.open-boundary.velocity-inlet.profile";
+    let with = |profile: &str| DUCT.replace("phase = \"mud\"", &format!("profile = {profile}"));
+    assert_refused(&with("{ polynomial = [0, 4, -4] }"), key, "is a surface");
+    let corner = with("\"duct\"").replace(
+        "open = [\"x+\", \"y-\", \"y+\", \"z-\", \"z+\"]",
+        "open = [\"x+\", \"y-\", \"z-\", \"z+\"]",
+    );
+    let corner = corner.replace("open = [\"x-\", \"x+\"]", "open = [\"x-\", \"x+\", \"y+\"]");
+    assert_refused(&corner, key, "a plane rectangle");
+}
