@@ -42,3 +42,16 @@ fn a_scene_that_asks_for_no_step_or_no_solve_is_refused_with_its_line() {
     assert!(outcome.err.contains("courant = 0.0"), "{}", outcome.err);
     assert!(!bench.path("r").exists());
 }
+
+#[test]
+fn a_surface_that_the_scene_does_not_name_is_refused() {
+    let scene = format!("{}\n[pressure.implicit]\n", sph_tests::DAM_BREAK);
+    let bench = Bench::with(PROGRAM, &scene);
+    let outcome = bench.call("run scene.toml --quiet --out r");
+    assert_ne!(outcome.code, Some(0));
+    assert!(
+        outcome.err.contains("[surface.cone-test]"),
+        "{}",
+        outcome.err
+    );
+}
