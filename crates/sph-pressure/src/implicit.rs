@@ -13,7 +13,7 @@ use crate::stage::SolvePressure;
 
 /// The pressure of the end of the step: p = p(ρ) − ρc²Δt D{uⁿ⁺¹} with uⁿ⁺¹ = uⁿ + Δt (g − ∇p/ρ), that is
 ///
-/// γ_aV_a/(ρ_ac_a²) p_a + Δt² Σ_b V_aV_b|F_ab| {[1/(γ_aρ_a) + 1/(γ_bρ_b)](p_a − p_b) − (1/γ_a + 1/γ_b) g·r_ab} =
+/// γ_aV_a/(ρ_ac_a²) p_a + Δt² Σ_b V_aV_b|F_ab| {[1/(γ_aρ_a) + 1/(γ_bρ_b)] (p_a − p_b) − (1/γ_a + 1/γ_b) g·r_ab} =
 /// γ_aV_a [p(ρ_a)/(ρ_ac_a²) − Δt D_a{uⁿ}].
 ///
 /// Symbols: p(ρ) equation of state (Pa), c speed of sound (m/s), D{u} the rate at which the formulation's density falls

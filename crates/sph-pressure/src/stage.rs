@@ -4,7 +4,7 @@ use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
 use sph_implicit::{Assembly, Automatic, DividedMatrix, Entries, LinearSolver, Matrix};
 use sph_multiphase::{Acting, FREE_SURFACE, Place};
 use sph_neighbours::{Interaction, SharedRows, There, World, interactions, lattice_sum};
-use sph_state::PressureStage;
+use sph_state::{BoundState, PressureStage};
 
 use crate::system::{Couplings, Part};
 
@@ -44,13 +44,13 @@ struct Room<const D: usize> {
 
 impl<const D: usize> SolvePressure<D> {
     pub fn new(acting: Acting<D>, solver: Automatic) -> Self {
-        let floor = |law: &Box<dyn sph_state::BoundState>| {
+        let floor = |law: &dyn BoundState| {
             let mut pressure = [0.0];
             law.pressure(&[TORN * law.reference().density], &mut pressure);
             pressure[0]
         };
         SolvePressure {
-            floors: acting.state.laws.iter().map(floor).collect(),
+            floors: acting.state.laws.iter().map(|law| floor(&**law)).collect(),
             state: acting.state,
             dilatation: [acting.dilatation],
             surfaces: acting.surfaces,
