@@ -19,8 +19,6 @@ pub(crate) struct SolvePressure<const D: usize> {
     /// The rate at which the density falls.
     dilatation: [Box<dyn Interaction<D>>; 1],
     surfaces: bool,
-    /// Whether it has looked for surfaces that nobody names.
-    looked: bool,
     /// The lowest pressure of every law, Pa.
     floors: Vec<f64>,
     solver: Automatic,
@@ -54,7 +52,6 @@ impl<const D: usize> SolvePressure<D> {
             state: acting.state,
             dilatation: [acting.dilatation],
             surfaces: acting.surfaces,
-            looked: false,
             solver,
             room: Room {
                 states: Vec::new(),
@@ -100,6 +97,10 @@ impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
                 .map(|p| Vect::from([*p])),
         );
         self.state.run(world)?;
+        // Later a resumed run would be asked what one that went on was not.
+        if !self.surfaces && world.time <= 0.0 {
+            refuse_surfaces(world)?;
+        }
         match world.dt > 0.0 && world.dt.is_finite() {
             true => self.solve(world),
             false => Ok(()),
@@ -122,10 +123,6 @@ impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
 
 impl<const D: usize> SolvePressure<D> {
     fn solve(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        if !self.surfaces && !self.looked {
-            self.refuse_surfaces(world)?;
-            self.looked = true;
-        }
         self.diverge(world)?;
         self.fill_parts(world)?;
         let shared = SharedRows::of(world);
@@ -172,27 +169,6 @@ impl<const D: usize> SolvePressure<D> {
             reason: e.to_string(),
         })?;
         self.spread(world)
-    }
-
-    /// Refuses supports that lack fluid where nobody says what free surfaces are: their pressure would float.
-    fn refuse_surfaces(&self, world: &World<D>) -> Result<(), StepError> {
-        let (Ok(constant), Ok(density)) = (
-            world.free.get(fields::DENSITY_CONSTANT),
-            world.free.get(fields::DENSITY),
-        ) else {
-            return Ok(());
-        };
-        let lacks = |(k, rho): &(&f64, &f64)| **k > OPEN * **rho;
-        match constant.iter().zip(density).filter(lacks).count() {
-            0 => Ok(()),
-            some => Err(StepError::Stage {
-                stage: NAME.into(),
-                reason: format!(
-                    "{some} particles are at a free surface, and the scene does not say what that is: add \
-                     `[surface.cone-test]`"
-                ),
-            }),
-        }
     }
 
     /// D{u} of all particles.
@@ -256,4 +232,25 @@ impl<const D: usize> SolvePressure<D> {
 /// Σ 2V|F| on the lattice, 1/m².
 fn full_support<const D: usize>(world: &World<D>) -> f64 {
     2.0 * world.spacing.powi(D as i32) * lattice_sum(world, |pair| -pair.factor)
+}
+
+/// Refuses supports that lack fluid where nobody says what free surfaces are: their pressure would float.
+fn refuse_surfaces<const D: usize>(world: &World<D>) -> Result<(), StepError> {
+    let (Ok(constant), Ok(density)) = (
+        world.free.get(fields::DENSITY_CONSTANT),
+        world.free.get(fields::DENSITY),
+    ) else {
+        return Ok(());
+    };
+    let lacks = |(k, rho): &(&f64, &f64)| **k > OPEN * **rho;
+    match constant.iter().zip(density).filter(lacks).count() {
+        0 => Ok(()),
+        some => Err(StepError::Stage {
+            stage: NAME.into(),
+            reason: format!(
+                "{some} particles are at a free surface, and the scene does not say what that is: add \
+                 `[surface.cone-test]`"
+            ),
+        }),
+    }
 }
