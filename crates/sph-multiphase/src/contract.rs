@@ -83,7 +83,7 @@ contract!(
 /// A force where phases meet.
 pub trait InterfaceModel<const D: usize>: Send {
     /// What must be known of all particles before the sweep.
-    fn stages(&self) -> Stages<D> {
+    fn stages(&self, _laws: &Laws) -> Stages<D> {
         Vec::new()
     }
     /// The term of the interaction sweep; it may read the phase column.

@@ -85,8 +85,8 @@ impl<const D: usize> Contribution<D> for Meeting<D> {
             _ => Ok(()),
         }
     }
-    fn stages(&self, _: &Setting<'_, D>) -> Stages<D> {
-        self.0.stages()
+    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+        self.0.stages(setting.laws)
     }
     fn terms(&self, setting: &Setting<'_, D>) -> Terms<D> {
         vec![self.0.term(setting.laws)]

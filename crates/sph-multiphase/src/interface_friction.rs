@@ -10,24 +10,26 @@ use sph_neighbours::{
     Pair, Rates, There, WallPoints, World, add_scaled, dot, minus, set, splat, unlike, vector,
 };
 
+use crate::scattered::{SCATTERED, Scattered};
 use crate::{InterfaceEntry, InterfaceModel};
-use sph_contribution::Limiter;
+use sph_contribution::{Limiter, Stages};
 use sph_neighbours::lattice_sum;
 use sph_state::Laws;
 
 /// m_a a = h Σ_b 2 m_a m_b/(ρ_a + ρ_b) v_ab (u_ab·r_ab)/r² ∇w_ab over the pairs with at least one particle that
-/// is not of the heaviest phase, with v = α c̄ (unlike phases only) + β min(h |u_ab·r_ab|/r², c̄) (closing pairs only).
+/// is not of the heaviest phase, with v = α χ c̄ (unlike phases only) + β min(h |u_ab·r_ab|/r², c̄) (closing pairs only).
 ///
-/// Symbols: c̄ mean of the reference speeds of sound (m/s). A light particle caught in a heavy fluid
+/// Symbols: c̄ mean of the reference speeds of sound (m/s); χ the larger [`SCATTERED`] of the two: 1 for a light
+/// particle alone among heavy ones, 0 for one at a closed interface, which is left to the viscosities of the phases. A light particle caught in a heavy fluid
 /// follows every unevenness of the pressure there, and a soft gas that is squeezed out leaves with up to
 /// five times its speed of sound. α takes the motion of light particles towards and away from heavy
-/// neighbours back at a rate of 3.5 α c̄/h (in 2D, Wendland C2); β stops what would run through the light
+/// neighbours back at a rate of 3.5 α χ c̄/h (in 2D, Wendland C2); β stops what would run through the light
 /// phase faster than sound. Walls stand in for the heaviest phase. Conserves momentum and angular momentum between
 /// particles, never adds energy. Where phases meet it is a viscosity of the order of α c̄ h/8 times the
 /// density of the light phase. In a dam break of air and water (842:1) 2 and 2 keep the air below the largest
 /// speed of the water; with 0.5 and 1 it reaches 100 m/s.
 ///
-/// Source: Monaghan 1992, Annu. Rev. Astron. Astrophys. 30, Eq. 4.1–4.2; the choice of pairs, α for
+/// Source: Monaghan 1992, Annu. Rev. Astron. Astrophys. 30, Eq. 4.1–4.2; the choice of pairs, χ, α for
 /// separating pairs too, the bound of β's part and the wall part are ours.
 ///
 /// ```toml
@@ -62,6 +64,13 @@ impl Default for InterfaceFriction {
 }
 
 impl<const D: usize> InterfaceModel<D> for InterfaceFriction {
+    fn stages(&self, laws: &Laws) -> Stages<D> {
+        let light = Damping::of(self, laws).wall_density;
+        vec![Box::new(Scattered {
+            light: light.iter().map(|density| *density > 0.0).collect(),
+        })]
+    }
+
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
         Box::new(Lanewise(Damping::of(self, laws)))
     }
@@ -136,6 +145,7 @@ impl<const D: usize> LanePairTerm<D> for Damping {
             .both(fields::MASS)
             .both(fields::DENSITY)
             .both(fields::PHASE)
+            .both(SCATTERED)
     }
 
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
@@ -151,6 +161,7 @@ impl<const D: usize> LanePairTerm<D> for Damping {
             mass: world.free.get(fields::MASS)?,
             phase: world.free.get(fields::PHASE)?,
             density: world.free.get(fields::DENSITY)?,
+            scattered: world.free.get(SCATTERED)?,
             velocity: world.free.get(fields::VELOCITY)?,
         })
     }
@@ -168,6 +179,7 @@ struct Bound<'a, const D: usize> {
     mass: &'a [f64],
     phase: &'a [u32],
     density: &'a [f64],
+    scattered: &'a [f64],
     velocity: &'a [Vect<D>],
 }
 
@@ -176,6 +188,7 @@ struct Bound<'a, const D: usize> {
 struct Own<const D: usize> {
     phase: u32,
     density: f64,
+    scattered: f64,
     sound: f64,
     wall_density: f64,
     velocity: Vect<D>,
@@ -191,6 +204,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         Own {
             phase,
             density: self.density[i],
+            scattered: self.scattered[i],
             sound: self.sound[phase as usize],
             wall_density: self.wall_density[phase as usize],
             velocity: self.velocity[i],
@@ -212,7 +226,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         let behind = own.wall_density * self.points.share[v] * self.points.volume[v];
         let relative = own.velocity - self.points.velocity[v];
         let mass = behind / (own.density + own.wall_density);
-        *sum += self.along(own.sound, &relative, pair) * mass;
+        *sum += self.along(own, &relative, pair) * mass;
     }
 
     #[inline(always)]
@@ -222,7 +236,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         let leaving = (own.velocity - self.elements.velocity[s]).dot(&normal);
         let density = own.wall_density / (own.density + own.wall_density);
         let distance = contact.distance.max(0.5 * self.length);
-        let rate = self.signal(own.sound, leaving) * contact.gradient.norm() / distance;
+        let rate = self.signal(own, leaving) * contact.gradient.norm() / distance;
         *sum -= normal * (density * rate * leaving);
     }
 
@@ -236,15 +250,16 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
 impl<const D: usize> Bound<'_, D> {
     /// v, for a particle and a wall that part at a speed.
     #[inline(always)]
-    fn signal(&self, sound: f64, parting: f64) -> f64 {
-        self.strength * sound + self.shocks * (-parting).clamp(0.0, sound)
+    fn signal(&self, own: &Own<D>, parting: f64) -> f64 {
+        let steady = self.strength * own.scattered * own.sound;
+        steady + self.shocks * (-parting).clamp(0.0, own.sound)
     }
 
     /// v (u·r)/r² ∇w of a wall point; nothing for two in one place.
     #[inline(always)]
-    fn along(&self, sound: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
+    fn along(&self, own: &Own<D>, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
         let rate = relative.dot(&pair.separation) / pair.distance2.max(f64::MIN_POSITIVE);
-        let signal = self.signal(sound, rate * self.length);
+        let signal = self.signal(own, rate * self.length);
         pair.separation * (signal * rate * pair.factor)
     }
 }
@@ -254,6 +269,7 @@ impl<const D: usize> Bound<'_, D> {
 struct Side<const D: usize, L> {
     phase: L,
     density: L,
+    scattered: L,
     sound: L,
     wall_density: L,
     velocity: [L; D],
@@ -269,6 +285,7 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         let mut side = Side {
             phase: zero,
             density: zero,
+            scattered: zero,
             sound: zero,
             wall_density: zero,
             velocity: [zero; D],
@@ -276,6 +293,7 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         for (lane, own) in here.iter().enumerate() {
             side.phase.set(lane, f64::from(own.phase));
             side.density.set(lane, own.density);
+            side.scattered.set(lane, own.scattered);
             side.sound.set(lane, own.sound);
             side.wall_density.set(lane, own.wall_density);
             set(&mut side.velocity, lane, &own.velocity);
@@ -314,7 +332,10 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         let mass = L::splat(self.mass[j]) / (own.density + L::splat(there.density));
         let relative = dot(&minus(&own.velocity, &there.velocity), &pair.separation);
         let rate = relative / pair.distance2.max(L::splat(f64::MIN_POSITIVE));
-        let steady = unlike.where_positive(L::splat(self.strength) * sound, zero);
+        let other = L::splat(self.scattered[j]);
+        let scattered = (own.scattered - other).where_positive(own.scattered, other);
+        let steady = L::splat(self.strength) * scattered * sound;
+        let steady = unlike.where_positive(steady, zero);
         let closing = -(rate * L::splat(self.length));
         let closing = closing.where_positive(closing, zero);
         let closing = (closing - sound).where_positive(sound, closing);

@@ -64,7 +64,7 @@ pub enum SurfaceStress {
 }
 
 impl<const D: usize> InterfaceModel<D> for SurfaceTension {
-    fn stages(&self) -> Stages<D> {
+    fn stages(&self, _laws: &Laws) -> Stages<D> {
         vec![Box::new(ColourGradient)]
     }
     fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {

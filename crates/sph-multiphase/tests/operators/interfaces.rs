@@ -2,7 +2,7 @@
 
 use sph_core::{Role, Vect, fields};
 use sph_multiphase::{
-    COLOUR_GRADIENT, GrenierInterface, InterfaceFriction, InterfaceModel, MicroMixing,
+    COLOUR_GRADIENT, GrenierInterface, InterfaceFriction, InterfaceModel, MicroMixing, SCATTERED,
     SurfaceStress, SurfaceTension,
 };
 use sph_neighbours::{Domain, World};
@@ -45,9 +45,7 @@ fn all<const D: usize>() -> [(&'static str, Box<dyn InterfaceModel<D>>); 4] {
 
 fn force<const D: usize>(world: &mut World<D>, model: &dyn InterfaceModel<D>) -> Vec<Vect<D>> {
     world.free.add(COLOUR_GRADIENT, Role::Derived);
-    for mut stage in model.stages() {
-        stage.run(world).unwrap();
-    }
+    scatter(world, model);
     let mass = world.free.get(fields::MASS).unwrap().to_vec();
     let acceleration = acceleration(world, model.term(&laws()));
     acceleration
@@ -55,6 +53,14 @@ fn force<const D: usize>(world: &mut World<D>, model: &dyn InterfaceModel<D>) ->
         .zip(&mass)
         .map(|(a, m)| a * *m)
         .collect()
+}
+
+/// Runs what a model must know before the sweep.
+fn scatter<const D: usize>(world: &mut World<D>, model: &dyn InterfaceModel<D>) {
+    world.free.add(SCATTERED, Role::Derived);
+    for mut stage in model.stages(&laws()) {
+        stage.run(world).unwrap();
+    }
 }
 
 fn set_phase<const D: usize>(world: &mut World<D>, of: impl Fn(&Vect<D>) -> u32) {
@@ -229,6 +235,7 @@ fn artificial_viscosity_stops_a_light_particle_at_the_rate_of_its_limit() {
     let model = InterfaceFriction::default();
     let limit = InterfaceModel::<2>::limiter(&model, &laws()).expect("it has a limit");
     let inverse_limit = 1.0 / limit.limit(&cloud).unwrap().dt;
+    scatter(&mut cloud, &model);
     cloud.free.get_mut(fields::VELOCITY).unwrap()[middle][0] = 1.0;
     let slowed = -acceleration(&cloud, InterfaceModel::<2>::term(&model, &laws()))[middle][0];
     // α c̄ = 60 m/s, β at the closing half of the pairs less than 1 m/s; the limit has α + β.
@@ -264,4 +271,26 @@ fn artificial_viscosity_only_takes_energy_and_leaves_the_heavy_phase_alone() {
     let far = place.iter().zip(&forces);
     let far = far.filter(|(x, _)| x[0] > 0.2 && x[0] < 0.3);
     assert!(far.map(|(_, f)| f.norm()).fold(0.0, f64::max) == 0.0);
+}
+
+/// What lies at a closed interface slides freely: friction is for light particles that are alone.
+#[test]
+fn light_particles_at_a_closed_interface_are_not_scattered() {
+    let n = 20;
+    let mut cloud = world(lattice::<2>(n), periodic(), 1.0 / n as f64, 2.0);
+    let cell = (n as f64).powi(-2);
+    let lone = Vect::<2>::new(0.25 - 0.5 / n as f64, 0.25 - 0.5 / n as f64);
+    let light = |x: &Vect<2>| x[0] > 0.5 || (x - lone).norm() < 1e-9;
+    let density = |x: &Vect<2>| if light(x) { 1.2 } else { 1000.0 };
+    set(&mut cloud, fields::DENSITY, density);
+    set(&mut cloud, fields::VOLUME, |_| cell);
+    set(&mut cloud, fields::MASS, |x| cell * density(x));
+    set_phase(&mut cloud, |x| u32::from(light(x)));
+    scatter(&mut cloud, &InterfaceFriction::default());
+    let place = cloud.free.get(fields::POSITION).unwrap();
+    let scattered = cloud.free.get(SCATTERED).unwrap();
+    for (x, s) in place.iter().zip(scattered) {
+        let wanted = f64::from((x - lone).norm() < 1e-9);
+        assert_eq!(*s, wanted, "{x}");
+    }
 }

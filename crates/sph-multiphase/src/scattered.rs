@@ -1,0 +1,56 @@
+//! Light particles that are scattered in a heavy fluid.
+
+use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields};
+use sph_neighbours::{Around, Values, World, walk_into};
+
+/// How far a light particle is without its like: 1 alone, 0 where its phase has half of the support or more.
+///
+/// χ_a = max(0, 1 − 2φ_a), φ_a = Σ_{b ≠ a, of the phase of a} V_b w_ab / (1 − V_a w(0)). Walls are none of its
+/// phase. A flat interface half a spacing away leaves φ = 0.6 in two dimensions with h = 2 δr, and χ = 0.
+pub const SCATTERED: Field<Scalar> = Field::new(
+    "scattered",
+    "1",
+    "1 for a light particle alone in another phase, 0 where its own has half of the support",
+);
+
+/// [`SCATTERED`] of all phases but the heaviest, which has 0.
+pub(crate) struct Scattered {
+    /// Whether a phase is lighter than another.
+    pub light: Vec<bool>,
+}
+
+impl Declares for Scattered {
+    fn name(&self) -> String {
+        "scattered light particles".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::POSITION)
+            .both(fields::PHASE)
+            .both(fields::VOLUME)
+            .writes(SCATTERED)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for Scattered {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut scattered = world.free.take(SCATTERED)?;
+        scattered.fill(0.0);
+        let phase = world.free.get(fields::PHASE)?;
+        let volume = world.free.get(fields::VOLUME)?;
+        let mut at_zero = [0.0];
+        world.kernel.value(&[0.0], &mut at_zero);
+        let share = |around: &Around<'_, D>| {
+            let i = around.rows.particle;
+            let like: f64 = std::iter::zip(around.rows.free.index, around.free)
+                .filter(|(j, _)| **j as usize != i && phase[**j as usize] == phase[i])
+                .map(|(j, w)| volume[*j as usize] * w)
+                .sum();
+            let others = (1.0 - volume[i] * at_zero[0]).max(f64::MIN_POSITIVE);
+            (1.0 - 2.0 * like / others).max(0.0)
+        };
+        let light = |i: usize| self.light[phase[i] as usize];
+        walk_into(world, Values::Both, light, &mut scattered, share)?;
+        Ok(world.free.put(SCATTERED, scattered)?)
+    }
+}
