@@ -25,9 +25,9 @@ use sph_state::Laws;
 /// five times its speed of sound. α takes the motion of light particles towards and away from heavy
 /// neighbours back at a rate of 3.5 α χ c̄/h (in 2D, Wendland C2); β stops what would run through the light
 /// phase faster than sound. Walls stand in for the heaviest phase. Conserves momentum and angular momentum between
-/// particles, never adds energy. Where phases meet it is a viscosity of the order of α c̄ h/8 times the
-/// density of the light phase. In a dam break of air and water (842:1) 2 and 2 keep the air below the largest
-/// speed of the water; with 0.5 and 1 it reaches 100 m/s.
+/// particles, never adds energy. With χ = 1 everywhere it would be a viscosity of the order of α c̄ h/8 times the
+/// density of the light phase, which holds the front of a dam break back. In one of air and water (842:1) 2 and 2
+/// keep the air below four times the largest speed of the water.
 ///
 /// Source: Monaghan 1992, Annu. Rev. Astron. Astrophys. 30, Eq. 4.1–4.2; the choice of pairs, χ, α for
 /// separating pairs too, the bound of β's part and the wall part are ours.
