@@ -19,10 +19,10 @@ const HYDRAULIC: f64 = 0.45;
 /// lubrication    F_k =  6 π µ a² (1/max(h, ε a) − 1/(c a)) (Δv · n) n
 /// ```
 ///
-/// and the opposite force on l. Δv = v_l − v_k − (ω_k × r_k − ω_l × r_l) is the difference of velocities in the middle of
-/// the gap, r_k = (R_k + h/2) n and r_l = −(R_l + h/2) n, where the forces act: momentum and its moment are conserved, a
-/// rigid rotation gives no force, and all take energy. The source takes both at the spheres' surfaces, which is the same
-/// only where they touch. Source: Catalano 2012, Eqs. (6.29), (6.30).
+/// and the opposite force on l. Δv = v_l − v_k − (ω_k × r_k − ω_l × r_l) is the difference of velocities in the
+/// middle of the gap, r_k = (R_k + h/2) n and r_l = −(R_l + h/2) n, where the forces act: momentum and its moment are
+/// conserved, a rigid rotation gives no force, and all take energy. The source takes both at the spheres' surfaces,
+/// which is the same only where they touch. Source: Catalano 2012, Eqs. (6.29), (6.30).
 pub(crate) struct EdgeForces {
     edges: Vec<Edge>,
 }
@@ -45,8 +45,8 @@ struct Gap {
 }
 
 impl EdgeForces {
-    /// Edges of a mesh that can bear a force; walls bear one where fluid sticks to them. None if the fluid neither shears
-    /// nor lubricates.
+    /// Edges of a mesh that can bear a force; walls bear one where fluid sticks to them. None if the fluid neither
+    /// shears nor lubricates.
     pub fn new(geometry: &PoreGeometry, setup: &FlowSetup) -> Option<Self> {
         if !setup.fluid.shear && setup.fluid.lubrication.is_none() {
             return None;

@@ -75,8 +75,8 @@ impl PoreGeometry {
     }
 }
 
-/// Distance (m) of the face between two spheres from the centre of the first: where the powers of a point on the line of
-/// centres are equal.
+/// Distance (m) of the face between two spheres from the centre of the first: where the powers of a point on the line
+/// of centres are equal.
 fn face_distance(between: f64, first: f64, second: f64) -> f64 {
     0.5 * (between + (first * first - second * second) / between)
 }
