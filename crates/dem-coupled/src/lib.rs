@@ -4,6 +4,7 @@
 //!
 //! * [`CoupledSystem`]: steps grains and flow together; [`FlowSetup`], [`Fluid`], [`Side`] and [`Condition`] are what
 //!   it starts from, [`Wave`] the load of waves on a bed.
+//! * [`Fluid::shear`], [`Lubrication`]: what neighbours feel of each other besides the pores' pressures, if wanted.
 //! * [`Remeshing`]: when pores are found anew. [`StepLimit`]: the largest stable step, of contacts and drag.
 //! * [`CoupledSystem::layer_pressure`], [`CoupledSystem::gradient`], [`CoupledSystem::effective_stress`],
 //!   [`CoupledSystem::mobility`]: measures.
@@ -29,6 +30,7 @@
 
 mod access;
 mod condition;
+mod edge_forces;
 mod error;
 mod limit;
 mod measure;
@@ -45,7 +47,7 @@ pub use condition::{Condition, Side, Wave};
 pub use error::CoupledError;
 pub use limit::StepLimit;
 pub use recorded::Recorded;
-pub use setup::{FlowSetup, Fluid, Remeshing};
+pub use setup::{FlowSetup, Fluid, Lubrication, Remeshing};
 pub use state::State;
 pub use system::CoupledSystem;
 pub use terzaghi::Terzaghi;

@@ -5,6 +5,7 @@ use dem_grains::GrainSystem;
 use dem_triangulation::{Sphere, Triangulation, Vertex, Wall};
 use serde::{Deserialize, Serialize};
 
+use crate::edge_forces::EdgeForces;
 use crate::unit_forces::UnitForces;
 use crate::{CoupledError, FlowSetup, Vector, condition};
 
@@ -42,6 +43,8 @@ pub(crate) struct Pores {
     pub boundary: Boundary,
     pub system: FlowSystem,
     pub forces: UnitForces,
+    /// Shear and lubrication, if there are any.
+    pub edges: Option<EdgeForces>,
     pub places: Places,
 }
 
@@ -65,11 +68,13 @@ impl Pores {
         let boundary = condition::boundary(&setup.sides, &geometry, time);
         let system = Self::assemble(&geometry, &boundary, setup, law, step)?;
         let forces = UnitForces::new(&geometry);
+        let edges = EdgeForces::new(&geometry, setup);
         Ok(Self {
             geometry,
             boundary,
             system,
             forces,
+            edges,
             places,
         })
     }

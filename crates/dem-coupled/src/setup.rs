@@ -15,6 +15,30 @@ pub struct Fluid {
     pub density: f64,
     /// Bulk modulus K_f, Pa; none for a fluid that does not give way.
     pub bulk_modulus: Option<f64>,
+    /// Whether it shears between neighbours that slide past each other: Catalano 2012, Eqs. (6.29), (6.30).
+    #[serde(default)]
+    pub shear: bool,
+    /// What it resists when the gap between neighbours changes; nothing beyond the pores' pressures if none.
+    #[serde(default)]
+    pub lubrication: Option<Lubrication>,
+}
+
+/// Lubrication of the gap h between two spheres with the reduced radius a = R₁ R₂/(R₁ + R₂), or a sphere and a wall with
+/// a = R, that part or approach with v_n:
+///
+/// ```text
+/// F = 6 π µ a² (1/max(h, ε a) − 1/(c a)) v_n,     h < c a
+/// ```
+///
+/// The leading term of Jeffrey and Onishi (J. Fluid Mech. 139, 1984), less its value at the range c a, beyond which the
+/// pores' pressures have to do (as Nguyen and Ladd, Phys. Rev. E 66, 046708, 2002, subtract what their fluid resolves).
+/// No gap counts as narrower than the roughness ε a, so that spheres touch.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Lubrication {
+    /// Roughness ε in terms of a.
+    pub roughness: f64,
+    /// Range c in terms of a.
+    pub range: f64,
 }
 
 impl Fluid {
@@ -25,7 +49,23 @@ impl Fluid {
             viscosity,
             density,
             bulk_modulus: None,
+            shear: false,
+            lubrication: None,
         }
+    }
+
+    /// The same that shears between neighbours.
+    #[must_use]
+    pub fn shearing(mut self) -> Self {
+        self.shear = true;
+        self
+    }
+
+    /// The same with lubrication of the gaps between neighbours.
+    #[must_use]
+    pub fn lubricated(mut self, lubrication: Lubrication) -> Self {
+        self.lubrication = Some(lubrication);
+        self
     }
 
     /// The same with a bulk modulus, Pa.
@@ -49,6 +89,12 @@ impl Fluid {
             "at least 0 and finite",
             self.density >= 0.0,
         )?;
+        if let Some(Lubrication { roughness, range }) = self.lubrication {
+            let (fine, rule) = (roughness > 0.0, "positive and finite");
+            number("the roughness of lubrication", roughness, rule, fine)?;
+            let (fine, rule) = (range > roughness, "above the roughness and finite");
+            number("the range of lubrication", range, rule, fine)?;
+        }
         match self.bulk_modulus {
             Some(k) => number("the bulk modulus", k, positive, k > 0.0),
             None => Ok(()),

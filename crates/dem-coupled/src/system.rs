@@ -7,7 +7,7 @@ use crate::error::number;
 use crate::limit::{Mode, StepLimit, combined, strongest_drag};
 use crate::pores::{GIVEN, PRESSED, Places, Pores};
 use crate::transfer::transferred;
-use crate::{CoupledError, FlowSetup, Side};
+use crate::{CoupledError, FlowSetup, Side, Vector};
 
 /// Grains that move, and the fluid in the pores between them.
 ///
@@ -193,7 +193,7 @@ impl CoupledSystem {
     /// λ_max Δt / 2 + ω_max² Δt² / 4 < 1
     /// ```
     ///
-    /// λ by power iterations once per mesh, ω by a bound that is found anew every hundred steps. Walls that follow a
+    /// λ by power iterations once per mesh, plus a bound for what acts between neighbours, ω by a bound that is found anew every hundred steps. Walls that follow a
     /// servo count as fixed. The rule of the thesis, Eq. (4.20), takes every grain as if it moved alone and is too
     /// long by a factor of three to six for narrow gradings.
     ///
@@ -225,7 +225,13 @@ impl CoupledSystem {
             self.clock.fresh = true;
         }
         let mode = &self.clock.mode;
-        Ok(combined(self.grains.current_limit(), mode.rate, mode.grain))
+        let (mut rate, mut grain) = (mode.rate, mode.grain);
+        if let Some(edges) = &self.pores.edges {
+            let (more, there) = edges.rate(&self.grains, &self.setup.fluid);
+            grain = if more > rate { there } else { grain };
+            rate += more;
+        }
+        Ok(combined(self.grains.current_limit(), rate, grain))
     }
 
     /// Pressures of the rates of now, and the fluid's forces on grains and walls.
@@ -254,6 +260,16 @@ impl CoupledSystem {
         }
         for (wall, f) in self.grains.walls_mut().iter_mut().zip(on_walls) {
             wall.external_force = *f;
+        }
+        if let Some(edges) = &pores.edges {
+            let loads = edges.apply(&self.grains, &self.setup.fluid);
+            add(self.grains.external_forces_mut(), &loads.forces);
+            self.grains
+                .external_torques_mut()
+                .copy_from_slice(&loads.torques);
+            for (wall, f) in self.grains.walls_mut().iter_mut().zip(&loads.walls) {
+                wall.external_force += f;
+            }
         }
         Ok(())
     }
@@ -342,6 +358,12 @@ impl CoupledSystem {
     #[must_use]
     pub fn time(&self) -> f64 {
         self.grains.time()
+    }
+}
+
+fn add(to: &mut [Vector], more: &[Vector]) {
+    for (to, more) in to.iter_mut().zip(more) {
+        *to += more;
     }
 }
 

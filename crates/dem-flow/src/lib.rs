@@ -13,7 +13,7 @@
 //!   [`conductance()`].
 //! * [`Boundary`]: pressures and inflows on any part of a wall, in any cell.
 //! * [`FlowSystem`]: the system, its [`Solver`], compressibility of the fluid, permeability.
-//! * [`Forces`]: pressure and viscous forces on spheres and walls.
+//! * [`Forces`]: pressure and viscous forces on spheres and walls; [`Edge`]: neighbours and the faces between them.
 //!
 //! No grain moves here: whoever moves them gives rates of the cells' volumes ([`cell_volumes`]).
 //!
@@ -39,6 +39,7 @@ mod cholesky;
 mod conductance;
 mod conjugate_gradient;
 mod dissection;
+mod edges;
 mod error;
 mod facet;
 mod forces;
@@ -55,6 +56,7 @@ mod volume;
 
 pub use boundary::Boundary;
 pub use conductance::{Conductance, EffectiveRadius, HydraulicRadius};
+pub use edges::Edge;
 pub use error::FlowError;
 pub use forces::Forces;
 pub use geometry::PoreGeometry;

@@ -38,7 +38,7 @@ pub enum GrainError {
     },
     /// Two grains overlap deeply.
     #[error(
-        "grains {first} and {second} overlap by {overlap} m, more than a tenth of the smaller radius"
+        "grains {first} and {second} overlap by {overlap:.3e} m, more than a tenth of the smaller radius"
     )]
     Overlap {
         /// A grain.
@@ -50,8 +50,8 @@ pub enum GrainError {
     },
     /// A grain is in a wall or beyond it.
     #[error(
-        "grain {grain} reaches {overlap} m into wall {wall}, more than a tenth of its radius; \
-         its centre is {distance} m from the wall"
+        "grain {grain} reaches {overlap:.3e} m into wall {wall}, more than a tenth of its radius; \
+         its centre is {distance:.3e} m from the wall"
     )]
     InWall {
         /// The grain.
@@ -65,7 +65,7 @@ pub enum GrainError {
     },
     /// A grain is in a triangle of a mesh.
     #[error(
-        "grain {grain} reaches {overlap} m into triangle {triangle} of mesh {mesh}, \
+        "grain {grain} reaches {overlap:.3e} m into triangle {triangle} of mesh {mesh}, \
          more than a tenth of its radius"
     )]
     InMesh {

@@ -152,6 +152,12 @@ impl Grains {
         &self.external_force
     }
 
+    /// Moments from outside, N m.
+    #[must_use]
+    pub fn external_torques(&self) -> &[Vector] {
+        &self.external_torque
+    }
+
     /// Volume of all grains Σ (4/3) π R³, m³.
     #[must_use]
     pub fn volume(&self) -> f64 {

@@ -111,6 +111,11 @@ fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
 fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
     let mut given = dem_coupled::Fluid::new(fluid.viscosity, fluid.density);
     given.bulk_modulus = fluid.bulk_modulus;
+    given.shear = fluid.shear;
+    given.lubrication = fluid.lubrication.map(|l| dem_coupled::Lubrication {
+        roughness: l.roughness,
+        range: l.range,
+    });
     let mut setup = FlowSetup::new(given).remeshing(Remeshing {
         strain: Some(fluid.remesh_strain),
         most_steps: fluid.remesh_steps,

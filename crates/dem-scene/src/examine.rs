@@ -8,7 +8,7 @@ use crate::laws::told;
 use crate::names::{planes, surfaces};
 use crate::read::Loaded;
 use crate::summary::PluginInForce;
-use crate::tables::Scene;
+use crate::tables::{Fluid, Scene};
 
 /// What is known of a scene before it runs.
 #[derive(Clone, Debug, Serialize)]
@@ -63,7 +63,7 @@ pub fn examine(loaded: &Loaded) -> Result<Examination, DemError> {
             .map(|(name, unit)| (name, unit.to_string()))
             .collect(),
         memory: memory(count(scene), coupled),
-        stages: stages(coupled),
+        stages: stages(scene.fluid.as_ref()),
         limits: limits(coupled),
         derived: derived(scene),
     })
@@ -155,18 +155,24 @@ const PORES: f64 = 5.7 * 320.0 + 11.4 * 330.0;
 /// 450 numbers with their rows in a packing of 1000.
 const FACTOR: f64 = 450.0 * 12.0;
 
-fn stages(coupled: bool) -> Vec<String> {
+fn stages(fluid: Option<&Fluid>) -> Vec<String> {
     let mut all = vec![
         "neighbours: a grid and a skin, made anew when a grain moved by half of it".to_string(),
         "contacts: overlaps, forces by law, what is remembered of each".to_string(),
         "sums: each grain adds its own contacts in the order of their numbers".to_string(),
     ];
-    if coupled {
+    let edges = fluid.is_some_and(|f| f.shear || f.lubrication.is_some());
+    if fluid.is_some() {
         all.push("pores: one pressure each, from the rates of their volumes; factor kept while the mesh lasts".into());
         all.push("fluid: forces of pressures and viscosity on grains and walls".into());
     }
+    if edges {
+        all.push(
+            "neighbours: shear across the faces between them, lubrication of their gaps".into(),
+        );
+    }
     all.push("motion: walls by their control, then velocities and positions by a leap-frog".into());
-    if coupled {
+    if fluid.is_some() {
         all.push("volumes of pores; the mesh anew when the largest strain adds up".into());
     }
     all

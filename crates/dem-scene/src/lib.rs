@@ -42,6 +42,7 @@
 //! ```
 
 mod assemble;
+mod at_fault;
 mod check;
 mod checkpoint;
 mod columns;
@@ -80,6 +81,7 @@ pub use run::{Observer, RunOptions, SUMMARY, Start, Step, run};
 pub use schema::editor_schema;
 pub use summary::{PluginInForce, Status, Summary};
 pub use tables::{
-    Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,
-    Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple, Wall, WaveLoad,
+    Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Lubrication, Oedometer, Output, Piston,
+    Plugins, Probe, Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple,
+    Wall, WaveLoad,
 };

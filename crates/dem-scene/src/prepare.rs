@@ -6,6 +6,7 @@ use dem_grains::{
     Cloud, Grain, GrainError, GrainSystem, Growth, Target, rain, settle, uniform_radii,
 };
 
+use crate::at_fault::{at_start, rows};
 use crate::error::DemError;
 use crate::highest_point::highest;
 use crate::laws::Laws;
@@ -41,7 +42,7 @@ pub fn grains(
     if let Some(law) = prepared {
         run_law = Some(std::mem::replace(&mut setup.laws[0], law));
     }
-    let told = |e: GrainError| DemError::at("start", e);
+    let told = |e: GrainError| at_start(loaded, e);
     let mut system = GrainSystem::new(setup).map_err(told)?;
     if let Some(grown) = &scene.start.grown {
         let target = match (grown.stress, grown.porosity) {
@@ -246,11 +247,7 @@ fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemError> {
     let told = |why: String| DemError::at(key, format!("`{}`: {why}", path.display()));
     let text = scene_text::read_text(&path).map_err(told)?;
     let mut grains = Vec::new();
-    for (line, row) in text.lines().enumerate() {
-        let row = row.split('#').next().unwrap_or_default().trim();
-        if row.is_empty() {
-            continue;
-        }
+    for (line, row) in rows(&text) {
         let words = row
             .split(|c: char| c == ',' || c.is_whitespace())
             .filter(|w| !w.is_empty());
@@ -261,15 +258,13 @@ fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemError> {
             }
             Ok(other) => {
                 return Err(told(format!(
-                    "line {}: expected x y z r, found {} numbers",
-                    line + 1,
+                    "line {line}: expected x y z r, found {} numbers",
                     other.len()
                 )));
             }
             Err(_) => {
                 return Err(told(format!(
-                    "line {}: expected x y z r, found `{row}`",
-                    line + 1
+                    "line {line}: expected x y z r, found `{row}`"
                 )));
             }
         }

@@ -1,6 +1,7 @@
 //! Grains and pore flow together, against closed forms, theory and the source's acceptances.
 
 mod determinism;
+mod edges;
 mod flow;
 mod limit;
 mod oedometer;

@@ -41,7 +41,7 @@ fn grains_that_overlap_or_are_in_walls_are_named() {
     assert!(
         error
             .to_string()
-            .starts_with("grains 0 and 1 overlap by 0.0"),
+            .starts_with("grains 0 and 1 overlap by 5.000e-2 m"),
         "{error}"
     );
     let error =

@@ -128,3 +128,64 @@ fn volumes_of_moved_spheres_fill_the_moved_room() {
         .count();
     assert_eq!(changed, volumes.len());
 }
+
+/// A third of the distance times the area, over both sides of every face.
+fn pyramids(geometry: &PoreGeometry) -> f64 {
+    let mesh = geometry.mesh();
+    let pyramid = |edge: &dem_flow::Edge| {
+        let height = match edge.other {
+            // Both pyramids on one face: their heights add up to the distance of the centres.
+            Vertex::Sphere(l) => {
+                (mesh.spheres()[l].centre - mesh.spheres()[edge.sphere].centre).norm()
+            }
+            Vertex::Wall(w) => mesh.walls()[w].distance(mesh.spheres()[edge.sphere].centre),
+        };
+        edge.area * height / 3.0
+    };
+    geometry.edges().iter().map(pyramid).sum()
+}
+
+#[test]
+fn pyramids_over_the_faces_between_neighbours_fill_the_box() {
+    for (name, text) in [("box25", BOX25), ("box200", BOX200), ("box1000", BOX1000)] {
+        let geometry = geometry(&spheres(text), Grip::NoSlip, SolidAngles::Signed);
+        let excess = pyramids(&geometry) - 1.0;
+        println!("{name}: pyramids exceed the box by {excess:e}");
+        assert!(
+            excess.abs() < 1e-12,
+            "{name}: pyramids exceed the box by {excess:e}"
+        );
+        let edges = geometry.edges();
+        let walls: f64 = edges
+            .iter()
+            .filter(|e| matches!(e.other, Vertex::Wall(_)))
+            .map(|e| e.area)
+            .sum();
+        assert!(
+            (walls - 6.0).abs() < 1e-12,
+            "{name}: faces on walls {walls}"
+        );
+        let least = edges.iter().map(|e| e.area).fold(f64::INFINITY, f64::min);
+        assert!(least > -1e-12, "{name}: a face of {least} m²");
+    }
+}
+
+#[test]
+fn faces_of_a_lattice_are_squares() {
+    let place = |k: usize| 0.125 + 0.25 * k as f64;
+    let spheres: Vec<_> = (0..64)
+        .map(|k| Sphere::new([place(k % 4), place(k / 4 % 4), place(k / 16)], 0.1))
+        .collect();
+    let geometry = geometry(&spheres, Grip::Slip, SolidAngles::Signed);
+    let (mut squares, mut rest) = (0, 0.0_f64);
+    for edge in geometry.edges() {
+        // Sixteenths of a unit square between neighbours and on walls; nothing across diagonals.
+        if (edge.area - 0.0625).abs() < 1e-12 {
+            squares += 1;
+        } else {
+            rest = rest.max(edge.area.abs());
+        }
+    }
+    assert_eq!(squares, 3 * 4 * 4 * 3 + 6 * 16);
+    assert!(rest < 1e-12, "{rest}");
+}

@@ -19,6 +19,11 @@ pub struct Fluid {
     /// Bulk modulus K_f, Pa; a fluid that does not give way if left out.
     #[schemars(extend("unit" = "Pa", "exclusiveMinimum" = 0.0))]
     pub bulk_modulus: Option<f64>,
+    /// Whether it shears between neighbours that slide past each other. Catalano 2012, Eqs. (6.29), (6.30).
+    #[serde(default)]
+    pub shear: bool,
+    /// Lubrication of the gaps between neighbours; none if left out.
+    pub lubrication: Option<Lubrication>,
     /// Strain of a pore, summed over steps, at which pores are found anew. Catalano 2012, Eq. (5.14).
     #[serde(default = "hundredth")]
     #[schemars(extend("unit" = "1", "minimum" = 0.0))]
@@ -30,6 +35,24 @@ pub struct Fluid {
     #[serde(default)]
     #[schemars(with = "AnyPlugins")]
     pub conductance: Plugins,
+}
+
+/// F = 6 π µ a² (1/max(h, ε a) − 1/(c a)) v_n between neighbours with the gap h < c a, a = R₁ R₂/(R₁ + R₂).
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Lubrication {
+    /// Roughness ε in terms of a: no gap counts as narrower.
+    #[serde(default = "hundredth")]
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub roughness: f64,
+    /// Range c in terms of a, beyond which the pores' pressures have to do.
+    #[serde(default = "one")]
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub range: f64,
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 fn hundredth() -> f64 {

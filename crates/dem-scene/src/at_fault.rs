@@ -1,0 +1,57 @@
+//! What a scene calls the grains and walls that a refusal numbers.
+
+use dem_grains::GrainError;
+
+use crate::error::DemError;
+use crate::names::planes;
+use crate::read::Loaded;
+
+/// A refusal at the start with the names of its walls, and with the lines of its grains if they come from a file.
+pub fn at_start(loaded: &Loaded, error: GrainError) -> DemError {
+    let file = loaded.scene.start.file.as_ref();
+    let (mut message, mut names) = (error.to_string(), Vec::new());
+    if let GrainError::InWall { wall, .. } | GrainError::BadWall { wall, .. } = error
+        && let Some(name) = planes(&loaded.scene).get(wall)
+    {
+        names.push(format!("wall {wall} is `{name}`"));
+    }
+    if let Some(file) = file {
+        for grain in grains(&error) {
+            if let Some(line) = line(loaded, file, grain) {
+                names.push(format!("grain {grain} is line {line} of `{file}`"));
+            }
+        }
+    }
+    if !names.is_empty() {
+        message = format!("{message} ({})", names.join(", "));
+    }
+    DemError::at(file.map_or("start", |_| "start.file"), message)
+}
+
+/// The grains that an error names.
+fn grains(error: &GrainError) -> Vec<usize> {
+    match *error {
+        GrainError::Overlap { first, second, .. } => vec![first, second],
+        GrainError::InWall { grain, .. }
+        | GrainError::InMesh { grain, .. }
+        | GrainError::NotPositive { grain, .. }
+        | GrainError::NotFinite { grain, .. }
+        | GrainError::OutsidePeriod { grain, .. } => vec![grain],
+        _ => Vec::new(),
+    }
+}
+
+/// Line of the file in which a grain stands, from 1.
+fn line(loaded: &Loaded, file: &str, grain: usize) -> Option<usize> {
+    let path = loaded.source.resolve("start.file", file).ok()?;
+    let text = scene_text::read_text(&path).ok()?;
+    rows(&text).nth(grain).map(|(line, _)| line)
+}
+
+/// Rows of a file of spheres with the numbers of their lines, from 1; without comments and empty lines.
+pub fn rows(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    text.lines().enumerate().filter_map(|(line, row)| {
+        let row = row.split('#').next().unwrap_or_default().trim();
+        (!row.is_empty()).then_some((line + 1, row))
+    })
+}
