@@ -117,7 +117,11 @@ fn what_is_wrong_is_told_with_its_line_and_nothing_is_written() {
             "above the lower corner",
         ),
         (from_file(DRY), spheres, "overlap"),
-        (from_file(DRY), spheres, "grain 1 is line 2 of `spheres.txt`"),
+        (
+            from_file(DRY),
+            spheres,
+            "grain 1 is line 2 of `spheres.txt`",
+        ),
         (from_file(DRY), beyond, "wall 4 is `bottom`"),
         (from_file(DRY), "", "holds no spheres"),
         (
