@@ -95,7 +95,7 @@ fn overlaps_of_more_than_a_tenth_are_refused() {
         ),
         "{error}"
     );
-    assert!(error.to_string().contains("0.006"), "{error}");
+    assert!(error.to_string().contains("6.000e-3 m"), "{error}");
     // A tenth itself is not more.
     let fine = Grain::new([RADIUS + 0.05 - 0.0049, 0.0, 0.0], 0.05, kilogram());
     let setup = Setup::new(vec![grain(0.0, 0.0, 0.0), fine], law(0.5, 0.3, 0.0));
