@@ -55,7 +55,8 @@ fn flown(name: &str, end: f64, more: &[&str]) -> Assembled<2> {
     parts
 }
 
-/// Water that falls, meets a wall and splashes has ½ρgWH² at the start.
+/// Water that falls, meets a wall and splashes has ½ρgWH² at the start. With steps of 0.15 h/c: what steps make is of
+/// first order, 0.128, 0.063 and 0.029 J of 61 J with 0.6 (the scene's), 0.3 and 0.15.
 #[test]
 fn the_budget_of_a_dam_break_closes_with_the_damper_and_without() {
     let initial = 0.5 * 1000.0 * 9.81 * 0.146 * 0.292 * 0.292;
@@ -64,7 +65,10 @@ fn the_budget_of_a_dam_break_closes_with_the_damper_and_without() {
         Some("damping.acoustic={}"),
         Some("surface.cone-test={}"),
     ] {
-        let mut overrides = vec!["numerics.spacing=0.01"];
+        let mut overrides = vec![
+            "numerics.spacing=0.01",
+            "integrator.symplectic-euler.courant=0.15",
+        ];
         overrides.extend(more);
         let budget = Budget::of(&flown("dam-break-koshizuka", 0.5, &overrides));
         budget.closes(initial);
