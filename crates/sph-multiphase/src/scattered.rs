@@ -6,14 +6,14 @@ use sph_neighbours::{Around, Values, World, walk_into};
 /// How far a light particle is without its like: 1 alone, 0 where its phase has half of the support or more.
 ///
 /// χ_a = max(0, 1 − 2φ_a), φ_a = Σ_{b ≠ a, of the phase of a} V_b w_ab / (1 − V_a w(0)). Walls are none of its
-/// phase. A flat interface half a spacing away leaves φ = 0.6 in two dimensions with h = 2 δr, and χ = 0.
+/// phase. A flat interface half a spacing away leaves φ = 0.64 in two dimensions with h = 2 δr, and χ = 0.
 pub const SCATTERED: Field<Scalar> = Field::new(
     "scattered",
     "1",
     "1 for a light particle alone in another phase, 0 where its own has half of the support",
 );
 
-/// [`SCATTERED`] of all phases but the heaviest, which has 0.
+/// [`SCATTERED`] of all phases but the heaviest, which has 0; 0 as well where there is nothing to rub on.
 pub(crate) struct Scattered {
     /// Whether a phase is lighter than another.
     pub light: Vec<bool>,
@@ -49,8 +49,16 @@ impl<const D: usize> Stage<World<D>> for Scattered {
             let others = (1.0 - volume[i] * at_zero[0]).max(f64::MIN_POSITIVE);
             (1.0 - 2.0 * like / others).max(0.0)
         };
-        let light = |i: usize| self.light[phase[i] as usize];
-        walk_into(world, Values::Both, light, &mut scattered, share)?;
+        // Inside a light phase nobody asks: friction is with another phase or with a wall.
+        let (lists, walls) = (world.lists.nearest(), &world.walls);
+        let beside = |i: usize| {
+            let mut near = lists.candidates(i).iter();
+            near.any(|j| phase[*j as usize] != phase[i])
+                || !walls.contacts.of(i).is_empty()
+                || walls.points.in_sums() && !world.lists.wall.row(i).is_empty()
+        };
+        let wanted = |i: usize| self.light[phase[i] as usize] && beside(i);
+        walk_into(world, Values::Both, wanted, &mut scattered, share)?;
         Ok(world.free.put(SCATTERED, scattered)?)
     }
 }
