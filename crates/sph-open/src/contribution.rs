@@ -64,6 +64,7 @@ pub fn open<const D: usize>(
         mix: Vec::new(),
         full: Vec::new(),
         filled: Vec::new(),
+        waiting: Vec::new(),
         memory: Memory::new(0, 0, 0),
         due: false,
     };

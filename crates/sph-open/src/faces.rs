@@ -62,6 +62,8 @@ pub(crate) struct Faces<const D: usize> {
     pub full: Vec<f64>,
     /// Share of every element that has fluid before it.
     pub filled: Vec<f64>,
+    /// Particles behind every element that wait to leave by it, over a whole one, phases innermost.
+    pub waiting: Vec<f64>,
     pub memory: Memory<D>,
     /// Whether particles come and go at the end of this step.
     pub due: bool,
@@ -117,6 +119,7 @@ impl<const D: usize> Faces<D> {
         self.rows = vec![Vect::zeros(); ports];
         self.mix = vec![0.0; ports * phases];
         self.filled = vec![0.0; ports];
+        self.waiting = vec![0.0; ports * phases];
         self.memory = Memory::new(ports, phases, self.faces.len());
         walls.passed = self.passed(walls);
     }
@@ -207,6 +210,14 @@ impl<const D: usize> Faces<D> {
         mass.iter()
             .zip(&self.whole)
             .map(|(m, whole)| m / whole)
+            .sum()
+    }
+
+    /// Particles behind an element that wait to leave by it, over a whole one.
+    pub fn waits_at(&self, element: usize) -> f64 {
+        let phases = self.whole.len();
+        self.waiting[element * phases..(element + 1) * phases]
+            .iter()
             .sum()
     }
 

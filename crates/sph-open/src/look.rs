@@ -23,6 +23,8 @@ pub(crate) struct Looked<const D: usize> {
     pub row: Vect<D>,
     pub mix: Vec<f64>,
     pub filled: f64,
+    /// Particles behind the element that wait to leave by it, by phase, with their shares of a whole one.
+    pub waiting: Vec<f64>,
 }
 
 impl<const D: usize> Faces<D> {
@@ -40,6 +42,7 @@ impl<const D: usize> Faces<D> {
             self.rows[k] = seen.row;
             self.filled[k] = seen.filled;
             self.mix[k * phases..(k + 1) * phases].copy_from_slice(&seen.mix);
+            self.waiting[k * phases..(k + 1) * phases].copy_from_slice(&seen.waiting);
         }
         let moment = Moment {
             time: world.time,
@@ -112,6 +115,7 @@ impl<const D: usize> Faces<D> {
         let mut mix = vec![0.0; self.whole.len()];
         // Σ V w ρ, by phase: the speed of sound is asked once for each.
         let mut weighed = vec![0.0; self.whole.len()];
+        let mut waiting = vec![0.0; self.whole.len()];
         let (mut filling, mut p, mut reach) = (0.0, 0.0, 0.0);
         let mut u = Vect::<D>::zeros();
         let mut row = Row::default();
@@ -126,6 +130,10 @@ impl<const D: usize> Faces<D> {
             let vw = volume[j] * world.kernel.at(r2.sqrt()).0;
             let phase = phase.map_or(0, |p| p[j] as usize);
             let over = pressure[j] - self.background(phase);
+            if apart.dot(&place.normal) > 0.0 {
+                let part = self.leaves_by(world, k, &position[j]);
+                waiting[phase] += part * volume[j] * density[j] / self.whole[phase];
+            }
             filling += vw;
             reach -= vw * apart.dot(&place.normal);
             mix[phase] += vw;
@@ -167,6 +175,7 @@ impl<const D: usize> Faces<D> {
             row,
             mix,
             filled,
+            waiting,
         })
     }
 }
