@@ -18,21 +18,18 @@ impl<const D: usize> Looked<D> {
             inside.mean_pressure,
             self.reach,
             self.filled,
+            self.lacking,
         ];
         let vectors = [&inside.velocity, &inside.mean, &self.row];
         let numbers = scalars
             .into_iter()
             .chain(vectors.into_iter().flat_map(|v| v.iter().copied()));
-        to.extend(
-            numbers
-                .chain(self.mix.iter().chain(&self.waiting).copied())
-                .map(f64::to_bits),
-        );
+        to.extend(numbers.chain(self.mix.iter().copied()).map(f64::to_bits));
     }
 
-    fn read(from: &[u64], phases: usize) -> Self {
+    fn read(from: &[u64]) -> Self {
         let real = |k: usize| f64::from_bits(from[k]);
-        let vector = |n: usize| Vect::from_fn(|k, _| real(7 + n * D + k));
+        let vector = |n: usize| Vect::from_fn(|k, _| real(8 + n * D + k));
         Looked {
             inside: Inside {
                 wet: from[0] != 0,
@@ -45,9 +42,9 @@ impl<const D: usize> Looked<D> {
             },
             reach: real(5),
             filled: real(6),
+            lacking: real(7),
             row: vector(2),
-            mix: (0..phases).map(|q| real(7 + 3 * D + q)).collect(),
-            waiting: (phases..2 * phases).map(|q| real(7 + 3 * D + q)).collect(),
+            mix: (8 + 3 * D..from.len()).map(real).collect(),
         }
     }
 }
@@ -65,8 +62,7 @@ impl<const D: usize> Faces<D> {
         let looks = |k: usize| {
             shared.own_around(&self.places[k].centre, world.lists.of_points.candidates(k))
         };
-        let phases = self.whole.len();
-        let each = 7 + 3 * D + 2 * phases;
+        let each = 8 + 3 * D + self.whole.len();
         let mut words = Vec::new();
         for (k, seen) in looked.iter().enumerate().filter(|(k, _)| looks(*k)) {
             words.push(k as u64);
@@ -77,7 +73,7 @@ impl<const D: usize> Faces<D> {
         let mut all: Vec<Looked<D>> = elements.map(|k| self.nothing(k)).collect();
         for message in words.chunks_exact(1 + each) {
             if let Some(seen) = all.get_mut(message[0] as usize) {
-                *seen = Looked::read(&message[1..], phases);
+                *seen = Looked::read(&message[1..]);
             }
         }
         Ok(all)
@@ -101,9 +97,9 @@ impl<const D: usize> Faces<D> {
             },
             reach: 0.0,
             filled: 0.0,
+            lacking: 0.0,
             row: Vect::zeros(),
             mix: vec![0.0; self.whole.len()],
-            waiting: vec![0.0; self.whole.len()],
         }
     }
 }

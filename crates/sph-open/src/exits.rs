@@ -26,24 +26,16 @@ struct Behind<const D: usize> {
     mass: f64,
     /// How far, m.
     depth: f64,
-    ports: Ports<D>,
+    ports: [(usize, Vect<D>); 2],
 }
 
-/// The two ports nearest to a particle, with the ways from their centres to it.
-type Ports<const D: usize> = [(usize, Vect<D>); 2];
-
-/// Share of the mass of a particle that the second port gets.
-fn part<const D: usize>([(_, apart), second]: &Ports<D>) -> f64 {
-    let between = apart - second.1;
-    let part = (apart.dot(&between) / between.norm_squared()).clamp(0.0, 1.0);
-    if part.is_finite() { part } else { 0.0 }
-}
-
-/// The nearer of two ports, the first of two as near.
-fn nearer<const D: usize>(a: (usize, Vect<D>), b: (usize, Vect<D>)) -> (usize, Vect<D>) {
-    match b.1.norm_squared() < a.1.norm_squared() {
-        true => b,
-        false => a,
+impl<const D: usize> Behind<D> {
+    /// Share of its mass that the second port gets.
+    fn part(&self) -> f64 {
+        let [(_, apart), second] = self.ports;
+        let between = apart - second.1;
+        let part = (apart.dot(&between) / between.norm_squared()).clamp(0.0, 1.0);
+        if part.is_finite() { part } else { 0.0 }
     }
 }
 
@@ -103,7 +95,7 @@ fn of_all<const D: usize>(
     let leaver = |b: &Behind<D>| Leaver {
         identity: u64::from(identity[b.particle as usize]),
         ports: b.ports.map(|(port, _)| port),
-        part: part(&b.ports),
+        part: b.part(),
         phase: b.phase,
         mass: b.mass,
         place: position[b.particle as usize],
@@ -126,8 +118,7 @@ impl<const D: usize> Faces<D> {
     /// Ports grow by what comes in and fade by what goes out in `dt` seconds.
     ///
     /// Through an element that has fluid before a part of it, this part passes. What a port holds where the fluid has gone
-    /// goes with it. The mean of what a port of an outlet holds, over five rows, is [left out of sums](Faces::in_sums). Particles
-    /// that wait behind the element belong to it: the port has let out their part that is behind the face, and owes it.
+    /// goes with it.
     pub fn pass(&mut self, dt: f64) {
         let phases = self.whole.len();
         for k in 0..self.elements.len() {
@@ -145,21 +136,16 @@ impl<const D: usize> Faces<D> {
                 let mass = self.density(k, q) * normal * wetted * dt;
                 self.memory.mass[k * phases + q] += mass;
                 self.memory.totals[face * phases + q].entered.add(mass);
-                self.memory.surplus[k] -= self.memory.surplus[k] * faded;
             } else if normal < 0.0 {
                 for q in 0..phases {
                     let out = -normal * wetted * dt * self.mix[k * phases + q];
                     let density = self.density(k, q);
-                    let waits = self.waiting[k * phases + q] * self.whole[q];
                     let port = &mut self.memory.mass[k * phases + q];
-                    let mass = density * out + (*port + waits) * faded;
+                    let mass = density * out + *port * faded;
                     *port -= mass;
                     self.memory.totals[face * phases + q].left.add(mass);
                 }
-                let surplus = self.share(k) + self.waits_at(k) - self.memory.surplus[k];
-                self.memory.surplus[k] += surplus * faded;
             } else if dry {
-                self.memory.surplus[k] = 0.0;
                 for q in 0..phases {
                     let mass = std::mem::take(&mut self.memory.mass[k * phases + q]);
                     self.memory.totals[face * phases + q].left.add(mass);
@@ -247,35 +233,24 @@ impl<const D: usize> Faces<D> {
 
     /// The nearest open element that a particle sees and the next nearest one of its face (the same, if there is no other),
     /// with the ways from their centres to it.
-    fn nearest(&self, world: &World<D>, p: usize, x: &Vect<D>) -> Option<Ports<D>> {
+    fn nearest(&self, world: &World<D>, p: usize, x: &Vect<D>) -> Option<[(usize, Vect<D>); 2]> {
         let way = |k: usize| world.domain.nearest_image(x - self.places[k].centre);
         let open = || {
             let contacts = world.walls.contacts.of(p).iter();
             let open = contacts.map(|c| self.open[c.element as usize]);
             open.filter(|k| *k != CLOSED).map(|k| k as usize)
         };
-        let first = open().map(|k| (k, way(k))).reduce(nearer)?;
-        let of_it = |k: &usize| *k != first.0 && self.face_of[*k] == self.face_of[first.0];
-        let second = open().filter(of_it).map(|k| (k, way(k))).reduce(nearer);
-        Some([first, second.unwrap_or(first)])
-    }
-
-    /// The share of a particle behind the face that would come to the port of an element if it left now.
-    pub fn leaves_by(&self, world: &World<D>, k: usize, x: &Vect<D>) -> f64 {
-        let way = |k: usize| (k, world.domain.nearest_image(x - self.places[k].centre));
-        let near = || self.smooth[k].iter().map(|(j, _)| way(*j as usize));
-        let Some(first) = near().reduce(nearer) else {
-            return 0.0;
+        let least = |a: (usize, Vect<D>), b: (usize, Vect<D>)| {
+            if b.1.norm_squared() < a.1.norm_squared() {
+                b
+            } else {
+                a
+            }
         };
-        let others = near().filter(|(j, _)| *j != first.0);
-        let ports = [first, others.reduce(nearer).unwrap_or(first)];
-        let along = first.1 - self.places[k].normal * first.1.dot(&self.places[k].normal);
-        match ports.map(|(j, _)| j == k) {
-            _ if along.norm() > self.spacing => 0.0,
-            [true, _] => 1.0 - part(&ports),
-            [_, true] => part(&ports),
-            _ => 0.0,
-        }
+        let first = open().map(|k| (k, way(k))).reduce(least)?;
+        let of_it = |k: &usize| *k != first.0 && self.face_of[*k] == self.face_of[first.0];
+        let second = open().filter(of_it).map(|k| (k, way(k))).reduce(least);
+        Some([first, second.unwrap_or(first)])
     }
 
     /// By how much of a particle a port with fluid that comes in is beyond the birth of one, if it is.

@@ -23,8 +23,7 @@ pub(crate) struct Looked<const D: usize> {
     pub row: Vect<D>,
     pub mix: Vec<f64>,
     pub filled: f64,
-    /// Particles behind the element that wait to leave by it, by phase, with their shares of a whole one.
-    pub waiting: Vec<f64>,
+    pub lacking: f64,
 }
 
 impl<const D: usize> Faces<D> {
@@ -41,8 +40,8 @@ impl<const D: usize> Faces<D> {
             self.inside[k] = self.arriving(k, &seen);
             self.rows[k] = seen.row;
             self.filled[k] = seen.filled;
+            self.lacking[k] = seen.lacking;
             self.mix[k * phases..(k + 1) * phases].copy_from_slice(&seen.mix);
-            self.waiting[k * phases..(k + 1) * phases].copy_from_slice(&seen.waiting);
         }
         let moment = Moment {
             time: world.time,
@@ -115,7 +114,6 @@ impl<const D: usize> Faces<D> {
         let mut mix = vec![0.0; self.whole.len()];
         // Σ V w ρ, by phase: the speed of sound is asked once for each.
         let mut weighed = vec![0.0; self.whole.len()];
-        let mut waiting = vec![0.0; self.whole.len()];
         let (mut filling, mut p, mut reach) = (0.0, 0.0, 0.0);
         let mut u = Vect::<D>::zeros();
         let mut row = Row::default();
@@ -130,10 +128,6 @@ impl<const D: usize> Faces<D> {
             let vw = volume[j] * world.kernel.at(r2.sqrt()).0;
             let phase = phase.map_or(0, |p| p[j] as usize);
             let over = pressure[j] - self.background(phase);
-            if apart.dot(&place.normal) > 0.0 {
-                let part = self.leaves_by(world, k, &position[j]);
-                waiting[phase] += part * volume[j] * density[j] / self.whole[phase];
-            }
             filling += vw;
             reach -= vw * apart.dot(&place.normal);
             mix[phase] += vw;
@@ -167,6 +161,7 @@ impl<const D: usize> Faces<D> {
             mean,
             mean_pressure,
         };
+        let lacking = self.lacks(k, row.weight());
         let filled = (row.weight() / (FULL * self.full[k])).min(1.0);
         let row = row.velocity(self.spacing).unwrap_or(u);
         Ok(Looked {
@@ -175,7 +170,7 @@ impl<const D: usize> Faces<D> {
             row,
             mix,
             filled,
-            waiting,
+            lacking,
         })
     }
 }
