@@ -156,6 +156,41 @@ fn a_uniform_flow_passes_both_faces_as_if_they_were_not_there() {
     );
 }
 
+/// Between walls with friction the rows beside them are slow, and a background pressure drives all particles to where they
+/// lack neighbours: 46 too many gathered before the outlet while those that wait behind it were not counted with its ports.
+#[test]
+fn slow_rows_do_not_gather_before_an_outlet() {
+    let text = CHANNEL
+        .replace("phase = \"mud\"\n", "phase = \"water\"\n")
+        .replace("end = 0.6", "end = 8.0")
+        .replace("every = 0.6", "every = 8.0")
+        .replace("[0.0, 1.0]", "[0.0, 0.8]")
+        .replace("[2.0, 1.0]", "[2.0, 0.8]")
+        .replace(
+            "velocity = \"1 m/s\"",
+            "velocity = \"1.5 m/s\"\nprofile = \"parabola\"",
+        )
+        .replace("[integrator", "[viscous-operator.morris]\n[integrator")
+        .replace(
+            "[phase.water]",
+            "[phase.water]\nequation-of-state.tait = { background_pressure = 8 }",
+        )
+        .replace(
+            "[phase.mud]",
+            "[phase.mud]\nequation-of-state.tait = { background_pressure = 8 }",
+        )
+        .replace("\"0.01 Pa s\"", "\"0.016 Pa s\"")
+        .replace("speed_of_sound = 12.0", "speed_of_sound = 15.0");
+    let out = folder();
+    into(out.path(), &text, 2, Start::Afresh);
+    let particles = FinalState::of(out.path()).columns["mass"].len();
+    // Half a row of eight before either face is in a port or not.
+    assert!(
+        particles.abs_diff(160) <= 8,
+        "{particles} particles where 160 have room"
+    );
+}
+
 /// A channel of a length without friction, at rest but for a pulse of pressure that runs to the right from 5 m: a simple wave,
 /// δρ/ρ = u/c.
 fn with_pulse(length: f64, sound: f64, high: f64, far: &str) -> Stepper<2> {

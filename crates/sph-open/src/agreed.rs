@@ -18,6 +18,7 @@ impl<const D: usize> Looked<D> {
             inside.mean_pressure,
             self.reach,
             self.filled,
+            self.lacking,
         ];
         let vectors = [&inside.velocity, &inside.mean, &self.row];
         let numbers = scalars
@@ -28,7 +29,7 @@ impl<const D: usize> Looked<D> {
 
     fn read(from: &[u64]) -> Self {
         let real = |k: usize| f64::from_bits(from[k]);
-        let vector = |n: usize| Vect::from_fn(|k, _| real(7 + n * D + k));
+        let vector = |n: usize| Vect::from_fn(|k, _| real(8 + n * D + k));
         Looked {
             inside: Inside {
                 wet: from[0] != 0,
@@ -41,8 +42,9 @@ impl<const D: usize> Looked<D> {
             },
             reach: real(5),
             filled: real(6),
+            lacking: real(7),
             row: vector(2),
-            mix: (7 + 3 * D..from.len()).map(real).collect(),
+            mix: (8 + 3 * D..from.len()).map(real).collect(),
         }
     }
 }
@@ -60,7 +62,7 @@ impl<const D: usize> Faces<D> {
         let looks = |k: usize| {
             shared.own_around(&self.places[k].centre, world.lists.of_points.candidates(k))
         };
-        let each = 7 + 3 * D + self.whole.len();
+        let each = 8 + 3 * D + self.whole.len();
         let mut words = Vec::new();
         for (k, seen) in looked.iter().enumerate().filter(|(k, _)| looks(*k)) {
             words.push(k as u64);
@@ -95,6 +97,7 @@ impl<const D: usize> Faces<D> {
             },
             reach: 0.0,
             filled: 0.0,
+            lacking: 0.0,
             row: Vect::zeros(),
             mix: vec![0.0; self.whole.len()],
         }

@@ -63,6 +63,8 @@ pub fn open<const D: usize>(
         rows: Vec::new(),
         mix: Vec::new(),
         full: Vec::new(),
+        at_port: Vec::new(),
+        lacking: Vec::new(),
         filled: Vec::new(),
         memory: Memory::new(0, 0, 0),
         due: false,

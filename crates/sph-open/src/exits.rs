@@ -118,7 +118,7 @@ impl<const D: usize> Faces<D> {
     /// Ports grow by what comes in and fade by what goes out in `dt` seconds.
     ///
     /// Through an element that has fluid before a part of it, this part passes. What a port holds where the fluid has gone
-    /// goes with it. The mean of what a port of an outlet holds, over five rows, is [left out of sums](Faces::in_sums).
+    /// goes with it.
     pub fn pass(&mut self, dt: f64) {
         let phases = self.whole.len();
         for k in 0..self.elements.len() {
@@ -136,7 +136,6 @@ impl<const D: usize> Faces<D> {
                 let mass = self.density(k, q) * normal * wetted * dt;
                 self.memory.mass[k * phases + q] += mass;
                 self.memory.totals[face * phases + q].entered.add(mass);
-                self.memory.surplus[k] -= self.memory.surplus[k] * faded;
             } else if normal < 0.0 {
                 for q in 0..phases {
                     let out = -normal * wetted * dt * self.mix[k * phases + q];
@@ -146,9 +145,7 @@ impl<const D: usize> Faces<D> {
                     *port -= mass;
                     self.memory.totals[face * phases + q].left.add(mass);
                 }
-                self.memory.surplus[k] += (self.share(k) - self.memory.surplus[k]) * faded;
             } else if dry {
-                self.memory.surplus[k] = 0.0;
                 for q in 0..phases {
                     let mass = std::mem::take(&mut self.memory.mass[k * phases + q]);
                     self.memory.totals[face * phases + q].left.add(mass);

@@ -60,6 +60,10 @@ pub(crate) struct Faces<const D: usize> {
     pub mix: Vec<f64>,
     /// What [`filled`](Self::filled) sums up where the face is full, by element.
     pub full: Vec<f64>,
+    /// What a whole particle at the port of every element would add to that sum.
+    pub at_port: Vec<f64>,
+    /// Share of a particle that the fluid before every element [lacks](Self::lacks) at the face.
+    pub lacking: Vec<f64>,
     /// Share of every element that has fluid before it.
     pub filled: Vec<f64>,
     pub memory: Memory<D>,
@@ -100,6 +104,9 @@ impl<const D: usize> Faces<D> {
         self.full = (0..self.places.len())
             .map(|k| self.when_full(k, kernel))
             .collect();
+        self.at_port = (0..self.places.len())
+            .map(|k| self.at_port(k, kernel))
+            .collect();
         self.add_ports(walls);
         let (ports, phases) = (self.elements.len(), self.whole.len());
         let nothing = Inside {
@@ -116,6 +123,7 @@ impl<const D: usize> Faces<D> {
         self.outside = vec![Outside::dry(); ports];
         self.rows = vec![Vect::zeros(); ports];
         self.mix = vec![0.0; ports * phases];
+        self.lacking = vec![0.0; ports];
         self.filled = vec![0.0; ports];
         self.memory = Memory::new(ports, phases, self.faces.len());
         walls.passed = self.passed(walls);
@@ -151,6 +159,39 @@ impl<const D: usize> Faces<D> {
             near(apart.norm_squared(), self.spacing) * self.rows_before(k, j, kernel)
         };
         own.map(one).sum::<f64>() * self.spacing
+    }
+
+    /// The same of one row of particles that stands on the face.
+    fn at_port(&self, k: usize, kernel: &dyn Sampler) -> f64 {
+        let own = self.faces[self.face_of[k]].elements.clone();
+        let one = |j: usize| {
+            let apart = (self.places[k].centre - self.places[j].centre).norm_squared();
+            match apart < kernel.support_radius().powi(2) {
+                true => {
+                    let w = kernel.at(apart.sqrt()).0;
+                    near(apart, self.spacing) * self.places[j].measure * w
+                }
+                false => 0.0,
+            }
+        };
+        own.map(one).sum::<f64>() * self.spacing
+    }
+
+    /// The share θ of a particle with which the port of an element takes part in sums, from the weight Σ V w of the row before
+    /// it: what this lacks of a full face, over the weight of a row on the face.
+    ///
+    /// With rows at φ δr, (φ + 1) δr, … from the face the trapezoidal rule lacks θ = φ − ½ there (Euler & Maclaurin), −½ to ½
+    /// as one row after the other comes nearer and passes. A row farther away than δr is the last one: from there the share
+    /// falls to nothing within half a spacing.
+    ///
+    /// What a port *holds* is the same but for its errors. These would stay as long as a row takes to pass, for ever where
+    /// the flow is slow, as beside a wall, and a background pressure makes a barrier of them.
+    pub fn lacks(&self, element: usize, weight: f64) -> f64 {
+        let lacks = (self.full[element] - weight) / self.at_port[element];
+        match lacks > 0.5 {
+            true => (1.0 - lacks).max(0.0),
+            false => lacks.max(-0.5 - 1.5 * LATE),
+        }
     }
 
     fn add_ports(&self, walls: &mut WallSet<D>) {
@@ -200,25 +241,6 @@ impl<const D: usize> Faces<D> {
         self.laws[phase].density(pressure)
     }
 
-    /// Share of a whole particle that a port has.
-    pub fn share(&self, element: usize) -> f64 {
-        let phases = self.whole.len();
-        let mass = &self.memory.mass[element * phases..(element + 1) * phases];
-        mass.iter()
-            .zip(&self.whole)
-            .map(|(m, whole)| m / whole)
-            .sum()
-    }
-
-    /// The share with which a port takes part in sums: that which it has, without its mean over the rows that leave.
-    ///
-    /// A row at the distance φ δr from the face lacks (φ − ½) δr of fluid behind it, −½ to ½ as it comes nearer: 0 in the mean.
-    /// What a port holds beyond that came from particles that carried more than the law took out; as a share θ in the
-    /// pressure gradient it would hold the fluid up by 2 p θ δr w(0), with w the kernel summed along the face.
-    pub fn in_sums(&self, element: usize) -> f64 {
-        self.share(element) - self.memory.surplus[element]
-    }
-
     /// The velocity with which fluid passes an element, m/s: what is imposed, or that of the row in front of it and what the law
     /// adds.
     pub fn through(&self, element: usize) -> Vect<D> {
@@ -255,7 +277,7 @@ impl<const D: usize> Faces<D> {
             walls.points.velocity[v] = through;
             walls.points.viscous_velocity[v] = through;
             walls.points.volume[v] = walls.elements.volume[own[0] as usize];
-            walls.points.share[v] = self.in_sums(k);
+            walls.points.share[v] = self.lacking[k];
         }
         walls.passed = self.passed(walls);
     }

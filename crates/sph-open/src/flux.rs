@@ -37,7 +37,6 @@ impl<const D: usize> Faces<D> {
             true => 0.5 * dt / self.memory.dt,
             false => 0.0,
         };
-        let shares: Vec<f64> = (0..self.elements.len()).map(|k| self.in_sums(k)).collect();
         let first = world.walls.points.corners;
         let one = |i: usize, constant: &mut f64, last: &mut f64| {
             let mut through = 0.0;
@@ -55,7 +54,7 @@ impl<const D: usize> Faces<D> {
                     .nearest_image(position[i] - self.places[k].centre);
                 let factor = world.kernel.at(apart.norm()).1;
                 let parting = velocity[i] - self.through(k);
-                beside += shares[k] * parting.dot(&apart) * factor;
+                beside += self.lacking[k] * parting.dot(&apart) * factor;
             }
             let now = density[i] * through;
             // Nothing yet in a particle's first step.

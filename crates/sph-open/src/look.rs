@@ -23,6 +23,7 @@ pub(crate) struct Looked<const D: usize> {
     pub row: Vect<D>,
     pub mix: Vec<f64>,
     pub filled: f64,
+    pub lacking: f64,
 }
 
 impl<const D: usize> Faces<D> {
@@ -39,6 +40,7 @@ impl<const D: usize> Faces<D> {
             self.inside[k] = self.arriving(k, &seen);
             self.rows[k] = seen.row;
             self.filled[k] = seen.filled;
+            self.lacking[k] = seen.lacking;
             self.mix[k * phases..(k + 1) * phases].copy_from_slice(&seen.mix);
         }
         let moment = Moment {
@@ -159,6 +161,7 @@ impl<const D: usize> Faces<D> {
             mean,
             mean_pressure,
         };
+        let lacking = self.lacks(k, row.weight());
         let filled = (row.weight() / (FULL * self.full[k])).min(1.0);
         let row = row.velocity(self.spacing).unwrap_or(u);
         Ok(Looked {
@@ -167,6 +170,7 @@ impl<const D: usize> Faces<D> {
             row,
             mix,
             filled,
+            lacking,
         })
     }
 }

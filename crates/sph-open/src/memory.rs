@@ -39,8 +39,6 @@ pub(crate) struct Totals {
 pub(crate) struct Memory<const D: usize> {
     /// Mass at every port of every phase, kg, phases innermost.
     pub mass: Vec<f64>,
-    /// Running mean of the share of a whole particle that every port of an outlet holds, over the rows that pass.
-    pub surplus: Vec<f64>,
     /// Running means of pressures, Pa, and velocities, m/s.
     pub mean: Vec<(f64, Vect<D>)>,
     /// Pressures, Pa, and velocities, m/s, in front of the elements, as late as they arrive at the face.
@@ -57,7 +55,6 @@ impl<const D: usize> Memory<D> {
     pub fn new(ports: usize, phases: usize, faces: usize) -> Self {
         Memory {
             mass: vec![0.0; ports * phases],
-            surplus: vec![0.0; ports],
             mean: vec![(0.0, Vect::zeros()); ports],
             arrived: vec![(0.0, Vect::zeros()); ports],
             totals: vec![Totals::default(); faces * phases],
@@ -67,16 +64,12 @@ impl<const D: usize> Memory<D> {
 
     /// How many numbers there are.
     pub fn count(&self) -> usize {
-        self.mass.len()
-            + self.surplus.len()
-            + 2 * (D + 1) * self.mean.len()
-            + PER_TOTAL * self.totals.len()
-            + 1
+        self.mass.len() + 2 * (D + 1) * self.mean.len() + PER_TOTAL * self.totals.len() + 1
     }
 
     /// All of it.
     pub fn numbers(&self, to: &mut Vec<f64>) {
-        to.extend(self.mass.iter().chain(&self.surplus));
+        to.extend(&self.mass);
         for (pressure, velocity) in self.mean.iter().chain(&self.arrived) {
             to.push(*pressure);
             to.extend(velocity.iter());
@@ -95,11 +88,9 @@ impl<const D: usize> Memory<D> {
             return false;
         }
         let (mass, rest) = from.split_at(self.mass.len());
-        let (surplus, rest) = rest.split_at(self.surplus.len());
         let (mean, rest) = rest.split_at((D + 1) * self.mean.len());
         let (arrived, rest) = rest.split_at((D + 1) * self.arrived.len());
         self.mass.copy_from_slice(mass);
-        self.surplus.copy_from_slice(surplus);
         let both = |to: &mut [(f64, Vect<D>)], from: &[f64]| {
             let all = to.iter_mut().zip(from.chunks_exact(D + 1));
             all.for_each(|(to, from)| *to = (from[0], Vect::from_column_slice(&from[1..])));
@@ -131,7 +122,6 @@ mod tests {
     fn a_memory_comes_back_from_its_numbers() {
         let mut memory = Memory::<2>::new(2, 2, 1);
         memory.mass = vec![1.0, 2.0, 3.0, 4.0];
-        memory.surplus = vec![0.3, -0.2];
         memory.mean[1] = (12.0, Vect::<2>::new(5.0, 6.0));
         memory.arrived[0] = (9.0, Vect::<2>::new(10.0, 11.0));
         memory.totals[1].left.add(7.0);
