@@ -195,9 +195,9 @@ fn slow_rows_do_not_gather_before_an_outlet() {
 const SOUND: f64 = 12.0;
 const WIDTH: f64 = 0.8;
 
-/// A channel of a length without friction, in which all moves with `flow` but for a pulse of pressure that runs to the right
-/// from 5 m: a simple wave, δρ/ρ = u/c. Beside walls the rows of a lattice are out of balance in a pulse, and stir: they start
-/// relaxed.
+/// A channel of a length without friction, in which all moves with `flow` but for a pulse of pressure that runs to the
+/// right from 5 m: a simple wave, δρ/ρ = u/c. Beside walls the rows of a lattice are out of balance in a pulse, and
+/// stir: they start relaxed.
 fn with_pulse(length: f64, flow: f64, high: f64, far: &str) -> Stepper<2> {
     let text = CHANNEL
         .replace(
@@ -261,11 +261,11 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
     )
 }
 
-/// What comes back of a pulse of pressure that runs into the outlet, in per cent of it, and with its sign, 0.55, 0.7 and 0.83 s after the start.
-/// It is around 8.4, 6.6 and 5 m then.
+/// What comes back of a pulse of pressure that runs into the outlet, in per cent of it and with its sign, 0.55, 0.7 and
+/// 0.83 s after the start. It is around 8.4, 6.6 and 5 m then.
 ///
-/// It is what differs from a channel of twice the length, whose outlet nothing has reached yet: the pulse leaves slower waves
-/// behind it, which have never been at the outlet. Of both what the flow makes without a pulse is taken.
+/// It is what differs from a channel of twice the length, whose outlet nothing has reached yet: the pulse leaves slower
+/// waves behind it, which have never been at the outlet. Of both what the flow makes without a pulse is taken.
 fn comes_back(flow: f64, far: &str) -> [f64; 3] {
     let high = 1e-3;
     let mut channels =
@@ -300,8 +300,7 @@ fn a_pressure_pulse_leaves() {
     }
 }
 
-/// With a memory T its mean of a pulse p(t) takes ∫p dt/T for slow, and throws that back: √π width/cT, 11.8 % here, and less as
-/// it leaves.
+/// With a memory T its mean of a pulse p(t) takes ∫p dt/T for slow, and throws that back: √π width/cT, 11.8 % here.
 #[test]
 fn a_memory_throws_back_what_its_mean_takes_of_a_pulse() {
     let shares = comes_back(0.0, "memory = \"1 s\"");

@@ -17,10 +17,10 @@ impl<const D: usize> Faces<D> {
     ///
     ///   ε_a = Σ_b θ_b (V_a² + V_b²) ∇w_ab − Σ_s (V_a² + V_s²)/V_s ∇γ_as,
     ///
-    /// which is zero for rows that have come to rest before a wall, and not for rows that pass a face: on a lattice it is up to
-    /// 0.43 V_a²/δr. It throws back 4 to 8 % of a pulse, and a background pressure makes a barrier of it. Momentum
-    /// passes an open face anyway, so the gradient is that of p − r, with the pressure at the face for r: the mean of its elements
-    /// by their |∇γ_as|. This fades from half of the support on, and at a free surface.
+    /// which is zero for rows that have come to rest before a wall, and not for rows that pass a face: of a lattice it
+    /// is up to 0.085 γ_a V_a²/δr (h = 2 δr). It throws back 4 to 8 % of a pulse. Momentum passes an open face anyway,
+    /// so the gradient is that of p − r, with the pressure at the face for r: the mean of its elements by their
+    /// |∇γ_as|. This fades from half of the support on, and at a free surface.
     pub fn balance(&self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mut velocity = world.free.take(fields::VELOCITY)?;
         let free = &world.free;
