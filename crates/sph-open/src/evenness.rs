@@ -1,8 +1,7 @@
 //! The pressure of a face, taken out of what an uneven arrangement of particles makes of it.
 
-use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::World;
+use sph_neighbours::{Around, Values, World, walk_into};
 
 use crate::faces::{CLOSED, Faces};
 
@@ -21,19 +20,25 @@ impl<const D: usize> Faces<D> {
     /// is up to 0.085 γ_a V_a²/δr (h = 2 δr). It throws back 4 to 8 % of a pulse. Momentum passes an open face anyway,
     /// so the gradient is that of p − r, with the pressure at the face for r: the mean of its elements by their
     /// |∇γ_as|. This fades from half of the support on, and at a free surface.
-    pub fn balance(&self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
-        let mut velocity = world.free.take(fields::VELOCITY)?;
-        let free = &world.free;
-        let (mass, gamma) = (free.get(fields::MASS)?, free.get(fields::RENORMALISATION)?);
-        let all = velocity.par_iter_mut().enumerate().with_min_len(1024);
-        all.try_for_each(|(i, u)| {
-            let pressure = self.pressure_before(world, i);
-            if pressure != 0.0 {
-                *u += self.unevenness(world, i)? * (pressure * dt / (mass[i] * gamma[i]));
-            }
-            Ok::<_, StepError>(())
+    pub fn balance(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        let mut kicks = std::mem::take(&mut self.kicks);
+        kicks.clear();
+        kicks.resize(world.free.len(), Vect::zeros());
+        let (mass, volume) = (
+            world.free.get(fields::MASS)?,
+            world.free.get(fields::VOLUME)?,
+        );
+        let sees = |i: usize| self.pressure_before(world, i) != 0.0;
+        walk_into(world, Values::Both, sees, &mut kicks, |around| {
+            let i = around.rows.particle;
+            let factor = around.rows.inverse_renormalisation * dt / mass[i];
+            unevenness(world, volume, around) * (self.pressure_before(world, i) * factor)
         })?;
-        Ok(world.free.put(fields::VELOCITY, velocity)?)
+        let mut velocity = world.free.take(fields::VELOCITY)?;
+        velocity.iter_mut().zip(&kicks).for_each(|(u, k)| *u += k);
+        world.free.put(fields::VELOCITY, velocity)?;
+        self.kicks = kicks;
+        Ok(())
     }
 
     /// Pressure of the faces that a particle sees, Pa: 0 where it sees none.
@@ -53,40 +58,31 @@ impl<const D: usize> Faces<D> {
             false => 0.0,
         }
     }
+}
 
-    /// ε_a of [`balance`](Self::balance), 0 at a free surface.
-    fn unevenness(&self, world: &World<D>, i: usize) -> Result<Vect<D>, StepError> {
-        let free = &world.free;
-        let (position, volume) = (free.get(fields::POSITION)?, free.get(fields::VOLUME)?);
-        let gamma = free.get(fields::RENORMALISATION)?[i];
-        let (own, limit) = (volume[i], world.kernel.support_radius().powi(2));
-        let mut filling = own * world.kernel.at(0.0).0;
-        let mut sum = Vect::<D>::zeros();
-        let mut add = |place: &Vect<D>, volume: f64, share: f64| {
-            let apart = world.domain.nearest_image(position[i] - place);
-            let r2 = apart.norm_squared();
-            if r2 < limit {
-                let (w, factor) = world.kernel.at(r2.sqrt());
-                filling += share * volume * w;
-                sum += apart * (share * (own * own + volume * volume) * factor);
-            }
-        };
-        for &j in world.lists.free.candidates(i) {
-            if j as usize != i {
-                add(&position[j as usize], volume[j as usize], 1.0);
-            }
-        }
-        let points = &world.walls.points;
-        for &v in world.lists.wall.row(i) {
-            let v = v as usize;
-            add(&points.position[v], points.volume[v], points.share[v]);
-        }
-        for contact in world.walls.contacts.of(i) {
-            let volume = world.walls.elements.volume[contact.element as usize];
-            sum -= contact.gradient * ((own * own + volume * volume) / volume);
-        }
-        let [none, full] = SURFACE;
-        let bulk = ((filling / gamma - none) / (full - none)).clamp(0.0, 1.0);
-        Ok(sum * bulk)
+/// ε_a of [`Faces::balance`], 0 at a free surface.
+fn unevenness<const D: usize>(world: &World<D>, volume: &[f64], around: &Around<'_, D>) -> Vect<D> {
+    let rows = &around.rows;
+    let own = volume[rows.particle];
+    let mut filling = own * world.kernel.value_at_zero();
+    let mut sum = Vect::<D>::zeros();
+    for (k, &j) in rows.free.index.iter().enumerate() {
+        let other = volume[j as usize];
+        filling += other * around.free[k];
+        sum += rows.free.separation[k] * ((own * own + other * other) * rows.free.factor[k]);
     }
+    let points = &world.walls.points;
+    for (k, &v) in rows.wall.index.iter().enumerate() {
+        let (other, share) = (points.volume[v as usize], points.share[v as usize]);
+        filling += share * other * around.wall[k];
+        let weight = share * (own * own + other * other) * rows.wall.factor[k];
+        sum += rows.wall.separation[k] * weight;
+    }
+    for contact in rows.contacts {
+        let other = world.walls.elements.volume[contact.element as usize];
+        sum -= contact.gradient * ((own * own + other * other) / other);
+    }
+    let [none, full] = SURFACE;
+    let filled = filling * rows.inverse_renormalisation;
+    sum * ((filled - none) / (full - none)).clamp(0.0, 1.0)
 }

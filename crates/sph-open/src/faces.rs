@@ -67,6 +67,8 @@ pub(crate) struct Faces<const D: usize> {
     /// Share of every element that has fluid before it.
     pub filled: Vec<f64>,
     pub memory: Memory<D>,
+    /// What [`balance`](Self::balance) adds to velocities, m/s, to be filled again.
+    pub kicks: Vec<Vect<D>>,
     /// Whether particles come and go at the end of this step.
     pub due: bool,
 }
