@@ -11,9 +11,11 @@ use crate::cluster::Cluster;
 use crate::lane_pair::LanePair;
 use crate::members::Members;
 use crate::separation::places;
-use crate::term::{each, free_then_walls};
+use crate::term::free_then_walls;
+use crate::walled::with_walls;
 use crate::{
-    BoundTerm, Interaction, Neighbourhood, Pair, Part, Rates, RowTerm, There, WithTerm, World,
+    BoundTerm, Interaction, Neighbourhood, Pair, Part, Rates, RowTerm, There, Walled, WithTerm,
+    World,
 };
 
 impl<const D: usize> From<&Pair<D>> for LanePair<D, f64> {
@@ -135,6 +137,21 @@ impl<const D: usize, B: LaneTerm<D>> RowTerm<D> for FusedLanes<B> {
         let body = SideBySide {
             term: &self.0,
             cluster,
+            walled: None,
+            rates,
+        };
+        dispatch_at(body.cluster.width, body);
+    }
+    fn cluster_walled(
+        &self,
+        cluster: &mut Cluster<'_, D>,
+        walled: &[Walled<'_, D>],
+        rates: &mut [Rates<D>],
+    ) {
+        let body = SideBySide {
+            term: &self.0,
+            cluster,
+            walled: Some(walled),
             rates,
         };
         dispatch_at(body.cluster.width, body);
@@ -144,6 +161,8 @@ impl<const D: usize, B: LaneTerm<D>> RowTerm<D> for FusedLanes<B> {
 struct SideBySide<'a, 'c, const D: usize, B> {
     term: &'a B,
     cluster: &'a Cluster<'c, D>,
+    /// Members with other walls than their own; all of them with their own, if none are given.
+    walled: Option<&'a [Walled<'a, D>]>,
     rates: &'a mut [Rates<D>],
 }
 
@@ -159,6 +178,7 @@ impl<const D: usize, B: LaneTerm<D>> Body for SideBySide<'_, '_, D, B> {
         let SideBySide {
             term,
             cluster,
+            walled,
             rates,
         } = self;
         let Members {
@@ -181,17 +201,21 @@ impl<const D: usize, B: LaneTerm<D>> Body for SideBySide<'_, '_, D, B> {
         }
         // A copy: single lanes are read from memory, and the sums themselves are to stay in registers.
         let all = sums;
+        if let Some(walled) = walled {
+            for (walled, rates) in walled.iter().zip(rates) {
+                let sum = term.lane(&all, walled.member);
+                with_walls(term, &heres[walled.member], sum, walled, rates);
+            }
+            return;
+        }
         for (k, rates) in rates.iter_mut().enumerate() {
-            let (here, mut sum) = (&heres[k], term.lane(&all, k));
-            let row = cluster.buffers.walls[k].row();
-            if !row.index.is_empty() {
-                each(&row, |v, pair| term.wall(here, v, pair, &mut sum));
-            }
-            for contact in cluster.contacts.of(from + k) {
-                term.element(here, &contact, &mut sum);
-            }
-            let inverse = cluster.renormalisation.map_or(1.0, |g| 1.0 / g[from + k]);
-            term.finish(here, &sum, inverse, rates);
+            let own = Walled {
+                member: k,
+                points: cluster.buffers.walls[k].row(),
+                contacts: cluster.contacts.of(from + k),
+                inverse_renormalisation: cluster.renormalisation.map_or(1.0, |g| 1.0 / g[from + k]),
+            };
+            with_walls(term, &heres[k], term.lane(&all, k), &own, rates);
         }
     }
 }
