@@ -67,6 +67,7 @@ pub fn open<const D: usize>(
         lacking: Vec::new(),
         filled: Vec::new(),
         memory: Memory::new(0, 0, 0),
+        looked: Vec::new(),
         due: false,
     };
     let faces = Arc::new(Mutex::new(faces));

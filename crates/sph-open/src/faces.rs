@@ -8,6 +8,7 @@ use sph_neighbours::{Passed, WallSet};
 use sph_state::Laws;
 
 use crate::cells::cells;
+use crate::look::Looked;
 use crate::memory::Memory;
 use crate::row::near;
 use crate::{Inside, OpenBoundary, Outside, Place};
@@ -67,6 +68,8 @@ pub(crate) struct Faces<const D: usize> {
     /// Share of every element that has fluid before it.
     pub filled: Vec<f64>,
     pub memory: Memory<D>,
+    /// What was seen before the elements, to be filled again.
+    pub looked: Vec<Looked<D>>,
     /// Whether particles come and go at the end of this step.
     pub due: bool,
 }
@@ -126,6 +129,7 @@ impl<const D: usize> Faces<D> {
         self.lacking = vec![0.0; ports];
         self.filled = vec![0.0; ports];
         self.memory = Memory::new(ports, phases, self.faces.len());
+        self.looked.clear();
         walls.passed = self.passed(walls);
     }
 
