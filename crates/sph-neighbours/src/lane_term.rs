@@ -11,7 +11,7 @@ use crate::cluster::Cluster;
 use crate::lane_pair::LanePair;
 use crate::members::Members;
 use crate::separation::places;
-use crate::term::free_then_walls;
+use crate::term::{each, free_then_walls};
 use crate::walled::with_walls;
 use crate::{
     BoundTerm, Interaction, Neighbourhood, Pair, Part, Rates, RowTerm, There, Walled, WithTerm,
@@ -202,20 +202,23 @@ impl<const D: usize, B: LaneTerm<D>> Body for SideBySide<'_, '_, D, B> {
         // A copy: single lanes are read from memory, and the sums themselves are to stay in registers.
         let all = sums;
         if let Some(walled) = walled {
-            for (walled, rates) in walled.iter().zip(rates) {
-                let sum = term.lane(&all, walled.member);
-                with_walls(term, &heres[walled.member], sum, walled, rates);
+            let mut lanes = [term.zero(); MOST];
+            for k in 0..L::N {
+                lanes[k] = term.lane(&all, k);
             }
-            return;
+            return with_walls(term, &heres, &lanes, walled, rates);
         }
         for (k, rates) in rates.iter_mut().enumerate() {
-            let own = Walled {
-                member: k,
-                points: cluster.buffers.walls[k].row(),
-                contacts: cluster.contacts.of(from + k),
-                inverse_renormalisation: cluster.renormalisation.map_or(1.0, |g| 1.0 / g[from + k]),
-            };
-            with_walls(term, &heres[k], term.lane(&all, k), &own, rates);
+            let (here, mut sum) = (&heres[k], term.lane(&all, k));
+            let row = cluster.buffers.walls[k].row();
+            if !row.index.is_empty() {
+                each(&row, |v, pair| term.wall(here, v, pair, &mut sum));
+            }
+            for contact in cluster.contacts.of(from + k) {
+                term.element(here, &contact, &mut sum);
+            }
+            let inverse = cluster.renormalisation.map_or(1.0, |g| 1.0 / g[from + k]);
+            term.finish(here, &sum, inverse, rates);
         }
     }
 }

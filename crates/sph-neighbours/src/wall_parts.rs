@@ -40,13 +40,17 @@ pub fn wall_parts<const D: usize>(
     pack(world, &mut states, Packed::of(terms.iter().copied()))?;
     let sweep = Sweep::new(world, &states, &*world.kernel)?;
     let mass = world.free.get(fields::MASS)?;
-    let points = world.walls.points.in_sums().then_some(&world.lists.wall);
-    let near_wall = |i: usize| {
-        let before_points =
-            || points.is_some_and(|list| !list.is_empty() && !list.row(i).is_empty());
-        !world.walls.contacts.of(i).is_empty() || before_points()
-    };
-    let wanted = |i: usize| near_wall(i) && wanted(i);
+    let contacts = &world.walls.contacts;
+    // Asked once for everybody: clusters ask again and again.
+    let mut asked = vec![false; sweep.particles()];
+    let mut ask = |i: usize| asked[i] = wanted(i);
+    match world.walls.points.in_sums() && !world.lists.wall.is_empty() {
+        true => (0..sweep.particles())
+            .filter(|i| !contacts.of(*i).is_empty() || !world.lists.wall.row(*i).is_empty())
+            .for_each(&mut ask),
+        false => contacts.particles.iter().for_each(|i| ask(*i as usize)),
+    }
+    let wanted = |i: usize| asked[i];
     let blocks = (0..sweep.particles().div_ceil(CHUNK)).into_par_iter();
     let shelf = || (world.lists.shelf.lend::<Room<D>>(), Apart::default());
     let parts = blocks.map_init(shelf, |(room, apart), block| {
@@ -120,9 +124,12 @@ impl<const D: usize> Apart<D> {
             let of_contacts = own.contacts.iter();
             let of_contacts = of_contacts.map(|c| set.elements.wall[c.element as usize]);
             self.walls.clear();
-            self.walls.extend(of_points.chain(of_contacts));
+            for wall in of_points.chain(of_contacts) {
+                if !self.walls.contains(&wall) {
+                    self.walls.push(wall);
+                }
+            }
             self.walls.sort_unstable();
-            self.walls.dedup();
             let points = cluster.buffers.walls[member].only(|_| true);
             let from = self.pieces.len();
             let alone = self.walls.len() == 1;

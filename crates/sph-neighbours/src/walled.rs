@@ -16,20 +16,23 @@ pub struct Walled<'a, const D: usize> {
     pub inverse_renormalisation: f64,
 }
 
-/// Adds the walls to a sum over free neighbours, and makes rates of it.
-#[inline(always)]
+/// Adds walls to sums over free neighbours, and makes rates of them. Not in the loop over lanes, which every sweep runs.
+#[inline(never)]
 pub(crate) fn with_walls<const D: usize, B: BoundTerm<D>>(
     term: &B,
-    here: &B::Here,
-    mut sum: B::Sum,
-    walls: &Walled<'_, D>,
-    rates: &mut Rates<D>,
+    heres: &[B::Here],
+    sums: &[B::Sum],
+    walled: &[Walled<'_, D>],
+    rates: &mut [Rates<D>],
 ) {
-    if !walls.points.index.is_empty() {
-        each(&walls.points, |v, pair| term.wall(here, v, pair, &mut sum));
+    for (walled, rates) in walled.iter().zip(rates) {
+        let (here, mut sum) = (&heres[walled.member], sums[walled.member]);
+        if !walled.points.index.is_empty() {
+            each(&walled.points, |v, pair| term.wall(here, v, pair, &mut sum));
+        }
+        for contact in walled.contacts {
+            term.element(here, &contact, &mut sum);
+        }
+        term.finish(here, &sum, walled.inverse_renormalisation, rates);
     }
-    for contact in walls.contacts {
-        term.element(here, &contact, &mut sum);
-    }
-    term.finish(here, &sum, walls.inverse_renormalisation, rates);
 }

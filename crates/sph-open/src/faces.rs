@@ -101,6 +101,7 @@ impl<const D: usize> Faces<D> {
             }
             face.elements = first..self.elements.len();
         }
+        walls.elements.open = self.open.iter().map(|k| *k != CLOSED).collect();
         self.smooth = (0..self.places.len())
             .map(|k| self.around(k, kernel))
             .collect();
