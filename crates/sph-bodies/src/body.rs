@@ -13,6 +13,7 @@ use crate::freedom::{Freedom, Holds};
 use crate::layer::layer;
 use crate::line::Line;
 use crate::mooring::Mooring;
+use crate::prescribed::{self, Prescribed};
 use crate::shape::{Solid, winding};
 use crate::six::padded;
 
@@ -62,6 +63,9 @@ pub struct RigidBody {
     #[serde(default)]
     #[schemars(extend("unit" = "s", "minimum" = 0.0))]
     pub start: f64,
+    /// Times in which it moves as given, whatever pushes it: one after the other, from `start` on.
+    #[serde(default)]
+    pub prescribed: Vec<Prescribed>,
     /// Springs and dampers on its degrees of freedom.
     #[serde(default)]
     pub hold: Holds,
@@ -284,6 +288,7 @@ impl<const D: usize> Mover<D> for RigidBody {
         apart(setting)?;
         let free = self.freedoms::<D>()?;
         let lines = self.moorings(setting)?;
+        prescribed::check::<D>(&self.prescribed, self.start)?;
         vector::<D>("velocity", &self.velocity)?;
         let turns = if D == 2 { 1 } else { 3 };
         if let Some(given) = self.angular_velocity.as_ref().filter(|g| g.len() != turns) {
@@ -304,6 +309,7 @@ impl<const D: usize> Mover<D> for RigidBody {
             holds: self.hold.all().collect(),
             lines,
             start: self.start,
+            prescribed: self.prescribed.clone(),
         };
         self.settled = Some((dynamics, self.touch_of(setting, weighed.mass, surface)));
         Ok(())

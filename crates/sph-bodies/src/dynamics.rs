@@ -6,6 +6,7 @@ use sph_core::Vect;
 
 use crate::freedom::Freedom;
 use crate::mooring::{Mooring, Pull};
+use crate::prescribed::{Prescribed, moved};
 use crate::six::{blocks, padded, parts, six, solve};
 
 /// A body as the equations of motion know it; matrices as it is drawn.
@@ -24,6 +25,8 @@ pub(crate) struct Dynamics {
     pub lines: Vec<Mooring>,
     /// The time from which on it is free, s.
     pub start: f64,
+    /// Times in which it is not free again.
+    pub prescribed: Vec<Prescribed>,
 }
 
 /// The rotation of a state; about z in two dimensions.
@@ -49,11 +52,9 @@ impl Dynamics {
         time: f64,
         dt: f64,
     ) -> RigidState<D> {
-        if time < self.start {
-            let mut state = *now;
-            let place = Vect::from(now.pose.translation) + now.velocity * dt;
-            state.pose.translation = place.into();
-            return state.turned_by(now.angular_velocity.map(|w| w * dt));
+        let prescribed = self.prescribed.iter().find(|p| p.holds(time));
+        if prescribed.is_some() || time < self.start {
+            return moved(now, prescribed.and_then(|p| p.at(time + dt)), dt);
         }
         let turn = rotation(now);
         let inertia = turn * self.inertia * turn.transpose();
@@ -201,6 +202,7 @@ mod tests {
             holds: Vec::new(),
             lines: Vec::new(),
             start: 0.0,
+            prescribed: Vec::new(),
         }
     }
 
@@ -259,6 +261,45 @@ mod tests {
             ..body.clone()
         };
         assert_eq!(early.next(&at_rest(&body), &load, 0.0, 0.1), at_rest(&body));
+    }
+
+    /// Free, held at what it has, driven up and free again: with F/m = 2 m/s² and steps that divide the times.
+    #[test]
+    fn a_body_is_free_and_prescribed_in_turns() {
+        let turns = |from: f64, to: f64, course: Vec<Vec<f64>>| Prescribed { from, to, course };
+        let up = vec![vec![2.0, 0.0, 1.0, 0.0], vec![3.0, 0.0, 3.0, 0.0]];
+        let body = Dynamics {
+            prescribed: vec![turns(1.0, 2.0, Vec::new()), turns(2.0, 3.0, up)],
+            ..body([true; 6])
+        };
+        let load = Load::<2>::of_gravity(Vect::<2>::new(2.0, 0.0));
+        let (dt, mut state) = (1.0 / 64.0, at_rest::<2>(&body));
+        let mut seen = Vec::new();
+        for step in 0..4 * 64 {
+            state = body.next(&state, &load, f64::from(step) * dt, dt);
+            if step % 64 == 63 {
+                seen.push([state.velocity[0], state.velocity[1], state.acceleration[1]]);
+            }
+        }
+        let expected = [
+            [2.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [0.0, 3.0, 2.0],
+            [2.0, 3.0, 0.0],
+        ];
+        for (seen, expected) in seen.into_iter().zip(expected) {
+            let off = seen
+                .into_iter()
+                .zip(expected)
+                .map(|(a, b): (f64, f64)| (a - b).abs());
+            assert!(
+                off.fold(0.0, f64::max) < 1e-12,
+                "{seen:?}, not {expected:?}"
+            );
+        }
+        // Half a step beyond the mean of 1 and 3 m/s over the second that is driven, then a second at 3 m/s.
+        let way = 2.0 + dt + 3.0;
+        assert!((state.pose.translation[1] - way).abs() < 1e-12);
     }
 
     /// m = 2, k = 8: a period of π s; with steps of a tenth of it, and with steps of ten of it, it stays bounded.

@@ -14,10 +14,12 @@ mod freedom;
 mod layer;
 mod line;
 mod mooring;
+mod prescribed;
 mod shape;
 mod six;
 
 pub use body::RigidBody;
 pub use freedom::{Freedom, Hold, HoldTurn, Holds};
 pub use line::Line;
+pub use prescribed::Prescribed;
 pub use shape::{NoSolid, Solid};

@@ -48,6 +48,8 @@ mod team;
 mod term;
 mod walk;
 mod wall_force;
+mod wall_parts;
+mod walled;
 mod walls;
 mod world;
 
@@ -76,7 +78,7 @@ pub use list::{CHUNK, NeighbourList};
 pub use moment::trusted_inverse;
 pub use nearby::Nearby;
 pub use packed::{Declared, Packed, pack};
-pub use reaction::{cross, wall_forces, wall_parts};
+pub use reaction::{cross, reactions, wall_forces};
 pub use row::{NOBODY, Neighbourhood, Row, Scratch, There};
 pub use shared_rows::{SharedElements, SharedRows, inner};
 pub use shares::{TermShare, shares_at};
@@ -90,5 +92,7 @@ pub use term::{
 };
 pub use walk::{Around, Rows, Surroundings, Values, walk, walk_into, walk_some};
 pub use wall_force::WallForce;
+pub use wall_parts::{WallPart, wall_parts};
+pub use walled::Walled;
 pub use walls::{Coulomb, Elements, Frame, LinePull, Passed, WallPoints, WallSet};
 pub use world::{Lists, World};

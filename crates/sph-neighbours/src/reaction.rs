@@ -3,13 +3,7 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
-use crate::packed::{Packed, pack};
-use crate::row::Row;
-use crate::term::Rates;
-use crate::{
-    ContactBlock, ContactRow, Interaction, NOBODY, Neighbourhood, Scratch, SharedElements,
-    WallForce, World,
-};
+use crate::{Interaction, SharedElements, WallForce, World, wall_parts};
 
 /// r × f; the third component alone in two dimensions.
 pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
@@ -23,7 +17,7 @@ pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
 
 /// Forces on the wanted ones of all walls, in the order of their names, at the state of the last sweep; NaN on the others.
 ///
-/// It costs several sweeps over the particles that see a wanted wall, nothing for the others.
+/// It costs a sweep over the particles that see a wanted wall, nothing for the others.
 ///
 /// The walls' part of an acceleration is the whole less what the other particles would contribute
 /// with γ = 1, which is equal and opposite between two particles and leaves no momentum. Each
@@ -37,12 +31,25 @@ pub fn wall_forces<const D: usize>(
     terms: &[&dyn Interaction<D>],
     wanted: &[bool],
 ) -> Result<Vec<WallForce<D>>, StepError> {
+    let mut forces = reactions(world, terms, wanted)?;
+    for (wall, total) in forces.iter_mut().enumerate().filter(|(w, _)| wanted[*w]) {
+        let sums = pressure_on(world, wall as u32)?;
+        total.pressure_force = Vect::from_fn(|k, _| sums[k]);
+        total.pressure_moment = [sums[3], sums[4], sums[5]];
+    }
+    Ok(forces)
+}
+
+/// The same without the integrals of the pressure, which no single rank knows on all elements; they are 0 here.
+///
+/// # Errors
+/// If a term misses a column.
+pub fn reactions<const D: usize>(
+    world: &World<D>,
+    terms: &[&dyn Interaction<D>],
+    wanted: &[bool],
+) -> Result<Vec<WallForce<D>>, StepError> {
     let positions = world.free.get(fields::POSITION)?;
-    let force = |wanted: &bool| match wanted {
-        true => WallForce::zero(),
-        false => WallForce::unknown(),
-    };
-    let mut forces: Vec<_> = wanted.iter().map(force).collect();
     let (walls, lists) = (&world.walls, &world.lists.wall);
     let sees = |i: usize| {
         let mut contacts = walls.contacts.of(i).iter();
@@ -51,32 +58,26 @@ pub fn wall_forces<const D: usize>(
             || (points.iter()).any(|v| wanted[walls.points.wall[*v as usize] as usize])
     };
     let own = world.team.as_ref().map(|team| team.own(&world.free));
-    let sees = |i: usize| sees(i) && own.as_ref().is_none_or(|own| own[i]);
+    let sees = |i: usize| own.as_ref().is_none_or(|own| own[i]) && sees(i);
     let mut parts: Vec<Vec<[f64; 6]>> = vec![Vec::new(); wanted.len()];
-    for (i, on_walls) in wall_parts(world, terms, sees)?.iter().enumerate() {
-        for (wall, force) in on_walls {
-            let mut both = [0.0; 6];
-            both[..D].copy_from_slice(force.as_slice());
-            both[3..].copy_from_slice(&cross(&positions[i], force));
-            parts[*wall as usize].push(both);
+    for part in wall_parts(world, terms, sees)? {
+        let mut both = [0.0; 6];
+        both[..D].copy_from_slice(part.force.as_slice());
+        both[3..].copy_from_slice(&cross(&positions[part.particle as usize], &part.force));
+        parts[part.wall as usize].push(both);
+    }
+    let all = parts.iter().zip(wanted).map(|(parts, wanted)| {
+        if !wanted {
+            return Ok(WallForce::unknown());
         }
-    }
-    for ((total, parts), _) in forces
-        .iter_mut()
-        .zip(&parts)
-        .zip(wanted)
-        .filter(|(_, w)| **w)
-    {
         let sums = world.sums_of(|| parts.par_iter().with_min_len(1024).copied())?;
-        total.force = Vect::from_fn(|k, _| sums[k]);
-        total.moment = [sums[3], sums[4], sums[5]];
-    }
-    for (wall, total) in forces.iter_mut().enumerate().filter(|(w, _)| wanted[*w]) {
-        let sums = pressure_on(world, wall as u32)?;
-        total.pressure_force = Vect::from_fn(|k, _| sums[k]);
-        total.pressure_moment = [sums[3], sums[4], sums[5]];
-    }
-    Ok(forces)
+        Ok(WallForce {
+            force: Vect::from_fn(|k, _| sums[k]),
+            moment: [sums[3], sums[4], sums[5]],
+            ..WallForce::zero()
+        })
+    });
+    all.collect()
 }
 
 /// Force and moment of the pressure on the elements of a wall.
@@ -94,152 +95,4 @@ fn pressure_on<const D: usize>(world: &World<D>, wall: u32) -> Result<[f64; 6], 
     let all = (0..elements.centre.len()).into_par_iter().with_min_len(256);
     let on = all.filter(|s| elements.wall[*s] == wall && counts(*s));
     world.sums_of(|| on.clone().map(part))
-}
-
-/// What every wanted particle exerts on which wall, N: the parts of [`wall_forces`]. Nothing for particles
-/// that see no wall.
-///
-/// # Errors
-/// If a term misses a column.
-pub fn wall_parts<const D: usize>(
-    world: &World<D>,
-    terms: &[&dyn Interaction<D>],
-    wanted: impl Fn(usize) -> bool + Sync,
-) -> Result<Vec<Vec<(u32, Vect<D>)>>, StepError> {
-    let bound = terms
-        .iter()
-        .map(|t| t.bind(world))
-        .collect::<Result<Vec<_>, _>>()?;
-    let mut states = Vec::new();
-    pack(world, &mut states, Packed::of(terms.iter().copied()))?;
-    let positions = world.free.get(fields::POSITION)?;
-    let mass = world.free.get(fields::MASS)?;
-    let gamma = world.free.get(fields::RENORMALISATION).ok();
-    let empty = Scratch::<D>::new();
-    let near_wall = |i: usize| {
-        let contacts = world.walls.contacts.of(i);
-        !contacts.is_empty() || !(world.lists.wall.is_empty() || world.lists.wall.row(i).is_empty())
-    };
-    let parts = (0..positions.len())
-        .into_par_iter()
-        .with_min_len(256)
-        .map_init(WallRow::default, |row, i| {
-            if !near_wall(i) || !wanted(i) {
-                return Vec::new();
-            }
-            row.gather(world, &positions[i], i);
-            let inverse = gamma.map_or(1.0, |g| 1.0 / g[i]);
-            let sum =
-                |free: &Row<'_, D>, walls: &Row<'_, D>, contacts: ContactRow<'_, D>, inverse| {
-                    let neighbourhood = Neighbourhood {
-                        particle: i,
-                        free: *free,
-                        states: &states,
-                        wall: *walls,
-                        contacts,
-                        inverse_renormalisation: inverse,
-                    };
-                    let mut rates = Rates::of(Vect::zeros());
-                    bound.iter().for_each(|t| t.row(&neighbourhood, &mut rates));
-                    rates.acceleration
-                };
-            let (none, free) = (empty.row(), row.free.row());
-            // A term may look at the free neighbours when it judges the wall's: they are there.
-            let nothing = ContactRow::NONE;
-            let fluid = sum(&free, &none, nothing, inverse);
-            let mut rest = sum(&free, &row.points.row(), all(&row.contacts), inverse)
-                - sum(&free, &none, nothing, 1.0);
-            let own = |wall: &u32| {
-                let (points, contacts) = row.of(world, *wall);
-                let own = sum(&free, &points.row(), all(&contacts), inverse) - fluid;
-                (*wall, own, row.share(&contacts))
-            };
-            let parts: Vec<_> = row.walls.iter().map(own).collect();
-            rest = parts.iter().fold(rest, |rest, (_, own, _)| rest - own);
-            let parts = parts.into_iter();
-            parts
-                .map(|(wall, own, share)| (wall, (own + rest * share) * -mass[i]))
-                .collect()
-        })
-        .collect();
-    Ok(parts)
-}
-
-/// The neighbourhood of one particle, to be taken apart by wall.
-struct WallRow<const D: usize> {
-    free: Scratch<D>,
-    points: Scratch<D>,
-    contacts: ContactBlock<D>,
-    /// Σ |∇γ_as| over all contacts, 1/m.
-    gradient: f64,
-    walls: Vec<u32>,
-}
-
-impl<const D: usize> Default for WallRow<D> {
-    fn default() -> Self {
-        WallRow {
-            free: Scratch::new(),
-            points: Scratch::new(),
-            contacts: ContactBlock::default(),
-            gradient: 0.0,
-            walls: Vec::new(),
-        }
-    }
-}
-
-fn all<const D: usize>(contacts: &ContactBlock<D>) -> ContactRow<'_, D> {
-    contacts.row(0..contacts.planes())
-}
-
-fn sizes<const D: usize>(contacts: &ContactBlock<D>) -> f64 {
-    all(contacts).iter().map(|c| c.gradient.norm()).sum()
-}
-
-impl<const D: usize> WallRow<D> {
-    fn gather(&mut self, world: &World<D>, x: &Vect<D>, i: usize) {
-        let set = &world.walls;
-        let kernel = &*world.kernel;
-        let domain = world.domain.any_periodic().then_some(&world.domain);
-        if let Ok(positions) = world.free.get(fields::POSITION) {
-            let candidates = world.lists.free.candidates(i);
-            self.free
-                .fill(x, positions, candidates, i as u32, domain, kernel);
-        }
-        self.points.clear();
-        if !world.lists.wall.is_empty() {
-            let (candidates, sources) = (world.lists.wall.row(i), &set.points.position);
-            self.points
-                .fill(x, sources, candidates, NOBODY, domain, kernel);
-        }
-        self.contacts.clear();
-        self.contacts.push_row(set.contacts.of(i), |_| true);
-        self.gradient = sizes(&self.contacts);
-        self.walls.clear();
-        let points = self.points.row();
-        let of_points = points.index.iter().map(|v| set.points.wall[*v as usize]);
-        let contacts = all(&self.contacts).iter();
-        let of_contacts = contacts.map(|c| set.elements.wall[c.element as usize]);
-        self.walls.extend(of_points.chain(of_contacts));
-        self.walls.sort_unstable();
-        self.walls.dedup();
-    }
-
-    /// The points and contacts of one wall.
-    fn of(&self, world: &World<D>, wall: u32) -> (Scratch<D>, ContactBlock<D>) {
-        let set = &world.walls;
-        let points = self.points.only(|v| set.points.wall[v as usize] == wall);
-        let mut contacts = ContactBlock::default();
-        contacts.push_row(all(&self.contacts), |s| {
-            set.elements.wall[s as usize] == wall
-        });
-        (points, contacts)
-    }
-
-    /// The share of a wall with these contacts in what 1/γ adds.
-    fn share(&self, contacts: &ContactBlock<D>) -> f64 {
-        match self.gradient > 0.0 {
-            true => sizes(contacts) / self.gradient,
-            false => 0.0,
-        }
-    }
 }

@@ -42,8 +42,10 @@ impl<const D: usize> World<D> {
         }
         // Powers of two: scaling rounds nothing.
         let shifts = largest.map(|m| BITS - exponent(m));
+        let powers = shifts.map(powers);
         let whole = |values: [f64; N]| {
-            std::array::from_fn(|k| scaled(values[k], shifts[k]).round_ties_even() as i128)
+            let scaled = |k: usize| values[k] * powers[k][0] * powers[k][1];
+            std::array::from_fn(|k| scaled(k).round_ties_even() as i128)
         };
         let plus = |a: [i128; N], b: [i128; N]| std::array::from_fn(|k| a[k].wrapping_add(b[k]));
         let mut sums = all().map(whole).reduce(|| [0; N], plus);
@@ -73,10 +75,16 @@ fn exponent(value: f64) -> i32 {
     }
 }
 
-/// value · 2^shift, in two steps where one would overflow.
-fn scaled(value: f64, shift: i32) -> f64 {
+/// Two factors whose product is 2^shift, which itself may overflow.
+fn powers(shift: i32) -> [f64; 2] {
     let half = shift / 2;
-    value * 2_f64.powi(half) * 2_f64.powi(shift - half)
+    [half, shift - half].map(|power| 2_f64.powi(power))
+}
+
+/// value · 2^shift.
+fn scaled(value: f64, shift: i32) -> f64 {
+    let [first, second] = powers(shift);
+    value * first * second
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use crate::list::CHUNK;
 use crate::members::{Members, groups};
 use crate::packed::{Declared, pack};
 use crate::term::{Interaction, Rates, RowTerm, TRANSPORTED, WithTerm};
-use crate::{Clusters, Domain, NOBODY, Neighbourhood, There, World};
+use crate::{Clusters, Domain, NOBODY, Neighbourhood, There, Walled, World};
 
 /// Sums all terms of all particles.
 ///
@@ -124,6 +124,15 @@ impl<const D: usize> RowTerm<D> for Both<'_, D> {
     fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
         self.0.cluster(cluster, rates);
         self.1.cluster(cluster, rates);
+    }
+    fn cluster_walled(
+        &self,
+        cluster: &mut Cluster<'_, D>,
+        walled: &[Walled<'_, D>],
+        rates: &mut [Rates<D>],
+    ) {
+        self.0.cluster_walled(cluster, walled, rates);
+        self.1.cluster_walled(cluster, walled, rates);
     }
 }
 
@@ -292,15 +301,27 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         block: usize,
         rates: &mut [Rates<D>],
     ) {
+        self.each_wanted(block, wanted, buffers, |cluster| {
+            let own = cluster.members();
+            let first = own.start - block * CHUNK;
+            term.cluster(cluster, &mut rates[first..first + own.len()]);
+        });
+    }
+
+    /// Calls `visit` with the clusters of a block where anyone is `wanted`.
+    pub fn each_wanted(
+        &self,
+        block: usize,
+        wanted: impl Fn(usize) -> bool,
+        buffers: &mut Buffers<D>,
+        mut visit: impl FnMut(&mut Cluster<'_, D>),
+    ) {
         for cluster in self.clusters(block) {
             for members in groups(cluster, self.width.lanes()) {
-                let own = members.from..members.from + members.count;
-                if !own.clone().any(&wanted) {
-                    continue;
+                let mut own = members.from..members.from + members.count;
+                if own.any(&wanted) {
+                    visit(&mut self.measured(buffers, members));
                 }
-                let first = members.from - block * CHUNK;
-                let mut cluster = self.measured(buffers, members);
-                term.cluster(&mut cluster, &mut rates[first..first + members.count]);
             }
         }
     }

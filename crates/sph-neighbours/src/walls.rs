@@ -73,6 +73,8 @@ pub struct Elements<const D: usize> {
     pub slip: Vec<f64>,
     /// Whether the friction is that of a wall function; empty where no wall has one.
     pub wall_function: Vec<bool>,
+    /// Whether fluid passes there; empty where there are no open faces.
+    pub open: Vec<bool>,
     /// Friction of soils; empty where no wall has a coefficient.
     pub coulomb: Vec<Coulomb>,
     /// Which named wall the element belongs to.

@@ -80,7 +80,7 @@ impl<const D: usize> Faces<D> {
     }
 
     /// What is seen where no particle is near.
-    fn nothing(&self, k: usize) -> Looked<D> {
+    pub(crate) fn nothing(&self, k: usize) -> Looked<D> {
         let (mean_pressure, mean) = match self.memory.dt > 0.0 {
             true => self.memory.mean[k],
             false => (0.0, Vect::zeros()),

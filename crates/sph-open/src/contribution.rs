@@ -68,6 +68,7 @@ pub fn open<const D: usize>(
         filled: Vec::new(),
         memory: Memory::new(0, 0, 0),
         kicks: Vec::new(),
+        looked: Vec::new(),
         due: false,
     };
     let faces = Arc::new(Mutex::new(faces));

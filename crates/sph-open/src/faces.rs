@@ -8,6 +8,7 @@ use sph_neighbours::{Passed, WallSet};
 use sph_state::Laws;
 
 use crate::cells::cells;
+use crate::look::Looked;
 use crate::memory::Memory;
 use crate::row::near;
 use crate::{Inside, OpenBoundary, Outside, Place};
@@ -69,6 +70,8 @@ pub(crate) struct Faces<const D: usize> {
     pub memory: Memory<D>,
     /// What [`balance`](Self::balance) adds to velocities, m/s, to be filled again.
     pub kicks: Vec<Vect<D>>,
+    /// What was seen before the elements, to be filled again.
+    pub looked: Vec<Looked<D>>,
     /// Whether particles come and go at the end of this step.
     pub due: bool,
 }
@@ -100,6 +103,7 @@ impl<const D: usize> Faces<D> {
             }
             face.elements = first..self.elements.len();
         }
+        walls.elements.open = self.open.iter().map(|k| *k != CLOSED).collect();
         self.smooth = (0..self.places.len())
             .map(|k| self.around(k, kernel))
             .collect();
@@ -128,6 +132,7 @@ impl<const D: usize> Faces<D> {
         self.lacking = vec![0.0; ports];
         self.filled = vec![0.0; ports];
         self.memory = Memory::new(ports, phases, self.faces.len());
+        self.looked.clear();
         walls.passed = self.passed(walls);
     }
 

@@ -38,22 +38,32 @@ impl<const D: usize> Faces<D> {
             false => 0.0,
         };
         let first = world.walls.points.corners;
+        let limit = world.kernel.support_radius().powi(2);
+        let passes: Vec<_> = (0..self.elements.len()).map(|k| self.through(k)).collect();
         let one = |i: usize, constant: &mut f64, last: &mut f64| {
+            let (contacts, ports) = (world.walls.contacts.of(i), world.lists.wall.row(i));
+            if contacts.is_empty() && ports.is_empty() && *last == 0.0 {
+                return;
+            }
             let mut through = 0.0;
-            for contact in world.walls.contacts.of(i) {
+            for contact in contacts {
                 let k = self.open[contact.element as usize];
                 if k != CLOSED {
-                    through += self.through(k as usize).dot(&contact.gradient);
+                    through += passes[k as usize].dot(&contact.gradient);
                 }
             }
             let mut beside = 0.0;
-            for &v in world.lists.wall.row(i) {
+            for &v in ports {
                 let k = v as usize - first;
                 let apart = world
                     .domain
                     .nearest_image(position[i] - self.places[k].centre);
-                let factor = world.kernel.at(apart.norm()).1;
-                let parting = velocity[i] - self.through(k);
+                let r2 = apart.norm_squared();
+                if r2 >= limit {
+                    continue;
+                }
+                let factor = world.kernel.at(r2.sqrt()).1;
+                let parting = velocity[i] - passes[k];
                 beside += self.lacking[k] * parting.dot(&apart) * factor;
             }
             let now = density[i] * through;

@@ -6,7 +6,7 @@ use sph_neighbours::World;
 
 use crate::faces::Faces;
 use crate::row::Row;
-use crate::{Inside, Moment};
+use crate::{Inside, Moment, Place};
 
 /// Least Σ V w of the fluid before an element, of the ½ of a filled half space, for a mean that means something.
 const WET: f64 = 0.15;
@@ -14,6 +14,9 @@ const WET: f64 = 0.15;
 /// Share of the weight of a full row from which on an element is full: particles that are not on a lattice weigh more or less
 /// than one.
 const FULL: f64 = 0.8;
+
+/// Elements that one thread takes at least.
+const BATCH: usize = 16;
 
 /// The fluid in front of an element.
 pub(crate) struct Looked<const D: usize> {
@@ -30,19 +33,26 @@ impl<const D: usize> Faces<D> {
     /// Looks at the fluid in front of all elements, and asks the laws.
     pub fn look(&mut self, world: &World<D>) -> Result<(), StepError> {
         let phases = self.whole.len();
-        let looked: Vec<Looked<D>> = (0..self.elements.len())
-            .into_par_iter()
-            .map(|k| self.before(world, k))
-            .collect::<Result<_, _>>()?;
+        let columns = Columns::of(world)?;
+        let mut looked = std::mem::take(&mut self.looked);
+        looked.resize_with(self.elements.len(), || self.nothing(0));
+        looked
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(BATCH)
+            .for_each_init(Room::default, |room, (k, seen)| {
+                self.before(world, &columns, k, room, seen);
+            });
         let looked = self.agreed(world, looked)?;
-        for (k, seen) in looked.into_iter().enumerate() {
+        for (k, seen) in looked.iter().enumerate() {
             self.present[k] = seen.inside.velocity;
-            self.inside[k] = self.arriving(k, &seen);
+            self.inside[k] = self.arriving(k, seen);
             self.rows[k] = seen.row;
             self.filled[k] = seen.filled;
             self.lacking[k] = seen.lacking;
             self.mix[k * phases..(k + 1) * phases].copy_from_slice(&seen.mix);
         }
+        self.looked = looked;
         let moment = Moment {
             time: world.time,
             gravity: world.gravity,
@@ -105,40 +115,47 @@ impl<const D: usize> Faces<D> {
     }
 
     /// Means over the fluid before an element.
-    fn before(&self, world: &World<D>, k: usize) -> Result<Looked<D>, StepError> {
-        let free = &world.free;
-        let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
-        let (pressure, density) = (free.get(fields::PRESSURE)?, free.get(fields::DENSITY)?);
-        let volume = free.get(fields::VOLUME)?;
-        let phase = free.get(fields::PHASE).ok();
+    fn before(
+        &self,
+        world: &World<D>,
+        columns: &Columns<'_, D>,
+        k: usize,
+        room: &mut Room<D>,
+        seen: &mut Looked<D>,
+    ) {
         let place = &self.places[k];
-        let mut mix = vec![0.0; self.whole.len()];
+        room.fill(
+            world,
+            columns.position,
+            place,
+            world.lists.of_points.candidates(k),
+        );
+        let mix = &mut seen.mix;
+        mix.clear();
+        mix.resize(self.whole.len(), 0.0);
         // Σ V w ρ, by phase: the speed of sound is asked once for each.
-        let mut weighed = vec![0.0; self.whole.len()];
+        let weighed = &mut room.weighed;
+        weighed.clear();
+        weighed.resize(self.whole.len(), 0.0);
         let (mut filling, mut p, mut reach) = (0.0, 0.0, 0.0);
         let mut u = Vect::<D>::zeros();
         let mut row = Row::default();
-        let limit = world.kernel.support_radius().powi(2);
-        for &j in world.lists.of_points.candidates(k) {
-            let j = j as usize;
-            let apart = world.domain.nearest_image(place.centre - position[j]);
-            let r2 = apart.norm_squared();
-            if r2 >= limit {
-                continue;
-            }
-            let vw = volume[j] * world.kernel.at(r2.sqrt()).0;
-            let phase = phase.map_or(0, |p| p[j] as usize);
-            let over = pressure[j] - self.background(phase);
+        for ((j, apart), w) in room.near.iter().zip(&room.value) {
+            let j = *j;
+            let vw = columns.volume[j] * w;
+            let phase = columns.phase.map_or(0, |p| p[j] as usize);
+            let over = columns.pressure[j] - self.background(phase);
             filling += vw;
             reach -= vw * apart.dot(&place.normal);
             mix[phase] += vw;
-            p += vw * (over + density[j] * world.gravity.dot(&apart));
-            u += velocity[j] * vw;
-            row.add(&place.normal, &apart, self.spacing, vw, &velocity[j]);
-            weighed[phase] += vw * density[j];
+            p += vw * (over + columns.density[j] * world.gravity.dot(apart));
+            let velocity = &columns.velocity[j];
+            u += velocity * vw;
+            row.add(&place.normal, apart, self.spacing, vw, velocity);
+            weighed[phase] += vw * columns.density[j];
         }
         let (mut z, mut rho) = (0.0, 0.0);
-        for ((law, sum), filled) in self.laws.iter().zip(&weighed).zip(&mix) {
+        for ((law, sum), filled) in self.laws.iter().zip(&*weighed).zip(&*mix) {
             if *filled > 0.0 {
                 rho += sum;
                 z += sum * law.sound_speed(sum / filled);
@@ -153,7 +170,7 @@ impl<const D: usize> Faces<D> {
             true => self.memory.mean[k],
             false => (p, u),
         };
-        let inside = Inside {
+        seen.inside = Inside {
             wet: filling >= WET,
             pressure: p,
             velocity: u,
@@ -162,16 +179,83 @@ impl<const D: usize> Faces<D> {
             mean,
             mean_pressure,
         };
-        let lacking = self.lacks(k, row.weight());
-        let filled = (row.weight() / (FULL * self.full[k])).min(1.0);
-        let row = row.velocity(self.spacing).unwrap_or(u);
-        Ok(Looked {
-            inside,
-            reach,
-            row,
-            mix,
-            filled,
-            lacking,
+        seen.reach = reach;
+        seen.lacking = self.lacks(k, row.weight());
+        seen.filled = (row.weight() / (FULL * self.full[k])).min(1.0);
+        seen.row = row.velocity(self.spacing).unwrap_or(u);
+    }
+}
+
+/// What is asked of the particles before faces.
+struct Columns<'a, const D: usize> {
+    position: &'a [Vect<D>],
+    velocity: &'a [Vect<D>],
+    pressure: &'a [f64],
+    density: &'a [f64],
+    volume: &'a [f64],
+    phase: Option<&'a [u32]>,
+}
+
+impl<'a, const D: usize> Columns<'a, D> {
+    fn of(world: &'a World<D>) -> Result<Self, StepError> {
+        let free = &world.free;
+        Ok(Columns {
+            position: free.get(fields::POSITION)?,
+            velocity: free.get(fields::VELOCITY)?,
+            pressure: free.get(fields::PRESSURE)?,
+            density: free.get(fields::DENSITY)?,
+            volume: free.get(fields::VOLUME)?,
+            phase: free.get(fields::PHASE).ok(),
         })
+    }
+}
+
+/// Buffers of a task.
+struct Room<const D: usize> {
+    /// Particles within the support of an element's centre, and the ways from them to it, m.
+    near: Vec<(usize, Vect<D>)>,
+    /// Squares of their distances, m².
+    distance2: Vec<f64>,
+    /// w, 1/m^d.
+    value: Vec<f64>,
+    weighed: Vec<f64>,
+}
+
+impl<const D: usize> Default for Room<D> {
+    fn default() -> Self {
+        Room {
+            near: Vec::new(),
+            distance2: Vec::new(),
+            value: Vec::new(),
+            weighed: Vec::new(),
+        }
+    }
+}
+
+impl<const D: usize> Room<D> {
+    /// Finds the particles before an element; the kernel is asked once for all of them.
+    fn fill(
+        &mut self,
+        world: &World<D>,
+        position: &[Vect<D>],
+        place: &Place<D>,
+        candidates: &[u32],
+    ) {
+        self.near.clear();
+        self.distance2.clear();
+        let limit = world.kernel.support_radius().powi(2);
+        for &j in candidates {
+            let apart = world
+                .domain
+                .nearest_image(place.centre - position[j as usize]);
+            let r2 = apart.norm_squared();
+            if r2 >= limit {
+                continue;
+            }
+            self.near.push((j as usize, apart));
+            self.distance2.push(r2);
+        }
+        self.value.resize(self.near.len(), 0.0);
+        world.kernel.value(&self.distance2, &mut self.value);
     }
 }

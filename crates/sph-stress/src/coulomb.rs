@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_contribution::{Forces, StepWork};
 use sph_core::{Access, Field, Scalar, StepError, Symmetric, Vect, fields};
-use sph_neighbours::{Contact, Interaction, WallForce, World, cross, wall_parts};
+use sph_neighbours::{Contact, Interaction, WallForce, WallPart, World, cross, wall_parts};
 
 /// Coulomb's friction on walls that have a coefficient μ: the wall pulls at the soil with μ times what
 /// the soil presses on it, against the sliding, and at most with what stops it within the step.
@@ -230,29 +230,32 @@ impl<const D: usize> Soil<'_, D> {
     }
 
     /// N_s over Σ V_a|∇γ_as| of every element, N/m^(d−1).
-    fn pressed(&self, parts: &[Vec<(u32, Vect<D>)>]) -> Vec<f64> {
+    fn pressed(&self, parts: &[WallPart<D>]) -> Vec<f64> {
         let elements = &self.world.walls.elements;
         let contacts = &self.world.walls.contacts;
         let mut before = vec![Before::default(); elements.centre.len()];
-        for &particle in &contacts.particles {
-            let i = particle as usize;
+        for WallPart {
+            particle,
+            wall,
+            force,
+        } in parts
+        {
+            let i = *particle as usize;
             let own = contacts.of(i);
-            for (wall, force) in parts[i].iter().filter(|_| self.rubs(i)) {
-                let on_wall = |c: &Contact<D>| elements.wall[c.element as usize] == *wall;
-                let all: f64 = own.iter().filter(on_wall).map(|c| c.gradient.norm()).sum();
-                for contact in own.iter().filter(on_wall) {
-                    let s = contact.element as usize;
-                    let (gradient, normal) = (contact.gradient.norm(), &elements.normal[s]);
-                    let weight = self.volume[i] * gradient;
-                    let sums = &mut before[s];
-                    sums.force -= force.dot(normal) * gradient / all;
-                    sums.weight += weight;
-                    if let Some(effective) = self.effective {
-                        let stress = self.stress.map(|t| t[i].apply(normal).dot(normal));
-                        let elastic = stress.unwrap_or(0.0);
-                        sums.tractions[0] += weight * (effective[i] - elastic);
-                        sums.tractions[1] += weight * (self.pressure[i] - elastic);
-                    }
+            let on_wall = |c: &Contact<D>| elements.wall[c.element as usize] == *wall;
+            let all: f64 = own.iter().filter(on_wall).map(|c| c.gradient.norm()).sum();
+            for contact in own.iter().filter(on_wall) {
+                let s = contact.element as usize;
+                let (gradient, normal) = (contact.gradient.norm(), &elements.normal[s]);
+                let weight = self.volume[i] * gradient;
+                let sums = &mut before[s];
+                sums.force -= force.dot(normal) * gradient / all;
+                sums.weight += weight;
+                if let Some(effective) = self.effective {
+                    let stress = self.stress.map(|t| t[i].apply(normal).dot(normal));
+                    let elastic = stress.unwrap_or(0.0);
+                    sums.tractions[0] += weight * (effective[i] - elastic);
+                    sums.tractions[1] += weight * (self.pressure[i] - elastic);
                 }
             }
         }

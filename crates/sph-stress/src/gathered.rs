@@ -10,24 +10,37 @@ use crate::{NeighbourSums, VelocityGradient};
 ///
 /// An element stands at the foot of the particle on its plane. Walls that do not rub stop the velocity normal to them,
 /// and know nothing of that along them: they take part in the gradient of the normal component alone. (Without them a
-/// wall's force would do work that no strain answers.)
+/// wall's force would do work that no strain answers.) So do open faces, apart from such walls: where both meet, what a wall
+/// at rest says of the velocity along it is not to be taken for what the face says of that through it.
 #[derive(Clone, Copy)]
 pub struct Gathered<const D: usize> {
     /// Of free neighbours, and of walls as far as they rub.
     sums: [SMatrix<f64, D, D>; 2],
-    /// What walls that slip add.
-    slipping: [SMatrix<f64, D, D>; 2],
-    /// Where they face.
+    /// What walls that slip add, and what open faces do.
+    slipping: [Slipping<D>; 2],
+}
+
+/// What is known of the normal component alone.
+#[derive(Clone, Copy)]
+struct Slipping<const D: usize> {
+    sums: [SMatrix<f64, D, D>; 2],
+    /// Where it faces.
     facing: Vect<D>,
 }
+
+const WALLS: usize = 0;
+const OPEN: usize = 1;
 
 impl<const D: usize> Default for Gathered<D> {
     #[inline(always)]
     fn default() -> Self {
+        let nothing = Slipping {
+            sums: [SMatrix::zeros(); 2],
+            facing: Vect::zeros(),
+        };
         Gathered {
             sums: [SMatrix::zeros(); 2],
-            slipping: [SMatrix::zeros(); 2],
-            facing: Vect::zeros(),
+            slipping: [nothing; 2],
         }
     }
 }
@@ -54,7 +67,8 @@ impl<const D: usize> Gathered<D> {
         let share = points.share[v] * points.volume[v];
         let weight = (apart * (share * factor)).transpose();
         let velocity = (points.viscous_velocity[v] - own) * weight;
-        self.add([velocity, -apart * weight], points.grip[v]);
+        let kind = if points.ports { OPEN } else { WALLS };
+        self.add([velocity, -apart * weight], points.grip[v], kind);
     }
 
     /// Adds a wall element.
@@ -65,15 +79,19 @@ impl<const D: usize> Gathered<D> {
         let foot = elements.normal[s] * contact.distance;
         let velocity = (elements.velocity[s] - own) * weight;
         let grip = elements.grip[s];
-        self.add([velocity, -foot * weight], grip);
-        self.facing += contact.gradient * (1.0 - grip);
+        let kind = match elements.open.get(s) {
+            Some(true) => OPEN,
+            _ => WALLS,
+        };
+        self.add([velocity, -foot * weight], grip, kind);
+        self.slipping[kind].facing += contact.gradient * (1.0 - grip);
     }
 
     #[inline(always)]
-    fn add(&mut self, added: [SMatrix<f64, D, D>; 2], grip: f64) {
+    fn add(&mut self, added: [SMatrix<f64, D, D>; 2], grip: f64, kind: usize) {
         for (k, added) in added.iter().enumerate() {
             self.sums[k] += added * grip;
-            self.slipping[k] += added * (1.0 - grip);
+            self.slipping[kind].sums[k] += added * (1.0 - grip);
         }
     }
 
@@ -83,20 +101,44 @@ impl<const D: usize> Gathered<D> {
         formula: &dyn VelocityGradient<D>,
         inverse_renormalisation: f64,
     ) -> SMatrix<f64, D, D> {
-        let [velocity, position] = self.sums;
-        let mut sums = NeighbourSums {
-            velocity,
-            position,
-            inverse_renormalisation,
+        let with = |added: &[SMatrix<f64, D, D>; 2]| {
+            formula.gradient(&NeighbourSums {
+                velocity: self.sums[0] + added[0],
+                position: self.sums[1] + added[1],
+                inverse_renormalisation,
+            })
         };
-        let along = formula.gradient(&sums);
-        let Some(normal) = self.facing.try_normalize(0.0) else {
-            return along;
+        let along = with(&[SMatrix::zeros(); 2]);
+        let mut whole = along;
+        let mut take = |slipping: &Slipping<D>| {
+            if let Some(normal) = slipping.facing.try_normalize(0.0) {
+                let across = with(&slipping.sums);
+                whole += normal * (normal.transpose() * (across - along));
+            }
         };
-        sums.velocity += self.slipping[0];
-        sums.position += self.slipping[1];
-        let across = formula.gradient(&sums);
-        along + normal * (normal.transpose() * (across - along))
+        let [walls, open] = &self.slipping;
+        match open.beyond(walls) {
+            Some(beyond) => [walls, &beyond].into_iter().for_each(&mut take),
+            None => take(&walls.and(open)),
+        }
+        whole
+    }
+}
+
+impl<const D: usize> Slipping<D> {
+    fn and(&self, other: &Self) -> Self {
+        Slipping {
+            sums: [self.sums[0] + other.sums[0], self.sums[1] + other.sums[1]],
+            facing: self.facing + other.facing,
+        }
+    }
+
+    /// Where it meets a wall at an angle: itself, facing where the wall does not.
+    fn beyond(&self, wall: &Self) -> Option<Self> {
+        let normal = wall.facing.try_normalize(0.0)?;
+        let facing = self.facing - normal * normal.dot(&self.facing);
+        let at_an_angle = facing.norm() > 0.5 * self.facing.norm();
+        at_an_angle.then_some(Slipping { facing, ..*self })
     }
 }
 

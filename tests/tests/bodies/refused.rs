@@ -131,3 +131,22 @@ fn walls_that_fluid_clings_to_are_refused() {
     let said = told("vertices = false", "", "[wall.float.mover.rigid-body]");
     assert!(said.contains("vertices = false"), "{said}");
 }
+
+#[test]
+fn times_that_are_not_one_after_the_other_are_refused() {
+    let twice = |first: &str, second: &str| {
+        let times = format!("prescribed = [{{ {first} }},\n{{ {second} }}]");
+        told(BODY, &format!("{BODY}\n{times}"), second)
+    };
+    let said = twice(
+        "from = \"1 s\", to = \"3 s\"",
+        "from = \"2 s\", to = \"4 s\"",
+    );
+    assert!(said.contains("2 s is before 3 s"), "{said}");
+    let course = "course = [[3.0, 0.0, 0.1, 0.0], [3.5, 0.0, 0.1, 0.0]]";
+    let said = twice(
+        "from = \"1 s\", to = \"3 s\"",
+        &format!("from = \"3 s\", to = \"4 s\", {course}"),
+    );
+    assert!(said.contains("does not cover 3 to 4 s"), "{said}");
+}

@@ -1,5 +1,6 @@
 //! Closures and wall functions in whole scenes.
 
+mod inlet;
 mod phases;
 mod probes;
 mod refusals;

@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 use sph_contribution::Forces;
-use sph_core::{StepError, Vect, fields};
-use sph_neighbours::{WallForce, wall_forces};
+use sph_core::{StepError, fields};
+use sph_neighbours::{WallForce, reactions};
 
 use crate::step::books::Books;
 use crate::step::clocks::MOTION;
@@ -94,11 +94,7 @@ impl<const D: usize> Flow<D> {
             return Ok(());
         }
         let terms: Vec<_> = self.terms.iter().map(|t| &**t).collect();
-        self.loads = wall_forces(&self.world, &terms, felt)?;
-        // Integrals of pressure are for probes: no rank knows the pressure on all elements.
-        for load in &mut self.loads {
-            (load.pressure_force, load.pressure_moment) = (Vect::zeros(), [0.0; 3]);
-        }
+        self.loads = reactions(&self.world, &terms, felt)?;
         Ok(())
     }
 
@@ -125,7 +121,7 @@ impl<const D: usize> Flow<D> {
         }
         if !self.outside.is_empty() {
             let outside: Vec<_> = self.outside.iter().map(|f| &**f).collect();
-            let more = wall_forces(&self.world, &outside, felt)?;
+            let more = reactions(&self.world, &outside, felt)?;
             let walls = self.loads.iter_mut().zip(more);
             walls.for_each(|(whole, more)| {
                 whole.force += more.force;

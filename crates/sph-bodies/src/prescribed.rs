@@ -1,0 +1,216 @@
+//! Times in which a body is moved as the scene says, whatever pushes it.
+
+use nalgebra::{Vector3, Vector6};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_boundary::{MoverRefusal, RigidState};
+use sph_core::Vect;
+
+use crate::six::{parts, six};
+
+/// A time in which the body moves as given: it keeps the velocities that it had, or takes those of a course.
+///
+/// What pushes it is measured all the same, and nothing stops it.
+///
+/// ```toml
+/// [[wall.float.mover.rigid-body.prescribed]]
+/// from = "1 s"
+/// to = "2 s"
+/// course = [[1.0, 0.0, 0.1, 0.0], [2.0, 0.0, -0.1, 0.0]]
+/// ```
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Prescribed {
+    /// When it begins, s.
+    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    pub from: f64,
+    /// When the body is free again, s.
+    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub to: f64,
+    /// Times, s, each with the velocity of the centre, m/s, and the angular velocity then, rad/s: `[t, u_x, u_y, ω]` in two
+    /// dimensions, `[t, u_x, u_y, u_z, ω_x, ω_y, ω_z]` in three; straight between them. Without it the body keeps what it has.
+    #[serde(default)]
+    pub course: Vec<Vec<f64>>,
+}
+
+/// Refuses times that are not one after the other, and courses that do not say all.
+pub(crate) fn check<const D: usize>(all: &[Prescribed], start: f64) -> Result<(), MoverRefusal> {
+    let columns = if D == 2 { 4 } else { 7 };
+    let mut before = start;
+    for (k, one) in all.iter().enumerate() {
+        let refused =
+            |key: &str, why: String| Err(MoverRefusal::of(format!("prescribed[{k}].{key}"), why));
+        if one.from < before {
+            let what = match k {
+                0 => "the body is free from `start` on",
+                _ => "the time before it ends",
+            };
+            return refused(
+                "from",
+                format!("{} s is before {before} s, when {what}", one.from),
+            );
+        }
+        if one.to <= one.from {
+            return refused("to", format!("{} s is not after {} s", one.to, one.from));
+        }
+        before = one.to;
+        if let Some(row) = one.course.iter().position(|row| row.len() != columns) {
+            let found = one.course[row].len();
+            return refused(
+                "course",
+                format!("row {row} has {found} numbers, {columns} are expected"),
+            );
+        }
+        if let Some(row) = (1..one.course.len()).find(|j| one.course[*j][0] <= one.course[j - 1][0])
+        {
+            return refused(
+                "course",
+                format!("the time of row {row} is not after that of the row before it"),
+            );
+        }
+        let ends = one.course.first().zip(one.course.last());
+        if ends.is_some_and(|(first, last)| first[0] > one.from || last[0] < one.to) {
+            let why = format!("it does not cover {} to {} s", one.from, one.to);
+            return refused("course", why);
+        }
+    }
+    Ok(())
+}
+
+/// Velocities and accelerations of a body along the axes and about them.
+pub(crate) struct Given {
+    pub velocity: Vector6<f64>,
+    pub acceleration: Vector6<f64>,
+}
+
+impl Prescribed {
+    /// Whether a step from a time is its own.
+    pub(crate) fn holds(&self, time: f64) -> bool {
+        self.from <= time && time < self.to
+    }
+
+    /// What its course says at a time; nothing without a course.
+    pub(crate) fn at(&self, time: f64) -> Option<Given> {
+        let place = self.course.partition_point(|row| row[0] <= time);
+        // A course has two rows at least: it covers a time.
+        let last = self.course.len().checked_sub(1).filter(|last| *last > 0)?;
+        let next = place.clamp(1, last);
+        let [a, b] = [next - 1, next].map(|k| &self.course[k][..]);
+        let of = |row: &[f64]| {
+            let about = match row.len() {
+                4 => Vector3::new(0.0, 0.0, row[3]),
+                _ => Vector3::from_column_slice(&row[4..]),
+            };
+            let along = Vector3::new(row[1], row[2], if row.len() == 4 { 0.0 } else { row[3] });
+            six(along, about)
+        };
+        let (from, to) = (of(a), of(b));
+        let slope = (to - from) / (b[0] - a[0]);
+        let gone = (time - a[0]).clamp(0.0, b[0] - a[0]);
+        Some(Given {
+            velocity: from + slope * gone,
+            acceleration: slope,
+        })
+    }
+}
+
+/// The state after a step in which the body has velocities that are given, or keeps its own.
+pub(crate) fn moved<const D: usize>(
+    now: &RigidState<D>,
+    given: Option<Given>,
+    dt: f64,
+) -> RigidState<D> {
+    let mut state = *now;
+    let (mut along, mut about) = (Vector3::zeros(), Vector3::zeros());
+    if let Some(given) = given {
+        let (velocity, turning) = parts(&given.velocity);
+        state.velocity = Vect::from_fn(|k, _| velocity[k]);
+        state.angular_velocity = turning.into();
+        (along, about) = parts(&given.acceleration);
+    }
+    state.acceleration = Vect::from_fn(|k, _| along[k]);
+    state.angular_acceleration = about.into();
+    let place = Vect::from(now.pose.translation) + state.velocity * dt;
+    state.pose.translation = place.into();
+    state.turned_by(state.angular_velocity.map(|w| w * dt))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(from: f64, to: f64, course: &[&[f64]]) -> Prescribed {
+        let course = course.iter().map(|row| row.to_vec()).collect();
+        Prescribed { from, to, course }
+    }
+
+    #[test]
+    fn a_course_is_straight_between_its_rows() {
+        let course = one(
+            1.0,
+            3.0,
+            &[
+                &[1.0, 0.0, 2.0, 1.0],
+                &[2.0, 0.0, 4.0, 0.0],
+                &[3.0, 1.0, 4.0, 0.0],
+            ],
+        );
+        assert!(course.holds(1.0) && !course.holds(3.0));
+        let at = |time: f64| course.at(time).map(|g| (g.velocity, g.acceleration));
+        let numbers = |x: f64, y: f64, about: f64| {
+            six(Vector3::new(x, y, 0.0), Vector3::new(0.0, 0.0, about))
+        };
+        assert_eq!(
+            at(1.5),
+            Some((numbers(0.0, 3.0, 0.5), numbers(0.0, 2.0, -1.0)))
+        );
+        assert_eq!(
+            at(2.0),
+            Some((numbers(0.0, 4.0, 0.0), numbers(1.0, 0.0, 0.0)))
+        );
+        // The step that goes beyond its end.
+        assert_eq!(
+            at(3.1),
+            Some((numbers(1.0, 4.0, 0.0), numbers(1.0, 0.0, 0.0)))
+        );
+        assert!(one(1.0, 2.0, &[]).at(1.0).is_none());
+    }
+
+    #[test]
+    fn what_is_not_in_order_is_refused_with_its_key() {
+        let why = |all: &[Prescribed]| match check::<2>(all, 0.5) {
+            Ok(()) => String::new(),
+            Err(MoverRefusal { key, why }) => format!("{key}: {why}"),
+        };
+        let row = [0.0; 4];
+        assert_eq!(why(&[one(0.5, 1.0, &[]), one(1.0, 2.0, &[])]), "");
+        for (all, expected) in [
+            (
+                vec![one(0.4, 1.0, &[])],
+                "prescribed[0].from: 0.4 s is before 0.5 s",
+            ),
+            (
+                vec![one(1.0, 2.0, &[]), one(1.5, 3.0, &[])],
+                "prescribed[1].from: 1.5 s is before 2 s",
+            ),
+            (
+                vec![one(1.0, 1.0, &[])],
+                "prescribed[0].to: 1 s is not after 1 s",
+            ),
+            (
+                vec![one(1.0, 2.0, &[&row[..3]])],
+                "prescribed[0].course: row 0 has 3 numbers, 4",
+            ),
+            (
+                vec![one(1.0, 2.0, &[&row, &row])],
+                "prescribed[0].course: the time of row 1",
+            ),
+            (
+                vec![one(1.0, 2.0, &[&row])],
+                "prescribed[0].course: it does not cover 1 to 2 s",
+            ),
+        ] {
+            assert!(why(&all).starts_with(expected), "{}", why(&all));
+        }
+    }
+}
