@@ -112,7 +112,9 @@ fn beside_a_wall<const D: usize>(
     }
     let gamma = world.free.get(fields::RENORMALISATION)?;
     let aside = |d: &Vect<D>| (0..D - 1).map(|k| d[k] * d[k]).sum::<f64>();
-    let close = near.iter().filter(|(d, ..)| aside(d) <= world.spacing.powi(2));
+    let close = near
+        .iter()
+        .filter(|(d, ..)| aside(d) <= world.spacing.powi(2));
     let highest = close.max_by(|a, b| a.0[D - 1].total_cmp(&b.0[D - 1]));
     Ok(highest.is_some_and(|(d, _, k)| d[D - 1] > floor && gamma[*k] < 1.0))
 }
