@@ -13,8 +13,8 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 ///
 /// The sum is over the particles of `phase`, so that its top is found under another fluid, or over
 /// all particles. Under water it is one, and less beside an upright wall, as no particles are behind that: there the
-/// largest sum over the line counts, where the water is deeper than two supports. A level found at one half would be up
-/// to half a spacing too low.
+/// largest sum over the line counts, where the water is deeper than two supports. At one half the level one spacing off
+/// a wall would be a third of a spacing too low (h = 1.5 δr in space), and half a spacing off it there might be none.
 ///
 /// ```toml
 /// [gauge.H1]
