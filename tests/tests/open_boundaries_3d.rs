@@ -89,10 +89,13 @@ fn what_comes_in_less_what_goes_out_is_what_is_held() {
     let summary = into(out.path(), DUCT, 2, Start::Afresh);
     let passed = passed(&summary);
     let entered = number(passed, "inlet.mud", "entered");
-    // ρ u S t, with the density that the pressure at the face makes.
+    // ρ u S t, with the density that the pressure at the face makes: that of friction, in a duct full of mud at most. A
+    // duct of 0.5 by 0.4 m has f Re = 57 (Shah & London 1978), 14 Pa/m here, and ρc² is 230 Pa.
+    let denser = 14.0 * 0.8 / (1.6 * 12.0 * 12.0);
+    let over = entered / (1.6 * 0.2 * 0.6) - 1.0;
     assert!(
-        (entered / (1.6 * 0.2 * 0.6) - 1.0).abs() < 0.02,
-        "{entered} kg came in"
+        over > 0.0 && over < denser,
+        "{entered} kg came in, {over:.4} more than ρuSt; friction makes {denser:.4} at most"
     );
     let faces = ["inlet.mud", "outlet.mud", "outlet.water"];
     let sum = |key: &str| faces.iter().map(|f| number(passed, f, key)).sum::<f64>();

@@ -67,6 +67,7 @@ pub fn open<const D: usize>(
         lacking: Vec::new(),
         filled: Vec::new(),
         memory: Memory::new(0, 0, 0),
+        kicks: Vec::new(),
         looked: Vec::new(),
         due: false,
     };

@@ -11,6 +11,7 @@ mod cells;
 mod contract;
 mod contribution;
 mod course;
+mod evenness;
 mod exits;
 mod faces;
 mod flux;

@@ -78,16 +78,17 @@ impl<const D: usize> Faces<D> {
     /// What is seen in front of an element, as it arrives at the face.
     ///
     /// A mean that stands a distance d before the face sees a wave d/c too early. It is delayed by this time,
-    /// y' = (x − y) c/d, with the end of the step.
+    /// y' = (x − y) c/d, with the end of the step. Velocities are those of half a step ago, as everybody kicks once in a step,
+    /// and are delayed by as much less.
     fn arriving(&self, k: usize, seen: &Looked<D>) -> Inside<D> {
         let mut inside = seen.inside;
         let dt = self.memory.dt;
         if inside.wet && dt > 0.0 {
             let late = seen.reach * inside.density / inside.impedance;
-            let part = dt / (dt + late);
+            let share = |late: f64| dt / (dt + late.max(0.0));
             let (pressure, velocity) = &self.memory.arrived[k];
-            inside.pressure = pressure + (inside.pressure - pressure) * part;
-            inside.velocity = velocity + (inside.velocity - velocity) * part;
+            inside.pressure = pressure + (inside.pressure - pressure) * share(late);
+            inside.velocity = velocity + (inside.velocity - velocity) * share(late - 0.5 * dt);
         }
         inside
     }

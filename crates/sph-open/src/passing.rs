@@ -26,11 +26,14 @@ impl<const D: usize> StepWork<D> for Passing<D> {
 
     fn access(&self) -> Access {
         let access = Access::none()
-            .here(fields::POSITION)
+            .both(fields::POSITION)
+            .both(fields::VOLUME)
             .here(fields::VELOCITY)
             .here(fields::MASS)
             .here(fields::DENSITY)
+            .here(fields::RENORMALISATION)
             .here(fields::IDENTITY)
+            .writes(fields::VELOCITY)
             .where_there(fields::PHASE);
         match self.summed {
             false => access,
@@ -51,6 +54,7 @@ impl<const D: usize> StepWork<D> for Passing<D> {
 
     fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mut faces = lock(&self.faces);
+        faces.balance(world, dt)?;
         if self.summed {
             faces.advance_densities(world, dt)?;
         }

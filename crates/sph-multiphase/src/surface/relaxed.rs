@@ -20,7 +20,8 @@ contribution_kind!(
 /// dK/dt = −(K − K′)/τ with τ = n h/c, where
 ///
 /// * no surface is within the support: K′ is K cut to ± ε ρ₀, for a full support lacks nothing;
-/// * the particle is at a surface: K′ is such that ρ is not below (1 − ε) ρ₀, for water there is not under tension;
+/// * the particle is at a surface: K′ is such that ρ is not below (1 − ε) ρ₀, for water there is not under tension; with
+///   `no_pressure` K′ is such that ρ = ρ₀;
 /// * the particle is alone: K′ is such that ρ = ρ₀, at once: it has no pressure and flies like a stone;
 /// * else K stays: what the kernel misses within reach of a surface is what it carries.
 ///
@@ -53,6 +54,9 @@ pub struct ConeTest {
         extend("unit" = "1", "source" = "ours: sums on a lattice beside a wall are 2 % off")
     )]
     pub tolerance: f64,
+    /// Whether particles at a surface have no pressure over that of the reference density: the condition p = 0 of a free
+    /// surface, half a row too deep.
+    pub no_pressure: bool,
 }
 
 impl Default for ConeTest {
@@ -60,6 +64,7 @@ impl Default for ConeTest {
         ConeTest {
             time: 30.0,
             tolerance: 0.03,
+            no_pressure: false,
         }
     }
 }
@@ -124,6 +129,8 @@ impl Relaxation {
         let place = |p: Place| seen.place == p.number();
         if place(Place::Alone) {
             seen.gamma * (reference - seen.density)
+        } else if place(Place::At) && self.plugin.no_pressure {
+            part * seen.gamma * (reference - seen.density)
         } else if place(Place::At) {
             part * seen.gamma * (reference - slack - seen.density).max(0.0)
         } else if place(Place::Inside) {
@@ -220,6 +227,14 @@ mod tests {
         let of = |k: f64| relaxation().change(&seen(Place::Inside, k, 1000.0), 1000.0, 1.0);
         assert_eq!([of(29.0), of(-29.0)], [0.0, 0.0]);
         assert!((of(430.0) + 400.0).abs() < 1e-9 && (of(-130.0) - 100.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn surfaces_have_no_pressure_where_that_is_asked_for() {
+        let mut relaxation = relaxation();
+        relaxation.plugin.no_pressure = true;
+        let of = |rho| relaxation.change(&seen(Place::At, 0.0, rho), 1000.0, 0.5);
+        assert_eq!([of(1030.0), of(960.0)], [-15.0, 20.0]);
     }
 
     #[test]
