@@ -82,6 +82,35 @@ fn a_level_is_the_top_of_all_or_of_a_phase() {
     assert_eq!(air, top);
 }
 
+/// A lattice is symmetric about the surface, so that half of the whole sum is exact but for its sum's own error.
+#[test]
+fn a_level_beside_a_wall_is_that_of_the_water_off_it() {
+    let mut world = World {
+        domain: Domain::open(Vect::from([0.0, -1.0]), Vect::from([1.0, 3.0])),
+        ..world()
+    };
+    let reach = world.kernel.support_radius();
+    let at = |world: &World<2>, x: f64| {
+        let probe = built("level", &format!("at = [{x}]"));
+        probe.measure(world).unwrap()[0]
+    };
+    let places = [0.0, 0.5, 1.0, 1.25, 3.0, 10.0].map(|x| x * SPACING);
+    let blind = places.map(|x| at(&world, x));
+    let beside = |x: &Vect<2>| if x[0] < reach { 0.7 } else { 1.0 };
+    let positions = world.free.get(fields::POSITION).unwrap();
+    let gamma: Vec<f64> = positions.iter().map(beside).collect();
+    world.free.add(fields::RENORMALISATION, Role::Derived);
+    *world.free.get_mut(fields::RENORMALISATION).unwrap() = gamma;
+    for (x, blind) in places.into_iter().zip(blind) {
+        let found = at(&world, x);
+        assert!((found - 1.2).abs() < 0.1 * SPACING, "{x}: {found}");
+        // Off the wall nothing changes.
+        assert!(x < reach || found == blind, "{x}: {found}, {blind}");
+        let low = blind.is_nan() || blind < 1.2 - 0.25 * SPACING;
+        assert!(low || x > SPACING, "{x}: {blind}");
+    }
+}
+
 #[test]
 fn fronts_and_extents_are_those_of_the_phase() {
     let water = |keys: &str| format!("axis = \"y\"\nphase = \"water\"\n{keys}");

@@ -73,13 +73,6 @@ fn a_piston_takes_back_what_a_wall_sends_to_it() {
 /// The lag over a period of 1.3 s is required to be below 0.05; a sample of the gauge is 0.015 of a period.
 #[test]
 fn a_shaken_tank_sloshes_in_time_with_the_experiment() {
-    let run = finished(
-        "sloshing-tank",
-        &[
-            "numerics.spacing=0.04",
-            "run.end=4",
-            "body.water.box=[[0.0,0.0],[1.73,0.62]]",
-        ],
-    );
-    run.error("phase", 0.05, 0.028);
+    let run = finished("sloshing-tank", &["numerics.spacing=0.04", "run.end=4"]);
+    run.error("phase", 0.05, 0.016);
 }

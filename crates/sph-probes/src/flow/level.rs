@@ -2,17 +2,19 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{StepError, register};
+use sph_core::{StepError, Vect, fields, register};
 use sph_neighbours::World;
 
 use crate::flow::point::{carried, point};
 use crate::phases::phase::{self, Counted, column, share};
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
-/// The highest place over a point where Σ V w falls to one half, V being at most a cell δr^d.
+/// The highest place over a point where Σ V w falls to half of what it is under water, V being at most a cell δr^d.
 ///
 /// The sum is over the particles of `phase`, so that its top is found under another fluid, or over
-/// all particles.
+/// all particles. Under water it is one, and less beside an upright wall, as no particles are behind that: there the
+/// largest sum over the line counts, where the water is deeper than two supports. At one half the level one spacing off
+/// a wall would be a third of a spacing too low (h = 1.5 δr in space), and half a spacing off it there might be none.
 ///
 /// ```toml
 /// [gauge.H1]
@@ -73,19 +75,23 @@ impl<const D: usize> Probe<D> for Level {
         if near.is_empty() {
             return Ok(vec![f64::NAN]);
         }
+        let half = match beside_a_wall(world, &near, bottom + radius)? {
+            true => 0.5 * whole(filling, bottom + radius, top - radius, 0.5 * radius),
+            false => 0.5,
+        };
         // Down from above until half full, then bisect.
         let step = 0.25 * world.spacing;
         let mut z = top + radius;
-        while z > bottom && filling(z) < 0.5 {
+        while z > bottom && filling(z) < half {
             z -= step;
         }
-        if filling(z) < 0.5 {
+        if filling(z) < half {
             return Ok(vec![f64::NAN]);
         }
         let (mut full, mut empty) = (z, z + step);
         for _ in 0..30 {
             let middle = 0.5 * (full + empty);
-            if filling(middle) < 0.5 {
+            if filling(middle) < half {
                 empty = middle
             } else {
                 full = middle
@@ -95,10 +101,38 @@ impl<const D: usize> Probe<D> for Level {
     }
 }
 
+/// Whether the highest particle within a spacing of the line feels a wall, and not the floor below `floor`.
+fn beside_a_wall<const D: usize>(
+    world: &World<D>,
+    near: &[(Vect<D>, f64, usize)],
+    floor: f64,
+) -> Result<bool, StepError> {
+    if !world.free.has(fields::RENORMALISATION.name) {
+        return Ok(false);
+    }
+    let gamma = world.free.get(fields::RENORMALISATION)?;
+    let aside = |d: &Vect<D>| (0..D - 1).map(|k| d[k] * d[k]).sum::<f64>();
+    let close = near
+        .iter()
+        .filter(|(d, ..)| aside(d) <= world.spacing.powi(2));
+    let highest = close.max_by(|a, b| a.0[D - 1].total_cmp(&b.0[D - 1]));
+    Ok(highest.is_some_and(|(d, _, k)| d[D - 1] > floor && gamma[*k] < 1.0))
+}
+
+/// The largest sum over a part of the line, at most one; one if there is no such part.
+fn whole(filling: impl Fn(f64) -> f64, from: f64, to: f64, step: f64) -> f64 {
+    let count = ((to - from) / step).floor();
+    if count < 0.0 {
+        return 1.0;
+    }
+    let sums = (0..=count as usize).map(|k| filling(from + k as f64 * step));
+    sums.fold(0.0, f64::max).min(1.0)
+}
+
 register!(
     ProbeEntry [2, 3],
     Level,
     "level",
     "height of the free surface, or of a phase, over a point",
-    "half-filling of the Shepard sum"
+    "half of the Shepard sum under water"
 );
