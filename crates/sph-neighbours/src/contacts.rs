@@ -139,6 +139,14 @@ impl<'a, const D: usize> ContactRow<'a, D> {
         self.runs.is_empty()
     }
 
+    /// Their elements: those of one particle follow each other.
+    pub fn elements(&self) -> &'a [u32] {
+        let ends = self.runs.first().zip(self.runs.last());
+        ends.map_or(&[], |(first, last)| {
+            &self.elements[first.from as usize..last.to as usize]
+        })
+    }
+
     /// Distances of the particle from the planes of the elements, m.
     pub fn distances(&self) -> impl Iterator<Item = f64> + 'a {
         self.runs.iter().map(|run| run.distance)
@@ -306,6 +314,10 @@ mod tests {
             [vec![7, 8, 4], vec![], vec![], vec![9], vec![]]
         );
         assert_eq!(contacts.of(0).len(), 3);
+        assert_eq!(
+            [0, 1, 3].map(|k| contacts.of(k).elements().len()),
+            [3, 0, 1]
+        );
         let sizes: Vec<_> = contacts
             .all()
             .map(|c| (c.gradient[1], c.distance))

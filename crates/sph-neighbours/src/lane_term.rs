@@ -12,10 +12,8 @@ use crate::lane_pair::LanePair;
 use crate::members::Members;
 use crate::separation::places;
 use crate::term::{each, free_then_walls};
-use crate::walled::with_walls;
 use crate::{
-    BoundTerm, Interaction, Neighbourhood, Pair, Part, Rates, RowTerm, There, Walled, WithTerm,
-    World,
+    BoundTerm, Interaction, Neighbourhood, Pair, Part, Rates, RowTerm, There, WithTerm, World,
 };
 
 impl<const D: usize> From<&Pair<D>> for LanePair<D, f64> {
@@ -137,21 +135,6 @@ impl<const D: usize, B: LaneTerm<D>> RowTerm<D> for FusedLanes<B> {
         let body = SideBySide {
             term: &self.0,
             cluster,
-            walled: None,
-            rates,
-        };
-        dispatch_at(body.cluster.width, body);
-    }
-    fn cluster_walled(
-        &self,
-        cluster: &mut Cluster<'_, D>,
-        walled: &[Walled<'_, D>],
-        rates: &mut [Rates<D>],
-    ) {
-        let body = SideBySide {
-            term: &self.0,
-            cluster,
-            walled: Some(walled),
             rates,
         };
         dispatch_at(body.cluster.width, body);
@@ -161,8 +144,6 @@ impl<const D: usize, B: LaneTerm<D>> RowTerm<D> for FusedLanes<B> {
 struct SideBySide<'a, 'c, const D: usize, B> {
     term: &'a B,
     cluster: &'a Cluster<'c, D>,
-    /// Members with other walls than their own; all of them with their own, if none are given.
-    walled: Option<&'a [Walled<'a, D>]>,
     rates: &'a mut [Rates<D>],
 }
 
@@ -178,7 +159,6 @@ impl<const D: usize, B: LaneTerm<D>> Body for SideBySide<'_, '_, D, B> {
         let SideBySide {
             term,
             cluster,
-            walled,
             rates,
         } = self;
         let Members {
@@ -201,13 +181,6 @@ impl<const D: usize, B: LaneTerm<D>> Body for SideBySide<'_, '_, D, B> {
         }
         // A copy: single lanes are read from memory, and the sums themselves are to stay in registers.
         let all = sums;
-        if let Some(walled) = walled {
-            let mut lanes = [term.zero(); MOST];
-            for k in 0..L::N {
-                lanes[k] = term.lane(&all, k);
-            }
-            return with_walls(term, &heres, &lanes, walled, rates);
-        }
         for (k, rates) in rates.iter_mut().enumerate() {
             let (here, mut sum) = (&heres[k], term.lane(&all, k));
             let row = cluster.buffers.walls[k].row();

@@ -49,7 +49,6 @@ mod term;
 mod walk;
 mod wall_force;
 mod wall_parts;
-mod walled;
 mod walls;
 mod world;
 
@@ -93,6 +92,5 @@ pub use term::{
 pub use walk::{Around, Rows, Surroundings, Values, walk, walk_into, walk_some};
 pub use wall_force::WallForce;
 pub use wall_parts::{WallPart, wall_parts};
-pub use walled::Walled;
 pub use walls::{Coulomb, Elements, Frame, LinePull, Passed, WallPoints, WallSet};
 pub use world::{Lists, World};

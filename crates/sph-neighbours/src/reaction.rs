@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
-use crate::{Interaction, SharedElements, WallForce, World, wall_parts};
+use crate::wall_parts::{Alone, parts_on_walls};
+use crate::{Interaction, SharedElements, WallForce, World};
 
 /// r × f; the third component alone in two dimensions.
 pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
@@ -31,7 +32,7 @@ pub fn wall_forces<const D: usize>(
     terms: &[&dyn Interaction<D>],
     wanted: &[bool],
 ) -> Result<Vec<WallForce<D>>, StepError> {
-    let mut forces = reactions(world, terms, wanted)?;
+    let mut forces = summed(world, terms, wanted, Alone::Apart)?;
     for (wall, total) in forces.iter_mut().enumerate().filter(|(w, _)| wanted[*w]) {
         let sums = pressure_on(world, wall as u32)?;
         total.pressure_force = Vect::from_fn(|k, _| sums[k]);
@@ -40,7 +41,8 @@ pub fn wall_forces<const D: usize>(
     Ok(forces)
 }
 
-/// The same without the integrals of the pressure, which no single rank knows on all elements; they are 0 here.
+/// The same, to rounding, with fewer sums, and without the integrals of the pressure, which no single rank knows on all
+/// elements; they are 0 here.
 ///
 /// # Errors
 /// If a term misses a column.
@@ -49,18 +51,27 @@ pub fn reactions<const D: usize>(
     terms: &[&dyn Interaction<D>],
     wanted: &[bool],
 ) -> Result<Vec<WallForce<D>>, StepError> {
+    summed(world, terms, wanted, Alone::Whole)
+}
+
+fn summed<const D: usize>(
+    world: &World<D>,
+    terms: &[&dyn Interaction<D>],
+    wanted: &[bool],
+    alone: Alone,
+) -> Result<Vec<WallForce<D>>, StepError> {
     let positions = world.free.get(fields::POSITION)?;
     let (walls, lists) = (&world.walls, &world.lists.wall);
     let sees = |i: usize| {
-        let mut contacts = walls.contacts.of(i).iter();
+        let mut elements = walls.contacts.of(i).elements().iter();
         let points = if lists.is_empty() { &[] } else { lists.row(i) };
-        contacts.any(|c| wanted[walls.elements.wall[c.element as usize] as usize])
+        elements.any(|s| wanted[walls.elements.wall[*s as usize] as usize])
             || (points.iter()).any(|v| wanted[walls.points.wall[*v as usize] as usize])
     };
     let own = world.team.as_ref().map(|team| team.own(&world.free));
     let sees = |i: usize| own.as_ref().is_none_or(|own| own[i]) && sees(i);
     let mut parts: Vec<Vec<[f64; 6]>> = vec![Vec::new(); wanted.len()];
-    for part in wall_parts(world, terms, sees)? {
+    for part in parts_on_walls(world, terms, sees, alone)? {
         let mut both = [0.0; 6];
         both[..D].copy_from_slice(part.force.as_slice());
         both[3..].copy_from_slice(&cross(&positions[part.particle as usize], &part.force));

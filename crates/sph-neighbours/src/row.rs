@@ -193,14 +193,14 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    /// A copy of the row with the sources that count.
-    pub(crate) fn only(&self, counts: impl Fn(u32) -> bool) -> Self {
+    /// A copy of a row with the sources that count.
+    pub(crate) fn of(row: &Row<'_, D>, counts: impl Fn(u32) -> bool) -> Self {
         let mut kept = Scratch::new();
-        for k in (0..self.len).filter(|k| counts(self.index[*k])) {
-            kept.index.push(self.index[k]);
-            kept.separation.push(self.separation[k]);
-            kept.distance2.push(self.distance2[k]);
-            kept.factor.push(self.factor[k]);
+        for k in (0..row.index.len()).filter(|k| counts(row.index[*k])) {
+            kept.index.push(row.index[k]);
+            kept.separation.push(row.separation[k]);
+            kept.distance2.push(row.distance2[k]);
+            kept.factor.push(row.factor[k]);
             kept.len += 1;
         }
         kept

@@ -11,7 +11,7 @@ use crate::list::CHUNK;
 use crate::members::{Members, groups};
 use crate::packed::{Declared, pack};
 use crate::term::{Interaction, Rates, RowTerm, TRANSPORTED, WithTerm};
-use crate::{Clusters, Domain, NOBODY, Neighbourhood, There, Walled, World};
+use crate::{Clusters, Domain, NOBODY, Neighbourhood, There, World};
 
 /// Sums all terms of all particles.
 ///
@@ -124,15 +124,6 @@ impl<const D: usize> RowTerm<D> for Both<'_, D> {
     fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
         self.0.cluster(cluster, rates);
         self.1.cluster(cluster, rates);
-    }
-    fn cluster_walled(
-        &self,
-        cluster: &mut Cluster<'_, D>,
-        walled: &[Walled<'_, D>],
-        rates: &mut [Rates<D>],
-    ) {
-        self.0.cluster_walled(cluster, walled, rates);
-        self.1.cluster_walled(cluster, walled, rates);
     }
 }
 

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, contract};
 
-use crate::{Cluster, Contact, Neighbourhood, Row, There, Walled, World};
+use crate::{Cluster, Contact, Neighbourhood, Row, There, World};
 
 /// What the interaction sweep sums per particle.
 #[derive(Clone, Copy, Debug)]
@@ -109,27 +109,6 @@ pub trait RowTerm<const D: usize>: Sync {
     fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
         cluster.rows(|k, neighbourhood| self.row(neighbourhood, &mut rates[k]));
     }
-    /// Adds the rates that members of a cluster would have with other walls, one after the other. A term whose sum over
-    /// free neighbours knows nothing of walls makes it once for all of them.
-    fn cluster_walled(
-        &self,
-        cluster: &mut Cluster<'_, D>,
-        walled: &[Walled<'_, D>],
-        rates: &mut [Rates<D>],
-    ) {
-        cluster.rows(|k, own| {
-            let all = walled.iter().zip(&mut *rates);
-            for (walled, rates) in all.filter(|(walled, _)| walled.member == k) {
-                let neighbourhood = Neighbourhood {
-                    wall: walled.points,
-                    contacts: walled.contacts,
-                    inverse_renormalisation: walled.inverse_renormalisation,
-                    ..*own
-                };
-                self.row(&neighbourhood, rates);
-            }
-        });
-    }
 }
 
 impl<const D: usize, T: RowTerm<D> + ?Sized> RowTerm<D> for &T {
@@ -139,14 +118,6 @@ impl<const D: usize, T: RowTerm<D> + ?Sized> RowTerm<D> for &T {
     fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
         (**self).cluster(cluster, rates);
     }
-    fn cluster_walled(
-        &self,
-        cluster: &mut Cluster<'_, D>,
-        walled: &[Walled<'_, D>],
-        rates: &mut [Rates<D>],
-    ) {
-        (**self).cluster_walled(cluster, walled, rates);
-    }
 }
 
 impl<const D: usize, T: RowTerm<D> + ?Sized> RowTerm<D> for Box<T> {
@@ -155,14 +126,6 @@ impl<const D: usize, T: RowTerm<D> + ?Sized> RowTerm<D> for Box<T> {
     }
     fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
         (**self).cluster(cluster, rates);
-    }
-    fn cluster_walled(
-        &self,
-        cluster: &mut Cluster<'_, D>,
-        walled: &[Walled<'_, D>],
-        rates: &mut [Rates<D>],
-    ) {
-        (**self).cluster_walled(cluster, walled, rates);
     }
 }
 

@@ -1,16 +1,18 @@
 //! What every particle exerts on which wall.
 
+use std::array::from_fn;
 use std::ops::Range;
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
+use sph_lanes::MOST;
 
 use crate::packed::{Packed, pack};
 use crate::sweep::{Room, Sweep};
 use crate::term::Rates;
 use crate::{
-    CHUNK, Cluster, ContactBlock, ContactRow, Interaction, Row, RowTerm, Scratch, There, Walled,
-    World,
+    CHUNK, Cluster, ContactBlock, ContactRow, Contacts, Interaction, Neighbourhood, RowTerm,
+    Scratch, There, World,
 };
 
 /// What a particle exerts on a wall.
@@ -24,6 +26,15 @@ pub struct WallPart<const D: usize> {
     pub force: Vect<D>,
 }
 
+/// How the part of a wall is found that is the only one before a particle; to rounding it is the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Alone {
+    /// As where there are several: what it adds itself, and the rest.
+    Apart,
+    /// As the whole of what walls do, with one sum less.
+    Whole,
+}
+
 /// What the wanted particles exert on the walls that they see, by particle and wall: the parts of
 /// [`wall_forces`](crate::wall_forces).
 ///
@@ -33,6 +44,15 @@ pub fn wall_parts<const D: usize>(
     world: &World<D>,
     terms: &[&dyn Interaction<D>],
     wanted: impl Fn(usize) -> bool + Sync,
+) -> Result<Vec<WallPart<D>>, StepError> {
+    parts_on_walls(world, terms, wanted, Alone::Apart)
+}
+
+pub(crate) fn parts_on_walls<const D: usize>(
+    world: &World<D>,
+    terms: &[&dyn Interaction<D>],
+    wanted: impl Fn(usize) -> bool + Sync,
+    alone: Alone,
 ) -> Result<Vec<WallPart<D>>, StepError> {
     let bound = terms.iter().map(|t| t.bind(world));
     let bound = bound.collect::<Result<Vec<_>, _>>()?;
@@ -50,15 +70,19 @@ pub fn wall_parts<const D: usize>(
             .for_each(&mut ask),
         false => contacts.particles.iter().for_each(|i| ask(*i as usize)),
     }
-    let wanted = |i: usize| asked[i];
-    let blocks = (0..sweep.particles().div_ceil(CHUNK)).into_par_iter();
-    let shelf = || (world.lists.shelf.lend::<Room<D>>(), Apart::default());
-    let parts = blocks.map_init(shelf, |(room, apart), block| {
+    let none = Contacts::default();
+    let blocks = asked.par_chunks(CHUNK).enumerate();
+    let room = || (world.lists.shelf.lend::<Room<D>>(), Apart::default());
+    let parts = blocks.map_init(room, |(room, apart), (block, asked)| {
         let mut parts = Vec::new();
+        if !asked.contains(&true) {
+            return parts;
+        }
+        let wanted = |i: usize| asked[i - block * CHUNK];
         sweep.each_wanted(block, wanted, &mut room.0, |cluster| {
             apart.take(world, cluster, wanted);
-            apart.sum(cluster, &bound);
-            apart.leave(mass, &mut parts);
+            apart.sum(cluster, &bound, (&none, alone));
+            apart.leave(mass, alone, &mut parts);
         });
         parts
     });
@@ -67,29 +91,35 @@ pub fn wall_parts<const D: usize>(
 
 /// The walls before the members of a cluster, one by one.
 struct Apart<const D: usize> {
-    near: Vec<Near<D>>,
+    near: Vec<Near>,
+    /// Of members that see several walls.
     pieces: Vec<Piece<D>>,
-    /// What all terms make of every member with every choice of walls.
-    rates: Vec<Rates<D>>,
+    /// What all terms make of every member with all walls, without any, and without any but with γ = 1.
+    whole: Vec<Rates<D>>,
+    fluid: Vec<Rates<D>>,
+    bare: Vec<Rates<D>>,
     walls: Vec<u32>,
 }
 
 /// A member of a cluster that sees walls.
-struct Near<const D: usize> {
+struct Near {
     member: usize,
     particle: usize,
-    points: Scratch<D>,
-    /// Its walls among the pieces.
+    /// The only wall that it sees, and its share in what 1/γ adds.
+    only: Option<(u32, f64)>,
+    /// Its walls among the pieces, where there are several.
     pieces: Range<usize>,
 }
 
-/// What a member sees of one wall; of the only one that it sees there is no copy.
+/// What a member sees of one wall.
 struct Piece<const D: usize> {
     wall: u32,
     points: Scratch<D>,
     contacts: ContactBlock<D>,
     /// Its share in what 1/γ adds.
     share: f64,
+    /// What all terms make of the member with this wall alone, m/s².
+    acceleration: Vect<D>,
 }
 
 impl<const D: usize> Default for Apart<D> {
@@ -97,7 +127,9 @@ impl<const D: usize> Default for Apart<D> {
         Apart {
             near: Vec::new(),
             pieces: Vec::new(),
-            rates: Vec::new(),
+            whole: Vec::new(),
+            fluid: Vec::new(),
+            bare: Vec::new(),
             walls: Vec::new(),
         }
     }
@@ -112,6 +144,17 @@ fn size<const D: usize>(contacts: ContactRow<'_, D>) -> f64 {
     contacts.iter().map(|c| c.gradient.norm()).sum()
 }
 
+/// Sums all terms for a cluster.
+fn sum<const D: usize>(
+    cluster: &mut Cluster<'_, D>,
+    terms: &[Box<dyn RowTerm<D> + '_>],
+    rates: &mut Vec<Rates<D>>,
+) {
+    rates.clear();
+    rates.resize(cluster.members().len(), Rates::of(Vect::zeros()));
+    terms.iter().for_each(|t| t.cluster(cluster, rates));
+}
+
 impl<const D: usize> Apart<D> {
     /// Looks at the walls of the wanted members of a cluster.
     fn take(&mut self, world: &World<D>, cluster: &Cluster<'_, D>, wanted: impl Fn(usize) -> bool) {
@@ -121,8 +164,8 @@ impl<const D: usize> Apart<D> {
         for (member, particle) in cluster.members().enumerate().filter(|(_, i)| wanted(*i)) {
             let own = cluster.walls(member);
             let of_points = own.wall.index.iter().map(|v| set.points.wall[*v as usize]);
-            let of_contacts = own.contacts.iter();
-            let of_contacts = of_contacts.map(|c| set.elements.wall[c.element as usize]);
+            let of_contacts = own.contacts.elements().iter();
+            let of_contacts = of_contacts.map(|s| set.elements.wall[*s as usize]);
             self.walls.clear();
             for wall in of_points.chain(of_contacts) {
                 if !self.walls.contains(&wall) {
@@ -130,96 +173,119 @@ impl<const D: usize> Apart<D> {
                 }
             }
             self.walls.sort_unstable();
-            let points = cluster.buffers.walls[member].only(|_| true);
             let from = self.pieces.len();
-            let alone = self.walls.len() == 1;
-            let gradient = size(own.contacts);
-            let piece = |wall: &u32| {
-                let mut piece = Piece {
-                    wall: *wall,
-                    points: Scratch::new(),
-                    contacts: ContactBlock::default(),
-                    share: f64::from(u8::from(gradient > 0.0)),
-                };
-                if !alone {
-                    piece.points = points.only(|v| set.points.wall[v as usize] == *wall);
-                    let of_it = |s: u32| set.elements.wall[s as usize] == *wall;
-                    piece.contacts.push_row(own.contacts, of_it);
-                    piece.share *= size(all(&piece.contacts)) / gradient.max(f64::MIN_POSITIVE);
+            let only = match self.walls[..] {
+                [only] => Some((only, f64::from(u8::from(!own.contacts.is_empty())))),
+                _ => {
+                    let pieces = self.walls.iter().map(|wall| Piece::of(world, &own, *wall));
+                    self.pieces.extend(pieces);
+                    None
                 }
-                piece
             };
-            self.pieces.extend(self.walls.iter().map(piece));
             self.near.push(Near {
                 member,
                 particle,
-                points,
+                only,
                 pieces: from..self.pieces.len(),
             });
         }
     }
 
-    /// Sums all terms for every member: without walls, the same with γ = 1, with every wall alone, and with all of them.
-    fn sum(&mut self, cluster: &mut Cluster<'_, D>, terms: &[Box<dyn RowTerm<D> + '_>]) {
-        let none = (Row::empty(), ContactRow::NONE);
-        let contacts = cluster.contacts;
-        let mut walled = Vec::with_capacity(self.pieces.len() + 3 * self.near.len());
-        for near in &self.near {
-            let gamma = cluster.renormalisation.map(|g| g[near.particle]);
-            let mut with = |(points, contacts), gamma: Option<f64>| {
-                walled.push(Walled {
-                    member: near.member,
-                    points,
-                    contacts,
-                    inverse_renormalisation: gamma.map_or(1.0, |g| 1.0 / g),
-                });
-            };
-            with(none, gamma);
-            with(none, None);
-            let pieces = &self.pieces[near.pieces.clone()];
-            if pieces.len() > 1 {
-                pieces
-                    .iter()
-                    .for_each(|p| with((p.points.row(), all(&p.contacts)), gamma));
-            }
-            with((near.points.row(), contacts.of(near.particle)), gamma);
+    /// Sums all terms with all walls and without any, and those of members with several walls with each of them.
+    fn sum(
+        &mut self,
+        cluster: &mut Cluster<'_, D>,
+        terms: &[Box<dyn RowTerm<D> + '_>],
+        (none, alone): (&Contacts<D>, Alone),
+    ) {
+        sum(cluster, terms, &mut self.whole);
+        if !self.pieces.is_empty() {
+            let (near, pieces) = (&self.near, &mut self.pieces);
+            cluster.rows(|k, own| {
+                let near = near.iter().filter(|near| near.member == k);
+                let own_pieces = near.flat_map(|near| near.pieces.clone());
+                own_pieces.for_each(|p| pieces[p].sum(own, terms));
+            });
         }
-        self.rates.clear();
-        self.rates.resize(walled.len(), Rates::of(Vect::zeros()));
-        terms
+        let points = cluster
+            .buffers
+            .walls
             .iter()
-            .for_each(|t| t.cluster_walled(cluster, &walled, &mut self.rates));
+            .any(|w| !w.row().index.is_empty());
+        if points {
+            cluster.buffers.walls = from_fn::<_, MOST, _>(|_| Scratch::new());
+        }
+        let mut without = Cluster {
+            contacts: none,
+            buffers: &mut *cluster.buffers,
+            ..*cluster
+        };
+        if alone == Alone::Apart || !self.pieces.is_empty() {
+            sum(&mut without, terms, &mut self.fluid);
+        }
+        without.renormalisation = None;
+        sum(&mut without, terms, &mut self.bare);
     }
 
     /// Each wall has what its own points and elements add. What is left is shared as ∇γ is.
-    fn leave(&self, mass: &[f64], parts: &mut Vec<WallPart<D>>) {
-        let mut rates = self.rates.iter().map(|r| r.acceleration);
-        let mut next = || rates.next().unwrap_or_else(Vect::zeros);
+    fn leave(&self, mass: &[f64], alone: Alone, parts: &mut Vec<WallPart<D>>) {
         for near in &self.near {
-            let pieces = &self.pieces[near.pieces.clone()];
-            let (fluid, bare) = (next(), next());
-            let first = parts.len();
-            let part = |piece: &Piece<D>, force| WallPart {
-                particle: near.particle as u32,
-                wall: piece.wall,
-                force,
+            let at = |rates: &[Rates<D>]| rates[near.member].acceleration;
+            let (whole, bare) = (at(&self.whole), at(&self.bare));
+            let mut leave = |wall: u32, acceleration: Vect<D>| {
+                parts.push(WallPart {
+                    particle: near.particle as u32,
+                    wall,
+                    force: acceleration * -mass[near.particle],
+                });
             };
-            let whole = match pieces {
-                [only] => {
-                    let whole = next();
-                    parts.push(part(only, whole - fluid));
-                    whole
+            match near.only {
+                Some((wall, _)) if alone == Alone::Whole => leave(wall, whole - bare),
+                Some((wall, share)) => {
+                    let own = whole - at(&self.fluid);
+                    leave(wall, own + (whole - bare - own) * share);
                 }
-                _ => {
-                    parts.extend(pieces.iter().map(|piece| part(piece, next() - fluid)));
-                    next()
+                None if near.pieces.is_empty() => {}
+                None => {
+                    let (pieces, fluid) = (&self.pieces[near.pieces.clone()], at(&self.fluid));
+                    let own = |piece: &Piece<D>| piece.acceleration - fluid;
+                    let rest = pieces.iter().fold(whole - bare, |rest, p| rest - own(p));
+                    pieces
+                        .iter()
+                        .for_each(|p| leave(p.wall, own(p) + rest * p.share));
                 }
-            };
-            let own = &mut parts[first..];
-            let rest = own.iter().fold(whole - bare, |rest, own| rest - own.force);
-            for (own, piece) in own.iter_mut().zip(pieces) {
-                own.force = (own.force + rest * piece.share) * -mass[near.particle];
             }
         }
+    }
+}
+
+impl<const D: usize> Piece<D> {
+    fn of(world: &World<D>, own: &Neighbourhood<'_, D>, wall: u32) -> Self {
+        let set = &world.walls;
+        let mut contacts = ContactBlock::default();
+        contacts.push_row(own.contacts, |s| set.elements.wall[s as usize] == wall);
+        let gradient = size(own.contacts);
+        Piece {
+            wall,
+            points: Scratch::of(&own.wall, |v| set.points.wall[v as usize] == wall),
+            share: match gradient > 0.0 {
+                true => size(all(&contacts)) / gradient,
+                false => 0.0,
+            },
+            contacts,
+            acceleration: Vect::zeros(),
+        }
+    }
+
+    /// Sums all terms of a member with this wall in the place of all of its own.
+    fn sum(&mut self, own: &Neighbourhood<'_, D>, terms: &[Box<dyn RowTerm<D> + '_>]) {
+        let alone = Neighbourhood {
+            wall: self.points.row(),
+            contacts: all(&self.contacts),
+            ..*own
+        };
+        let mut rates = Rates::of(Vect::zeros());
+        terms.iter().for_each(|t| t.row(&alone, &mut rates));
+        self.acceleration = rates.acceleration;
     }
 }
