@@ -5,7 +5,7 @@ use sph_neighbours::{SharedElements, World};
 
 use crate::Inside;
 use crate::faces::Faces;
-use crate::look::Looked;
+use crate::looked::Looked;
 
 impl<const D: usize> Looked<D> {
     fn write(&self, to: &mut Vec<u64>) {

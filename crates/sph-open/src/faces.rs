@@ -8,7 +8,7 @@ use sph_neighbours::{Passed, WallSet};
 use sph_state::Laws;
 
 use crate::cells::cells;
-use crate::look::Looked;
+use crate::looked::Looked;
 use crate::memory::Memory;
 use crate::row::near;
 use crate::{Inside, OpenBoundary, Outside, Place};

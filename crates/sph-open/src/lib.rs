@@ -17,6 +17,7 @@ mod faces;
 mod flux;
 mod laws;
 mod look;
+mod looked;
 mod memory;
 mod passing;
 mod profile;

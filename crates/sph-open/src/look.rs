@@ -5,6 +5,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_neighbours::World;
 
 use crate::faces::Faces;
+use crate::looked::Looked;
 use crate::row::Row;
 use crate::{Inside, Moment, Place};
 
@@ -17,17 +18,6 @@ const FULL: f64 = 0.8;
 
 /// Elements that one thread takes at least.
 const BATCH: usize = 16;
-
-/// The fluid in front of an element.
-pub(crate) struct Looked<const D: usize> {
-    pub inside: Inside<D>,
-    /// How far before it that mean stands, m.
-    pub reach: f64,
-    pub row: Vect<D>,
-    pub mix: Vec<f64>,
-    pub filled: f64,
-    pub lacking: f64,
-}
 
 impl<const D: usize> Faces<D> {
     /// Looks at the fluid in front of all elements, and asks the laws.
