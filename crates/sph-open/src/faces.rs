@@ -68,7 +68,7 @@ pub(crate) struct Faces<const D: usize> {
     /// Share of every element that has fluid before it.
     pub filled: Vec<f64>,
     pub memory: Memory<D>,
-    /// What [`balance`](Self::balance) adds to velocities, m/s, to be filled again.
+    /// What [`balance`](Self::balance) adds to velocities, m/s; zero in between.
     pub kicks: Vec<Vect<D>>,
     /// What was seen before the elements, to be filled again.
     pub looked: Vec<Looked<D>>,
