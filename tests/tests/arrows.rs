@@ -145,7 +145,13 @@ const ALLOWED: [(&str, &[&str]); 37] = [
     ),
     (
         "sph-waves",
-        &["sph-core", "sph-neighbours", "sph-boundary", "sph-probes"],
+        &[
+            "sph-core",
+            "sph-neighbours",
+            "sph-boundary",
+            "sph-open",
+            "sph-probes",
+        ],
     ),
     ("sph-scene", &["scene-text", "surface-file", "sph-core"]),
     (

@@ -18,7 +18,7 @@ impl<const D: usize> Looked<D> {
             inside.mean_pressure,
             self.reach,
             self.filled,
-            self.lacking,
+            self.lacks,
         ];
         let vectors = [&inside.velocity, &inside.mean, &self.row];
         let numbers = scalars
@@ -42,7 +42,7 @@ impl<const D: usize> Looked<D> {
             },
             reach: real(5),
             filled: real(6),
-            lacking: real(7),
+            lacks: real(7),
             row: vector(2),
             mix: (8 + 3 * D..from.len()).map(real).collect(),
         }
@@ -97,7 +97,7 @@ impl<const D: usize> Faces<D> {
             },
             reach: 0.0,
             filled: 0.0,
-            lacking: 0.0,
+            lacks: 0.0,
             row: Vect::zeros(),
             mix: vec![0.0; self.whole.len()],
         }

@@ -53,6 +53,9 @@ pub struct Outside<const D: usize> {
     /// p = p_i + ρc (u − u_i), with the mean of u over the support for u. If not, fluid passes with its own velocity,
     /// changed by what `velocity` differs from that inside.
     pub imposed: bool,
+    /// Share of the element through which fluid comes in; that which has fluid before it, if none is given. Fluid that goes
+    /// out passes no more than what has fluid before it, unless the share is 1.
+    pub share: Option<f64>,
 }
 
 impl<const D: usize> Outside<D> {
@@ -62,6 +65,7 @@ impl<const D: usize> Outside<D> {
             velocity: Vect::zeros(),
             pressure: 0.0,
             imposed: true,
+            share: Some(1.0),
         }
     }
 }

@@ -22,6 +22,9 @@ impl<const D: usize> Faces<D> {
     /// so the gradient is that of p − r, with the pressure at the face for r: the mean of its elements by their
     /// |∇γ_as|. This fades from half of the support on, and at a free surface.
     pub fn balance(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        if self.memory.dt == 0.0 {
+            return Ok(());
+        }
         let mut kicks = std::mem::take(&mut self.kicks);
         kicks.resize(world.free.len(), Vect::zeros());
         let (mass, volume) = (
@@ -48,9 +51,10 @@ impl<const D: usize> Faces<D> {
     fn pressure_before(&self, world: &World<D>, i: usize) -> f64 {
         let (mut sum, mut weight, mut nearest) = (0.0, 0.0, f64::INFINITY);
         for contact in world.walls.contacts.of(i) {
-            if self.open[contact.element as usize] != CLOSED {
+            let k = self.open[contact.element as usize];
+            if k != CLOSED {
                 let w = contact.gradient.norm();
-                sum += w * world.walls.elements.pressure[contact.element as usize];
+                sum += w * (self.outside[k as usize].pressure - self.memory.slow[k as usize]);
                 weight += w;
                 nearest = f64::min(nearest, contact.distance);
             }

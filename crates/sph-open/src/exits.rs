@@ -9,6 +9,10 @@ use crate::faces::{CLOSED, Faces, LATE};
 /// A particle is born when a port has this share of its mass: its half row has come in by then.
 const RIPE: f64 = 0.5;
 
+/// By how much of the spacing a particle may be born nearer than that to the row before it: the weights of rows that shear has
+/// stirred vary by as much.
+const NEARER: f64 = 0.2;
+
 /// How far from the face, over the spacing, particles are born at least: on the fluid's side whatever is rounded.
 const IN_FRONT: f64 = 1e-6;
 
@@ -17,6 +21,9 @@ const IN_FRONT: f64 = 1e-6;
 /// What passes by the law and what particles carry differ by what the mean before the face smooths; the difference is let
 /// go instead of gathering at the port.
 const ROWS: f64 = 5.0;
+
+/// Time in which rows arrange themselves to a pressure, over that in which sound crosses a support.
+const SLOW: f64 = 50.0;
 
 /// A particle behind a face.
 struct Behind<const D: usize> {
@@ -125,10 +132,12 @@ impl<const D: usize> Faces<D> {
             let place = self.places[k];
             let normal = self.through(k).dot(&place.normal);
             let face = self.face_of[k];
-            let wetted = match self.outside[k].imposed {
-                true => place.measure,
-                false => place.measure * self.filled[k],
-            };
+            let wetted = place.measure
+                * match self.outside[k].share {
+                    Some(share) if normal > 0.0 || share >= 1.0 => share,
+                    Some(share) => share.min(self.filled[k]),
+                    None => self.filled[k],
+                };
             let faded = (normal.abs() * dt / (ROWS * self.spacing)).min(1.0);
             let dry = !self.inside[k].wet && self.faces[face].law.lets_out();
             if normal > 0.0 {
@@ -168,6 +177,16 @@ impl<const D: usize> Faces<D> {
                 *pressure += (self.inside[k].pressure - *pressure) * part;
                 *velocity += (self.inside[k].velocity - *velocity) * part;
             }
+        }
+        for k in 0..self.elements.len() {
+            let (inside, now) = (&self.inside[k], self.outside[k].pressure);
+            let slow = &mut self.memory.slow[k];
+            let crossing = self.support * inside.density / inside.impedance;
+            let part = match begins || !inside.wet {
+                true => 1.0,
+                false => 1.0 - (-dt / (SLOW * crossing)).exp(),
+            };
+            *slow += (now - *slow) * part;
         }
         for (arrived, inside) in self.memory.arrived.iter_mut().zip(&self.inside) {
             *arrived = (inside.pressure, inside.velocity);
@@ -253,14 +272,20 @@ impl<const D: usize> Faces<D> {
         Some([first, second.unwrap_or(first)])
     }
 
-    /// By how much of a particle a port with fluid that comes in is beyond the birth of one, if it is.
+    /// How far before the face, over the spacing, a particle is to be born at a port with fluid that comes in, if it is time:
+    /// the port has the mass for it, and the row before it has gone far enough.
+    ///
+    /// What is born too near to that row is too dense for the room it has, which the density does not show (it does not jump):
+    /// under gravity it would sink, and stir still water.
     fn ripeness(&self, k: usize) -> Option<f64> {
         if self.through(k).dot(&self.places[k].normal) <= 0.0 {
             return None;
         }
         let q = self.phase(k);
+        // What is in the port beyond the half is already in front of it.
         let late = self.memory.mass[k * self.whole.len() + q] / self.whole[q] - RIPE;
-        (late >= 0.0).then_some(late)
+        let room = self.lacks[k] - RIPE + NEARER;
+        (late >= 0.0 && room >= 0.0).then_some(late.min(room))
     }
 
     /// Particles that ports have the mass for, where it is time.
@@ -280,7 +305,6 @@ impl<const D: usize> Faces<D> {
             self.memory.mass[k * phases + q] -= whole;
             let face = self.face_of[k];
             self.memory.totals[face * phases + q].born.add(whole);
-            // What is in the port beyond the half is already in front of it.
             let ahead = late.clamp(IN_FRONT, 1.0) * self.spacing;
             all.push(Newborn {
                 position: place.centre + place.normal * ahead,

@@ -17,6 +17,24 @@ use crate::{Inside, OpenBoundary, Outside, Place};
 /// pass meanwhile wait for each other.
 pub(crate) const LATE: f64 = 0.2;
 
+/// Where a row is so far away that it is the last one: from here on a port does not stand in for the next.
+const LAST: f64 = 0.75;
+
+/// The share θ of a particle with which a port takes part in sums, from what the row before it lacks.
+///
+/// With rows at φ δr, (φ + 1) δr, … from the face the trapezoidal rule lacks θ = φ − ½ there (Euler & Maclaurin), −½ to ½
+/// as one row after the other comes nearer and passes, and a little more while one waits for its birth. A row farther away
+/// is the last one: the share falls to nothing by θ = 1.
+///
+/// What a port *holds* is the same but for its errors. These would stay as long as a row takes to pass, for ever where
+/// the flow is slow, as beside a wall, and a background pressure makes a barrier of them.
+pub(crate) fn as_share(lacks: f64) -> f64 {
+    match lacks > LAST {
+        true => (LAST * (1.0 - lacks) / (1.0 - LAST)).max(0.0),
+        false => lacks.max(-0.5 - 1.5 * LATE),
+    }
+}
+
 /// The element that nobody opened.
 pub(crate) const CLOSED: u32 = u32::MAX;
 
@@ -42,6 +60,8 @@ pub(crate) struct Faces<const D: usize> {
     /// Mass of a whole particle by phase, kg.
     pub whole: Vec<f64>,
     pub spacing: f64,
+    /// Radius of the kernel's support, m.
+    pub support: f64,
     /// Elements of the walls of every [cell](crate::cells::Cell), face by face.
     pub elements: Vec<Vec<u32>>,
     /// The number in `elements` of an element of the walls, or [`CLOSED`].
@@ -63,7 +83,9 @@ pub(crate) struct Faces<const D: usize> {
     pub full: Vec<f64>,
     /// What a whole particle at the port of every element would add to that sum.
     pub at_port: Vec<f64>,
-    /// Share of a particle that the fluid before every element [lacks](Self::lacks) at the face.
+    /// What the row before every element lacks of a full face, over the weight of a row on the face: φ − ½ with a row at φ δr.
+    pub lacks: Vec<f64>,
+    /// The [share](as_share) of a particle with which every port takes part in sums.
     pub lacking: Vec<f64>,
     /// Share of every element that has fluid before it.
     pub filled: Vec<f64>,
@@ -87,6 +109,7 @@ pub(crate) fn lock<const D: usize>(faces: &SharedFaces<D>) -> MutexGuard<'_, Fac
 impl<const D: usize> Faces<D> {
     /// Finds its elements among those of the walls, and gives every one a port.
     pub fn find(&mut self, walls: &mut WallSet<D>, kernel: &dyn Sampler) {
+        self.support = kernel.support_radius();
         self.open = vec![CLOSED; walls.elements.centre.len()];
         self.elements.clear();
         self.places.clear();
@@ -128,6 +151,7 @@ impl<const D: usize> Faces<D> {
         self.present = vec![Vect::zeros(); ports];
         self.outside = vec![Outside::dry(); ports];
         self.rows = vec![Vect::zeros(); ports];
+        self.lacks = vec![0.0; ports];
         self.mix = vec![0.0; ports * phases];
         self.lacking = vec![0.0; ports];
         self.filled = vec![0.0; ports];
@@ -182,23 +206,6 @@ impl<const D: usize> Faces<D> {
             }
         };
         own.map(one).sum::<f64>() * self.spacing
-    }
-
-    /// The share θ of a particle with which the port of an element takes part in sums, from the weight Σ V w of the row before
-    /// it: what this lacks of a full face, over the weight of a row on the face.
-    ///
-    /// With rows at φ δr, (φ + 1) δr, … from the face the trapezoidal rule lacks θ = φ − ½ there (Euler & Maclaurin), −½ to ½
-    /// as one row after the other comes nearer and passes. A row farther away than δr is the last one: from there the share
-    /// falls to nothing within half a spacing.
-    ///
-    /// What a port *holds* is the same but for its errors. These would stay as long as a row takes to pass, for ever where
-    /// the flow is slow, as beside a wall, and a background pressure makes a barrier of them.
-    pub fn lacks(&self, element: usize, weight: f64) -> f64 {
-        let lacks = (self.full[element] - weight) / self.at_port[element];
-        match lacks > 0.5 {
-            true => (1.0 - lacks).max(0.0),
-            false => lacks.max(-0.5 - 1.5 * LATE),
-        }
     }
 
     fn add_ports(&self, walls: &mut WallSet<D>) {

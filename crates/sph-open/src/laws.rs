@@ -24,76 +24,96 @@ pub(crate) fn imposed_velocity<const D: usize>(place: &Place<D>, normal: f64) ->
     }
 }
 
-/// What a pressure that is imposed makes of the velocity: the characteristic that leaves the fluid carries p − ρc u_n to
-/// the face (u_n inwards).
-///
-/// Above a surface there is no pressure, and the element goes with the water below it: one at rest would be a wall to
-/// those that see it, all within a support of the surface.
+impl<const D: usize> Outside<D> {
+    /// What is behind the face yields: it has a pressure p₀ and a velocity u₀, and another pressure where the fluid passes
+    /// with another velocity,
+    ///
+    ///   p = p₀ − ζ (u_n − u₀ₙ),   u_n inwards,
+    ///
+    /// ζ ≥ 0 in kg/(m² s). With the characteristic that leaves the fluid, p = p_i + ρc (u_n − u_i), both follow. ζ = 0 imposes
+    /// the pressure, ζ → ∞ the velocity, and ρc lets sound out. Fluid that leaves keeps its velocity along the face; what comes
+    /// in has that of u₀.
+    ///
+    /// Above a surface there is no pressure, and the element goes with the water below it: one at rest would be a wall to
+    /// those that see it, all within a support of the surface.
+    pub fn yielding(
+        place: &Place<D>,
+        inside: &Inside<D>,
+        pressure: f64,
+        velocity: Vect<D>,
+        impedance: f64,
+    ) -> Self {
+        let n = place.normal;
+        let within = inside.velocity.dot(&n);
+        if !inside.wet {
+            return Outside {
+                velocity: inside.velocity - n * within.max(0.0),
+                pressure: 0.0,
+                imposed: false,
+                share: None,
+            };
+        }
+        let (z, aim) = (inside.impedance, velocity.dot(&n));
+        // Written so that nothing is rounded differently where ζ = 0.
+        let more = (pressure - inside.pressure + impedance * (aim - within)) / (z + impedance);
+        let normal = within + more;
+        let along = match normal < 0.0 {
+            true => inside.velocity - n * within,
+            false => velocity - n * aim,
+        };
+        Outside {
+            velocity: along + n * normal,
+            pressure: pressure - impedance * (normal - aim),
+            imposed: false,
+            share: None,
+        }
+    }
+}
+
+/// A pressure that is imposed; what comes in has no velocity along the face.
 pub(crate) fn imposed_pressure<const D: usize>(
     place: &Place<D>,
     inside: &Inside<D>,
     pressure: f64,
 ) -> Outside<D> {
-    let within = inside.velocity.dot(&place.normal);
-    if !inside.wet {
-        return Outside {
-            velocity: inside.velocity - place.normal * within.max(0.0),
-            pressure: 0.0,
-            imposed: false,
-        };
-    }
-    let normal = within + (pressure - inside.pressure) / inside.impedance;
-    Outside {
-        velocity: passing(place, inside, normal),
-        pressure,
-        imposed: false,
-    }
+    Outside::yielding(place, inside, pressure, Vect::zeros(), 0.0)
 }
 
-/// Fluid that leaves keeps its velocity along the face; what comes in has none.
-fn passing<const D: usize>(place: &Place<D>, inside: &Inside<D>, normal: f64) -> Vect<D> {
-    let n = place.normal;
-    let along = inside.velocity - n * inside.velocity.dot(&n);
-    match normal < 0.0 {
-        true => along + n * normal,
-        false => n * normal,
-    }
-}
-
-/// Refuses phases that there are none of.
-pub(crate) fn check_phase(
-    phase: &Option<String>,
-    setting: &OpenSetting<'_>,
-) -> Result<(), OpenRefusal> {
-    let names = || setting.phases.iter().map(String::as_str);
-    match phase {
-        None => Ok(()),
-        Some(name) if names().any(|n| n == name) => Ok(()),
-        Some(name) => {
-            let near = sph_core::suggestion(name, names());
-            Err(OpenRefusal::of(
-                "phase",
-                format!("there is no phase `{name}`{near}"),
-            ))
+impl OpenSetting<'_> {
+    /// Refuses phases that there are none of.
+    ///
+    /// # Errors
+    /// The key `phase`, with the nearest name.
+    pub fn check_phase(&self, phase: &Option<String>) -> Result<(), OpenRefusal> {
+        let names = || self.phases.iter().map(String::as_str);
+        match phase {
+            None => Ok(()),
+            Some(name) if names().any(|n| n == name) => Ok(()),
+            Some(name) => {
+                let near = sph_core::suggestion(name, names());
+                Err(OpenRefusal::of(
+                    "phase",
+                    format!("there is no phase `{name}`{near}"),
+                ))
+            }
         }
     }
-}
 
-/// Refuses what is faster than sound.
-pub(crate) fn check_speed(
-    key: &str,
-    speed: f64,
-    setting: &OpenSetting<'_>,
-) -> Result<(), OpenRefusal> {
-    let sound = setting.sound_speed;
-    match speed.abs() < sound {
-        true => Ok(()),
-        false => Err(OpenRefusal::of(
-            key,
-            format!(
-                "the fluid would pass with {speed:.4} m/s, and its speed of sound is {sound:.4} m/s: raise \
-                 `speed_of_sound` of the phase to ten times the largest speed"
-            ),
-        )),
+    /// Refuses a speed, m/s, that is faster than sound.
+    ///
+    /// # Errors
+    /// The key that was given.
+    pub fn check_speed(&self, key: &str, speed: f64) -> Result<(), OpenRefusal> {
+        let sound = self.sound_speed;
+        match speed.abs() < sound {
+            true => Ok(()),
+            false => Err(OpenRefusal::of(
+                key,
+                format!(
+                    "the fluid would pass with {speed:.4} m/s, and its speed of sound is {sound:.4} m/s: raise \
+                     `speed_of_sound` of the phase to ten times the largest speed"
+                ),
+            )),
+        }
     }
 }

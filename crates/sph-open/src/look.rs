@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::World;
 
-use crate::faces::Faces;
+use crate::faces::{Faces, as_share};
 use crate::looked::Looked;
 use crate::row::Row;
 use crate::{Inside, Moment, Place};
@@ -39,7 +39,8 @@ impl<const D: usize> Faces<D> {
             self.inside[k] = self.arriving(k, seen);
             self.rows[k] = seen.row;
             self.filled[k] = seen.filled;
-            self.lacking[k] = seen.lacking;
+            self.lacks[k] = seen.lacks;
+            self.lacking[k] = as_share(seen.lacks);
             self.mix[k * phases..(k + 1) * phases].copy_from_slice(&seen.mix);
         }
         self.looked = looked;
@@ -170,7 +171,7 @@ impl<const D: usize> Faces<D> {
             mean_pressure,
         };
         seen.reach = reach;
-        seen.lacking = self.lacks(k, row.weight());
+        seen.lacks = (self.full[k] - row.weight()) / self.at_port[k];
         seen.filled = (row.weight() / (FULL * self.full[k])).min(1.0);
         seen.row = row.velocity(self.spacing).unwrap_or(u);
     }

@@ -12,5 +12,5 @@ pub(crate) struct Looked<const D: usize> {
     pub row: Vect<D>,
     pub mix: Vec<f64>,
     pub filled: f64,
-    pub lacking: f64,
+    pub lacks: f64,
 }

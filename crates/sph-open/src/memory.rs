@@ -43,6 +43,8 @@ pub(crate) struct Memory<const D: usize> {
     pub mean: Vec<(f64, Vect<D>)>,
     /// Pressures, Pa, and velocities, m/s, in front of the elements, as late as they arrive at the face.
     pub arrived: Vec<(f64, Vect<D>)>,
+    /// Slow pressures of the elements, Pa: those to which rows have arranged themselves.
+    pub slow: Vec<f64>,
     /// By face and phase.
     pub totals: Vec<Totals>,
     /// The last step, s; 0 before the first.
@@ -57,6 +59,7 @@ impl<const D: usize> Memory<D> {
             mass: vec![0.0; ports * phases],
             mean: vec![(0.0, Vect::zeros()); ports],
             arrived: vec![(0.0, Vect::zeros()); ports],
+            slow: vec![0.0; ports],
             totals: vec![Totals::default(); faces * phases],
             dt: 0.0,
         }
@@ -64,7 +67,7 @@ impl<const D: usize> Memory<D> {
 
     /// How many numbers there are.
     pub fn count(&self) -> usize {
-        self.mass.len() + 2 * (D + 1) * self.mean.len() + PER_TOTAL * self.totals.len() + 1
+        self.mass.len() + (2 * (D + 1) + 1) * self.mean.len() + PER_TOTAL * self.totals.len() + 1
     }
 
     /// All of it.
@@ -74,6 +77,7 @@ impl<const D: usize> Memory<D> {
             to.push(*pressure);
             to.extend(velocity.iter());
         }
+        to.extend(&self.slow);
         for t in &self.totals {
             for sum in [t.entered, t.left, t.born, t.died] {
                 to.extend([sum.sum, sum.lost]);
@@ -90,7 +94,9 @@ impl<const D: usize> Memory<D> {
         let (mass, rest) = from.split_at(self.mass.len());
         let (mean, rest) = rest.split_at((D + 1) * self.mean.len());
         let (arrived, rest) = rest.split_at((D + 1) * self.arrived.len());
+        let (slow, rest) = rest.split_at(self.slow.len());
         self.mass.copy_from_slice(mass);
+        self.slow.copy_from_slice(slow);
         let both = |to: &mut [(f64, Vect<D>)], from: &[f64]| {
             let all = to.iter_mut().zip(from.chunks_exact(D + 1));
             all.for_each(|(to, from)| *to = (from[0], Vect::from_column_slice(&from[1..])));
@@ -124,6 +130,7 @@ mod tests {
         memory.mass = vec![1.0, 2.0, 3.0, 4.0];
         memory.mean[1] = (12.0, Vect::<2>::new(5.0, 6.0));
         memory.arrived[0] = (9.0, Vect::<2>::new(10.0, 11.0));
+        memory.slow[1] = 12.5;
         memory.totals[1].left.add(7.0);
         memory.dt = 8.0;
         let mut numbers = Vec::new();

@@ -2,6 +2,7 @@
 //!
 //! * [`WaveMaker`] is the mover of a piston or a flap ([`Paddle`]), for [`Waves`] of every kind.
 //! * [`ReflectionProbe`] separates the two directions ([`separated`]).
+//! * [`WaveFace`] is the law of an open face through which waves come and go, on a current.
 //! * [`wavenumber`] is the dispersion of linear waves, [`Jonswap`] a spectrum.
 #![doc = include_str!("../README.md")]
 
@@ -10,16 +11,19 @@ mod dispersion;
 mod face;
 mod maker;
 mod near_field;
+mod orbits;
 mod paddle;
 mod reflection;
 mod separation;
 mod spectrum;
+mod wave_face;
 mod waves;
 
-pub use dispersion::wavenumber;
+pub use dispersion::{wavenumber, wavenumber_on};
 pub use maker::WaveMaker;
 pub use paddle::Paddle;
 pub use reflection::ReflectionProbe;
 pub use separation::{Amplitude, Separated, separated};
 pub use spectrum::Jonswap;
+pub use wave_face::WaveFace;
 pub use waves::{Component, Waves};

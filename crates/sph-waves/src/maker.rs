@@ -235,7 +235,7 @@ impl<const D: usize> Mover<D> for WaveMaker<D> {
     fn settle(&mut self, setting: &MoverSetting<'_, D>) -> Settled<()> {
         let water = self.water(setting)?;
         let faulty = |(key, why): (&str, String)| MoverRefusal::of(key, why);
-        self.waves.check(water[0], water[1]).map_err(faulty)?;
+        self.waves.check(water[0], water[1], 0.0).map_err(faulty)?;
         let [_, period] = self.waves.size();
         let ramp = self.ramp.unwrap_or(2.0 * period);
         if !(ramp >= 0.0 && ramp.is_finite()) {

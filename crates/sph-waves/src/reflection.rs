@@ -9,14 +9,14 @@ use sph_core::{StepError, register};
 use sph_neighbours::World;
 use sph_probes::{Level, Probe, ProbeColumn, ProbeEntry};
 
-use crate::dispersion::wavenumber;
+use crate::dispersion::wavenumber_on;
 use crate::separation::{Separated, separated};
 
 /// Waves that run along the first axis and those that come back, from gauges at three places or more.
 ///
 /// From `from` to `to` the levels are taken apart into the frequencies that are multiples of 1/(to − from), between `lowest` and
 /// `highest`; the window is to hold a whole number of periods. Every frequency is [separated] by least squares, with the
-/// wavenumber of linear waves. The columns are significant heights 4 √(Σ ½ a²), m, of both, √(reflected/incident energy), and
+/// wavenumbers of linear waves, on a `current` if there is one. The columns are significant heights 4 √(Σ ½ a²), m, of both, √(reflected/incident energy), and
 /// the period of the largest incident wave, s; of regular waves the height is 1/√2 of the significant one, 2a. They are NaN
 /// before the window ends, 0 for the height of what is not there. The curve has both amplitudes over the frequency.
 ///
@@ -60,6 +60,10 @@ pub struct ReflectionProbe {
     /// The highest frequency.
     #[schemars(extend("unit" = "Hz", "exclusiveMinimum" = 0.0))]
     pub highest: f64,
+    /// Velocity of the current along the first axis.
+    #[serde(default)]
+    #[schemars(extend("unit" = "m/s"))]
+    pub current: f64,
     #[serde(skip)]
     #[schemars(skip)]
     sums: Mutex<Sums>,
@@ -166,7 +170,8 @@ impl ReflectionProbe {
         let count = self.numbers().count();
         let of = |(j, n): (usize, usize)| {
             let frequency = n as f64 / window;
-            let k = wavenumber(TAU * frequency, self.depth, gravity);
+            let on = |u: f64| wavenumber_on(TAU * frequency, self.depth, gravity, u);
+            let k = [on(self.current)?, on(-self.current)?];
             let gauges: Vec<(f64, [f64; 2])> = (self.at.iter().enumerate())
                 .map(|(gauge, x)| {
                     let place = 2 * (gauge * count + j);
@@ -285,6 +290,10 @@ mod tests {
 
     const GRAVITY: f64 = 9.81;
 
+    fn wavenumber(omega: f64, current: f64) -> f64 {
+        wavenumber_on(omega, 0.5, GRAVITY, current).expect("a wave")
+    }
+
     fn probe(lowest: f64, highest: f64, [from, to]: [f64; 2]) -> ReflectionProbe {
         ReflectionProbe {
             at: vec![3.0, 3.3, 3.75],
@@ -294,6 +303,7 @@ mod tests {
             to,
             lowest,
             highest,
+            current: 0.0,
             sums: Mutex::default(),
         }
     }
@@ -305,8 +315,9 @@ mod tests {
         while t < probe.to + 0.05 {
             let level = |x: &f64| -> f64 {
                 let one = |[f, there, back, phase]: &[f64; 4]| {
-                    let (omega, k) = (TAU * f, wavenumber(TAU * f, 0.5, GRAVITY));
-                    there * (omega * t - k * x + phase).cos() + back * (omega * t + k * x).cos()
+                    let omega = TAU * f;
+                    let [k, l] = [1.0, -1.0].map(|sign| wavenumber(omega, sign * probe.current));
+                    there * (omega * t - k * x + phase).cos() + back * (omega * t + l * x).cos()
                 };
                 waves.iter().map(one).sum()
             };
@@ -318,7 +329,18 @@ mod tests {
 
     #[test]
     fn regular_waves_and_what_comes_back() {
-        let probe = probe(1.0 / 1.2, 1.0 / 1.2, [6.0, 18.0]);
+        regular_on(0.0);
+    }
+
+    #[test]
+    fn regular_waves_on_a_current() {
+        regular_on(0.3);
+        regular_on(-0.2);
+    }
+
+    fn regular_on(current: f64) {
+        let mut probe = probe(1.0 / 1.2, 1.0 / 1.2, [6.0, 18.0]);
+        probe.current = current;
         fed(&probe, &[[1.0 / 1.2, 0.04, 0.003, 0.7]]);
         let [incident, reflected, coefficient, period] =
             summed(&probe.found(GRAVITY).expect("found"))[..]

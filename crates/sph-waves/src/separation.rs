@@ -8,9 +8,9 @@ pub type Amplitude = [f64; 2];
 pub struct Separated {
     /// At x = 0, of the wave A e^{i(ωt − kx)} that runs to larger x.
     pub incident: Amplitude,
-    /// At x = 0, of the wave A e^{i(ωt + kx)} that comes back.
+    /// At x = 0, of the wave A e^{i(ωt + k'x)} that comes back.
     pub reflected: Amplitude,
-    /// 1 − |Σ e^{2ikx}|²/n² of the places: 0 where they cannot tell the two waves apart (two gauges half a wave apart).
+    /// 1 − |Σ e^{i(k + k')x}|²/n² of the places: 0 where they cannot tell the two waves apart (two gauges half a wave apart).
     pub clear: f64,
 }
 
@@ -29,13 +29,14 @@ fn turned(angle: f64) -> Amplitude {
 
 /// Separates the waves of a frequency by least squares: the two amplitudes for which
 ///
-///   Σ_j |A e^{−ikx_j} + B e^{ikx_j} − η_j|²
+///   Σ_j |A e^{−ikx_j} + B e^{ik'x_j} − η_j|²
 ///
-/// is least, from the amplitudes η_j that gauges at x_j measure. With s = Σ e^{2ikx_j} the normal equations are
-/// n A + s B = Σ η_j e^{ikx_j} and s* A + n B = Σ η_j e^{−ikx_j}. None where they have no solution.
+/// is least, from the amplitudes η_j that gauges at x_j measure and the wavenumbers k there and k' back, which differ where
+/// there is a current. With s = Σ e^{i(k + k')x_j} the normal equations are n A + s B = Σ η_j e^{ikx_j} and
+/// s* A + n B = Σ η_j e^{−ik'x_j}. None where they have no solution.
 ///
 /// Source: Mansard & Funke 1980 (three gauges); any number as in Zelt & Skjelbreia 1992 with equal weights.
-pub fn separated(wavenumber: f64, gauges: &[(f64, Amplitude)]) -> Option<Separated> {
+pub fn separated([there, back]: [f64; 2], gauges: &[(f64, Amplitude)]) -> Option<Separated> {
     let n = gauges.len() as f64;
     let (mut s, mut plus, mut minus) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     let add = |sum: &mut Amplitude, x: Amplitude| {
@@ -43,10 +44,9 @@ pub fn separated(wavenumber: f64, gauges: &[(f64, Amplitude)]) -> Option<Separat
         sum[1] += x[1];
     };
     for (x, level) in gauges {
-        let turn = turned(wavenumber * x);
-        add(&mut s, times(turn, turn));
-        add(&mut plus, times(*level, turn));
-        add(&mut minus, times(*level, conjugate(turn)));
+        add(&mut s, turned((there + back) * x));
+        add(&mut plus, times(*level, turned(there * x)));
+        add(&mut minus, times(*level, turned(-back * x)));
     }
     let determinant = n * n - s[0] * s[0] - s[1] * s[1];
     let clear = determinant / (n * n);
@@ -70,15 +70,16 @@ mod tests {
 
     const PLACES: [f64; 3] = [3.1, 3.4, 3.87];
 
-    fn signal(k: f64, x: f64, incident: Amplitude, reflected: Amplitude) -> Amplitude {
+    fn signal([k, l]: [f64; 2], x: f64, incident: Amplitude, reflected: Amplitude) -> Amplitude {
         let there = times(incident, turned(-k * x));
-        let back = times(reflected, turned(k * x));
+        let back = times(reflected, turned(l * x));
         [there[0] + back[0], there[1] + back[1]]
     }
 
     #[test]
     fn two_waves_are_found_to_rounding() {
-        let (k, incident, reflected) = (2.4, [0.03, -0.01], [0.001, 0.002]);
+        // As on a current: what comes back against it is shorter.
+        let (k, incident, reflected) = ([2.4, 3.1], [0.03, -0.01], [0.001, 0.002]);
         let gauges = PLACES.map(|x| (x, signal(k, x, incident, reflected)));
         let found = separated(k, &gauges).expect("a solution");
         for c in 0..2 {
@@ -93,7 +94,7 @@ mod tests {
     /// Least squares: a change of either amplitude makes the sum of squares larger.
     #[test]
     fn of_signals_with_errors_it_is_the_least() {
-        let k = 1.9;
+        let k = [1.9; 2];
         let errors = [[1e-3, -2e-3], [-5e-4, 1e-3], [2e-3, 5e-4]];
         let gauges: Vec<(f64, Amplitude)> = (0..3)
             .map(|j| {
@@ -127,7 +128,7 @@ mod tests {
 
     #[test]
     fn gauges_half_a_wave_apart_tell_nothing() {
-        let k = std::f64::consts::PI;
+        let k = [std::f64::consts::PI; 2];
         let gauges = [0.0, 1.0, 2.0].map(|x| (x, [1.0, 0.0]));
         assert_eq!(separated(k, &gauges), None);
     }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::dispersion::wavenumber;
+use crate::dispersion::wavenumber_on;
 use crate::spectrum::{Jonswap, phases};
 
 /// One linear wave, η = a cos(ωt − kx + φ) with x from the paddle.
@@ -121,8 +121,8 @@ impl Waves {
         }
     }
 
-    /// Checks the numbers in the water of a depth, m.
-    pub(crate) fn check(&self, depth: f64, gravity: f64) -> Result<(), Fault> {
+    /// Checks the numbers in water of a depth, m, that runs with the waves at the velocity `current`, m/s.
+    pub(crate) fn check(&self, depth: f64, gravity: f64, current: f64) -> Result<(), Fault> {
         let [height, period] = self.size();
         let name = match self {
             Waves::Regular(_) => "waves.regular",
@@ -133,7 +133,15 @@ impl Waves {
         if !positive(height) || !positive(period) {
             return Err((name, "heights and periods are numbers above 0".into()));
         }
-        let k = wavenumber(TAU / period, depth, gravity);
+        let Some(k) = wavenumber_on(TAU / period, depth, gravity, current) else {
+            return Err((
+                name,
+                format!(
+                    "no wave with a period of {period} s runs against a current of {:.4} m/s in water {depth:.4} m deep",
+                    -current
+                ),
+            ));
+        };
         let breaks = 0.142 * TAU / k * (k * depth).tanh();
         if height > breaks {
             return Err((
@@ -168,19 +176,27 @@ impl Waves {
         }
     }
 
-    /// The linear waves of which they consist.
+    /// The linear waves of which they consist, in water of a depth, m, at rest.
     pub fn components(&self, depth: f64, gravity: f64) -> Vec<Component> {
+        self.components_on(depth, gravity, 0.0)
+    }
+
+    /// The same in water that runs with them, or against them, at the velocity `current`, m/s. Those that no current lets run
+    /// against it are left out.
+    pub fn components_on(&self, depth: f64, gravity: f64, current: f64) -> Vec<Component> {
         let one = |frequency: f64, amplitude: f64, phase: f64| {
             let omega = TAU * frequency;
-            Component {
+            Some(Component {
                 amplitude,
                 frequency: omega,
-                wavenumber: wavenumber(omega, depth, gravity),
+                wavenumber: wavenumber_on(omega, depth, gravity, current)?,
                 phase,
-            }
+            })
         };
         match self {
-            Waves::Regular(w) => vec![one(1.0 / w.period, 0.5 * w.height, 0.0)],
+            Waves::Regular(w) => one(1.0 / w.period, 0.5 * w.height, 0.0)
+                .into_iter()
+                .collect(),
             Waves::Irregular(w) => {
                 let sea = Jonswap {
                     height: w.height,
@@ -189,7 +205,8 @@ impl Waves {
                 };
                 let all = sea.components(1.0 / w.repeat, w.band.map(|f| f / w.period));
                 let both = all.into_iter().zip(phases(w.seed));
-                both.map(|([f, a], phase)| one(f, a, phase)).collect()
+                both.filter_map(|([f, a], phase)| one(f, a, phase))
+                    .collect()
             }
             Waves::Focused(w) => {
                 let sea = Jonswap {
@@ -201,13 +218,13 @@ impl Waves {
                 let all = sea.components((high - low) / GROUP, [low, high]);
                 let whole: f64 = all.iter().map(|[_, a]| a * a).sum();
                 let meets = |[f, a]: [f64; 2]| {
-                    let wave = one(f, w.crest * a * a / whole, 0.0);
-                    Component {
+                    let wave = one(f, w.crest * a * a / whole, 0.0)?;
+                    Some(Component {
                         phase: wave.wavenumber * w.at - wave.frequency * w.time,
                         ..wave
-                    }
+                    })
                 };
-                all.into_iter().map(meets).collect()
+                all.into_iter().filter_map(meets).collect()
             }
         }
     }
@@ -233,7 +250,7 @@ mod tests {
             at: 3.0,
             time: 9.0,
         });
-        assert_eq!(waves.check(0.5, 9.81), Ok(()));
+        assert_eq!(waves.check(0.5, 9.81, 0.0), Ok(()));
         let all = waves.components(0.5, 9.81);
         assert!((level(&all, 3.0, 9.0) - 0.08).abs() < 1e-14);
         for [x, t] in [[3.0, 9.6], [2.5, 9.0], [3.0, 3.0], [0.0, 9.0]] {
@@ -272,7 +289,7 @@ mod tests {
             height: 0.4,
             period: 1.2,
         });
-        let (key, why) = waves.check(0.5, 9.81).expect_err("refused");
+        let (key, why) = waves.check(0.5, 9.81, 0.0).expect_err("refused");
         assert!(key == "waves.regular" && why.contains("breaks"), "{why}");
     }
 }

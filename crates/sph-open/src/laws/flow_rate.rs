@@ -7,7 +7,7 @@ use serde::Deserialize;
 use sph_core::register;
 
 use crate::course::{Course, check_course, factor};
-use crate::laws::{check_phase, check_speed, imposed_velocity};
+use crate::laws::imposed_velocity;
 use crate::{
     Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
     Place, Profile,
@@ -42,10 +42,10 @@ pub struct FlowRate {
 
 impl<const D: usize> OpenBoundary<D> for FlowRate {
     fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
-        check_phase(&self.phase, setting)?;
+        setting.check_phase(&self.phase)?;
         self.profile.check(setting)?;
         check_course(&self.over_time, setting)?;
-        check_speed("rate", 0.0, setting)
+        setting.check_speed("rate", 0.0)
     }
     fn fit(&self, places: &[Place<D>]) -> Result<(), OpenRefusal> {
         self.profile.fit(places)

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use sph_core::register;
 
 use crate::course::{Course, check_course, factor};
-use crate::laws::{check_phase, imposed_pressure};
+use crate::laws::imposed_pressure;
 use crate::{
     Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
     Place,
@@ -40,7 +40,7 @@ impl<const D: usize> OpenBoundary<D> for Level {
                 "a level needs gravity: set `numerics.gravity`, or take `open-boundary.pressure`";
             return Err(OpenRefusal::of("level", why));
         }
-        check_phase(&self.phase, setting)?;
+        setting.check_phase(&self.phase)?;
         check_course(&self.over_time, setting)
     }
     fn entering(&self) -> Entering {

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::register;
 
-use crate::laws::{check_speed, imposed_pressure};
+use crate::laws::imposed_pressure;
 use crate::{
     Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside, Place,
 };
@@ -55,7 +55,7 @@ impl<const D: usize> OpenBoundary<D> for Outflow {
                 "memory",
                 "the velocity far away is given, and nothing is averaged: take one of the two out",
             )),
-            (velocity, _) => check_speed("velocity", velocity.unwrap_or(0.0), setting),
+            (velocity, _) => setting.check_speed("velocity", velocity.unwrap_or(0.0)),
         }
     }
     fn lets_out(&self) -> bool {

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use sph_core::register;
 
 use crate::course::{Course, check_course, factor};
-use crate::laws::{check_phase, imposed_pressure};
+use crate::laws::imposed_pressure;
 use crate::{
     Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
     Place,
@@ -35,7 +35,7 @@ pub struct Pressure {
 
 impl<const D: usize> OpenBoundary<D> for Pressure {
     fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
-        check_phase(&self.phase, setting)?;
+        setting.check_phase(&self.phase)?;
         check_course(&self.over_time, setting)
     }
     fn entering(&self) -> Entering {

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use sph_core::register;
 
 use crate::course::{Course, check_course, factor};
-use crate::laws::{check_phase, check_speed, imposed_velocity};
+use crate::laws::imposed_velocity;
 use crate::{
     Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
     Place, Profile,
@@ -47,12 +47,12 @@ pub struct VelocityInlet {
 
 impl<const D: usize> OpenBoundary<D> for VelocityInlet {
     fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
-        check_phase(&self.phase, setting)?;
+        setting.check_phase(&self.phase)?;
         self.profile.check(setting)?;
         check_course(&self.over_time, setting)?;
         let times = self.over_time.iter().flatten().map(|[_, f]| f.abs());
         let largest = times.reduce(f64::max).unwrap_or(1.0) * self.profile.largest();
-        check_speed("velocity", self.velocity * largest, setting)
+        setting.check_speed("velocity", self.velocity * largest)
     }
     fn fit(&self, places: &[Place<D>]) -> Result<(), OpenRefusal> {
         self.profile.fit(places)
