@@ -10,7 +10,7 @@ use crate::faces::{CLOSED, Faces};
 const SURFACE: [f64; 2] = [0.85, 0.95];
 
 impl<const D: usize> Faces<D> {
-    /// Kicks particles before open faces so that a pressure that is the same everywhere does not move them.
+    /// Kicks particles before open faces so that sound does not move them where it is the same everywhere.
     ///
     /// The gradient of the pressure is a sum of pressures, so that momentum is kept. Of a constant pressure r it makes the
     /// force −r ε/γ_a,
@@ -19,8 +19,10 @@ impl<const D: usize> Faces<D> {
     ///
     /// which is zero for rows that have come to rest before a wall, and not for rows that pass a face: of a lattice it
     /// is up to 0.085 γ_a V_a²/δr (h = 2 δr). It throws back 4 to 8 % of a pulse. Momentum passes an open face anyway,
-    /// so the gradient is that of p − r, with the pressure at the face for r: the mean of its elements by their
-    /// |∇γ_as|. This fades from half of the support on, and at a free surface.
+    /// so the gradient is that of p − r, with the fast part of the pressure at the face for r: what it differs from its
+    /// slow mean, of its elements by their |∇γ_as|. To a slow pressure rows arrange themselves, and the force keeps them
+    /// even: without it still water below a level stirs itself. This fades from half of the support on, and at a free
+    /// surface.
     pub fn balance(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         if self.memory.dt == 0.0 {
             return Ok(());
@@ -47,7 +49,7 @@ impl<const D: usize> Faces<D> {
         Ok(())
     }
 
-    /// Pressure of the faces that a particle sees, Pa: 0 where it sees none.
+    /// Fast part of the pressure of the faces that a particle sees, Pa: 0 where it sees none.
     fn pressure_before(&self, world: &World<D>, i: usize) -> f64 {
         let (mut sum, mut weight, mut nearest) = (0.0, 0.0, f64::INFINITY);
         for contact in world.walls.contacts.of(i) {

@@ -18,10 +18,10 @@ use crate::waves::Waves;
 /// Waves come in through the face on a current, and waves that come to it go out.
 ///
 /// Behind the face is the water of linear waves on a uniform current, regular waves to second order ([`Waves`]): its surface,
-/// pressure p₀ and velocity u₀. Where waves or a current come in the face imposes u₀ at every depth, below its own
-/// surface; what runs to it is thrown back.
+/// pressure p₀ and velocity u₀. Where a current comes in, or waves without a current, the face imposes u₀ at every depth, below
+/// its own surface; what runs to it is thrown back.
 ///
-/// Elsewhere the face yields. A wave that runs to it has p' = −ρ C u' at every depth, with u' inwards and its speed C = σ/k
+/// Elsewhere, and where a current goes out against the waves, the face yields. A wave that runs to it has p' = −ρ C u' at every depth, with u' inwards and its speed C = σ/k
 /// in the water at rest. So
 ///
 ///   p = p₀ − ρ C (u_n − u₀ₙ)
@@ -62,7 +62,7 @@ pub struct WaveFace {
     /// Time in which the waves rise; two periods if left out.
     #[schemars(extend("unit" = "s", "minimum" = 0.0))]
     ramp: Option<f64>,
-    /// Whether the face yields; if left out, where neither waves nor a current come in.
+    /// Whether the face yields; if left out, where a current goes out, or nothing comes in.
     yields: Option<bool>,
     /// Name of the phase that comes in; that of the fluid in front of the face if left out.
     #[serde(default)]
@@ -174,7 +174,7 @@ impl WaveFace {
         let omega = TAU / period;
         let speed = wavenumber_on(omega, depth, gravity, -self.current)
             .map_or((gravity * depth).sqrt(), |k| omega / k + self.current);
-        let comes_in = self.waves.is_some() || self.current > 0.0;
+        let comes_in = self.current > 0.0 || (self.current == 0.0 && self.waves.is_some());
         Ok(Settled {
             orbits,
             speed,

@@ -1,6 +1,7 @@
 //! Fluid that comes in and goes out through walls, `[wall.NAME.open-boundary.PLUGIN]`.
 
 mod pulse;
+mod still;
 
 use std::path::Path;
 
