@@ -76,3 +76,51 @@ fn a_shaken_tank_sloshes_in_time_with_the_experiment() {
     let run = finished("sloshing-tank", &["numerics.spacing=0.04", "run.end=4"]);
     run.error("phase", 0.05, 0.016);
 }
+
+/// Phase, rad, of what swings with a period in a series from a time on, over whole periods.
+fn phase(time: &[f64], level: &[f64], from: f64, period: f64) -> f64 {
+    let omega = std::f64::consts::TAU / period;
+    let rows = || time.iter().zip(level).filter(|(t, _)| **t >= from);
+    let mean = rows().map(|(_, y)| y).sum::<f64>() / rows().count() as f64;
+    let sum = |f: fn(f64) -> f64| -> f64 { rows().map(|(t, y)| (y - mean) * f(omega * t)).sum() };
+    sum(f64::sin).atan2(sum(f64::cos))
+}
+
+/// With ten rows in place of 20, and ten periods. The lag of a gauge 1.5 m farther on tells how long the waves are: they are to be
+/// nearer to the waves on the current, √(gk tanh kd) + kU = ω, than to those in still water. Less than 7 % may come back.
+#[test]
+fn waves_on_and_against_a_current_have_its_length_and_leave() {
+    let coarse = [
+        "numerics.spacing=0.05",
+        "run.end=14.4",
+        "probe.waves.from=12",
+        "probe.waves.to=14.4",
+        "reference.height.window=[14.39,14.41]",
+        "reference.reflection.window=[14.39,14.41]",
+    ];
+    let still = 2.048;
+    for (scene, theory) in [
+        ("waves-on-current", 2.399),
+        ("waves-against-current", 1.638),
+    ] {
+        let run = finished(scene, &coarse);
+        let series = run.series();
+        let column = |name: &str| {
+            let column = series.column(name);
+            column.unwrap_or_else(|| panic!("no {name}")).to_vec()
+        };
+        let time = column("time");
+        let [near, far] = ["near", "far"].map(|name| phase(&time, &column(name), 12.0, 1.2));
+        let lag = (far - near).rem_euclid(std::f64::consts::TAU);
+        let length = std::f64::consts::TAU * 1.5 / lag;
+        let back = column("waves.coefficient");
+        let back = back[back.len() - 1];
+        println!("{scene}: {length} m long for {theory} m, {back} comes back");
+        let off = (length - theory).abs();
+        assert!(
+            off < 0.5 * (theory - still).abs(),
+            "{length} m for {theory} m"
+        );
+        assert!(back < 0.07, "{back} of a wave comes back");
+    }
+}
