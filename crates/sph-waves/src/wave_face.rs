@@ -251,3 +251,93 @@ register!(
     "waves come in on a current, and what comes to the face goes out",
     "Stokes 1847; Verbrugghe et al. 2019"
 );
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn law(table: &str) -> WaveFace {
+        toml::from_str(table).expect("a law")
+    }
+
+    fn refusal(table: &str) -> OpenRefusal {
+        let why = law(table).settled(9.81);
+        why.map(|_| ()).expect_err("refused")
+    }
+
+    #[test]
+    fn what_no_water_can_do_is_refused_at_its_key() {
+        let waves = "waves = { regular = { height = 0.08, period = 1.2 } }\n";
+        let of = |more: &str| refusal(&format!("level = 0.5\n{more}"));
+        let blocked = of(&format!("current = -1.0\n{waves}"));
+        assert!(blocked.key == "waves.regular" && blocked.why.contains("against a current"));
+        let breaks = of("current = -0.2\nwaves = { regular = { height = 0.25, period = 1.2 } }");
+        assert!(breaks.key == "waves.regular" && breaks.why.contains("breaks"));
+        assert_eq!(of("current = -0.2").key, "period");
+        assert_eq!(of(&format!("floor = 0.6\n{waves}")).key, "level");
+        assert_eq!(of(&format!("order = 3\n{waves}")).key, "order");
+        let long = "order = 2\nwaves = { regular = { height = 0.05, period = 6.0 } }";
+        assert!(of(long).why.contains("too long and high"));
+        let calm = law(&format!("level = 0.5\n{waves}")).settled(0.0);
+        assert!(calm.is_err_and(|why| why.why.contains("gravity")));
+    }
+
+    #[test]
+    fn who_imposes_is_who_lets_in() {
+        let yields = |more: &str| {
+            let settled = law(&format!("level = 0.5\nperiod = 1.2\n{more}")).settled(9.81);
+            settled.expect("a law").yields
+        };
+        let waves = "waves = { regular = { height = 0.02, period = 1.2 } }";
+        assert!(yields("") && yields("current = -0.2"));
+        assert!(yields(&format!("current = -0.2\n{waves}")));
+        assert!(!yields(waves) && !yields("current = 0.2"));
+        assert!(!yields(&format!("current = 0.2\n{waves}")));
+        assert!(yields(&format!("current = 0.2\nyields = true\n{waves}")));
+    }
+
+    /// A wave that runs to the face has the pressure and the velocity that the face asks for, at every depth: neither changes.
+    #[test]
+    fn a_wave_that_comes_to_a_face_goes_out() {
+        let (depth, gravity, omega, current) = (0.5, 9.81, TAU / 1.2, -0.2);
+        let law = law("level = 0.5\ncurrent = -0.2\nperiod = 1.2");
+        let own = law.settled(gravity).expect("a law");
+        law.settled.get_or_init(|| own);
+        // It runs with the current that goes out.
+        let k = wavenumber_on(omega, depth, gravity, -current).expect("a wave");
+        let sigma = omega + k * current;
+        for height in [0.05, 0.25, 0.45] {
+            let place = Place::<2> {
+                centre: Vect::<2>::new(5.0, height),
+                normal: Vect::<2>::new(-1.0, 0.0),
+                measure: 0.03,
+                along: 0.5,
+                across: 0.5,
+                rectangle: None,
+            };
+            let out = 0.03 * sigma * (k * height).cosh() / (k * depth).sinh();
+            let inside = Inside::<2> {
+                wet: true,
+                pressure: 1000.0 * (gravity * (depth - height) + sigma / k * out),
+                velocity: Vect::<2>::new(0.2 + out, 0.0),
+                impedance: 16_000.0,
+                density: 1000.0,
+                mean: Vect::zeros(),
+                mean_pressure: 0.0,
+            };
+            let moment = Moment {
+                time: 3.0,
+                gravity: Vect::<2>::new(0.0, -gravity),
+            };
+            let outside = law.outside(&[place], &[inside], &moment)[0];
+            let (p, u) = (
+                outside.pressure - inside.pressure,
+                outside.velocity - inside.velocity,
+            );
+            assert!(
+                p.abs() < 1e-9 && u.norm() < 1e-12,
+                "{height}: {p} Pa, {u} m/s"
+            );
+        }
+    }
+}
