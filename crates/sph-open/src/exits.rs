@@ -9,8 +9,8 @@ use crate::faces::{CLOSED, Faces, LATE};
 /// A particle is born when a port has this share of its mass: its half row has come in by then.
 const RIPE: f64 = 0.5;
 
-/// By how much of the spacing a particle may be born nearer than that to the row before it: the weights of rows that shear has
-/// stirred vary by as much.
+/// By how much of the spacing a particle may be born nearer than δr to the row before it. Ours: of 0.1, 0.2, 0.35 and 0.5 that
+/// with which still water stays calm and a channel keeps its profile.
 const NEARER: f64 = 0.2;
 
 /// How far from the face, over the spacing, particles are born at least: on the fluid's side whatever is rounded.
@@ -22,7 +22,8 @@ const IN_FRONT: f64 = 1e-6;
 /// go instead of gathering at the port.
 const ROWS: f64 = 5.0;
 
-/// Time in which rows arrange themselves to a pressure, over that in which sound crosses a support.
+/// Time in which rows arrange themselves to a pressure, over that in which sound crosses a support. Ours: long for a pulse of
+/// sound, short for a wave of the surface.
 const SLOW: f64 = 50.0;
 
 /// A particle behind a face.
