@@ -126,7 +126,7 @@ impl WaveFace {
     }
 
     fn settled(&self, gravity: f64) -> Result<Settled, OpenRefusal> {
-        if !(gravity > 0.0) {
+        if gravity.is_nan() || gravity <= 0.0 {
             return refuse("level", "waves need gravity: set `numerics.gravity`");
         }
         let depth = self.level - self.floor;
