@@ -154,6 +154,11 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     }
     /// Whether fluid can leave by it where more comes in elsewhere.
     fn lets_out(&self) -> bool;
+    /// Whether rows that pass are kept even by slow pressures, as those that stay are. It makes a barrier of some per cent of the
+    /// pressure for a current, and lets waves of the surface pass that are thrown back otherwise.
+    fn keeps_rows_even(&self) -> bool {
+        false
+    }
     /// Time over which it wants the [means](Inside::mean) of velocity and pressure, s, if it does.
     fn memory(&self) -> Option<f64> {
         None

@@ -9,6 +9,10 @@ use crate::faces::{CLOSED, Faces};
 /// outer row of a lattice has 0.62 to 0.78, as for shifting.
 const SURFACE: [f64; 2] = [0.85, 0.95];
 
+/// Time in which rows arrange themselves to a pressure, over that in which sound crosses a support. Ours: long for a pulse of
+/// sound, short for a wave of the surface.
+const SLOW: f64 = 50.0;
+
 impl<const D: usize> Faces<D> {
     /// Kicks particles before open faces so that sound does not move them where it is the same everywhere.
     ///
@@ -19,10 +23,12 @@ impl<const D: usize> Faces<D> {
     ///
     /// which is zero for rows that have come to rest before a wall, and not for rows that pass a face: of a lattice it
     /// is up to 0.085 γ_a V_a²/δr (h = 2 δr). It throws back 4 to 8 % of a pulse. Momentum passes an open face anyway,
-    /// so the gradient is that of p − r, with the fast part of the pressure at the face for r: what it differs from its
-    /// slow mean, of its elements by their |∇γ_as|. To a slow pressure rows arrange themselves, and the force keeps them
-    /// even: without it still water below a level stirs itself. This fades from half of the support on, and at a free
-    /// surface.
+    /// so the gradient is that of p − r, with the pressure at the face for r, of its elements by their |∇γ_as|. This fades
+    /// from half of the support on, and at a free surface.
+    ///
+    /// Rows that stay arrange themselves to a slow pressure p̄, and the force keeps them even: without it still water below
+    /// a level stirs itself. Of p̄ there is N²/(1 + N²) in r, with the number N of rows that pass in the time of the mean;
+    /// nothing where the law [keeps rows even](crate::OpenBoundary::keeps_rows_even).
     pub fn balance(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         if self.memory.dt == 0.0 {
             return Ok(());
@@ -49,14 +55,31 @@ impl<const D: usize> Faces<D> {
         Ok(())
     }
 
-    /// Fast part of the pressure of the faces that a particle sees, Pa: 0 where it sees none.
+    /// Time over which pressures are slow before an element, s.
+    pub fn slowly(&self, k: usize) -> f64 {
+        let inside = &self.inside[k];
+        SLOW * self.support * inside.density / inside.impedance
+    }
+
+    /// r of an element, Pa.
+    fn taken_out(&self, k: usize) -> f64 {
+        let (now, slow) = (self.outside[k].pressure, self.memory.slow[k]);
+        let rows = self.memory.current[k] * self.slowly(k) / self.spacing;
+        let stays = match self.faces[self.face_of[k]].law.keeps_rows_even() {
+            true => 1.0,
+            false => 1.0 / (1.0 + rows * rows),
+        };
+        now - slow + (1.0 - stays) * (slow + self.background(self.phase(k)))
+    }
+
+    /// Pressure of the faces that a particle sees, as far as it is taken out, Pa: 0 where it sees none.
     fn pressure_before(&self, world: &World<D>, i: usize) -> f64 {
         let (mut sum, mut weight, mut nearest) = (0.0, 0.0, f64::INFINITY);
         for contact in world.walls.contacts.of(i) {
             let k = self.open[contact.element as usize];
             if k != CLOSED {
                 let w = contact.gradient.norm();
-                sum += w * (self.outside[k as usize].pressure - self.memory.slow[k as usize]);
+                sum += w * self.taken_out(k as usize);
                 weight += w;
                 nearest = f64::min(nearest, contact.distance);
             }

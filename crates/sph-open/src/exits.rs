@@ -22,10 +22,6 @@ const IN_FRONT: f64 = 1e-6;
 /// go instead of gathering at the port.
 const ROWS: f64 = 5.0;
 
-/// Time in which rows arrange themselves to a pressure, over that in which sound crosses a support. Ours: long for a pulse of
-/// sound, short for a wave of the surface.
-const SLOW: f64 = 50.0;
-
 /// A particle behind a face.
 struct Behind<const D: usize> {
     particle: u32,
@@ -180,14 +176,14 @@ impl<const D: usize> Faces<D> {
             }
         }
         for k in 0..self.elements.len() {
-            let (inside, now) = (&self.inside[k], self.outside[k].pressure);
-            let slow = &mut self.memory.slow[k];
-            let crossing = self.support * inside.density / inside.impedance;
-            let part = match begins || !inside.wet {
+            let part = match begins || !self.inside[k].wet {
                 true => 1.0,
-                false => 1.0 - (-dt / (SLOW * crossing)).exp(),
+                false => 1.0 - (-dt / self.slowly(k)).exp(),
             };
-            *slow += (now - *slow) * part;
+            let passes = self.through(k).dot(&self.places[k].normal);
+            let (slow, current) = (&mut self.memory.slow[k], &mut self.memory.current[k]);
+            *slow += (self.outside[k].pressure - *slow) * part;
+            *current += (passes - *current) * part;
         }
         for (arrived, inside) in self.memory.arrived.iter_mut().zip(&self.inside) {
             *arrived = (inside.pressure, inside.velocity);

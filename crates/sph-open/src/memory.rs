@@ -45,6 +45,8 @@ pub(crate) struct Memory<const D: usize> {
     pub arrived: Vec<(f64, Vect<D>)>,
     /// Slow pressures of the elements, Pa: those to which rows have arranged themselves.
     pub slow: Vec<f64>,
+    /// Slow normal velocities with which fluid passes the elements, m/s.
+    pub current: Vec<f64>,
     /// By face and phase.
     pub totals: Vec<Totals>,
     /// The last step, s; 0 before the first.
@@ -60,6 +62,7 @@ impl<const D: usize> Memory<D> {
             mean: vec![(0.0, Vect::zeros()); ports],
             arrived: vec![(0.0, Vect::zeros()); ports],
             slow: vec![0.0; ports],
+            current: vec![0.0; ports],
             totals: vec![Totals::default(); faces * phases],
             dt: 0.0,
         }
@@ -67,7 +70,7 @@ impl<const D: usize> Memory<D> {
 
     /// How many numbers there are.
     pub fn count(&self) -> usize {
-        self.mass.len() + (2 * (D + 1) + 1) * self.mean.len() + PER_TOTAL * self.totals.len() + 1
+        self.mass.len() + (2 * (D + 1) + 2) * self.mean.len() + PER_TOTAL * self.totals.len() + 1
     }
 
     /// All of it.
@@ -78,6 +81,7 @@ impl<const D: usize> Memory<D> {
             to.extend(velocity.iter());
         }
         to.extend(&self.slow);
+        to.extend(&self.current);
         for t in &self.totals {
             for sum in [t.entered, t.left, t.born, t.died] {
                 to.extend([sum.sum, sum.lost]);
@@ -97,6 +101,8 @@ impl<const D: usize> Memory<D> {
         let (slow, rest) = rest.split_at(self.slow.len());
         self.mass.copy_from_slice(mass);
         self.slow.copy_from_slice(slow);
+        let (current, rest) = rest.split_at(self.current.len());
+        self.current.copy_from_slice(current);
         let both = |to: &mut [(f64, Vect<D>)], from: &[f64]| {
             let all = to.iter_mut().zip(from.chunks_exact(D + 1));
             all.for_each(|(to, from)| *to = (from[0], Vect::from_column_slice(&from[1..])));
@@ -131,6 +137,7 @@ mod tests {
         memory.mean[1] = (12.0, Vect::<2>::new(5.0, 6.0));
         memory.arrived[0] = (9.0, Vect::<2>::new(10.0, 11.0));
         memory.slow[1] = 12.5;
+        memory.current[0] = 13.0;
         memory.totals[1].left.add(7.0);
         memory.dt = 8.0;
         let mut numbers = Vec::new();

@@ -201,6 +201,9 @@ impl<const D: usize> OpenBoundary<D> for WaveFace {
     fn lets_out(&self) -> bool {
         true
     }
+    fn keeps_rows_even(&self) -> bool {
+        true
+    }
     fn outside(
         &self,
         places: &[Place<D>],
