@@ -39,11 +39,15 @@ impl<const D: usize> Faces<D> {
             world.free.get(fields::MASS)?,
             world.free.get(fields::VOLUME)?,
         );
-        let sees = |i: usize| self.pressure_before(world, i) != 0.0;
+        let taken: Vec<f64> = (0..self.elements.len())
+            .map(|k| self.taken_out(k))
+            .collect();
+        let before = |i: usize| self.pressure_before(world, &taken, i);
+        let sees = |i: usize| before(i) != 0.0;
         walk_into(world, Values::Both, sees, &mut kicks, |around| {
             let i = around.rows.particle;
             let factor = around.rows.inverse_renormalisation * dt / mass[i];
-            unevenness(world, volume, around) * (self.pressure_before(world, i) * factor)
+            unevenness(world, volume, around) * (before(i) * factor)
         })?;
         let mut velocity = world.free.take(fields::VELOCITY)?;
         for &i in &world.walls.contacts.particles {
@@ -72,14 +76,14 @@ impl<const D: usize> Faces<D> {
         now - slow + (1.0 - stays) * (slow + self.background(self.phase(k)))
     }
 
-    /// Pressure of the faces that a particle sees, as far as it is taken out, Pa: 0 where it sees none.
-    fn pressure_before(&self, world: &World<D>, i: usize) -> f64 {
+    /// Pressure of the faces that a particle sees, as far as it is `taken` out of their elements, Pa: 0 where it sees none.
+    fn pressure_before(&self, world: &World<D>, taken: &[f64], i: usize) -> f64 {
         let (mut sum, mut weight, mut nearest) = (0.0, 0.0, f64::INFINITY);
         for contact in world.walls.contacts.of(i) {
             let k = self.open[contact.element as usize];
             if k != CLOSED {
                 let w = contact.gradient.norm();
-                sum += w * self.taken_out(k as usize);
+                sum += w * taken[k as usize];
                 weight += w;
                 nearest = f64::min(nearest, contact.distance);
             }

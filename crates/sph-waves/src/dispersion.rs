@@ -27,6 +27,9 @@ pub fn wavenumber_on(omega: f64, depth: f64, gravity: f64, current: f64) -> Opti
     if current == 0.0 {
         return Some(wavenumber(omega, depth, gravity));
     }
+    if !current.is_finite() {
+        return None;
+    }
     let frequency = |k: f64| (gravity * k * (k * depth).tanh()).sqrt() + k * current;
     let speed = |k: f64| {
         let x = k * depth;
@@ -83,6 +86,7 @@ mod tests {
         assert!(wavenumber_on(12.0, 5.0, gravity, 0.999 * stops).is_some());
         assert_eq!(wavenumber_on(12.0, 5.0, gravity, 1.001 * stops), None);
         assert_eq!(wavenumber_on(omega, depth, gravity, -2.3), None);
+        assert_eq!(wavenumber_on(omega, depth, gravity, f64::NAN), None);
     }
 
     #[test]

@@ -113,6 +113,14 @@ impl ReflectionProbe {
                 "no frequency, or more than 10000, between `lowest` and `highest` is a multiple of 1/(to − from)",
             ));
         }
+        let highest = TAU * *self.numbers().end() as f64 / (self.to - self.from);
+        let against = -self.current.abs();
+        if wavenumber_on(highest, self.depth, gravity, against).is_none() {
+            return Err(refused(format!(
+                "no wave of the `highest` frequency runs against a `current` of {} m/s",
+                self.current
+            )));
+        }
         Ok(())
     }
 
