@@ -19,6 +19,7 @@ impl<const D: usize> Looked<D> {
             self.reach,
             self.filled,
             self.lacks,
+            self.nearest,
         ];
         let vectors = [&inside.velocity, &inside.mean, &self.row];
         let numbers = scalars
@@ -29,7 +30,7 @@ impl<const D: usize> Looked<D> {
 
     fn read(from: &[u64]) -> Self {
         let real = |k: usize| f64::from_bits(from[k]);
-        let vector = |n: usize| Vect::from_fn(|k, _| real(8 + n * D + k));
+        let vector = |n: usize| Vect::from_fn(|k, _| real(9 + n * D + k));
         Looked {
             inside: Inside {
                 wet: from[0] != 0,
@@ -43,8 +44,9 @@ impl<const D: usize> Looked<D> {
             reach: real(5),
             filled: real(6),
             lacks: real(7),
+            nearest: real(8),
             row: vector(2),
-            mix: (8 + 3 * D..from.len()).map(real).collect(),
+            mix: (9 + 3 * D..from.len()).map(real).collect(),
         }
     }
 }
@@ -62,7 +64,7 @@ impl<const D: usize> Faces<D> {
         let looks = |k: usize| {
             shared.own_around(&self.places[k].centre, world.lists.of_points.candidates(k))
         };
-        let each = 8 + 3 * D + self.whole.len();
+        let each = 9 + 3 * D + self.whole.len();
         let mut words = Vec::new();
         for (k, seen) in looked.iter().enumerate().filter(|(k, _)| looks(*k)) {
             words.push(k as u64);
@@ -98,6 +100,7 @@ impl<const D: usize> Faces<D> {
             reach: 0.0,
             filled: 0.0,
             lacks: 0.0,
+            nearest: f64::INFINITY,
             row: Vect::zeros(),
             mix: vec![0.0; self.whole.len()],
         }

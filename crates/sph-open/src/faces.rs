@@ -80,12 +80,16 @@ pub(crate) struct Faces<const D: usize> {
     pub rows: Vec<Vect<D>>,
     /// Shares of the phases in front of every element, phases innermost.
     pub mix: Vec<f64>,
-    /// What [`filled`](Self::filled) sums up where the face is full, by element.
+    /// Weight of the row before every element where the face is full.
     pub full: Vec<f64>,
-    /// What a whole particle at the port of every element would add to that sum.
+    /// Volume that [stands](crate::row::stands) before every element where the face is full, m^d.
+    pub stands: Vec<f64>,
+    /// What a whole particle at the port of every element would add to that weight.
     pub at_port: Vec<f64>,
     /// What the row before every element lacks of a full face, over the weight of a row on the face: φ − ½ with a row at φ δr.
     pub lacks: Vec<f64>,
+    /// Distance of the particle that is nearest to the centre of every element, m.
+    pub nearest: Vec<f64>,
     /// The [share](as_share) of a particle with which every port takes part in sums.
     pub lacking: Vec<f64>,
     /// Share of every element that has fluid before it.
@@ -134,6 +138,9 @@ impl<const D: usize> Faces<D> {
         self.full = (0..self.places.len())
             .map(|k| self.when_full(k, kernel))
             .collect();
+        self.stands = (0..self.places.len())
+            .map(|k| self.stand(k, kernel))
+            .collect();
         self.at_port = (0..self.places.len())
             .map(|k| self.at_port(k, kernel))
             .collect();
@@ -153,6 +160,7 @@ impl<const D: usize> Faces<D> {
         self.outside = vec![Outside::dry(); ports];
         self.rows = vec![Vect::zeros(); ports];
         self.lacks = vec![0.0; ports];
+        self.nearest = vec![f64::INFINITY; ports];
         self.mix = vec![0.0; ports * phases];
         self.lacking = vec![0.0; ports];
         self.filled = vec![0.0; ports];
@@ -193,7 +201,20 @@ impl<const D: usize> Faces<D> {
         own.map(one).sum::<f64>() * self.spacing
     }
 
-    /// The same of one row of particles that stands on the face.
+    /// Volume that [stands](crate::row::stands) before an element where its face is full, m^d.
+    fn stand(&self, k: usize, kernel: &dyn Sampler) -> f64 {
+        let own = self.faces[self.face_of[k]].elements.clone();
+        let one = |j: usize| {
+            let apart = (self.places[k].centre - self.places[j].centre).norm_squared();
+            match apart < kernel.support_radius().powi(2) {
+                true => near(apart, self.spacing) * self.places[j].measure,
+                false => 0.0,
+            }
+        };
+        own.map(one).sum::<f64>() * self.spacing
+    }
+
+    /// Weight of one row of particles that stands on the face.
     fn at_port(&self, k: usize, kernel: &dyn Sampler) -> f64 {
         let own = self.faces[self.face_of[k]].elements.clone();
         let one = |j: usize| {

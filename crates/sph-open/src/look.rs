@@ -12,8 +12,8 @@ use crate::{Inside, Moment, Place};
 /// Least Σ V w of the fluid before an element, of the ½ of a filled half space, for a mean that means something.
 const WET: f64 = 0.15;
 
-/// Share of the weight of a full row from which on an element is full: particles that are not on a lattice weigh more or less
-/// than one.
+/// Share of the volume before a full face from which on an element is full: particles that are not on a lattice are more or
+/// fewer.
 const FULL: f64 = 0.8;
 
 /// Elements that one thread takes at least.
@@ -40,6 +40,7 @@ impl<const D: usize> Faces<D> {
             self.rows[k] = seen.row;
             self.filled[k] = seen.filled;
             self.lacks[k] = seen.lacks;
+            self.nearest[k] = seen.nearest;
             self.lacking[k] = as_share(seen.lacks);
             self.mix[k * phases..(k + 1) * phases].copy_from_slice(&seen.mix);
         }
@@ -142,7 +143,8 @@ impl<const D: usize> Faces<D> {
             p += vw * (over + columns.density[j] * world.gravity.dot(apart));
             let velocity = &columns.velocity[j];
             u += velocity * vw;
-            row.add(&place.normal, apart, self.spacing, vw, velocity);
+            let weights = [vw, columns.volume[j]];
+            row.add(&place.normal, apart, self.spacing, weights, velocity);
             weighed[phase] += vw * columns.density[j];
         }
         let (mut z, mut rho) = (0.0, 0.0);
@@ -171,8 +173,10 @@ impl<const D: usize> Faces<D> {
             mean_pressure,
         };
         seen.reach = reach;
+        let nearest = room.distance2.iter().copied().fold(f64::INFINITY, f64::min);
+        seen.nearest = nearest.sqrt();
         seen.lacks = (self.full[k] - row.weight()) / self.at_port[k];
-        seen.filled = (row.weight() / (FULL * self.full[k])).min(1.0);
+        seen.filled = (row.volume() / (FULL * self.stands[k])).min(1.0);
         seen.row = row.velocity(self.spacing).unwrap_or(u);
     }
 }

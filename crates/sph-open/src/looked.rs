@@ -13,4 +13,6 @@ pub(crate) struct Looked<const D: usize> {
     pub mix: Vec<f64>,
     pub filled: f64,
     pub lacks: f64,
+    /// Distance of the nearest particle, m.
+    pub nearest: f64,
 }

@@ -12,11 +12,19 @@ pub(crate) struct Row<const D: usize> {
     across: [f64; 3],
     /// Σ w u, Σ w t u and Σ w s u.
     velocities: [Vect<D>; 3],
+    /// Volume of those that [stand](stands) before the place.
+    volume: f64,
 }
 
 /// Share with which a row counts who is beside a place by the square of a distance, m²: exp(−2 t²/δr²).
 pub(crate) fn near(squared: f64, spacing: f64) -> f64 {
     (-2.0 * squared / (spacing * spacing)).exp()
+}
+
+/// Share with which particles at a distance before a face tell how much of it has fluid before it: a hat from 0 to 2 δr. Over
+/// rows that are δr apart it sums up to 1 wherever the first of them is, so that a row that has gone a way is no dry face.
+pub(crate) fn stands(distance: f64, spacing: f64) -> f64 {
+    (1.0 - (distance / spacing - 1.0).abs()).max(0.0)
 }
 
 impl<const D: usize> Default for Row<D> {
@@ -25,6 +33,7 @@ impl<const D: usize> Default for Row<D> {
             weights: [0.0; 3],
             across: [0.0; 3],
             velocities: [Vect::zeros(); 3],
+            volume: 0.0,
         }
     }
 }
@@ -33,10 +42,20 @@ impl<const D: usize> Default for Row<D> {
 const FLAT: f64 = 1e-2;
 
 impl<const D: usize> Row<D> {
-    /// Adds a particle on the way `apart` before the place, with its share in a mean.
-    pub fn add(&mut self, n: &Vect<D>, apart: &Vect<D>, spacing: f64, share: f64, u: &Vect<D>) {
-        let along = apart - n * apart.dot(n);
-        let w = share * near(along.norm_squared(), spacing);
+    /// Adds a particle on the way `apart` before the place, with its share in a mean and its volume.
+    pub fn add(
+        &mut self,
+        n: &Vect<D>,
+        apart: &Vect<D>,
+        spacing: f64,
+        [share, volume]: [f64; 2],
+        u: &Vect<D>,
+    ) {
+        let height = -apart.dot(n);
+        let along = apart + n * height;
+        let beside = near(along.norm_squared(), spacing);
+        self.volume += volume * beside * stands(height, spacing);
+        let w = share * beside;
         let [t, s] = coordinates(n, &along);
         let all = self.weights.iter_mut().zip([w, w * t, w * t * t]);
         all.for_each(|(sum, x)| *sum += x);
@@ -47,6 +66,11 @@ impl<const D: usize> Row<D> {
             all.for_each(|(sum, x)| *sum += x);
             self.velocities[2] += u * (w * s);
         }
+    }
+
+    /// Volume before the place, m^d.
+    pub fn volume(&self) -> f64 {
+        self.volume
     }
 
     /// Σ w of all that were added.
@@ -124,7 +148,7 @@ mod tests {
                 .iter()
                 .zip(along.iter())
                 .fold(at_place, |u, (s, x)| u + s * *x);
-            row.add(&n, &apart, spacing, 0.7 + 0.1 * f64::from(k), &u);
+            row.add(&n, &apart, spacing, [0.7 + 0.1 * f64::from(k), 1.0], &u);
         }
         let off = row.velocity(spacing).map(|u| (u - at_place).norm());
         assert!(off.is_some_and(|off| off < 1e-12), "{off:?}");
@@ -139,7 +163,7 @@ mod tests {
                 &n,
                 &Vect::<3>::new(x, 0.0, 0.05),
                 0.1,
-                1.0,
+                [1.0, 1.0],
                 &Vect::<3>::new(0.0, 0.0, 2.0),
             );
         }
