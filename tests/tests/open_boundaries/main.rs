@@ -1,5 +1,6 @@
 //! Fluid that comes in and goes out through walls, `[wall.NAME.open-boundary.PLUGIN]`.
 
+mod current;
 mod pulse;
 mod still;
 
