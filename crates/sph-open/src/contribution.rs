@@ -72,6 +72,7 @@ pub fn open<const D: usize>(
         filled: Vec::new(),
         memory: Memory::new(0, 0, 0),
         kicks: Vec::new(),
+        before: Vec::new(),
         looked: Vec::new(),
         due: false,
     };

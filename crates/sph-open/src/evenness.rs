@@ -42,18 +42,24 @@ impl<const D: usize> Faces<D> {
         let taken: Vec<f64> = (0..self.elements.len())
             .map(|k| self.taken_out(k))
             .collect();
-        let before = |i: usize| self.pressure_before(world, &taken, i);
-        let sees = |i: usize| before(i) != 0.0;
+        let mut before = std::mem::take(&mut self.before);
+        before.resize(world.free.len(), 0.0);
+        for &i in &world.walls.contacts.particles {
+            before[i as usize] = self.pressure_before(world, &taken, i as usize);
+        }
+        let sees = |i: usize| before[i] != 0.0;
         walk_into(world, Values::Both, sees, &mut kicks, |around| {
             let i = around.rows.particle;
             let factor = around.rows.inverse_renormalisation * dt / mass[i];
-            unevenness(world, volume, around) * (before(i) * factor)
+            unevenness(world, volume, around) * (before[i] * factor)
         })?;
         let mut velocity = world.free.take(fields::VELOCITY)?;
         for &i in &world.walls.contacts.particles {
             let kick = &mut kicks[i as usize];
             velocity[i as usize] += std::mem::replace(kick, Vect::zeros());
+            before[i as usize] = 0.0;
         }
+        self.before = before;
         world.free.put(fields::VELOCITY, velocity)?;
         self.kicks = kicks;
         Ok(())

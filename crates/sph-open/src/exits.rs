@@ -226,8 +226,12 @@ impl<const D: usize> Faces<D> {
         let phase = world.free.get(fields::PHASE).ok();
         let mut all = Vec::new();
         for &p in &world.walls.contacts.particles {
+            let mut contacts = world.walls.contacts.of(p as usize).iter();
+            if !contacts.any(|c| c.distance <= 0.0 && self.open[c.element as usize] != CLOSED) {
+                continue;
+            }
             let x = &position[p as usize];
-            let Some(ports) = self.nearest(world, p as usize, x) else {
+            let Some(ports) = self.nearest_ports(world, p as usize, x) else {
                 continue;
             };
             let (first, apart) = ports[0];
@@ -250,7 +254,12 @@ impl<const D: usize> Faces<D> {
 
     /// The nearest open element that a particle sees and the next nearest one of its face (the same, if there is no other),
     /// with the ways from their centres to it.
-    fn nearest(&self, world: &World<D>, p: usize, x: &Vect<D>) -> Option<[(usize, Vect<D>); 2]> {
+    fn nearest_ports(
+        &self,
+        world: &World<D>,
+        p: usize,
+        x: &Vect<D>,
+    ) -> Option<[(usize, Vect<D>); 2]> {
         let way = |k: usize| world.domain.nearest_image(x - self.places[k].centre);
         let open = || {
             let contacts = world.walls.contacts.of(p).iter();

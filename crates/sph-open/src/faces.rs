@@ -97,6 +97,8 @@ pub(crate) struct Faces<const D: usize> {
     pub memory: Memory<D>,
     /// What [`balance`](Self::balance) adds to velocities, m/s; zero in between.
     pub kicks: Vec<Vect<D>>,
+    /// Pressure that it takes out before every particle, Pa; zero in between.
+    pub before: Vec<f64>,
     /// What was seen before the elements, to be filled again.
     pub looked: Vec<Looked<D>>,
     /// Whether particles come and go at the end of this step.
