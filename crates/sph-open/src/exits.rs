@@ -226,8 +226,9 @@ impl<const D: usize> Faces<D> {
         let phase = world.free.get(fields::PHASE).ok();
         let mut all = Vec::new();
         for &p in &world.walls.contacts.particles {
+            // Distances are those of before the move, which is shorter than δr.
             let mut contacts = world.walls.contacts.of(p as usize).iter();
-            if !contacts.any(|c| c.distance <= 0.0 && self.open[c.element as usize] != CLOSED) {
+            if !contacts.any(|c| c.distance < self.spacing) {
                 continue;
             }
             let x = &position[p as usize];
