@@ -40,6 +40,10 @@ pub(crate) fn check<const D: usize>(all: &[Prescribed], start: f64) -> Result<()
     for (k, one) in all.iter().enumerate() {
         let refused =
             |key: &str, why: String| Err(MoverRefusal::of(format!("prescribed[{k}].{key}"), why));
+        let times = [("from", one.from), ("to", one.to)];
+        if let Some((key, time)) = times.into_iter().find(|(_, time)| !time.is_finite()) {
+            return refused(key, format!("{time} s is no time"));
+        }
         if one.from < before {
             let what = match k {
                 0 => "the body is free from `start` on",
@@ -59,6 +63,13 @@ pub(crate) fn check<const D: usize>(all: &[Prescribed], start: f64) -> Result<()
             return refused(
                 "course",
                 format!("row {row} has {found} numbers, {columns} are expected"),
+            );
+        }
+        let finite = |row: &Vec<f64>| row.iter().all(|x| x.is_finite());
+        if let Some(row) = one.course.iter().position(|row| !finite(row)) {
+            return refused(
+                "course",
+                format!("row {row} has a number that is not finite"),
             );
         }
         if let Some(row) = (1..one.course.len()).find(|j| one.course[*j][0] <= one.course[j - 1][0])
@@ -200,6 +211,18 @@ mod tests {
             (
                 vec![one(1.0, 2.0, &[&row[..3]])],
                 "prescribed[0].course: row 0 has 3 numbers, 4",
+            ),
+            (
+                vec![one(f64::NAN, 1.0, &[])],
+                "prescribed[0].from: NaN s is no time",
+            ),
+            (
+                vec![one(1.0, f64::INFINITY, &[])],
+                "prescribed[0].to: inf s is no time",
+            ),
+            (
+                vec![one(1.0, 2.0, &[&row, &[3.0, 0.0, f64::NAN, 0.0]])],
+                "prescribed[0].course: row 1 has a number that is not finite",
             ),
             (
                 vec![one(1.0, 2.0, &[&row, &row])],
