@@ -61,10 +61,8 @@ impl Absorption {
             parts.push(sine(moved * stays, w.phase));
             if second {
                 // The bound wave of twice the frequency (Stokes).
-                let kd = w.wavenumber * depth;
-                let shape = kd.cosh() * (2.0 + (2.0 * kd).cosh()) / (4.0 * kd.sinh().powi(3));
                 parts.push(SinePart {
-                    amplitude: w.amplitude * w.amplitude * w.wavenumber * shape,
+                    amplitude: w.amplitude * w.amplitude * w.wavenumber * w.bound(depth),
                     frequency: 2.0 * w.frequency,
                     phase: 2.0 * w.phase + FRAC_PI_2,
                 });

@@ -155,18 +155,9 @@ impl<const D: usize> WaveMaker<D> {
             None | Some(2) => {}
             Some(other) => return refuse("order", format!("1 or 2 was expected, not {other}")),
         }
-        let length = std::f64::consts::TAU / first.wavenumber;
-        let ursell = 2.0 * first.amplitude * length * length / depth.powi(3);
-        let limit = 8.0 * std::f64::consts::PI.powi(2) / 3.0;
-        match ursell < limit {
-            true => Ok(true),
-            false => refuse(
-                "order",
-                format!(
-                    "the waves are too long and high for second order: H L²/d³ = {ursell:.1}, and Madsen's limit is {limit:.1}; \
-                     take `order = 1`, or lower waves"
-                ),
-            ),
+        match first.fits_second_order(depth) {
+            Ok(()) => Ok(true),
+            Err(why) => refuse("order", why),
         }
     }
 

@@ -61,19 +61,12 @@ impl Orbits {
             let psi = w.frequency * time + w.phase;
             let a = share * w.amplitude;
             let bound = match self.second {
-                true => a * a * w.wavenumber * self.bound(w) * (2.0 * psi).cos(),
+                true => a * a * w.wavenumber * w.bound(self.depth) * (2.0 * psi).cos(),
                 false => 0.0,
             };
             a * psi.cos() + bound
         };
         self.waves.iter().map(one).sum()
-    }
-
-    /// ¼ cosh kd (2 + cosh 2kd)/sinh³ kd.
-    fn bound(&self, wave: &Component) -> f64 {
-        let coth = 1.0 / (wave.wavenumber * self.depth).tanh();
-        // cosh 2x = 1 + 2 sinh² x.
-        0.25 * coth * (3.0 * (coth * coth - 1.0) + 2.0)
     }
 
     /// The water at a height over the still level, m, where the surface is at `elevation`; above it its velocity.

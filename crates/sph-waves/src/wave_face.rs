@@ -109,19 +109,9 @@ impl WaveFace {
             None | Some(2) => {}
             Some(other) => return refuse("order", format!("1 or 2 was expected, not {other}")),
         }
-        let first = &orbits.waves[0];
-        let length = TAU / first.wavenumber;
-        let ursell = 2.0 * first.amplitude * length * length / orbits.depth.powi(3);
-        let limit = 8.0 * std::f64::consts::PI.powi(2) / 3.0;
-        match ursell < limit {
-            true => Ok(true),
-            false => refuse(
-                "order",
-                format!(
-                    "the waves are too long and high for second order: H L²/d³ = {ursell:.1}, and its limit is {limit:.1}; \
-                     take `order = 1`, or lower waves"
-                ),
-            ),
+        match orbits.waves[0].fits_second_order(orbits.depth) {
+            Ok(()) => Ok(true),
+            Err(why) => refuse("order", why),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The waves that a maker is asked for.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,6 +19,32 @@ pub struct Component {
     pub wavenumber: f64,
     /// φ, rad.
     pub phase: f64,
+}
+
+impl Component {
+    /// The bound wave of twice the frequency over a²k (Stokes' second order), η₂ = a²k · ¼ cosh kd (2 + cosh 2kd)/sinh³ kd.
+    pub(crate) fn bound(&self, depth: f64) -> f64 {
+        let coth = 1.0 / (self.wavenumber * depth).tanh();
+        // cosh 2x = 1 + 2 sinh² x.
+        0.25 * coth * (3.0 * (coth * coth - 1.0) + 2.0)
+    }
+
+    /// Whether regular waves are so low and short that second order describes them, H L²/d³ < 8π²/3 (Madsen 1971).
+    ///
+    /// # Errors
+    /// Why not.
+    pub(crate) fn fits_second_order(&self, depth: f64) -> Result<(), String> {
+        let length = TAU / self.wavenumber;
+        let ursell = 2.0 * self.amplitude * length * length / depth.powi(3);
+        let limit = 8.0 * PI.powi(2) / 3.0;
+        match ursell < limit {
+            true => Ok(()),
+            false => Err(format!(
+                "the waves are too long and high for second order: H L²/d³ = {ursell:.1}, and Madsen's limit is \
+                 {limit:.1}; take `order = 1`, or lower waves"
+            )),
+        }
+    }
 }
 
 /// The waves that a maker is asked for.
