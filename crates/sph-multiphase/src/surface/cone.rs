@@ -38,6 +38,10 @@ const CONE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// A particle of a plane surface has half of its support filled: who has less looks out on two sides.
 const HALF: f64 = 0.5;
 
+/// |∇C| of a support that is full but for noise, over 1/R: it has no outward normal. In the first row of a plane surface it is
+/// 1.1 to 1.4 (Wendland C2, h = 1.3 to 3 δr). Ours.
+const FAINT: f64 = 0.2;
+
 /// The cone test: a particle is at a free surface where no neighbour lies within 45° of n = −∇C/|∇C|, C = Σθδr^d w, or where
 /// less than half of its support is filled; alone, where its neighbours fill less of it than it does itself.
 ///
@@ -120,15 +124,18 @@ fn place<const D: usize>(world: &World<D>, around: &Around<'_, D>) -> Place {
     if filling < HALF {
         return Place::At;
     }
+    let mut walls = Vect::<D>::zeros();
     for contact in rows.contacts {
-        gradient -= contact.gradient * filling;
+        walls += contact.gradient;
     }
-    let Some(inwards) = gradient.try_normalize(0.0) else {
+    gradient -= walls * filling;
+    let Some(inwards) = gradient.try_normalize(FAINT / world.kernel.support_radius()) else {
         return Place::Inside;
     };
-    // A support that walls fill has no outward normal but noise, which may face the wall.
+    // Beside walls there may be more noise, and it may face the wall, or an edge or corner of walls.
     let faces = |normal: &Vect<D>| normal.dot(&inwards) > CONE * normal.norm();
-    if rows.contacts.iter().any(|contact| faces(&contact.gradient)) {
+    let mut contacts = rows.contacts.iter();
+    if contacts.any(|contact| faces(&contact.gradient)) || faces(&walls) {
         return Place::Inside;
     }
     // Separations point from the neighbour to the particle.
