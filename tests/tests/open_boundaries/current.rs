@@ -49,15 +49,8 @@ vtk = false
 fn a_current_between_two_equal_pressures_goes_on() {
     let folder = folder();
     into(folder.path(), CHANNEL, 1, Start::Afresh);
-    let series = std::fs::read_to_string(folder.path().join("series.csv")).expect("a series");
-    let mut lines = series.lines();
-    let head = lines.next().expect("a head");
-    let column = head.split(',').position(|c| c.starts_with("momentum.x"));
-    let last = lines.last().expect("a row").split(',');
-    let momentum: f64 = last
-        .skip(column.expect("a column"))
-        .find_map(|n| n.parse().ok())
-        .expect("a number");
+    let momentum = series(folder.path(), "momentum.x");
+    let momentum = momentum.last().expect("a row");
     let (velocity, bound) = (momentum / 1000.0, 0.01 * 2500.0 * 1.5 / (1000.0 * 2.0));
     println!("0.2 m/s have become {velocity} m/s");
     assert!(

@@ -50,22 +50,11 @@ vtk = false
 fn still_water_between_two_levels_stays_below_the_speed_of_a_fall_by_a_row() {
     let folder = folder();
     into(folder.path(), TANK, 1, Start::Afresh);
-    let series = std::fs::read_to_string(folder.path().join("series.csv")).expect("a series");
-    let mut rows = series
-        .lines()
-        .map(|line| line.split(',').collect::<Vec<_>>());
-    let head = rows.next().expect("a head");
-    let place = |name: &str| {
-        let place = head.iter().position(|c| c.starts_with(name));
-        place.unwrap_or_else(|| panic!("no column {name}"))
+    let largest = |name, zero: f64| {
+        let all = series(folder.path(), name).into_iter();
+        all.map(|x| (x - zero).abs()).fold(0.0, f64::max)
     };
-    let [speed, level] = ["largest_speed", "middle"].map(place);
-    let (mut fastest, mut off) = (0.0_f64, 0.0_f64);
-    for row in rows {
-        let number = |column: usize| row[column].parse::<f64>().expect("a number");
-        fastest = fastest.max(number(speed));
-        off = off.max((number(level) - 0.5).abs());
-    }
+    let (fastest, off) = (largest("largest_speed", 0.0), largest("middle", 0.5));
     println!("{fastest} m/s at most, the level {off} m off");
     let (row, fall) = (0.03125, (2.0 * 9.81 * 0.03125_f64).sqrt());
     assert!(fastest < fall, "{fastest} m/s, {fall} m/s at most");
