@@ -293,10 +293,12 @@ impl<const D: usize> Faces<D> {
         // What is in the port beyond the half is already in front of it.
         let late = self.memory.mass[k * self.whole.len() + q] / self.whole[q] - RIPE;
         let [pushed, let_in] = NEAREST;
-        let room = match self.outside[k].imposed {
-            true => self.nearest[k] / self.spacing - pushed,
-            false => self.nearest[k] / self.spacing - let_in,
+        let least = if self.outside[k].imposed {
+            pushed
+        } else {
+            let_in
         };
+        let room = self.nearest[k] / self.spacing - least;
         (late >= 0.0 && room >= 0.0).then_some(late.min(room))
     }
 

@@ -124,18 +124,15 @@ fn place<const D: usize>(world: &World<D>, around: &Around<'_, D>) -> Place {
     if filling < HALF {
         return Place::At;
     }
-    let mut walls = Vect::<D>::zeros();
     for contact in rows.contacts {
-        walls += contact.gradient;
+        gradient -= contact.gradient * filling;
     }
-    gradient -= walls * filling;
     let Some(inwards) = gradient.try_normalize(FAINT / world.kernel.support_radius()) else {
         return Place::Inside;
     };
-    // Beside walls there may be more noise, and it may face the wall, or an edge or corner of walls.
+    // Beside walls there may be more noise, and it may face the wall.
     let faces = |normal: &Vect<D>| normal.dot(&inwards) > CONE * normal.norm();
-    let mut contacts = rows.contacts.iter();
-    if contacts.any(|contact| faces(&contact.gradient)) || faces(&walls) {
+    if rows.contacts.iter().any(|contact| faces(&contact.gradient)) {
         return Place::Inside;
     }
     // Separations point from the neighbour to the particle.
