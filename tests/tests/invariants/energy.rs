@@ -90,7 +90,7 @@ fn the_budget_of_a_standing_wave_closes() {
     let initial = 0.25 * 1000.0 * 0.05 * 0.05 * 2.0;
     let coarse = [
         "numerics.spacing=0.05",
-        "body.water.below.level=1.025",
+        "body.water.box=[[-1.0, 0.0], [1.0, 1.025]]",
         "numerics.relax={ steps = 400, tolerance = 0.001 }",
     ];
     Budget::of(&flown("standing-wave-inviscid", 3.5515, &coarse)).closes(initial);

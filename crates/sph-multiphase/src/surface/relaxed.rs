@@ -29,9 +29,10 @@ contribution_kind!(
 /// the particles fill more space than they have volume: a fold closed on a gap. The loss of K lowers their pressure until
 /// the water around has filled the gap; mass and momentum stay, the energy that goes is counted (in checkpoints). A change
 /// of K moves the pressure by c h K/τ before sound has carried it off: with K up to 0.3 ρ₀ and a Mach number of 0.1, n = 30
-/// keeps that below ρU². ε is the unevenness of kernel sums beside walls: 2 % in the first row of a lattice.
+/// keeps that below ρU². ε has to be a share of the spread that is borne, for constants come to rest at its edge: with 0.01
+/// nearly all stay within 3 %, with 0.03 a few per cent of them stand just beyond.
 ///
-/// Meant for water that tears, `tension_limit = 0`. One more walk over the neighbours in a step.
+/// Meant for water that tears. One more walk over the neighbours in a step.
 ///
 /// Source: the cone test is of Marrone et al. 2010; relaxing K is ours.
 ///
@@ -51,7 +52,7 @@ pub struct ConeTest {
     /// ε: share of ρ₀ that the constant may have where no surface is near.
     #[schemars(
         range(min = 0.0, max = 1.0),
-        extend("unit" = "1", "source" = "ours: sums on a lattice beside a wall are 2 % off")
+        extend("unit" = "1", "source" = "ours: a third of the 3 % that are borne")
     )]
     pub tolerance: f64,
     /// Whether particles at a surface have no pressure over that of the reference density: the condition p = 0 of a free
@@ -63,7 +64,7 @@ impl Default for ConeTest {
     fn default() -> Self {
         ConeTest {
             time: 30.0,
-            tolerance: 0.03,
+            tolerance: 0.01,
             no_pressure: false,
         }
     }
@@ -225,8 +226,8 @@ mod tests {
     #[test]
     fn a_full_support_loses_what_it_has_beyond_the_tolerance() {
         let of = |k: f64| relaxation().change(&seen(Place::Inside, k, 1000.0), 1000.0, 1.0);
-        assert_eq!([of(29.0), of(-29.0)], [0.0, 0.0]);
-        assert!((of(430.0) + 400.0).abs() < 1e-9 && (of(-130.0) - 100.0).abs() < 1e-9);
+        assert_eq!([of(9.0), of(-9.0)], [0.0, 0.0]);
+        assert!((of(430.0) + 420.0).abs() < 1e-9 && (of(-130.0) - 120.0).abs() < 1e-9);
     }
 
     #[test]
@@ -246,7 +247,7 @@ mod tests {
     #[test]
     fn surfaces_are_not_under_tension_and_lone_particles_have_no_pressure() {
         let of = |place, rho| relaxation().change(&seen(place, 0.0, rho), 1000.0, 0.5);
-        assert!((of(Place::At, 570.0) - 200.0).abs() < 1e-9);
+        assert!((of(Place::At, 590.0) - 200.0).abs() < 1e-9);
         assert_eq!(of(Place::At, 1100.0), 0.0);
         assert_eq!(of(Place::Alone, 140.0), 860.0);
     }
