@@ -83,15 +83,15 @@ fn the_budget_of_a_dam_break_closes_with_the_damper_and_without() {
     }
 }
 
-/// A standing wave has ¼ρga²λ for every wavelength: a thousandth of that. From relaxed particles, so that the start does not
-/// ring.
+/// A standing wave has ¼ρga²λ for every wavelength: a thousandth of that with a quarter of the scene's steps. What steps make is
+/// of first order and comes back: −0.0043, −0.0021 and −0.0011 J after a period with 0.4 (the scene's), 0.2 and 0.1 h/c.
 #[test]
 fn the_budget_of_a_standing_wave_closes() {
     let initial = 0.25 * 1000.0 * 0.05 * 0.05 * 2.0;
     let coarse = [
         "numerics.spacing=0.05",
         "body.water.box=[[-1.0, 0.0], [1.0, 1.025]]",
-        "numerics.relax={ steps = 400, tolerance = 0.001 }",
+        "integrator.symplectic-euler.courant=0.1",
     ];
     Budget::of(&flown("standing-wave-inviscid", 3.5515, &coarse)).closes(initial);
 }

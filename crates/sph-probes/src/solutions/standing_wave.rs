@@ -55,23 +55,36 @@ impl StandingWave {
         let k = self.wavenumber();
         (self.gravity * k * (k * self.depth).tanh()).sqrt()
     }
+
+    /// cosh(kz)/cosh(kd), cosh(kz)/sinh(kd) and sinh(kz)/sinh(kd), without what overflows in deep water.
+    fn profiles(&self, height: f64) -> [f64; 3] {
+        let k = self.wavenumber();
+        let decay = (k * (height - self.depth)).exp();
+        let (here, top) = ((-2.0 * k * height).exp(), (-2.0 * k * self.depth).exp());
+        [
+            decay * (1.0 + here) / (1.0 + top),
+            decay * (1.0 + here) / (1.0 - top),
+            decay * (1.0 - here) / (1.0 - top),
+        ]
+    }
 }
 
 impl<const D: usize> Solution<D> for StandingWave {
     fn velocity(&self, position: &Vect<D>, time: f64) -> Option<Vect<D>> {
-        let (k, frequency) = (self.wavenumber(), self.frequency());
-        let (along, up) = (k * position[0], k * position[D - 1]);
-        let scale = self.amplitude * frequency * (frequency * time).cos() / (k * self.depth).sinh();
+        let (along, frequency) = (self.wavenumber() * position[0], self.frequency());
+        let [_, beside, up] = self.profiles(position[D - 1]);
+        let scale = self.amplitude * frequency * (frequency * time).cos();
         let mut velocity = Vect::zeros();
-        velocity[0] = -scale * along.sin() * up.cosh();
-        velocity[D - 1] = scale * along.cos() * up.sinh();
+        velocity[0] = -scale * along.sin() * beside;
+        velocity[D - 1] = scale * along.cos() * up;
         Some(velocity)
     }
 
     fn pressure(&self, position: &Vect<D>, time: f64) -> Option<f64> {
-        let (k, up) = (self.wavenumber(), position[D - 1]);
-        let swing = self.amplitude * (self.frequency() * time).sin() * (k * position[0]).cos();
-        let head = self.depth - up + swing * (k * up).cosh() / (k * self.depth).cosh();
+        let (along, height) = (self.wavenumber() * position[0], position[D - 1]);
+        let [below, ..] = self.profiles(height);
+        let swing = self.amplitude * (self.frequency() * time).sin() * along.cos();
+        let head = self.depth - height + swing * below;
         Some(self.density * self.gravity * head)
     }
 }
@@ -121,6 +134,20 @@ mod tests {
         }
         assert!(velocity(&Vect::from([0.3, 0.0]), time)[1].abs() < 1e-15);
         assert!(velocity(&Vect::from([1.0, 0.4]), time)[0].abs() < 1e-15);
+    }
+
+    /// Ripples of a millimetre on a metre of water: kd = 6283, and cosh(kd) is no number.
+    #[test]
+    fn deep_water_does_not_overflow() {
+        let ripple = StandingWave {
+            wavelength: 1e-3,
+            ..WAVE
+        };
+        let at = |z: f64| Solution::<2>::velocity(&ripple, &Vect::from([0.0, z]), 0.0);
+        let top = at(1.0).expect("a velocity")[1];
+        let expected = ripple.amplitude * ripple.frequency();
+        assert!((top - expected).abs() < 1e-12 * expected, "{top}");
+        assert_eq!(at(0.5), Some(Vect::zeros()));
     }
 
     /// ∂η/∂t = u_z at the surface, where p = ρg (d + η − z) to first order.
