@@ -160,6 +160,9 @@ mod tests {
         };
         let rises = (surface(time + STEP) - surface(time - STEP)) / (2.0 * STEP);
         let goes = velocity(&x, time)[1];
-        assert!((rises - goes).abs() < 1e-6 * goes.abs(), "{rises} for {goes}");
+        assert!(
+            (rises - goes).abs() < 1e-6 * goes.abs(),
+            "{rises} for {goes}"
+        );
     }
 }

@@ -75,7 +75,10 @@ fn compared(results: &Results) -> Result<String, IoError> {
         }
     }
     if !results.errors.is_empty() {
-        let _ = writeln!(page, "<h2>Pareto line: not beaten in both error and time</h2>");
+        let _ = writeln!(
+            page,
+            "<h2>Pareto line: not beaten in both error and time</h2>"
+        );
         page.push_str(&best(results));
     }
     let _ = writeln!(page, "<h2>Variants</h2>");
