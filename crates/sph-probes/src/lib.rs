@@ -71,7 +71,6 @@ pub use solutions::hydrostatic::Hydrostatic;
 pub use solutions::poiseuille::Poiseuille;
 pub use solutions::rigid_rotation::RigidRotation;
 pub use solutions::rotating_square::RotatingSquare;
-pub use solutions::standing_wave::StandingWave;
 pub use solutions::taylor_green::TaylorGreen;
 pub use solutions::taylor_green_3d::TaylorGreen3d;
 pub use surface::{SURFACE_DISTANCE, surface_distance};

@@ -13,6 +13,5 @@ pub(crate) mod hydrostatic;
 pub(crate) mod poiseuille;
 pub(crate) mod rigid_rotation;
 pub(crate) mod rotating_square;
-pub(crate) mod standing_wave;
 pub(crate) mod taylor_green;
 pub(crate) mod taylor_green_3d;

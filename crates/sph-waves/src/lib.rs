@@ -3,6 +3,7 @@
 //! * [`WaveMaker`] is the mover of a piston or a flap ([`Paddle`]), for [`Waves`] of every kind.
 //! * [`ReflectionProbe`] separates the two directions ([`separated`]).
 //! * [`WaveFace`] is the law of an open face through which waves come and go, on a current.
+//! * [`StandingWave`] is a wave between two walls, as a start and as a reference.
 //! * [`wavenumber`] is the dispersion of linear waves, [`Jonswap`] a spectrum.
 #![doc = include_str!("../README.md")]
 
@@ -16,6 +17,7 @@ mod paddle;
 mod reflection;
 mod separation;
 mod spectrum;
+mod standing_wave;
 mod wave_face;
 mod waves;
 
@@ -25,5 +27,6 @@ pub use paddle::Paddle;
 pub use reflection::ReflectionProbe;
 pub use separation::{Amplitude, Separated, separated};
 pub use spectrum::Jonswap;
+pub use standing_wave::StandingWave;
 pub use wave_face::WaveFace;
 pub use waves::{Component, Waves};

@@ -40,7 +40,7 @@ pub(crate) struct Water {
 }
 
 /// cosh and sinh of k(z + d) over sinh kd, below the still level; straight on above it.
-fn depths(k: f64, z: f64, depth: f64) -> [f64; 2] {
+pub(crate) fn depths(k: f64, z: f64, depth: f64) -> [f64; 2] {
     let below = z.min(0.0);
     let (near, far) = ((k * below).exp(), (-k * (below + 2.0 * depth)).exp());
     let over = 1.0 - (-2.0 * k * depth).exp();

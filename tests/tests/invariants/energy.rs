@@ -2,6 +2,7 @@
 
 use sph_core::System;
 use sph_solver::Assembled;
+use sph_waves as _;
 
 use crate::{fly, shipped};
 

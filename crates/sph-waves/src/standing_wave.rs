@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Vect, register};
+use sph_probes::{Solution, SolutionEntry};
 
-use crate::{Solution, SolutionEntry};
+use crate::orbits::depths;
 
 /// Water without friction whose surface is z = d + a sin(ωt) cos(kx), k = 2π/L, ω² = gk tanh(kd); z is the last axis and 0 at
 /// the floor:
@@ -55,24 +56,13 @@ impl StandingWave {
         let k = self.wavenumber();
         (self.gravity * k * (k * self.depth).tanh()).sqrt()
     }
-
-    /// cosh(kz)/cosh(kd), cosh(kz)/sinh(kd) and sinh(kz)/sinh(kd), without what overflows in deep water.
-    fn profiles(&self, height: f64) -> [f64; 3] {
-        let k = self.wavenumber();
-        let decay = (k * (height - self.depth)).exp();
-        let (here, top) = ((-2.0 * k * height).exp(), (-2.0 * k * self.depth).exp());
-        [
-            decay * (1.0 + here) / (1.0 + top),
-            decay * (1.0 + here) / (1.0 - top),
-            decay * (1.0 - here) / (1.0 - top),
-        ]
-    }
 }
 
 impl<const D: usize> Solution<D> for StandingWave {
     fn velocity(&self, position: &Vect<D>, time: f64) -> Option<Vect<D>> {
-        let (along, frequency) = (self.wavenumber() * position[0], self.frequency());
-        let [_, beside, up] = self.profiles(position[D - 1]);
+        let (k, frequency) = (self.wavenumber(), self.frequency());
+        let along = k * position[0];
+        let [beside, up] = depths(k, position[D - 1] - self.depth, self.depth);
         let scale = self.amplitude * frequency * (frequency * time).cos();
         let mut velocity = Vect::zeros();
         velocity[0] = -scale * along.sin() * beside;
@@ -81,10 +71,10 @@ impl<const D: usize> Solution<D> for StandingWave {
     }
 
     fn pressure(&self, position: &Vect<D>, time: f64) -> Option<f64> {
-        let (along, height) = (self.wavenumber() * position[0], position[D - 1]);
-        let [below, ..] = self.profiles(height);
-        let swing = self.amplitude * (self.frequency() * time).sin() * along.cos();
-        let head = self.depth - height + swing * below;
+        let (k, above) = (self.wavenumber(), position[D - 1] - self.depth);
+        let [beside, _] = depths(k, above, self.depth);
+        let swing = self.amplitude * (self.frequency() * time).sin() * (k * position[0]).cos();
+        let head = swing * beside * (k * self.depth).tanh() - above;
         Some(self.density * self.gravity * head)
     }
 }
