@@ -42,10 +42,15 @@ const HALF: f64 = 0.5;
 /// 1.1 to 1.4 (Wendland C2, h = 1.3 to 3 δr). Ours.
 const FAINT: f64 = 0.2;
 
+/// Filling of a support over which nobody looks for a surface. The empty cone alone takes 1/4 of a disc and 0.146 of a ball, so
+/// that a surface has at most 0.75 and 0.854; what is between is for crowding. Ours.
+const FULL: f64 = 0.95;
+
 /// The cone test: a particle is at a free surface where no neighbour lies within 45° of n = −∇C/|∇C|, C = Σθδr^d w, or where
 /// less than half of its support is filled; alone, where its neighbours fill less of it than it does itself.
 ///
-/// Volumes are those of the lattice, δr^d, so that the test knows nothing of densities. Walls count in ∇C as filled.
+/// Volumes are those of the lattice, δr^d, so that the test knows nothing of densities. Walls count in ∇C as filled. Only
+/// particles whose support is filled to less than 0.95 are looked at: the sum is known from γρ − K.
 ///
 /// Source: Marrone et al. 2010, J. Comput. Phys. 229, 3652–3663, §3.1, with the cone of the first step alone; the bounds for
 /// sheets and lone particles are ours.
@@ -56,7 +61,13 @@ impl Declares for FreeSurface {
         "free surface".into()
     }
     fn access(&self) -> Access {
-        Access::none().both(fields::POSITION).writes(FREE_SURFACE)
+        Access::none()
+            .both(fields::POSITION)
+            .here(fields::MASS)
+            .here(fields::DENSITY)
+            .here(fields::DENSITY_CONSTANT)
+            .where_there(fields::RENORMALISATION)
+            .writes(FREE_SURFACE)
     }
 }
 
@@ -67,13 +78,10 @@ impl<const D: usize> Stage<World<D>> for FreeSurface {
     }
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut places = vec![Place::Inside; world.free.len()];
-        walk_into(
-            world,
-            Values::Both,
-            |_| true,
-            &mut places,
-            |around| place(world, around),
-        )?;
+        let lacking = lacking(world)?;
+        walk_into(world, Values::Both, lacking, &mut places, |around| {
+            place(world, around)
+        })?;
         let mut surface = world.free.take(FREE_SURFACE)?;
         let lists = world.lists.nearest();
         let position = world.free.get(fields::POSITION)?;
@@ -93,6 +101,23 @@ impl<const D: usize> Stage<World<D>> for FreeSurface {
         });
         Ok(world.free.put(FREE_SURFACE, surface)?)
     }
+}
+
+/// Whether the support of a particle lacks fluid, (γρ − K)δr^d/(γm) < 0.95, or its density is below half of m/δr^d: then it may be
+/// held above its sum.
+fn lacking<const D: usize>(
+    world: &World<D>,
+) -> Result<impl Fn(usize) -> bool + Sync + '_, StepError> {
+    let cell = world.spacing.powi(D as i32);
+    let mass = world.free.get(fields::MASS)?;
+    let density = world.free.get(fields::DENSITY)?;
+    let constant = world.free.get(fields::DENSITY_CONSTANT)?;
+    let gamma = world.free.get(fields::RENORMALISATION).ok();
+    Ok(move |i: usize| {
+        let full = mass[i] / cell;
+        let sum = density[i] - constant[i] / gamma.map_or(1.0, |g| g[i]);
+        sum < FULL * full || density[i] < HALF * full
+    })
 }
 
 /// Squared distance, m², of the nearest images.
