@@ -16,8 +16,8 @@ use sph_contribution::Stages;
 ///
 /// K_a = γ_aρ_a − m_aΣθw is fixed at the start and holds the free-surface deficit; it changes
 /// by density diffusion alone, so the density has no drift. With one phase and no wall the
-/// formulation is the classical single-fluid one. The density of lone particles is not let below
-/// a tenth of m/δr^d.
+/// formulation is the classical single-fluid one. A particle that tore off alone sums m w(0) + K, 0.14 ρ₀ or less:
+/// `[surface.cone-test]` gives it ρ₀, and the guard stops a run with a density below its bounds.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 3.24–3.25 in the telescoped form.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
@@ -72,14 +72,7 @@ register!(
     "Ghaïtanellis 2017, Eq. 3.24–3.26; Hu & Adams 2006"
 );
 
-/// Least density over that of a full cell, m/δr^d.
-///
-/// A particle alone sums 0.12 to 0.14 of ρ₀, to which K may add −0.13: densities near or below 0,
-/// and volumes without bound in the sums of whoever comes near. Particles with neighbours are far
-/// above this.
-const LEAST_FILLING: f64 = 0.1;
-
-/// ρ = (K + m Σθw)/γ, not below a tenth of m/δr^d, and V = m/ρ.
+/// ρ = (K + m Σθw)/γ and V = m/ρ.
 struct DensitySum;
 
 impl Declares for DensitySum {
@@ -104,17 +97,13 @@ impl<const D: usize> Stage<World<D>> for DensitySum {
         let mass = world.free.get(fields::MASS)?;
         let constant = world.free.get(fields::DENSITY_CONSTANT)?;
         let gamma = world.free.get(fields::RENORMALISATION).ok();
-        let per_cell = LEAST_FILLING / world.spacing.powi(D as i32);
         density
             .par_iter_mut()
             .zip(volume.par_iter_mut())
             .enumerate()
             .with_min_len(1024)
             .for_each(|(i, (rho, v))| {
-                let sum = (constant[i] + mass[i] * *rho) / gamma.map_or(1.0, |g| g[i]);
-                // Not `max`: a density that is not a number must be seen by the guard.
-                let least = mass[i] * per_cell;
-                *rho = if sum < least { least } else { sum };
+                *rho = (constant[i] + mass[i] * *rho) / gamma.map_or(1.0, |g| g[i]);
                 *v = mass[i] / *rho;
             });
         world.free.put(fields::DENSITY, density)?;

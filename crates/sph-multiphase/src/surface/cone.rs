@@ -103,8 +103,7 @@ impl<const D: usize> Stage<World<D>> for FreeSurface {
     }
 }
 
-/// Whether the support of a particle lacks fluid, (γρ − K)δr^d/(γm) < 0.95, or its density is below half of m/δr^d: then it may be
-/// held above its sum.
+/// Whether the support of a particle lacks fluid: (γρ − K)δr^d/(γm) < 0.95.
 fn lacking<const D: usize>(
     world: &World<D>,
 ) -> Result<impl Fn(usize) -> bool + Sync + '_, StepError> {
@@ -114,9 +113,8 @@ fn lacking<const D: usize>(
     let constant = world.free.get(fields::DENSITY_CONSTANT)?;
     let gamma = world.free.get(fields::RENORMALISATION).ok();
     Ok(move |i: usize| {
-        let full = mass[i] / cell;
         let sum = density[i] - constant[i] / gamma.map_or(1.0, |g| g[i]);
-        sum < FULL * full || density[i] < HALF * full
+        sum * cell < FULL * mass[i]
     })
 }
 

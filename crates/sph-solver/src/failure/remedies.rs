@@ -52,7 +52,8 @@ fn against_quantity(cause: &StepError, found: &Findings) -> Vec<String> {
         } => text(&[
             "particles are squeezed or torn apart: raise `speed_of_sound` of the phase to ten times the largest speed, or give \
              `velocity_scale`",
-            "if a splash folds the surface, `numerics.density_bounds` may be too narrow",
+            "if a splash folds or tears the surface, `[surface.cone-test]` lets densities forget it, where they are sums; \
+             `numerics.density_bounds` may be too narrow",
         ]),
         StepError::Bad {
             quantity: "position",
