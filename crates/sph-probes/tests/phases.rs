@@ -111,6 +111,25 @@ fn a_level_beside_a_wall_is_that_of_the_water_off_it() {
     }
 }
 
+/// What is thrown up from the top keeps its height on a wire, and lifts the level to where it is.
+#[test]
+fn a_wire_tells_how_much_of_it_is_wet() {
+    let mut world = World {
+        domain: Domain::open(Vect::from([0.0, -1.0]), Vect::from([1.0, 3.0])),
+        ..world()
+    };
+    for x in world.free.get_mut(fields::POSITION).unwrap() {
+        if x[1] > 0.9 {
+            x[1] += 0.8;
+        }
+    }
+    let level = |keys: &str| built("level", keys).measure(&world).unwrap()[0];
+    let [top, wet] = ["at = [0.25]", "at = [0.25]\nwetted = true"].map(level);
+    assert!((top - 2.0).abs() < 0.1 * SPACING, "{top}");
+    // Each of the three surfaces is found to a quarter of a spacing.
+    assert!((wet - 1.2).abs() < 0.75 * SPACING, "{wet}");
+}
+
 #[test]
 fn fronts_and_extents_are_those_of_the_phase() {
     let water = |keys: &str| format!("axis = \"y\"\nphase = \"water\"\n{keys}");

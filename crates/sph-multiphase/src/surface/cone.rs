@@ -77,30 +77,39 @@ impl<const D: usize> Stage<World<D>> for FreeSurface {
         2
     }
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let mut places = vec![Place::Inside; world.free.len()];
-        let lacking = lacking(world)?;
-        walk_into(world, Values::Both, lacking, &mut places, |around| {
-            place(world, around)
-        })?;
         let mut surface = world.free.take(FREE_SURFACE)?;
-        let lists = world.lists.nearest();
-        let position = world.free.get(fields::POSITION)?;
-        let reach2 = world.kernel.support_radius().powi(2);
-        let at = |i: usize| places[i] == Place::At;
-        let near = |i: usize| {
-            let mut others = lists.candidates(i).iter().map(|j| *j as usize);
-            others.any(|j| at(j) && apart2(world, &position[i], &position[j]) < reach2)
-        };
-        let all = surface.par_iter_mut().enumerate().with_min_len(1024);
-        all.for_each(|(i, out)| {
-            let place = match places[i] {
-                Place::Inside if near(i) => Place::Near,
-                other => other,
-            };
-            *out = place.number();
-        });
+        find(world, &mut surface)?;
         Ok(world.free.put(FREE_SURFACE, surface)?)
     }
+}
+
+/// Particles at a surface, then those near them.
+fn find<const D: usize>(world: &World<D>, surface: &mut [f64]) -> Result<(), StepError> {
+    let mut places = world.shelf().lend::<Vec<Place>>();
+    places.clear();
+    places.resize(world.free.len(), Place::Inside);
+    let lacking = lacking(world)?;
+    walk_into(world, Values::Both, lacking, &mut places, |around| {
+        place(world, around)
+    })?;
+    let places = &places[..];
+    let lists = world.lists.nearest();
+    let position = world.free.get(fields::POSITION)?;
+    let reach2 = world.kernel.support_radius().powi(2);
+    let at = |i: usize| places[i] == Place::At;
+    let near = |i: usize| {
+        let mut others = lists.candidates(i).iter().map(|j| *j as usize);
+        others.any(|j| at(j) && apart2(world, &position[i], &position[j]) < reach2)
+    };
+    let all = surface.par_iter_mut().enumerate().with_min_len(1024);
+    all.for_each(|(i, out)| {
+        let place = match places[i] {
+            Place::Inside if near(i) => Place::Near,
+            other => other,
+        };
+        *out = place.number();
+    });
+    Ok(())
 }
 
 /// Whether the support of a particle lacks fluid: (γρ − K)δr^d/(γm) < 0.95.

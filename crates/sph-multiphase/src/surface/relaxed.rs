@@ -140,6 +140,50 @@ impl Relaxation {
             0.0
         }
     }
+
+    /// Relaxes the constants over a step; what that gives to the particles, J.
+    fn relax<const D: usize>(
+        &self,
+        world: &World<D>,
+        constant: &mut [f64],
+        dt: f64,
+    ) -> Result<f64, StepError> {
+        let h = world.kernel.smoothing_length();
+        let surface = world.free.get(FREE_SURFACE)?;
+        let density = world.free.get(fields::DENSITY)?;
+        let pressure = world.free.get(fields::PRESSURE)?;
+        let volume = world.free.get(fields::VOLUME)?;
+        let phase = world.free.get(fields::PHASE).ok();
+        let gamma = world.free.get(fields::RENORMALISATION).ok();
+        let mut parts = world.shelf().lend::<Vec<f64>>();
+        parts.clear();
+        let part = |c: f64| 1.0 - (-dt * c / (self.plugin.time * h)).exp();
+        parts.extend(self.phases.iter().map(|(_, c)| part(*c)));
+        let parts = &parts[..];
+        let one = |i: usize, constant: &mut f64| -> f64 {
+            let phase = phase.map_or(0, |p| p[i] as usize);
+            let seen = Seen {
+                place: surface[i],
+                constant: *constant,
+                density: density[i],
+                gamma: gamma.map_or(1.0, |g| g[i]),
+            };
+            let change = self.change(&seen, self.phases[phase].0, parts[phase]);
+            *constant += change;
+            // dE = m p/ρ² dρ
+            volume[i] * pressure[i] * change / (seen.gamma * seen.density)
+        };
+        const BATCH: usize = 2048;
+        let batches = constant.par_chunks_mut(BATCH).enumerate();
+        let mut given = world.shelf().lend::<Vec<f64>>();
+        batches
+            .map(|(batch, all)| {
+                let places = all.iter_mut().enumerate();
+                places.map(|(k, c)| one(batch * BATCH + k, c)).sum()
+            })
+            .collect_into_vec(&mut given);
+        Ok(given.iter().sum())
+    }
 }
 
 impl<const D: usize> StepWork<D> for Relaxation {
@@ -158,40 +202,8 @@ impl<const D: usize> StepWork<D> for Relaxation {
             .writes(fields::DENSITY_CONSTANT)
     }
     fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
-        let h = world.kernel.smoothing_length();
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
-        let surface = world.free.get(FREE_SURFACE)?;
-        let density = world.free.get(fields::DENSITY)?;
-        let pressure = world.free.get(fields::PRESSURE)?;
-        let volume = world.free.get(fields::VOLUME)?;
-        let phase = world.free.get(fields::PHASE).ok();
-        let gamma = world.free.get(fields::RENORMALISATION).ok();
-        let parts = self.phases.iter();
-        let parts: Vec<f64> = parts
-            .map(|(_, c)| 1.0 - (-dt * c / (self.plugin.time * h)).exp())
-            .collect();
-        let one = |i: usize, constant: &mut f64| -> f64 {
-            let phase = phase.map_or(0, |p| p[i] as usize);
-            let seen = Seen {
-                place: surface[i],
-                constant: *constant,
-                density: density[i],
-                gamma: gamma.map_or(1.0, |g| g[i]),
-            };
-            let change = self.change(&seen, self.phases[phase].0, parts[phase]);
-            *constant += change;
-            // dE = m p/ρ² dρ
-            volume[i] * pressure[i] * change / (seen.gamma * seen.density)
-        };
-        const BATCH: usize = 2048;
-        let batches = constant.par_chunks_mut(BATCH).enumerate();
-        let given: Vec<f64> = batches
-            .map(|(batch, all)| {
-                let places = all.iter_mut().enumerate();
-                places.map(|(k, c)| one(batch * BATCH + k, c)).sum()
-            })
-            .collect();
-        self.energy += given.iter().sum::<f64>();
+        self.energy += self.relax(world, &mut constant, dt)?;
         Ok(world.free.put(fields::DENSITY_CONSTANT, constant)?)
     }
     fn counts(&self) -> Option<Json> {

@@ -31,6 +31,10 @@ pub struct Level {
     pub follows: Option<String>,
     /// Name of the phase whose top is measured; the free surface of all of them if left out.
     pub phase: Option<String>,
+    /// Whether dry parts of the line below that place are taken off, as a wire does whose wet length is measured: a drop in the air
+    /// then counts with its own height.
+    #[serde(default)]
+    pub wetted: bool,
     #[serde(skip)]
     number: Option<u32>,
 }
@@ -42,6 +46,7 @@ impl Level {
             at,
             follows: None,
             phase: None,
+            wetted: false,
             number: None,
         }
     }
@@ -97,8 +102,21 @@ impl<const D: usize> Probe<D> for Level {
                 full = middle
             }
         }
-        Ok(vec![0.5 * (full + empty)])
+        let level = 0.5 * (full + empty);
+        let dry = match self.wetted {
+            true => length_where(|z| filling(z) < half, bottom, level, step),
+            false => 0.0,
+        };
+        Ok(vec![level - dry])
     }
+}
+
+/// Length of the part of a line on which something holds, to less than `step`.
+fn length_where(holds: impl Fn(f64) -> bool, from: f64, to: f64, step: f64) -> f64 {
+    let count = ((to - from) / step).ceil().max(1.0);
+    let each = (to - from) / count;
+    let middles = (0..count as usize).map(|k| from + (k as f64 + 0.5) * each);
+    middles.filter(|z| holds(*z)).count() as f64 * each
 }
 
 /// Whether the highest particle within a spacing of the line feels a wall, and not the floor below `floor`.
