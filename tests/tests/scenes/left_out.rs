@@ -31,13 +31,23 @@ fn water_alone_carries_nothing_of_phases_laws_and_solves() {
         "volume",
         "pressure",
         "acceleration",
+        "free_surface",
         "density_constant_rate",
     ];
     assert_eq!(columns(&water), expected);
-    assert_eq!(water.bytes_per_particle, 108);
-    assert_eq!(water.stages.len(), 5);
+    assert_eq!(water.bytes_per_particle, 116);
+    assert_eq!(water.stages.len(), 6);
     let limits: Vec<&str> = water.step_limits.keys().map(String::as_str).collect();
     assert_eq!(limits, ["force", "smoother", "sound", "viscosity"]);
+}
+
+/// Densities that follow a rate have no constant that could be wrong: the table that relaxes it may stay, and costs nothing.
+#[test]
+fn surfaces_are_not_looked_for_where_densities_do_not_remember_them() {
+    let over = ["formulation.colagrossi-landrini={}"];
+    let water = examined("dam-break-koshizuka", &over);
+    assert!(!columns(&water).contains(&"free_surface"));
+    assert_eq!(water.stages.len(), 4);
 }
 
 #[test]

@@ -50,24 +50,29 @@ const FULL: f64 = 0.95;
 /// less than half of its support is filled; alone, where its neighbours fill less of it than it does itself.
 ///
 /// Volumes are those of the lattice, δr^d, so that the test knows nothing of densities. Walls count in ∇C as filled. Only
-/// particles whose support is filled to less than 0.95 are looked at: the sum is known from γρ − K.
+/// particles whose support is filled to less than 0.95 are looked at, where the sum is known from γρ − K.
 ///
 /// Source: Marrone et al. 2010, J. Comput. Phys. 229, 3652–3663, §3.1, with the cone of the first step alone; the bounds for
 /// sheets and lone particles are ours.
-pub(super) struct FreeSurface;
+pub(super) struct FreeSurface {
+    /// Whether densities are K and a sum.
+    pub(super) sums: bool,
+}
 
 impl Declares for FreeSurface {
     fn name(&self) -> String {
         "free surface".into()
     }
     fn access(&self) -> Access {
-        Access::none()
-            .both(fields::POSITION)
-            .here(fields::MASS)
-            .here(fields::DENSITY)
-            .here(fields::DENSITY_CONSTANT)
-            .where_there(fields::RENORMALISATION)
-            .writes(FREE_SURFACE)
+        let access = Access::none().both(fields::POSITION).writes(FREE_SURFACE);
+        match self.sums {
+            true => access
+                .here(fields::MASS)
+                .here(fields::DENSITY)
+                .here(fields::DENSITY_CONSTANT)
+                .where_there(fields::RENORMALISATION),
+            false => access,
+        }
     }
 }
 
@@ -78,18 +83,24 @@ impl<const D: usize> Stage<World<D>> for FreeSurface {
     }
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut surface = world.free.take(FREE_SURFACE)?;
-        find(world, &mut surface)?;
+        match self.sums {
+            true => find(world, lacking(world)?, &mut surface)?,
+            false => find(world, |_| true, &mut surface)?,
+        }
         Ok(world.free.put(FREE_SURFACE, surface)?)
     }
 }
 
-/// Particles at a surface, then those near them.
-fn find<const D: usize>(world: &World<D>, surface: &mut [f64]) -> Result<(), StepError> {
+/// Particles at a surface, among those that `wanted` names, then those near them.
+fn find<const D: usize>(
+    world: &World<D>,
+    wanted: impl Fn(usize) -> bool + Sync,
+    surface: &mut [f64],
+) -> Result<(), StepError> {
     let mut places = world.shelf().lend::<Vec<Place>>();
     places.clear();
     places.resize(world.free.len(), Place::Inside);
-    let lacking = lacking(world)?;
-    walk_into(world, Values::Both, lacking, &mut places, |around| {
+    walk_into(world, Values::Both, wanted, &mut places, |around| {
         place(world, around)
     })?;
     let places = &places[..];
