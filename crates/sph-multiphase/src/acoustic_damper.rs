@@ -10,8 +10,8 @@ use sph_core::{
 };
 use sph_damping::DampingEntry;
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
-    Pair, Rates, Terms, There, World, add_scaled, interactions, splat, vector,
+    BoundTerm, Contact, Declared, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm,
+    Lanewise, Pair, Rates, Sums, Terms, There, World, add_scaled, all_sums, splat, vector,
 };
 
 use crate::divergence::{Divergence, OwnVolume};
@@ -61,6 +61,7 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
             impedance: laws
                 .map(|r| self.strength * r.density * r.sound_speed)
                 .collect(),
+            declared: Declared::of([&*term]),
             term: [term],
             states: Vec::new(),
             unused: Vec::new(),
@@ -106,6 +107,8 @@ struct Resistance<const D: usize> {
     /// α ρ₀ c of every phase, kg/(m² s).
     impedance: Vec<f64>,
     term: [Box<dyn Interaction<D>>; 1],
+    /// What the term declares: no step asks for memory to find it out.
+    declared: Declared,
     states: Vec<There<D>>,
     /// The sweep sums accelerations, too; nobody reads them.
     unused: Vec<Vect<D>>,
@@ -130,13 +133,12 @@ impl<const D: usize> Stage<World<D>> for Resistance<D> {
         let mut pressure = world.free.take(DAMPING_PRESSURE)?;
         pressure.fill(0.0);
         self.unused.resize(world.free.len(), Vect::zeros());
-        interactions(
-            world,
-            &mut self.states,
-            &self.term,
-            &mut self.unused,
-            Some(&mut pressure),
-        )?;
+        let sums = Sums {
+            acceleration: &mut self.unused,
+            scalar: Some(&mut pressure),
+            more: &mut [],
+        };
+        all_sums(world, &mut self.states, &self.declared, &self.term, sums)?;
         let h = world.kernel.smoothing_length();
         let phase = world.free.get(fields::PHASE).ok();
         let fluid = world.free.get(fields::PRESSURE)?;
