@@ -43,7 +43,7 @@ const HALF: f64 = 0.5;
 const FAINT: f64 = 0.2;
 
 /// Filling of a support over which nobody looks for a surface. The empty cone alone takes 1/4 of a disc and 0.146 of a ball, so
-/// that a surface has at most 0.75 and 0.854; what is between is for crowding. Ours.
+/// that an even surface has at most 0.75 and 0.854. A crowded one may have more: it lacks nothing, and counts as inside. Ours.
 const FULL: f64 = 0.95;
 
 /// The cone test: a particle is at a free surface where no neighbour lies within 45° of n = −∇C/|∇C|, C = Σθδr^d w, or where

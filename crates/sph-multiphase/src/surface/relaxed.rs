@@ -32,7 +32,7 @@ contribution_kind!(
 /// keeps that below ρU². ε has to be a share of the spread that is borne, for constants come to rest at its edge: with 0.01
 /// nearly all stay within 3 %, with 0.03 a few per cent of them stand just beyond.
 ///
-/// Meant for water that tears. It takes 5 to 15 % of a step: only particles whose support lacks fluid are looked at. Densities that
+/// Meant for water that tears. It adds 3 to 20 % to a step: only particles whose support lacks fluid are looked at. Densities that
 /// follow a rate remember no surface: with other formulations nothing relaxes, and surfaces are found for whoever asks.
 ///
 /// Source: the cone test is of Marrone et al. 2010; relaxing K is ours.
