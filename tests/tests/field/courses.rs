@@ -1,0 +1,1 @@
+//! Courses and tables that are read from files.

@@ -1,0 +1,1 @@
+//! Open faces and outlets.

@@ -1,0 +1,51 @@
+//! Scenes of users that failed or misled: each is run as the user would, and the right value is the test.
+
+mod courses;
+mod faces;
+mod grains;
+mod meshes;
+mod motion;
+mod plates;
+mod smoothers;
+mod words;
+
+use serde_json::Value as Json;
+use sph_io::{Table, read_table};
+use sph_tests::{Bench, Outcome};
+
+/// A folder with all inputs, in which the program is called.
+struct Field(Bench);
+
+impl Field {
+    /// A folder of its own.
+    fn new() -> Self {
+        let bench = Bench::new(env!("CARGO_BIN_EXE_sph-under-test"));
+        let inputs = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/field/inputs");
+        for entry in std::fs::read_dir(inputs).expect("the inputs") {
+            let path = entry.expect("an input").path();
+            let name = path.file_name().expect("a name");
+            std::fs::copy(&path, bench.folder().join(name)).expect("a copy");
+        }
+        Field(bench)
+    }
+
+    /// `sph run INPUT.toml` with more words; results lie in `r`.
+    fn run(&self, input: &str, more: &str) -> Outcome {
+        self.0.call(&format!("run {input}.toml --quiet --out r {more}"))
+    }
+
+    /// `sph check INPUT.toml` with more words.
+    fn check(&self, input: &str, more: &str) -> Outcome {
+        self.0.call(&format!("check {input}.toml {more}"))
+    }
+
+    /// `summary.json` of the last run.
+    fn summary(&self) -> Json {
+        serde_json::from_str(&self.0.read("r/summary.json")).expect("a summary")
+    }
+
+    /// `series.csv` of the last run.
+    fn series(&self) -> Table {
+        read_table(self.0.path("r/series.csv")).expect("a series")
+    }
+}

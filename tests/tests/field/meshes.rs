@@ -1,0 +1,1 @@
+//! Walls from CAD files and what fills them.

@@ -1,0 +1,1 @@
+//! Bodies, frames and tanks that move.

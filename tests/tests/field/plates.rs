@@ -1,0 +1,1 @@
+//! Thin plates and free ends of walls.

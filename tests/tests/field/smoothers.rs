@@ -1,0 +1,1 @@
+//! Smoothers under other accelerations than gravity, and energy that rises.

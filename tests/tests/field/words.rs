@@ -1,0 +1,1 @@
+//! Warnings, estimates and advice.
