@@ -49,7 +49,7 @@ pub struct RigidBody {
     pub centre: Option<Vec<f64>>,
     /// Inertia about the centre of mass, kg m²: one number in two dimensions; in three the principal ones about x, y and z
     /// as the body is drawn, or xx, yy, zz, xy, yz, zx of the tensor. That of a uniform body of this mass if left out.
-    #[schemars(extend("unit" = "kg m²"))]
+    #[schemars(extend("unit" = "kg m²", "examples" = [[1.0]]))]
     pub inertia: Option<Vec<f64>>,
     /// What it is free to do; everything if left out. The rest is locked.
     pub free: Option<Vec<Freedom>>,
@@ -57,7 +57,7 @@ pub struct RigidBody {
     #[schemars(extend("unit" = "m/s"))]
     pub velocity: Option<Vec<f64>>,
     /// Angular velocity at the start, rad/s: one number in two dimensions, three in three.
-    #[schemars(extend("unit" = "rad/s"))]
+    #[schemars(extend("unit" = "rad/s", "examples" = [[1.0]]))]
     pub angular_velocity: Option<Vec<f64>>,
     /// The time until which it goes on with the velocity that it has at the start, s: at rest if none is given.
     #[serde(default)]

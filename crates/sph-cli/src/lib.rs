@@ -15,7 +15,6 @@
 
 mod app;
 mod arguments;
-mod calibration;
 mod commands;
 mod interrupt;
 pub mod library;

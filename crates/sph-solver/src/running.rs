@@ -21,4 +21,5 @@ pub(crate) mod ready;
 pub(crate) mod run;
 pub(crate) mod series;
 pub(crate) mod stepper;
+pub(crate) mod trial;
 pub(crate) mod writing;

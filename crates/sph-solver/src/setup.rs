@@ -2,7 +2,6 @@
 
 pub(crate) mod assemble;
 pub(crate) mod builder;
-pub(crate) mod calibration;
 pub(crate) mod choices;
 pub(crate) mod domain;
 pub(crate) mod estimate;
@@ -12,7 +11,6 @@ pub(crate) mod initial;
 pub(crate) mod joining;
 pub(crate) mod lattices;
 pub(crate) mod layers;
-pub(crate) mod load;
 pub(crate) mod memory;
 pub(crate) mod movers;
 pub(crate) mod open_faces;

@@ -1,10 +1,11 @@
 //! `sph check`.
 
+use std::time::Duration;
+
 use serde_json::{Value as Json, json};
-use sph_solver::{Examination, Load, Memory, examine};
+use sph_solver::{Examination, Memory, examine_and_try};
 
 use crate::arguments::CheckArguments;
-use crate::calibration::calibration;
 use crate::commands::grains;
 use crate::number;
 use crate::scene_file::{AnyScene, Opened, open};
@@ -12,8 +13,10 @@ use crate::telling::layout::{columns, remarks};
 use crate::telling::told::Told;
 use crate::telling::trouble::Trouble;
 
-/// Above this Mach number the fluid is not nearly incompressible.
-const MACH: f64 = 0.1;
+/// Above this Mach number the fluid is not nearly incompressible; the default is on it, but for rounding.
+const MACH: f64 = 0.1 * (1.0 + 1e-9);
+/// Time that the first steps of a scene may take, for an estimate of all of them.
+const TRIAL: Duration = Duration::from_secs(2);
 
 /// Tells what follows from a scene, without running it.
 pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
@@ -30,48 +33,39 @@ pub fn told(opened: &Opened, threads: Option<usize>) -> Result<Told, Trouble> {
         AnyScene::Particles(loaded) => loaded,
         AnyScene::Grains(loaded) => return grains::check::told(loaded, &opened.shown),
     };
-    let examined = examine(&loaded.scene);
-    let mut examined = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
+    let on = threads.min(cores);
+    let examined = examine_and_try(&loaded.scene, on, TRIAL);
+    let (mut examined, tried) = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
     let too_fast = too_fast(&examined);
     examined.warnings.extend(too_fast);
-    // Without it all else is as good.
-    let machine = calibration();
-    let hours = machine.as_ref().ok().map(|machine| {
-        let step = machine.calibration.step(&examined.load, threads);
-        examined.estimate.steps * step / 3600.0
-    });
-    let time = match (&machine, hours) {
-        (Ok(machine), Some(hours)) => {
-            let on = match threads {
-                1 => "1 thread".to_string(),
-                n => format!("{n} threads"),
-            };
-            let time = number::duration(3600.0 * hours);
-            let doubt = doubt(&examined.load);
-            format!("about {time} on {on}{doubt}, by {}", machine.origin)
+    // Threads beyond the cores of this machine are taken to share a step evenly.
+    let share = on as f64 / threads as f64;
+    let mut hours = None;
+    let time = match tried {
+        Ok(Some(trial)) => {
+            let steps = (loaded.scene.run.end / trial.dt).ceil();
+            examined.estimate.steps = steps;
+            hours = Some(steps * trial.seconds * share / 3600.0);
+            let time = number::duration(steps * trial.seconds * share);
+            let first = number::count(trial.steps as f64);
+            format!("about {time} on {threads} threads, by {first} of its first steps on {on}")
+                .replace(" 1 threads", " 1 thread")
         }
-        (machine, _) => format!(
-            "not known: {}",
-            machine.as_ref().err().map_or("", String::as_str)
-        ),
+        Ok(None) => "that of a few steps".into(),
+        Err(why) => {
+            examined
+                .warnings
+                .push(format!("the run fails in its first steps: {why}"));
+            "not known: the first steps fail".into()
+        }
     };
     let mut all = serde_json::to_value(&examined).unwrap_or(Json::Null);
     all["threads"] = json!(threads);
     all["estimate"]["hours"] = json!(hours);
-    all["estimate"]["origin"] = json!(machine.map_or_else(|why| why, |machine| machine.origin));
     Ok(Told {
         json: all,
         text: text(&examined, &opened.shown, &time),
     })
-}
-
-/// What the time of a run hangs on that its start does not tell.
-fn doubt(load: &Load) -> &'static str {
-    let solves = load.pieces.iter().any(|p| p.name.starts_with("implicit"));
-    match solves {
-        true => " (if solves are as short as those of a bed at rest)",
-        false => "",
-    }
 }
 
 /// A remark for every phase whose speed comes too near to that of sound.
@@ -81,7 +75,7 @@ fn too_fast(examined: &Examination) -> Vec<String> {
     let remark = |(name, value, _): &(String, f64, String)| {
         let phase = name.split(':').next().unwrap_or_default();
         format!(
-            "the Mach number of `{phase}` is {}, above {MACH}: density will vary by about {} ; \
+            "the Mach number of `{phase}` is {}, above 0.1: density will vary by about {} ; \
              raise `phase.{phase}.speed_of_sound`, or check `velocity_scale`",
             number::plain(*value),
             number::percent(value * value)

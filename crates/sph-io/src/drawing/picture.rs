@@ -15,6 +15,7 @@ use crate::drawing::colour::{Colour, ColourMap};
 use crate::drawing::colour_bar::ColourBar;
 use crate::drawing::extent;
 use crate::drawing::surface::{Anchor, Fill, Lettering, Pen, Rect, Surface};
+use crate::drawing::text;
 use crate::drawing::ticks::{time_stamp, widened};
 use crate::error::{IoError, Result};
 
@@ -131,13 +132,14 @@ impl<'a> Picture<'a> {
         }
         axes.draw(&mut canvas);
         bar.draw(&mut canvas, &axes.frame);
+        let frame = &axes.frame;
+        let time = self.time.map(time_stamp).unwrap_or_default();
+        let taken = text::width(&time, size) + if time.is_empty() { 0.0 } else { size };
+        let title = text::fitted(self.title, 1.15 * size, frame.right - frame.left - taken);
         let start = Lettering::new(1.15 * size, Anchor::Start);
-        canvas.text([axes.frame.left, 1.5 * size], self.title, start);
-        if let Some(time) = self.time {
-            let end = Lettering::new(size, Anchor::End);
-            let at = [axes.frame.right, 1.5 * size];
-            canvas.text(at, &time_stamp(time), end);
-        }
+        canvas.text([frame.left, 1.5 * size], &title, start);
+        let end = Lettering::new(size, Anchor::End);
+        canvas.text([frame.right, 1.5 * size], &time, end);
         Ok(canvas)
     }
 

@@ -23,6 +23,17 @@ pub(crate) fn width(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum()
 }
 
+/// As much of the beginning of `text` as `room` pixels hold at `size`, with dots for the rest.
+pub(crate) fn fitted(text: &str, size: f64, room: f64) -> String {
+    if width(text, size) <= room {
+        return text.to_string();
+    }
+    let fits = |kept: &str| width(&format!("{kept}..."), size) <= room;
+    let ends = text.char_indices().map(|(at, _)| text[..at].trim_end());
+    let kept = ends.rev().find(|kept| fits(kept)).unwrap_or_default();
+    format!("{kept}...")
+}
+
 /// Calls `paint` with the offset to the right and down from the start of the
 /// baseline, and the coverage from 0 to 1, of every pixel that `text` touches.
 pub(crate) fn pixels(text: &str, size: f64, mut paint: impl FnMut(i32, i32, f32)) {
@@ -58,6 +69,16 @@ mod tests {
         for c in "azAZ09~[]×·−√°²³⁰⁻⁹₀γρΔμ∇∂≤≈∞éü–…".chars() {
             assert_ne!(font.glyph_id(c).0, 0, "{c}");
         }
+    }
+
+    #[test]
+    fn a_long_text_is_cut_to_its_room() {
+        let title = "A title that is far too long for the room above a picture";
+        assert_eq!(fitted(title, 10.0, 1e4), title);
+        let cut = fitted(title, 10.0, 100.0);
+        assert!(width(&cut, 10.0) <= 100.0 && cut.len() > 8, "{cut}");
+        assert!(cut.ends_with("...") && title.starts_with(cut.trim_end_matches('.')));
+        assert_eq!(fitted(title, 10.0, 0.0), "...");
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! The least and largest value of a field.
 
+use std::sync::OnceLock;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Plain, StepError, register};
@@ -7,7 +9,7 @@ use sph_neighbours::World;
 
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
-/// Smallest and largest value of a scalar field over a scale.
+/// Smallest and largest value of a field, in its own unit; over `scale`, without one.
 ///
 /// ```toml
 /// [probe.deficit]
@@ -20,10 +22,14 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 pub struct FieldRange {
     /// Name of the field.
     pub field: String,
-    /// The values are divided by this, in the field's own unit.
+    /// The values are divided by this, in the field's own unit; 1 leaves them as they are.
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub scale: f64,
+    /// Unit of the field, known from the first measurement on.
+    #[serde(skip)]
+    #[schemars(skip)]
+    unit: OnceLock<&'static str>,
 }
 
 fn one() -> f64 {
@@ -32,11 +38,11 @@ fn one() -> f64 {
 
 impl<const D: usize> Probe<D> for FieldRange {
     fn columns(&self) -> Vec<ProbeColumn> {
-        let column = |suffix: &str| ProbeColumn {
-            suffix: suffix.into(),
-            unit: "1",
-        };
-        vec![column(".min"), column(".max")]
+        let own = self.unit.get().filter(|_| self.scale == 1.0);
+        let unit = own.copied().unwrap_or("1");
+        [".min", ".max"]
+            .map(|suffix| ProbeColumn::named(suffix, unit))
+            .into()
     }
 
     fn fields(&self) -> Vec<&str> {
@@ -47,7 +53,8 @@ impl<const D: usize> Probe<D> for FieldRange {
         let mut columns = world.free.columns();
         let found = columns.find(|(name, ..)| *name == self.field);
         match found {
-            Some((_, _, _, components, Plain::Real(values))) => {
+            Some((_, unit, _, components, Plain::Real(values))) => {
+                self.unit.get_or_init(|| unit);
                 let magnitude = |v: &[f64]| match v {
                     [x] => *x,
                     _ => v.iter().map(|x| x * x).sum::<f64>().sqrt(),

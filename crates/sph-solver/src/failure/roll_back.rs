@@ -111,7 +111,7 @@ impl<const D: usize> Running<'_, D> {
         failure.bad_state = written.then_some(bad);
         let number = failure.findings.particle.as_ref().map(|p| p.number);
         let place = number.and_then(|n| self.place(n, snapshot));
-        let title = format!("{}: failed", self.scene.title);
+        let title = format!("failed: {}", self.scene.title);
         failure.pictures = bad_pictures::draw(flow, &failure.cause, place, &title, out);
     }
 

@@ -5,6 +5,8 @@ use sph_core::{FieldError, Vect, fields};
 
 use crate::Flow;
 
+/// Mach number from which densities move by ½ Ma² = 2 % and more: worth a word at the end of a run.
+pub(crate) const FAST: f64 = 0.2;
 /// Mach number from which densities move by Ma² ≈ 10 % and more: the run is told of it.
 pub(crate) const COMPRESSIBLE: f64 = 0.3;
 /// Mach number from which pressure cannot reach the fluid ahead: a weakly compressible law has no meaning.
@@ -31,8 +33,8 @@ pub struct Balance<const D: usize> {
     pub fastest: f64,
     /// Largest |u| over the speed of sound of its phase, 1.
     pub mach: f64,
-    /// Mass that is faster than [`COMPRESSIBLE`] and than [`SUPERSONIC`] of its sound, kg.
-    pub faster: [f64; 2],
+    /// Mass that is faster than [`FAST`], [`COMPRESSIBLE`] and [`SUPERSONIC`] of its sound, kg.
+    pub faster: [f64; 3],
     /// Least density over reference density.
     pub least_density: f64,
     /// Largest density over reference density.
@@ -50,7 +52,7 @@ impl<const D: usize> Balance<D> {
             internal: 0.0,
             fastest: 0.0,
             mach: 0.0,
-            faster: [0.0; 2],
+            faster: [0.0; 3],
             least_density: f64::INFINITY,
             largest_density: f64::NEG_INFINITY,
         }
@@ -106,7 +108,8 @@ impl<const D: usize> Balance<D> {
                 internal: m * law.internal_energy(density[i]) + strained(i),
                 fastest: speed,
                 mach,
-                faster: [COMPRESSIBLE, SUPERSONIC].map(|most| if mach > most { m } else { 0.0 }),
+                faster: [FAST, COMPRESSIBLE, SUPERSONIC]
+                    .map(|most| if mach > most { m } else { 0.0 }),
                 least_density: ratio,
                 largest_density: ratio,
             }

@@ -7,14 +7,12 @@ use sph_viscosity::ImplicitViscosity;
 
 use crate::failure::error::{Failure, SolverError};
 use crate::results::advice::{self, Costs};
-use crate::results::balance::Balance;
+use crate::results::balance::{Balance, FAST};
 use crate::results::summary::{Drift, ErrorEntry, SCHEMA_VERSION, Status, Summary};
 use crate::results::{reference_plots, references};
 use crate::running::course::Running;
+use crate::running::mach::SHARE;
 use crate::setup::memory::Memory;
-
-/// Mach number up to which densities stay within Ma² = 1 % of the reference (Monaghan 1994).
-const INCOMPRESSIBLE: f64 = 0.1;
 
 impl<const D: usize> Running<'_, D> {
     /// Writes `summary.json`.
@@ -158,7 +156,7 @@ impl<const D: usize> Running<'_, D> {
         let Some(series) = self.files.as_ref().map(|f| &f.series) else {
             return Drift::default();
         };
-        let [highest, _] = series.peaks;
+        let [highest, ..] = series.peaks;
         Drift {
             mass: over(
                 balance.mass + flow.mass_left() - flow.world.free.born().mass - mass,
@@ -184,11 +182,13 @@ impl<const D: usize> Running<'_, D> {
             warnings.push(format!("{escaped} particles are behind a wall at the end"));
         }
         warnings.extend(flow.works.iter().flat_map(|w| w.warnings()));
-        let mach = self.files.as_ref().map_or(0.0, |f| f.series.peaks[1]);
-        if mach > INCOMPRESSIBLE {
+        let peaks = self.files.as_ref().map(|f| f.series.peaks);
+        let [_, mach, fast] = peaks.unwrap_or_default();
+        if fast > SHARE {
             advice.push(format!(
-                "the largest speed was {mach:.2} of the speed of sound: above {INCOMPRESSIBLE} the density \
-                 of a liquid moves by more than 1 %; raise `speed_of_sound` or `velocity_scale` of the phase"
+                "{:.0} % of the mass was faster than {FAST} of the speed of sound, where the density of a liquid \
+                 moves by 2 % and more; raise `speed_of_sound` or `velocity_scale` of the phase",
+                100.0 * fast
             ));
         }
         mach

@@ -24,9 +24,9 @@ pub(crate) struct Counters {
     pub(crate) last_row: Option<u64>,
     pub(crate) series_position: u64,
     pub(crate) series_extrema: [u64; 4],
-    /// Highest energy and largest Mach number of all rows.
+    /// Highest energy, largest Mach number and largest share of fast mass of all rows; an earlier version wrote fewer.
     #[serde(default)]
-    pub(crate) series_peaks: Option<[u64; 2]>,
+    pub(crate) series_peaks: Option<Vec<u64>>,
     #[serde(default)]
     pub(crate) first_trouble: Option<Trouble>,
     /// Time at which a run began that started from another's state.
@@ -134,7 +134,7 @@ impl Counters {
         {
             return Some("the mass that has left is negative or not finite".into());
         }
-        let peaks = self.series_peaks.into_iter().flatten();
+        let peaks = self.series_peaks.iter().flatten().copied();
         let extrema = self.series_extrema.into_iter().chain(peaks);
         if extrema.map(f64::from_bits).any(f64::is_nan) {
             return Some("extrema of its series are not numbers".into());

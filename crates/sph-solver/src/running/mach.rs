@@ -9,7 +9,7 @@ use sph_scene::Scene;
 use crate::results::balance::{Balance, COMPRESSIBLE, SUPERSONIC};
 
 /// Share of the mass that has to be as fast.
-const SHARE: f64 = 0.1;
+pub(crate) const SHARE: f64 = 0.1;
 
 /// What a run has been told of its speed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -22,7 +22,7 @@ impl MachWatch {
     /// Looks at the sums of a state; gives what is to be said, once in a run.
     pub fn look<const D: usize>(&mut self, now: &Balance<D>) -> Option<String> {
         let share = |mass: f64| mass / now.mass;
-        let [fast, supersonic] = now.faster.map(share);
+        let [_, fast, supersonic] = now.faster.map(share);
         self.supersonic = (supersonic > SHARE).then_some(supersonic);
         if self.warned || fast <= SHARE {
             return None;
@@ -74,12 +74,12 @@ mod tests {
         };
         let mut watch = MachWatch::default();
         // Spray: 5 % of the mass beyond the speed of sound.
-        assert_eq!(watch.look(&balance([0.9, 0.5])), None);
+        assert_eq!(watch.look(&balance([0.9, 0.9, 0.5])), None);
         assert!(watch.verdict(&scene("")).is_none());
-        let told = watch.look(&balance([1.5, 0.5])).expect("a warning");
+        let told = watch.look(&balance([1.5, 1.5, 0.5])).expect("a warning");
         assert!(told.contains("15 % of the mass"), "{told}");
-        assert_eq!(watch.look(&balance([1.5, 0.5])), None, "once");
-        watch.look(&balance([9.0, 4.0]));
+        assert_eq!(watch.look(&balance([1.5, 1.5, 0.5])), None, "once");
+        watch.look(&balance([9.0, 9.0, 4.0]));
         let told = watch.verdict(&scene("")).expect("an end").to_string();
         assert!(told.contains("40 % of the mass") && told.contains("numerics.supersonic"));
         assert!(watch.verdict(&scene(", supersonic = true")).is_none());

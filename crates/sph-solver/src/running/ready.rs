@@ -21,7 +21,7 @@ use crate::running::output::Outputs;
 use crate::running::series::{Series, rehearse};
 use crate::running::{lock, ranked};
 use crate::setup::assemble::{Assembled, assemble_share};
-use crate::setup::estimate::tiny_steps;
+use crate::setup::estimate::short_steps;
 use crate::setup::share::refuse_the_indivisible;
 
 /// Everything before the first step; what may be refused comes before anything is written.
@@ -38,7 +38,10 @@ pub(crate) fn ready<'a, const D: usize>(
         rehearse(scene, &mut parts.flow, &parts.probes)?;
         let mut limits = parts.flow.step_limits()?;
         parts.flow.least_limits(&mut limits)?;
-        parts.warnings.extend(tiny_steps(scene, &limits)?);
+        let remedies = parts.flow.remedies_of_bounds()?;
+        parts
+            .warnings
+            .extend(short_steps(scene, &limits, &remedies)?);
     }
     references::readable(scene)?;
     let writes = ranks.as_ref().is_none_or(|ranks| ranks.rank() == 0);
@@ -109,8 +112,9 @@ impl Files {
             resumed.map(|c| c.outputs),
             changed.then_some(flow.world.time),
         )?;
-        if let Some(peaks) = counters.series_peaks {
-            series.peaks = peaks.map(f64::from_bits);
+        let kept = counters.series_peaks.iter().flatten();
+        for (peak, bits) in series.peaks.iter_mut().zip(kept) {
+            *peak = f64::from_bits(*bits);
         }
         Ok(Files { outputs, series })
     }

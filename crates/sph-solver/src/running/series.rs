@@ -18,8 +18,9 @@ pub struct Series {
     writer: SeriesWriter,
     /// Least and largest density ratio over all rows.
     pub density_range: [f64; 2],
-    /// Highest energy, J, and largest speed over the speed of sound, over all rows.
-    pub peaks: [f64; 2],
+    /// Highest energy, J, largest speed over the speed of sound, and largest share of the mass beyond [`FAST`], over all
+    /// rows.
+    pub peaks: [f64; 3],
     /// Largest |energy| over all rows, J.
     pub energy_scale: f64,
     /// Largest Σ m|u| over all rows.
@@ -78,7 +79,7 @@ impl Series {
         Ok(Series {
             writer,
             density_range: [extrema[0], extrema[1]],
-            peaks: [f64::NEG_INFINITY, 0.0],
+            peaks: [f64::NEG_INFINITY, 0.0, 0.0],
             energy_scale: extrema[2],
             momentum_scale: extrema[3],
         })
@@ -125,7 +126,8 @@ impl Series {
         let largest = parts
             .iter()
             .fold(balance.energy().abs(), |m, e| m.max(e.abs()));
-        let now = [balance.energy(), balance.mach];
+        let fast = balance.faster[0] / balance.mass;
+        let now = [balance.energy(), balance.mach, fast];
         self.peaks = std::array::from_fn(|k| self.peaks[k].max(now[k]));
         self.energy_scale = self.energy_scale.max(largest);
         self.momentum_scale = self.momentum_scale.max(balance.momentum_scale);

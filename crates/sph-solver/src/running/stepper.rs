@@ -39,7 +39,12 @@ impl<const D: usize> Stepper<D> {
     pub fn new(scene: &Scene) -> Result<Self, SolverError> {
         let mut parts = assemble::<D>(scene)?;
         rehearse(scene, &mut parts.flow, &parts.probes)?;
-        Ok(Stepper {
+        Ok(Self::over(scene, parts))
+    }
+
+    /// Steps a scene that is assembled already.
+    pub(crate) fn over(scene: &Scene, parts: Assembled<D>) -> Self {
+        Stepper {
             parts,
             scene: scene.clone(),
             good: Snapshot::default(),
@@ -48,7 +53,7 @@ impl<const D: usize> Stepper<D> {
             steps: 0,
             rolled_back: 0,
             limiter: "none",
-        })
+        }
     }
 
     /// Begins with the particles and the time of a checkpoint of another run of the same bodies.

@@ -128,7 +128,7 @@ impl<const D: usize> Running<'_, D> {
         let (position, extrema) = files.series.resume_point();
         self.counters.series_position = position;
         self.counters.series_extrema = extrema.map(f64::to_bits);
-        self.counters.series_peaks = Some(files.series.peaks.map(f64::to_bits));
+        self.counters.series_peaks = Some(files.series.peaks.map(f64::to_bits).to_vec());
         self.counters.outputs = files.outputs.written;
         let left = self.parts.flow.left();
         self.counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();

@@ -1,5 +1,7 @@
 //! What a scene will cost, before it costs anything.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 use sph_core::StepLimit;
 use sph_scene::{Scene, estimate};
@@ -56,34 +58,38 @@ impl Estimate {
 
 /// A step below which a run is not worth starting without a thought, s.
 const TINY: f64 = 1e-8;
+/// Steps from which on a remedy is worth a word before the run.
+const MANY: f64 = 1e6;
 
-/// What a run takes whose first step is tiny.
+/// Names the bound that makes steps short, and its remedy where its plugin knows one.
 ///
 /// # Errors
-/// If a limit cannot be computed, or if steps are so short that time would stand still.
-pub fn tiny_steps(scene: &Scene, limits: &[StepLimit]) -> Result<Option<String>, SolverError> {
+/// If steps are so short that time would stand still.
+pub fn short_steps(
+    scene: &Scene,
+    limits: &[StepLimit],
+    remedies: &BTreeMap<String, String>,
+) -> Result<Option<String>, SolverError> {
     let Some(least) = StepLimit::least(limits) else {
         return Ok(None);
     };
     let dt = least.dt * scene.run.safety;
-    if scene.run.end + dt == scene.run.end {
+    let end = scene.run.end;
+    let known = remedies.get(least.name);
+    let remedy = known.map_or("lower the stiffness or the speed behind it", String::as_str);
+    let bounds = format!("`{}` bounds the first step to {dt:.1e} s", least.name);
+    if end + dt == end {
         return Err(SolverError::at(
             "run.end",
             format!(
-                "`{}` bounds the first step to {dt:.1e} s, which is lost in t = {} s to rounding: time would \
-                 stand still; lower the stiffness or the speed behind it, or check `run.safety`",
-                least.name, scene.run.end
+                "{bounds}, which is lost in t = {end} s to rounding: time would stand still; {remedy}, or check \
+                 `run.safety`"
             ),
         ));
     }
-    Ok((dt < TINY).then(|| {
-        format!(
-            "`{}` bounds the first step to {dt:.1e} s: {:.1e} steps to t = {} s; lower the stiffness or the speed behind it",
-            least.name,
-            scene.run.end / dt,
-            scene.run.end
-        )
-    }))
+    let steps = end / dt;
+    let told = dt < TINY || (steps > MANY && known.is_some());
+    Ok(told.then(|| format!("{bounds}: {steps:.1e} steps to t = {end} s; {remedy}")))
 }
 
 /// Memory this machine has left, bytes, where the system tells.

@@ -1,15 +1,17 @@
 //! The numbers that follow from a scene, without running it.
 
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 use serde::Serialize;
-use sph_core::{Role, StepError, StepLimit, System, fields};
+use sph_core::{Role, StepLimit, System, fields};
 use sph_scene::Scene;
 
 use crate::results::summary::PluginInForce;
-use crate::setup::assemble::assemble;
-use crate::setup::estimate::tiny_steps;
-use crate::{Estimate, Flow, Load, Memory, Relaxation, SolverError};
+use crate::running::trial::{Trial, trial};
+use crate::setup::assemble::{Assembled, assemble};
+use crate::setup::estimate::short_steps;
+use crate::{Estimate, Flow, Memory, Relaxation, SolverError};
 
 /// A column with its cost.
 #[derive(Clone, Debug, Serialize)]
@@ -76,8 +78,8 @@ pub struct Examination {
     pub neighbours: f64,
     /// What it will cost.
     pub estimate: Estimate,
-    /// What a step has to do, with lists that last as long as they do at the expected speed.
-    pub load: Load,
+    /// Pairs in the sweeps of all steps: a measure of a run that knows no machine.
+    pub pairs: f64,
     /// What its memory goes to.
     pub memory: Memory,
     /// What relaxing the first particles did, if the scene asks for it.
@@ -91,19 +93,43 @@ pub struct Examination {
 /// # Errors
 /// Every problem of the scene, with its path.
 pub fn examine(scene: &Scene) -> Result<Examination, SolverError> {
+    Ok(match scene.dimension {
+        3 => examine_in::<3>(scene)?.0,
+        _ => examine_in::<2>(scene)?.0,
+    })
+}
+
+/// As [`examine`], and a [`trial`] of its first steps.
+///
+/// # Errors
+/// Every problem of the scene, with its path. That of the trial is apart: a scene whose first steps fail is known.
+pub fn examine_and_try(
+    scene: &Scene,
+    threads: usize,
+    budget: Duration,
+) -> Result<(Examination, Result<Option<Trial>, SolverError>), SolverError> {
+    fn both<const D: usize>(
+        scene: &Scene,
+        threads: usize,
+        budget: Duration,
+    ) -> Result<(Examination, Result<Option<Trial>, SolverError>), SolverError> {
+        let (examined, assembled) = examine_in::<D>(scene)?;
+        Ok((examined, trial(scene, assembled, threads, budget)))
+    }
     match scene.dimension {
-        3 => examine_in::<3>(scene),
-        _ => examine_in::<2>(scene),
+        3 => both::<3>(scene, threads, budget),
+        _ => both::<2>(scene, threads, budget),
     }
 }
 
-fn examine_in<const D: usize>(scene: &Scene) -> Result<Examination, SolverError> {
+fn examine_in<const D: usize>(scene: &Scene) -> Result<(Examination, Assembled<D>), SolverError> {
     let mut assembled = assemble::<D>(scene)?;
     crate::running::series::rehearse(scene, &mut assembled.flow, &assembled.probes)?;
     crate::results::references::readable(scene)?;
-    let tiny = tiny_steps(scene, &assembled.flow.step_limits()?)?;
-    assembled.warnings.extend(tiny);
     let limits = assembled.flow.step_limits()?;
+    let remedies = assembled.flow.remedies_of_bounds()?;
+    let short = short_steps(scene, &limits, &remedies)?;
+    assembled.warnings.extend(short);
     let dt = StepLimit::least(&limits).map_or(scene.run.end, |l| l.dt) * scene.run.safety;
     let memory = memory(scene, &mut assembled.flow, dt)?;
     let flow = &assembled.flow;
@@ -145,7 +171,10 @@ fn examine_in<const D: usize>(scene: &Scene) -> Result<Examination, SolverError>
         })
         .collect();
     let particles = world.free.len();
-    Ok(Examination {
+    let neighbours = world.mean_neighbours()?;
+    let estimate = Estimate::new(scene, particles as f64, dt, memory.total());
+    let sweeps = stages.iter().filter(|s| s.sweep).count() as f64;
+    let examined = Examination {
         scene: scene.title.clone(),
         dimension: D,
         derived: derived::<D>(scene, flow, assembled.height),
@@ -153,21 +182,22 @@ fn examine_in<const D: usize>(scene: &Scene) -> Result<Examination, SolverError>
         limit_formulas: (flow.limiters.iter().map(|l| l.formula()))
             .chain(flow.works.iter().filter_map(|w| w.bound()))
             .collect(),
-        plugins: assembled.plugins,
+        plugins: std::mem::take(&mut assembled.plugins),
         fields,
         bytes_per_particle: world.free.bytes_per_particle(),
         pruned: flow.pruned.clone(),
         particles,
         wall_points: world.walls.points.position.len(),
         wall_elements: world.walls.elements.centre.len(),
-        neighbours: world.mean_neighbours()?,
-        estimate: Estimate::new(scene, particles as f64, dt, memory.total()),
-        load: Load::of(flow, life(scene, flow, assembled.height, dt)?)?,
+        pairs: estimate.steps * sweeps * particles as f64 * neighbours,
+        neighbours,
+        estimate,
         memory,
-        relaxation: assembled.relaxation,
-        warnings: assembled.warnings,
+        relaxation: assembled.relaxation.take(),
+        warnings: std::mem::take(&mut assembled.warnings),
         stages,
-    })
+    };
+    Ok((examined, assembled))
 }
 
 /// What a run holds: the forces are evaluated once, and the first matrix is put together.
@@ -183,28 +213,6 @@ fn memory<const D: usize>(
         system += work.bytes(&mut flow.world, dt)?;
     }
     Ok(Memory::of(scene, flow, system as f64)?)
-}
-
-/// Steps of `dt` seconds for which lists last where the fastest particle has the speed that the scene expects.
-fn life<const D: usize>(
-    scene: &Scene,
-    flow: &Flow<D>,
-    height: f64,
-    dt: f64,
-) -> Result<f64, StepError> {
-    let world = &flow.world;
-    let fall = 2.0 * (world.gravity.norm() * height).sqrt();
-    let expected = scene
-        .phase
-        .values()
-        .map(|p| p.velocity_scale.unwrap_or(fall));
-    let velocity = world.free.get(fields::VELOCITY)?;
-    let fastest = velocity
-        .iter()
-        .map(|u| u.norm())
-        .chain(expected)
-        .fold(0.0, f64::max);
-    Ok(world.skin * world.kernel.support_radius() / (2.0 * fastest * dt))
 }
 
 /// Smoothing length, speeds and dimensionless numbers.
@@ -232,12 +240,14 @@ fn derived<const D: usize>(
         say("depth H".into(), length, "m");
         say("gravity wave speed √(gH)".into(), fall, "m/s");
     }
+    let velocity = world.free.get(fields::VELOCITY).into_iter().flatten();
+    let fastest = velocity.map(|u| u.norm()).fold(0.0, f64::max);
     let viscosities = flow.kinematic_viscosities.iter();
     for ((name, phase), (law, nu)) in scene.phase.iter().zip(flow.laws.iter().zip(viscosities)) {
         let c0 = law.reference().sound_speed;
         say(format!("{name}: speed of sound c₀"), c0, "m/s");
         say(format!("{name}: kinematic viscosity ν"), *nu, "m²/s");
-        let speed = phase.velocity_scale.unwrap_or(2.0 * fall);
+        let speed = phase.velocity_scale.unwrap_or(fall).max(fastest);
         if speed > 0.0 {
             say(format!("{name}: expected speed U"), speed, "m/s");
             say(format!("{name}: Mach number U/c₀"), speed / c0, "1");

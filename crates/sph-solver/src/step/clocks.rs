@@ -19,5 +19,3 @@ pub(crate) const LISTS_NAME: &str = "neighbour lists";
 pub(crate) const MOTION: usize = 1;
 /// Name of the time spent on kicks and drifts.
 pub(crate) const MOTION_NAME: &str = "kick and drift";
-/// Name of what a step takes besides: limits, the guard, the copy to fall back on.
-pub(crate) const REST_NAME: &str = "rest of a step";

@@ -63,7 +63,7 @@ impl Subject for Loaded {
     /// Pairs in the sweeps of all steps.
     fn assemble(&self) -> Result<f64, Vec<SceneProblem>> {
         match examine(&self.scene) {
-            Ok(examined) => Ok(examined.estimate.steps * examined.load.pairs()),
+            Ok(examined) => Ok(examined.pairs),
             Err(SolverError::Scene(problems)) => Err(problems),
             Err(other) => Err(vec![SceneProblem::new("", other.to_string())]),
         }

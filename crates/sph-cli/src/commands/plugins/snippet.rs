@@ -1,9 +1,9 @@
 //! How a plugin is written into a scene.
 
 use serde_json::Value as Json;
-use sph_core::{Parameter, PluginInfo, parameters};
+use sph_core::{Parameter, Place, PluginInfo, kind_of, parameters};
 
-use super::{choices, required};
+use super::required;
 
 /// The TOML lines that name a plugin, with all its parameters.
 pub fn of(kind: &str, plugin: &PluginInfo) -> String {
@@ -13,16 +13,18 @@ pub fn of(kind: &str, plugin: &PluginInfo) -> String {
         .iter()
         .map(|p| key(p, &schema))
         .collect();
-    match kind {
-        "equation-of-state" | "rheology" => format!("[phase.NAME.{kind}.{name}]\n{keys}"),
-        "probe" => format!("[probe.NAME]\nkind = \"{name}\"\n{keys}"),
-        "solution" => format!(
+    let place = kind_of(kind).map(|k| k.place);
+    match (place, kind) {
+        (Some(Place::InPhase), _) => format!("[phase.NAME.{kind}.{name}]\n{keys}"),
+        (Some(Place::InWall), _) => format!("[wall.NAME.{kind}.{name}]\n{keys}"),
+        (Some(Place::Solution), _) => format!(
             "[body.NAME.initial.{name}]      # as an initial state\n{keys}\n\
              [reference.NAME]               # as a reference\nfield = \"velocity\"\n\
              solution = \"{name}\"\n[reference.NAME.parameters]\n{keys}"
         ),
-        "contact-law" => format!("[grains.contact.{name}]\n{keys}"),
-        "conductance" => format!("[fluid.conductance.{name}]\n{keys}"),
+        (_, "probe") => format!("[probe.NAME]\nkind = \"{name}\"\n{keys}"),
+        (_, "contact-law") => format!("[grains.contact.{name}]\n{keys}"),
+        (_, "conductance") => format!("[fluid.conductance.{name}]\n{keys}"),
         _ => format!("[{kind}.{name}]\n{keys}"),
     }
 }
@@ -31,10 +33,11 @@ pub fn of(kind: &str, plugin: &PluginInfo) -> String {
 fn key(parameter: &Parameter, schema: &Json) -> String {
     let name = &parameter.name;
     let required = required(schema, name);
-    let first = choices(schema, name).into_iter().next();
     let given = parameter.default.as_ref().filter(|d| !d.is_null());
-    let placeholder = || first.unwrap_or_else(|| placeholder(&parameter.kind).to_string());
-    let value = given.map_or_else(placeholder, Json::to_string);
+    let value = match given {
+        Some(default) => toml(default),
+        None => example(&schema["properties"][name], schema),
+    };
     let unit = match parameter.unit.as_str() {
         "" | "1" => None,
         unit => Some(unit),
@@ -52,12 +55,163 @@ fn key(parameter: &Parameter, schema: &Json) -> String {
     }
 }
 
-fn placeholder(kind: &str) -> &'static str {
-    match kind {
-        "number" => "1.0",
-        "integer" => "1",
-        "boolean" => "true",
-        "array" => "[0.0, 0.0]",
-        _ => "\"…\"",
+/// A JSON value as TOML writes it on one line.
+fn toml(value: &Json) -> String {
+    match value {
+        Json::Array(items) => format!("[{}]", joined(items.iter().map(toml))),
+        Json::Object(fields) => {
+            let fields = fields.iter().filter(|(_, v)| !v.is_null());
+            table(fields.map(|(k, v)| format!("{k} = {}", toml(v))))
+        }
+        other => other.to_string(),
+    }
+}
+
+fn joined(items: impl Iterator<Item = String>) -> String {
+    items.collect::<Vec<_>>().join(", ")
+}
+
+fn table(fields: impl Iterator<Item = String>) -> String {
+    match joined(fields) {
+        fields if fields.is_empty() => "{}".into(),
+        fields => format!("{{ {fields} }}"),
+    }
+}
+
+/// A value that a node of the schema `root` allows.
+fn example(node: &Json, root: &Json) -> String {
+    if let Some(given) = node["examples"].get(0) {
+        return toml(given);
+    }
+    if let Some(only) = node.get("const").or_else(|| node["enum"].get(0)) {
+        return toml(only);
+    }
+    let target = node["$ref"].as_str().and_then(|r| r.strip_prefix('#'));
+    if let Some(target) = target.and_then(|t| root.pointer(t)) {
+        return example(target, root);
+    }
+    let forms = ["anyOf", "oneOf", "allOf"].map(|form| node[form].as_array());
+    let mut forms = forms.into_iter().flatten().flatten();
+    if let Some(form) = forms.find(|form| form["type"] != "null") {
+        return example(form, root);
+    }
+    match kind(node) {
+        "boolean" => "true".into(),
+        "array" => {
+            let items = node["prefixItems"].as_array();
+            let repeated = || {
+                // A vector has as many components as the scene has dimensions.
+                let vector = node["items"]["format"] == "double";
+                let fewest = if vector { 2 } else { 1 };
+                let count = node["minItems"].as_u64().unwrap_or(fewest);
+                joined((0..count).map(|_| example(&node["items"], root)))
+            };
+            let each = items.map(|all| joined(all.iter().map(|i| example(i, root))));
+            format!("[{}]", each.unwrap_or_else(repeated))
+        }
+        "object" => {
+            let properties = node["properties"].as_object();
+            let needed = |name: &str| required(node, name);
+            let any = properties.is_some_and(|p| p.keys().any(|name| needed(name)));
+            let shown = properties.into_iter().flatten();
+            let shown = shown.filter(|(name, _)| needed(name) || !any);
+            let shown = shown.take(if any { usize::MAX } else { 1 });
+            table(shown.map(|(name, of)| format!("{name} = {}", example(of, root))))
+        }
+        number @ ("number" | "integer") => {
+            let most = node["maximum"].as_f64().unwrap_or(f64::INFINITY);
+            let least = node["minimum"].as_f64().unwrap_or(f64::NEG_INFINITY);
+            let value = 1f64.max(least).min(most);
+            match number {
+                "integer" => format!("{value:.0}"),
+                _ => format!("{value:?}"),
+            }
+        }
+        _ => "\"…\"".into(),
+    }
+}
+
+/// The first type of a node.
+fn kind(node: &Json) -> &str {
+    let kind = &node["type"];
+    kind.as_str().or_else(|| kind[0].as_str()).unwrap_or("")
+}
+
+#[cfg(test)]
+mod tests {
+    use sph_core::contracts;
+
+    use super::*;
+
+    /// Why a value does not fit a node of a schema, if it does not.
+    fn misfit(value: &Json, node: &Json, root: &Json) -> Option<String> {
+        let target = node["$ref"].as_str().and_then(|r| r.strip_prefix('#'));
+        if let Some(target) = target.and_then(|t| root.pointer(t)) {
+            return misfit(value, target, root);
+        }
+        for form in ["anyOf", "oneOf"] {
+            if let Some(forms) = node[form].as_array() {
+                let fits = forms.iter().any(|f| misfit(value, f, root).is_none());
+                return (!fits).then(|| format!("{value} is none of {form} of {node}"));
+            }
+        }
+        let listed = node["enum"].as_array();
+        if listed.is_some_and(|all| !all.contains(value))
+            || node.get("const").is_some_and(|c| c != value)
+        {
+            return Some(format!("{value} is not allowed by {node}"));
+        }
+        let own = match value {
+            Json::Bool(_) => "boolean",
+            Json::Number(n) if n.is_f64() => "number",
+            Json::Number(_) => "integer",
+            Json::String(_) => "string",
+            Json::Array(_) => "array",
+            _ => "object",
+        };
+        let kinds = match &node["type"] {
+            Json::Array(kinds) => kinds.iter().filter_map(Json::as_str).collect(),
+            kind => kind.as_str().into_iter().collect::<Vec<_>>(),
+        };
+        let fits = kinds.is_empty() || kinds.contains(&own);
+        if !fits && !(own == "integer" && kinds.contains(&"number")) {
+            return Some(format!("{value} is no {kinds:?}"));
+        }
+        let items = value.as_array().into_iter().flatten().enumerate();
+        let mut items =
+            items.map(|(k, v)| (v, node["prefixItems"].get(k).unwrap_or(&node["items"])));
+        if let Some(bad) = items.find_map(|(v, of)| misfit(v, of, root)) {
+            return Some(bad);
+        }
+        let fields = value.as_object()?;
+        let needed = node["required"].as_array().into_iter().flatten();
+        let missing = needed
+            .filter_map(Json::as_str)
+            .find(|n| !fields.contains_key(*n));
+        let mut each = fields.iter().map(|(k, v)| (v, &node["properties"][k]));
+        missing
+            .map(|name| format!("{value} lacks {name}"))
+            .or_else(|| each.find_map(|(v, of)| misfit(v, of, root)))
+    }
+
+    #[test]
+    fn a_snippet_has_values_of_the_right_types() {
+        let mut count = 0;
+        for contract in contracts() {
+            for plugin in (contract.plugins)() {
+                let schema = (plugin.schema)();
+                for parameter in parameters(&schema) {
+                    let line = key(&parameter, &schema);
+                    let line = line.strip_prefix("# ").unwrap_or(&line);
+                    let read: toml::Table = line.parse().unwrap_or_else(|e| panic!("{line}: {e}"));
+                    let read = serde_json::to_value(read).expect("plain values");
+                    let node = &schema["properties"][&parameter.name];
+                    let why = misfit(&read[&parameter.name], node, &schema);
+                    assert_eq!(why, None, "{} {}: {line}", contract.kind, plugin.name);
+                    count += 1;
+                }
+            }
+        }
+        assert!(count > 200, "only {count} parameters");
     }
 }
