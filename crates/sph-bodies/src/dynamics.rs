@@ -72,7 +72,7 @@ impl Dynamics {
         let moved = padded(now.velocity.as_slice()) + along * dt;
         state.velocity = Vect::from_fn(|k, _| moved[k]);
         // Weight alone is a constant force, of which the mean velocity makes the exact parabola.
-        let flies = [load.force, load.contact_force] == [Vect::zeros(); 2]
+        let flies = [load.force, load.contact_force] == [Vect::<D>::zeros(); 2]
             && self.holds.is_empty()
             && self.lines.is_empty();
         let mean = match flies {

@@ -96,3 +96,57 @@ fn mistakes_of_gravity_over_time_are_told_with_their_line() {
     let outcome = field.check("shaken", turned);
     assert!(outcome.err.contains("only translates"), "{}", outcome.err);
 }
+
+fn column<'a>(series: &'a Table, name: &str) -> &'a [f64] {
+    series.column(name).expect("a column")
+}
+
+#[test]
+fn a_body_alone_coasts_and_falls() {
+    let field = Field::new();
+    for (gravity, g) in [("[0,0,0]", 0.0), ("[0,0,-9.81]", 9.81)] {
+        let end = "--set run.end=0.5 --set output.series_every=0.05 --set output.every=0.25";
+        done(field.run(
+            "free-flight",
+            &format!("{end} --set numerics.gravity={gravity}"),
+        ));
+        let series = field.series();
+        let [time, x, z] = ["time", "cube.x", "cube.z"].map(|name| column(&series, name));
+        for k in 0..time.len() {
+            let t = time[k];
+            assert!((x[k] - t).abs() < 1e-12, "{} m at {t} s", x[k]);
+            assert!(
+                (z[k] + 0.5 * g * t * t).abs() < 1e-12,
+                "{} m down at {t} s",
+                z[k]
+            );
+        }
+    }
+}
+
+#[test]
+fn bodies_that_meet_without_fluid_keep_their_momentum_and_energy() {
+    let field = Field::new();
+    done(field.run("two-boxes", ""));
+    let series = field.series();
+    let [time, left, right] = ["time", "left.x", "right.x"].map(|name| column(&series, name));
+    let (end, masses) = (time.len() - 1, [20.0, 40.0]);
+    let speeds = [left, right].map(|x| (x[end] - x[end - 2]) / (time[end] - time[end - 2]));
+    // An elastic blow: each leaves with 2 V − v, V that of the common centre, which is at rest here.
+    for (speed, exact) in speeds.into_iter().zip([-1.0, 0.5]) {
+        assert!((speed - exact).abs() < 0.02, "{speed} m/s for {exact} m/s");
+    }
+    let momentum = masses[0] * speeds[0] + masses[1] * speeds[1];
+    assert!(momentum.abs() < 1e-9, "{momentum} kg m/s of 20");
+}
+
+#[test]
+fn a_scene_without_bodies_of_fluid_and_movers_is_refused() {
+    let field = Field::new();
+    let outcome = field.check("shaken", "--set body={}");
+    assert!(
+        outcome.err.contains("a scene needs a body"),
+        "{}",
+        outcome.err
+    );
+}

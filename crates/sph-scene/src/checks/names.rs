@@ -60,16 +60,16 @@ pub(crate) fn spelling(scene: &Table, found: &mut Problems) {
 
 /// Everything that is named exists; files are where a scene may name them.
 pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problems) {
-    for (kind, empty) in [
-        ("phase", scene.phase.is_empty()),
-        (
-            "body",
-            scene.body.is_empty() && scene.wall.values().all(|wall| wall.mover.is_empty()),
-        ),
-    ] {
-        if empty {
-            found.add("", format!("a scene needs a {kind}: [{kind}.NAME]"));
-        }
+    let moved = scene.wall.values().any(|wall| !wall.mover.is_empty());
+    if scene.body.is_empty() && !moved {
+        found.add("", "a scene needs a body: [body.NAME]");
+    }
+    if scene.phase.is_empty() {
+        let why = match moved {
+            true => "; walls that move freely meet as if it were in the gap",
+            false => "",
+        };
+        found.add("", format!("a scene needs a phase: [phase.NAME]{why}"));
     }
     for (name, body) in &scene.body {
         if !scene.phase.contains_key(&body.phase) {
