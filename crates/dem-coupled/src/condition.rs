@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use dem_flow::{Boundary, PoreGeometry};
+use dem_triangulation::Vertex;
 use serde::{Deserialize, Serialize};
 
 use crate::recorded::interpolated;
@@ -140,8 +141,12 @@ impl Side {
 
     /// Whether both give a pressure, or neither does: then a change needs no new matrix.
     pub(crate) fn like(&self, other: &Self) -> bool {
-        let given = |s: &Self| !matches!(s.condition, Condition::Closed | Condition::Inflow(_));
-        self.sticks == other.sticks && given(self) == given(other)
+        self.sticks == other.sticks && self.presses() == other.presses()
+    }
+
+    /// Whether it gives a pressure.
+    fn presses(&self) -> bool {
+        !matches!(self.condition, Condition::Closed | Condition::Inflow(_))
     }
 
     /// Puts what is given at a time (s) into the conditions of the flow.
@@ -174,4 +179,23 @@ pub(crate) fn boundary(sides: &[Side], pores: &PoreGeometry, time: f64) -> Bound
         side.give(&mut boundary, pores, wall, time);
     }
     boundary
+}
+
+/// Flux into the pores through every wall, m³/s, from that through each cell with a given pressure.
+pub(crate) fn inflows(sides: &[Side], pores: &PoreGeometry, influx: &[f64]) -> Vec<f64> {
+    let mut owners = vec![usize::MAX; influx.len()];
+    let around = |wall: usize| pores.mesh().cells_around(Vertex::Wall(wall)).iter();
+    for (wall, _) in sides.iter().enumerate().filter(|(_, s)| s.presses()) {
+        around(wall).for_each(|c| owners[*c as usize] = wall);
+    }
+    let through = |(wall, side): (usize, &Side)| match side.condition {
+        Condition::Inflow(v) => around(wall)
+            .map(|c| v * pores.area_on_wall(*c as usize, wall))
+            .sum(),
+        _ => (owners.iter().zip(influx))
+            .filter(|(o, _)| **o == wall)
+            .map(|(_, q)| q)
+            .sum(),
+    };
+    sides.iter().enumerate().map(through).collect()
 }

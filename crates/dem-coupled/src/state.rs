@@ -92,6 +92,7 @@ impl CoupledSystem {
             pores,
             clock,
             evaluated: false,
+            inflows: None,
         })
     }
 }

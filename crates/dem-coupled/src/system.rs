@@ -7,7 +7,7 @@ use crate::error::number;
 use crate::limit::{Mode, StepLimit, combined, strongest_drag};
 use crate::pores::{GIVEN, PRESSED, Places, Pores};
 use crate::transfer::transferred;
-use crate::{CoupledError, FlowSetup, Side, Vector};
+use crate::{CoupledError, FlowSetup, Side, Vector, condition};
 
 /// Grains that move, and the fluid in the pores between them.
 ///
@@ -29,6 +29,8 @@ pub struct CoupledSystem {
     pub(crate) clock: Clock,
     /// Whether contacts were found where the grains are now.
     pub(crate) evaluated: bool,
+    /// Flux into the pores through every wall at the last step, m³/s, if it is measured; none before the first.
+    pub(crate) inflows: Option<Vec<f64>>,
 }
 
 /// What is remembered from step to step.
@@ -107,6 +109,7 @@ impl CoupledSystem {
             pores,
             clock,
             evaluated: false,
+            inflows: None,
         })
     }
 
@@ -241,9 +244,15 @@ impl CoupledSystem {
         }
         let (pores, clock) = (&mut self.pores, &mut self.clock);
         pores.system.start_from(&clock.pressures)?;
-        clock.pressures = pores
-            .system
-            .step(&pores.boundary, &clock.rates, &clock.pressures)?;
+        let (boundary, rates) = (&pores.boundary, &clock.rates);
+        let pressures = pores.system.step(boundary, rates, &clock.pressures)?;
+        if let Some(inflows) = &mut self.inflows {
+            let influx = pores
+                .system
+                .influx(boundary, rates, &clock.pressures, &pressures);
+            *inflows = condition::inflows(&self.setup.sides, &pores.geometry, &influx);
+        }
+        clock.pressures = pressures;
         let forces = pores.forces.apply(&clock.pressures);
         let (on_grains, on_walls) = forces.split_at(self.grains.grains().len());
         let lift = -self.setup.fluid.density * self.grains.gravity();

@@ -311,6 +311,34 @@ impl FlowSystem {
         Ok(right)
     }
 
+    /// Flux (m³/s) into the room through each cell with a given pressure, zero in others: what flows from it to others,
+    /// what it gains of volume and stores, less its source. With the sources they add up to the rates of all volumes and
+    /// what is stored. Arguments as those of [`FlowSystem::step`] that gave the pressures (Pa).
+    #[must_use]
+    pub fn influx(
+        &self,
+        boundary: &Boundary,
+        rates: &[f64],
+        before: &[f64],
+        pressures: &[f64],
+    ) -> Vec<f64> {
+        let mut flux = vec![0.0; self.unknowns.len()];
+        for (k, ends) in self.conductances.iter().zip(&self.ends) {
+            let [i, j] = ends.map(|c| c as usize);
+            let through = k * (pressures[i] - pressures[j]);
+            flux[i] += through;
+            flux[j] -= through;
+        }
+        let mut given = vec![0.0; flux.len()];
+        let cells = self.unknowns.iter().enumerate();
+        for (c, _) in cells.filter(|(_, u)| **u == GIVEN) {
+            let rate = rates.get(c).copied().unwrap_or(0.0);
+            let stored = self.capacity(c) * (pressures[c] - before[c]);
+            given[self.givers[c] as usize] += flux[c] + rate + stored - boundary.sources[c];
+        }
+        given
+    }
+
     /// Flux (m³/s) into the room through a wall with given pressures: what flows from the pores on it to others.
     #[must_use]
     pub fn inflow(&self, geometry: &PoreGeometry, wall: usize, pressures: &[f64]) -> f64 {

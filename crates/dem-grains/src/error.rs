@@ -240,4 +240,12 @@ pub enum GrainError {
         /// Reached, Pa.
         stress: f64,
     },
+    /// Grains did not come to rest.
+    #[error("the grains are not at rest after {steps} steps: {unrest}")]
+    NotSettled {
+        /// Steps made.
+        steps: u64,
+        /// What keeps them from rest.
+        unrest: crate::Unrest,
+    },
 }

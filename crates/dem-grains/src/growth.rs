@@ -1,6 +1,6 @@
 //! Samples that are grown or left to settle.
 
-use crate::{GrainError, GrainSystem};
+use crate::{GrainError, GrainSystem, Unrest};
 
 /// Where growth ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,33 +104,35 @@ impl Growth {
     }
 }
 
-/// Steps at a share `safety` of the critical step until the unbalanced force ratio is below `tolerance`; tells how
-/// many steps it took.
+/// Steps at a share `safety` of the critical step until the grains are at rest to a `tolerance`
+/// ([`GrainSystem::unrest`]); tells how many steps it took. Motion that is left while all forces are in balance, as that
+/// of grains that roll over a floor, is taken away.
 ///
 /// # Errors
-/// [`GrainError::NotReached`] after `most_steps`; what a step may refuse.
+/// [`GrainError::NotSettled`] after `most_steps`; what a step may refuse.
 pub fn settle(
     system: &mut GrainSystem,
     safety: f64,
     tolerance: f64,
     most_steps: u64,
 ) -> Result<u64, GrainError> {
-    let mut unbalanced = f64::INFINITY;
+    let mut last = Unrest::Unbalanced(f64::INFINITY);
     for made in 0..most_steps {
         system.evaluate()?;
         if made % EVERY == 0 {
-            unbalanced = system.unbalanced_force();
-            if unbalanced < tolerance {
-                return Ok(made);
+            match system.unrest(tolerance)? {
+                None => return Ok(made),
+                Some(unrest) => last = unrest,
+            }
+            if let Unrest::Moving(_) = last {
+                system.stop();
             }
         }
         let step = safety * system.current_limit();
         system.integrate(step)?;
     }
-    Err(GrainError::NotReached {
-        what: "settling",
+    Err(GrainError::NotSettled {
         steps: most_steps,
-        unbalanced,
-        stress: 0.0,
+        unrest: last,
     })
 }

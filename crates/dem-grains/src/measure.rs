@@ -87,22 +87,10 @@ impl GrainSystem {
     /// not count. Source: Catalano 2012, Eq. (2.16), with the norms inside the sums, without which both vanish.
     #[must_use]
     pub fn unbalanced_force(&self) -> f64 {
-        let g = &self.grains;
-        let (mut rest, mut free) = (0.0, 0_u32);
-        for i in (0..g.len()).filter(|&i| !g.held[i]) {
-            let force = g.contact_force[i] + g.external_force[i] + self.gravity * g.mass[i];
-            rest += force.norm();
-            free += 1;
+        match self.mean_forces() {
+            (_, 0.0) => f64::INFINITY,
+            (resultant, contact) => resultant / contact,
         }
-        let (mut forces, mut count) = (0.0, 0_u32);
-        for slot in self.table.slots.iter().filter(|s| s.active) {
-            forces += slot.force.norm();
-            count += 1;
-        }
-        if count == 0 || forces == 0.0 {
-            return f64::INFINITY;
-        }
-        (rest / f64::from(free.max(1))) / (forces / f64::from(count))
     }
 
     /// Contacts per grain, those between grains counted for both.

@@ -116,11 +116,11 @@ fn oedometer(scene: &Scene, found: &mut Vec<SceneProblem>) {
     if scene.fluid.is_none() {
         add(found, "oedometer", "needs a `[fluid]`");
     }
-    if scene.start.settle.is_none() {
+    if scene.start.settle.is_none_or(|tolerance| tolerance >= 1.0) {
         add(
             found,
             "start",
-            "an oedometer test starts from rest: give `settle`",
+            "an oedometer test starts from rest: give `settle` below 1",
         );
     }
 }

@@ -17,6 +17,8 @@ pub fn unit(probe: &Probe) -> &'static str {
     match probe {
         Probe::Stress { .. } | Probe::EffectiveStress { .. } | Probe::Deviator { .. } => "Pa",
         Probe::Amplitude { .. } => "Pa",
+        Probe::Flux { .. } => "m³/s",
+        Probe::Permeability { .. } => "m²",
         Probe::Pressure { over: None, .. } => "Pa",
         Probe::Top {} | Probe::Settlement {} => "m",
         Probe::Level { .. } | Probe::Displacement { .. } => "m",
@@ -97,6 +99,11 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
             let moved = all.iter().zip(&origin.positions).filter(|(_, x)| inside(x));
             let (sum, count) = moved.fold((0.0, 0), |(s, n), (u, _)| (s + u[axis.number()], n + 1));
             (count > 0).then(|| sum / f64::from(count))
+        }
+        Probe::Flux { wall: name } => model.wet()?.inflow(wall(name)?.0),
+        Probe::Permeability { axis } => {
+            let wet = model.wet()?;
+            Some(wet.setup().fluid.viscosity * wet.mobility(axis.number()).ok()?)
         }
         Probe::Amplitude { wall: name } => {
             let wave = scene.wall.get(name)?.wave.as_ref()?;

@@ -88,6 +88,13 @@ impl Model {
         }
     }
 
+    /// Lets every step measure what flows through walls, if there is a fluid.
+    pub fn measure_inflow(&mut self) {
+        if let Self::Wet(system) = self {
+            system.measure_inflow();
+        }
+    }
+
     /// Sets the loads of the time that is now.
     pub fn apply(&mut self, loads: &[Load]) {
         for load in loads {

@@ -93,6 +93,12 @@ fn settled(
     let Some(tolerance) = scene.start.settle.or(poured) else {
         return Ok(());
     };
+    if tolerance >= 1.0 {
+        tell(&format!(
+            "`start.settle` is {tolerance}, and 1 is free fall: the grains start as they are"
+        ));
+        return Ok(());
+    }
     tell("letting the grains settle");
     let mass: f64 = system.grains().masses().iter().sum();
     for (number, name) in planes(scene).iter().enumerate() {

@@ -14,6 +14,7 @@ use crate::laws::{Laws, throats};
 use crate::model::Model;
 use crate::read::Loaded;
 use crate::summary::{Status, Summary};
+use crate::tables::Probe;
 use crate::written::Written;
 
 /// Where a run begins.
@@ -117,7 +118,7 @@ impl<'a> Running<'a> {
         let begun = Instant::now();
         let out = options.out.as_path();
         let identity = loaded.table.to_string();
-        let (parts, progress) = match options.start {
+        let (mut parts, progress) = match options.start {
             Start::Afresh => {
                 let parts = assemble(loaded, &mut |text| observer.message(text))?;
                 let preparation_seconds = begun.elapsed().as_secs_f64();
@@ -129,6 +130,13 @@ impl<'a> Running<'a> {
             }
             start => resumed(loaded, out, &identity, start == Start::Changed)?,
         };
+        if loaded
+            .probes
+            .values()
+            .any(|p| matches!(p, Probe::Flux { .. }))
+        {
+            parts.model.measure_inflow();
+        }
         sph_io::writable(out)?;
         let lock = sph_io::FolderLock::take(out)?;
         sph_io::sweep_temporaries(out)?;

@@ -63,6 +63,7 @@ pub fn world(side: usize) -> World<2> {
         spacing,
         skin: 0.1,
         gravity: Vect::from([0.0, -9.81]),
+        steady_gravity: Vect::from([0.0, -9.81]),
         driving: Vect::zeros(),
         time: 0.0,
         dt: 1e-4,

@@ -44,7 +44,7 @@ impl Dynamics {
     /// The state after a step of `dt` seconds.
     ///
     /// (M + Δt C + Δt² K) a = F − K s − C v − Δt K v over the free ones of the six, with F the force of the fluid and its
-    /// moment about the centre, weight and contact; v' = v + Δt a, x' = x + Δt v'.
+    /// moment about the centre, weight and contact; v' = v + Δt a, x' = x + Δt v'; in free flight x' = x + Δt (v + v')/2.
     pub fn next<const D: usize>(
         &self,
         now: &RigidState<D>,
@@ -71,7 +71,15 @@ impl Dynamics {
         let mut state = *now;
         let moved = padded(now.velocity.as_slice()) + along * dt;
         state.velocity = Vect::from_fn(|k, _| moved[k]);
-        let place = Vect::from(now.pose.translation) + state.velocity * dt;
+        // Weight alone is a constant force, of which the mean velocity makes the exact parabola.
+        let flies = [load.force, load.contact_force] == [Vect::<D>::zeros(); 2]
+            && self.holds.is_empty()
+            && self.lines.is_empty();
+        let mean = match flies {
+            true => (now.velocity + state.velocity) * 0.5,
+            false => state.velocity,
+        };
+        let place = Vect::from(now.pose.translation) + mean * dt;
         state.pose.translation = place.into();
         let (turned, omega_next) = match self.free[3..] {
             [true, true, true] if D == 3 => {

@@ -20,6 +20,11 @@ impl<const D: usize> Limiter<D> for SoundLimit {
         let density = world.free.get(fields::DENSITY)?;
         // Sound is fastest where density is highest, so one law call per phase is enough.
         let fastest = match &self.laws[..] {
+            // The stiffness of contact between bodies is that of the fluid at rest.
+            laws if density.is_empty() => {
+                let each = laws.iter().map(|law| law.reference().sound_speed);
+                each.fold(0.0, f64::max)
+            }
             [law] => law.sound_speed(largest(density, |rho| *rho)),
             laws => {
                 let phase = world.free.get(fields::PHASE)?;

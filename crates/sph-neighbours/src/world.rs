@@ -64,8 +64,10 @@ pub struct World<const D: usize> {
     pub spacing: f64,
     /// Skin of the lists as a share of the support radius.
     pub skin: f64,
-    /// Hydrostatic gravity, m/s².
+    /// Hydrostatic gravity of this moment, m/s².
     pub gravity: Vect<D>,
+    /// What of it is the same all the time, m/s², and has a potential.
+    pub steady_gravity: Vect<D>,
     /// Body acceleration that drives a periodic flow and is not balanced by pressure, m/s².
     pub driving: Vect<D>,
     /// Time, s.

@@ -95,6 +95,7 @@ fn world(n: usize, seed: u64, order: impl Fn(usize) -> usize) -> World<2> {
         spacing: 0.03,
         skin: 0.1,
         gravity: Vect::zeros(),
+        steady_gravity: Vect::zeros(),
         driving: Vect::zeros(),
         time: 0.0,
         dt: 0.0,

@@ -4,6 +4,7 @@ pub(crate) mod bounds;
 pub(crate) mod corners;
 pub(crate) mod dimension;
 pub(crate) mod geometry;
+mod gravity;
 pub(crate) mod motion;
 pub(crate) mod names;
 pub(crate) mod outlets;

@@ -1,1 +1,163 @@
 //! Scenes of grains.
+
+use crate::Field;
+use sph_io::Table;
+use sph_tests::Outcome;
+
+const GRAVITY: f64 = 9.81;
+
+fn column<'a>(series: &'a Table, name: &str) -> &'a [f64] {
+    series.column(name).expect("a column")
+}
+
+fn done(outcome: Outcome) {
+    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
+}
+
+#[test]
+fn a_grain_that_is_asked_nothing_of_falls_from_where_it_is() {
+    let field = Field::new();
+    done(field.run("one-grain", ""));
+    let series = field.series();
+    let [time, top, touching] =
+        ["time", "top", "coordination"].map(|name| column(&series, name).to_vec());
+    // From 5 cm above the floor; the leap-frog starts with a half step of gravity too much.
+    let lands = (2.0 * 0.05 / GRAVITY).sqrt();
+    let step = column(&series, "dt").iter().copied().fold(0.0, f64::max);
+    for (t, top) in time.iter().zip(&top).filter(|(t, _)| **t < lands - step) {
+        let free = 0.07 - 0.5 * GRAVITY * t * t;
+        assert!(
+            (top - free).abs() <= GRAVITY * lands * step,
+            "{top} m at {t} s for {free} m"
+        );
+    }
+    let first = touching.iter().position(|n| *n > 0.0).expect("a touch");
+    // Rows are 1 ms and a step apart, and contacts are those before the last step.
+    let late = time[first] - lands;
+    assert!(
+        (-step..1e-3 + 3.0 * step).contains(&late),
+        "it lands {late} s late"
+    );
+}
+
+#[test]
+fn one_grain_settles_to_rest_on_the_floor() {
+    let field = Field::new();
+    done(field.run("one-grain", "--set start.settle=1e-3 --set run.end=0.02"));
+    let series = field.series();
+    // The overlap m g/k, k = E R, is 2 µm; the speed is to be below a thousandth of √(g R).
+    let mass = 2600.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-6;
+    let most = 0.5 * mass * 1e-6 * GRAVITY * 0.01;
+    for (top, energy) in column(&series, "top")
+        .iter()
+        .zip(column(&series, "kinetic_energy"))
+    {
+        assert!(
+            (top - 0.02 + mass * GRAVITY / 5e4).abs() < 1e-7,
+            "it lies {top} m high"
+        );
+        assert!(*energy <= 2.0 * most, "{energy} J");
+    }
+}
+
+#[test]
+fn a_cloud_is_settled_when_the_floor_carries_it() {
+    let field = Field::new();
+    for gravity in ["[0,0,-9.81]", "[0,0,-1.6]"] {
+        done(field.run("cloud", &format!("--set grains.gravity={gravity}")));
+        let series = field.series();
+        for (floor, sunk) in column(&series, "floor").iter().zip(column(&series, "sunk")) {
+            assert!(
+                (floor - 1.0).abs() < 0.01,
+                "the floor bears {floor} of the weight"
+            );
+            // Free fall over the run would be 2 mm, and 0.3 mm on the moon.
+            assert!(sunk.abs() < 1e-5, "it sinks by {sunk} m");
+        }
+    }
+}
+
+#[test]
+fn a_piston_in_mid_air_comes_down_before_the_start() {
+    let field = Field::new();
+    done(field.run(
+        "cloud",
+        "--set wall.top.piston.stress=1e3 --set wall.top.piston.mass_share=0.1 --set box.high=[0.1,0.1,0.3]",
+    ));
+    let lid = column(&field.series(), "lid")[0];
+    assert!(
+        (lid / 1e3 - 1.0).abs() < 2e-3,
+        "the grains bear {lid} Pa of 1 kPa"
+    );
+}
+
+/// κ of the prototype with signed solid angles, walls without slip: `noslip_signed` of the stored results.
+#[test]
+fn the_permeability_is_that_of_the_prototype_and_of_the_flux() {
+    let field = Field::new();
+    done(field.run("yade", ""));
+    let series = field.series();
+    let kappa = 3.4301505172198184e-05;
+    let last = series.column("time").expect("times").len() - 1;
+    let at = |name: &str, row: usize| column(&series, name)[row];
+    assert!(
+        (at("k", 0) / kappa - 1.0).abs() < 1e-6,
+        "{} m2 for {kappa} m2",
+        at("k", 0)
+    );
+    // Darcy: Q = κ A Δp/(µ L). At the first step nothing has moved yet.
+    assert!(
+        (at("in", 1) * 10.0 / kappa - 1.0).abs() < 1e-6,
+        "{} m3/s",
+        at("in", 1)
+    );
+    for row in 1..=last {
+        let (into, out) = (at("in", row), at("out", row));
+        assert!(
+            ((into + out) / into).abs() < 1e-9,
+            "{into} m3/s in, {out} m3/s out"
+        );
+    }
+}
+
+#[test]
+fn a_given_pressure_and_a_given_flux_show_one_permeability() {
+    let field = Field::new();
+    let small = "--set grains.count=200 --set grains.radius=[0.07,0.095] --set run.max_steps=1 \
+                 --set probe.k.kind=permeability --set probe.k.axis=z --set probe.top.kind=flux \
+                 --set probe.top.wall=top --set probe.floor.kind=flux --set probe.floor.wall=bottom";
+    let layers = "--set probe.low.kind=pressure --set probe.low.axis=z --set probe.low.from=0.2 \
+                  --set probe.low.to=0.4 --set probe.high.kind=pressure --set probe.high.axis=z \
+                  --set probe.high.from=0.6 --set probe.high.to=0.8 --set output.series_every=1e-9";
+    let kappa = ["perm", "perm-flux"].map(|input| {
+        done(field.run(input, &format!("{small} {layers}")));
+        let series = field.series();
+        let last = |name: &str| *column(&series, name).last().expect("a row");
+        let through = [last("top"), last("floor")];
+        assert!(
+            (through[0] + through[1]).abs() < 1e-9 * through[0].abs(),
+            "{through:?}"
+        );
+        let inside = 10.0 * through[0] * 0.4 / (last("high") - last("low"));
+        println!(
+            "{input}: {through:?} m3/s, {:e} m2, inside {inside:e} m2",
+            last("k")
+        );
+        [inside, last("k"), through[0]]
+    });
+    let [[pressed, whole, out], [fed, same, into]] = kappa;
+    assert!(
+        (into / 1e-3 - 1.0).abs() < 1e-9,
+        "{into} m3/s for 1 mm/s through 1 m2"
+    );
+    assert_eq!(whole, same);
+    // Darcy over the whole height, under 1 Pa.
+    assert!(
+        (-out * 10.0 / whole - 1.0).abs() < 1e-6,
+        "{out} m3/s for {whole} m2"
+    );
+    assert!(
+        (pressed / fed - 1.0).abs() < 0.02,
+        "{pressed} m2 and {fed} m2"
+    );
+}

@@ -56,6 +56,7 @@ fn vortices(ratio: f64) -> World<2> {
         spacing,
         skin: 0.1,
         gravity: Vect::zeros(),
+        steady_gravity: Vect::zeros(),
         driving: Vect::zeros(),
         time: 0.0,
         dt: 1.0,

@@ -13,7 +13,10 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Vec<SceneProb
     let at = |key: &str| format!("probe.{name}.{key}");
     let wet = "needs a `[fluid]`";
     match probe {
-        Probe::Stress { wall } | Probe::Borne { wall } | Probe::Amplitude { wall } => {
+        Probe::Stress { wall }
+        | Probe::Borne { wall }
+        | Probe::Flux { wall }
+        | Probe::Amplitude { wall } => {
             let names = planes(scene);
             if !names.contains(wall) {
                 let near = suggestion(wall, names.iter().map(String::as_str));
@@ -27,8 +30,14 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Vec<SceneProb
             if matches!(probe, Probe::Amplitude { .. }) && !waves {
                 add(found, at("wall"), format!("there is no wave on `{wall}`"));
             }
+            if matches!(probe, Probe::Flux { .. }) && scene.fluid.is_none() {
+                add(found, at("kind"), wet);
+            }
         }
-        Probe::Carried {} | Probe::Pressure { .. } | Probe::Gradient { .. }
+        Probe::Carried {}
+        | Probe::Pressure { .. }
+        | Probe::Gradient { .. }
+        | Probe::Permeability { .. }
             if scene.fluid.is_none() =>
         {
             add(found, at("kind"), wet);

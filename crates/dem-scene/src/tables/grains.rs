@@ -61,8 +61,10 @@ pub struct Start {
     #[serde(default = "share")]
     #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0, "quantity" = "safety factor"))]
     pub safety: f64,
-    /// Unbalanced force ratio down to which the grains settle, drained, before the run starts: under gravity, in a fluid
-    /// under their buoyant weight, and the `prepared` stress of pistons. They are left as they are if this is left out.
+    /// Tolerance to which the grains come to rest, drained, before the run starts: under gravity, in a fluid under their
+    /// buoyant weight, and the `prepared` stress of pistons. At rest are grains whose mean resultant force is below this
+    /// share of the mean contact force F, which contacts carry one by one, and whose mean speed is below this share of
+    /// √(F R/m). They are left as they are if this is left out, or is 1 (free fall) or more.
     #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
     pub settle: Option<f64>,
     /// Most steps of a preparation.

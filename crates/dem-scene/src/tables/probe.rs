@@ -119,6 +119,17 @@ pub enum Probe {
         #[schemars(extend("unit" = "m"))]
         high: Triple,
     },
+    /// What flows into the pores through a wall, m³/s, negative if out of them, at the last step.
+    Flux {
+        /// Name of a wall of the box.
+        wall: String,
+    },
+    /// Permeability κ of the packing along an axis, m²: κ = µ Q L/(A Δp) with a pressure Δp between the two walls across the
+    /// axis, others closed, and the grains held, whatever the scene gives at its walls. Every row solves for it.
+    Permeability {
+        /// The axis.
+        axis: Axis,
+    },
     /// Pressure amplitude of the wave on a wall, Pa, without its swing.
     Amplitude {
         /// Name of the wall.

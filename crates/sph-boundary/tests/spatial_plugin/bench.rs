@@ -85,6 +85,7 @@ impl<const D: usize> Bench<D> {
                 spacing,
                 skin: 0.1,
                 gravity: Vect::zeros(),
+                steady_gravity: Vect::zeros(),
                 driving: Vect::zeros(),
                 time: 0.0,
                 dt: 0.0,

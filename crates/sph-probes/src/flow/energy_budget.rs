@@ -132,7 +132,9 @@ impl<const D: usize> Probe<D> for EnergyBudget {
         let potential = mass.iter().zip(position);
         let mut all = vec![
             kinetic.map(|(m, u)| 0.5 * m * u.norm_squared()).sum(),
-            potential.map(|(m, x)| -m * world.gravity.dot(x)).sum(),
+            potential
+                .map(|(m, x)| -m * world.steady_gravity.dot(x))
+                .sum(),
             sum(BOOKED_COMPRESSION)?,
         ];
         let now: f64 = all.iter().sum();

@@ -50,7 +50,7 @@ impl<const D: usize> Probe<D> for PhaseEnergy {
         let (mut kinetic, mut potential) = (0.0, 0.0);
         for k in (0..mass.len()).filter(|k| counted.has(*k)) {
             kinetic += 0.5 * mass[k] * velocity[k].norm_squared();
-            potential -= mass[k] * world.gravity.dot(&position[k]);
+            potential -= mass[k] * world.steady_gravity.dot(&position[k]);
         }
         Ok(vec![kinetic, potential])
     }

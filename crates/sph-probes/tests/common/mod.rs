@@ -15,6 +15,7 @@ pub fn world<const D: usize>(free: Store<D>, spacing: f64) -> World<D> {
         spacing,
         skin: 0.1,
         gravity: Vect::zeros(),
+        steady_gravity: Vect::zeros(),
         driving: Vect::zeros(),
         time: 0.0,
         dt: 1.0,

@@ -3,6 +3,7 @@
 use crate::Scene;
 use crate::checks::bounds::within_bounds;
 use crate::checks::dimension::Dimension;
+use crate::checks::gravity;
 use crate::checks::outlets::outlets;
 use crate::checks::problems::Problems;
 use crate::checks::shapes::body_geometry;
@@ -31,6 +32,12 @@ pub(crate) fn check(scene: &Scene, found: &mut Problems) {
 fn space(scene: &Scene, of: Dimension, found: &mut Problems) {
     let numerics = &scene.numerics;
     of.optional(&numerics.gravity, "numerics.gravity", found);
+    if let Some(course) = &numerics.gravity_over_time {
+        gravity::over_time(course, of, found);
+    }
+    if let Some(motion) = &numerics.frame {
+        gravity::frame(motion, of, found);
+    }
     of.optional(&numerics.driving, "numerics.driving", found);
     if let Some(domain) = &numerics.domain {
         of.corners(domain, "numerics.domain", found);

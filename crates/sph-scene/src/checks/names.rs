@@ -7,7 +7,7 @@ use sph_core::suggestion;
 use toml::{Table, Value};
 
 use crate::checks::problems::Problems;
-use crate::{Norm, Reference, Scene, Source};
+use crate::{Motion, Norm, Reference, Scene, Source};
 
 /// Kinds of tables with names that the user chooses.
 const NAMED: [&str; 7] = [
@@ -60,13 +60,16 @@ pub(crate) fn spelling(scene: &Table, found: &mut Problems) {
 
 /// Everything that is named exists; files are where a scene may name them.
 pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problems) {
-    for (kind, empty) in [
-        ("phase", scene.phase.is_empty()),
-        ("body", scene.body.is_empty()),
-    ] {
-        if empty {
-            found.add("", format!("a scene needs a {kind}: [{kind}.NAME]"));
-        }
+    let moved = scene.wall.values().any(|wall| !wall.mover.is_empty());
+    if scene.body.is_empty() && !moved {
+        found.add("", "a scene needs a body: [body.NAME]");
+    }
+    if scene.phase.is_empty() {
+        let why = match moved {
+            true => "; walls that move freely meet as if it were in the gap",
+            false => "",
+        };
+        found.add("", format!("a scene needs a phase: [phase.NAME]{why}"));
     }
     for (name, body) in &scene.body {
         if !scene.phase.contains_key(&body.phase) {
@@ -106,22 +109,31 @@ pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problem
     for (name, wall) in &mut scene.wall {
         let path = format!("wall.{name}");
         wall.path = located(&wall.file, &path, source, found);
-        let Some(motion) = &mut wall.motion else {
-            continue;
-        };
-        let motion_path = format!("{path}.motion");
-        for k in 0..motion.translate.len() {
-            let path = motion.translate_path(&motion_path, k);
-            motion.translate[k].path = located(&motion.translate[k].file, &path, source, found);
+        if let Some(motion) = &mut wall.motion {
+            files_of_motion(motion, &format!("{path}.motion"), source, found);
         }
-        if let Some(levels) = &mut motion.levels {
-            let path = format!("{motion_path}.levels");
-            levels.path = located(&Some(levels.file.clone()), &path, source, found);
-        }
-        if let Some(rotate) = &mut motion.rotate {
-            let path = format!("{motion_path}.rotate");
-            rotate.path = located(&rotate.file, &path, source, found);
-        }
+    }
+    if let Some(frame) = &mut scene.numerics.frame {
+        files_of_motion(frame, "numerics.frame", source, found);
+    }
+    if let Some(course) = &mut scene.numerics.gravity_over_time {
+        course.path = located(&course.file, "numerics.gravity_over_time", source, found);
+    }
+}
+
+/// Fills in the paths of the files that a motion names.
+fn files_of_motion(motion: &mut Motion, motion_path: &str, source: &Source, found: &mut Problems) {
+    for k in 0..motion.translate.len() {
+        let path = motion.translate_path(motion_path, k);
+        motion.translate[k].path = located(&motion.translate[k].file, &path, source, found);
+    }
+    if let Some(levels) = &mut motion.levels {
+        let path = format!("{motion_path}.levels");
+        levels.path = located(&Some(levels.file.clone()), &path, source, found);
+    }
+    if let Some(rotate) = &mut motion.rotate {
+        let path = format!("{motion_path}.rotate");
+        rotate.path = located(&rotate.file, &path, source, found);
     }
 }
 

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::{GravityOverTime, Motion};
+
 /// How long the scene runs and how carefully.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -50,6 +52,10 @@ pub struct Numerics {
     /// Gravity, m/s², one entry per dimension; it is in balance with the pressure of walls. None if left out.
     #[schemars(extend("unit" = "m/s²"))]
     pub gravity: Option<Vec<f64>>,
+    /// What is added to `gravity` over time.
+    pub gravity_over_time: Option<GravityOverTime>,
+    /// Motion of the frame that the scene is drawn in, as that of a wall but without rotation: its acceleration is taken from `gravity`, and walls, levels and velocities count in the frame.
+    pub frame: Option<Motion>,
     /// Force per mass that drives a flow, m/s², one entry per dimension; unlike gravity it does not enter the pressure of walls.
     #[schemars(extend("unit" = "m/s²"))]
     pub driving: Option<Vec<f64>>,

@@ -72,9 +72,14 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Gravity, m/s²; zero if the scene gives none.
+    /// Steady gravity, m/s²; zero if the scene gives none.
     pub fn gravity<const D: usize>(&self) -> Vect<D> {
         array::<D>(self.numerics.gravity.as_deref().unwrap_or(&[])).into()
+    }
+
+    /// Whether gravity changes over time: who holds against it or goes with it takes or gives energy.
+    pub fn swings(&self) -> bool {
+        self.numerics.gravity_over_time.is_some() || self.numerics.frame.is_some()
     }
 
     /// Driving force per mass, m/s²; zero if the scene gives none.

@@ -87,7 +87,7 @@ impl<const D: usize> Balance<D> {
         let position = free.get(fields::POSITION)?;
         let density = free.get(fields::DENSITY)?;
         let phase = free.get(fields::PHASE).ok();
-        let gravity = flow.world.gravity;
+        let gravity = flow.world.steady_gravity;
         let laws = &flow.laws;
         let stored = flow.works.iter().filter_map(|w| w.energy(&flow.world));
         let stored: Vec<_> = stored.collect();

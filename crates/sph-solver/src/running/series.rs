@@ -126,7 +126,7 @@ impl Series {
         let largest = parts
             .iter()
             .fold(balance.energy().abs(), |m, e| m.max(e.abs()));
-        let fast = balance.faster[0] / balance.mass;
+        let fast = balance.faster[0] / balance.mass.max(f64::MIN_POSITIVE);
         let now = [balance.energy(), balance.mach, fast];
         self.peaks = std::array::from_fn(|k| self.peaks[k].max(now[k]));
         self.energy_scale = self.energy_scale.max(largest);

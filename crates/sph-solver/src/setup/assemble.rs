@@ -33,6 +33,7 @@ use crate::setup::share::Share;
 use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
 use crate::setup::start::{Start, phases_of_bodies, start};
+use crate::setup::swing::Swing;
 use crate::setup::wall_speeds;
 use crate::step::accounts;
 use crate::step::flow::Flow;
@@ -81,7 +82,8 @@ pub(crate) fn assemble_share<const D: usize>(
     let mut drawn = Drawn::<D>::of(scene)?;
     crate::setup::estimate::refuse_the_absurd(scene, &drawn)?;
     let mut choices = chosen::<D>(scene)?;
-    let laws = bind_laws::<D>(scene, &drawn, &choices)?;
+    let swing = Swing::<D>::of(scene)?;
+    let laws = bind_laws::<D>(scene, &drawn, &choices, swing.as_ref())?;
     movers::settle(scene, &mut drawn, &mut choices, &laws)?;
     refuse_fast_walls(scene, &drawn, &laws)?;
     let opened = open_faces::settle(scene, &mut drawn, &mut choices, &laws)?;
@@ -120,6 +122,7 @@ pub(crate) fn assemble_share<const D: usize>(
         walls,
         laws,
         kinematic_viscosities,
+        swing,
         outlets,
         remedies: remedies(scene, &parts),
         evolved: evolved(&*formulation, &parts),
@@ -328,8 +331,11 @@ fn bind_laws<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,
     choices: &Choices<D>,
+    swing: Option<&Swing<D>>,
 ) -> Result<Laws, SolverError> {
-    let fall = (height(scene, &drawn.regions) * scene.gravity::<D>().norm()).sqrt();
+    let head = height(scene, &drawn.regions) * scene.gravity::<D>().norm();
+    let more = swing.map_or(0.0, |swing| swing.head(scene, &drawn.regions));
+    let fall = (head + more).sqrt();
     let speeds = sound_speeds(scene, fall)?;
     let phases = scene.phase.values().zip(speeds);
     let reference = phases.map(|(phase, sound_speed)| Reference {

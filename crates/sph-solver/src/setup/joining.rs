@@ -9,6 +9,7 @@ use sph_state::Laws;
 
 use crate::setup::builder::Part;
 use crate::setup::planning::Planned;
+use crate::setup::swing::Swing;
 use crate::step::declared::Columns;
 use crate::step::flow::Flow;
 use crate::step::outlets::Outlets;
@@ -21,6 +22,7 @@ pub(crate) struct Given<const D: usize> {
     pub laws: Laws,
     /// η/ρ₀ of every phase, m²/s.
     pub kinematic_viscosities: Vec<f64>,
+    pub swing: Option<Swing<D>>,
     pub outlets: Outlets,
     pub remedies: Vec<(&'static str, String)>,
     pub evolved: Vec<Evolved>,
@@ -91,6 +93,7 @@ pub(crate) fn joined<const D: usize>(
         laws: given.laws,
         kinematic_viscosities: given.kinematic_viscosities,
         timings: Vec::new(),
+        swing: given.swing,
         outlets: given.outlets,
         nursery: None,
         books: None,

@@ -134,6 +134,7 @@ fn empty<const D: usize>(
         spacing,
         skin,
         gravity: scene.gravity::<D>(),
+        steady_gravity: scene.gravity::<D>(),
         driving: scene.driving::<D>(),
         time: 0.0,
         dt: 0.0,

@@ -177,7 +177,15 @@ fn motion_of<const D: usize>(
     if let Some(levels) = &motion.levels {
         return levels_of(levels, &format!("{place}.motion.levels"));
     }
-    let courses = motion.courses(&format!("{place}.motion"));
+    rigid_motion(motion, &format!("{place}.motion"))
+}
+
+/// Translations and a rotation of a motion that follows no levels; `place` is its path in the scene.
+pub(crate) fn rigid_motion<const D: usize>(
+    motion: &sph_scene::Motion,
+    place: &str,
+) -> Result<RigidMotion<D>, SolverError> {
+    let courses = motion.courses(place);
     let courses = courses.map_err(|problem| SolverError::Scene(vec![problem]))?;
     let course = |course: sph_scene::Course| match course {
         sph_scene::Course::Speed(speed) => Course::Steady { speed },

@@ -146,7 +146,7 @@ impl<const D: usize> Books<D> {
             let velocity = world.free.get(fields::VELOCITY)?;
             let position = world.free.get(fields::POSITION)?;
             let start = each(now.len(), |i| {
-                let high = -world.gravity.dot(&position[i]);
+                let high = -world.steady_gravity.dot(&position[i]);
                 now[i] + mass[i] * (0.5 * velocity[i].norm_squared() + high)
             });
             *world.free.get_mut(ENERGY_AT_START)? = start;
@@ -237,7 +237,7 @@ impl<const D: usize> Books<D> {
         let rates = &self.rates;
         for (class, of) in CLASSES.into_iter().enumerate() {
             let steady = match of {
-                EnergyWork::Others => world.driving,
+                EnergyWork::Others => world.driving + (world.gravity - world.steady_gravity),
                 _ => Vect::zeros(),
             };
             let done = each(n, |i| work(i, (rates[i][class].acceleration + steady) * dt));
@@ -261,7 +261,7 @@ impl<const D: usize> Books<D> {
         book(world, EnergyWork::Walls, &pushed)?;
         add(world, BOOKED_COMPRESSION, &compressed)?;
         // What the weight has given; `drifts` takes what the drift costs.
-        let fallen = each(n, |i| work(i, world.gravity * dt));
+        let fallen = each(n, |i| work(i, world.steady_gravity * dt));
         book(world, EnergyWork::Remainder, &fallen)?;
         // Densities in the middle of the motion: who changes them in this step does it all along.
         let all = self.density.par_iter_mut().zip(&dilatation);
@@ -321,7 +321,7 @@ impl<const D: usize> Books<D> {
     /// Before a drift over `dt` seconds with the present velocities: weights and shifts.
     pub(crate) fn drifts(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mass = world.free.get(fields::MASS)?;
-        let height = |i: usize, way: &Vect<D>| -mass[i] * world.gravity.dot(way) * dt;
+        let height = |i: usize, way: &Vect<D>| -mass[i] * world.steady_gravity.dot(way) * dt;
         let n = mass.len();
         let velocity = world.free.get(fields::VELOCITY)?;
         let lifted = each(n, |i| height(i, &velocity[i]));

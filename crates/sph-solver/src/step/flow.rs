@@ -15,6 +15,7 @@ use sph_decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
 use sph_state::Laws;
 
+use crate::setup::swing::Swing;
 use crate::step::books::Books;
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::declared::{Columns, writes_any};
@@ -70,6 +71,8 @@ pub struct Flow<const D: usize> {
     /// What to change where a term of a kind has thrown a particle about, by the kind, or a stage failed, by its name.
     pub(crate) remedies: Vec<(&'static str, String)>,
     pub(crate) timings: Vec<Timing>,
+    /// What gravity changes by, if it does.
+    pub(crate) swing: Option<Swing<D>>,
     /// Where particles leave.
     pub(crate) outlets: Outlets,
     /// What newborn particles begin with, where some may come in.
@@ -219,6 +222,10 @@ impl<const D: usize> Flow<D> {
     }
 
     pub(crate) fn run_stages(&mut self, wanted: impl Fn(&Access) -> bool) -> Result<(), StepError> {
+        if let Some(swing) = &self.swing {
+            let world = &mut self.world;
+            world.gravity = world.steady_gravity + swing.at(world.time);
+        }
         let start = Instant::now();
         self.refresh_lists()?;
         self.timings[LISTS].spent += start.elapsed();

@@ -18,11 +18,8 @@ impl<const D: usize> Flow<D> {
         let gone = self.by_works(dt)?;
         let gone = self.by_outlets()? || gone;
         let here = !self.world.free.is_empty();
-        // A rank may have nobody left.
-        let somebody = match gone {
-            true => self.any_rank(here)?,
-            false => here || self.parts.is_some(),
-        };
+        // A rank may have nobody left, and a scene of bodies alone never has anybody.
+        let somebody = !gone || self.any_rank(here)?;
         match somebody {
             true => Ok(()),
             false => Err(StepError::Stage {
