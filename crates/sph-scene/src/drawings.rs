@@ -2,6 +2,5 @@
 
 pub(crate) mod drawing;
 pub(crate) mod rows;
-pub(crate) mod stl;
 pub(crate) mod svg;
 pub(crate) mod svg_path;

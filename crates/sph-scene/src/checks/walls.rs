@@ -169,6 +169,16 @@ fn companions(wall: &Wall, path: &str, found: &mut Problems) {
             "the unit of coordinates belongs to a `file`; numbers of a scene carry their own: \"5 mm\"",
         );
     }
+    if wall.flip && wall.polyline.is_none() && wall.file.is_none() {
+        misplaced("flip", "only a `polyline` or a `file` is turned round; choose `fluid`");
+    }
+    if wall.flip && wall.fluid.is_some_and(|side| side != Side::AsDrawn) {
+        misplaced("flip", "`fluid` says which way the file faces: leave one of the two out");
+    }
+    let stl = wall.file.as_ref().is_some_and(|file| has_ending(file, "stl"));
+    if wall.align && !stl {
+        misplaced("align", "only facets of an STL file are turned to face one way");
+    }
     match (wall.fluid, &wall.polyline, &wall.file) {
         (Some(_), Some(_), _) => misplaced(
             "fluid",

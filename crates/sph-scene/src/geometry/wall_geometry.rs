@@ -1,12 +1,11 @@
 //! The geometry of a wall as lines or facets.
 
 use sph_core::{SceneProblem, parse_unit};
+use surface_file::Facets;
 
 use crate::drawings::rows;
-use crate::drawings::stl;
 use crate::drawings::svg;
 use crate::geometry::divide;
-use crate::geometry::facets::Facets;
 use crate::geometry::outlines::{Line, Unsided, bounds, oriented, rectangle};
 use crate::geometry::solid;
 use crate::geometry::transform::Placing;
@@ -51,7 +50,7 @@ impl Wall {
             Some(side) if !open_box => side,
             _ => Side::AsDrawn,
         };
-        let turned = open_box && self.side() == Some(Side::Outside);
+        let turned = self.flip || open_box && self.side() == Some(Side::Outside);
         let lines = oriented(drawn, side).map_err(|why| match why {
             Unsided::Open(open) => {
                 let message = format!(
@@ -97,9 +96,8 @@ impl Wall {
         let factor = self.factor();
         let mut facets = match &self.path {
             Some(path) => {
-                let (facets, odd) = stl::read(path).map_err(problem)?;
-                let side = |why| SceneProblem::new(format!("{place}.fluid"), why);
-                self.sided(facets, odd).map_err(side)?
+                let (facets, odd) = Facets::read(path).map_err(problem)?;
+                self.sided(facets, odd, place)?
             }
             None => {
                 if let Some(ball) = &self.sphere {
@@ -235,33 +233,6 @@ impl Wall {
             [e.from, e.to],
             e.open_ends,
         ))
-    }
-
-    /// The facets of a file with the fluid on the side that the wall asks for.
-    fn sided(&self, facets: Facets, odd: Option<usize>) -> Result<Facets, String> {
-        let side = self.side().unwrap_or(Side::AsDrawn);
-        if side == Side::AsDrawn {
-            return match odd {
-                None => Ok(facets),
-                Some(k) => Err(format!(
-                    "the normal of facet {k} contradicts the order of its corners: give `fluid = \
-                     \"inside\"` or \"outside\", which go by the corners, or write the file anew"
-                )),
-            };
-        }
-        let loose = facets.loose_edges();
-        if loose > 0 {
-            return Err(format!(
-                "the surface is not closed or its facets face different ways at {loose} edges, so \
-                 it has no inside: mend it, or leave out `fluid` where the normals point into the \
-                 fluid"
-            ));
-        }
-        let outward = facets.volume() > 0.0;
-        Ok(match outward == (side == Side::Outside) {
-            true => facets,
-            false => facets.flipped(),
-        })
     }
 
     /// Refuses what is absurdly large or small against the spacing.

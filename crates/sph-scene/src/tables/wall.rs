@@ -64,6 +64,12 @@ pub struct Wall {
     pub rotate: Option<Rotate>,
     /// Side of a closed geometry on which the fluid is: `inside` if left out, `as-drawn` for a file. A `polyline` has the fluid on the left of travel.
     pub fluid: Option<Side>,
+    /// Whether a `polyline`, or what a `file` has, is turned round: the fluid is on the other side.
+    #[serde(default)]
+    pub flip: bool,
+    /// Whether facets of an STL file that face the other way than most of those they hang together with are turned round.
+    #[serde(default)]
+    pub align: bool,
     /// Whether the fluid sticks to the wall.
     #[serde(default)]
     pub condition: Condition,
