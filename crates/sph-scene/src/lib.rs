@@ -71,7 +71,7 @@ pub use reading::schema::{schema, unit};
 pub use scene_text::{
     Diagnostic, Origin, Override, PathProblem, PictureRange, Source, read_text, within,
 };
-pub use surface_file::Facets;
+pub use surface_file::{Facets, Topology};
 pub use tables::body::{Body, Cutout, Filling, Pressure};
 pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 pub use tables::motion::{

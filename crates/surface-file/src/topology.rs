@@ -146,7 +146,11 @@ impl Facets {
             let ends: Vec<[f64; 3]> = ends.map(|p| self.points[*p as usize]).collect();
             let count = ends.len() as f64;
             let centre = std::array::from_fn(|k| ends.iter().map(|p| p[k]).sum::<f64>() / count);
-            let [low, high] = Facets { points: ends, triangles: Vec::new() }.bounds();
+            let [low, high] = Facets {
+                points: ends,
+                triangles: Vec::new(),
+            }
+            .bounds();
             let across = minus(&high, &low);
             openings.push(Opening {
                 edges: edges.len(),

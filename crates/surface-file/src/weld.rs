@@ -53,9 +53,8 @@ impl Welder {
             return None;
         }
         let [low, high] = [-self.near, self.near].map(|d| self.cell(&x.map(|c| c + d)));
-        let mut corners = (0..8).map(|n| {
-            std::array::from_fn(|k| if n >> k & 1 == 0 { low[k] } else { high[k] })
-        });
+        let mut corners =
+            (0..8).map(|n| std::array::from_fn(|k| if n >> k & 1 == 0 { low[k] } else { high[k] }));
         corners.find_map(|cell| {
             let number = *self.cells.get::<[i64; 3]>(&cell)?;
             let there = &self.facets.points[number as usize];

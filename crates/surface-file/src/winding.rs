@@ -76,8 +76,7 @@ impl Winding {
             let along = (0..3).fold(0, |most, k| if extent[k] > extent[most] { k } else { most });
             let at = |t: &[[f64; 3]; 3]| t[0][along] + t[1][along] + t[2][along];
             let half = (end - first) / 2;
-            self.triangles[first..end]
-                .select_nth_unstable_by(half, |a, b| at(a).total_cmp(&at(b)));
+            self.triangles[first..end].select_nth_unstable_by(half, |a, b| at(a).total_cmp(&at(b)));
             let parts = [
                 self.cluster(first, first + half),
                 self.cluster(first + half, end),
@@ -141,7 +140,11 @@ mod tests {
     #[test]
     fn it_is_one_inside_and_the_share_of_the_sphere_that_is_left_in_an_open_one() {
         let whole = Winding::new(ball(40, 0));
-        for (x, w) in [([0.0; 3], 1.0), ([0.5, 0.3, -0.2], 1.0), ([0.0, 1.5, 0.0], 0.0)] {
+        for (x, w) in [
+            ([0.0; 3], 1.0),
+            ([0.5, 0.3, -0.2], 1.0),
+            ([0.0, 1.5, 0.0], 0.0),
+        ] {
             assert!((whole.at(&x) - w).abs() < 5e-3, "{}", whole.at(&x));
         }
         // Without the cap over the angle π/4 the middle sees (1 + cos π/4)/2 of it.

@@ -5,7 +5,7 @@ use sph_solver::{Examination, Load, Memory, examine};
 
 use crate::arguments::CheckArguments;
 use crate::calibration::calibration;
-use crate::commands::grains;
+use crate::commands::{grains, mesh};
 use crate::number;
 use crate::scene_file::{AnyScene, Opened, open};
 use crate::telling::layout::{columns, remarks};
@@ -17,6 +17,10 @@ const MACH: f64 = 0.1;
 
 /// Tells what follows from a scene, without running it.
 pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
+    if mesh::is_mesh(&arguments.scene.scene) {
+        mesh::told(&arguments.scene.scene)?.print(arguments.json);
+        return Ok(());
+    }
     let opened = open(&arguments.scene)?;
     told(&opened, arguments.threads.map(usize::from))?.print(arguments.json);
     Ok(())

@@ -2,9 +2,10 @@
 
 use thiserror::Error;
 
+use crate::Line;
+use crate::drawings::heading::Form;
 use crate::drawings::rows;
 use crate::drawings::svg;
-use crate::Line;
 
 /// Why a drawing cannot be read: the name that it was given, the place, what is wrong there.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -25,6 +26,6 @@ impl Line {
     /// # Errors
     /// If a row is not two finite numbers, or a line has one corner only.
     pub fn from_csv(text: &str, name: &str) -> Result<Vec<Self>, DrawingError> {
-        rows::lines(text, name).map_err(DrawingError)
+        rows::lines(text, name, &Form::places(&None, None)).map_err(DrawingError)
     }
 }

@@ -72,7 +72,11 @@ impl Wall {
 pub(crate) fn openings(all: &[Opening]) -> String {
     let told = all.iter().take(TOLD).map(|o| {
         let size = number::plain(o.size);
-        format!("{} edges, {size} across, around {}", o.edges, point(&o.centre))
+        format!(
+            "{} edges, {size} across, around {}",
+            o.edges,
+            point(&o.centre)
+        )
     });
     let told: Vec<String> = told.collect();
     let more = match all.len() > TOLD {

@@ -1,8 +1,9 @@
 //! The geometry of a wall as lines or facets.
 
-use sph_core::{SceneProblem, parse_unit};
+use sph_core::{SceneProblem, unit_factor};
 use surface_file::Facets;
 
+use crate::drawings::heading::Form;
 use crate::drawings::rows;
 use crate::drawings::svg;
 use crate::geometry::divide;
@@ -145,8 +146,8 @@ impl Wall {
 
     /// Factor from the numbers of the geometry to metres.
     pub(crate) fn factor(&self) -> f64 {
-        let unit = self.unit.as_deref().and_then(|u| parse_unit(u).ok());
-        self.scale.or(unit.map(|u| u.0)).unwrap_or(1.0)
+        let unit = self.unit.as_deref().and_then(|u| unit_factor(u, "m").ok());
+        self.scale.or(unit).unwrap_or(1.0)
     }
 
     /// Lines as they are given; shapes go round anticlockwise or are turned later.
@@ -183,7 +184,10 @@ impl Wall {
         if has_ending(&path.to_string_lossy(), "svg") {
             return svg::read(path, TOLERANCE * spacing);
         }
-        rows::lines(&rows::text(path)?, &path.display().to_string())
+        // What is scaled later is taken as it stands, else the heads of the columns may have units.
+        let scaled = self.unit.is_some() || self.scale.is_some();
+        let form = Form::places(&self.columns, scaled.then_some(1.0));
+        rows::lines(&rows::text(path)?, &path.display().to_string(), &form)
     }
 
     /// The surface of a shape, facing outwards.

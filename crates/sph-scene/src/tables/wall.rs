@@ -55,8 +55,11 @@ pub struct Wall {
     /// Factor on all coordinates, about the origin; 1 if left out.
     #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
     pub scale: Option<f64>,
-    /// Unit of the coordinates of the `file`, such as "mm"; metres if left out.
+    /// Unit of the coordinates of the `file`, such as "mm"; that in the heads of its columns, else metres, if left out.
     pub unit: Option<String>,
+    /// Names of the CSV file's columns of x and y, or their numbers from 1; the only two if left out.
+    #[schemars(length(min = 2, max = 2))]
+    pub columns: Option<Vec<String>>,
     /// Shift of the geometry, m.
     #[schemars(extend("unit" = "m"))]
     pub translate: Option<Vec<f64>>,

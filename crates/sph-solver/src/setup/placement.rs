@@ -161,7 +161,11 @@ fn facing_away<const D: usize>(
 }
 
 /// The nearest wall, looked for ever farther out.
-fn nearest<'a, const D: usize>(x: &Vect<D>, walls: &'a dyn Wall<D>, spacing: f64) -> Option<&'a str> {
+fn nearest<'a, const D: usize>(
+    x: &Vect<D>,
+    walls: &'a dyn Wall<D>,
+    spacing: f64,
+) -> Option<&'a str> {
     let found = (0..12).find_map(|k| walls.clearance(x, spacing * f64::from(1 << k)));
     found.map(|(_, name)| name)
 }
