@@ -36,7 +36,13 @@ const ALLOWED: [(&str, &[&str]); 37] = [
     ("sph-neighbours", &["sph-core", "sph-kernels", "sph-lanes"]),
     (
         "sph-boundary",
-        &["sph-core", "sph-kernels", "sph-lanes", "sph-neighbours"],
+        &[
+            "sph-core",
+            "sph-kernels",
+            "sph-lanes",
+            "sph-neighbours",
+            "surface-file",
+        ],
     ),
     ("sph-bodies", &["sph-core", "sph-boundary"]),
     (

@@ -252,6 +252,9 @@ fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemError> {
     let path = path.map_err(|e| DemError::at(key, e))?;
     let told = |why: String| DemError::at(key, format!("`{}`: {why}", path.display()));
     let text = scene_text::read_text(&path).map_err(told)?;
+    let unit = loaded.scene.start.unit.as_deref();
+    let factor = unit.map_or(Ok(1.0), |unit| scene_text::unit_factor(unit, "m"));
+    let factor = factor.map_err(|why| DemError::at("start.unit", why))?;
     let mut grains = Vec::new();
     for (line, row) in rows(&text) {
         let words = row
@@ -260,7 +263,8 @@ fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemError> {
         let numbers: Result<Vec<f64>, _> = words.map(str::parse).collect();
         match numbers.as_deref() {
             Ok([x, y, z, r]) => {
-                grains.push(Grain::new([*x, *y, *z], *r, loaded.scene.grains.density))
+                let at = [x, y, z].map(|c| factor * c);
+                grains.push(Grain::new(at, factor * r, loaded.scene.grains.density))
             }
             Ok(other) => {
                 return Err(told(format!(

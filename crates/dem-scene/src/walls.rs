@@ -1,6 +1,7 @@
 //! The walls of a scene: where they are at rest, and what moves them.
 
 use dem_grains::{Control, Mesh, Setup, Wall};
+use scene_text::unit_factor;
 
 use crate::error::DemError;
 use crate::laws::Laws;
@@ -54,7 +55,7 @@ pub(crate) fn setup(
     }
     for (name, table) in &scene.wall {
         if let Some(file) = &table.file {
-            let mut mesh = surface(loaded, name, file)?;
+            let mut mesh = surface(loaded, name, file, table)?;
             mesh.centre = table.point.unwrap_or_default().into();
             mesh.law = law_of(name, 0);
             setup = setup.mesh(mesh);
@@ -63,15 +64,24 @@ pub(crate) fn setup(
     Ok(setup)
 }
 
-/// The triangles of a file.
-fn surface(loaded: &Loaded, name: &str, file: &str) -> Result<Mesh, DemError> {
+/// The triangles of a file, scaled and shifted.
+fn surface(
+    loaded: &Loaded,
+    name: &str,
+    file: &str,
+    table: &tables::Wall,
+) -> Result<Mesh, DemError> {
     let key = format!("wall.{name}.file");
     let path = loaded.source.resolve(&key, file);
     let path = path.map_err(|e| DemError::at(&key, e))?;
     let corners = surface_file::read(&path)
         .map_err(|e| DemError::at(&key, e))?
         .triangles;
-    let vertices: Vec<[f64; 3]> = corners.iter().flatten().copied().collect();
+    let unit = table.unit.as_deref().and_then(|u| unit_factor(u, "m").ok());
+    let factor = table.scale.or(unit).unwrap_or(1.0);
+    let shift = table.translate.unwrap_or_default();
+    let placed = |x: &[f64; 3]| std::array::from_fn(|k| factor * x[k] + shift[k]);
+    let vertices: Vec<[f64; 3]> = corners.iter().flatten().map(placed).collect();
     let triangles = (0..corners.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]);
     Ok(Mesh::new(vertices, triangles.collect()))
 }

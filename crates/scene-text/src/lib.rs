@@ -43,7 +43,7 @@ pub use overrides::{OnePlugin, Override};
 pub use paths::{PathProblem, within};
 pub use picture_range::PictureRange;
 pub use problem::{MOST_PROBLEMS, SceneProblem};
-pub use quantity::{Dimensions, parse_quantity, parse_unit};
+pub use quantity::{Dimensions, parse_quantity, parse_unit, unit_factor};
 pub use source::Source;
 pub use text::{FILE_BYTES, read_text};
 

@@ -111,6 +111,24 @@ pub fn parse_unit(text: &str) -> Result<(f64, Dimensions), String> {
     Ok((factor, dimensions))
 }
 
+/// Factor from a unit to the SI of one that it must be alike: "mm" to "m".
+///
+/// # Errors
+/// What is wrong with the unit.
+pub fn unit_factor(unit: &str, alike: &str) -> Result<f64, String> {
+    let (factor, own) = parse_unit(unit)?;
+    let kind = match alike {
+        "m" => "length",
+        "s" => "time",
+        "rad" => "angle",
+        other => other,
+    };
+    match parse_unit(alike) {
+        Ok((_, wanted)) if wanted == own && !unit.trim().is_empty() => Ok(factor),
+        _ => Err(format!("`{unit}` is no unit of {kind}")),
+    }
+}
+
 fn one_symbol(symbol: &str) -> Result<(f64, Dimensions, i32), String> {
     let plain = symbol.replace('²', "^2").replace('³', "^3");
     let (name, power) = match plain.split_once('^') {

@@ -249,6 +249,13 @@ pub enum WallWarning {
         /// The spacing asked for, m.
         spacing: f64,
     },
+    /// Faces that end on the back of another wall: no fluid is before them, and they are left out.
+    Unseen {
+        /// Name of the wall.
+        wall: String,
+        /// How many.
+        faces: usize,
+    },
 }
 
 impl std::fmt::Display for WallWarning {
@@ -273,6 +280,10 @@ impl std::fmt::Display for WallWarning {
                 f,
                 "{fine} of the {all} triangles of wall `{wall}` are far smaller than the spacing \
                  {spacing} m: draw it coarser"
+            ),
+            Self::Unseen { wall, faces } => write!(
+                f,
+                "{faces} faces of wall `{wall}` end on the back of another wall: they bound no fluid and are left out"
             ),
         }
     }

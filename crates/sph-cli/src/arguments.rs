@@ -89,9 +89,11 @@ Exit codes: 0 the study is complete (failed variants are results too) or compare
 Examples:
   sph check pool.toml
   sph check pool.toml --set numerics.spacing='1 mm' --threads 16    what would it cost?
+  sph check tank.stl                                                what is in a file from CAD?
 
 Prints what follows from the scene: smoothing length, speeds, dimensionless numbers, time steps, \
-particles, and an estimate of time, memory and disk. Writes nothing.
+particles, and an estimate of time, memory and disk. Of an STL file: extent, facets, openings with their places, which \
+way it faces. Writes nothing.
 
 Exit codes: 0 the scene is good, 2 it is not.")]
     Check(CheckArguments),

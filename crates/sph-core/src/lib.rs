@@ -58,7 +58,7 @@ pub use registry::{
 pub use saved::Saved;
 pub use scene_text::{
     Dimensions, MOST_PROBLEMS, SceneProblem, conform, defaults, nearest, number, parse_quantity,
-    parse_unit, plausible, suggestion,
+    parse_unit, plausible, suggestion, unit_factor,
 };
 pub use shelf::{Lent, Shelf};
 pub use slots::Slots;

@@ -32,6 +32,10 @@ impl<const D: usize> Wall<D> for OpenWalls<D> {
         self.walls.contains(point) || lock(&self.faces).waits(point)
     }
 
+    fn enclosed(&self, point: &Vect<D>) -> Option<f64> {
+        self.walls.enclosed(point)
+    }
+
     fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {
         self.walls.clearance(point, within)
     }

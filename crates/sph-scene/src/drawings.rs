@@ -1,7 +1,7 @@
 //! Lines and triangles from files.
 
 pub(crate) mod drawing;
+pub(crate) mod heading;
 pub(crate) mod rows;
-pub(crate) mod stl;
 pub(crate) mod svg;
 pub(crate) mod svg_path;

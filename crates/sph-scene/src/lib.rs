@@ -59,7 +59,6 @@ pub use filling::estimate::estimate;
 pub use filling::fill::{Filled, fill};
 pub use filling::nodes::Offset;
 pub use geometry::course::{Course, Courses, Turning};
-pub use geometry::facets::Facets;
 pub use geometry::level::LevelSurface;
 pub use geometry::outlines::Line;
 pub use geometry::polygon::Polygon;
@@ -72,6 +71,7 @@ pub use reading::schema::{schema, unit};
 pub use scene_text::{
     Diagnostic, Origin, Override, PathProblem, PictureRange, Source, read_text, within,
 };
+pub use surface_file::{Facets, Topology};
 pub use tables::body::{Body, Cutout, Filling, Pressure};
 pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 pub use tables::gravity::{GravityOverTime, GravitySine};

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use sph_io::{Checkpoint, Column, ColumnData, IoError, Table, read_table};
-use sph_scene::{DrawingError, Facets, Line, LoadError, load};
+use sph_scene::{Facets, Line, LoadError, load};
 use sph_tests::{DAM_BREAK, PADDLE, PERIODIC, SOIL};
 
 /// What is done to a file at a place.
@@ -211,7 +211,7 @@ proptest! {
 const PERCENTILES: &str =
     "time[s],low,high\n# of 100 runs\n0.0,1e3,2e3\n0.1,1.5e3,2.25e3\n\n0.2,-3,4\n";
 
-fn refused_by(error: &DrawingError, name: &str) {
+fn refused_by(error: &impl std::fmt::Display, name: &str) {
     let told = error.to_string();
     assert!(told.contains(name), "{told}");
 }

@@ -60,6 +60,13 @@ fn numbers_and_sizes(scene: &Scene, found: &mut Vec<SceneProblem>) {
         ),
         _ => {}
     }
+    if s.unit.is_some() && s.file.is_none() {
+        add(
+            found,
+            "start.unit",
+            "this is the unit of the numbers in a `file`",
+        );
+    }
     match (s.file.is_some(), scene.grains.radius) {
         (false, None) => add(
             found,

@@ -1,6 +1,6 @@
 //! Mistakes of walls: where they are, what moves them, what they are to the fluid.
 
-use scene_text::{SceneProblem, suggestion};
+use scene_text::{SceneProblem, suggestion, unit_factor};
 
 use super::add;
 use crate::names::{BOX, periodic};
@@ -9,6 +9,7 @@ use crate::tables::{Scene, Wall};
 /// What is wrong with a wall.
 pub fn wall(scene: &Scene, name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) {
     place(scene, name, wall, found);
+    of_file(name, wall, found);
     motions(name, wall, found);
     conditions(scene, name, wall, found);
 }
@@ -63,6 +64,27 @@ fn place(scene: &Scene, name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) 
                 add(found, at("normal"), "has no direction");
             }
         }
+    }
+}
+
+/// Keys of a surface from a file.
+fn of_file(name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) {
+    let at = |key: &str| format!("wall.{name}.{key}");
+    for (key, given) in [
+        ("unit", wall.unit.is_some()),
+        ("scale", wall.scale.is_some()),
+        ("translate", wall.translate.is_some()),
+    ] {
+        if given && wall.file.is_none() {
+            add(found, at(key), "this belongs to a surface from a `file`");
+        }
+    }
+    if wall.unit.is_some() && wall.scale.is_some() {
+        let message = "the coordinates have a `unit` or a `scale`, not both";
+        add(found, at("unit"), message);
+    }
+    if let Some(Err(why)) = wall.unit.as_deref().map(|unit| unit_factor(unit, "m")) {
+        add(found, at("unit"), why);
     }
 }
 

@@ -46,8 +46,10 @@ pub struct Start {
     pub rained: Option<Rained>,
     /// Rows and layers.
     pub lattice: Option<Lattice>,
-    /// A text file with x, y, z and r (m) in each line; lines with # are comments.
+    /// A text file with x, y, z and r in each line; lines with # are comments.
     pub file: Option<String>,
+    /// Unit of the numbers in the `file`, such as "mm"; metres if left out.
+    pub unit: Option<String>,
     /// The law of contacts between grains during the preparation, `[start.contact.LAW]`; that of the run if left out. Less
     /// friction makes a denser packing.
     #[serde(default)]

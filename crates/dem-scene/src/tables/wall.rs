@@ -37,8 +37,16 @@ pub struct Wall {
     pub point: Option<Triple>,
     /// Its normal, towards the grains, of any length.
     pub normal: Option<Triple>,
-    /// An STL file, coordinates in m.
+    /// An STL file.
     pub file: Option<String>,
+    /// Unit of the coordinates of the `file`, such as "mm"; metres if left out.
+    pub unit: Option<String>,
+    /// Factor on the coordinates of the `file`, instead of a unit.
+    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub scale: Option<f64>,
+    /// Shift of what is in the `file`, after it is scaled, m.
+    #[schemars(extend("unit" = "m"))]
+    pub translate: Option<Triple>,
     /// Velocity, m/s.
     #[schemars(extend("unit" = "m/s"))]
     pub velocity: Option<Triple>,

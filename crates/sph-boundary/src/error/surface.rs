@@ -1,5 +1,7 @@
 //! What can be wrong with a wall drawn as triangles.
 
+use sph_core::number;
+
 /// A refused surface. Points, triangles and edges count from 0 as in what was given; edge k of a
 /// triangle goes from its corner k to the next. Lengths and places in metres.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -187,10 +189,10 @@ pub enum SurfaceError {
         /// A place on both.
         at: [f64; 3],
     },
-    /// A wall that other walls cover altogether.
+    /// A wall that other walls cover altogether, or that bounds no fluid.
     #[error(
-        "nothing is left of wall `{wall}`: other walls cover all of it; leave it out, or give a \
-         plate of two sides a thickness"
+        "nothing is left of wall `{wall}`: other walls cover all of it, or it only ends on their backs; leave it \
+         out, or give a plate of two sides a thickness"
     )]
     Covered {
         /// Name of the wall.
@@ -238,8 +240,9 @@ pub enum SurfaceError {
     /// A particle whose support reaches past an edge that no other triangle continues.
     #[error(
         "wall `{wall}` is open: {edges} edge(s) without a neighbour surround an opening of \
-         {extent} m, and at {} one of them is {distance} m from particle {particle}, within the \
-         kernel radius {radius} m: close the wall or extend it", place(.at)
+         {} m around {}, and at {} one of them is {} m from particle {particle}, within the \
+         kernel radius {} m: {}", number::plain(*.extent), place(.centre), place(.at), number::plain(*.distance),
+         number::plain(*.radius), remedy(.met)
     )]
     FreeEdgeInReach {
         /// Name of the wall.
@@ -248,6 +251,10 @@ pub enum SurfaceError {
         edges: usize,
         /// Diagonal of the box around the opening.
         extent: f64,
+        /// Middle of that box.
+        centre: [f64; 3],
+        /// A wall that meets this one in the edge with its back.
+        met: Option<String>,
         /// Place on the edge nearest to the particle.
         at: [f64; 3],
         /// Index of the nearest particle.
@@ -257,6 +264,15 @@ pub enum SurfaceError {
         /// The kernel radius.
         radius: f64,
     },
+}
+
+fn remedy(met: &Option<String>) -> String {
+    match met {
+        Some(other) => format!(
+            "wall `{other}` meets it there and does not continue it: does one of the two face the other way?"
+        ),
+        None => "close the wall or extend it".to_string(),
+    }
 }
 
 fn place(at: &[f64; 3]) -> String {

@@ -6,6 +6,9 @@ use crate::geometry::sides::Columns;
 /// Crossings of the ray closer to each other than this part of the wall's extent are one place.
 const SAME_HEIGHT: f64 = 1e-12;
 
+/// Walls that wind around a place by more than this enclose it, though they have openings.
+const ENCLOSED: f64 = 0.5;
+
 impl SegmentMesh {
     /// Whether a point is in the fluid, as the walls see it.
     ///
@@ -15,14 +18,17 @@ impl SegmentMesh {
     /// the side that faces the point. A ray that meets nothing asks the wall that reaches
     /// furthest along it. Without walls every point is in the fluid.
     ///
-    /// Walls must be closed by themselves or through periodicity; a free end shadows nothing. A
-    /// point on a wall within rounding may be given either answer.
+    /// Walls with free ends enclose a point, but for their openings, where their winding number is more than ½, and that
+    /// decides; elsewhere a free end shadows nothing. A point on a wall within rounding may be given either answer.
     ///
     /// The first call after a motion sorts the segments into columns; then the cost is that of the
     /// segments in one column.
     pub fn contains(&self, point: [f64; 2]) -> bool {
         let along = self.ray_axis();
         let columns = self.sides.0.get_or_init(|| self.columns(along));
+        if let Some(enclosed) = self.wound(columns, point).filter(|w| w.abs() > ENCLOSED) {
+            return enclosed > 0.0;
+        }
         let across = 1 - along;
         let column = columns.column(point[across], self.domain(), across);
         let mut crossings = self.crossings(column, point, along);
@@ -49,7 +55,34 @@ impl SegmentMesh {
             (a[across].min(b[across]), a[across].max(b[across]))
         };
         let spans: Vec<_> = (0..self.segments().len()).map(ends).collect();
-        Columns::new(&spans, self.domain(), across, self.fluid_beyond(along))
+        let mut columns = Columns::new(&spans, self.domain(), across, self.fluid_beyond(along));
+        if !self.free_ends().is_empty() && self.domain().periodic == [false; 2] {
+            let edges = self.segments().chunk_by(|a, b| {
+                (a.wall, a.edge, a.vertices[1]) == (b.wall, b.edge, b.vertices[0])
+            });
+            let ends = edges.map(|e| [e[0].vertices[0], e[e.len() - 1].vertices[1]]);
+            columns.edges = ends.collect();
+        }
+        columns
+    }
+
+    /// How far walls with free ends enclose a point: their winding number Σ α/2π, α the angle in which the point sees an edge;
+    /// positive where they face it. None of walls that are closed, or in a periodic box.
+    pub fn enclosed(&self, point: [f64; 2]) -> Option<f64> {
+        let along = self.ray_axis();
+        self.wound(self.sides.0.get_or_init(|| self.columns(along)), point)
+    }
+
+    fn wound(&self, columns: &Columns, point: [f64; 2]) -> Option<f64> {
+        let angle = |[a, b]: &[usize; 2]| {
+            let [a, b] = [a, b].map(|v| {
+                let x = self.vertices()[*v].position;
+                [x[0] - point[0], x[1] - point[1]]
+            });
+            (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
+        };
+        let sum: f64 = columns.edges.iter().map(angle).sum();
+        (!columns.edges.is_empty()).then_some(sum / std::f64::consts::TAU)
     }
 
     fn ray_axis(&self) -> usize {

@@ -283,6 +283,10 @@ impl WallMesh<2> for PlanarWalls {
 
     /// The side of the nearest segment if a wall is near, else of all walls together. Open walls
     /// have no inside, but they have a front.
+    fn enclosed(&self, point: &Vect<2>) -> Option<f64> {
+        self.mesh.enclosed([point[0], point[1]])
+    }
+
     fn contains(&self, point: &Vect<2>) -> bool {
         let near = self.near(point, self.reach);
         let seen: Vec<_> = near.into_iter().map(|n| self.seen(point, n)).collect();

@@ -26,6 +26,8 @@ pub(crate) struct Columns {
     segments: Vec<u32>,
     /// Whether the fluid lies beyond all walls along the ray.
     pub beyond: bool,
+    /// First and last vertex of every edge where some end freely.
+    pub edges: Vec<[usize; 2]>,
 }
 
 impl Columns {
@@ -54,6 +56,7 @@ impl Columns {
             starts: vec![0; count + 1],
             segments: Vec::new(),
             beyond,
+            edges: Vec::new(),
         };
         // A column more on either side, for what rounding may do.
         let wraps = domain.periodic[across];

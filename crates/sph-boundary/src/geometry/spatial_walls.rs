@@ -339,6 +339,10 @@ impl WallMesh<3> for SpatialWalls {
         }
     }
 
+    fn enclosed(&self, point: &Vect<3>) -> Option<f64> {
+        self.mesh.enclosed((*point).into())
+    }
+
     fn contains(&self, point: &Vect<3>) -> bool {
         self.mesh.contains((*point).into())
     }

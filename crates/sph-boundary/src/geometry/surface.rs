@@ -1,7 +1,8 @@
 //! Walls in space: surfaces as drawn, and the mesh of triangles made from them.
 //!
 //! * `places`, `drawn`, `crossing`: what is given is welded and checked;
-//! * `patches`, `removal`: planar pieces, without the places where walls touch face to face;
+//! * `patches`, `removal`, `seen`: planar pieces, without the places where walls touch face to face and without those that
+//!   bound no fluid;
 //! * `edges`, `lattice`, `fill`: the pieces cut into triangles of about the spacing, alike on
 //!   both sides of every edge;
 //! * `solid_angle`, `openings`: what a node stands for, and where the walls end;
@@ -24,6 +25,7 @@ mod patches;
 mod places;
 mod removal;
 mod rows;
+mod seen;
 mod sides;
 mod signed;
 mod solid_angle;

@@ -279,6 +279,10 @@ macro_rules! checks_by_outline {
             set_up.is_none_or(|s| s.outline.mesh.contains(point))
         }
 
+        fn enclosed(&self, point: &Vect<D>) -> Option<f64> {
+            self.set_up.as_ref()?.outline.mesh.enclosed(point)
+        }
+
         fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {
             self.set_up.as_ref()?.outline.clearance(point, within)
         }

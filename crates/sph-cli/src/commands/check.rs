@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 use sph_solver::{Examination, Memory, examine_and_try};
 
 use crate::arguments::CheckArguments;
-use crate::commands::grains;
+use crate::commands::{grains, mesh};
 use crate::number;
 use crate::scene_file::{AnyScene, Opened, open};
 use crate::telling::layout::{columns, remarks};
@@ -20,6 +20,10 @@ const TRIAL: Duration = Duration::from_secs(2);
 
 /// Tells what follows from a scene, without running it.
 pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
+    if mesh::is_mesh(&arguments.scene.scene) {
+        mesh::told(&arguments.scene.scene)?.print(arguments.json);
+        return Ok(());
+    }
     let opened = open(&arguments.scene)?;
     told(&opened, arguments.threads.map(usize::from))?.print(arguments.json);
     Ok(())

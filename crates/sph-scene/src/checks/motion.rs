@@ -1,7 +1,11 @@
 //! The motion of walls.
 
+use sph_core::unit_factor;
+
 use crate::checks::dimension::Dimension;
 use crate::checks::problems::Problems;
+use crate::checks::walls::TABLES;
+use crate::geometry::wall_geometry::has_ending;
 use crate::{Levels, Motion};
 
 /// Checks the vectors, the times and the courses of a motion.
@@ -28,6 +32,15 @@ pub(crate) fn check(motion: &Motion, of: Dimension, path: &str, found: &mut Prob
         of.direction(&translate.along, &format!("{path}.along"), found);
         course(&translate.given(), &translate.table, &path, found);
         csv(&translate.file, &path, found);
+        of_file(
+            translate.file.is_some(),
+            &translate.in_force(),
+            &path,
+            found,
+        );
+        if let Err((key, why)) = translate.form() {
+            found.add(format!("{path}.{key}"), why);
+        }
     }
     if let Some(rotate) = &motion.rotate {
         let path = format!("{path}.rotate");
@@ -35,6 +48,10 @@ pub(crate) fn check(motion: &Motion, of: Dimension, path: &str, found: &mut Prob
         of.axis(&rotate.axis, true, &path, found);
         course(&rotate.given(), &rotate.table, &path, found);
         csv(&rotate.file, &path, found);
+        of_file(rotate.file.is_some(), &rotate.in_force(), &path, found);
+        if let Err((key, why)) = rotate.form() {
+            found.add(format!("{path}.{key}"), why);
+        }
         if turns {
             let message = "the rotation is given here and by `angular_velocity`: choose one";
             found.add(path, message);
@@ -45,6 +62,9 @@ pub(crate) fn check(motion: &Motion, of: Dimension, path: &str, found: &mut Prob
 /// Levels stand alone, in the plane, one column for each of the places, which ascend.
 fn check_levels(levels: &Levels, rest: &Motion, of: Dimension, path: &str, found: &mut Problems) {
     csv(&Some(levels.file.clone()), path, found);
+    if let Some(Err(why)) = levels.unit.as_deref().map(|unit| unit_factor(unit, "m")) {
+        found.add(format!("{path}.unit"), why);
+    }
     if of.0 != 2 {
         found.add(path, "walls follow levels in two dimensions only");
     }
@@ -92,9 +112,23 @@ fn course(given: &[&str], table: &Option<Vec<[f64; 2]>>, path: &str, found: &mut
     }
 }
 
+/// Keys that say how a file is to be read: they need one, and a unit and a factor say the same.
+fn of_file(file: bool, given: &[&str], path: &str, found: &mut Problems) {
+    if let Some(key) = given.first().filter(|_| !file) {
+        found.add(
+            format!("{path}.{key}"),
+            "this says how a `file` is read, and there is none",
+        );
+    }
+    if given.contains(&"unit") && given.contains(&"scale") {
+        let message = "the numbers have a `unit` or a `scale`, not both";
+        found.add(format!("{path}.unit"), message);
+    }
+}
+
 fn csv(file: &Option<String>, path: &str, found: &mut Problems) {
     let Some(file) = file else { return };
-    if !crate::geometry::wall_geometry::has_ending(file, "csv") {
+    if !TABLES.iter().any(|ending| has_ending(file, ending)) {
         let message = format!("expected a file that ends in .csv, found `{file}`");
         found.add(format!("{path}.file"), message);
     }

@@ -1,6 +1,6 @@
 //! Walls: one geometry each, of the scene's dimension, and keys that go with it.
 
-use sph_core::parse_unit;
+use sph_core::unit_factor;
 
 use crate::checks::corners::{chain, crossed, polygon};
 use crate::checks::dimension::Dimension;
@@ -10,6 +10,9 @@ use crate::checks::shapes::extrusion;
 use crate::geometry::wall_geometry::has_ending;
 use crate::tables::wall_shapes::{Face, Wedge};
 use crate::{Condition, Side, Wall};
+
+/// Endings of files that are tables of numbers.
+pub(crate) const TABLES: [&str; 3] = ["csv", "dat", "txt"];
 
 /// Checks everything of a wall that has a place in space.
 pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {
@@ -169,6 +172,35 @@ fn companions(wall: &Wall, path: &str, found: &mut Problems) {
             "the unit of coordinates belongs to a `file`; numbers of a scene carry their own: \"5 mm\"",
         );
     }
+    if wall.flip && wall.polyline.is_none() && wall.file.is_none() {
+        misplaced(
+            "flip",
+            "only a `polyline` or a `file` is turned round; choose `fluid`",
+        );
+    }
+    if wall.flip && wall.fluid.is_some_and(|side| side != Side::AsDrawn) {
+        misplaced(
+            "flip",
+            "`fluid` says which way the file faces: leave one of the two out",
+        );
+    }
+    let table = wall
+        .file
+        .as_ref()
+        .is_some_and(|file| TABLES.iter().any(|e| has_ending(file, e)));
+    if wall.columns.is_some() && !table {
+        misplaced("columns", "only a `file` that is a table has columns");
+    }
+    let stl = wall
+        .file
+        .as_ref()
+        .is_some_and(|file| has_ending(file, "stl"));
+    if wall.align && !stl {
+        misplaced(
+            "align",
+            "only facets of an STL file are turned to face one way",
+        );
+    }
     match (wall.fluid, &wall.polyline, &wall.file) {
         (Some(_), Some(_), _) => misplaced(
             "fluid",
@@ -187,12 +219,8 @@ fn companions(wall: &Wall, path: &str, found: &mut Problems) {
                 "the coordinates have a `unit` or a `scale`, not both",
             );
         }
-        match parse_unit(unit) {
-            Err(why) => misplaced("unit", &why),
-            Ok((_, d)) if (d.metre, d.kilogram, d.second) != (1, 0, 0) => {
-                misplaced("unit", &format!("`{unit}` is no unit of length"));
-            }
-            Ok(_) => {}
+        if let Err(why) = unit_factor(unit, "m") {
+            misplaced("unit", &why);
         }
     }
 }
@@ -271,15 +299,18 @@ fn ramp(wedge: &Wedge, of: Dimension, path: &str, found: &mut Problems) {
 /// The name of a file says what it holds.
 fn geometry_file(file: &str, of: Dimension, path: &str, found: &mut Problems) {
     let is = |endings: &[&str]| endings.iter().any(|e| has_ending(file, e));
-    let wanted: &[&str] = if of.0 == 2 { &["svg", "csv"] } else { &["stl"] };
-    if is(wanted) {
+    let wanted = match of.0 {
+        2 => is(&["svg"]) || is(&TABLES),
+        _ => is(&["stl"]),
+    };
+    if wanted {
         return;
     }
     let message = match of.0 {
         2 if is(&["stl"]) => {
             "an STL file is a wall of three dimensions, and this scene has two: give a .svg or .csv file".to_string()
         }
-        3 if is(&["svg", "csv"]) => {
+        3 if is(&["svg"]) || is(&TABLES) => {
             "a drawing is a wall of two dimensions, and this scene has three: give a .stl file".to_string()
         }
         2 => format!("expected a file that ends in .svg or .csv, found `{file}`"),

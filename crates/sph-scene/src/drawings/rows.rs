@@ -7,12 +7,15 @@ use std::path::Path;
 use scene_text::line_and_column;
 
 use crate::Line;
+use crate::drawings::heading::{Chosen, Form, joined};
 
 /// Longest text file, bytes.
 const BYTES: u64 = 64 << 20;
 /// Most rows of a file, and most blocks of them: whoever takes them takes fewer.
 const ROWS: usize = 4_000_000;
 const BLOCKS: usize = 200_000;
+/// Most columns of a file of which some are chosen.
+const COLUMNS: usize = 1_000;
 
 /// Two numbers and the line they stand in, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,13 +56,13 @@ pub(crate) fn text(path: &Path) -> Result<String, String> {
 }
 
 /// The rows of a file, in blocks separated by blank lines and comments; never none.
-pub(crate) fn read(path: &Path) -> Result<Vec<Vec<Row>>, String> {
-    named(&text(path)?, &path.display().to_string())
+pub(crate) fn read(path: &Path, form: &Form) -> Result<Vec<Vec<Row>>, String> {
+    named(&text(path)?, &path.display().to_string(), form)
 }
 
 /// The same from the text of a file called `name`.
-pub(crate) fn named(text: &str, name: &str) -> Result<Vec<Vec<Row>>, String> {
-    let blocks = parse(text).map_err(|why| format!("`{name}`, {why}"))?;
+pub(crate) fn named(text: &str, name: &str, form: &Form) -> Result<Vec<Vec<Row>>, String> {
+    let blocks = parse(text, form).map_err(|why| format!("`{name}`, {why}"))?;
     match blocks.is_empty() {
         true => Err(format!("`{name}` holds no numbers")),
         false => Ok(blocks),
@@ -67,7 +70,7 @@ pub(crate) fn named(text: &str, name: &str) -> Result<Vec<Vec<Row>>, String> {
 }
 
 /// The lines of the text of a file called `name`: a block of rows is one.
-pub(crate) fn lines(text: &str, name: &str) -> Result<Vec<Line>, String> {
+pub(crate) fn lines(text: &str, name: &str, form: &Form) -> Result<Vec<Line>, String> {
     let line = |block: Vec<Row>| {
         let begins = block.first().map_or(0, |row| row.line);
         let points = block.iter().map(|row| row.values).collect();
@@ -83,53 +86,73 @@ pub(crate) fn lines(text: &str, name: &str) -> Result<Vec<Line>, String> {
             _ => Ok(tidy),
         }
     };
-    named(text, name)?.into_iter().map(line).collect()
+    named(text, name, form)?.into_iter().map(line).collect()
 }
 
-/// Columns are separated by commas, semicolons or blanks; the first line may name them.
-fn parse(text: &str) -> Result<Vec<Vec<Row>>, String> {
+/// Columns are separated by commas, semicolons or blanks; the first line, or the comment before the first row, may name them.
+fn parse(text: &str, form: &Form) -> Result<Vec<Vec<Row>>, String> {
     let mut blocks: Vec<Vec<Row>> = Vec::new();
-    let mut begun = false;
-    let mut named = false;
-    let mut rows = 0;
+    let (mut begun, mut rows, mut comment) = (false, 0, "");
+    let mut chosen: Option<Chosen> = None;
+    // A row of millions of columns is not kept.
+    let most = form.columns.as_ref().map_or(3, |_| COLUMNS);
     for (k, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-        let content = line.split('#').next().unwrap_or("").trim();
+        let (content, note) = line.split_once('#').unwrap_or((line, ""));
+        let content = content.trim();
         if content.is_empty() {
             begun = false;
-            continue;
-        }
-        let separator = |c: char| c == ',' || c == ';' || c.is_whitespace();
-        // A row of millions of columns is not kept.
-        let (fields, columns) = match content.contains([',', ';']) {
-            true => first_of(content.split([',', ';']).map(str::trim)),
-            false => first_of(content.split(separator).filter(|f| !f.is_empty())),
-        };
-        let numbers: Vec<Option<f64>> = fields.iter().map(|f| f.parse().ok()).collect();
-        if blocks.is_empty() && !named && numbers.iter().all(Option::is_none) {
-            named = true;
+            if !note.trim().is_empty() {
+                comment = note.trim();
+            }
             continue;
         }
         let line = k + 1;
-        let [first, second] = numbers[..] else {
-            return Err(format!(
-                "line {line}: expected 2 numbers with a comma between them, found {columns} columns"
-            ));
+        let at_line = |why: String| format!("line {line}: {why}");
+        let (fields, columns) = cells(content, most);
+        let numbers: Vec<Option<f64>> = fields.iter().map(|f| f.parse().ok()).collect();
+        let chosen = match &mut chosen {
+            Some(chosen) => chosen,
+            none => {
+                let named = numbers.iter().all(Option::is_none);
+                let said = match named {
+                    true => Chosen::of(form, &heads(content)),
+                    // A comment may say anything.
+                    false => Some(heads(comment))
+                        .filter(|heads| heads.len() == columns)
+                        .and_then(|heads| Chosen::of(form, &heads).ok())
+                        .map_or_else(|| Chosen::of(form, &[]), Ok),
+                };
+                let first = none.insert(said.map_err(at_line)?);
+                if named {
+                    continue;
+                }
+                first
+            }
         };
-        let number = |n: Option<f64>, column: usize| match n {
-            Some(x) if x.is_finite() => Ok(x),
-            Some(x) => Err(format!("line {line}: expected a finite number, found {x}")),
-            None => Err(format!("line {line}: `{}` is not a number", fields[column])),
+        if chosen.only && columns != 2 {
+            return Err(at_line(format!(
+                "expected 2 numbers with a comma between them, found {columns} columns"
+            )));
+        }
+        let number = |column: usize| match numbers.get(chosen.at[column]) {
+            Some(Some(x)) if x.is_finite() => Ok(x * chosen.factors[column]),
+            Some(Some(x)) => Err(at_line(format!("expected a finite number, found {x}"))),
+            Some(None) => Err(at_line(format!(
+                "`{}` is not a number",
+                fields[chosen.at[column]]
+            ))),
+            None => Err(at_line(format!("there are {columns} columns only"))),
         };
-        let values = [number(first, 0)?, number(second, 1)?];
+        let values = [number(0)?, number(1)?];
         if !begun {
             blocks.push(Vec::new());
             begun = true;
         }
         rows += 1;
         if rows > ROWS || blocks.len() > BLOCKS {
-            return Err(format!(
-                "line {line}: more than {ROWS} rows, or more than {BLOCKS} blocks of them"
-            ));
+            return Err(at_line(format!(
+                "more than {ROWS} rows, or more than {BLOCKS} blocks of them"
+            )));
         }
         if let Some(block) = blocks.last_mut() {
             block.push(Row { line, values });
@@ -138,9 +161,24 @@ fn parse(text: &str) -> Result<Vec<Vec<Row>>, String> {
     Ok(blocks)
 }
 
-/// The first columns of a row, three at most, and how many there are.
-fn first_of<'t>(mut columns: impl Iterator<Item = &'t str>) -> (Vec<&'t str>, usize) {
-    let first: Vec<&str> = columns.by_ref().take(3).collect();
+/// The first columns of a row, `most` at most, and how many there are.
+fn cells(content: &str, most: usize) -> (Vec<&str>, usize) {
+    match content.contains([',', ';']) {
+        true => first_of(content.split([',', ';']).map(str::trim), most),
+        false => first_of(content.split_whitespace(), most),
+    }
+}
+
+/// The cells of a line of heads.
+fn heads(line: &str) -> Vec<&str> {
+    match line.contains([',', ';']) {
+        true => line.split([',', ';']).take(COLUMNS).collect(),
+        false => joined(line),
+    }
+}
+
+fn first_of<'t>(mut columns: impl Iterator<Item = &'t str>, most: usize) -> (Vec<&'t str>, usize) {
+    let first: Vec<&str> = columns.by_ref().take(most).collect();
     let count = first.len() + columns.count();
     (first, count)
 }
@@ -149,10 +187,44 @@ fn first_of<'t>(mut columns: impl Iterator<Item = &'t str>) -> (Vec<&'t str>, us
 mod tests {
     use super::*;
 
+    fn places() -> Form {
+        Form::places(&None, None)
+    }
+
+    #[test]
+    fn heads_name_columns_and_units() {
+        let form = |columns: &[&str]| Form {
+            columns: Some(columns.iter().map(|c| c.to_string()).collect()),
+            factors: [None; 2],
+            alike: ["s", "m"],
+        };
+        let first =
+            |text: &str, columns: &[&str]| parse(text, &form(columns)).map(|b| b[0][0].values);
+        for (text, columns) in [
+            ("n; t [ms]; x (mm)\n1; 500; 20\n", ["t", "x"]),
+            ("# n t[ms] x [mm]\n1 500 20\n", ["t", "x"]),
+            ("n,x / cm,t/s\n1,2,0.5\n", ["3", "2"]),
+        ] {
+            assert_eq!(first(text, &columns), Ok([0.5, 0.02]), "{text}");
+        }
+        let wrong = first("t [s], x [kg]\n1,2\n", &["t", "x"]).unwrap_err();
+        assert!(wrong.contains("`kg` is no unit of length"), "{wrong}");
+        assert!(
+            first("t,x\n1,2\n", &["t", "y"])
+                .unwrap_err()
+                .contains("no column `y`")
+        );
+        assert!(
+            first("1 2\n", &["1", "3"])
+                .unwrap_err()
+                .contains("2 columns only")
+        );
+    }
+
     #[test]
     fn blocks_are_separated_by_blank_lines_and_comments() {
         let text = "x, y\n0,0\n1 , 2e-1 # corner\n\n3;4\n# next\n5 6\n";
-        let blocks = parse(text).unwrap();
+        let blocks = parse(text, &places()).unwrap();
         let values: Vec<Vec<_>> = blocks
             .iter()
             .map(|b| b.iter().map(|r| r.values).collect())
@@ -170,11 +242,11 @@ mod tests {
 
     #[test]
     fn mistakes_name_their_line() {
-        let refused = |text: &str| parse(text).unwrap_err();
+        let refused = |text: &str| parse(text, &places()).unwrap_err();
         assert!(refused("0,0\n1,2,3").starts_with("line 2: expected 2 numbers"));
         assert!(refused("0,0\n1,b").contains("line 2: `b` is not a number"));
         assert!(refused("0,inf").contains("finite"));
         assert!(refused("x,y\nu,v").contains("`u` is not a number"));
-        assert_eq!(parse("x,y\n").unwrap(), Vec::<Vec<Row>>::new());
+        assert_eq!(parse("x,y\n", &places()).unwrap(), Vec::<Vec<Row>>::new());
     }
 }

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use sph_core::SceneProblem;
+use sph_core::{SceneProblem, unit_factor};
 
-use crate::drawings::rows;
+use crate::drawings::heading::Form;
+use crate::drawings::rows::{self, Row};
 use crate::geometry::vector::unit;
 use crate::reading::limits::TIMES;
 use crate::tables::motion::{Motion, Rotation, Translate};
@@ -110,7 +111,7 @@ impl Motion {
 
 /// What a translation and a rotation have in common, with other units.
 macro_rules! with_course {
-    ($table:ident) => {
+    ($table:ident, $unit:literal) => {
         impl $table {
             /// The keys of courses that are given.
             pub(crate) fn given(&self) -> Vec<&'static str> {
@@ -121,6 +122,18 @@ macro_rules! with_course {
                     self.table.is_some(),
                     self.file.is_some(),
                 ])
+            }
+
+            /// The keys that say how the file is read, of those that are given.
+            pub(crate) fn in_force(&self) -> Vec<&'static str> {
+                let all = [
+                    ("unit", self.unit.is_some()),
+                    ("scale", self.scale.is_some()),
+                    ("time_unit", self.time_unit.is_some()),
+                    ("columns", self.columns.is_some()),
+                ];
+                let given = all.into_iter().filter(|(_, given)| *given);
+                given.map(|(key, _)| key).collect()
             }
 
             fn course(&self, place: &str) -> Result<Course, SceneProblem> {
@@ -135,13 +148,40 @@ macro_rules! with_course {
                     ramp: s.ramp,
                 });
                 let plain = self.speed.map(Course::Speed).or(ramp).or(sine);
-                chosen(plain, &self.table, self.path.as_deref(), place)
+                chosen(plain, &self.table, || self.rows(), place)
+            }
+
+            /// What the scene says of the columns of the file.
+            ///
+            /// # Errors
+            /// The key that is wrong, and why.
+            pub(crate) fn form(&self) -> Result<Form, (&'static str, String)> {
+                let alike = ["s", $unit];
+                let factor = |unit: &Option<String>, k: usize| {
+                    let unit = unit.as_deref();
+                    unit.map(|u| unit_factor(u, alike[k])).transpose()
+                };
+                let value = factor(&self.unit, 1).map_err(|why| ("unit", why))?;
+                let time = factor(&self.time_unit, 0).map_err(|why| ("time_unit", why))?;
+                Ok(Form {
+                    columns: self.columns.clone(),
+                    factors: [time, self.scale.or(value)],
+                    alike,
+                })
+            }
+
+            /// The rows of the file.
+            fn rows(&self) -> Result<Vec<Row>, String> {
+                let path = self.path.as_deref();
+                let path = path.ok_or_else(|| "the course is missing".to_string())?;
+                let form = self.form().map_err(|(_, why)| why)?;
+                course_rows(path, &form)
             }
         }
     };
 }
-with_course!(Translate);
-with_course!(Rotation);
+with_course!(Translate, "m");
+with_course!(Rotation, "rad");
 
 fn given(keys: [bool; 5]) -> Vec<&'static str> {
     let names = ["speed", "ramp", "sine", "table", "file"];
@@ -154,7 +194,7 @@ fn given(keys: [bool; 5]) -> Vec<&'static str> {
 fn chosen(
     plain: Option<Course>,
     table: &Option<Vec<[f64; 2]>>,
-    path: Option<&Path>,
+    rows: impl Fn() -> Result<Vec<Row>, String>,
     place: &str,
 ) -> Result<Course, SceneProblem> {
     if let Some(course) = plain {
@@ -163,32 +203,50 @@ fn chosen(
     if let Some(table) = table {
         return Ok(Course::Table(table.clone()));
     }
-    let problem = |why: String| SceneProblem::new(format!("{place}.file"), why);
-    let path = path.ok_or_else(|| problem("the course is missing".to_string()))?;
-    let blocks = rows::read(path).map_err(problem)?;
-    let rows: Vec<rows::Row> = blocks.into_iter().flatten().collect();
-    if rows.len() > TIMES {
-        return Err(problem(format!(
-            "`{}` holds {} rows, more than {TIMES}",
-            path.display(),
-            rows.len()
-        )));
-    }
-    if rows.len() < 2 {
-        return Err(problem(format!(
-            "`{}` holds {} rows, and a course needs at least 2",
-            path.display(),
-            rows.len()
-        )));
-    }
-    if let Some(pair) = rows.windows(2).find(|p| p[0].values[0] >= p[1].values[0]) {
-        return Err(problem(format!(
-            "`{}`, line {}: times must rise, {} s follows {} s",
-            path.display(),
-            pair[1].line,
-            pair[1].values[0],
-            pair[0].values[0]
-        )));
-    }
+    let rows = rows().map_err(|why| SceneProblem::new(format!("{place}.file"), why))?;
     Ok(Course::Table(rows.iter().map(|r| r.values).collect()))
+}
+
+/// The rows of a file that is a course.
+fn course_rows(path: &Path, form: &Form) -> Result<Vec<Row>, String> {
+    let blocks = rows::read(path, form)?;
+    let rows: Vec<Row> = blocks.into_iter().flatten().collect();
+    let (name, count) = (path.display(), rows.len());
+    if count > TIMES {
+        return Err(format!("`{name}` holds {count} rows, more than {TIMES}"));
+    }
+    if count < 2 {
+        return Err(format!(
+            "`{name}` holds {count} rows, and a course needs at least 2"
+        ));
+    }
+    match rows.windows(2).find(|p| p[0].values[0] >= p[1].values[0]) {
+        None => Ok(rows),
+        Some(pair) => Err(format!(
+            "`{name}`, line {}: times must rise, {} s follows {} s",
+            pair[1].line, pair[1].values[0], pair[0].values[0]
+        )),
+    }
+}
+
+impl Motion {
+    /// Where a file says what the wall does at a time, s: the key, and the file's name with the line. None of a motion without a
+    /// file.
+    pub fn told_at(&self, place: &str, time: f64) -> Option<(String, String)> {
+        let translate = self
+            .translate
+            .iter()
+            .enumerate()
+            .find(|(_, t)| t.path.is_some());
+        let (key, file, rows) = match (translate, &self.rotate) {
+            (Some((k, t)), _) => (self.translate_path(place, k), &t.file, t.rows()),
+            (None, Some(rotate)) => (format!("{place}.rotate"), &rotate.file, rotate.rows()),
+            (None, None) => return None,
+        };
+        let rows = rows.ok()?;
+        let after = rows.partition_point(|r| r.values[0] <= time - self.start);
+        let line = rows[after.saturating_sub(1)].line;
+        let file = file.as_deref()?;
+        Some((format!("{key}.file"), format!("`{file}`, line {line}")))
+    }
 }

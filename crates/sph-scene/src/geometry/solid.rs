@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
+use surface_file::{Facets, Welder, cross, dot, minus};
+
 use crate::Polygon;
-use crate::geometry::facets::{Facets, Welder, cross, dot, minus};
 use crate::geometry::triangulate::triangulate;
 use crate::geometry::vector::unit;
 use crate::tables::wall_shapes::{Axis, Face};
@@ -238,7 +239,8 @@ mod tests {
     use std::f64::consts::PI;
 
     fn closed(surface: &Facets, volume: f64, within: f64) {
-        assert_eq!(surface.loose_edges(), 0);
+        let topology = surface.topology();
+        assert!(topology.openings.is_empty() && topology.flipped.is_empty());
         let found = surface.volume();
         assert!(
             (found - volume).abs() <= within * volume,

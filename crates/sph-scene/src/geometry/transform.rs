@@ -1,7 +1,8 @@
 //! Where a geometry is put: scaled, turned, shifted.
 
+use surface_file::{cross, dot};
+
 use crate::Wall;
-use crate::geometry::facets::{cross, dot};
 use crate::geometry::vector::{array, unit};
 
 /// x → turn·(factor·x − centre) + centre + shift.

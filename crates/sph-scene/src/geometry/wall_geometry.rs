@@ -1,12 +1,12 @@
 //! The geometry of a wall as lines or facets.
 
-use sph_core::{SceneProblem, parse_unit};
+use sph_core::{SceneProblem, unit_factor};
+use surface_file::Facets;
 
+use crate::drawings::heading::Form;
 use crate::drawings::rows;
-use crate::drawings::stl;
 use crate::drawings::svg;
 use crate::geometry::divide;
-use crate::geometry::facets::Facets;
 use crate::geometry::outlines::{Line, Unsided, bounds, oriented, rectangle};
 use crate::geometry::solid;
 use crate::geometry::transform::Placing;
@@ -51,7 +51,7 @@ impl Wall {
             Some(side) if !open_box => side,
             _ => Side::AsDrawn,
         };
-        let turned = open_box && self.side() == Some(Side::Outside);
+        let turned = self.flip || open_box && self.side() == Some(Side::Outside);
         let lines = oriented(drawn, side).map_err(|why| match why {
             Unsided::Open(open) => {
                 let message = format!(
@@ -97,9 +97,8 @@ impl Wall {
         let factor = self.factor();
         let mut facets = match &self.path {
             Some(path) => {
-                let (facets, odd) = stl::read(path).map_err(problem)?;
-                let side = |why| SceneProblem::new(format!("{place}.fluid"), why);
-                self.sided(facets, odd).map_err(side)?
+                let (facets, odd) = Facets::read(path).map_err(problem)?;
+                self.sided(facets, odd, place)?
             }
             None => {
                 if let Some(ball) = &self.sphere {
@@ -147,8 +146,8 @@ impl Wall {
 
     /// Factor from the numbers of the geometry to metres.
     pub(crate) fn factor(&self) -> f64 {
-        let unit = self.unit.as_deref().and_then(|u| parse_unit(u).ok());
-        self.scale.or(unit.map(|u| u.0)).unwrap_or(1.0)
+        let unit = self.unit.as_deref().and_then(|u| unit_factor(u, "m").ok());
+        self.scale.or(unit).unwrap_or(1.0)
     }
 
     /// Lines as they are given; shapes go round anticlockwise or are turned later.
@@ -185,7 +184,10 @@ impl Wall {
         if has_ending(&path.to_string_lossy(), "svg") {
             return svg::read(path, TOLERANCE * spacing);
         }
-        rows::lines(&rows::text(path)?, &path.display().to_string())
+        // What is scaled later is taken as it stands, else the heads of the columns may have units.
+        let scaled = self.unit.is_some() || self.scale.is_some();
+        let form = Form::places(&self.columns, scaled.then_some(1.0));
+        rows::lines(&rows::text(path)?, &path.display().to_string(), &form)
     }
 
     /// The surface of a shape, facing outwards.
@@ -235,33 +237,6 @@ impl Wall {
             [e.from, e.to],
             e.open_ends,
         ))
-    }
-
-    /// The facets of a file with the fluid on the side that the wall asks for.
-    fn sided(&self, facets: Facets, odd: Option<usize>) -> Result<Facets, String> {
-        let side = self.side().unwrap_or(Side::AsDrawn);
-        if side == Side::AsDrawn {
-            return match odd {
-                None => Ok(facets),
-                Some(k) => Err(format!(
-                    "the normal of facet {k} contradicts the order of its corners: give `fluid = \
-                     \"inside\"` or \"outside\", which go by the corners, or write the file anew"
-                )),
-            };
-        }
-        let loose = facets.loose_edges();
-        if loose > 0 {
-            return Err(format!(
-                "the surface is not closed or its facets face different ways at {loose} edges, so \
-                 it has no inside: mend it, or leave out `fluid` where the normals point into the \
-                 fluid"
-            ));
-        }
-        let outward = facets.volume() > 0.0;
-        Ok(match outward == (side == Side::Outside) {
-            true => facets,
-            false => facets.flipped(),
-        })
     }
 
     /// Refuses what is absurdly large or small against the spacing.

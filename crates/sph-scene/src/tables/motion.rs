@@ -55,6 +55,8 @@ pub struct Levels {
     /// The columns of these places.
     #[schemars(length(min = 1))]
     pub columns: Vec<String>,
+    /// Unit of the levels, such as "mm"; that in the head of each column, else metres, if left out.
+    pub unit: Option<String>,
     /// Time of the table at which the run starts, s; the wall is drawn as it is then.
     #[serde(default)]
     #[schemars(extend("unit" = "s"))]
@@ -81,8 +83,18 @@ pub struct Translate {
     /// Pairs of time, s, and displacement, m; times rise, and the wall is where it is drawn until the first, from which displacements count.
     #[schemars(extend("unit" = "1"))]
     pub table: Option<Vec<[f64; 2]>>,
-    /// CSV file of time, s, and displacement, m, relative to the scene's folder.
+    /// CSV file of time and displacement, relative to the scene's folder.
     pub file: Option<String>,
+    /// Unit of the displacements in the `file`, such as "mm"; that in the head of the column, else metres, if left out.
+    pub unit: Option<String>,
+    /// Factor that turns the file's displacements into metres, instead of a unit.
+    #[schemars(extend("unit" = "1"))]
+    pub scale: Option<f64>,
+    /// Unit of the times in the `file`; that in the head of the column, else seconds, if left out.
+    pub time_unit: Option<String>,
+    /// Names of the file's columns of time and displacement, or their numbers from 1; the only two if left out.
+    #[schemars(length(min = 2, max = 2))]
+    pub columns: Option<Vec<String>>,
     /// The file with its folder, set when the scene is read.
     #[serde(skip)]
     pub path: Option<PathBuf>,
@@ -108,8 +120,18 @@ pub struct Rotation {
     /// Pairs of time, s, and angle, rad; times rise, and the wall is where it is drawn until the first, from which angles count.
     #[schemars(extend("unit" = "1"))]
     pub table: Option<Vec<[f64; 2]>>,
-    /// CSV file of time, s, and angle, rad, relative to the scene's folder.
+    /// CSV file of time and angle, relative to the scene's folder.
     pub file: Option<String>,
+    /// Unit of the angles in the `file`, such as "deg"; that in the head of the column, else radians, if left out.
+    pub unit: Option<String>,
+    /// Factor that turns the file's angles into radians, instead of a unit.
+    #[schemars(extend("unit" = "1"))]
+    pub scale: Option<f64>,
+    /// Unit of the times in the `file`; that in the head of the column, else seconds, if left out.
+    pub time_unit: Option<String>,
+    /// Names of the file's columns of time and angle, or their numbers from 1; the only two if left out.
+    #[schemars(length(min = 2, max = 2))]
+    pub columns: Option<Vec<String>>,
     /// The file with its folder, set when the scene is read.
     #[serde(skip)]
     pub path: Option<PathBuf>,

@@ -55,8 +55,11 @@ pub struct Wall {
     /// Factor on all coordinates, about the origin; 1 if left out.
     #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
     pub scale: Option<f64>,
-    /// Unit of the coordinates of the `file`, such as "mm"; metres if left out.
+    /// Unit of the coordinates of the `file`, such as "mm"; that in the heads of its columns, else metres, if left out.
     pub unit: Option<String>,
+    /// Names of the CSV file's columns of x and y, or their numbers from 1; the only two if left out.
+    #[schemars(length(min = 2, max = 2))]
+    pub columns: Option<Vec<String>>,
     /// Shift of the geometry, m.
     #[schemars(extend("unit" = "m"))]
     pub translate: Option<Vec<f64>>,
@@ -64,6 +67,12 @@ pub struct Wall {
     pub rotate: Option<Rotate>,
     /// Side of a closed geometry on which the fluid is: `inside` if left out, `as-drawn` for a file. A `polyline` has the fluid on the left of travel.
     pub fluid: Option<Side>,
+    /// Whether a `polyline`, or what a `file` has, is turned round: the fluid is on the other side.
+    #[serde(default)]
+    pub flip: bool,
+    /// Whether facets of an STL file that face the other way than most of those they hang together with are turned round.
+    #[serde(default)]
+    pub align: bool,
     /// Whether the fluid sticks to the wall.
     #[serde(default)]
     pub condition: Condition,

@@ -16,7 +16,7 @@ use crate::failure::error::SolverError;
 use crate::results::summary::PluginInForce;
 use crate::setup::builder::Part;
 use crate::setup::choices::Choices;
-use crate::setup::domain::height;
+use crate::setup::domain::{extent, height};
 use crate::setup::field_error;
 use crate::setup::joining::{Given, evolved, joined, remedies};
 use crate::setup::lattices;
@@ -34,7 +34,7 @@ use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
 use crate::setup::start::{Start, phases_of_bodies, start};
 use crate::setup::swing::Swing;
-use crate::setup::wall_speeds;
+use crate::setup::wall_speeds::speeds;
 use crate::step::accounts;
 use crate::step::flow::Flow;
 use crate::step::nursery::Nursery;
@@ -85,7 +85,7 @@ pub(crate) fn assemble_share<const D: usize>(
     let swing = Swing::<D>::of(scene)?;
     let laws = bind_laws::<D>(scene, &drawn, &choices, swing.as_ref())?;
     movers::settle(scene, &mut drawn, &mut choices, &laws)?;
-    refuse_fast_walls(scene, &drawn, &laws)?;
+    let speeds = wall_speeds(scene, &drawn, &laws)?;
     let opened = open_faces::settle(scene, &mut drawn, &mut choices, &laws)?;
     let Room {
         world: room,
@@ -93,6 +93,7 @@ pub(crate) fn assemble_share<const D: usize>(
         placed,
         mut warnings,
     } = Room::for_share(scene, &drawn, &mut choices, &mut share)?;
+    warnings.extend(speeds);
     warnings.extend(open_faces::check(scene, opened.as_ref(), walls.as_ref())?);
     let ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
@@ -191,17 +192,17 @@ fn nursery<const D: usize>(
 }
 
 /// Refuses walls that are faster than sound in the slowest phase.
-fn refuse_fast_walls<const D: usize>(
+fn wall_speeds<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,
     laws: &Laws,
-) -> Result<(), SolverError> {
+) -> Result<Vec<String>, SolverError> {
     let sounds = laws.iter().map(|law| law.reference().sound_speed);
     let slowest = sounds.fold(f64::INFINITY, f64::min);
-    let too_fast = wall_speeds::too_fast(&drawn.walls, slowest, scene.run.end);
-    match too_fast.is_empty() {
-        true => Ok(()),
-        false => Err(SolverError::Scene(too_fast)),
+    let found = speeds(scene, &drawn.walls, slowest, extent(&drawn.regions));
+    match found.refused.is_empty() {
+        true => Ok(found.remarks),
+        false => Err(SolverError::Scene(found.refused)),
     }
 }
 

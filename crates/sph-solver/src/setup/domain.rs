@@ -6,6 +6,7 @@ use sph_scene::{Region, Scene};
 
 use crate::failure::error::SolverError;
 use crate::setup::shapes::Drawn;
+use crate::setup::wall_speeds::corners;
 
 /// Extent of all bodies along gravity, m.
 pub fn height<const D: usize>(scene: &Scene, regions: &[Region<D>]) -> f64 {
@@ -34,7 +35,53 @@ pub fn height<const D: usize>(scene: &Scene, regions: &[Region<D>]) -> f64 {
     (high - low).max(0.0)
 }
 
-/// The scene's domain, or a box round walls and bodies with room to move.
+/// Largest extent of a body along an axis, m.
+pub fn extent<const D: usize>(regions: &[Region<D>]) -> f64 {
+    let of = |region: &Region<D>| {
+        let (low, high) = region.base.bounds();
+        (0..D).map(|k| high[k] - low[k]).fold(0.0, f64::max)
+    };
+    regions.iter().map(of).fold(0.0, f64::max)
+}
+
+/// Times at which the way of prescribed walls is looked at.
+const SAMPLES: usize = 1000;
+
+/// Widens a box so that prescribed walls stay `margin`, m, away from its borders until the end of the run.
+fn sweep<const D: usize>(scene: &Scene, drawn: &Drawn<D>, margin: f64, domain: &mut Domain<D>) {
+    for wall in drawn.walls.iter().filter(|w| w.motion.moves()) {
+        let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
+        corners(wall, &mut |x| {
+            low = std::array::from_fn(|k| low[k].min(x[k]));
+            high = std::array::from_fn(|k| high[k].max(x[k]));
+        });
+        for n in 0..=SAMPLES {
+            let map = wall
+                .motion
+                .pose(scene.run.end * n as f64 / SAMPLES as f64)
+                .map();
+            for corner in 0..1 << D {
+                let corner = std::array::from_fn(|k| {
+                    if corner >> k & 1 == 0 {
+                        low[k]
+                    } else {
+                        high[k]
+                    }
+                });
+                for (k, x) in map(corner)
+                    .into_iter()
+                    .enumerate()
+                    .filter(|(_, x)| x.is_finite())
+                {
+                    domain.lower[k] = domain.lower[k].min(x - margin);
+                    domain.upper[k] = domain.upper[k].max(x + margin);
+                }
+            }
+        }
+    }
+}
+
+/// The scene's domain, or a box round walls, on their prescribed way as well, and bodies with room to move.
 pub fn domain_of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Domain<D> {
     let mut lower = Vect::<D>::repeat(f64::INFINITY);
     let mut upper = Vect::<D>::repeat(f64::NEG_INFINITY);
@@ -58,8 +105,11 @@ pub fn domain_of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Domain<D> {
         true => 10.0,
         false => 2.0,
     };
-    let margin = Vect::repeat(room * (upper - lower).max());
+    let extent = (upper - lower).max();
+    let margin = Vect::repeat(room * extent);
     let mut domain = Domain::open(lower - margin, upper + margin);
+    // So much at least on the way: where walls go less far, the box is what it is without.
+    sweep(scene, drawn, 0.5 * room * extent, &mut domain);
     if let Some([low, high]) = &scene.numerics.domain {
         domain = Domain::open(Vect::from_column_slice(low), Vect::from_column_slice(high));
     }

@@ -59,7 +59,7 @@ pub fn place<const D: usize>(
     for filled in &filled {
         let (name, body) = bodies[filled.body];
         let clipped = body.clip || body.fill.is_some();
-        let (mut kept, mut dropped) = (Vec::new(), 0);
+        let (mut kept, mut dropped, mut behind) = (Vec::new(), 0, Vec::new());
         let held = |position: &[f64; D]| {
             let x = Vect::from(*position);
             let side = match walls {
@@ -74,13 +74,17 @@ pub fn place<const D: usize>(
             match side {
                 Side::Fluid => kept.push(x),
                 Side::TooNear => dropped += usize::from(!clipped),
-                Side::Behind(_) if clipped => {}
+                Side::Behind(_) if clipped => behind.push(x),
                 Side::Behind(walls) => {
                     problems.push(through_a_wall(name, &x, walls, spacing));
                     break;
                 }
             }
         }
+        if let Some(walls) = walls {
+            problems.extend(facing_away(scene, name, kept.len(), &behind, walls));
+        }
+        let before = kept.len();
         if let Some(seed) = &body.seed {
             kept = connected(kept, &Vect::from_column_slice(seed), spacing);
         }
@@ -92,7 +96,7 @@ pub fn place<const D: usize>(
         if kept.is_empty() && problems.is_empty() {
             problems.push(SceneProblem::new(
                 format!("body.{name}"),
-                nothing_left(body, spacing),
+                nothing_left(body, spacing, before),
             ));
         }
         numbers[filled.body] = kept.len();
@@ -109,9 +113,11 @@ pub fn place<const D: usize>(
     Ok(placed)
 }
 
-fn nothing_left(body: &Body, spacing: f64) -> String {
+fn nothing_left(body: &Body, spacing: f64, before: usize) -> String {
     match (&body.seed, body.clip || body.fill.is_some()) {
-        (Some(_), _) => "no particle is within a spacing of the `seed`".to_string(),
+        (Some(_), _) => format!(
+            "no particle is within a spacing of the `seed`; {before} are on the fluid's side of the walls"
+        ),
         (None, true) => format!(
             "no particle is left on the fluid's side of the walls at a spacing of {spacing} m: \
              are the walls drawn with the fluid on the right side?"
@@ -120,6 +126,48 @@ fn nothing_left(body: &Body, spacing: f64) -> String {
             format!("the body is too small for a single particle at a spacing of {spacing} m")
         }
     }
+}
+
+/// A body that is clipped to nothing by walls with their backs to it, or of which more is enclosed by the backs of open walls
+/// than is kept.
+fn facing_away<const D: usize>(
+    scene: &Scene,
+    body: &str,
+    kept: usize,
+    behind: &[Vect<D>],
+    walls: &dyn Wall<D>,
+) -> Option<SceneProblem> {
+    if behind.len() <= kept {
+        return None;
+    }
+    let turned = |x: &&Vect<D>| kept == 0 || walls.enclosed(x).is_some_and(|w| w < -0.5);
+    let backs: Vec<&Vect<D>> = behind.par_iter().filter(turned).collect();
+    let first = backs.first().filter(|_| backs.len() > kept)?;
+    let name = nearest(first, walls, scene.numerics.spacing)?;
+    let wall = scene.wall.get(name)?;
+    let turn = match wall.polyline.is_some() || wall.file.is_some() && wall.fluid.is_none() {
+        true => "`flip = true` turns it round",
+        false => "its key `fluid` turns it round",
+    };
+    Some(SceneProblem::new(
+        format!("body.{body}"),
+        format!(
+            "{kept} of {} particles are on the fluid's side of the walls, and {} are behind wall `{name}`: are the walls \
+             drawn with the fluid on the right side? {turn}",
+            kept + behind.len(),
+            backs.len()
+        ),
+    ))
+}
+
+/// The nearest wall, looked for ever farther out.
+fn nearest<'a, const D: usize>(
+    x: &Vect<D>,
+    walls: &'a dyn Wall<D>,
+    spacing: f64,
+) -> Option<&'a str> {
+    let found = (0..12).find_map(|k| walls.clearance(x, spacing * f64::from(1 << k)));
+    found.map(|(_, name)| name)
 }
 
 /// The particles that are joined to the seed by steps of at most 1½ spacings.
@@ -164,11 +212,8 @@ fn through_a_wall<const D: usize>(
         .map(|c| format!("{c:.6}"))
         .collect::<Vec<_>>()
         .join(", ");
-    // The nearest wall, looked for ever farther out.
-    let named = (0..12).find_map(|k| walls.clearance(x, spacing * f64::from(1 << k)));
-    let wall = named.map_or(String::from("the walls"), |(_, name)| {
-        format!("wall `{name}`")
-    });
+    let named = nearest(x, walls, spacing);
+    let wall = named.map_or(String::from("the walls"), |name| format!("wall `{name}`"));
     let side = match D {
         2 => "the fluid must be on the left of every wall's direction of travel",
         _ => "the normals of every wall must point into the fluid",

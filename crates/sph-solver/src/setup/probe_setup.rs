@@ -1,6 +1,6 @@
 //! What probes learn from the scene before they measure.
 
-use sph_core::{SceneProblem, suggestion};
+use sph_core::{SceneProblem, parse_unit, suggestion};
 use sph_probes::Probe;
 use sph_scene::Scene;
 
@@ -63,8 +63,13 @@ fn learn<const D: usize>(
     let [x, y, ..] = table.columns.as_slice() else {
         return Err(format!("`{file}` has one column where two are expected"));
     };
+    // Heads may have units, which name the quantity themselves.
+    let factor = |unit: &str| parse_unit(unit).map_or(1.0, |(factor, _)| factor);
+    let factors = [x, y].map(|column| factor(&column.unit));
     let rows = x.values.iter().zip(&y.values);
-    let rows = rows.map(|(x, y)| [*x, *y]).collect();
+    let rows = rows
+        .map(|(x, y)| [factors[0] * x, factors[1] * y])
+        .collect();
     probe.learn(rows).map_err(|why| format!("`{file}` {why}"))
 }
 

@@ -7,7 +7,7 @@ use sph_boundary::{
     Translation, WallSpec, thin_plate,
 };
 use sph_core::plausible::Quantity;
-use sph_core::{Vect, suggestion};
+use sph_core::{Vect, suggestion, unit_factor};
 use sph_neighbours::Coulomb;
 use sph_scene::{Facets, FrictionForm, Levels, Line, Region, Scene};
 
@@ -247,8 +247,18 @@ fn levels_of<const D: usize>(levels: &Levels, place: &str) -> Result<RigidMotion
     }
     let mut lifts = Vec::with_capacity(levels.columns.len());
     for name in &levels.columns {
+        let head = table.columns.iter().find(|c| c.name == *name);
+        let head = head
+            .map(|c| c.unit.as_str())
+            .filter(|unit| !unit.is_empty());
+        let factor = levels
+            .unit
+            .as_deref()
+            .or(head)
+            .map_or(Ok(1.0), |u| unit_factor(u, "m"));
+        let factor = factor.map_err(|why| at("columns", why))?;
         let rows = times.iter().zip(column("columns", name)?);
-        let rows: Arc<[[f64; 2]]> = rows.map(|(t, z)| [t - levels.start, *z]).collect();
+        let rows: Arc<[[f64; 2]]> = rows.map(|(t, z)| [t - levels.start, factor * *z]).collect();
         let whole = Course::Table { rows: rows.clone() };
         if !whole.is_sound() {
             let why = "it needs two rows at least, times that rise, and finite numbers";

@@ -1,28 +1,70 @@
-//! Walls that move faster than sound.
+//! Walls that move faster than sound, or vessels that press their fluid together.
 
 use sph_boundary::{Drawing, WallSpec};
-use sph_core::SceneProblem;
+use sph_core::{SceneProblem, number};
+use sph_scene::Scene;
 
 /// Times at which the motion of walls is looked at.
 const SAMPLES: usize = 1000;
+/// Accelerations a of a vessel of length L count by aL/c², the share of its density by which the fluid is pressed together:
+/// from the first on they are remarked upon, from the second on refused.
+const PRESSED: [f64; 2] = [0.05, 0.5];
+/// Changes of the speed of a vessel count by the speed of sound: as before.
+const SPEEDS: [f64; 2] = [1.0, 10.0];
 
-/// Walls of which a corner is faster than `sound`, m/s, against the slowest wall at some time before `end`, s.
+/// Problems and remarks.
+pub struct Speeds {
+    /// What is refused.
+    pub refused: Vec<SceneProblem>,
+    /// What is said.
+    pub remarks: Vec<String>,
+}
+
+/// The speeds of the walls before the end of the run, for a speed of sound, m/s, and a length of the fluid, m.
 ///
-/// A vessel whose walls all move together carries its fluid along and may be of any speed.
-pub fn too_fast<const D: usize>(walls: &[WallSpec<D>], sound: f64, end: f64) -> Vec<SceneProblem> {
+/// A wall of which a corner is faster than sound against the slowest wall at some time is refused. A vessel whose walls all move
+/// together carries its fluid along and may be of any speed; what its acceleration does to the fluid may not.
+pub fn speeds<const D: usize>(
+    scene: &Scene,
+    walls: &[WallSpec<D>],
+    sound: f64,
+    length: f64,
+) -> Speeds {
+    let mut found = Speeds {
+        refused: Vec::new(),
+        remarks: Vec::new(),
+    };
     if !walls.iter().any(|w| w.motion.moves()) {
-        return Vec::new();
+        return found;
     }
+    let end = scene.run.end;
     let times = (0..SAMPLES).map(|n| end * (n as f64 + 0.5) / SAMPLES as f64);
     let mut fastest = vec![0.0_f64; walls.len()];
+    let [mut pressed, mut changed] = [(0.0_f64, 0.0); 2];
+    let begin: Vec<f64> = walls.iter().map(|wall| moving(wall, 0.0).speed).collect();
     for time in times {
-        let speeds: Vec<f64> = walls.iter().map(|wall| speed(wall, time)).collect();
-        let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
-        let against = fastest.iter_mut().zip(&speeds);
-        against.for_each(|(most, speed)| *most = most.max(known(speed - slowest)));
+        let all: Vec<Moving> = walls.iter().map(|wall| moving(wall, time)).collect();
+        let least =
+            |of: &dyn Fn(usize) -> f64| (0..all.len()).map(of).fold(f64::INFINITY, f64::min);
+        let slowest = least(&|k| all[k].speed);
+        let against = fastest.iter_mut().zip(&all);
+        against.for_each(|(most, m)| *most = most.max(known(m.speed - slowest)));
+        let larger = |most: &mut (f64, f64), x: f64| {
+            if x > most.0 {
+                *most = (x, time);
+            }
+        };
+        larger(
+            &mut pressed,
+            least(&|k| all[k].acceleration) * length / (sound * sound),
+        );
+        larger(
+            &mut changed,
+            least(&|k| (all[k].speed - begin[k]).abs()) / sound,
+        );
     }
     let loud = walls.iter().zip(&fastest).filter(|(_, v)| **v >= sound);
-    loud.map(|(wall, v)| {
+    found.refused.extend(loud.map(|(wall, v)| {
         SceneProblem::new(
             format!("wall.{}.motion", wall.drawing.name()),
             format!(
@@ -30,31 +72,109 @@ pub fn too_fast<const D: usize>(walls: &[WallSpec<D>], sound: f64, end: f64) -> 
                  before it would be pressed together; slow it down, or raise `speed_of_sound`"
             ),
         )
-    })
-    .collect()
-}
-
-/// A speed that cannot be told is too fast for any sound.
-fn known(speed: f64) -> f64 {
-    if speed.is_nan() { f64::INFINITY } else { speed }
-}
-
-/// Largest speed of the corners of a wall, m/s.
-fn speed<const D: usize>(wall: &WallSpec<D>, time: f64) -> f64 {
-    if !wall.motion.moves() {
-        return 0.0;
+    }));
+    if found.refused.is_empty() {
+        vessel(
+            scene,
+            walls,
+            (sound, length),
+            [pressed, changed],
+            &mut found,
+        );
     }
-    let pose = wall.motion.pose(time);
-    let at = |corner: [f64; D]| {
-        wall.motion
-            .movement(pose.map()(corner), time)
-            .velocity
-            .norm()
+    found
+}
+
+/// Judges the largest pressing and change of speed of a vessel, each with its time.
+fn vessel<const D: usize>(
+    scene: &Scene,
+    walls: &[WallSpec<D>],
+    (sound, length): (f64, f64),
+    [pressed, changed]: [(f64, f64); 2],
+    found: &mut Speeds,
+) {
+    let acceleration = number::plain(pressed.0 * sound * sound / length);
+    let share = number::percent(pressed.0);
+    let told = [
+        (
+            pressed,
+            PRESSED,
+            format!(
+                "is accelerated with {acceleration} m/s², which presses its fluid together by {share}"
+            ),
+        ),
+        (
+            changed,
+            SPEEDS,
+            format!(
+                "changes its speed by {} m/s",
+                number::plain(changed.0 * sound)
+            ),
+        ),
+    ];
+    let said = told
+        .into_iter()
+        .filter(|((x, _), [least, _], _)| x >= least);
+    let worst = said.max_by(|a, b| (a.0.0 / a.1[1]).total_cmp(&(b.0.0 / b.1[1])));
+    let Some(((x, time), [_, most], what)) = worst else {
+        return;
     };
-    let point = |p: &[f64]| at(std::array::from_fn(|k| p[k]));
-    let largest = |speeds: &mut dyn Iterator<Item = f64>| speeds.map(known).fold(0.0, f64::max);
+    let (path, place) = told_at(scene, walls, time);
+    let sound = number::plain(sound);
+    let message = format!(
+        "the vessel {what}, at {} s{place}, where the speed of sound is {sound} m/s: is the unit of its course right \
+         (`unit = \"mm\"`)? else raise `speed_of_sound`",
+        number::plain(time)
+    );
+    match x >= most {
+        true => found.refused.push(SceneProblem::new(path, message)),
+        false => found.remarks.push(message),
+    }
+}
+
+/// The key of the course of the first wall that moves, and where its file says what it does at a time.
+fn told_at<const D: usize>(scene: &Scene, walls: &[WallSpec<D>], time: f64) -> (String, String) {
+    let moving = walls.iter().find(|w| w.motion.moves());
+    let name = moving.map_or("", |w| w.drawing.name());
+    let place = format!("wall.{name}.motion");
+    let motion = scene.wall.get(name).and_then(|w| w.motion.as_ref());
+    match motion.and_then(|m| m.told_at(&place, time)) {
+        Some((key, file)) => (key, format!(" ({file})")),
+        None => (place, String::new()),
+    }
+}
+
+/// A number that cannot be told is too large for anything.
+fn known(x: f64) -> f64 {
+    if x.is_nan() { f64::INFINITY } else { x }
+}
+
+/// Largest speed, m/s, and acceleration, m/s², of the corners of a wall.
+#[derive(Clone, Copy, Default)]
+struct Moving {
+    speed: f64,
+    acceleration: f64,
+}
+
+fn moving<const D: usize>(wall: &WallSpec<D>, time: f64) -> Moving {
+    let mut most = Moving::default();
+    if !wall.motion.moves() {
+        return most;
+    }
+    let map = wall.motion.pose(time).map();
+    corners(wall, &mut |corner| {
+        let movement = wall.motion.movement(map(corner), time);
+        most.speed = most.speed.max(known(movement.velocity.norm()));
+        most.acceleration = most.acceleration.max(known(movement.acceleration.norm()));
+    });
+    most
+}
+
+/// Visits the corners of a wall where it is drawn.
+pub(crate) fn corners<const D: usize>(wall: &WallSpec<D>, visit: &mut dyn FnMut([f64; D])) {
+    let mut point = |p: &[f64]| visit(std::array::from_fn(|k| p[k]));
     match &wall.drawing {
-        Drawing::Line(line) => largest(&mut line.points.iter().map(|p| point(p))),
-        Drawing::Surface(surface) => largest(&mut surface.points.iter().map(|p| point(p))),
+        Drawing::Line(line) => line.points.iter().for_each(|p| point(p)),
+        Drawing::Surface(surface) => surface.points.iter().for_each(|p| point(p)),
     }
 }

@@ -9,6 +9,7 @@ use super::fill::{Corner, Filling, fill};
 use super::patches::{Patch, patches};
 use super::places::{Places, SAME_PLACE, Site};
 use super::removal::remove_contacts;
+use super::seen::{Touched, seen};
 use super::triangle_mesh::{Face, FaceEdge, Node, Triangle, TriangleMesh};
 use super::vector::{double_area, norm};
 use crate::error::{BoundaryError, SurfaceError, WallWarning};
@@ -37,8 +38,13 @@ impl TriangleMesh {
         check_arguments(surfaces, groups, spacing, domain)?;
         let tolerance = SAME_PLACE * spacing;
         let mut places = Places::new(tolerance, domain);
-        let patches = planar_pieces(surfaces, groups, spacing, &mut places)?;
+        let (mut patches, touched) = planar_pieces(surfaces, groups, spacing, &mut places)?;
         let cuts = Cuts::new(&patches, &places, spacing);
+        let seen = seen(&patches, &cuts, &places, &touched);
+        let unseen = unseen_faces(surfaces, &patches, &seen);
+        let mut kept = seen.iter();
+        patches.retain(|_| kept.next() == Some(&true));
+        check_left(surfaces, &patches)?;
         let free = free_pieces(surfaces, &patches, &cuts, &places)?;
 
         let mut nodes = Nodes::default();
@@ -90,6 +96,7 @@ impl TriangleMesh {
         let corner = |site: &[Site; 2]| nodes.at_corner.get(&site[0].id).map(|n| *n as usize);
         mesh.find_openings(free.iter().filter_map(corner));
         mesh.warnings = mesh.fine_walls();
+        mesh.warnings.extend(unseen);
         Ok(mesh)
     }
 }
@@ -115,13 +122,42 @@ fn check_arguments(
     Ok(())
 }
 
-/// Checks the surfaces; returns their planar pieces without the places where walls touch.
+/// Refuses a wall of which nothing is left.
+fn check_left(surfaces: &[Surface], pieces: &[Patch]) -> Result<(), SurfaceError> {
+    for (wall, surface) in surfaces.iter().enumerate() {
+        if !pieces.iter().any(|p| p.wall == wall) {
+            let wall = surface.name.clone();
+            return Err(SurfaceError::Covered { wall });
+        }
+    }
+    Ok(())
+}
+
+/// A remark for every wall with faces that bound no fluid.
+fn unseen_faces(surfaces: &[Surface], pieces: &[Patch], seen: &[bool]) -> Vec<WallWarning> {
+    let unseen = |wall: usize| {
+        let all = pieces.iter().zip(seen);
+        all.filter(|(p, seen)| p.wall == wall && !**seen).count()
+    };
+    let counted = surfaces
+        .iter()
+        .enumerate()
+        .map(|(k, s)| (&s.name, unseen(k)));
+    let some = counted.filter(|(_, faces)| *faces > 0);
+    some.map(|(wall, faces)| WallWarning::Unseen {
+        wall: wall.clone(),
+        faces,
+    })
+    .collect()
+}
+
+/// Checks the surfaces; returns their planar pieces without the places where walls touch, and these.
 fn planar_pieces(
     surfaces: &[Surface],
     groups: &[usize],
     spacing: f64,
     places: &mut Places,
-) -> Result<Vec<Patch>, SurfaceError> {
+) -> Result<(Vec<Patch>, Touched), SurfaceError> {
     let tolerance = SAME_PLACE * spacing;
     for surface in surfaces {
         check_input(surface)?;
@@ -140,17 +176,11 @@ fn planar_pieces(
     }
     let domain = places.domain;
     let contacts = contacts(surfaces, groups, &drawn, tolerance, &domain)?;
-    remove_contacts(&mut pieces, &piece_of, &contacts, places, groups);
-    for (wall, surface) in surfaces.iter().enumerate() {
-        if !pieces.iter().any(|p| p.wall == wall) {
-            let wall = surface.name.clone();
-            return Err(SurfaceError::Covered { wall });
-        }
-    }
+    let touched = remove_contacts(&mut pieces, &piece_of, &contacts, places, groups);
     for piece in &mut pieces {
         piece.straighten(places, tolerance);
     }
-    Ok(pieces)
+    Ok((pieces, touched))
 }
 
 impl TriangleMesh {

@@ -1,10 +1,12 @@
 //! On which side of the walls a point is.
 
+use surface_file::Winding;
+
 use super::closest::{Feature, nearest_to_origin};
 use super::grid::{NearTriangle, TriangleGrid};
 use super::sides::{Columns, Sides};
 use super::triangle_mesh::TriangleMesh;
-use super::vector::{Point, dot, norm, sub};
+use super::vector::{Point, add, bounds, dot, norm, sub};
 
 /// Crossings of the ray closer to each other than this part of the wall's extent are one place.
 const SAME_HEIGHT: f64 = 1e-12;
@@ -15,6 +17,12 @@ const SAME_DISTANCE: f64 = 1e-9;
 /// Spacings within which the nearest wall decides if there are free edges.
 const FRONT: f64 = 4.0;
 
+/// Walls that wind around a place by more than this enclose it, though they have openings.
+const ENCLOSED: f64 = 0.5;
+
+/// Images of a periodic wall on either side reach this many extents of it, and are so many at most.
+const IMAGES: (f64, f64) = (5.0, 16.0);
+
 impl TriangleMesh {
     /// Whether a point is in the fluid, as the walls see it.
     ///
@@ -24,9 +32,9 @@ impl TriangleMesh {
     /// nothing asks the wall that reaches furthest along it; if all axes are periodic, it goes on
     /// along the next axis until it meets a wall. Without walls every point is in the fluid.
     ///
-    /// Walls with free edges have no inside, but they have a front: if there are any, the triangle
-    /// nearest to the point decides where one is within four spacings. A point on a wall within
-    /// rounding may be given either answer.
+    /// Walls with free edges have a front: if there are any, the triangle nearest to the point decides
+    /// where one is within four spacings. Farther away their winding number decides where it is more than ½: the walls enclose
+    /// the point but for their openings. A point on a wall within rounding may be given either answer.
     ///
     /// The first call after a motion sorts the triangles into columns; then the cost is that of the
     /// triangles in one column.
@@ -42,6 +50,12 @@ impl TriangleMesh {
         {
             return front;
         }
+        if let Some(winding) = &sides.winding {
+            let enclosed = -winding.at(&point);
+            if enclosed.abs() > ENCLOSED {
+                return enclosed > 0.0;
+            }
+        }
         let mut from = point;
         for columns in &sides.columns {
             if let Some(fluid) = self.faced(columns, from) {
@@ -51,6 +65,13 @@ impl TriangleMesh {
             from[columns.along] = sides.target[columns.along];
         }
         sides.beyond
+    }
+
+    /// How far walls with free edges enclose a point: their winding number, positive where they face it; none of walls that are
+    /// closed or repeat themselves in two directions.
+    pub fn enclosed(&self, point: [f64; 3]) -> Option<f64> {
+        let sides = self.sides.get_or_init(|| sides(self));
+        sides.winding.as_ref().map(|winding| -winding.at(&point))
     }
 
     /// Whether the first wall that a ray meets faces the point; none if it meets nothing.
@@ -162,7 +183,37 @@ fn sides(mesh: &TriangleMesh) -> Sides {
         beyond: open.is_none_or(|k| mesh.fluid_beyond(k)),
         front: (!mesh.free_edges.is_empty())
             .then(|| TriangleGrid::build(mesh, FRONT * mesh.spacing)),
+        winding: winding(mesh),
     }
+}
+
+/// Of the faces, each a fan over its edges, and of their images where one axis is periodic.
+fn winding(mesh: &TriangleMesh) -> Option<Winding> {
+    let periodic = mesh.domain.periodic;
+    if mesh.free_edges.is_empty() || periodic.iter().filter(|p| **p).count() > 1 {
+        return None;
+    }
+    let ends = (0..mesh.faces.len()).map(|f| mesh.face_edges_from([0.0; 3], f, [0; 3]));
+    let faces: Vec<Vec<[Point; 2]>> = ends.map(Iterator::collect).collect();
+    let fan = |edges: &Vec<[Point; 2]>| {
+        let apex = edges[0][0];
+        let others = edges.iter().filter(move |[a, b]| *a != apex && *b != apex);
+        others.map(move |[a, b]| [apex, *a, *b]).collect::<Vec<_>>()
+    };
+    let own: Vec<[Point; 3]> = faces.iter().flat_map(fan).collect();
+    let Some(axis) = (0..3).find(|k| periodic[*k]) else {
+        return Some(Winding::new(own));
+    };
+    let [low, high] = bounds(own.iter().flatten().copied());
+    let images = IMAGES.0 * norm(sub(high, low)) / mesh.domain.periods()[axis];
+    let images = images.ceil().min(IMAGES.1) as i32;
+    let all = (-images..=images).flat_map(|n| {
+        let shift = mesh
+            .domain
+            .shift(std::array::from_fn(|k| if k == axis { n } else { 0 }));
+        own.iter().map(move |t| t.map(|p| add(p, shift)))
+    });
+    Some(Winding::new(all.collect()))
 }
 
 /// The triangles by the columns along an axis.

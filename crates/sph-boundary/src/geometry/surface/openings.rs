@@ -47,6 +47,7 @@ impl TriangleMesh {
                 wall: self.free_edges[first].wall,
                 edges: 0,
                 extent: norm(sub(high, low)),
+                centre: along(low, 0.5, sub(high, low)),
             });
         }
         for node in pieces {
@@ -88,6 +89,8 @@ impl TriangleMesh {
             wall: self.walls[free.wall].clone(),
             edges: opening.edges,
             extent: opening.extent,
+            centre: opening.centre,
+            met: free.met.map(|wall| self.walls[wall].clone()),
             at,
             particle,
             distance,

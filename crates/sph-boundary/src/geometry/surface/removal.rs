@@ -9,7 +9,8 @@ use i_overlay::i_float::int::point::IntPoint;
 
 use super::crossing::Contact;
 use super::patches::{Patch, in_plane, in_space};
-use super::places::{Places, Site};
+use super::places::{Places, Site, edge_key};
+use super::seen::Touched;
 use super::vector::sub;
 
 /// Bits of the whole numbers that span a patch: 2⁻⁴⁴ of its size is the resolution.
@@ -18,14 +19,14 @@ const BITS: i32 = 44;
 /// Takes from every patch what patches of other walls cover with opposite normals.
 ///
 /// The difference of polygons is taken in whole numbers; corners that come out of it are welded to
-/// those that are known, so that what is left of both walls meets in the same edges.
+/// those that are known, so that what is left of both walls meets in the same edges. Returns where they touched.
 pub(super) fn remove_contacts(
     patches: &mut Vec<Patch>,
     patch_of: &[u32],
     contacts: &[Contact],
     places: &mut Places,
     groups: &[usize],
-) {
+) -> Touched {
     let mut covers: BTreeMap<u32, BTreeSet<(u32, [i32; 3])>> = BTreeMap::new();
     for contact in contacts {
         let [a, b] = [contact.triangle, contact.other].map(|t| patch_of[t as usize]);
@@ -34,17 +35,21 @@ pub(super) fn remove_contacts(
         covers.entry(b).or_default().insert((a, back));
     }
     if covers.is_empty() {
-        return;
+        return Touched::default();
     }
+    let covered = covers.keys().flat_map(|p| &patches[*p as usize].boundary);
+    let edges = covered.map(|[a, b]| edge_key(*a, *b).0).collect();
     let left: BTreeMap<u32, Vec<Patch>> = covers
         .into_iter()
         .map(|(p, others)| (p, difference(p as usize, &others, patches, places, groups)))
         .collect();
-    *patches = std::mem::take(patches)
-        .into_iter()
-        .enumerate()
-        .flat_map(|(p, patch)| left.get(&(p as u32)).cloned().unwrap_or(vec![patch]))
-        .collect();
+    let mut pieces = Vec::new();
+    for (p, patch) in std::mem::take(patches).into_iter().enumerate() {
+        let rest = left.get(&(p as u32));
+        patches.extend(rest.cloned().unwrap_or_else(|| vec![patch]));
+        pieces.resize(patches.len(), rest.is_some());
+    }
+    Touched { edges, pieces }
 }
 
 /// What is left of a patch without others, each moved by whole periods.

@@ -1,5 +1,7 @@
 //! Triangles sorted by the rays that may meet them.
 
+use surface_file::Winding;
+
 use super::grid::{NearTriangle, TriangleGrid};
 use super::vector::Point;
 
@@ -15,6 +17,8 @@ pub(super) struct Sides {
     pub beyond: bool,
     /// Where there are free edges, what finds the nearest wall.
     pub front: Option<TriangleGrid>,
+    /// Where there are free edges, how the walls wind around a place; of the other sign, since normals point into the fluid.
+    pub winding: Option<Winding>,
 }
 
 /// Triangles that a ray along an axis may meet, by columns.

@@ -33,15 +33,27 @@ impl TriangleMesh {
         let mut open = vec![false; self.nodes.len()];
         let mut free = Vec::new();
         for run in halves.chunk_by(|a, b| a.key == b.key) {
-            let (with, against): (Vec<&Half>, Vec<&Half>) = run.iter().partition(|h| h.forward);
-            let mut rest = against;
+            let (mut with, mut rest): (Vec<&Half>, Vec<&Half>) =
+                run.iter().partition(|h| h.forward);
+            if with.len() > rest.len() && !rest.is_empty() {
+                // Where one is left over, the narrowest sectors are those of the fluid.
+                let narrowest = |half: &&Half| {
+                    let folds = rest.iter().map(|other| self.fold(half, other));
+                    folds.fold(f64::INFINITY, f64::min)
+                };
+                with.sort_by(|a, b| narrowest(a).total_cmp(&narrowest(b)));
+            }
+            let met = |half: &Half| {
+                let wall = |h: &Half| self.triangles[h.triangle as usize].wall;
+                run.iter().map(wall).find(|w| *w != wall(half))
+            };
             for half in with {
                 // The fluid's sector beside a triangle ends at the next one around the edge.
                 let angle = |other: &Half| self.fold(half, other);
                 let next =
                     (0..rest.len()).min_by(|a, b| angle(rest[*a]).total_cmp(&angle(rest[*b])));
                 let Some(next) = next else {
-                    free.push(self.free_edge(half));
+                    free.push(self.free_edge(half, met(half)));
                     continue;
                 };
                 let other = rest.swap_remove(next);
@@ -54,7 +66,7 @@ impl TriangleMesh {
                     fans.join(corners.map(|(t, corner)| 3 * t as usize + corner));
                 }
             }
-            free.extend(rest.into_iter().map(|half| self.free_edge(half)));
+            free.extend(rest.into_iter().map(|half| self.free_edge(half, met(half))));
         }
         for edge in &free {
             for node in edge.nodes {
@@ -124,7 +136,7 @@ impl TriangleMesh {
         sine.atan2(cosine)
     }
 
-    fn free_edge(&self, half: &Half) -> FreeEdge {
+    fn free_edge(&self, half: &Half, met: Option<usize>) -> FreeEdge {
         let triangle = &self.triangles[half.triangle as usize];
         let ends = [half.edge as usize, (half.edge as usize + 1) % 3];
         FreeEdge {
@@ -133,6 +145,7 @@ impl TriangleMesh {
             wall: triangle.wall,
             triangle: half.triangle as usize,
             opening: 0,
+            met,
         }
     }
 }

@@ -78,6 +78,8 @@ pub struct FreeEdge {
     pub triangle: usize,
     /// Index of the opening.
     pub opening: usize,
+    /// Index of another wall that has a face at the edge, which does not continue this one.
+    pub met: Option<usize>,
 }
 
 /// Free edges that hang together: a hole in a wall, or the rim of an open one.
@@ -89,6 +91,8 @@ pub struct Opening {
     pub edges: usize,
     /// Diagonal of the box around it, m.
     pub extent: f64,
+    /// Middle of that box, m.
+    pub centre: [f64; 3],
 }
 
 /// All walls of a scene in space, cut into triangles of about the particle spacing.

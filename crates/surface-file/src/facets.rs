@@ -1,0 +1,130 @@
+//! Triangulated surfaces.
+
+use std::path::Path;
+
+use crate::stl::{Surface, parse, read};
+use crate::vector::{cross, dot, minus};
+use crate::weld::Welder;
+use crate::winding::Winding;
+
+/// Corners of a file nearer to each other than this share of its extent are one: single precision has 6·10⁻⁸.
+const SAME_CORNER: f64 = 1e-6;
+/// Facets at which the side that a surface faces is asked for, at most.
+const ASKED: usize = 256;
+
+/// A surface of triangles that share their points; as a wall, right-hand normals point into the fluid.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Facets {
+    /// Points, m.
+    pub points: Vec<[f64; 3]>,
+    /// Numbers of the three points of every triangle.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Facets {
+    /// The surface in an STL file with its corners welded, in the unit of the file, and the number, from 1, of the first facet
+    /// whose normal is not that of its corners' order.
+    ///
+    /// # Errors
+    /// What cannot be read, with the name of the file and the number of the facet.
+    pub fn read(path: &Path) -> Result<(Self, Option<usize>), String> {
+        Self::welded(read(path)?, &path.display().to_string())
+    }
+
+    /// The same surface from the bytes of a file; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// If it is damaged, declares more than it holds, or holds no triangles.
+    pub fn from_stl(bytes: Vec<u8>, name: &str) -> Result<Self, String> {
+        Ok(Self::welded(parse(bytes, name)?, name)?.0)
+    }
+
+    /// Facets of which corners are one after welding are lines, and left out.
+    fn welded(surface: Surface, name: &str) -> Result<(Self, Option<usize>), String> {
+        let [low, high] = bounds(surface.triangles.iter().flatten());
+        let extent = minus(&high, &low).into_iter().fold(0.0, f64::max);
+        let mut welder = Welder::within(SAME_CORNER * extent);
+        for corners in surface.triangles {
+            welder.triangle(corners);
+        }
+        let mut facets = welder.finish();
+        let lines = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
+        facets.triangles.retain(|t| !lines(t));
+        match facets.triangles.is_empty() {
+            true => Err(format!("`{name}` holds no facets with an area")),
+            false => Ok((facets, surface.odd)),
+        }
+    }
+
+    /// The same surface with the fluid on the other side.
+    pub fn flipped(mut self) -> Self {
+        self.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+        self
+    }
+
+    /// Volume that a closed surface encloses, m³, positive if its normals point outwards.
+    pub fn volume(&self) -> f64 {
+        let Some(&o) = self.points.first() else {
+            return 0.0;
+        };
+        let sixfold = |t: &[u32; 3]| {
+            let [a, b, c] = self.corners(t).map(|x| minus(&x, &o));
+            dot(&a, &cross(&b, &c))
+        };
+        self.triangles.iter().map(sixfold).sum::<f64>() / 6.0
+    }
+
+    /// Area, m².
+    pub fn area(&self) -> f64 {
+        self.areas().sum()
+    }
+
+    /// Area of every triangle, m².
+    pub(crate) fn areas(&self) -> impl Iterator<Item = f64> {
+        self.triangles.iter().map(|t| {
+            let [a, b, c] = self.corners(t);
+            let normal = cross(&minus(&b, &a), &minus(&c, &a));
+            0.5 * dot(&normal, &normal).sqrt()
+        })
+    }
+
+    /// Lower and upper corner of the box around the points.
+    pub fn bounds(&self) -> [[f64; 3]; 2] {
+        bounds(&self.points)
+    }
+
+    /// Places of the corners of a triangle.
+    pub fn corners(&self, triangle: &[u32; 3]) -> [[f64; 3]; 3] {
+        triangle.map(|k| self.points[k as usize])
+    }
+
+    /// Which way the surface faces, from ½, outwards, to −½, inwards; near 0 there is no inside.
+    ///
+    /// The area's mean of the winding number between the two sides of the surface, which is ±½ of a closed one and less of an
+    /// open one, since its opening is seen from everywhere.
+    pub fn sense(&self) -> f64 {
+        let winding = Winding::new(self.triangles.iter().map(|t| self.corners(t)).collect());
+        let step = self.area() / ASKED.min(self.triangles.len()) as f64;
+        let (mut passed, mut asked, mut sum) = (0.0, 0.0, 0.0);
+        for (triangle, area) in self.triangles.iter().zip(self.areas()) {
+            passed += area;
+            if passed >= (asked + 0.5) * step {
+                let [a, b, c] = self.corners(triangle);
+                let times = (passed / step + 0.5).floor() - asked;
+                let centre = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
+                sum += times * winding.at(&centre);
+                asked += times;
+            }
+        }
+        sum / f64::max(asked, 1.0)
+    }
+}
+
+fn bounds<'a>(points: impl IntoIterator<Item = &'a [f64; 3]>) -> [[f64; 3]; 2] {
+    let mut found = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for x in points {
+        found[0] = std::array::from_fn(|k| found[0][k].min(x[k]));
+        found[1] = std::array::from_fn(|k| found[1][k].max(x[k]));
+    }
+    found
+}
