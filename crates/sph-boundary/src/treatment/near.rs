@@ -29,6 +29,8 @@ pub(crate) struct NearLists<const D: usize, N> {
     pub version: u64,
     /// Particles with an element near, ascending.
     pub particles: Vec<u32>,
+    /// Places of `particles`, ascending, and the shells that they are behind at the present positions.
+    pub behind: Vec<(u32, u32)>,
     /// Of every particle.
     rows: Vec<Row<D>>,
     /// Whose rows these are.
@@ -38,7 +40,7 @@ pub(crate) struct NearLists<const D: usize, N> {
     travelled: f64,
     /// Places of the nodes at the last build, m; empty where no wall ever moves.
     nodes: Vec<Vect<D>>,
-    /// Kept for their memory.
+    /// Kept for its memory.
     room: Room<D, N>,
 }
 
@@ -48,7 +50,6 @@ struct Room<const D: usize, N> {
     sorted: Vec<Row<D>>,
     stale: Vec<u32>,
     found: Vec<Found<D, N>>,
-    close: Vec<Vect<D>>,
 }
 
 /// What one task has found.
@@ -93,6 +94,7 @@ impl<const D: usize, N> Default for NearLists<D, N> {
             built_for: 0,
             version: 0,
             particles: Vec::new(),
+            behind: Vec::new(),
             rows: Vec::new(),
             identities: Vec::new(),
             elements: Vec::new(),
@@ -102,7 +104,6 @@ impl<const D: usize, N> Default for NearLists<D, N> {
                 sorted: Vec::new(),
                 stale: Vec::new(),
                 found: Vec::new(),
-                close: Vec::new(),
             },
         }
     }
@@ -137,19 +138,17 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
         let positions = &world.lists.reference;
         let identities = world.free.get(fields::IDENTITY).ok();
         let moves = outline.moves();
+        // Places are of these lists.
+        self.behind.clear();
         let search = |mesh: &M| {
             if moves {
                 self.travel(mesh.points().map(|p| p.position).collect());
             }
             self.follow(identities, positions.len());
             self.search(mesh, positions, radius, skin);
-            let close = self.particles.iter().map(|&p| positions[p as usize]);
-            self.room.close.clear();
-            self.room.close.extend(close);
-            mesh.check_free_ends(&self.room.close, support)
         };
         let searched = outline.at_lists(world.lists.time, search);
-        searched.and_then(|checked| checked).map_err(stage_error)
+        searched.map_err(stage_error)
     }
 
     /// Adds how far the nodes have moved since the last build.
