@@ -9,4 +9,5 @@ pub(crate) mod moving;
 pub(crate) mod near;
 pub(crate) mod outline;
 pub(crate) mod shepard;
+pub(crate) mod unveiling;
 pub(crate) mod usaw;

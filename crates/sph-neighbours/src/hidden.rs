@@ -16,6 +16,11 @@ impl Blocked {
         Blocked { pairs }
     }
 
+    /// All pairs, ascending.
+    pub fn pairs(&self) -> &[[u32; 2]] {
+        &self.pairs
+    }
+
     /// Whether all see each other.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {

@@ -10,6 +10,8 @@ const LEAST: f64 = 0.01;
 pub struct Shells {
     /// By element, from 1 on; 0 where the wall is closed. Empty where all are.
     of: Vec<u32>,
+    /// By element: whether it is at a free end.
+    rim: Vec<bool>,
 }
 
 impl Shells {
@@ -33,25 +35,34 @@ impl Shells {
                 parent[a.max(b)] = a.min(b);
             }
         }
-        let mut number = vec![0; nodes];
+        let (mut number, mut ends) = (vec![0; nodes], vec![false; nodes]);
         let mut shells = 0;
         for node in free {
+            ends[node] = true;
             let of = &mut number[root(&mut parent, node)];
             if *of == 0 {
                 shells += 1;
                 *of = shells;
             }
         }
-        let of = match shells {
-            0 => Vec::new(),
-            _ => elements.map(|e| number[root(&mut parent, e[0])]).collect(),
-        };
-        Shells { of }
+        if shells == 0 {
+            return Shells::default();
+        }
+        let rim = elements.clone().map(|e| e.iter().any(|node| ends[*node]));
+        Shells {
+            rim: rim.collect(),
+            of: elements.map(|e| number[root(&mut parent, e[0])]).collect(),
+        }
     }
 
     /// Whether there is any.
     pub fn any(&self) -> bool {
         !self.of.is_empty()
+    }
+
+    /// Whether an element is at a free end.
+    pub fn is_rim(&self, element: usize) -> bool {
+        self.rim.get(element).is_some_and(|rim| *rim)
     }
 
     /// Number of the shell of an element, 0 if it is on none.

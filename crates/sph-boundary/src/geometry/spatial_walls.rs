@@ -67,7 +67,7 @@ impl WallMesh<3> for SpatialWalls {
         }
         let mesh = TriangleMesh::build(&surfaces, &groups(walls), spacing, domain)?;
         let triangles = mesh.triangles().iter().map(|t| t.nodes);
-        let free = mesh.free_edges().iter().map(|edge| edge.nodes[0]);
+        let free = mesh.free_edges().iter().flat_map(|edge| edge.nodes);
         Ok(SpatialWalls {
             shells: Shells::new(triangles, mesh.nodes().len(), free),
             grid: OnceLock::new(),

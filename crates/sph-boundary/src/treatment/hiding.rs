@@ -1,29 +1,30 @@
 //! Whom walls that end freely hide from those behind them.
 
-use sph_core::{StepError, Vect, fields};
+use sph_core::Vect;
 use sph_neighbours::{Blocked, Hidden, World};
 
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 
 impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
-    /// Pairs with a shell between them: particles that are behind it, and all that the way to them leads through it; its
-    /// elements and points.
+    /// Pairs with a shell between them, where particles are `at`: those that are `behind` it and all that the way to them leads
+    /// through it, its elements and its points.
     pub fn hidden<M: WallMesh<D, Near = N>>(
         &self,
         mesh: &M,
         world: &World<D>,
-    ) -> Result<Hidden, StepError> {
-        let positions = world.free.get(fields::POSITION)?;
+        behind: &[(u32, u32)],
+        at: impl Fn(usize) -> Vect<D>,
+    ) -> Hidden {
         let support2 = world.kernel.support_radius().powi(2);
         let [mut particles, mut points, mut at_points, mut at_elements] = [const { Vec::new() }; 4];
-        for &(place, shell) in &self.behind {
+        for &(place, shell) in behind {
             let particle = self.particles[place as usize];
-            let x = &positions[particle as usize];
+            let x = &at(particle as usize);
             let row = self.row(place as usize).iter();
             let own = row.filter(|near| mesh.shells().of(mesh.element(**near)) == shell);
             for &other in world.lists.free.candidates(particle as usize) {
-                let way: Vect<D> = world.domain.nearest_image(positions[other as usize] - x);
+                let way: Vect<D> = world.domain.nearest_image(at(other as usize) - x);
                 let near = other != particle && way.norm_squared() < support2;
                 if near && own.clone().any(|near| mesh.is_crossed(*near, x, &way)) {
                     particles.extend([[particle, other], [other, particle]]);
@@ -40,12 +41,12 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
                 }
             }
         }
-        Ok(Hidden {
+        Hidden {
             particles: Blocked::of(particles),
             points: Blocked::of(points),
             at_points: Blocked::of(at_points),
             at_elements: Blocked::of(at_elements),
-        })
+        }
     }
 
     /// The shells that the particle at a place of `particles` is behind.

@@ -29,6 +29,8 @@ pub(crate) struct NearLists<const D: usize, N> {
     pub version: u64,
     /// Particles with an element near, ascending.
     pub particles: Vec<u32>,
+    /// Places of `particles` that may see a free end, ascending.
+    pub rims: Vec<u32>,
     /// Places of `particles`, ascending, and the shells that they are behind at the present positions.
     pub behind: Vec<(u32, u32)>,
     /// Of every particle.
@@ -94,6 +96,7 @@ impl<const D: usize, N> Default for NearLists<D, N> {
             built_for: 0,
             version: 0,
             particles: Vec::new(),
+            rims: Vec::new(),
             behind: Vec::new(),
             rows: Vec::new(),
             identities: Vec::new(),
@@ -146,9 +149,22 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             }
             self.follow(identities, positions.len());
             self.search(mesh, positions, radius, skin);
+            self.find_rims(mesh);
         };
         let searched = outline.at_lists(world.lists.time, search);
         searched.map_err(stage_error)
+    }
+
+    /// Finds those with an element at a free end near.
+    fn find_rims<M: WallMesh<D, Near = N>>(&mut self, mesh: &M) {
+        let mut rims = std::mem::take(&mut self.rims);
+        rims.clear();
+        if mesh.shells().any() {
+            let at_rim = |near: &N| mesh.shells().is_rim(mesh.element(*near));
+            let sees = |place: &u32| self.row(*place as usize).iter().any(at_rim);
+            rims.extend((0..self.particles.len() as u32).filter(sees));
+        }
+        self.rims = rims;
     }
 
     /// Adds how far the nodes have moved since the last build.

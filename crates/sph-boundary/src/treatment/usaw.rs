@@ -320,7 +320,9 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             }
         }
         world.free.put(fields::RENORMALISATION, renormalisation)?;
-        world.lists.hidden = set_up.near.hidden(&set_up.outline.mesh, world)?;
+        let (near, positions) = (&set_up.near, world.free.get(fields::POSITION)?);
+        let mesh = &set_up.outline.mesh;
+        world.lists.hidden = near.hidden(mesh, world, &near.behind, |k| positions[k]);
         Ok(())
     }
 
@@ -329,7 +331,9 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         // Heights over the planes of all elements in reach bound the distances from below.
         let clearance = |place: usize| set_up.clearance.get(place).copied().unwrap_or(0.0);
         let (near, outline) = (&set_up.near, &set_up.outline);
-        set_up.outline.struck = near.constrain(outline, world, dt, clearance)?;
+        let struck = near.constrain(outline, world, dt, clearance)?;
+        near.unveil(outline, &set_up.integrals, world, dt)?;
+        set_up.outline.struck = struck;
         Ok(())
     }
 
