@@ -23,7 +23,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             let x = &at(particle as usize);
             let row = self.row(place as usize).iter();
             let own = row.filter(|near| mesh.shells().of(mesh.element(**near)) == shell);
-            for &other in world.lists.free.candidates(particle as usize) {
+            for other in self.around(world, particle) {
                 let way: Vect<D> = world.domain.nearest_image(at(other as usize) - x);
                 let near = other != particle && way.norm_squared() < support2;
                 if near && own.clone().any(|near| mesh.is_crossed(*near, x, &way)) {
@@ -47,6 +47,16 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             at_points: Blocked::of(at_points),
             at_elements: Blocked::of(at_elements),
         }
+    }
+
+    /// Whom a particle may have within its support; all where nobody looked, because no sum of its is asked for.
+    fn around<'a>(&self, world: &'a World<D>, particle: u32) -> impl Iterator<Item = u32> + 'a {
+        let listed = world.lists.free.candidates(particle as usize);
+        let all = match listed.is_empty() {
+            true => 0..world.free.len() as u32,
+            false => 0..0,
+        };
+        listed.iter().copied().chain(all)
     }
 
     /// The shells that the particle at a place of `particles` is behind.
