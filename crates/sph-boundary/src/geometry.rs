@@ -3,6 +3,7 @@
 pub(crate) mod checks;
 pub(crate) mod cover;
 pub(crate) mod drawing;
+pub(crate) mod faces;
 pub(crate) mod grid;
 pub(crate) mod inside;
 pub(crate) mod lattice_layers;
@@ -13,6 +14,7 @@ pub(crate) mod planar;
 pub(crate) mod plate;
 pub(crate) mod polyline;
 pub(crate) mod segment_distance;
+pub(crate) mod shells;
 pub(crate) mod sides;
 pub(crate) mod spatial_walls;
 pub(crate) mod surface;

@@ -84,6 +84,7 @@ pub use geometry::periodic::PeriodicBox;
 pub use geometry::planar::PlanarWalls;
 pub use geometry::plate::thin_plate;
 pub use geometry::polyline::Polyline;
+pub use geometry::shells::{Gammas, Shells};
 pub use geometry::spatial_walls::SpatialWalls;
 pub use geometry::surface::{
     Closest, Face, FaceEdge, Feature, FreeEdge, NearTriangle, Node, Opening, SeenTriangle, Surface,

@@ -3,9 +3,11 @@
 pub(crate) mod contact;
 pub(crate) mod contract;
 pub(crate) mod dummy;
+pub(crate) mod hiding;
 pub(crate) mod impact;
 pub(crate) mod moving;
 pub(crate) mod near;
 pub(crate) mod outline;
 pub(crate) mod shepard;
+pub(crate) mod unveiling;
 pub(crate) mod usaw;

@@ -10,7 +10,7 @@ use crate::lane_pair::LanePair;
 use crate::lane_vector::minus;
 use crate::members::Members;
 use crate::separation::Distances;
-use crate::{Contacts, Domain, Neighbourhood, Row, Scratch, There};
+use crate::{Blocked, Contacts, Domain, Neighbourhood, Row, Scratch, There};
 
 /// A few particles that follow each other, with distances and kernel gradients for all whom they may have as neighbours.
 pub struct Cluster<'a, const D: usize> {
@@ -64,6 +64,7 @@ impl<const D: usize> Buffers<D> {
         members: Members<'_>,
         positions: &[Vect<D>],
         domain: Option<&Domain<D>>,
+        hidden: &Blocked,
         kernel: &K,
     ) {
         let out = &mut self.distance2;
@@ -76,6 +77,7 @@ impl<const D: usize> Buffers<D> {
                 out,
             },
         );
+        hidden.part(members, width.lanes(), &mut self.distance2);
         let needed = members.candidates.len() * width.lanes();
         if self.factor.len() < needed {
             self.factor.resize(needed.next_power_of_two(), 0.0);

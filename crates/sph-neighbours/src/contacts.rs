@@ -46,6 +46,14 @@ impl<const D: usize> ContactBlock<D> {
         self.runs.len() as u32
     }
 
+    /// Forgets all planes but the first ones.
+    pub fn truncate(&mut self, planes: u32) {
+        self.runs.truncate(planes as usize);
+        let end = self.runs.last().map_or(0, |run| run.to as usize);
+        self.elements.truncate(end);
+        self.weights.truncate(end);
+    }
+
     /// Adds those elements of a plane whose share of ∇γ is not 0: the inward unit normal, the distance of the particle from
     /// the plane, m, and |∇γ_as| of each element, 1/m.
     #[inline(always)]

@@ -12,7 +12,7 @@ use crate::list::{CHUNK, make_room};
 use crate::members::{Members, groups};
 use crate::separation::Distances;
 use crate::sweep::wrapping;
-use crate::{Clusters, Domain, World};
+use crate::{Blocked, Clusters, Domain, World};
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d.
 ///
@@ -30,6 +30,7 @@ pub fn kernel_sums<const D: usize>(
     let points = &world.walls.points;
     let kernel = &*world.kernel;
     let own = kernel.value_at_zero();
+    let (blocked, unseen) = (&world.lists.hidden.particles, &world.lists.hidden.points);
     let limit = kernel.support_radius().powi(2);
     let width = width();
     let cluster = |room: &mut Room, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
@@ -53,6 +54,7 @@ pub fn kernel_sums<const D: usize>(
             let values = &mut room.lanes;
             let needed = members.candidates.len() * width.lanes();
             values.reserve(needed);
+            blocked.part(members, width.lanes(), &mut values.distance2);
             let distance2 = &values.distance2[..needed];
             let value = &mut values.value[..needed];
             kernel.value(distance2, value);
@@ -76,7 +78,8 @@ pub fn kernel_sums<const D: usize>(
                 if !row.is_empty() {
                     let values = &mut room.row;
                     let w = values.fill(&positions[i], &points.position, row, domain(i), kernel);
-                    let shares = row.iter().map(|&v| points.share[v as usize]);
+                    let seen = |v: u32| f64::from(!unseen.has(i, v));
+                    let shares = row.iter().map(|&v| seen(v) * points.share[v as usize]);
                     *sum += w
                         .iter()
                         .zip(shares)
@@ -164,14 +167,14 @@ pub trait TargetMean<const D: usize, const K: usize>: Sync {
 
 /// Leaves in `out` what a mean is at every target.
 ///
-/// Each sums its particles in the order of their indices, whatever the number of lanes.
+/// Each sums its particles in the order of their indices, whatever the number of lanes; `hidden` tells whom it does not see.
 ///
 /// # Errors
 /// If the world has no positions.
 pub fn shepard<const D: usize, const K: usize, M: TargetMean<D, K>>(
     world: &World<D>,
     targets: &[Vect<D>],
-    list: &Clusters,
+    (list, hidden): (&Clusters, &Blocked),
     mean: &M,
     out: &mut Vec<M::Mean>,
 ) -> Result<(), StepError> {
@@ -205,6 +208,7 @@ pub fn shepard<const D: usize, const K: usize, M: TargetMean<D, K>>(
                 };
                 let n = dispatch_at(width, body);
                 let inside = &inside[..n];
+                hidden.part(members.with(inside), width.lanes(), &mut values.distance2);
                 let needed = inside.len() * width.lanes();
                 let value = &mut values.value[..needed];
                 kernel.value(&values.distance2[..needed], value);

@@ -23,6 +23,7 @@ mod domain;
 mod fuse;
 mod grid;
 mod half;
+mod hidden;
 mod keep_couplings;
 mod kernel_sums;
 mod kernels;
@@ -65,6 +66,7 @@ pub use fuse::{
 };
 pub use grid::{CellGrid, Extent};
 pub use half::{Half, is_wanted};
+pub use hidden::{Blocked, Hidden};
 pub use keep_couplings::{Keeper, Rows as CouplingRows, Tally, Weak};
 pub use kernel_sums::{InMemory, TargetMean, in_memory, kernel_sums, loaded, shepard};
 pub use kernels::KernelEntry;

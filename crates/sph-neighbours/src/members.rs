@@ -13,6 +13,13 @@ pub(crate) struct Members<'a> {
     pub candidates: &'a [u32],
 }
 
+impl<'a> Members<'a> {
+    /// The same with other candidates.
+    pub fn with(self, candidates: &'a [u32]) -> Self {
+        Members { candidates, ..self }
+    }
+}
+
 /// Members of a cluster in groups of at most as many as there are lanes.
 pub(crate) fn groups(members: Members<'_>, lanes: usize) -> impl Iterator<Item = Members<'_>> {
     let step = lanes.min(MOST);

@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_kernels::Sampler;
 
-use crate::{ContactRow, Domain};
+use crate::{Blocked, ContactRow, Domain};
 
 /// Pairs of one particle with one set of sources, inside the support only.
 #[derive(Clone, Copy, Debug)]
@@ -204,6 +204,23 @@ impl<const D: usize> Scratch<D> {
             kept.len += 1;
         }
         kept
+    }
+
+    /// Takes out the sources that a particle does not see.
+    #[inline(always)]
+    pub(crate) fn hide(&mut self, hidden: &Blocked, particle: usize) {
+        if hidden.is_empty() {
+            return;
+        }
+        let mut n = 0;
+        for k in 0..self.len {
+            self.index[n] = self.index[k];
+            self.separation[n] = self.separation[k];
+            self.distance2[n] = self.distance2[k];
+            self.factor[n] = self.factor[k];
+            n += usize::from(!hidden.has(particle, self.index[k]));
+        }
+        self.len = n;
     }
 
     /// Forgets the row.

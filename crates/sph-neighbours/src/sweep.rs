@@ -324,6 +324,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         members: Members<'b>,
     ) -> Cluster<'b, D> {
         let world = self.world;
+        let hidden = &world.lists.hidden;
         let own = members.from..members.from + members.count;
         let mut domain = None;
         for (i, row) in own.zip(&mut buffers.walls) {
@@ -335,10 +336,12 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
                 let candidates = world.lists.wall.row(i);
                 if !candidates.is_empty() {
                     row.fill(x, self.points, candidates, NOBODY, near, self.kernel);
+                    row.hide(&hidden.points, i);
                 }
             }
         }
-        buffers.measure(self.width, members, self.positions, domain, self.kernel);
+        let (positions, blocked) = (self.positions, &hidden.particles);
+        buffers.measure(self.width, members, positions, domain, blocked, self.kernel);
         Cluster {
             width: self.width,
             members,

@@ -57,6 +57,8 @@ impl<'w, const D: usize> Surroundings<'w, D> {
         let (candidates, own) = (self.lists.candidates(particle), particle as u32);
         rows.free
             .fill(x, self.position, candidates, own, domain, kernel);
+        let hidden = &world.lists.hidden;
+        rows.free.hide(&hidden.particles, particle);
         rows.wall.clear();
         if world.walls.points.in_sums() {
             let points = &world.walls.points.position[..];
@@ -64,6 +66,7 @@ impl<'w, const D: usize> Surroundings<'w, D> {
             if !candidates.is_empty() {
                 rows.wall
                     .fill(x, points, candidates, NOBODY, domain, kernel);
+                rows.wall.hide(&hidden.points, particle);
             }
         }
         Neighbourhood {

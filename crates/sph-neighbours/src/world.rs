@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sph_core::{AnyField, Field, FieldError, Lent, Scalar, Shelf, Store, Vect, fields};
 use sph_kernels::Sampler;
 
-use crate::{CellGrid, Clusters, Domain, Extent, Half, NeighbourList, Team, WallSet};
+use crate::{CellGrid, Clusters, Domain, Extent, Half, Hidden, NeighbourList, Team, WallSet};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
 #[derive(Default)]
@@ -28,6 +28,8 @@ pub struct Lists<const D: usize> {
     /// Positions of the free particles at the last build, m.
     pub reference: Vec<Vect<D>>,
     reference_points: Vec<Vect<D>>,
+    /// Pairs that walls hide from each other; of nobody until the walls say so at the present positions.
+    pub hidden: Hidden,
     /// Which particles a sweep is asked for, where it runs in halves.
     pub half: Option<Half>,
     /// Builds so far.
@@ -241,6 +243,8 @@ impl<const D: usize> World<D> {
         lists.reference = positions;
         lists.time = time;
         lists.builds += 1;
+        // The particles may have been sorted.
+        lists.hidden = Hidden::default();
     }
 
     fn build_lists_on(&mut self, shelf: &Shelf, positions: &[Vect<D>], points: &[Vect<D>]) {

@@ -40,6 +40,10 @@ impl<const D: usize> Wall<D> for OpenWalls<D> {
         self.walls.clearance(point, within)
     }
 
+    fn ends_freely(&self) -> bool {
+        self.walls.ends_freely()
+    }
+
     fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {
         self.walls.check_free_ends(points)
     }

@@ -9,6 +9,7 @@ use sph_neighbours::ContactBlock;
 use crate::geometry::checks::check_points;
 use crate::geometry::layers::layers;
 use crate::geometry::segment_distance::distance_squared;
+use crate::geometry::shells::{Gammas, ShellSums, Shells};
 use crate::geometry::touching::without_shared;
 use crate::geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
 use crate::treatment::outline::groups;
@@ -26,6 +27,7 @@ pub struct PlanarWalls {
     reach: f64,
     spacing: f64,
     names: Vec<String>,
+    shells: Shells,
     /// The wall of every polyline of the mesh.
     pub(crate) wall_of: Vec<usize>,
 }
@@ -47,10 +49,17 @@ impl PlanarWalls {
     }
 
     /// Where a segment keeps a particle off.
-    fn hindrance(&self, x: &Vect<2>, near: NearSegment, reach: f64) -> Option<Hindrance<2>> {
+    fn hindrance(
+        &self,
+        (x, behind): (&Vect<2>, &[(u32, u32)]),
+        near: NearSegment,
+        reach: f64,
+    ) -> Option<Hindrance<2>> {
         let segment = self.segment(near.segment);
         let [start, end] = self.mesh.seen_from([x[0], x[1]], near).map(Vect::from);
-        let normal = Vect::from(segment.normal);
+        let shell = self.shells.of(near.segment);
+        let turned = behind.iter().any(|(_, s)| *s == shell);
+        let normal = Vect::from(segment.normal) * if turned { -1.0 } else { 1.0 };
         // Only from the fluid's side: the far face of a plate is none of its business.
         let height = -start.dot(&normal);
         if height <= 0.0 || height > reach {
@@ -86,13 +95,18 @@ impl PlanarWalls {
                 ahead < 0.0
             }
         });
+        let theta = if turned {
+            1.0 - vertex.theta
+        } else {
+            vertex.theta
+        };
         match over_next {
             false => Some(Hindrance {
                 away: round,
                 distance,
                 ..plane
             }),
-            true if vertex.theta > 0.5 + 1e-9 => None,
+            true if theta > 0.5 + 1e-9 => None,
             true => Some(Hindrance {
                 only_if: Some((round, distance)),
                 ..plane
@@ -131,7 +145,10 @@ impl WallMesh<2> for PlanarWalls {
         let mut mesh = SegmentMesh::build(&lines, spacing, domain)?;
         mesh.bend_by(wall_of.iter().map(|w| walls[*w].motion.clone()).collect());
         let names = walls.iter().map(|w| w.drawing.name().to_string()).collect();
+        let lines = mesh.segments().iter().map(|s| s.vertices);
+        let free = mesh.free_ends().iter().map(|end| end.vertex);
         Ok(PlanarWalls {
+            shells: Shells::new(lines, mesh.vertices().len(), free),
             grid: OnceLock::new(),
             mesh,
             reach,
@@ -203,26 +220,6 @@ impl WallMesh<2> for PlanarWalls {
         }
     }
 
-    fn gamma(
-        &self,
-        integrals: &Renormalisation2d,
-        point: &Vect<2>,
-        row: &[NearSegment],
-        room: &mut SegmentBatch,
-        contacts: &mut ContactBlock<2>,
-    ) -> f64 {
-        let mut found = Vec::with_capacity(1);
-        self.gammas(
-            integrals,
-            std::iter::once((point, row)),
-            room,
-            contacts,
-            &mut found,
-        );
-        found[0].0
-    }
-
-    /// The segments of all points side by side: a point alone sees too few to fill vectors.
     fn clearance(&self, point: &Vect<2>, near: &[NearSegment]) -> f64 {
         let heights = near.iter().map(|near| {
             let [start, _] = self.mesh.seen_from([point[0], point[1]], *near);
@@ -232,13 +229,14 @@ impl WallMesh<2> for PlanarWalls {
         heights.filter(|h| *h > 0.0).fold(f64::INFINITY, f64::min)
     }
 
+    /// The segments of all points side by side: a point alone sees too few to fill vectors.
     fn gammas<'a>(
         &self,
         integrals: &Renormalisation2d,
         points: impl Iterator<Item = (&'a Vect<2>, &'a [NearSegment])>,
         batch: &mut SegmentBatch,
         contacts: &mut ContactBlock<2>,
-        found: &mut Vec<(f64, u32)>,
+        found: &mut Gammas,
     ) {
         batch.clear();
         for (point, row) in points {
@@ -251,33 +249,71 @@ impl WallMesh<2> for PlanarWalls {
         }
         integrals.weigh(batch);
         let mut from = 0;
+        let mut sides = ShellSums::default();
         for &end in &batch.ends {
             let mut sum = GammaSum::default();
+            let planes = contacts.planes();
+            sides.clear();
             for k in from..end {
                 let (element, distance) = batch.seen[k];
                 let segment = self.segment(element as usize);
                 let integral = integrals.weighed(batch, k);
                 sum.add(&integral, segment);
+                sides.add(self.shells.of(element as usize), integral.gamma);
                 if integral.kernel != 0.0 {
                     let share = std::iter::once((element, integral.kernel));
                     contacts.push(segment.normal.into(), distance, share);
                 }
             }
-            found.push((sum.gamma(), contacts.planes()));
+            let touches = sum.contact_fraction > 0.0;
+            match sides.gamma(sum.signed_sum).filter(|_| !touches) {
+                None => found.push(sum.gamma(), contacts.planes(), &ShellSums::default()),
+                Some(gamma) => {
+                    contacts.truncate(planes);
+                    for k in from..end {
+                        let (element, distance) = batch.seen[k];
+                        let shell = self.shells.of(element as usize);
+                        let kernel = integrals.weighed(batch, k).kernel;
+                        if kernel != 0.0 && sides.behind().all(|(s, _)| s != shell) {
+                            let normal = self.segment(element as usize).normal;
+                            contacts.push(
+                                normal.into(),
+                                distance,
+                                std::iter::once((element, kernel)),
+                            );
+                        }
+                    }
+                    found.push(gamma, contacts.planes(), &sides);
+                }
+            }
             from = end;
         }
     }
 
+    fn shells(&self) -> &Shells {
+        &self.shells
+    }
+
+    fn element(&self, near: NearSegment) -> usize {
+        near.segment
+    }
+
+    fn is_crossed(&self, near: NearSegment, point: &Vect<2>, by: &Vect<2>) -> bool {
+        let [a, b] = self.mesh.seen_from((*point).into(), near).map(Vect::from);
+        let along: Vect<2> = b - a;
+        by.perp(&a) * by.perp(&b) <= 0.0 && along.perp(&-a) * along.perp(&(by - a)) <= 0.0
+    }
+
     fn hindrances(
         &self,
-        point: &Vect<2>,
+        of: (&Vect<2>, &[(u32, u32)]),
         near: &[NearSegment],
         reach: f64,
         hindrances: &mut Vec<Hindrance<2>>,
     ) {
         hindrances.extend(
             near.iter()
-                .filter_map(|near| self.hindrance(point, *near, reach)),
+                .filter_map(|near| self.hindrance(of, *near, reach)),
         );
     }
 

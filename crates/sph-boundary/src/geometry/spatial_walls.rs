@@ -6,83 +6,26 @@ use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
+use crate::geometry::faces::{Corner, Planes};
+use crate::geometry::shells::{Gammas, ShellSums, Shells};
 use crate::geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
-use crate::integrals::spatial::{Circle, Foot, Patch, Plane, Weights};
+use crate::integrals::spatial::Weights;
 use crate::treatment::outline::groups;
 use crate::{
-    BoundaryError, Closest, Drawing, FaceEdge, Feature, GammaSum3d, NearTriangle, PeriodicBox,
-    Pose, Renormalisation3d, SeenTriangle, Surface, TriangleGrid, TriangleMesh, WallSpec,
+    BoundaryError, Closest, Drawing, Feature, NearTriangle, PeriodicBox, Pose, Renormalisation3d,
+    SeenTriangle, Surface, TriangleGrid, TriangleMesh, WallSpec,
 };
 
 /// Surfaces remeshed at the particle spacing, with the grid that finds their triangles.
 #[derive(Debug)]
 pub struct SpatialWalls {
-    mesh: TriangleMesh,
+    pub(crate) mesh: TriangleMesh,
     /// Of the present position, made when somebody asks.
     grid: OnceLock<TriangleGrid>,
-    planes: Planes,
+    pub(crate) planes: Planes,
+    pub(crate) shells: Shells,
     reach: f64,
-    domain: PeriodicBox<3>,
-}
-
-/// The faces as planes, and the triangles in them.
-#[derive(Debug, Default)]
-struct Planes {
-    planes: Vec<Plane>,
-    /// By face: one more than its last triangle.
-    ends: Vec<u32>,
-    /// By face: its edges, with the corners at hand.
-    edges: Vec<Vec<[Corner; 2]>>,
-    /// By triangle: its face.
-    faces: Vec<u32>,
-    /// By triangle.
-    patches: Vec<Patch>,
-    /// By triangle.
-    circles: Vec<Circle>,
-}
-
-/// A corner of a face.
-#[derive(Clone, Copy, Debug)]
-struct Corner {
-    /// Of its node, m.
-    position: Vect<3>,
-    /// Whole periods to add.
-    image: [i32; 3],
-}
-
-impl Corner {
-    fn new(mesh: &TriangleMesh, node: usize, image: [i32; 3]) -> Self {
-        let position = mesh.nodes()[node].position.into();
-        Corner { position, image }
-    }
-}
-
-impl Planes {
-    /// For the present position of the walls.
-    fn new(mesh: &TriangleMesh) -> Self {
-        let mut all = Self::default();
-        for face in mesh.faces() {
-            let corner = |e: &FaceEdge, k: usize| Corner::new(mesh, e.nodes[k], e.images[k]);
-            let edges = face.edges.iter().map(|e| [corner(e, 0), corner(e, 1)]);
-            all.edges.push(edges.collect());
-        }
-        // Triangles are stored face by face.
-        for (t, triangle) in mesh.triangles().iter().enumerate() {
-            let corners = mesh.corners(t);
-            if all.planes.len() <= triangle.face {
-                let plane = Plane::new(corners[0], triangle.normal);
-                all.planes.resize(triangle.face + 1, plane);
-                all.ends.resize(triangle.face + 1, t as u32);
-            }
-            all.ends[triangle.face] = t as u32 + 1;
-            let plane = &all.planes[triangle.face];
-            let (patch, circle) = Patch::new(plane, corners, triangle.area);
-            all.patches.push(patch);
-            all.circles.push(circle);
-            all.faces.push(triangle.face as u32);
-        }
-        all
-    }
+    pub(crate) domain: PeriodicBox<3>,
 }
 
 /// Two places nearer than this, relatively, are equally near.
@@ -98,46 +41,6 @@ impl SpatialWalls {
         let make = || TriangleGrid::build(&self.mesh, self.reach);
         self.grid.get_or_init(make)
     }
-
-    /// The triangles of a row, sorted by image and triangle, by face and image.
-    fn faces<'a>(
-        &'a self,
-        mut row: &'a [NearTriangle],
-    ) -> impl Iterator<Item = &'a [NearTriangle]> + 'a {
-        std::iter::from_fn(move || {
-            let first = row.first()?;
-            let end = self.planes.ends[self.planes.faces[first.triangle as usize] as usize];
-            let same = |n: &NearTriangle| n.image == first.image && n.triangle < end;
-            let (part, rest) = row.split_at(first_other(row, same));
-            row = rest;
-            Some(part)
-        })
-    }
-
-    /// A corner of an image of a face relative to a point, m: bitwise what
-    /// [`TriangleMesh::corners_from`] gives.
-    #[inline(always)]
-    fn seen(&self, corner: &Corner, image: [i8; 3], point: &Vect<3>) -> Vect<3> {
-        let from = corner.position - point;
-        if corner.image == [0; 3] && image == [0; 3] {
-            return from;
-        }
-        let shift = |k: usize| corner.image[k] + i32::from(image[k]);
-        from + Vect::from(self.domain.shift([shift(0), shift(1), shift(2)]))
-    }
-}
-
-/// Where a row that begins with what is alike goes on with others. Steps of a fixed size are foreseen by the processor, those
-/// of a bisection are not.
-#[inline(always)]
-fn first_other<T>(row: &[T], same: impl Fn(&T) -> bool) -> usize {
-    const STEP: usize = 16;
-    let mut from = 1;
-    while row.get(from + STEP).is_some_and(&same) {
-        from += STEP;
-    }
-    let others = row[from..].iter().position(|n| !same(n));
-    others.map_or(row.len(), |k| from + k)
 }
 
 impl WallMesh<3> for SpatialWalls {
@@ -163,7 +66,10 @@ impl WallMesh<3> for SpatialWalls {
             }
         }
         let mesh = TriangleMesh::build(&surfaces, &groups(walls), spacing, domain)?;
+        let triangles = mesh.triangles().iter().map(|t| t.nodes);
+        let free = mesh.free_edges().iter().flat_map(|edge| edge.nodes);
         Ok(SpatialWalls {
+            shells: Shells::new(triangles, mesh.nodes().len(), free),
             grid: OnceLock::new(),
             planes: Planes::new(&mesh),
             mesh,
@@ -242,66 +148,55 @@ impl WallMesh<3> for SpatialWalls {
         heights.filter(|h| *h > 0.0).fold(f64::INFINITY, f64::min)
     }
 
-    fn gamma(
+    fn gammas<'a>(
         &self,
         integrals: &Renormalisation3d,
-        point: &Vect<3>,
-        row: &[NearTriangle],
-        weights: &mut Weights,
+        points: impl Iterator<Item = (&'a Vect<3>, &'a [NearTriangle])>,
+        room: &mut Weights,
         contacts: &mut ContactBlock<3>,
-    ) -> f64 {
-        let radius = integrals.kernel_radius();
-        let mut sum = GammaSum3d::default();
-        for part in self.faces(row) {
-            let image = part[0].image;
-            let first = &self.mesh.triangles()[part[0].triangle as usize];
-            let normal = Vect::from(first.normal);
-            let corner = Corner::new(&self.mesh, first.nodes[0], first.images[0]);
-            let height = -self.seen(&corner, image, point).dot(&normal);
-            if height.abs() >= radius {
-                continue;
+        found: &mut Gammas,
+    ) {
+        let mut sides = ShellSums::default();
+        for of in points {
+            let planes = contacts.planes();
+            sides.clear();
+            let sum = self.see(integrals, of, room, contacts, (&mut sides, &[]));
+            let behind: Vec<u32> = sides.behind().map(|(shell, _)| shell).collect();
+            if !behind.is_empty() {
+                contacts.truncate(planes);
+                let again = &mut ShellSums::default();
+                self.see(integrals, of, room, contacts, (again, &behind));
             }
-            let unshifted = match image {
-                [0, 0, 0] => *point,
-                _ => point - Vect::from(self.domain.shift(image.map(i32::from))),
-            };
-            let foot = Foot {
-                place: self.planes.planes[first.face].foot(unshifted.into()),
-                height,
-                reach: (radius * radius - height * height).sqrt(),
-            };
-            let triangles = part.iter().map(|near| near.triangle);
-            if !weights.find(triangles, &self.planes.circles, &foot) {
-                continue;
-            }
-            let edges = self.planes.edges[first.face].iter().map(|[start, end]| {
-                let start = self.seen(start, image, point).into();
-                [start, self.seen(end, image, point).into()]
-            });
-            let whole = integrals.polygon(height, first.normal, edges);
-            sum.add(&whole, first.normal);
-            if whole.kernel == 0.0 {
-                continue;
-            }
-            weights.weigh(integrals, &self.planes.patches, &foot);
-            let (elements, weights) = weights.all();
-            let mut total = 0.0;
-            for weight in weights {
-                total += weight;
-            }
-            let scale = whole.kernel / total;
-            let share = |(&element, &weight): (&u32, &f64)| match weight > 0.0 {
-                true => (element, weight * scale),
-                false => (element, 0.0),
-            };
-            contacts.push(normal, height, elements.iter().zip(weights).map(share));
+            let gamma = sides.gamma(sum.signed_sum).unwrap_or_else(|| sum.gamma());
+            found.push(gamma, contacts.planes(), &sides);
         }
-        sum.gamma()
+    }
+
+    fn shells(&self) -> &Shells {
+        &self.shells
+    }
+
+    fn element(&self, near: NearTriangle) -> usize {
+        near.triangle as usize
+    }
+
+    fn is_crossed(&self, near: NearTriangle, point: &Vect<3>, by: &Vect<3>) -> bool {
+        let [a, b, c] = self
+            .mesh
+            .corners_from((*point).into(), near)
+            .map(Vect::from);
+        let normal = Vect::from(self.mesh.triangles()[near.triangle as usize].normal);
+        let here = a.dot(&normal);
+        if here * (here - by.dot(&normal)) > 0.0 {
+            return false;
+        }
+        let sides = [(a, b), (b, c), (c, a)].map(|(p, q): (Vect<3>, Vect<3>)| by.dot(&p.cross(&q)));
+        sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0)
     }
 
     fn hindrances(
         &self,
-        point: &Vect<3>,
+        (point, behind): (&Vect<3>, &[(u32, u32)]),
         row: &[NearTriangle],
         reach: f64,
         hindrances: &mut Vec<Hindrance<3>>,
@@ -314,7 +209,16 @@ impl WallMesh<3> for SpatialWalls {
                 let offset = Vect::from(closest.offset);
                 (near, closest, offset, offset.norm())
             })
-            .filter(|(_, closest, _, distance)| closest.height > 0.0 && *distance <= reach)
+            .filter(|(near, closest, _, distance)| {
+                let shell = self.shells.of(near.triangle as usize);
+                let turned = behind.iter().any(|(_, s)| *s == shell);
+                let before = if turned {
+                    closest.height < 0.0
+                } else {
+                    closest.height > 0.0
+                };
+                before && *distance <= reach
+            })
             .collect();
         for (near, closest, offset, distance) in &all {
             // A place on the rim of a triangle counts where it is the nearest of the wall around:

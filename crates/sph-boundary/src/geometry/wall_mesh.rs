@@ -4,7 +4,7 @@ use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
-use crate::{BoundaryError, PeriodicBox, Pose, WallSpec};
+use crate::{BoundaryError, Gammas, PeriodicBox, Pose, Shells, WallSpec};
 
 /// A node of the mesh.
 #[derive(Clone, Copy, Debug)]
@@ -126,32 +126,41 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         near: &[Self::Near],
         room: &mut Self::Room,
         contacts: &mut ContactBlock<D>,
-    ) -> f64;
+    ) -> f64 {
+        let mut found = Gammas::default();
+        let one = std::iter::once((point, near));
+        self.gammas(integrals, one, room, contacts, &mut found);
+        found.all[0].0
+    }
 
-    /// γ at points, each with the elements that may be within its support, and how many planes of contacts there are up to and
-    /// including its own.
+    /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely. What is
+    /// hidden behind such a shell is no contact.
     fn gammas<'a>(
         &self,
         integrals: &Self::Integrals,
         points: impl Iterator<Item = (&'a Vect<D>, &'a [Self::Near])>,
         room: &mut Self::Room,
         contacts: &mut ContactBlock<D>,
-        found: &mut Vec<(f64, u32)>,
-    ) {
-        for (point, near) in points {
-            let gamma = self.gamma(integrals, point, near, room, contacts);
-            found.push((gamma, contacts.planes()));
-        }
-    }
+        found: &mut Gammas,
+    );
+
+    /// Pieces that end freely.
+    fn shells(&self) -> &Shells;
+
+    /// Index of an element.
+    fn element(&self, near: Self::Near) -> usize;
+
+    /// Whether the way `by` from a point leads through an element.
+    fn is_crossed(&self, near: Self::Near, point: &Vect<D>, by: &Vect<D>) -> bool;
 
     /// Least height of a point over the planes of the elements near it, of those that it is in front of, m; infinite where there
     /// is none. No element is nearer.
     fn clearance(&self, point: &Vect<D>, near: &[Self::Near]) -> f64;
 
-    /// Where the walls keep a particle off, among the places nearer than `reach` metres.
+    /// Where the walls keep a particle off that is behind some shells, among the places nearer than `reach` metres.
     fn hindrances(
         &self,
-        point: &Vect<D>,
+        of: (&Vect<D>, &[(u32, u32)]),
         near: &[Self::Near],
         reach: f64,
         hindrances: &mut Vec<Hindrance<D>>,

@@ -119,6 +119,11 @@ pub trait Wall<const D: usize>: Send + Sync {
     /// Distance of a point from the nearest wall, m, and that wall's name, if nearer than `within`.
     fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)>;
 
+    /// Whether any wall ends freely: what goes over its end is outside.
+    fn ends_freely(&self) -> bool {
+        false
+    }
+
     /// Refuses points near the free end of an open wall.
     ///
     /// # Errors

@@ -195,7 +195,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
             walls: &points.velocity,
             slip: &set_up.slip,
         };
-        let list = &world.lists.of_points;
+        let list = (&world.lists.of_points, &world.lists.hidden.at_points);
         shepard(world, &points.position, list, &mean, &mut set_up.means)?;
         let points = &mut world.walls.points;
         for (v, &(pressure, velocity)) in set_up.means.iter().enumerate() {

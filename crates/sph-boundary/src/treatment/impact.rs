@@ -59,7 +59,8 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
                 if height(place) > 1.000_001 * danger {
                     return None;
                 }
-                let u = impact.corrected(&position[p], u, self.row(place));
+                let here = (&position[p], self.behind(place));
+                let u = impact.corrected(here, u, self.row(place));
                 u.map(|u| (p, u))
             })
             .collect();
@@ -101,10 +102,15 @@ struct Impact<'a, const D: usize, M: WallMesh<D>> {
 
 impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
     /// The velocity that no element objects to; none if that is the present one.
-    fn corrected(&self, x: &Vect<D>, u: Vect<D>, row: &[M::Near]) -> Option<Corrected<D>> {
+    fn corrected(
+        &self,
+        here: (&Vect<D>, &[(u32, u32)]),
+        u: Vect<D>,
+        row: &[M::Near],
+    ) -> Option<Corrected<D>> {
         let mesh = &self.outline.mesh;
         let mut hindrances = Vec::new();
-        mesh.hindrances(x, row, 4.0 * self.spacing, &mut hindrances);
+        mesh.hindrances(here, row, 4.0 * self.spacing, &mut hindrances);
         hindrances.retain(|h| !self.outline.specs[h.wall].open);
         if hindrances.is_empty() {
             return None;

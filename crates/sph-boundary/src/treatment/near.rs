@@ -29,6 +29,10 @@ pub(crate) struct NearLists<const D: usize, N> {
     pub version: u64,
     /// Particles with an element near, ascending.
     pub particles: Vec<u32>,
+    /// Places of `particles` that may see a free end, ascending.
+    pub rims: Vec<u32>,
+    /// Places of `particles`, ascending, and the shells that they are behind at the present positions.
+    pub behind: Vec<(u32, u32)>,
     /// Of every particle.
     rows: Vec<Row<D>>,
     /// Whose rows these are.
@@ -38,7 +42,7 @@ pub(crate) struct NearLists<const D: usize, N> {
     travelled: f64,
     /// Places of the nodes at the last build, m; empty where no wall ever moves.
     nodes: Vec<Vect<D>>,
-    /// Kept for their memory.
+    /// Kept for its memory.
     room: Room<D, N>,
 }
 
@@ -48,7 +52,6 @@ struct Room<const D: usize, N> {
     sorted: Vec<Row<D>>,
     stale: Vec<u32>,
     found: Vec<Found<D, N>>,
-    close: Vec<Vect<D>>,
 }
 
 /// What one task has found.
@@ -93,6 +96,8 @@ impl<const D: usize, N> Default for NearLists<D, N> {
             built_for: 0,
             version: 0,
             particles: Vec::new(),
+            rims: Vec::new(),
+            behind: Vec::new(),
             rows: Vec::new(),
             identities: Vec::new(),
             elements: Vec::new(),
@@ -102,7 +107,6 @@ impl<const D: usize, N> Default for NearLists<D, N> {
                 sorted: Vec::new(),
                 stale: Vec::new(),
                 found: Vec::new(),
-                close: Vec::new(),
             },
         }
     }
@@ -137,19 +141,30 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
         let positions = &world.lists.reference;
         let identities = world.free.get(fields::IDENTITY).ok();
         let moves = outline.moves();
+        // Places are of these lists.
+        self.behind.clear();
         let search = |mesh: &M| {
             if moves {
                 self.travel(mesh.points().map(|p| p.position).collect());
             }
             self.follow(identities, positions.len());
             self.search(mesh, positions, radius, skin);
-            let close = self.particles.iter().map(|&p| positions[p as usize]);
-            self.room.close.clear();
-            self.room.close.extend(close);
-            mesh.check_free_ends(&self.room.close, support)
+            self.find_rims(mesh);
         };
         let searched = outline.at_lists(world.lists.time, search);
-        searched.and_then(|checked| checked).map_err(stage_error)
+        searched.map_err(stage_error)
+    }
+
+    /// Finds those with an element at a free end near.
+    fn find_rims<M: WallMesh<D, Near = N>>(&mut self, mesh: &M) {
+        let mut rims = std::mem::take(&mut self.rims);
+        rims.clear();
+        if mesh.shells().any() {
+            let at_rim = |near: &N| mesh.shells().is_rim(mesh.element(*near));
+            let sees = |place: &u32| self.row(*place as usize).iter().any(at_rim);
+            rims.extend((0..self.particles.len() as u32).filter(sees));
+        }
+        self.rims = rims;
     }
 
     /// Adds how far the nodes have moved since the last build.

@@ -291,6 +291,11 @@ macro_rules! checks_by_outline {
             self.set_up.as_ref()?.outline.mesh.bounds()
         }
 
+        fn ends_freely(&self) -> bool {
+            let set_up = self.set_up.as_ref();
+            set_up.is_some_and(|s| s.outline.mesh.shells().any())
+        }
+
         fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {
             match &self.set_up {
                 Some(SetUp { outline, .. }) => {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use sph_core::{StepError, Vect, fields};
 use sph_lanes::{Lane, MOST, dot};
-use sph_neighbours::{Clusters, InMemory, TargetMean, World, in_memory, loaded, shepard};
+use sph_neighbours::{Blocked, Clusters, InMemory, TargetMean, World, in_memory, loaded, shepard};
 
 /// What the fluid looks like from a place on the wall.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +21,7 @@ pub(crate) fn wall_means<const D: usize>(
     world: &World<D>,
     targets: &[Vect<D>],
     accelerations: &[Vect<D>],
-    list: &Clusters,
+    list: (&Clusters, &Blocked),
     whole: f64,
     out: &mut Vec<WallMean>,
 ) -> Result<(), StepError> {

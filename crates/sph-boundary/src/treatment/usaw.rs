@@ -7,6 +7,7 @@ use sph_core::{StepError, Vect, fields, register};
 use sph_neighbours::{ContactBlock, Contacts, WallSet, World};
 
 use crate::error::stage_error;
+use crate::geometry::shells::Gammas;
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::{Outline, checks_by_outline};
@@ -86,8 +87,7 @@ const BATCH: usize = 64;
 /// What is found of a batch of particles.
 #[derive(Debug, Default)]
 struct Found<R> {
-    /// γ of each particle, and planes of contacts up to and including its own.
-    gamma: Vec<(f64, u32)>,
+    gammas: Gammas,
     clearance: Vec<f64>,
     /// Buffers of the integrals.
     room: R,
@@ -95,7 +95,7 @@ struct Found<R> {
 
 impl<R> Found<R> {
     fn clear(&mut self) {
-        self.gamma.clear();
+        self.gammas.clear();
         self.clearance.clear();
     }
 }
@@ -199,16 +199,17 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             found.clear();
             contacts.clear();
             let is_idle = |particle: u32| idle.is_some_and(|idle| idle[particle as usize]);
-            let elements = |k: usize, particle| match is_idle(particle) {
+            // Also an idle one may be hidden from others.
+            let elements = |k: usize, particle| match is_idle(particle) && !mesh.shells().any() {
                 true => &[],
                 false => near.row(b * BATCH + k),
             };
             let all = batch.iter().enumerate();
             let all = all.map(|(k, &p)| (&positions[p as usize], elements(k, p)));
-            let Found { gamma, room, .. } = found;
-            mesh.gammas(integrals, all, room, contacts, gamma);
+            let Found { gammas, room, .. } = found;
+            mesh.gammas(integrals, all, room, contacts, gammas);
             let mut from = 0;
-            for (k, ((_, end), particle)) in gamma.iter().zip(batch).enumerate() {
+            for (k, ((_, end), particle)) in gammas.all.iter().zip(batch).enumerate() {
                 let own = contacts.row(from..*end);
                 let heights = own.distances().filter(|d| *d > 0.0);
                 let place = &positions[*particle as usize];
@@ -222,6 +223,16 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         self.clearance.clear();
         let least = self.found.iter().flat_map(|f| &f.clearance);
         self.clearance.extend(least);
+        let behind = &mut self.near.behind;
+        behind.clear();
+        for (b, found) in self.found.iter().enumerate() {
+            let place = |k: u32| (b * BATCH) as u32 + k;
+            behind.extend(found.gammas.behind.iter().map(|(k, s)| (place(*k), *s)));
+        }
+        // Whom they are behind is no contact, and how near it is was not measured.
+        for (place, _) in behind {
+            self.clearance[*place as usize] = 0.0;
+        }
     }
 }
 
@@ -300,13 +311,19 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         let batches = set_up.near.particles.chunks(BATCH).zip(&set_up.found);
         for (b, (batch, found)) in batches.enumerate() {
             let mut start = 0;
-            for (&particle, &(gamma, end)) in batch.iter().zip(&found.gamma) {
+            for (&particle, &(gamma, end)) in batch.iter().zip(&found.gammas.all) {
                 renormalisation[particle as usize] = gamma;
-                contacts.place(particle, b, start..end);
+                if idle.as_ref().is_none_or(|idle| !idle[particle as usize]) {
+                    contacts.place(particle, b, start..end);
+                }
                 start = end;
             }
         }
-        Ok(world.free.put(fields::RENORMALISATION, renormalisation)?)
+        world.free.put(fields::RENORMALISATION, renormalisation)?;
+        let (near, positions) = (&set_up.near, world.free.get(fields::POSITION)?);
+        let mesh = &set_up.outline.mesh;
+        world.lists.hidden = near.hidden(mesh, world, &near.behind, |k| positions[k]);
+        Ok(())
     }
 
     fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
@@ -314,7 +331,9 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         // Heights over the planes of all elements in reach bound the distances from below.
         let clearance = |place: usize| set_up.clearance.get(place).copied().unwrap_or(0.0);
         let (near, outline) = (&set_up.near, &set_up.outline);
-        set_up.outline.struck = near.constrain(outline, world, dt, clearance)?;
+        let struck = near.constrain(outline, world, dt, clearance)?;
+        near.unveil(outline, &set_up.integrals, world, dt)?;
+        set_up.outline.struck = struck;
         Ok(())
     }
 
@@ -329,7 +348,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
                 world,
                 &points.position,
                 &points.acceleration,
-                &lists.of_points,
+                (&lists.of_points, &lists.hidden.at_points),
                 whole,
                 at_points,
             )?;
@@ -338,7 +357,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             world,
             &elements.centre,
             &elements.acceleration,
-            &lists.of_elements,
+            (&lists.of_elements, &lists.hidden.at_elements),
             whole,
             at_elements,
         )?;

@@ -110,7 +110,9 @@ fn find<const D: usize>(
     let at = |i: usize| places[i] == Place::At;
     let near = |i: usize| {
         let mut others = lists.candidates(i).iter().map(|j| *j as usize);
-        others.any(|j| at(j) && apart2(world, &position[i], &position[j]) < reach2)
+        let hidden = &world.lists.hidden.particles;
+        let sees = |j: usize| !hidden.has(i, j as u32);
+        others.any(|j| at(j) && sees(j) && apart2(world, &position[i], &position[j]) < reach2)
     };
     let all = surface.par_iter_mut().enumerate().with_min_len(1024);
     all.for_each(|(i, out)| {

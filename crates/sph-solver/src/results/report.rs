@@ -5,6 +5,7 @@ use std::path::Path;
 
 use sph_viscosity::ImplicitViscosity;
 
+use crate::Left;
 use crate::failure::error::{Failure, SolverError};
 use crate::results::advice::{self, Costs};
 use crate::results::balance::{Balance, FAST};
@@ -84,7 +85,7 @@ impl<const D: usize> Running<'_, D> {
             failure: failure.map(|f| f.findings.clone()),
             density_constant_range: flow.density_constant_range(),
             escaped,
-            left: flow.left().map(|(to, left)| (to.clone(), left)).collect(),
+            left: self.left(),
             relaxation: self.parts.relaxation,
             open_boundaries: self.parts.flow.counts_of(sph_open::PASSING),
             implicit_viscosity: self.parts.flow.counts_of(ImplicitViscosity::<D>::NAME),
@@ -94,6 +95,15 @@ impl<const D: usize> Running<'_, D> {
         };
         sph_io::write_json(self.options.out.join("summary.json"), &summary)?;
         Ok(summary)
+    }
+
+    /// What has left by whatever the scene names, and by the border of the domain if anything did.
+    fn left(&self) -> BTreeMap<String, Left> {
+        let flow = &self.parts.flow;
+        let named = flow.outlets.labels().len();
+        let all = flow.left().enumerate();
+        let told = all.filter(|(k, (_, left))| *k < named || left.particles > 0);
+        told.map(|(_, (to, left))| (to.clone(), left)).collect()
     }
 
     /// Least and largest density ratio over all rows.
@@ -180,6 +190,14 @@ impl<const D: usize> Running<'_, D> {
         advice.extend(flow.works.iter().flat_map(|w| w.advice(&flow.world)));
         if escaped > 0 {
             warnings.push(format!("{escaped} particles are behind a wall at the end"));
+        }
+        let border = flow.left().skip(flow.outlets.labels().len());
+        for (_, left) in border.filter(|(_, left)| left.particles > 0) {
+            warnings.push(format!(
+                "{} particles of {:.3} kg went over the end of a wall and left the domain: `numerics.domain` may be \
+                 larger, or an `[outlet.NAME]` take them out before",
+                left.particles, left.mass
+            ));
         }
         warnings.extend(flow.works.iter().flat_map(|w| w.warnings()));
         let peaks = self.files.as_ref().map(|f| f.series.peaks);

@@ -112,7 +112,7 @@ impl Series {
             balance.least_density,
             balance.largest_density,
         ]);
-        for (_, left) in flow.left() {
+        for (_, left) in flow.left().take(flow.outlets.labels().len()) {
             row.extend([left.mass, left.particles as f64]);
         }
         for (_, probe) in probes {

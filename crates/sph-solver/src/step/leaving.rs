@@ -1,11 +1,12 @@
 //! Particles that leave the flow.
 
 use rayon::prelude::*;
-use sph_core::{StepError, Taken, fields};
+use sph_core::{StepError, Taken, Vect, fields};
 use sph_scene::Scene;
 
 use crate::Flow;
 use crate::step::outlets::Left;
+use crate::step::stages::lock;
 
 impl<const D: usize> Flow<D> {
     /// Takes out the particles that are in an outlet or have passed an open face at the end of a step of `dt` seconds, and
@@ -16,7 +17,7 @@ impl<const D: usize> Flow<D> {
     pub(crate) fn let_out(&mut self, dt: f64) -> Result<(), StepError> {
         // First those who look at wall contacts, which are by slots.
         let gone = self.by_works(dt)?;
-        let gone = self.by_outlets()? || gone;
+        let gone = self.by_outlets(dt)? || gone;
         let here = !self.world.free.is_empty();
         // A rank may have nobody left, and a scene of bodies alone never has anybody.
         let somebody = !gone || self.any_rank(here)?;
@@ -29,7 +30,7 @@ impl<const D: usize> Flow<D> {
         }
     }
 
-    /// Counts the exits of all work behind the outlets.
+    /// Counts the exits of all work behind the outlets, and behind these the border of the domain where walls end freely.
     pub(crate) fn know_exits(&mut self, scene: &Scene) {
         let mut taken = self.world.free.taken().to_vec();
         let exits = self.works.iter().flat_map(|w| w.exits());
@@ -38,6 +39,20 @@ impl<const D: usize> Flow<D> {
                 self.outlets.labels.push(format!("open.{name}.{of}"));
                 taken.push(Taken {
                     outlet: exit,
+                    phase: phase as u32,
+                    ..Taken::default()
+                });
+            }
+        }
+        self.outlets.named = self.outlets.labels.len();
+        if self.walls.as_ref().is_some_and(|w| lock(w).ends_freely()) {
+            let phases = scene.phase.len().max(1);
+            let border = self.outlets.named / phases;
+            self.outlets.border = Some(border);
+            for (phase, of) in scene.phase.keys().enumerate() {
+                self.outlets.labels.push(format!("domain.{of}"));
+                taken.push(Taken {
+                    outlet: border as u32,
                     phase: phase as u32,
                     ..Taken::default()
                 });
@@ -81,15 +96,28 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Takes out who is in an outlet; whether anybody is, on any rank.
-    fn by_outlets(&mut self) -> Result<bool, StepError> {
-        if self.outlets.all.is_empty() {
+    fn by_outlets(&mut self, dt: f64) -> Result<bool, StepError> {
+        let (all, border) = (&self.outlets.all, self.outlets.border);
+        if all.is_empty() && border.is_none() {
             return Ok(false);
         }
-        let all = &self.outlets.all;
         let free = &self.world.free;
-        let by = |x: &sph_core::Vect<D>| all.iter().position(|o| o.contains(&(*x).into()));
-        let position = free.get(fields::POSITION)?;
-        let places = || position.par_iter().with_min_len(2048).map(by);
+        let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
+        let phase = free.get(fields::PHASE).ok();
+        // What flies as fast as sound was not spilled: it ends the run.
+        let slow = |k: usize| {
+            let law = &self.laws[phase.map_or(0, |p| p[k] as usize)];
+            velocity[k].norm() < law.reference().sound_speed
+        };
+        // Before a drift within the next step takes it across.
+        let soon = |k: usize, x: &Vect<D>| x + velocity[k] * (2.0 * dt);
+        let domain = &self.world.domain;
+        let out = |k, x: &Vect<D>| border.filter(|_| !domain.contains(&soon(k, x)) && slow(k));
+        let by = |(k, x): (usize, &Vect<D>)| {
+            let outlet = all.iter().position(|o| o.contains(&(*x).into()));
+            outlet.or_else(|| out(k, x))
+        };
+        let places = || position.par_iter().enumerate().with_min_len(2048).map(by);
         let some = places().any(|outlet| outlet.is_some());
         let left: Vec<Option<usize>> = match some {
             true => places().collect(),

@@ -9,8 +9,12 @@ use crate::setup::placement::Placed;
 /// The outlets of a scene.
 pub struct Outlets {
     pub(crate) all: Vec<Outlet>,
-    /// `outlet.NAME.PHASE` and then `open.NAME.PHASE` of open faces, as what has been taken out is counted.
+    /// `outlet.NAME.PHASE`, then `open.NAME.PHASE` of open faces, then `domain.PHASE`, as what has been taken out is counted.
     pub(crate) labels: Vec<String>,
+    /// Labels that the scene named.
+    pub(crate) named: usize,
+    /// Number of the exit by which water that went over a free end of a wall leaves the domain, if there may be any.
+    pub(crate) border: Option<usize>,
 }
 
 /// What has left by an outlet of a phase.
@@ -59,15 +63,17 @@ impl Outlets {
         match problems.is_empty() {
             true => Ok(Outlets {
                 all: scene.outlet.values().cloned().collect(),
+                named: labels.len(),
                 labels,
+                border: None,
             }),
             false => Err(problems),
         }
     }
 
-    /// `outlet.NAME.PHASE` of everything that is counted.
+    /// `outlet.NAME.PHASE` and `open.NAME.PHASE` of everything that the scene lets out.
     pub fn labels(&self) -> &[String] {
-        &self.labels
+        &self.labels[..self.named]
     }
 
     /// Whether nobody can leave.

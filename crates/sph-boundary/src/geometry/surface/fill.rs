@@ -1,5 +1,6 @@
 //! Planar pieces cut into triangles.
 
+use std::cmp::Ordering::Equal;
 use std::collections::HashMap;
 
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
@@ -220,7 +221,8 @@ fn check_area(
     }
 }
 
-/// A rectangle whose sides are cut into equal parts gets a lattice that meets all their nodes.
+/// A rectangle whose sides are cut into equal parts gets a lattice that meets all their nodes, and is its own mirror image
+/// both ways: diagonals point away from the middle, and cells in the middle of an odd number are cut into four.
 ///
 /// `first` is the side along the first axis from the origin.
 fn rectangle(
@@ -271,6 +273,7 @@ fn rectangle(
             filling.inside.push(in_space(x, origin, axes));
         }
     }
+    let side_of = |k: usize, all: usize| (2 * k + 1).cmp(&all);
     let tile = |from: usize, all: usize| from..all.min(from + TILE);
     for (low, left) in (0..n)
         .step_by(TILE)
@@ -280,7 +283,20 @@ fn rectangle(
             for i in tile(left, m) {
                 let [a, b] = [corner(i, j), corner(i + 1, j)];
                 let [c, d] = [corner(i + 1, j + 1), corner(i, j + 1)];
-                filling.triangles.extend([[a, b, c], [a, c, d]]);
+                match (side_of(i, m), side_of(j, n)) {
+                    (Equal, _) | (_, Equal) => {
+                        let e = Corner::Inside(filling.inside.len() as u32);
+                        let [s, t] = lattice.steps;
+                        let x = [(i as f64 + 0.5) * s, (j as f64 + 0.5) * t];
+                        filling.inside.push(in_space(x, origin, axes));
+                        let parts = [[a, b, e], [b, c, e], [c, d, e], [d, a, e]];
+                        filling.triangles.extend(parts);
+                    }
+                    (across, up) if across == up => {
+                        filling.triangles.extend([[a, b, c], [a, c, d]]);
+                    }
+                    _ => filling.triangles.extend([[a, b, d], [b, c, d]]),
+                }
             }
         }
     }

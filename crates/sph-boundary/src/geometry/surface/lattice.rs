@@ -83,10 +83,16 @@ impl Lattice {
         }
     }
 
-    /// Gives all cells whose two triangles are among these the same diagonal, that from the lower
-    /// left to the upper right.
+    /// Gives all cells whose two triangles are among these the diagonal that points away from the middle of the lattice
+    /// points, so that what is its own mirror image stays so; in the middle that from the lower left to the upper right.
     pub fn align_diagonals(&self, triangles: &mut [[usize; 3]], points: &[[f64; 2]]) {
         let index: Vec<Option<[i64; 2]>> = points.iter().map(|p| self.index(*p)).collect();
+        let known = || index.iter().flatten();
+        let ends = |k: usize| {
+            let low = known().map(|i| i[k]).min().unwrap_or(0);
+            low + known().map(|i| i[k]).max().unwrap_or(0)
+        };
+        let twice_middle = [0, 1].map(ends);
         let mut halves: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
         for (t, corners) in triangles.iter().enumerate() {
             let [Some(a), Some(b), Some(c)] = corners.map(|v| index[v]) else {
@@ -106,8 +112,11 @@ impl Lattice {
             };
             let corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(at);
             if let [Some(a), Some(b), Some(c), Some(d)] = corners {
-                triangles[t] = [a, b, c];
-                triangles[u] = [a, c, d];
+                let side = |k: usize, low: i64| (2 * low + 1).cmp(&twice_middle[k]) as i8;
+                [triangles[t], triangles[u]] = match side(0, i) * side(1, j) {
+                    -1 => [[a, b, d], [b, c, d]],
+                    _ => [[a, b, c], [a, c, d]],
+                };
             }
         }
     }
