@@ -12,24 +12,11 @@ impl<const D: usize> Flow<D> {
     /// counts them in their order.
     ///
     /// # Errors
-    /// If nobody is left.
+    /// If a column is missing.
     pub(crate) fn let_out(&mut self, dt: f64) -> Result<(), StepError> {
         // First those who look at wall contacts, which are by slots.
-        let gone = self.by_works(dt)?;
-        let gone = self.by_outlets()? || gone;
-        let here = !self.world.free.is_empty();
-        // A rank may have nobody left.
-        let somebody = match gone {
-            true => self.any_rank(here)?,
-            false => here || self.parts.is_some(),
-        };
-        match somebody {
-            true => Ok(()),
-            false => Err(StepError::Stage {
-                stage: "outlets".into(),
-                reason: "all particles have left: let the run end before".into(),
-            }),
-        }
+        self.by_works(dt)?;
+        self.by_outlets()
     }
 
     /// Counts the exits of all work behind the outlets.
@@ -49,9 +36,8 @@ impl<const D: usize> Flow<D> {
         self.world.free.set_taken(taken);
     }
 
-    /// Takes out whom work lets out, and counts them; whether anybody went, on any rank.
-    fn by_works(&mut self, dt: f64) -> Result<bool, StepError> {
-        let mut some = false;
+    /// Takes out whom work lets out, and counts them.
+    fn by_works(&mut self, dt: f64) -> Result<(), StepError> {
         let mut first = self.outlets.all.len();
         for k in 0..self.works.len() {
             let work = &mut self.works[k];
@@ -62,15 +48,15 @@ impl<const D: usize> Flow<D> {
             self.world.free.watch([&self.columns.works[k]]);
             let gone = work.departures(&mut self.world, dt);
             self.world.free.unwatch(|| work.name())?;
-            some |= self.take_out(&gone?, first)?;
+            self.take_out(&gone?, first)?;
             first += exits;
         }
-        Ok(some)
+        Ok(())
     }
 
-    fn take_out(&mut self, gone: &[(u32, usize)], first: usize) -> Result<bool, StepError> {
+    fn take_out(&mut self, gone: &[(u32, usize)], first: usize) -> Result<(), StepError> {
         if !self.any_rank(!gone.is_empty())? {
-            return Ok(false);
+            return Ok(());
         }
         let leavers = gone.iter().map(|(p, exit)| (*p as usize, first + exit));
         self.count_leavers(leavers)?;
@@ -80,13 +66,13 @@ impl<const D: usize> Flow<D> {
             gone.iter().for_each(|(p, _)| leaves[*p as usize] = true);
             free.take_out(&leaves);
         }
-        Ok(true)
+        Ok(())
     }
 
-    /// Takes out who is in an outlet; whether anybody is, on any rank.
-    fn by_outlets(&mut self) -> Result<bool, StepError> {
+    /// Takes out who is in an outlet.
+    fn by_outlets(&mut self) -> Result<(), StepError> {
         if self.outlets.all.is_empty() {
-            return Ok(false);
+            return Ok(());
         }
         let all = &self.outlets.all;
         let free = &self.world.free;
@@ -99,7 +85,7 @@ impl<const D: usize> Flow<D> {
             false => Vec::new(),
         };
         if !self.any_rank(some)? {
-            return Ok(false);
+            return Ok(());
         }
         let leavers = left.iter().enumerate();
         self.count_leavers(leavers.filter_map(|(k, outlet)| Some((k, (*outlet)?))))?;
@@ -107,7 +93,7 @@ impl<const D: usize> Flow<D> {
             let leaves: Vec<bool> = left.iter().map(Option::is_some).collect();
             self.world.free.take_out(&leaves);
         }
-        Ok(true)
+        Ok(())
     }
 
     /// Counts who leaves by which exit, on all ranks, in the order of identities.
