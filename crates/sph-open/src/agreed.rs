@@ -17,7 +17,7 @@ impl<const D: usize> Looked<D> {
             inside.density,
             inside.mean_pressure,
             self.reach,
-            self.filled,
+            inside.filled,
             self.lacks,
             self.nearest,
         ];
@@ -38,11 +38,11 @@ impl<const D: usize> Looked<D> {
                 impedance: real(2),
                 density: real(3),
                 mean_pressure: real(4),
+                filled: real(6),
                 velocity: vector(0),
                 mean: vector(1),
             },
             reach: real(5),
-            filled: real(6),
             lacks: real(7),
             nearest: real(8),
             row: vector(2),
@@ -89,16 +89,11 @@ impl<const D: usize> Faces<D> {
         };
         Looked {
             inside: Inside {
-                wet: false,
-                pressure: 0.0,
-                velocity: Vect::zeros(),
-                impedance: 1.0,
-                density: 0.0,
                 mean,
                 mean_pressure,
+                ..Inside::nothing()
             },
             reach: 0.0,
-            filled: 0.0,
             lacks: 0.0,
             nearest: f64::INFINITY,
             row: Vect::zeros(),

@@ -4,9 +4,80 @@ use serde_json::{Value as Json, json};
 
 use crate::faces::Faces;
 
+/// How long a port keeps an error of its mass, over the time in which a row passes.
+///
+/// What passes by the law and what particles carry differ by what the mean before the face smooths; the difference is let
+/// go instead of gathering at the port.
+const ROWS: f64 = 5.0;
+
+/// Difference between what has passed a face and what it asks for that goes without saying, over the latter.
+const BORNE: f64 = 0.005;
+
 impl<const D: usize> Faces<D> {
+    /// Ports grow by what comes in and fade by what goes out in `dt` seconds.
+    ///
+    /// Through an element that has fluid before a part of it, this part passes. A port is to hold what the row before it
+    /// [lacks](crate::faces::as_share); what it has beyond that goes with what passes, and all of it where the fluid has gone.
+    pub fn pass(&mut self, dt: f64) {
+        let phases = self.whole.len();
+        for k in 0..self.elements.len() {
+            let place = self.places[k];
+            let normal = self.through(k).dot(&place.normal);
+            let face = self.face_of[k];
+            let filled = self.inside[k].filled;
+            let wetted = place.measure
+                * match self.outside[k].share {
+                    Some(share) if normal > 0.0 || share >= 1.0 => share,
+                    Some(share) => share.min(filled),
+                    None => filled,
+                };
+            let faded = (normal.abs() * dt / (ROWS * self.spacing)).min(1.0);
+            let lacking = self.lacking[k] * place.measure * self.spacing;
+            let dry = !self.inside[k].wet && self.faces[face].law.lets_out();
+            let mut volume = 0.0;
+            if normal > 0.0 {
+                let q = self.phase(k);
+                volume = normal * wetted * dt;
+                let mass = self.density(k, q) * volume;
+                self.memory.mass[k * phases + q] += mass;
+                self.memory.totals[face * phases + q].entered.add(mass);
+            } else if normal < 0.0 {
+                for q in 0..phases {
+                    let part = self.mix[k * phases + q];
+                    let density = self.density(k, q);
+                    let port = &mut self.memory.mass[k * phases + q];
+                    let error = *port - density * lacking * part;
+                    let mass = density * -normal * wetted * dt * part + error * faded;
+                    *port -= mass;
+                    volume -= mass / density;
+                    self.memory.totals[face * phases + q].left.add(mass);
+                }
+            } else if dry {
+                for q in 0..phases {
+                    let density = self.density(k, q);
+                    let mass = std::mem::take(&mut self.memory.mass[k * phases + q]);
+                    volume -= mass / density;
+                    self.memory.totals[face * phases + q].left.add(mass);
+                }
+            }
+            self.memory.volumes[face].passed.add(volume);
+        }
+    }
+
+    /// Counts the volumes that the laws ask for in `dt` seconds up to a `time`, and when faces are dry first.
+    pub fn ask(&mut self, time: f64, dt: f64) {
+        for (f, face) in self.faces.iter().enumerate() {
+            let volumes = &mut self.memory.volumes[f];
+            volumes.asked.add(self.asked[f].unwrap_or(0.0) * dt);
+            let mut own = self.inside[face.elements.clone()].iter();
+            if volumes.dry.is_none() && own.all(|inside| !inside.wet) {
+                volumes.dry = Some(time);
+            }
+        }
+    }
+
     /// By face and phase: mass that entered, left and is held, kg; and what is missing of entered − left − (born − died) −
-    /// held, which is rounding.
+    /// held, which is rounding. By face where its law asks for a volume: this and what has passed, m³.
     pub fn budget(&self, phases: &[String]) -> Json {
         let count = self.whole.len();
         let mut all = serde_json::Map::new();
@@ -34,6 +105,11 @@ impl<const D: usize> Faces<D> {
                     }),
                 );
             }
+            if self.asked[f].is_some() {
+                let [asked, passed] = self.memory.volumes[f].both();
+                let volumes = json!({ "asked_volume": asked, "passed_volume": passed });
+                all.insert(face.name.clone(), volumes);
+            }
         }
         let unbalanced = if whole[1] > 0.0 {
             whole[0].abs() / whole[1]
@@ -42,5 +118,39 @@ impl<const D: usize> Faces<D> {
         };
         all.insert("unbalanced".into(), json!(unbalanced));
         Json::Object(all)
+    }
+
+    /// Faces that have let pass another volume than they ask for, and those that ask for none and are dry at the end.
+    pub fn differences(&self) -> Vec<String> {
+        let said = self.faces.iter().enumerate().filter_map(|(f, face)| {
+            let volumes = &self.memory.volumes[f];
+            let name = &face.name;
+            let when = volumes.dry;
+            if self.asked[f].is_none() {
+                let mut own = self.inside[face.elements.clone()].iter();
+                let at_end = own.all(|inside| !inside.wet);
+                return when.filter(|_| at_end).map(|time| {
+                    format!("no fluid is before `{name}`: it was dry first at {time:.3} s, and nothing passes a dry face")
+                });
+            }
+            let [asked, passed] = volumes.both();
+            let more = (passed - asked) / asked;
+            if more.is_nan() || more.abs() <= BORNE {
+                return None;
+            }
+            let (unit, than) = (["m²", "m³"][D - 2], if more > 0.0 { "more" } else { "less" });
+            let why = match (when, self.asked[f].is_some_and(|asked| asked < 0.0)) {
+                (Some(time), _) => format!("no fluid was before it first at {time:.3} s"),
+                (None, true) => "it draws air where no fluid is before a part of it".into(),
+                (None, false) => "see docs/open-boundaries.md".into(),
+            };
+            Some(format!(
+                "`{name}` has let pass {:.4} {unit} for the {:.4} {unit} that it asks for, {:.1} % {than}: {why}",
+                passed.abs(),
+                asked.abs(),
+                100.0 * more.abs()
+            ))
+        });
+        said.collect()
     }
 }

@@ -30,6 +30,8 @@ pub struct Inside<const D: usize> {
     pub wet: bool,
     /// Pressure at the element, over that of the reference density, Pa.
     pub pressure: f64,
+    /// Share of the element that has fluid before it.
+    pub filled: f64,
     /// Velocity, m/s; of what little there is, where it is not wet.
     pub velocity: Vect<D>,
     /// ρc, kg/(m² s).
@@ -40,6 +42,22 @@ pub struct Inside<const D: usize> {
     pub mean: Vect<D>,
     /// That of the pressure, Pa.
     pub mean_pressure: f64,
+}
+
+impl<const D: usize> Inside<D> {
+    /// What is seen where there is no fluid.
+    pub(crate) fn nothing() -> Self {
+        Inside {
+            wet: false,
+            pressure: 0.0,
+            filled: 0.0,
+            velocity: Vect::zeros(),
+            impedance: 1.0,
+            density: 0.0,
+            mean: Vect::zeros(),
+            mean_pressure: 0.0,
+        }
+    }
 }
 
 /// What the face does to the fluid.
@@ -158,6 +176,11 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     /// pressure for a current, and lets waves of the surface pass that are thrown back otherwise.
     fn keeps_rows_even(&self) -> bool {
         false
+    }
+    /// Volume into the fluid per time that it asks for, m³/s, whatever is in front of the face; none where fluid passes as it
+    /// likes.
+    fn asked(&self, _places: &[Place<D>], _time: f64) -> Option<f64> {
+        None
     }
     /// Time over which it wants the [means](Inside::mean) of velocity and pressure, s, if it does.
     fn memory(&self) -> Option<f64> {

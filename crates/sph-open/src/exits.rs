@@ -17,12 +17,6 @@ const NEAREST: [f64; 2] = [0.8, 0.9];
 /// How far from the face, over the spacing, particles are born at least: on the fluid's side whatever is rounded.
 const IN_FRONT: f64 = 1e-6;
 
-/// How long a port keeps mass that came from particles that left it, over the time in which a row passes.
-///
-/// What passes by the law and what particles carry differ by what the mean before the face smooths; the difference is let
-/// go instead of gathering at the port.
-const ROWS: f64 = 5.0;
-
 /// A particle behind a face.
 struct Behind<const D: usize> {
     particle: u32,
@@ -120,47 +114,6 @@ fn of_all<const D: usize>(
 }
 
 impl<const D: usize> Faces<D> {
-    /// Ports grow by what comes in and fade by what goes out in `dt` seconds.
-    ///
-    /// Through an element that has fluid before a part of it, this part passes. What a port holds where the fluid has gone
-    /// goes with it.
-    pub fn pass(&mut self, dt: f64) {
-        let phases = self.whole.len();
-        for k in 0..self.elements.len() {
-            let place = self.places[k];
-            let normal = self.through(k).dot(&place.normal);
-            let face = self.face_of[k];
-            let wetted = place.measure
-                * match self.outside[k].share {
-                    Some(share) if normal > 0.0 || share >= 1.0 => share,
-                    Some(share) => share.min(self.filled[k]),
-                    None => self.filled[k],
-                };
-            let faded = (normal.abs() * dt / (ROWS * self.spacing)).min(1.0);
-            let dry = !self.inside[k].wet && self.faces[face].law.lets_out();
-            if normal > 0.0 {
-                let q = self.phase(k);
-                let mass = self.density(k, q) * normal * wetted * dt;
-                self.memory.mass[k * phases + q] += mass;
-                self.memory.totals[face * phases + q].entered.add(mass);
-            } else if normal < 0.0 {
-                for q in 0..phases {
-                    let out = -normal * wetted * dt * self.mix[k * phases + q];
-                    let density = self.density(k, q);
-                    let port = &mut self.memory.mass[k * phases + q];
-                    let mass = density * out + *port * faded;
-                    *port -= mass;
-                    self.memory.totals[face * phases + q].left.add(mass);
-                }
-            } else if dry {
-                for q in 0..phases {
-                    let mass = std::mem::take(&mut self.memory.mass[k * phases + q]);
-                    self.memory.totals[face * phases + q].left.add(mass);
-                }
-            }
-        }
-    }
-
     /// Advances the running means.
     pub fn remember(&mut self, dt: f64) {
         let begins = self.memory.dt == 0.0;

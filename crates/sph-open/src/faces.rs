@@ -76,6 +76,8 @@ pub(crate) struct Faces<const D: usize> {
     /// Mean velocity before every element at this moment, m/s; those of `inside` are as late as they arrive at the face.
     pub present: Vec<Vect<D>>,
     pub outside: Vec<Outside<D>>,
+    /// Volume per time that the law of every face [asks](OpenBoundary::asked) for, m³/s.
+    pub asked: Vec<Option<f64>>,
     /// Velocity of the row of particles in front of every element, m/s.
     pub rows: Vec<Vect<D>>,
     /// Shares of the phases in front of every element, phases innermost.
@@ -92,8 +94,6 @@ pub(crate) struct Faces<const D: usize> {
     pub nearest: Vec<f64>,
     /// The [share](as_share) of a particle with which every port takes part in sums.
     pub lacking: Vec<f64>,
-    /// Share of every element that has fluid before it.
-    pub filled: Vec<f64>,
     pub memory: Memory<D>,
     /// What [`balance`](Self::balance) adds to velocities, m/s; zero in between.
     pub kicks: Vec<Vect<D>>,
@@ -148,24 +148,15 @@ impl<const D: usize> Faces<D> {
             .collect();
         self.add_ports(walls);
         let (ports, phases) = (self.elements.len(), self.whole.len());
-        let nothing = Inside {
-            wet: false,
-            pressure: 0.0,
-            velocity: Vect::zeros(),
-            impedance: 1.0,
-            density: 0.0,
-            mean: Vect::zeros(),
-            mean_pressure: 0.0,
-        };
-        self.inside = vec![nothing; ports];
+        self.inside = vec![Inside::nothing(); ports];
         self.present = vec![Vect::zeros(); ports];
         self.outside = vec![Outside::dry(); ports];
+        self.asked = vec![None; self.faces.len()];
         self.rows = vec![Vect::zeros(); ports];
         self.lacks = vec![0.0; ports];
         self.nearest = vec![f64::INFINITY; ports];
         self.mix = vec![0.0; ports * phases];
         self.lacking = vec![0.0; ports];
-        self.filled = vec![0.0; ports];
         self.memory = Memory::new(ports, phases, self.faces.len());
         self.looked.clear();
         walls.passed = self.passed(walls);

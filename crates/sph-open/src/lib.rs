@@ -6,6 +6,7 @@
 #![doc = include_str!("../README.md")]
 
 mod agreed;
+mod air;
 mod budget;
 mod cells;
 mod contract;

@@ -38,7 +38,6 @@ impl<const D: usize> Faces<D> {
             self.present[k] = seen.inside.velocity;
             self.inside[k] = self.arriving(k, seen);
             self.rows[k] = seen.row;
-            self.filled[k] = seen.filled;
             self.lacks[k] = seen.lacks;
             self.nearest[k] = seen.nearest;
             self.lacking[k] = as_share(seen.lacks);
@@ -49,14 +48,16 @@ impl<const D: usize> Faces<D> {
             time: world.time,
             gravity: world.gravity,
         };
-        for face in &self.faces {
+        for f in 0..self.faces.len() {
+            let face = &self.faces[f];
             let own = face.elements.clone();
-            let outside = (face.law).outside(
-                &self.places[own.clone()],
-                &self.inside[own.clone()],
-                &moment,
-            );
-            self.outside[own].copy_from_slice(&outside);
+            let places = &self.places[own.clone()];
+            let outside = (face.law).outside(places, &self.inside[own.clone()], &moment);
+            self.asked[f] = face.law.asked(places, world.time);
+            self.outside[own.clone()].copy_from_slice(&outside);
+            if self.asked[f].is_some_and(|asked| asked < 0.0) {
+                self.draw_air(own);
+            }
         }
         let pressures: Vec<_> = (0..self.elements.len())
             .map(|k| self.reflected(k))
@@ -166,6 +167,7 @@ impl<const D: usize> Faces<D> {
         seen.inside = Inside {
             wet: filling >= WET,
             pressure: p,
+            filled: (row.volume() / (FULL * self.stands[k])).min(1.0),
             velocity: u,
             impedance: if z > 0.0 { z } else { 1.0 },
             density: rho,
@@ -176,7 +178,6 @@ impl<const D: usize> Faces<D> {
         let nearest = room.distance2.iter().copied().fold(f64::INFINITY, f64::min);
         seen.nearest = nearest.sqrt();
         seen.lacks = (self.full[k] - row.weight()) / self.at_port[k];
-        seen.filled = (row.volume() / (FULL * self.stands[k])).min(1.0);
         seen.row = row.velocity(self.spacing).unwrap_or(u);
     }
 }

@@ -11,7 +11,6 @@ pub(crate) struct Looked<const D: usize> {
     pub reach: f64,
     pub row: Vect<D>,
     pub mix: Vec<f64>,
-    pub filled: f64,
     pub lacks: f64,
     /// Distance of the nearest particle, m.
     pub nearest: f64,

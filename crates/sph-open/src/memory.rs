@@ -34,6 +34,22 @@ pub(crate) struct Totals {
     pub died: Sum,
 }
 
+/// Volumes, m³, into the fluid, that have passed a face.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Volumes {
+    pub asked: Sum,
+    pub passed: Sum,
+    /// When no fluid was before it first, s.
+    pub dry: Option<f64>,
+}
+
+impl Volumes {
+    /// What was asked for and what has passed, m³.
+    pub fn both(&self) -> [f64; 2] {
+        [self.asked, self.passed].map(|sum| sum.value())
+    }
+}
+
 /// The memory of all faces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Memory<const D: usize> {
@@ -49,11 +65,16 @@ pub(crate) struct Memory<const D: usize> {
     pub current: Vec<f64>,
     /// By face and phase.
     pub totals: Vec<Totals>,
+    /// By face.
+    pub volumes: Vec<Volumes>,
     /// The last step, s; 0 before the first.
     pub dt: f64,
 }
 
 const PER_TOTAL: usize = 8;
+const PER_FACE: usize = 5;
+/// In the place of a time that has not come.
+const NEVER: f64 = -1.0;
 
 impl<const D: usize> Memory<D> {
     pub fn new(ports: usize, phases: usize, faces: usize) -> Self {
@@ -64,13 +85,15 @@ impl<const D: usize> Memory<D> {
             slow: vec![0.0; ports],
             current: vec![0.0; ports],
             totals: vec![Totals::default(); faces * phases],
+            volumes: vec![Volumes::default(); faces],
             dt: 0.0,
         }
     }
 
     /// How many numbers there are.
     pub fn count(&self) -> usize {
-        self.mass.len() + (2 * (D + 1) + 2) * self.mean.len() + PER_TOTAL * self.totals.len() + 1
+        let of_faces = PER_TOTAL * self.totals.len() + PER_FACE * self.volumes.len();
+        self.mass.len() + (2 * (D + 1) + 2) * self.mean.len() + of_faces + 1
     }
 
     /// All of it.
@@ -86,6 +109,12 @@ impl<const D: usize> Memory<D> {
             for sum in [t.entered, t.left, t.born, t.died] {
                 to.extend([sum.sum, sum.lost]);
             }
+        }
+        for v in &self.volumes {
+            for sum in [v.asked, v.passed] {
+                to.extend([sum.sum, sum.lost]);
+            }
+            to.push(v.dry.unwrap_or(NEVER));
         }
         to.push(self.dt);
     }
@@ -109,16 +138,24 @@ impl<const D: usize> Memory<D> {
         };
         both(&mut self.mean, mean);
         both(&mut self.arrived, arrived);
-        for (t, n) in self.totals.iter_mut().zip(rest.chunks_exact(PER_TOTAL)) {
-            let sum = |k: usize| Sum {
-                sum: n[k],
-                lost: n[k + 1],
-            };
+        let sum = |n: &[f64], k: usize| Sum {
+            sum: n[k],
+            lost: n[k + 1],
+        };
+        let (totals, rest) = rest.split_at(PER_TOTAL * self.totals.len());
+        for (t, n) in self.totals.iter_mut().zip(totals.chunks_exact(PER_TOTAL)) {
             *t = Totals {
-                entered: sum(0),
-                left: sum(2),
-                born: sum(4),
-                died: sum(6),
+                entered: sum(n, 0),
+                left: sum(n, 2),
+                born: sum(n, 4),
+                died: sum(n, 6),
+            };
+        }
+        for (v, n) in self.volumes.iter_mut().zip(rest.chunks_exact(PER_FACE)) {
+            *v = Volumes {
+                asked: sum(n, 0),
+                passed: sum(n, 2),
+                dry: (n[4] >= 0.0).then_some(n[4]),
             };
         }
         self.dt = from[from.len() - 1];
@@ -139,6 +176,8 @@ mod tests {
         memory.slow[1] = 12.5;
         memory.current[0] = 13.0;
         memory.totals[1].left.add(7.0);
+        memory.volumes[0].passed.add(14.0);
+        memory.volumes[0].dry = Some(15.0);
         memory.dt = 8.0;
         let mut numbers = Vec::new();
         memory.numbers(&mut numbers);

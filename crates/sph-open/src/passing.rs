@@ -59,6 +59,7 @@ impl<const D: usize> StepWork<D> for Passing<D> {
             faces.advance_densities(world, dt)?;
         }
         faces.pass(dt);
+        faces.ask(world.time, dt);
         faces.remember(dt);
         Ok(())
     }
@@ -96,6 +97,10 @@ impl<const D: usize> StepWork<D> for Passing<D> {
         }
         world.walls.passed = faces.passed(&world.walls);
         Ok(born)
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        lock(&self.faces).differences()
     }
 
     fn counts(&self) -> Option<Json> {

@@ -312,6 +312,7 @@ mod tests {
             let inside = Inside::<2> {
                 wet: true,
                 pressure: 1000.0 * (gravity * (depth - height) + sigma / k * out),
+                filled: 1.0,
                 velocity: Vect::<2>::new(0.2 + out, 0.0),
                 impedance: 16_000.0,
                 density: 1000.0,

@@ -23,6 +23,8 @@ contribution_kind!(
 /// * the particle is at a surface: K′ is such that ρ is not below (1 − ε) ρ₀, for water there is not under tension; with
 ///   `no_pressure` K′ is such that ρ = ρ₀;
 /// * the particle is alone: K′ is such that ρ = ρ₀, at once: it has no pressure and flies like a stone;
+/// * an open face is within the support: K stays, unless the particle is at a surface or alone. Half of the row that passes the
+///   face is in no sum, so K swings by ± 0.15 ρ₀ there; what is cut of it is mass that does not pass;
 /// * else K stays: what the kernel misses within reach of a surface is what it carries.
 ///
 /// Symbols: h smoothing length (m), c speed of sound of the phase at rest (m/s). Where a full support has K > 0, as many of
@@ -157,11 +159,17 @@ impl Relaxation {
         let gamma = world.free.get(fields::RENORMALISATION).ok();
         let mut parts = world.shelf().lend::<Vec<f64>>();
         parts.clear();
+        let open = &world.walls.elements.open;
         let part = |c: f64| 1.0 - (-dt * c / (self.plugin.time * h)).exp();
         parts.extend(self.phases.iter().map(|(_, c)| part(*c)));
         let parts = &parts[..];
         let one = |i: usize, constant: &mut f64| -> f64 {
             let phase = phase.map_or(0, |p| p[i] as usize);
+            let mut contacts = world.walls.contacts.of(i).iter();
+            let inside = surface[i] == Place::Inside.number();
+            if inside && contacts.any(|c| open.get(c.element as usize) == Some(&true)) {
+                return 0.0;
+            }
             let seen = Seen {
                 place: surface[i],
                 constant: *constant,

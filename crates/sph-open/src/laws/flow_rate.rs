@@ -59,6 +59,9 @@ impl<const D: usize> OpenBoundary<D> for FlowRate {
     fn lets_out(&self) -> bool {
         self.rate < 0.0
     }
+    fn asked(&self, _: &[Place<D>], time: f64) -> Option<f64> {
+        Some(self.rate * factor(&self.over_time, time))
+    }
     fn outside(
         &self,
         places: &[Place<D>],
@@ -68,9 +71,15 @@ impl<const D: usize> OpenBoundary<D> for FlowRate {
         let now = self.rate * factor(&self.over_time, moment.time);
         let each = || places.iter().zip(inside);
         let weight = |place: &Place<D>| self.profile.at(place) * place.measure;
-        let wet: f64 = each().filter(|(_, i)| i.wet).map(|(p, _)| weight(p)).sum();
+        let wetted = each().filter(|(_, i)| i.wet);
+        let wet: f64 = wetted.map(|(p, i)| weight(p) * i.filled).sum();
+        // Through less than an element there would be a jet.
+        let wet = wet.max(places.iter().map(weight).sum::<f64>() / places.len() as f64);
         let one = |(place, inside): (&Place<D>, &Inside<D>)| match inside.wet && wet > 0.0 {
-            true => imposed_velocity(place, now / wet * self.profile.at(place)),
+            true => Outside {
+                share: Some(inside.filled),
+                ..imposed_velocity(place, now / wet * self.profile.at(place))
+            },
             false => Outside::dry(),
         };
         each().map(one).collect()

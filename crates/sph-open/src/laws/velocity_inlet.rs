@@ -16,7 +16,8 @@ use crate::{
 /// Fluid passes with a given velocity along the normal of the face, whatever is in front of it.
 ///
 /// The pressure follows from the characteristic that leaves the fluid, p = p_i + ρc (u − u_i): sound that arrives is
-/// thrown back as from a wall that moves so. A negative velocity takes fluid out.
+/// thrown back as from a wall that moves so. A negative velocity takes fluid out, as far as there is fluid before the
+/// face: where it draws air it does not suck.
 ///
 /// Source: Ferrand et al. 2017, linearised.
 ///
@@ -65,6 +66,11 @@ impl<const D: usize> OpenBoundary<D> for VelocityInlet {
     }
     fn lets_out(&self) -> bool {
         self.velocity < 0.0
+    }
+    fn asked(&self, places: &[Place<D>], time: f64) -> Option<f64> {
+        let now = self.velocity * factor(&self.over_time, time);
+        let one = |place: &Place<D>| self.profile.at(place) * place.measure;
+        Some(now * places.iter().map(one).sum::<f64>())
     }
     fn outside(&self, places: &[Place<D>], _: &[Inside<D>], moment: &Moment<D>) -> Vec<Outside<D>> {
         let now = self.velocity * factor(&self.over_time, moment.time);

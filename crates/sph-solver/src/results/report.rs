@@ -188,6 +188,9 @@ impl<const D: usize> Running<'_, D> {
     ) -> f64 {
         let flow = &self.shown().flow;
         advice.extend(flow.works.iter().flat_map(|w| w.advice(&flow.world)));
+        if flow.world.free.is_empty() {
+            warnings.push("all particles have left: nothing is in the scene at the end".into());
+        }
         if escaped > 0 {
             warnings.push(format!("{escaped} particles are behind a wall at the end"));
         }

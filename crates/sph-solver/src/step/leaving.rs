@@ -13,21 +13,11 @@ impl<const D: usize> Flow<D> {
     /// counts them in their order.
     ///
     /// # Errors
-    /// If nobody is left.
+    /// If a column is missing.
     pub(crate) fn let_out(&mut self, dt: f64) -> Result<(), StepError> {
         // First those who look at wall contacts, which are by slots.
-        let gone = self.by_works(dt)?;
-        let gone = self.by_outlets(dt)? || gone;
-        let here = !self.world.free.is_empty();
-        // A rank may have nobody left, and a scene of bodies alone never has anybody.
-        let somebody = !gone || self.any_rank(here)?;
-        match somebody {
-            true => Ok(()),
-            false => Err(StepError::Stage {
-                stage: "outlets".into(),
-                reason: "all particles have left: let the run end before".into(),
-            }),
-        }
+        self.by_works(dt)?;
+        self.by_outlets(dt)
     }
 
     /// Counts the exits of all work behind the outlets, and behind these the border of the domain where walls end freely.
@@ -61,9 +51,8 @@ impl<const D: usize> Flow<D> {
         self.world.free.set_taken(taken);
     }
 
-    /// Takes out whom work lets out, and counts them; whether anybody went, on any rank.
-    fn by_works(&mut self, dt: f64) -> Result<bool, StepError> {
-        let mut some = false;
+    /// Takes out whom work lets out, and counts them.
+    fn by_works(&mut self, dt: f64) -> Result<(), StepError> {
         let mut first = self.outlets.all.len();
         for k in 0..self.works.len() {
             let work = &mut self.works[k];
@@ -74,15 +63,15 @@ impl<const D: usize> Flow<D> {
             self.world.free.watch([&self.columns.works[k]]);
             let gone = work.departures(&mut self.world, dt);
             self.world.free.unwatch(|| work.name())?;
-            some |= self.take_out(&gone?, first)?;
+            self.take_out(&gone?, first)?;
             first += exits;
         }
-        Ok(some)
+        Ok(())
     }
 
-    fn take_out(&mut self, gone: &[(u32, usize)], first: usize) -> Result<bool, StepError> {
+    fn take_out(&mut self, gone: &[(u32, usize)], first: usize) -> Result<(), StepError> {
         if !self.any_rank(!gone.is_empty())? {
-            return Ok(false);
+            return Ok(());
         }
         let leavers = gone.iter().map(|(p, exit)| (*p as usize, first + exit));
         self.count_leavers(leavers)?;
@@ -92,14 +81,14 @@ impl<const D: usize> Flow<D> {
             gone.iter().for_each(|(p, _)| leaves[*p as usize] = true);
             free.take_out(&leaves);
         }
-        Ok(true)
+        Ok(())
     }
 
-    /// Takes out who is in an outlet; whether anybody is, on any rank.
-    fn by_outlets(&mut self, dt: f64) -> Result<bool, StepError> {
+    /// Takes out who is in an outlet.
+    fn by_outlets(&mut self, dt: f64) -> Result<(), StepError> {
         let (all, border) = (&self.outlets.all, self.outlets.border);
         if all.is_empty() && border.is_none() {
-            return Ok(false);
+            return Ok(());
         }
         let free = &self.world.free;
         let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
@@ -124,7 +113,7 @@ impl<const D: usize> Flow<D> {
             false => Vec::new(),
         };
         if !self.any_rank(some)? {
-            return Ok(false);
+            return Ok(());
         }
         let leavers = left.iter().enumerate();
         self.count_leavers(leavers.filter_map(|(k, outlet)| Some((k, (*outlet)?))))?;
@@ -132,7 +121,7 @@ impl<const D: usize> Flow<D> {
             let leaves: Vec<bool> = left.iter().map(Option::is_some).collect();
             self.world.free.take_out(&leaves);
         }
-        Ok(true)
+        Ok(())
     }
 
     /// Counts who leaves by which exit, on all ranks, in the order of identities.
