@@ -31,7 +31,8 @@ impl Field {
 
     /// `sph run INPUT.toml` with more words; results lie in `r`.
     fn run(&self, input: &str, more: &str) -> Outcome {
-        self.0.call(&format!("run {input}.toml --quiet --out r {more}"))
+        self.0
+            .call(&format!("run {input}.toml --quiet --out r {more}"))
     }
 
     /// `sph check INPUT.toml` with more words.
