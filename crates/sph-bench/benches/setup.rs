@@ -73,6 +73,7 @@ pub fn world(side: usize) -> World<2> {
     };
     world.free.add(fields::POSITION, Role::State);
     world.free.add(fields::VELOCITY, Role::State);
+    world.free.add(fields::MEAN_ACCELERATION, Role::State);
     *column(world.free.get_mut(fields::POSITION)) = position;
     for u in column(world.free.get_mut(fields::VELOCITY)) {
         *u = Vect::from([numbers.next(), numbers.next()]);

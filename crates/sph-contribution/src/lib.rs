@@ -13,6 +13,7 @@
 
 mod column;
 mod contribution;
+mod even_out;
 mod kinds;
 mod limiter;
 mod limits;
@@ -22,6 +23,7 @@ mod step_work;
 
 pub use column::{Birth, Initial, OwnColumn};
 pub use contribution::{Contribution, Setting};
+pub use even_out::even_out;
 pub use kinds::{OpenKind, open_kinds};
 pub use limiter::Limiter;
 pub use limits::{ForceLimit, SoundLimit};

@@ -145,6 +145,12 @@ pub const SHIFT_VELOCITY: Field<Vector> = Field::new(
     "m/s",
     "velocity of the shifting that keeps particles evenly spread",
 );
+/// The mean over time of the acceleration of a particle, which a pressure is in balance with besides gravity.
+pub const MEAN_ACCELERATION: Field<Vector> = Field::new(
+    "mean_acceleration",
+    "m/s²",
+    "acceleration, averaged over the time in which sound passes some smoothing lengths",
+);
 /// How much of a particle's neighbourhood is empty, by its arrangement.
 pub const EMPTINESS: Field<Scalar> = Field::new(
     "emptiness",

@@ -5,28 +5,30 @@ use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
 use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There,
-    World, dot, splat,
+    World, dot, set, splat,
 };
 
 use crate::diffusion_limit::{DiffusionLimit, fastest};
-use crate::{Smoother, SmootherEntry};
+use crate::{Accelerated, Smoother, SmootherEntry};
 use sph_contribution::Limiter;
 use sph_state::Laws;
 
-/// dρ_a/dt += δ (h/c) 2ρ_a/γ_a Σ_b V_b [2/(ρ_a+ρ_b) (p_a − p_b) − g·r_ab] F_ab, free neighbours only.
+/// dρ_a/dt += δ (h/c) 2ρ_a/γ_a Σ_b V_b {[2(p_a − p_b) + (ρ_aA_a + ρ_bA_b)·r_ab]/(ρ_a + ρ_b) − g·r_ab} F_ab, free neighbours
+/// only.
 ///
-/// Symbols: δ strength; c speed of sound of the fastest phase (m/s). The source has a step, ΛΔt, in the place of δ h/c: a strength
-/// that goes with whatever limits the step. At the sound's limit, Δt = 0.4 h/c, it is δ = 0.4 Λ.
+/// Symbols: δ strength; c speed of sound of the fastest phase (m/s); A the [mean acceleration](crate::MeanAcceleration) of a
+/// particle (m/s²). The source has a step, ΛΔt, in the place of δ h/c: a strength that goes with whatever limits the step. At
+/// the sound's limit, Δt = 0.4 h/c, it is δ = 0.4 Λ.
 ///
-/// The bracket vanishes for a hydrostatic field. Across a density jump it does so for pairs that
-/// are mirrored at the interface; on a lattice 7 % of the unbalanced rate is left at a ratio of 2. The thesis prints
-/// other signs, with which the term is anti-diffusive (a tank at rest blows up after 0.09 s).
+/// The bracket vanishes for the pressure that balances gravity and the acceleration of the fluid, ∇p = ρ (g − A): at rest, in
+/// a tank that is accelerated or turns, in a fall. Across a density jump it does so for pairs that are mirrored at the
+/// interface; on a lattice 7 % of the unbalanced rate is left at a ratio of 2. The thesis prints other signs, with which the
+/// term is anti-diffusive (a tank at rest blows up after 0.09 s).
 ///
-/// Limits: the bracket knows gravity and no other force. Where friction or elasticity bears a part of the weight
-/// it is not zero at rest, and pushes the material on. [`DeltaSph`](crate::DeltaSph) is the same diffusion less
-/// whatever gradient there is: take it for soils.
+/// Limits: where friction or elasticity bears a part of the weight, the bracket is not zero at rest, and pushes the material
+/// on. [`DeltaSph`](crate::DeltaSph) is the same diffusion less whatever gradient there is: take it for soils.
 ///
-/// Source: Ghaïtanellis 2017, Eq. 2.92–2.95 and 2.99, corrected.
+/// Source: Ghaïtanellis 2017, Eq. 2.92–2.95 and 2.99, corrected; A, which is 0 there, is ours.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BrezziPitkaranta {
@@ -47,6 +49,9 @@ impl Default for BrezziPitkaranta {
 impl<const D: usize> Smoother<D> for BrezziPitkaranta {
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
         Box::new(Lanewise(self.of(laws)))
+    }
+    fn accelerated(&self) -> Option<Accelerated> {
+        Some(Accelerated::Sweep)
     }
     fn of_pressures(&self) -> bool {
         true
@@ -73,7 +78,7 @@ impl BrezziPitkaranta {
     }
 }
 
-/// The term of [`BrezziPitkaranta`].
+/// The term of [`BrezziPitkaranta`] and of [`RhieChow`](crate::RhieChow).
 #[derive(Clone, Copy, Debug)]
 pub struct PressureDiffusion {
     /// δ/c, s/m.
@@ -91,6 +96,7 @@ impl<const D: usize> LanePairTerm<D> for PressureDiffusion {
         Access::none()
             .both(fields::PRESSURE)
             .both(fields::DENSITY)
+            .both(fields::MEAN_ACCELERATION)
             .neighbours(fields::VOLUME)
     }
 
@@ -98,6 +104,7 @@ impl<const D: usize> LanePairTerm<D> for PressureDiffusion {
         Ok(Bound {
             pressure: world.free.get(fields::PRESSURE)?,
             density: world.free.get(fields::DENSITY)?,
+            acceleration: world.free.get(fields::MEAN_ACCELERATION)?,
             gravity: world.gravity,
             weight: 2.0 * self.slowness * world.kernel.smoothing_length(),
         })
@@ -108,17 +115,20 @@ impl<const D: usize> LanePairTerm<D> for PressureDiffusion {
 pub struct Bound<'a, const D: usize> {
     pressure: &'a [f64],
     density: &'a [f64],
+    acceleration: &'a [Vect<D>],
     gravity: Vect<D>,
     weight: f64,
 }
 
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    type Here = (f64, f64);
+    /// Pressure, density, ρA.
+    type Here = (f64, f64, Vect<D>);
     type Sum = f64;
 
     #[inline(always)]
-    fn here(&self, i: usize) -> (f64, f64) {
-        (self.pressure[i], self.density[i])
+    fn here(&self, i: usize) -> Self::Here {
+        let density = self.density[i];
+        (self.pressure[i], density, self.acceleration[i] * density)
     }
 
     #[inline(always)]
@@ -127,26 +137,28 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     }
 
     #[inline(always)]
-    fn free(&self, here: &(f64, f64), j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
+    fn free(&self, here: &Self::Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
         self.add_one(here, j, there, pair, sum);
     }
 
     #[inline(always)]
-    fn finish(&self, here: &(f64, f64), sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
+    fn finish(&self, here: &Self::Here, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
         rates.scalar += self.weight * here.1 * sum * inverse_gamma;
     }
 }
 
 impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
-    type Side<L: Lane> = (L, L);
+    type Side<L: Lane> = (L, L, [L; D]);
     type Sums<L: Lane> = L;
 
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[(f64, f64)]) -> (L, L) {
-        let mut side = (L::splat(0.0), L::splat(0.0));
+    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L> {
+        let zero = L::splat(0.0);
+        let mut side = (zero, zero, [zero; D]);
         for (lane, own) in here.iter().enumerate() {
             side.0.set(lane, own.0);
             side.1.set(lane, own.1);
+            set(&mut side.2, lane, &own.2);
         }
         side
     }
@@ -164,8 +176,8 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
     #[inline(always)]
     fn add<L: Lane>(
         &self,
-        here: &(L, L),
-        _j: usize,
+        here: &Self::Side<L>,
+        j: usize,
         there: &There<D>,
         pair: &LanePair<D, L>,
         sum: &mut L,
@@ -173,8 +185,12 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         let (pressure, density) = (L::splat(there.pressure), L::splat(there.density));
         let volume = L::splat(there.volume);
         let gravity = splat::<D, L>(&self.gravity);
-        let bracket = L::splat(2.0) * (here.0 - pressure) / (here.1 + density)
-            - dot(&gravity, &pair.separation);
+        let mut inertia = here.2;
+        for (own, other) in inertia.iter_mut().zip(&self.acceleration[j]) {
+            *own = *own + density * L::splat(*other);
+        }
+        let rise = L::splat(2.0) * (here.0 - pressure) + dot(&inertia, &pair.separation);
+        let bracket = rise / (here.1 + density) - dot(&gravity, &pair.separation);
         *sum += volume * bracket * pair.factor;
     }
 }

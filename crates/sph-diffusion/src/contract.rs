@@ -5,6 +5,8 @@ use sph_core::contract;
 use sph_neighbours::Interaction;
 use sph_state::Laws;
 
+use crate::Accelerated;
+
 /// A density diffusion that damps the chequerboard mode of pressure.
 pub trait Smoother<const D: usize>: Send {
     /// What must be known of all particles before the sweep.
@@ -14,6 +16,10 @@ pub trait Smoother<const D: usize>: Send {
     /// The term; it adds dρ/dt to [`Rates::scalar`](sph_neighbours::Rates). It may read the phase
     /// column where there are several laws.
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>>;
+    /// Which accelerations its term takes the mean of, [`MEAN_ACCELERATION`](sph_core::fields::MEAN_ACCELERATION), if it does.
+    fn accelerated(&self) -> Option<Accelerated> {
+        None
+    }
     /// Whether it evens out pressures, and not densities: there is no bound on it where the pressure is that of the end of the
     /// step.
     fn of_pressures(&self) -> bool {

@@ -1,15 +1,20 @@
 //! Smoothers and shifting in a scene.
 
-use sph_contribution::{Contribution, Limiter, Setting, Stages};
+use sph_contribution::{Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork};
 use sph_core::{AnyField, fields};
 use sph_neighbours::Terms;
 
-use crate::{ShiftedFlow, Shifting, Smoother};
+use crate::diffusion_limit::fastest;
+use crate::{MeanAcceleration, ShiftedFlow, Shifting, Smoother};
 
 /// The smoother that a scene names.
 pub struct Smoothed<const D: usize>(pub Box<dyn Smoother<D>>);
 
 impl<const D: usize> Contribution<D> for Smoothed<D> {
+    fn columns(&self) -> Vec<OwnColumn<D>> {
+        let column = |_| OwnColumn::zero(fields::MEAN_ACCELERATION.any());
+        self.0.accelerated().map(column).into_iter().collect()
+    }
     fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
         self.0.stages(setting.laws)
     }
@@ -24,6 +29,14 @@ impl<const D: usize> Contribution<D> for Smoothed<D> {
             true => Vec::new(),
             false => self.0.limiter(setting.laws).into_iter().collect(),
         }
+    }
+    fn works(
+        &mut self,
+        setting: &Setting<'_, D>,
+        _read: &[AnyField],
+    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
+        let mean = |of| Box::new(MeanAcceleration::new(of, fastest(setting.laws))) as _;
+        Ok(self.0.accelerated().map(mean).into_iter().collect())
     }
     fn remedy(&self, path: &str) -> Option<String> {
         Some(format!("lower the strength in {path}"))

@@ -7,7 +7,7 @@ use sph_neighbours::{BoundTerm, Contact, Interaction, Pair, PairTerm, Rates, Ter
 
 use crate::diffusion_limit::DiffusionLimit;
 use crate::per_phase::PerPhase;
-use crate::{Smoother, SmootherEntry};
+use crate::{Accelerated, Smoother, SmootherEntry};
 use sph_contribution::Limiter;
 use sph_state::Laws;
 
@@ -23,7 +23,8 @@ use sph_state::Laws;
 /// Limits: as printed, a hydrostatic density has a source of about δ ρ₀ g/c at a free surface, and
 /// across an interface, where β has a kink at rest, because ρ₀g/(ρ₀c²) jumps unless c is the same: two
 /// layers at rest have 6 to 8 % too much pressure between them. `balance = "hydrostatic"` takes
-/// (ρ_a + ρ_b)/2 g·r_ab/(ρ₀_a c_a²) from every difference, as the Brezzi–Pitkäranta smoother does,
+/// ½[ρ_a(g − A_a) + ρ_b(g − A_b)]·r_ab/(ρ₀_a c_a²) from every difference, A the
+/// [mean acceleration](crate::MeanAcceleration), as the Brezzi–Pitkäranta smoother does,
 /// and nothing is left to diffuse at rest. The volume that a pair of phases exchanges balances only
 /// if c is the same.
 ///
@@ -55,7 +56,7 @@ pub struct DeltaMultiphase {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Balance {
-    /// The compression of a fluid at rest.
+    /// The compression of a fluid at rest or in an accelerated frame.
     #[default]
     Hydrostatic,
     /// Nothing: as printed.
@@ -80,6 +81,9 @@ impl<const D: usize> Smoother<D> for DeltaMultiphase {
             sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
             laws: laws.clone(),
         }))
+    }
+    fn accelerated(&self) -> Option<Accelerated> {
+        (self.balance == Balance::Hydrostatic).then_some(Accelerated::Sweep)
     }
     fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         DiffusionLimit::of(self.strength, laws)
@@ -125,6 +129,10 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
             .both(fields::DENSITY)
             .both(fields::VOLUME)
             .and(self.density.access())
+            .and(match self.smoother.balance {
+                Balance::Hydrostatic => Access::none().both(fields::MEAN_ACCELERATION),
+                Balance::Literal => Access::none(),
+            })
     }
 
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
@@ -143,9 +151,11 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
             at_points: beside_walls(&points.pressure),
             at_elements: beside_walls(&elements.pressure),
             normals: &elements.normal,
-            gravity: match self.smoother.balance {
-                Balance::Hydrostatic => world.gravity,
-                Balance::Literal => Vect::zeros(),
+            balance: match self.smoother.balance {
+                Balance::Hydrostatic => {
+                    Some((world.gravity, world.free.get(fields::MEAN_ACCELERATION)?))
+                }
+                Balance::Literal => None,
             },
             nearest: 0.5 * world.spacing,
             weight: 2.0 * self.smoother.strength * world.kernel.smoothing_length(),
@@ -164,16 +174,28 @@ pub struct Bound<'a, const D: usize> {
     at_points: Vec<f64>,
     at_elements: Vec<f64>,
     normals: &'a [Vect<D>],
-    gravity: Vect<D>,
+    /// Gravity and mean accelerations, where what they balance is left alone.
+    balance: Option<(Vect<D>, &'a [Vect<D>])>,
     nearest: f64,
     weight: f64,
 }
 
+impl<const D: usize> Bound<'_, D> {
+    /// ∇p of what is left alone, Pa/m.
+    fn at_rest(&self, i: usize, density: f64) -> Vect<D> {
+        match self.balance {
+            Some((gravity, acceleration)) => (gravity - acceleration[i]) * density,
+            None => Vect::zeros(),
+        }
+    }
+}
+
 /// What is read once per particle.
 #[derive(Clone, Copy)]
-pub struct Own {
+pub struct Own<const D: usize> {
     compression: f64,
-    density: f64,
+    /// ∇p at rest, Pa/m.
+    at_rest: Vect<D>,
     volume: f64,
     phase: u32,
     /// 1/(ρ₀c²).
@@ -181,16 +203,16 @@ pub struct Own {
 }
 
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    type Here = Own;
+    type Here = Own<D>;
     type Sum = f64;
 
     #[inline(always)]
-    fn here(&self, i: usize) -> Own {
+    fn here(&self, i: usize) -> Own<D> {
         let phase = self.phase.map_or(0, |p| p[i]);
         let (rest, c) = (self.term.density.at(phase), self.term.sound_speed.at(phase));
         Own {
             compression: self.density[i] / rest,
-            density: self.density[i],
+            at_rest: self.at_rest(i, self.density[i]),
             volume: self.volume[i],
             phase,
             compressibility: 1.0 / (rest * c * c),
@@ -203,38 +225,38 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     }
 
     #[inline(always)]
-    fn free(&self, own: &Own, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
+    fn free(&self, own: &Own<D>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
         let phase = self.phase.map_or(0, |p| p[j]);
         let compression = there.density / self.term.density.at(phase);
-        let mean = 0.5 * (own.density + there.density);
-        let at_rest = mean * self.gravity.dot(&pair.separation) * own.compressibility;
+        let mean = (own.at_rest + self.at_rest(j, there.density)) * 0.5;
+        let at_rest = mean.dot(&pair.separation) * own.compressibility;
         *sum += there.volume * (own.compression - compression - at_rest) * pair.factor;
     }
 
     #[inline(always)]
-    fn wall(&self, own: &Own, v: usize, pair: &Pair<D>, sum: &mut f64) {
+    fn wall(&self, own: &Own<D>, v: usize, pair: &Pair<D>, sum: &mut f64) {
         if !self.at_points.is_empty() {
             let there = self.at_points[own.phase as usize * self.wall_share.len() + v];
             let weight = self.wall_share[v] * own.volume;
-            let at_rest = own.density * self.gravity.dot(&pair.separation) * own.compressibility;
+            let at_rest = own.at_rest.dot(&pair.separation) * own.compressibility;
             *sum += weight * (own.compression - there - at_rest) * pair.factor;
         }
     }
 
     #[inline(always)]
-    fn element(&self, own: &Own, contact: &Contact<D>, sum: &mut f64) {
+    fn element(&self, own: &Own<D>, contact: &Contact<D>, sum: &mut f64) {
         if !self.at_elements.is_empty() {
             let s = contact.element as usize;
             let there = self.at_elements[own.phase as usize * self.normals.len() + s];
             let apart = contact.distance.max(self.nearest);
             let slope = (own.compression - there) / apart;
-            let at_rest = own.density * self.gravity.dot(&self.normals[s]) * own.compressibility;
+            let at_rest = own.at_rest.dot(&self.normals[s]) * own.compressibility;
             *sum -= (slope - at_rest) * contact.gradient.norm();
         }
     }
 
     #[inline(always)]
-    fn finish(&self, own: &Own, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
+    fn finish(&self, own: &Own<D>, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
         let term = self.term;
         let scale = term.density.at(own.phase) * term.sound_speed.at(own.phase);
         rates.scalar += self.weight * scale * sum * inverse_gamma;

@@ -5,6 +5,7 @@
 //! * [`Shifting`] is a kind of plugin, what keeps particles evenly spread: [`Fickian`].
 #![doc = include_str!("../README.md")]
 
+mod balance;
 mod brezzi_pitkaranta;
 mod contract;
 mod contribution;
@@ -18,6 +19,7 @@ mod per_phase;
 mod rhie_chow;
 mod shift_transport;
 
+pub use balance::{Accelerated, MeanAcceleration};
 pub use brezzi_pitkaranta::{BrezziPitkaranta, PressureDiffusion};
 pub use contract::{ShiftedFlow, Shifting, ShiftingEntry, Smoother, SmootherEntry};
 pub use contribution::{Shifted, Smoothed};

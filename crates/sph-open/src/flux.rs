@@ -1,7 +1,7 @@
 //! What passes a face changes densities.
 
 use rayon::prelude::*;
-use sph_core::{Field, Scalar, StepError, Vect, fields};
+use sph_core::{Field, Scalar, StepError, fields};
 use sph_neighbours::World;
 
 use crate::faces::{CLOSED, Faces};
@@ -76,28 +76,6 @@ impl<const D: usize> Faces<D> {
         all.with_min_len(1024)
             .for_each(|(i, (constant, last))| one(i, constant, last));
         world.free.put(OPEN_FLUX, last)?;
-        Ok(world.free.put(fields::DENSITY_CONSTANT, constant)?)
-    }
-
-    /// Takes the kernels of particles that come (`sign` −1) or go (+1) out of the density constants of all others, so that
-    /// nobody's density jumps.
-    pub fn even_out(world: &mut World<D>, places: &[Vect<D>], sign: f64) -> Result<(), StepError> {
-        if places.is_empty() {
-            return Ok(());
-        }
-        let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
-        let free = &world.free;
-        let (position, mass) = (free.get(fields::POSITION)?, free.get(fields::MASS)?);
-        let limit = world.kernel.support_radius().powi(2);
-        let all = constant.par_iter_mut().zip(position).zip(mass);
-        all.with_min_len(1024).for_each(|((constant, x), m)| {
-            for place in places {
-                let r2 = world.domain.nearest_image(x - place).norm_squared();
-                if r2 < limit {
-                    *constant += sign * m * world.kernel.at(r2.sqrt()).0;
-                }
-            }
-        });
         Ok(world.free.put(fields::DENSITY_CONSTANT, constant)?)
     }
 }

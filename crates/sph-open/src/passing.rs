@@ -1,11 +1,11 @@
 //! The work of open faces within a step.
 
 use serde_json::Value as Json;
-use sph_contribution::{Newborn, StepWork};
+use sph_contribution::{Newborn, StepWork, even_out};
 use sph_core::{Access, AnyField, StepError, Vect, fields};
 use sph_neighbours::World;
 
-use crate::faces::{Faces, SharedFaces, lock};
+use crate::faces::{SharedFaces, lock};
 use crate::flux::OPEN_FLUX;
 
 /// Name of the work, under which the summary has the budget.
@@ -78,9 +78,7 @@ impl<const D: usize> StepWork<D> for Passing<D> {
         _dt: f64,
     ) -> Result<Vec<(u32, usize)>, StepError> {
         let gone = lock(&self.faces).leaving(world)?;
-        if self.summed {
-            Faces::even_out(world, &gone.places, 1.0)?;
-        }
+        even_out(world, &gone.places, 1.0)?;
         Ok(gone.here)
     }
 
@@ -91,10 +89,8 @@ impl<const D: usize> StepWork<D> for Passing<D> {
     fn births(&mut self, world: &mut World<D>, _dt: f64) -> Result<Vec<Newborn<D>>, StepError> {
         let mut faces = lock(&self.faces);
         let born = faces.ripe();
-        if self.summed {
-            let places: Vec<Vect<D>> = born.iter().map(|b| b.position).collect();
-            Faces::even_out(world, &places, -1.0)?;
-        }
+        let places: Vec<Vect<D>> = born.iter().map(|b| b.position).collect();
+        even_out(world, &places, -1.0)?;
         world.walls.passed = faces.passed(&world.walls);
         Ok(born)
     }

@@ -1,1 +1,3 @@
 //! Smoothers under other accelerations than gravity, and energy that rises.
+
+use crate::Field;

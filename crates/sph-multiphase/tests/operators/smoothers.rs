@@ -1,9 +1,10 @@
 //! The other smoothers: blind to what is smooth, keen on noise, and a diffusion.
 
+use sph_contribution::StepWork;
 use sph_core::{Role, Vect, fields};
 use sph_diffusion::{
-    BrezziPitkaranta, DENSITY_GRADIENT, DeltaForm, DeltaMultiphase, DeltaSph, PRESSURE_SLOPE,
-    RhieChow, Smoother,
+    Accelerated, BrezziPitkaranta, DENSITY_GRADIENT, DeltaForm, DeltaMultiphase, DeltaSph,
+    MeanAcceleration, PRESSURE_SLOPE, RhieChow, Smoother,
 };
 use sph_kernels::{Kernel, quintic_spline};
 use sph_neighbours::{Domain, World};
@@ -18,6 +19,11 @@ fn rate<const D: usize>(world: &mut World<D>, smoother: &dyn Smoother<D>, laws: 
     world.free.add(PRESSURE_SLOPE, Role::Derived);
     for mut stage in smoother.stages(laws) {
         stage.run(world).unwrap();
+    }
+    if smoother.accelerated() == Some(Accelerated::Slope) {
+        // A slope that has long been as it is.
+        let mut mean = MeanAcceleration::new(Accelerated::Slope, 20.0);
+        mean.before_drift(world, 1e9).unwrap();
     }
     rates(world, &vec![smoother.term(laws)]).1
 }

@@ -12,7 +12,12 @@ pub fn world<const D: usize>(
     ratio: f64,
 ) -> World<D> {
     let mut free = Store::new(positions.len());
-    for field in [fields::POSITION, fields::VELOCITY, fields::ACCELERATION] {
+    for field in [
+        fields::POSITION,
+        fields::VELOCITY,
+        fields::ACCELERATION,
+        fields::MEAN_ACCELERATION,
+    ] {
         free.add(field, Role::State);
     }
     for field in [

@@ -8,7 +8,8 @@ use sph_neighbours::World;
 pub struct Interpolated<const D: usize> {
     /// Σ V w: 1 deep inside the fluid, 0 where there is none.
     pub filling: f64,
-    /// Σ V [p + ρ g·(x − r)] w / Σ V w, Pa: hydrostatically corrected, exact at rest.
+    /// Σ V [p + ρ (g − A)·(x − r)] w / Σ V w, Pa: exact at rest, and in a tank that is accelerated, where the smoother knows
+    /// the mean accelerations A.
     pub pressure: f64,
     /// Σ V u w / Σ V w, m/s.
     pub velocity: Vect<D>,
@@ -29,6 +30,7 @@ pub fn interpolate<const D: usize>(
     let pressure = world.free.get(fields::PRESSURE)?;
     let density = world.free.get(fields::DENSITY)?;
     let volume = world.free.get(fields::VOLUME)?;
+    let acceleration = world.free.get(fields::MEAN_ACCELERATION).ok();
     let radius = world.kernel.support_radius();
     let mut sum = Interpolated {
         filling: 0.0,
@@ -41,7 +43,8 @@ pub fn interpolate<const D: usize>(
         if r2 < radius * radius {
             let vw = volume[j] * world.kernel.at(r2.sqrt()).0;
             sum.filling += vw;
-            sum.pressure += vw * (pressure[j] + density[j] * world.gravity.dot(&d));
+            let inertia = acceleration.map_or(Vect::zeros(), |a| a[j]);
+            sum.pressure += vw * (pressure[j] + density[j] * (world.gravity - inertia).dot(&d));
             sum.velocity += velocity[j] * vw;
         }
     }

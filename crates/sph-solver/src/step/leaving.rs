@@ -1,6 +1,7 @@
 //! Particles that leave the flow.
 
 use rayon::prelude::*;
+use sph_contribution::even_out;
 use sph_core::{StepError, Taken, Vect, fields};
 use sph_scene::Scene;
 
@@ -116,7 +117,9 @@ impl<const D: usize> Flow<D> {
             return Ok(());
         }
         let leavers = left.iter().enumerate();
-        self.count_leavers(leavers.filter_map(|(k, outlet)| Some((k, (*outlet)?))))?;
+        let leavers = leavers.filter_map(|(k, outlet)| Some((k, (*outlet)?)));
+        let places = self.count_leavers(leavers)?;
+        even_out(&mut self.world, &places, 1.0)?;
         if some {
             let leaves: Vec<bool> = left.iter().map(Option::is_some).collect();
             self.world.free.take_out(&leaves);
@@ -124,13 +127,14 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Counts who leaves by which exit, on all ranks, in the order of identities.
+    /// Counts who leaves by which exit, on all ranks, and gives their places, in the order of identities.
     fn count_leavers(
         &mut self,
         left: impl Iterator<Item = (usize, usize)>,
-    ) -> Result<(), StepError> {
+    ) -> Result<Vec<Vect<D>>, StepError> {
         let free = &self.world.free;
         let (identity, mass) = (free.get(fields::IDENTITY)?, free.get(fields::MASS)?);
+        let position = free.get(fields::POSITION)?;
         let phase = free.get(fields::PHASE).ok();
         let own = self.world.team.as_ref().map(|team| team.own(free));
         let phases = self.laws.len();
@@ -139,22 +143,26 @@ impl<const D: usize> Flow<D> {
         let left = left.filter(|(k, _)| counts(*k));
         let leavers = left.flat_map(|(k, exit)| {
             let place = exit * phases + phase.map_or(0, |p| p[k] as usize);
-            [u64::from(identity[k]), place as u64, mass[k].to_bits()]
+            let numbers = position[k].iter().chain([&mass[k]]).map(|x| x.to_bits());
+            [u64::from(identity[k]), place as u64]
+                .into_iter()
+                .chain(numbers)
         });
         let mut leavers: Vec<u64> = leavers.collect();
         if let Some(team) = &self.world.team {
             leavers = team.gather(&leavers)?;
         }
-        let (leavers, _) = leavers.as_chunks_mut::<3>();
+        let mut leavers: Vec<&[u64]> = leavers.chunks_exact(D + 3).collect();
         leavers.sort_unstable();
         let mut taken = self.world.free.taken().to_vec();
-        for [_, place, mass] in leavers {
-            let count = &mut taken[*place as usize];
-            count.mass += f64::from_bits(*mass);
+        for leaver in &leavers {
+            let count = &mut taken[leaver[1] as usize];
+            count.mass += f64::from_bits(leaver[D + 2]);
             count.particles += 1;
         }
         self.world.free.set_taken(taken);
-        Ok(())
+        let place = |leaver: &&[u64]| Vect::from_fn(|k, _| f64::from_bits(leaver[2 + k]));
+        Ok(leavers.iter().map(place).collect())
     }
 
     /// What a resumed run has counted: mass as bits, and particles.

@@ -1,0 +1,72 @@
+//! The acceleration that a pressure is in balance with.
+
+use rayon::prelude::*;
+use sph_contribution::StepWork;
+use sph_core::{Access, Field, StepError, Vector, fields};
+use sph_neighbours::World;
+
+use crate::rhie_chow::PRESSURE_SLOPE;
+
+/// Over how many h/c accelerations are averaged.
+///
+/// Sound with a shorter period is diffused as if at rest, what is slower is left alone. Ours: of a wave with k h = π/40, four
+/// times as long as a layer of 40 rows is deep, 71 % is diffused; flows of a tenth of the speed of sound take ten times as long.
+const MEMORY: f64 = 20.0;
+
+/// What tells how particles are accelerated by all but friction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accelerated {
+    /// The acceleration of the sweep, a.
+    Sweep,
+    /// The slope s of the pressure: g − s.
+    Slope,
+}
+
+/// A ← A + (1 − e^(−cΔt/20h)) (a − **f** − A): the mean acceleration of a particle, without the driving force **f**.
+///
+/// Under it the pressure has the gradient ρ (**g** − A), whatever accelerates the fluid: walls that move, a fall, a turn. A
+/// smoother that takes this gradient off leaves all of them alone. The mean lags behind sound: with the frequency ω the share
+/// (ω²τ² + iωτ)/(1 + ω²τ²) is diffused, τ = 20h/c, whose real part is positive.
+pub struct MeanAcceleration {
+    of: Accelerated,
+    /// c of the fastest phase, m/s.
+    sound: f64,
+}
+
+impl MeanAcceleration {
+    /// Of these accelerations; `sound` is the speed of sound of the fastest phase, m/s.
+    pub fn new(of: Accelerated, sound: f64) -> Self {
+        MeanAcceleration { of, sound }
+    }
+
+    fn source(&self) -> Field<Vector> {
+        match self.of {
+            Accelerated::Sweep => fields::ACCELERATION,
+            Accelerated::Slope => PRESSURE_SLOPE,
+        }
+    }
+}
+
+impl<const D: usize> StepWork<D> for MeanAcceleration {
+    fn name(&self) -> String {
+        "mean acceleration".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .here(self.source())
+            .writes(fields::MEAN_ACCELERATION)
+    }
+    fn before_drift(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        let memory = MEMORY * world.kernel.smoothing_length() / self.sound;
+        let part = -(-dt / memory).exp_m1();
+        let mut mean = world.free.take(fields::MEAN_ACCELERATION)?;
+        let source = world.free.get(self.source())?;
+        let (gravity, driving) = (world.gravity, world.driving);
+        let all = mean.par_iter_mut().zip(source).with_min_len(2048);
+        match self.of {
+            Accelerated::Sweep => all.for_each(|(mean, a)| *mean += (a - driving - *mean) * part),
+            Accelerated::Slope => all.for_each(|(mean, s)| *mean += (gravity - s - *mean) * part),
+        }
+        Ok(world.free.put(fields::MEAN_ACCELERATION, mean)?)
+    }
+}
