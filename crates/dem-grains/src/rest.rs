@@ -15,7 +15,7 @@ pub enum Unrest {
     NotCarried(usize),
     /// A piston whose load nothing balances.
     Piston(usize),
-    /// The mean speed of the grains, m/s.
+    /// The mean speed of the grains, that of their surfaces by spin added, m/s.
     Moving(f64),
 }
 
@@ -35,7 +35,7 @@ impl GrainSystem {
     ///
     /// ```text
     /// mean |F| ≤ tolerance · F_c,     |F_i| ≤ max(tolerance, 0.1) (m_i g + Σ_c |F_ic|) for every grain with a weight,
-    /// |σ A − F| ≤ tolerance · |σ| A for every piston,     mean |v| ≤ tolerance · √(F_c R / m)
+    /// |σ A − F| ≤ tolerance · |σ| A for every piston,     mean |v| + R |ω| ≤ tolerance · √(F_c R / m)
     /// ```
     ///
     /// with the resultant force F, the mean contact force F_c, the mean radius R and the mean mass m. Held grains do not
@@ -68,10 +68,7 @@ impl GrainSystem {
             }
         }
         let count = free().count().max(1) as f64;
-        // A grain without weight that touches nothing may float.
-        let speed = free()
-            .filter(|i| self.acting(*i) > 0.0)
-            .map(|i| g.velocity[i].norm());
+        let speed = free().map(|i| g.velocity[i].norm() + g.radius[i] * g.spin[i].norm());
         let speed = speed.sum::<f64>() / count;
         let (radius, mass): (f64, f64) = (g.radius.iter().sum(), g.mass.iter().sum());
         let slow = speed <= tolerance * (contact * radius / mass).sqrt();

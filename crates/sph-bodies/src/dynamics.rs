@@ -72,15 +72,10 @@ impl Dynamics {
         let moved = padded(now.velocity.as_slice()) + along * dt;
         state.velocity = Vect::from_fn(|k, _| moved[k]);
         // Weight alone is a constant force, of which the mean velocity makes the exact parabola.
-        let flies = [load.force, load.contact_force] == [Vect::<D>::zeros(); 2]
-            && self.holds.is_empty()
-            && self.lines.is_empty();
-        let mean = match flies {
-            true => (now.velocity + state.velocity) * 0.5,
-            false => state.velocity,
-        };
-        let place = Vect::from(now.pose.translation) + mean * dt;
-        state.pose.translation = place.into();
+        let flies = load.is_weight() && self.holds.is_empty() && self.lines.is_empty();
+        let share = if flies { 0.5 } else { 1.0 };
+        let mean = now.velocity.lerp(&state.velocity, share);
+        state.pose.translation = (Vect::from(now.pose.translation) + mean * dt).into();
         let (turned, omega_next) = match self.free[3..] {
             [true, true, true] if D == 3 => {
                 let moment = inertia * about + gyroscopic;

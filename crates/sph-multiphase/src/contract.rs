@@ -1,6 +1,6 @@
 //! What formulations and interface models are.
 
-use sph_contribution::{Limiter, Setting, Stages};
+use sph_contribution::{Limiter, Refusal, Setting, Stages};
 use sph_core::{Evolved, Field, Scalar, Stage, StepError, contract};
 use sph_neighbours::{Interaction, World};
 use sph_state::{Laws, PressureStage};
@@ -85,6 +85,17 @@ pub trait InterfaceModel<const D: usize>: Send {
     /// What must be known of all particles before the sweep.
     fn stages(&self, _laws: &Laws) -> Stages<D> {
         Vec::new()
+    }
+    /// The same, with all that is known of the scene.
+    fn stages_within(&self, setting: &Setting<'_, D>) -> Stages<D> {
+        self.stages(setting.laws)
+    }
+    /// Whether it can be part of a scene.
+    ///
+    /// # Errors
+    /// The key that does not fit.
+    fn check(&self, _: &Setting<'_, D>) -> Result<(), Refusal> {
+        Ok(())
     }
     /// The term of the interaction sweep; it may read the phase column.
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>>;

@@ -82,11 +82,11 @@ impl<const D: usize> Contribution<D> for Meeting<D> {
                 "",
                 "the scene has one phase, and interfaces are between two: take this table out, or add a phase",
             )),
-            _ => Ok(()),
+            _ => self.0.check(setting),
         }
     }
     fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        self.0.stages(setting.laws)
+        self.0.stages_within(setting)
     }
     fn terms(&self, setting: &Setting<'_, D>) -> Terms<D> {
         vec![self.0.term(setting.laws)]

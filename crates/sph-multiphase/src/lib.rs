@@ -12,6 +12,7 @@
 
 mod acoustic_damper;
 mod colagrossi_landrini;
+mod contact_angle;
 mod contract;
 mod contribution;
 mod dilatation;
@@ -33,6 +34,7 @@ mod volume;
 
 pub use acoustic_damper::AcousticDamper;
 pub use colagrossi_landrini::ColagrossiLandrini;
+pub use contact_angle::{ContactAngle, FILM};
 pub use contract::{
     Acting, Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, InterfaceModel,
     PressureEntry, PressureScheme,

@@ -7,9 +7,10 @@ use sph_core::{
 };
 use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
 
+use crate::contact_angle::{ContactAngle, FILM};
 use crate::{InterfaceEntry, InterfaceModel};
 
-use sph_contribution::{Limiter, Stages};
+use sph_contribution::{Limiter, Refusal, Setting, Stages};
 
 use sph_neighbours::{Around, Values, walk_into};
 use sph_state::Laws;
@@ -29,7 +30,12 @@ use sph_state::Laws;
 /// the jump as noise; a weak one is best.
 ///
 /// Limits: Δt ≤ ¼ √(ρ h³/2πσ) with the least density; a radius below about 3 h is not resolved; the
-/// same tension between all phases; no contact angle at walls (theirs is whatever ∇c cut by the wall gives).
+/// same tension between all phases.
+///
+/// Interfaces end at walls: nothing there holds them along the wall, so that they stand upright, at 90°. With a
+/// `contact_angle` θ the phase that wets a wall has a film on it with the tension −σ|cos θ|, which is what the energies of
+/// the wall with both phases leave in Young's law, σ cos θ = σ_wall,other − σ_wall,phase. The film is a surface stress, too,
+/// with 2 ∇γ/γ in place of ∇c: |∇γ| integrates to ½ from the wall on, and γ is the share of the partners across a cut.
 ///
 /// Source: Hu & Adams 2006, with the isotropic part of Lafaurie et al. 1994; the limit of Brackbill et al. 1992 with ¼.
 ///
@@ -37,7 +43,7 @@ use sph_state::Laws;
 /// [interface.surface-tension]
 /// tension = 0.072
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceTension {
     /// Surface tension σ.
@@ -50,6 +56,9 @@ pub struct SurfaceTension {
     #[serde(default)]
     #[schemars(extend("source" = "Lafaurie et al. 1994; Hu & Adams 2006"))]
     pub stress: SurfaceStress,
+    /// Angle at which interfaces meet walls; 90° if left out.
+    #[schemars(extend("source" = "Young 1805"))]
+    pub contact_angle: Option<ContactAngle>,
 }
 
 /// The isotropic part of the surface stress.
@@ -67,8 +76,20 @@ impl<const D: usize> InterfaceModel<D> for SurfaceTension {
     fn stages(&self, _laws: &Laws) -> Stages<D> {
         vec![Box::new(ColourGradient)]
     }
+    fn stages_within(&self, setting: &Setting<'_, D>) -> Stages<D> {
+        let mut stages = self.stages(setting.laws);
+        if let Some(angle) = &self.contact_angle {
+            stages.push(Box::new(angle.films(setting)));
+        }
+        stages
+    }
+    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+        self.contact_angle
+            .as_ref()
+            .map_or(Ok(()), |angle| angle.check(setting))
+    }
     fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Term(*self))
+        Box::new(Term(self.clone()))
     }
     fn limiter(&self, _laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         (self.tension > 0.0).then(|| Box::new(CapillaryLimit(self.tension)) as _)
@@ -135,10 +156,14 @@ impl<const D: usize> PairTerm<D> for SurfaceTension {
     }
 
     fn access(&self) -> Access {
-        Access::none()
+        let access = Access::none()
             .both(COLOUR_GRADIENT)
             .both(fields::VOLUME)
-            .here(fields::MASS)
+            .here(fields::MASS);
+        match &self.contact_angle {
+            Some(_) => access.both(FILM),
+            None => access,
+        }
     }
 
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
@@ -146,6 +171,10 @@ impl<const D: usize> PairTerm<D> for SurfaceTension {
             colour: world.free.get(COLOUR_GRADIENT)?,
             volume: world.free.get(fields::VOLUME)?,
             mass: world.free.get(fields::MASS)?,
+            film: match &self.contact_angle {
+                Some(_) => world.free.get(FILM)?,
+                None => &[],
+            },
             tension: self.tension,
             isotropic: match self.stress {
                 SurfaceStress::Full => 1.0,
@@ -160,8 +189,19 @@ pub struct Bound<'a, const D: usize> {
     colour: &'a [Vect<D>],
     volume: &'a [f64],
     mass: &'a [f64],
+    /// Empty where the scene has no contact angle.
+    film: &'a [Vect<D>],
     tension: f64,
     isotropic: f64,
+}
+
+impl<const D: usize> Bound<'_, D> {
+    /// Stress of the film at a particle, which is compressed.
+    #[inline(always)]
+    fn film(&self, i: usize, volume: f64) -> Option<Stress<D>> {
+        let film = self.film.get(i)?;
+        Some(Stress::of(*film, -self.tension * volume * volume, 1.0))
+    }
 }
 
 /// σV² (|∇c| ι I − ∇c∇c/|∇c|) of one particle.
@@ -190,15 +230,15 @@ impl<const D: usize> Stress<D> {
 }
 
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    /// Stress and 1/m.
-    type Here = (Stress<D>, f64);
+    /// Stress, 1/m and the stress of the film.
+    type Here = (Stress<D>, f64, Option<Stress<D>>);
     type Sum = Vect<D>;
 
     #[inline(always)]
     fn here(&self, i: usize) -> Self::Here {
         let v = self.volume[i];
         let stress = Stress::of(self.colour[i], self.tension * v * v, self.isotropic);
-        (stress, 1.0 / self.mass[i])
+        (stress, 1.0 / self.mass[i], self.film(i, v))
     }
 
     #[inline(always)]
@@ -215,9 +255,13 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         pair: &Pair<D>,
         sum: &mut Vect<D>,
     ) {
-        let scale = self.tension * there.volume * there.volume;
+        let volume = there.volume;
+        let scale = self.tension * volume * volume;
         let there = Stress::of(self.colour[j], scale, self.isotropic);
         *sum += (here.0.dot(&pair.separation) + there.dot(&pair.separation)) * pair.factor;
+        if let (Some(here), Some(there)) = (&here.2, self.film(j, volume)) {
+            *sum += (here.dot(&pair.separation) + there.dot(&pair.separation)) * pair.factor;
+        }
     }
 
     /// Without 1/γ: what one particle gets, another loses.

@@ -43,6 +43,7 @@ fn world() -> World<2> {
     *free.get_mut(fields::PORE_PRESSURE).unwrap() = rows.iter().map(still).collect();
     World {
         gravity: Vect::from([0.0, -10.0]),
+        steady_gravity: Vect::from([0.0, -10.0]),
         ..common::world(free, SPACING)
     }
 }

@@ -38,6 +38,7 @@ fn world() -> World<2> {
     domain.periodic[0] = true;
     World {
         gravity: Vect::from([0.0, -10.0]),
+        steady_gravity: Vect::from([0.0, -10.0]),
         domain,
         ..common::world(free, SPACING)
     }

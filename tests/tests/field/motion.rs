@@ -150,3 +150,68 @@ fn a_scene_without_bodies_of_fluid_and_movers_is_refused() {
         outcome.err
     );
 }
+
+/// Angle of a circular segment of the height and width of the drop, from the last third of the run.
+fn angle_of_drop(field: &Field, more: &str) -> f64 {
+    done(field.run("drop", more));
+    let series = field.series();
+    let mean = |name: &str| {
+        let all = column(&series, name);
+        let late = &all[2 * all.len() / 3..];
+        late.iter().sum::<f64>() / late.len() as f64
+    };
+    // Particles stand half a spacing inside.
+    let spacing = 0.3125e-3;
+    let height = mean("water.highest") + 0.5 * spacing;
+    let width = mean("waterx.highest") - mean("waterx.lowest") + spacing;
+    // A drop that hangs over is as wide as its circle.
+    let angle = match 2.0 * height < width {
+        true => 2.0 * (2.0 * height / width).atan(),
+        false => (1.0 - 2.0 * height / width).acos(),
+    };
+    angle.to_degrees()
+}
+
+/// Half a spacing of 8 rows in height and width is 5°.
+const SHARPNESS: f64 = 5.0;
+
+#[test]
+fn a_drop_on_a_plate_takes_the_contact_angle() {
+    let key = "--set interface.surface-tension.contact_angle";
+    let wets = format!("{key}.phase=water {key}.angle=1.0472");
+    let found = angle_of_drop(&Field::new(), &wets);
+    assert!((found - 60.0).abs() < SHARPNESS, "{found} deg for 60 deg");
+}
+
+#[test]
+fn a_wall_of_its_own_shuns_the_drop() {
+    let key = "--set interface.surface-tension.contact_angle";
+    // 60° through the oil are 120° through the water.
+    let shuns = format!("{key}.phase=oil {key}.angle=2.5 {key}.walls.box=1.0472");
+    let found = angle_of_drop(&Field::new(), &shuns);
+    assert!((found - 120.0).abs() < SHARPNESS, "{found} deg for 120 deg");
+}
+
+#[test]
+fn a_contact_angle_of_nothing_is_refused() {
+    let field = Field::new();
+    let key = "--set interface.surface-tension.contact_angle";
+    for (more, told) in [
+        (
+            format!("{key}.phase=watr {key}.angle=1"),
+            "did you mean `water`",
+        ),
+        (
+            format!("{key}.phase=oil {key}.angle=1 {key}.walls.bx=1"),
+            "did you mean `box`",
+        ),
+        (format!("{key}.phase=oil {key}.angle=4"), "at most"),
+        (
+            format!("{key}.phase=oil {key}.angle=1 --set walls.usaw.vertices=true"),
+            "vertices = false",
+        ),
+    ] {
+        let outcome = field.check("drop", &more);
+        assert!(outcome.err.contains(told), "{more}: {}", outcome.err);
+    }
+}

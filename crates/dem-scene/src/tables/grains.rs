@@ -65,7 +65,7 @@ pub struct Start {
     pub safety: f64,
     /// Tolerance to which the grains come to rest, drained, before the run starts: under gravity, in a fluid under their
     /// buoyant weight, and the `prepared` stress of pistons. At rest are grains whose mean resultant force is below this
-    /// share of the mean contact force F, which contacts carry one by one, and whose mean speed is below this share of
+    /// share of the mean contact force F, which contacts carry one by one, and whose mean |v| + R|ω| is below this share of
     /// √(F R/m). They are left as they are if this is left out, or is 1 (free fall) or more.
     #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
     pub settle: Option<f64>,

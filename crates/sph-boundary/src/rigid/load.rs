@@ -33,6 +33,11 @@ impl<const D: usize> Load<D> {
             gravity,
         }
     }
+
+    /// Whether neither fluid nor contact acts.
+    pub fn is_weight(&self) -> bool {
+        [self.force, self.contact_force] == [Vect::<D>::zeros(); 2]
+    }
 }
 
 /// How a wall that its mover moves freely meets other walls.

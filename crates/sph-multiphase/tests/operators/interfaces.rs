@@ -17,6 +17,7 @@ fn tension(tension: f64) -> SurfaceTension {
     SurfaceTension {
         tension,
         stress: SurfaceStress::Full,
+        contact_angle: None,
     }
 }
 
@@ -188,6 +189,7 @@ fn a_flat_interface_is_at_rest_and_without_a_trace_has_a_pressure_of_its_own() {
     let trace_free = SurfaceTension {
         tension: TENSION,
         stress: SurfaceStress::TraceFree,
+        contact_angle: None,
     };
     let forces = force(&mut layers, &trace_free);
     let along = forces.iter().map(|f| f[0].abs()).fold(0.0, f64::max);

@@ -82,8 +82,7 @@ pub(crate) fn assemble_share<const D: usize>(
     let mut drawn = Drawn::<D>::of(scene)?;
     crate::setup::estimate::refuse_the_absurd(scene, &drawn)?;
     let mut choices = chosen::<D>(scene)?;
-    let swing = Swing::<D>::of(scene)?;
-    let laws = bind_laws::<D>(scene, &drawn, &choices, swing.as_ref())?;
+    let (laws, swing) = bind_laws::<D>(scene, &drawn, &choices)?;
     movers::settle(scene, &mut drawn, &mut choices, &laws)?;
     let speeds = wall_speeds(scene, &drawn, &laws)?;
     let opened = open_faces::settle(scene, &mut drawn, &mut choices, &laws)?;
@@ -327,24 +326,24 @@ fn shown<const D: usize>(scene: &Scene, probes: &[(String, Box<dyn Probe<D>>)]) 
     shown.cloned().chain(measured).collect()
 }
 
-/// Equations of state with their reference states.
+/// Equations of state with their reference states, and what gravity changes by.
 fn bind_laws<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,
     choices: &Choices<D>,
-    swing: Option<&Swing<D>>,
-) -> Result<Laws, SolverError> {
+) -> Result<(Laws, Option<Swing<D>>), SolverError> {
+    let swing = Swing::<D>::of(scene)?;
+    let more = swing.as_ref().map(|s| s.head(scene, &drawn.regions));
     let head = height(scene, &drawn.regions) * scene.gravity::<D>().norm();
-    let more = swing.map_or(0.0, |swing| swing.head(scene, &drawn.regions));
-    let fall = (head + more).sqrt();
-    let speeds = sound_speeds(scene, fall)?;
+    let speeds = sound_speeds(scene, (head + more.unwrap_or(0.0)).sqrt())?;
     let phases = scene.phase.values().zip(speeds);
     let reference = phases.map(|(phase, sound_speed)| Reference {
         density: phase.density,
         sound_speed,
     });
     let laws = choices.equations_of_state.iter().zip(reference);
-    Ok(laws.map(|(eos, reference)| eos.bind(reference)).collect())
+    let laws = laws.map(|(eos, reference)| eos.bind(reference));
+    Ok((laws.collect(), swing))
 }
 
 /// η/ρ₀ of every phase, m²/s.

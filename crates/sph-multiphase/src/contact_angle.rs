@@ -1,0 +1,124 @@
+//! The angle at which interfaces meet walls, as the tension of films on them.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sph_contribution::{Refusal, Setting};
+use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, suggestion};
+use sph_neighbours::{Around, Values, World, walk_into};
+
+/// Angle at which an interface meets walls at rest, measured through one of its phases.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactAngle {
+    /// The phase through which angles are measured.
+    pub phase: String,
+    /// The angle: 0 where the phase wets walls, 180° where it shuns them.
+    #[schemars(range(min = 0.0, max = 3.15), extend("unit" = "rad"))]
+    pub angle: f64,
+    /// Angles at walls of their own, by the names of the walls.
+    #[serde(default)]
+    #[schemars(extend("unit" = "rad"))]
+    pub walls: BTreeMap<String, f64>,
+}
+
+impl ContactAngle {
+    /// Whether there are such a phase and such walls.
+    ///
+    /// # Errors
+    /// The key that names none.
+    pub(crate) fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+        let refused = |key: &str, why: String| {
+            Err(Refusal::of(
+                "interface",
+                format!("contact_angle.{key}").trim_end_matches('.'),
+                why,
+            ))
+        };
+        if !setting.phases.contains(&self.phase) {
+            let near = suggestion(&self.phase, setting.phases.iter().map(String::as_str));
+            return refused(
+                "phase",
+                format!("there is no phase called `{}`{near}", self.phase),
+            );
+        }
+        let walls = &setting.world.walls;
+        if walls.elements.centre.is_empty() {
+            let why = "it needs walls of the kind `usaw`, whose share of every kernel is known";
+            return refused("", why.into());
+        }
+        if walls.points.in_density() {
+            let why = "the film would miss the half row that belongs to the wall: give `[walls.usaw]` the key \
+                       `vertices = false`";
+            return refused("", why.into());
+        }
+        for (name, angle) in &self.walls {
+            if !walls.names.contains(name) {
+                let near = suggestion(name, walls.names.iter().map(String::as_str));
+                return refused(
+                    &format!("walls.{name}"),
+                    format!("there is no wall `{name}`{near}"),
+                );
+            }
+            if !(0.0..=std::f64::consts::PI).contains(angle) {
+                return refused(&format!("walls.{name}"), "expected 0 to 180 deg".into());
+            }
+        }
+        Ok(())
+    }
+
+    /// The stage that finds the films.
+    pub(crate) fn films<const D: usize>(&self, setting: &Setting<'_, D>) -> Films {
+        let number = setting.phases.iter().position(|p| *p == self.phase);
+        let of_wall = |name: &String| self.walls.get(name).unwrap_or(&self.angle).cos();
+        Films {
+            phase: number.unwrap_or(0) as u32,
+            cosines: setting.world.walls.names.iter().map(of_wall).collect(),
+        }
+    }
+}
+
+/// Σ_s 2 cos θ ∇γ_as/γ_a of the phase that wets a wall, 1/m; −σ times it is the tension of the film on the wall.
+pub const FILM: Field<Vector> = Field::new("film", "1/m", "tension of films on walls over −σ");
+
+/// Finds [`FILM`].
+pub(crate) struct Films {
+    phase: u32,
+    /// cos θ at every wall.
+    cosines: Vec<f64>,
+}
+
+impl Declares for Films {
+    fn name(&self) -> String {
+        "films on walls".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .here(fields::POSITION)
+            .here(fields::PHASE)
+            .here(fields::RENORMALISATION)
+            .writes(FILM)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for Films {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut films = world.free.take(FILM)?;
+        let phase = world.free.get(fields::PHASE)?;
+        let wall = &world.walls.elements.wall;
+        let film = |around: &Around<'_, D>| {
+            let wets = phase[around.rows.particle] == self.phase;
+            let mut sum = Vect::<D>::zeros();
+            for contact in around.rows.contacts.iter() {
+                let cosine = self.cosines[wall[contact.element as usize] as usize];
+                if (cosine > 0.0) == wets {
+                    sum += contact.gradient * (2.0 * cosine.abs());
+                }
+            }
+            sum * around.rows.inverse_renormalisation
+        };
+        walk_into(world, Values::Gradient, |_| true, &mut films, film)?;
+        Ok(world.free.put(FILM, films)?)
+    }
+}
