@@ -300,8 +300,41 @@ fn a_disc_that_covers_the_end_of_a_pipe_closes_it_as_well() {
 }
 
 #[test]
+fn plates_with_a_thickness_hold_a_channel_between_open_faces() {
+    // In the plane: two plates with fluid outside, closed by an inlet and an outlet from corner to corner.
+    let scene = "title = \"t\"\ndimension = 2\nrun.end = 0.5\nnumerics.spacing = 0.01\nnumerics.smoothing_ratio = 2\n\
+                 walls.usaw.vertices = false\nviscous-operator.morris = {}\nsmoother.brezzi-pitkaranta.strength = 0.1\n\
+                 wall.inlet.polyline = [[0.0, 0.1], [0.0, 0.0]]\n\
+                 wall.inlet.open-boundary.velocity-inlet.velocity = 0.1\n\
+                 wall.outlet.polyline = [[0.2, 0.0], [0.2, 0.1]]\nwall.outlet.open-boundary.pressure.pressure = 0\n\
+                 phase.oil = { density = 900, speed_of_sound = 3.0, rheology.newtonian = { viscosity = 0.9 } }\n\
+                 body.oil = { phase = \"oil\", fill = \"walls\", box = [[0, 0], [0.2, 0.1]] }\n\
+                 probe.in = { kind = \"passed\", wall = \"inlet\" }\nprobe.out = { kind = \"passed\", wall = \"outlet\" }\n";
+    let thick = "wall.floor = { box = [[0.0, -0.02], [0.2, 0.0]], fluid = \"outside\" }\n\
+                 wall.roof = { polygon = [[0.0, 0.1], [0.2, 0.1], [0.2, 0.12], [0.0, 0.12]], fluid = \"outside\" }\n";
+    let thin = "wall.floor.polyline = [[0.0, 0.0], [0.2, 0.0]]\nwall.roof.polyline = [[0.2, 0.1], [0.0, 0.1]]\n";
+    let field = Field::new();
+    let mass = |walls: &str| {
+        field.0.write("duct.toml", &format!("{scene}{walls}"));
+        let outcome = field.run("duct", "--threads 1");
+        assert_eq!(outcome.code, Some(0), "{}", outcome.err);
+        let series = field.series();
+        ["in.entered", "out.left"].map(|name| {
+            let column = series.column(name).expect("a probe");
+            column[column.len() - 1]
+        })
+    };
+    let (thick, thin) = (mass(thick), mass(thin));
+    for (thick, thin) in thick.iter().zip(thin) {
+        assert!((thick / thin - 1.0).abs() < 1e-6, "{thick} for {thin}");
+    }
+}
+
+#[test]
 fn a_disc_that_faces_out_of_a_pipe_is_named() {
     let field = Field::new();
+    let other = "--set wall.outlet.flip=true";
+    refused(&field, "pipe-thick", other, &["wall `outlet` meets it there", "face the other way"]);
     let flipped = "--set wall.inlet.flip=true";
     refused(
         &field,

@@ -74,7 +74,11 @@ pub fn speeds<const D: usize>(
             );
             found.refused.push(SceneProblem::new(path, message));
         } else {
-            let (name, v, share) = (wall.drawing.name(), number::plain(v), number::percent(v / sound));
+            let (name, v, share) = (
+                wall.drawing.name(),
+                number::plain(v),
+                number::percent(v / sound),
+            );
             found.remarks.push(format!(
                 "wall `{name}` moves with {v} m/s at {at}, {share} of the speed of sound: what is before it is pressed \
                  together"
