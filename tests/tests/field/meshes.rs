@@ -334,7 +334,12 @@ fn plates_with_a_thickness_hold_a_channel_between_open_faces() {
 fn a_disc_that_faces_out_of_a_pipe_is_named() {
     let field = Field::new();
     let other = "--set wall.outlet.flip=true";
-    refused(&field, "pipe-thick", other, &["wall `outlet` meets it there", "face the other way"]);
+    refused(
+        &field,
+        "pipe-thick",
+        other,
+        &["wall `outlet` meets it there", "face the other way"],
+    );
     let flipped = "--set wall.inlet.flip=true";
     refused(
         &field,

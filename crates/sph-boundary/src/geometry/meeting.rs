@@ -32,7 +32,10 @@ pub(crate) fn bounding(
     let given = Ends::of(&pieces, groups, tolerance);
     let cut = |(wall, line): &Piece| {
         let parts = cut(line, |place| !given.at(place, groups[*wall]).is_empty());
-        parts.into_iter().map(|line| (*wall, line)).collect::<Vec<_>>()
+        parts
+            .into_iter()
+            .map(|line| (*wall, line))
+            .collect::<Vec<_>>()
     };
     let all: Vec<Piece> = pieces.iter().flat_map(cut).collect();
     let ends = Ends::of(&all, groups, tolerance);
@@ -79,7 +82,12 @@ pub(crate) fn bounding(
         return (pieces, remarks);
     }
     let kept = all.into_iter().zip(bounds);
-    (kept.filter(|(_, bounds)| *bounds).map(|(piece, _)| piece).collect(), remarks)
+    (
+        kept.filter(|(_, bounds)| *bounds)
+            .map(|(piece, _)| piece)
+            .collect(),
+        remarks,
+    )
 }
 
 /// The pieces of a line between corners at which it is to be cut.
@@ -148,10 +156,12 @@ impl Ends {
     /// Ends of a group at a place, ascending.
     fn at(&self, place: [f64; 2], group: usize) -> Vec<usize> {
         let mut found = Vec::new();
-        let whole = self.tree.overlapping(widened([place; 2], self.tolerance), &mut |end| {
-            found.push(end);
-            ControlFlow::<()>::Continue(())
-        });
+        let whole = self
+            .tree
+            .overlapping(widened([place; 2], self.tolerance), &mut |end| {
+                found.push(end);
+                ControlFlow::<()>::Continue(())
+            });
         debug_assert!(whole.is_continue(), "nothing breaks it off");
         found.retain(|end| self.groups[*end] == group);
         found.sort_unstable();
@@ -174,7 +184,10 @@ mod tests {
             (3, Polyline::open("outlet", vec![[4.0, 0.0], [4.0, 2.0]])),
         ];
         let (kept, remarks) = bounding(pieces.clone(), &[0; 4], 1e-6);
-        let points: Vec<_> = kept.iter().map(|(wall, l)| (*wall, l.points.clone())).collect();
+        let points: Vec<_> = kept
+            .iter()
+            .map(|(wall, l)| (*wall, l.points.clone()))
+            .collect();
         let within = [
             (0, vec![[0.0, 0.0], [4.0, 0.0]]),
             (1, vec![[4.0, 2.0], [0.0, 2.0]]),

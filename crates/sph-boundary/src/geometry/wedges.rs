@@ -50,13 +50,14 @@ impl Parts {
     /// `severed` are pieces that nothing continues at some place, each with those that do go on there. What hangs together with
     /// one of them ends on the back of another wall, so that no fluid can be before it, if those others end nowhere.
     pub fn bound_fluid(mut self, severed: &[(usize, Vec<usize>)]) -> Vec<bool> {
+        let count = self.0.len();
         let ends: HashSet<usize> = severed.iter().map(|(piece, _)| self.of(*piece)).collect();
         let mut outside: BTreeMap<usize, bool> = ends.iter().map(|part| (*part, true)).collect();
         for (piece, others) in severed {
             let whole = others.iter().all(|o| !ends.contains(&self.of(*o)));
             *outside.entry(self.of(*piece)).or_default() &= whole && !others.is_empty();
         }
-        let bounds = |piece| !outside.get(&self.of(piece)).copied().unwrap_or(false);
-        (0..self.0.len()).map(bounds).collect()
+        let mut bounds = |piece| !outside.get(&self.of(piece)).copied().unwrap_or(false);
+        (0..count).map(&mut bounds).collect()
     }
 }
