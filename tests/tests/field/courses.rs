@@ -3,7 +3,8 @@
 use crate::Field;
 
 /// A coarse tank for a short time.
-const SHORT: &str = "--set numerics.spacing=0.025 --set run.end=0.2 --set numerics.relax={steps=20,tolerance=0.01} --threads 1";
+const SHORT: &str = "--set numerics.spacing=0.025 --set run.end=0.2 \
+                     --set numerics.relax={steps=20,tolerance=0.01} --threads 1";
 
 /// The scene of a tank whose course is in a file, with further keys of the course.
 fn course(field: &Field, name: &str, file: &str, keys: &str) {

@@ -235,7 +235,8 @@ fn passed(field: &Field) -> [f64; 3] {
 }
 
 /// The pipe of `pipe-thick` without a thickness: what the fluid sees of it.
-const BORE: &str = "--set wall.pipe={cylinder={from=[0.0,0.0,0.0],to=[0.2,0.0,0.0],radius=0.05,sides=24,open_ends=true}}";
+const BORE: &str =
+    "--set wall.pipe={cylinder={from=[0,0,0],to=[0.2,0,0],radius=0.05,sides=24,open_ends=true}}";
 
 #[test]
 fn a_pipe_with_a_thickness_is_its_bore() {
@@ -309,7 +310,8 @@ fn plates_with_a_thickness_hold_a_channel_between_open_faces() {
                  wall.outlet.polyline = [[0.2, 0.0], [0.2, 0.1]]\nwall.outlet.open-boundary.pressure.pressure = 0\n\
                  phase.oil = { density = 900, speed_of_sound = 3.0, rheology.newtonian = { viscosity = 0.9 } }\n\
                  body.oil = { phase = \"oil\", fill = \"walls\", box = [[0, 0], [0.2, 0.1]] }\n\
-                 probe.in = { kind = \"passed\", wall = \"inlet\" }\nprobe.out = { kind = \"passed\", wall = \"outlet\" }\n";
+                 probe.in = { kind = \"passed\", wall = \"inlet\" }\n\
+                 probe.out = { kind = \"passed\", wall = \"outlet\" }\n";
     let thick = "wall.floor = { box = [[0.0, -0.02], [0.2, 0.0]], fluid = \"outside\" }\n\
                  wall.roof = { polygon = [[0.0, 0.1], [0.2, 0.1], [0.2, 0.12], [0.0, 0.12]], fluid = \"outside\" }\n";
     let thin = "wall.floor.polyline = [[0.0, 0.0], [0.2, 0.0]]\nwall.roof.polyline = [[0.2, 0.1], [0.0, 0.1]]\n";
@@ -350,9 +352,9 @@ fn a_disc_that_faces_out_of_a_pipe_is_named() {
 }
 
 /// A plate of two triangles, in millimetres.
-const PLATE: &str = "solid plate\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 100 0 0\nvertex 100 100 0\nendloop\n\
-                     endfacet\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 100 100 0\nvertex 0 100 0\nendloop\n\
-                     endfacet\nendsolid plate\n";
+const PLATE: &str = "solid plate\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 100 0 0\n\
+                     vertex 100 100 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n\
+                     vertex 100 100 0\nvertex 0 100 0\nendloop\nendfacet\nendsolid plate\n";
 
 const BALL: &str = "title = \"b\"\nrun.end = \"0.5 s\"\n[grains]\ndensity = 2600\ngravity = [0, 0, -9.81]\n\
     [grains.contact.linear-elastic]\nmodulus = \"5 MPa\"\nstiffness_ratio = 0.5\nfriction = 0.3\ndamping = 0.3\n\

@@ -22,8 +22,9 @@ struct End {
     angle: f64,
 }
 
-/// Cuts lines at corners where another one of their group ends, and leaves out the pieces that then bound no fluid: where an open
-/// face closes a channel whose walls have a thickness, their ends and outsides. Nothing is changed where nothing is left out.
+/// Cuts lines at corners where another one of their group ends, and leaves out the pieces that then bound no fluid:
+/// where an open face closes a channel whose walls have a thickness, their ends and outsides. Nothing is changed where
+/// nothing is left out.
 pub(crate) fn bounding(
     pieces: Vec<Piece>,
     groups: &[usize],

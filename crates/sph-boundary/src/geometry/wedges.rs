@@ -47,8 +47,9 @@ impl Parts {
 
     /// By piece, whether it bounds the fluid.
     ///
-    /// `severed` are pieces that nothing continues at some place, each with those that do go on there. What hangs together with
-    /// one of them ends on the back of another wall, so that no fluid can be before it, if those others end nowhere.
+    /// `severed` are pieces that nothing continues at some place, each with those that do go on there. What hangs
+    /// together with one of them ends on the back of another wall, so that no fluid can be before it, if those others
+    /// end nowhere.
     pub fn bound_fluid(mut self, severed: &[(usize, Vec<usize>)]) -> Vec<bool> {
         let count = self.0.len();
         let ends: HashSet<usize> = severed.iter().map(|(piece, _)| self.of(*piece)).collect();

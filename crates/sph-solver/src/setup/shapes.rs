@@ -167,8 +167,8 @@ impl<const D: usize> Drawn<D> {
     }
 }
 
-/// A table that a run of `end` seconds does not outlast goes on by two rows, on the parabola of its last three: else it would
-/// be brought to rest in its last interval.
+/// A table that a run of `end` seconds does not outlast goes on by two rows, on the parabola of its last three: else
+/// it would be brought to rest in its last interval.
 fn going_on(mut rows: Vec<[f64; 2]>, end: f64) -> Vec<[f64; 2]> {
     if let [.., a, b, c] = rows[..]
         && end <= c[0]

@@ -6,9 +6,9 @@ use sph_scene::Scene;
 
 /// Times at which the motion of walls is looked at.
 const SAMPLES: usize = 1000;
-/// The change Δv of a vessel's speed within the time L/c that sound takes through its fluid counts by Δv/c, the share of its
-/// density by which the fluid is pressed together: aL/c² of a lasting acceleration a. From the first on it is remarked upon,
-/// from the second on refused.
+/// The change Δv of a vessel's speed within the time L/c that sound takes through its fluid counts by Δv/c, the share
+/// of its density by which the fluid is pressed together: aL/c² of a lasting acceleration a. From the first on it is
+/// remarked upon, from the second on refused.
 const PRESSED: [f64; 2] = [0.1, 0.5];
 /// From this share of the speed of sound on the speed of a wall against others is remarked upon.
 const FAST: f64 = 0.3;
@@ -25,8 +25,9 @@ pub struct Speeds {
 
 /// The speeds of the walls before the end of the run, for a speed of sound, m/s, and a length of the fluid, m.
 ///
-/// A wall of which a corner is faster than sound against the slowest wall at some time is refused. A vessel whose walls all move
-/// together carries its fluid along and may be of any speed; what its acceleration does to the fluid may not.
+/// A wall of which a corner is faster than sound against the slowest wall at some time is refused. A vessel whose
+/// walls all move together carries its fluid along and may be of any speed; what its acceleration does to the fluid
+/// may not.
 pub fn speeds<const D: usize>(
     scene: &Scene,
     walls: &[WallSpec<D>],

@@ -161,8 +161,8 @@ impl FreeEdgeGrid {
         }
     }
 
-    /// Whether a point is behind an edge and its distance, the edge and the place on it, if within the radius: of the nearest
-    /// in front of which the point is, for that wall should go on there, else of the nearest.
+    /// Whether a point is behind an edge and its distance, the edge and the place on it, if within the radius: of the
+    /// nearest in front of which the point is, for that wall should go on there, else of the nearest.
     fn nearest(&self, point: Point) -> Option<((bool, f64), usize, Point)> {
         let cell = point.map(|x| (x / self.size).floor() as i64);
         let edges = self.cells.get(&cell)?.iter().map(|n| {

@@ -19,10 +19,10 @@ pub(super) struct Touched {
 
 /// By piece, whether it bounds the fluid.
 ///
-/// Around an edge a wedge of fluid lies between two faces that look at each other, and these belong together. Where an open face
-/// or another wall closes a pipe that has a thickness, three faces meet: the pipe within, its end, and what closes it.
-/// The first and the last hold the fluid; the end, and what hangs together with it, is the outside of the pipe. It ends there
-/// on the back of another wall, so that no fluid can be before it.
+/// Around an edge a wedge of fluid lies between two faces that look at each other, and these belong together. Where an
+/// open face or another wall closes a pipe that has a thickness, three faces meet: the pipe within, its end, and what
+/// closes it. The first and the last hold the fluid; the end, and what hangs together with it, is the outside of the
+/// pipe. It ends there on the back of another wall, so that no fluid can be before it.
 pub(super) fn seen(pieces: &[Patch], cuts: &Cuts, places: &Places, touched: &Touched) -> Vec<bool> {
     let mut runs: BTreeMap<EdgeKey, Vec<(usize, bool)>> = BTreeMap::new();
     for (piece, patch) in pieces.iter().enumerate() {
