@@ -1,7 +1,7 @@
 //! Reading the pressures that another computation has left on a wall.
 
 use dem_coupled::Recorded;
-use scene_text::{Source, suggestion};
+use scene_text::{Source, suggestion, unit_factor};
 use sph_io::{Table, read_table};
 
 use crate::error::DemError;
@@ -21,8 +21,8 @@ pub fn read(source: &Source, wall: &str, load: &RecordedLoad) -> Result<Recorded
     let path = source.resolve(&key("file"), &load.file);
     let path = path.map_err(|e| DemError::at(key("file"), e))?;
     let table = read_table(&path).map_err(|e| DemError::at(key("file"), e))?;
-    let times = column(&table, "time").map_err(|e| DemError::at(key("file"), e))?;
-    let columns = load.columns.iter().map(|name| column(&table, name));
+    let times = column(&table, "time", "s").map_err(|e| DemError::at(key("file"), e))?;
+    let columns = load.columns.iter().map(|name| column(&table, name, "Pa"));
     let columns: Result<Vec<_>, _> = columns.collect();
     let columns = columns.map_err(|e| DemError::at(key("columns"), e))?;
     let rows = 0..times.len();
@@ -45,10 +45,18 @@ pub fn read(source: &Source, wall: &str, load: &RecordedLoad) -> Result<Recorded
     }
 }
 
-fn column<'a>(table: &'a Table, name: &str) -> Result<&'a [f64], String> {
+/// A column in SI; its head may have a unit.
+fn column(table: &Table, name: &str, alike: &str) -> Result<Vec<f64>, String> {
     let names = table.columns.iter().map(|c| c.name.as_str());
     let near = || suggestion(name, names);
-    table
+    let values = table
         .column(name)
-        .ok_or_else(|| format!("the table has no column `{name}`{}", near()))
+        .ok_or_else(|| format!("the table has no column `{name}`{}", near()))?;
+    let head = table.columns.iter().find(|c| c.name == name);
+    let unit = head.map_or("", |c| c.unit.as_str());
+    let factor = match unit {
+        "" => 1.0,
+        unit => unit_factor(unit, alike)?,
+    };
+    Ok(values.iter().map(|x| factor * x).collect())
 }

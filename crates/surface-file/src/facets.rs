@@ -22,8 +22,8 @@ pub struct Facets {
 }
 
 impl Facets {
-    /// The surface in an STL file with its corners welded, in the unit of the file, and the number, from 1, of the first facet
-    /// whose normal is not that of its corners' order.
+    /// The surface in an STL file with its corners welded, in the unit of the file, and the number, from 1, of the
+    /// first facet whose normal is not that of its corners' order.
     ///
     /// # Errors
     /// What cannot be read, with the name of the file and the number of the facet.
@@ -100,8 +100,8 @@ impl Facets {
 
     /// Which way the surface faces, from ½, outwards, to −½, inwards; near 0 there is no inside.
     ///
-    /// The area's mean of the winding number between the two sides of the surface, which is ±½ of a closed one and less of an
-    /// open one, since its opening is seen from everywhere.
+    /// The area's mean of the winding number between the two sides of the surface, which is ±½ of a closed one and
+    /// less of an open one, since its opening is seen from everywhere.
     pub fn sense(&self) -> f64 {
         let winding = Winding::new(self.triangles.iter().map(|t| self.corners(t)).collect());
         let step = self.area() / ASKED.min(self.triangles.len()) as f64;

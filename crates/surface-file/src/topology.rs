@@ -37,7 +37,8 @@ struct Half {
     forward: bool,
 }
 
-/// The facet beyond each edge of a facet, and whether the two run along the edge in one direction: they face different ways.
+/// The facet beyond each edge of a facet, and whether the two run along the edge in one direction: they face different
+/// ways.
 type Beside = Vec<Vec<(u32, bool)>>;
 
 impl Facets {

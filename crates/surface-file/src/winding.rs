@@ -9,9 +9,10 @@ const FAR: f64 = 4.0;
 /// Triangles of a cluster that is not divided.
 const FEW: usize = 8;
 
-/// How often a surface winds around a point: w(x) = Σ Ω/4π over its triangles, Ω the solid angle in which x sees one from behind
-/// its normal. 1 within a closed surface that faces outwards, −1 if it faces inwards, 0 outside; of an open or torn
-/// one it is less, and varies. Jacobson, Kavan & Sorkine-Hornung (2013); distant clusters as dipoles, Barill et al. (2018).
+/// How often a surface winds around a point: w(x) = Σ Ω/4π over its triangles, Ω the solid angle in which x sees one
+/// from behind its normal. 1 within a closed surface that faces outwards, −1 if it faces inwards, 0 outside; of an
+/// open or torn one it is less, and varies. Jacobson, Kavan & Sorkine-Hornung (2013); distant clusters as dipoles,
+/// Barill et al. (2018).
 #[derive(Clone, Debug)]
 pub struct Winding {
     triangles: Vec<[[f64; 3]; 3]>,

@@ -191,8 +191,8 @@ pub enum SurfaceError {
     },
     /// A wall that other walls cover altogether, or that bounds no fluid.
     #[error(
-        "nothing is left of wall `{wall}`: other walls cover all of it, or it only ends on their backs; leave it \
-         out, or give a plate of two sides a thickness"
+        "nothing is left of wall `{wall}`: other walls cover all of it, or turn their backs on its edges; does one of \
+         them face the other way? leave it out, or give a plate of two sides a thickness"
     )]
     Covered {
         /// Name of the wall.

@@ -18,8 +18,9 @@ impl SegmentMesh {
     /// the side that faces the point. A ray that meets nothing asks the wall that reaches
     /// furthest along it. Without walls every point is in the fluid.
     ///
-    /// Walls with free ends enclose a point, but for their openings, where their winding number is more than ½, and that
-    /// decides; elsewhere a free end shadows nothing. A point on a wall within rounding may be given either answer.
+    /// Walls with free ends enclose a point, but for their openings, where their winding number is more than ½, and
+    /// that decides; elsewhere a free end shadows nothing. A point on a wall within rounding may be given either
+    /// answer.
     ///
     /// The first call after a motion sorts the segments into columns; then the cost is that of the
     /// segments in one column.
@@ -66,8 +67,8 @@ impl SegmentMesh {
         columns
     }
 
-    /// How far walls with free ends enclose a point: their winding number Σ α/2π, α the angle in which the point sees an edge;
-    /// positive where they face it. None of walls that are closed, or in a periodic box.
+    /// How far walls with free ends enclose a point: their winding number Σ α/2π, α the angle in which the point sees
+    /// an edge; positive where they face it. None of walls that are closed, or in a periodic box.
     pub fn enclosed(&self, point: [f64; 2]) -> Option<f64> {
         let along = self.ray_axis();
         self.wound(self.sides.0.get_or_init(|| self.columns(along)), point)

@@ -7,5 +7,6 @@ mod motion;
 mod segment_mesh;
 mod signed;
 
+pub(crate) use joints::SAME_PLACE;
 pub use segment_mesh::{NearSegment, Segment, SegmentMesh, Vertex};
 pub use signed::SeenSegment;

@@ -8,6 +8,8 @@ use sph_neighbours::ContactBlock;
 
 use crate::geometry::checks::check_points;
 use crate::geometry::layers::layers;
+use crate::geometry::meeting::bounding;
+use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::segment_distance::distance_squared;
 use crate::geometry::shells::{Gammas, ShellSums, Shells};
 use crate::geometry::touching::without_shared;
@@ -141,8 +143,10 @@ impl WallMesh<2> for PlanarWalls {
             check_points(line)?;
         }
         let pieces = without_shared(&lines, &groups(walls), spacing)?;
+        let (pieces, unseen) = bounding(pieces, &groups(walls), SAME_PLACE * spacing);
         let (wall_of, lines): (Vec<usize>, Vec<Polyline>) = pieces.into_iter().unzip();
         let mut mesh = SegmentMesh::build(&lines, spacing, domain)?;
+        mesh.remark(unseen);
         mesh.bend_by(wall_of.iter().map(|w| walls[*w].motion.clone()).collect());
         let names = walls.iter().map(|w| w.drawing.name().to_string()).collect();
         let lines = mesh.segments().iter().map(|s| s.vertices);

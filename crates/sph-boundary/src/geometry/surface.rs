@@ -1,8 +1,8 @@
 //! Walls in space: surfaces as drawn, and the mesh of triangles made from them.
 //!
 //! * `places`, `drawn`, `crossing`: what is given is welded and checked;
-//! * `patches`, `removal`, `seen`: planar pieces, without the places where walls touch face to face and without those that
-//!   bound no fluid;
+//! * `patches`, `removal`, `seen`: planar pieces, without the places where walls touch face to face and without those
+//!   that bound no fluid;
 //! * `edges`, `lattice`, `fill`: the pieces cut into triangles of about the spacing, alike on
 //!   both sides of every edge;
 //! * `solid_angle`, `openings`: what a node stands for, and where the walls end;

@@ -169,7 +169,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     /// Whether a point is on the fluid's side of all walls.
     fn contains(&self, point: &Vect<D>) -> bool;
 
-    /// How far walls with free ends enclose a point: their winding number, positive where they face it; none of closed walls.
+    /// How far walls with free ends enclose a point: their winding number, positive where they face it; none of closed
+    /// walls.
     fn enclosed(&self, point: &Vect<D>) -> Option<f64>;
 
     /// Distance of the nearest wall, m, and its index, if nearer than `within`.

@@ -111,7 +111,8 @@ pub trait Wall<const D: usize>: Send + Sync {
     /// Whether a point is on the fluid's side of all walls; for checks, not for inner loops.
     fn contains(&self, point: &Vect<D>) -> bool;
 
-    /// How far walls with free ends enclose a point: their winding number, positive where they face it; none of closed walls.
+    /// How far walls with free ends enclose a point: their winding number, positive where they face it; none of closed
+    /// walls.
     fn enclosed(&self, _point: &Vect<D>) -> Option<f64> {
         None
     }

@@ -89,7 +89,8 @@ pub(crate) fn lines(text: &str, name: &str, form: &Form) -> Result<Vec<Line>, St
     named(text, name, form)?.into_iter().map(line).collect()
 }
 
-/// Columns are separated by commas, semicolons or blanks; the first line, or the comment before the first row, may name them.
+/// Columns are separated by commas, semicolons or blanks; the first line, or the comment before the first row, may
+/// name them.
 fn parse(text: &str, form: &Form) -> Result<Vec<Vec<Row>>, String> {
     let mut blocks: Vec<Vec<Row>> = Vec::new();
     let (mut begun, mut rows, mut comment) = (false, 0, "");

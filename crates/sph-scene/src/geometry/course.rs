@@ -230,8 +230,8 @@ fn course_rows(path: &Path, form: &Form) -> Result<Vec<Row>, String> {
 }
 
 impl Motion {
-    /// Where a file says what the wall does at a time, s: the key, and the file's name with the line. None of a motion without a
-    /// file.
+    /// Where a file says what the wall does at a time, s: the key, and the file's name with the line. None of a motion
+    /// without a file.
     pub fn told_at(&self, place: &str, time: f64) -> Option<(String, String)> {
         let translate = self
             .translate

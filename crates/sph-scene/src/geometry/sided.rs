@@ -6,14 +6,15 @@ use surface_file::{Facets, Opening};
 use crate::geometry::vector::point;
 use crate::{Side, Wall};
 
-/// Open surfaces of a smaller [sense](Facets::sense) than this have no inside: a flat plate has 0, a cube without a lid 0.4.
+/// Open surfaces of a smaller [sense](Facets::sense) than this have no inside: a flat plate has 0, a cube without a
+/// lid 0.4.
 const NO_INSIDE: f64 = 0.02;
 /// Openings that are told.
 const TOLD: usize = 3;
 
 impl Wall {
-    /// The facets of a file with the fluid on the side that the wall asks for; `odd` is the first facet whose normal in the
-    /// file is not that of its corners.
+    /// The facets of a file with the fluid on the side that the wall asks for; `odd` is the first facet whose normal
+    /// in the file is not that of its corners.
     pub(crate) fn sided(
         &self,
         facets: Facets,

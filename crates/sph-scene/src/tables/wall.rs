@@ -70,7 +70,8 @@ pub struct Wall {
     /// Whether a `polyline`, or what a `file` has, is turned round: the fluid is on the other side.
     #[serde(default)]
     pub flip: bool,
-    /// Whether facets of an STL file that face the other way than most of those they hang together with are turned round.
+    /// Whether facets of an STL file that face the other way than most of those they hang together with are turned
+    /// round.
     #[serde(default)]
     pub align: bool,
     /// Whether the fluid sticks to the wall.

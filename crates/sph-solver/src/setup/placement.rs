@@ -128,8 +128,8 @@ fn nothing_left(body: &Body, spacing: f64, before: usize) -> String {
     }
 }
 
-/// A body that is clipped to nothing by walls with their backs to it, or of which more is enclosed by the backs of open walls
-/// than is kept.
+/// A body that is clipped to nothing by walls with their backs to it, or of which more is enclosed by the backs of
+/// open walls than is kept.
 fn facing_away<const D: usize>(
     scene: &Scene,
     body: &str,
@@ -152,8 +152,8 @@ fn facing_away<const D: usize>(
     Some(SceneProblem::new(
         format!("body.{body}"),
         format!(
-            "{kept} of {} particles are on the fluid's side of the walls, and {} are behind wall `{name}`: are the walls \
-             drawn with the fluid on the right side? {turn}",
+            "{kept} of {} particles are on the fluid's side of the walls, and {} are behind wall `{name}`: are the \
+             walls drawn with the fluid on the right side? {turn}",
             kept + behind.len(),
             backs.len()
         ),

@@ -59,7 +59,7 @@ impl<const D: usize> Drawn<D> {
         }
         for (name, wall) in &scene.wall {
             let place = format!("wall.{name}");
-            let motion = motion_of::<D>(wall, &place)?;
+            let motion = motion_of::<D>(wall, &place, scene.run.end)?;
             let condition = match wall.condition {
                 sph_scene::Condition::NoSlip => Condition::NoSlip,
                 sph_scene::Condition::FreeSlip => Condition::FreeSlip,
@@ -167,9 +167,27 @@ impl<const D: usize> Drawn<D> {
     }
 }
 
+/// A table that a run of `end` seconds does not outlast goes on by two rows, on the parabola of its last three: else
+/// it would be brought to rest in its last interval.
+fn going_on(mut rows: Vec<[f64; 2]>, end: f64) -> Vec<[f64; 2]> {
+    if let [.., a, b, c] = rows[..]
+        && end <= c[0]
+    {
+        let slope = |p: [f64; 2], q: [f64; 2]| (q[1] - p[1]) / (q[0] - p[0]);
+        let bend = (slope(b, c) - slope(a, b)) / (c[0] - a[0]);
+        let step = c[0] - b[0];
+        let rise = slope(b, c) + bend * step;
+        for ahead in [step, 2.0 * step] {
+            rows.push([c[0] + ahead, c[1] + ahead * (rise + bend * ahead)]);
+        }
+    }
+    rows
+}
+
 fn motion_of<const D: usize>(
     wall: &sph_scene::Wall,
     place: &str,
+    end: f64,
 ) -> Result<RigidMotion<D>, SolverError> {
     let Some(motion) = &wall.motion else {
         return Ok(RigidMotion::default());
@@ -201,7 +219,9 @@ pub(crate) fn rigid_motion<const D: usize>(
             phase,
             ramp,
         },
-        sph_scene::Course::Table(rows) => Course::Table { rows: rows.into() },
+        sph_scene::Course::Table(rows) => Course::Table {
+            rows: going_on(rows, end - courses.start).into(),
+        },
     };
     let vector = |v: &[f64]| std::array::from_fn(|k| v.get(k).copied().unwrap_or(0.0));
     let shifts = courses.translations.into_iter();

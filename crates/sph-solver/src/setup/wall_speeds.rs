@@ -6,9 +6,12 @@ use sph_scene::Scene;
 
 /// Times at which the motion of walls is looked at.
 const SAMPLES: usize = 1000;
-/// Accelerations a of a vessel of length L count by aL/c², the share of its density by which the fluid is pressed together:
-/// from the first on they are remarked upon, from the second on refused.
-const PRESSED: [f64; 2] = [0.05, 0.5];
+/// The change Δv of a vessel's speed within the time L/c that sound takes through its fluid counts by Δv/c, the share
+/// of its density by which the fluid is pressed together: aL/c² of a lasting acceleration a. From the first on it is
+/// remarked upon, from the second on refused.
+const PRESSED: [f64; 2] = [0.1, 0.5];
+/// From this share of the speed of sound on the speed of a wall against others is remarked upon.
+const FAST: f64 = 0.3;
 /// Changes of the speed of a vessel count by the speed of sound: as before.
 const SPEEDS: [f64; 2] = [1.0, 10.0];
 
@@ -22,8 +25,9 @@ pub struct Speeds {
 
 /// The speeds of the walls before the end of the run, for a speed of sound, m/s, and a length of the fluid, m.
 ///
-/// A wall of which a corner is faster than sound against the slowest wall at some time is refused. A vessel whose walls all move
-/// together carries its fluid along and may be of any speed; what its acceleration does to the fluid may not.
+/// A wall of which a corner is faster than sound against the slowest wall at some time is refused. A vessel whose
+/// walls all move together carries its fluid along and may be of any speed; what its acceleration does to the fluid
+/// may not.
 pub fn speeds<const D: usize>(
     scene: &Scene,
     walls: &[WallSpec<D>],
@@ -37,42 +41,51 @@ pub fn speeds<const D: usize>(
     if !walls.iter().any(|w| w.motion.moves()) {
         return found;
     }
-    let end = scene.run.end;
+    let (end, crossing) = (scene.run.end, length / sound);
     let times = (0..SAMPLES).map(|n| end * (n as f64 + 0.5) / SAMPLES as f64);
-    let mut fastest = vec![0.0_f64; walls.len()];
+    let mut fastest = vec![(0.0_f64, 0.0); walls.len()];
     let [mut pressed, mut changed] = [(0.0_f64, 0.0); 2];
-    let begin: Vec<f64> = walls.iter().map(|wall| moving(wall, 0.0).speed).collect();
+    let begin: Vec<f64> = walls.iter().map(|w| moving(w, 0.0, 0.0).speed).collect();
     for time in times {
-        let all: Vec<Moving> = walls.iter().map(|wall| moving(wall, time)).collect();
+        let all: Vec<Moving> = walls.iter().map(|w| moving(w, time, crossing)).collect();
         let least =
             |of: &dyn Fn(usize) -> f64| (0..all.len()).map(of).fold(f64::INFINITY, f64::min);
-        let slowest = least(&|k| all[k].speed);
-        let against = fastest.iter_mut().zip(&all);
-        against.for_each(|(most, m)| *most = most.max(known(m.speed - slowest)));
         let larger = |most: &mut (f64, f64), x: f64| {
             if x > most.0 {
                 *most = (x, time);
             }
         };
-        larger(
-            &mut pressed,
-            least(&|k| all[k].acceleration) * length / (sound * sound),
-        );
+        let slowest = least(&|k| all[k].speed);
+        let against = fastest.iter_mut().zip(&all);
+        against.for_each(|(most, m)| larger(most, known(m.speed - slowest)));
+        larger(&mut pressed, least(&|k| all[k].change) / sound);
         larger(
             &mut changed,
             least(&|k| (all[k].speed - begin[k]).abs()) / sound,
         );
     }
-    let loud = walls.iter().zip(&fastest).filter(|(_, v)| **v >= sound);
-    found.refused.extend(loud.map(|(wall, v)| {
-        SceneProblem::new(
-            format!("wall.{}.motion", wall.drawing.name()),
-            format!(
-                "the wall moves with {v:.3} m/s, faster than sound in the slowest phase, {sound:.3} m/s: what is \
-                 before it would be pressed together; slow it down, or raise `speed_of_sound`"
-            ),
-        )
-    }));
+    let fast = walls.iter().zip(fastest);
+    for (wall, (v, time)) in fast.filter(|(_, (v, _))| *v >= FAST * sound) {
+        let (path, place) = told_at(scene, std::slice::from_ref(wall), time);
+        let at = format!("{} s{place}", number::plain(time));
+        if v >= sound {
+            let message = format!(
+                "the wall moves with {v:.3} m/s, faster than sound in the slowest phase, {sound:.3} m/s, at {at}: what \
+                 is before it would be pressed together; slow it down, or raise `speed_of_sound`"
+            );
+            found.refused.push(SceneProblem::new(path, message));
+        } else {
+            let (name, v, share) = (
+                wall.drawing.name(),
+                number::plain(v),
+                number::percent(v / sound),
+            );
+            found.remarks.push(format!(
+                "wall `{name}` moves with {v} m/s at {at}, {share} of the speed of sound: what is before it is pressed \
+                 together"
+            ));
+        }
+    }
     if found.refused.is_empty() {
         vessel(
             scene,
@@ -149,23 +162,25 @@ fn known(x: f64) -> f64 {
     if x.is_nan() { f64::INFINITY } else { x }
 }
 
-/// Largest speed, m/s, and acceleration, m/s², of the corners of a wall.
+/// Largest speed of the corners of a wall, and how much their velocities have changed since a time before, m/s.
 #[derive(Clone, Copy, Default)]
 struct Moving {
     speed: f64,
-    acceleration: f64,
+    change: f64,
 }
 
-fn moving<const D: usize>(wall: &WallSpec<D>, time: f64) -> Moving {
+fn moving<const D: usize>(wall: &WallSpec<D>, time: f64, since: f64) -> Moving {
     let mut most = Moving::default();
     if !wall.motion.moves() {
         return most;
     }
-    let map = wall.motion.pose(time).map();
+    let before = (time - since).max(0.0);
+    let [now, then] = [time, before].map(|t| (wall.motion.pose(t).map(), t));
     corners(wall, &mut |corner| {
-        let movement = wall.motion.movement(map(corner), time);
-        most.speed = most.speed.max(known(movement.velocity.norm()));
-        most.acceleration = most.acceleration.max(known(movement.acceleration.norm()));
+        let [now, then] =
+            [&now, &then].map(|(map, t)| wall.motion.movement(map(corner), *t).velocity);
+        most.speed = most.speed.max(known(now.norm()));
+        most.change = most.change.max(known((now - then).norm()));
     });
     most
 }

@@ -10,7 +10,7 @@ use crate::geometry::polyline::Polyline;
 use crate::geometry::wall_end::WallEnd;
 
 /// Ends closer than this part of the spacing are the same place.
-pub(super) const SAME_PLACE: f64 = 1e-6;
+pub(crate) const SAME_PLACE: f64 = 1e-6;
 
 /// What follows the last point of a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]

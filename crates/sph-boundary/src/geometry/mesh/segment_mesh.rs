@@ -112,6 +112,10 @@ impl SegmentMesh {
         &self.warnings
     }
 
+    pub(crate) fn remark(&mut self, remarks: Vec<WallWarning>) {
+        self.warnings.extend(remarks);
+    }
+
     /// The box and its periodic directions.
     pub fn domain(&self) -> &PeriodicBox {
         &self.domain

@@ -33,8 +33,8 @@ impl TriangleMesh {
     /// along the next axis until it meets a wall. Without walls every point is in the fluid.
     ///
     /// Walls with free edges have a front: if there are any, the triangle nearest to the point decides
-    /// where one is within four spacings. Farther away their winding number decides where it is more than ½: the walls enclose
-    /// the point but for their openings. A point on a wall within rounding may be given either answer.
+    /// where one is within four spacings. Farther away their winding number decides where it is more than ½: the walls
+    /// enclose the point but for their openings. A point on a wall within rounding may be given either answer.
     ///
     /// The first call after a motion sorts the triangles into columns; then the cost is that of the
     /// triangles in one column.
@@ -67,8 +67,8 @@ impl TriangleMesh {
         sides.beyond
     }
 
-    /// How far walls with free edges enclose a point: their winding number, positive where they face it; none of walls that are
-    /// closed or repeat themselves in two directions.
+    /// How far walls with free edges enclose a point: their winding number, positive where they face it; none of walls
+    /// that are closed or repeat themselves in two directions.
     pub fn enclosed(&self, point: [f64; 3]) -> Option<f64> {
         let sides = self.sides.get_or_init(|| sides(self));
         sides.winding.as_ref().map(|winding| -winding.at(&point))

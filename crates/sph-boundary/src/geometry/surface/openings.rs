@@ -1,5 +1,6 @@
 //! Edges that no other triangle continues.
 
+use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use super::triangle_mesh::{FreeEdge, Opening, TriangleMesh};
@@ -79,8 +80,8 @@ impl TriangleMesh {
             .iter()
             .enumerate()
             .filter_map(|(particle, point)| Some((particle, near.nearest(*point)?)))
-            .min_by(|a, b| a.1.0.total_cmp(&b.1.0));
-        let Some((particle, (distance, edge, at))) = nearest else {
+            .min_by(|a, b| a.1.0.partial_cmp(&b.1.0).unwrap_or(Ordering::Equal));
+        let Some((particle, ((_, distance), edge, at))) = nearest else {
             return Ok(());
         };
         let free = &self.free_edges[edge];
@@ -104,7 +105,8 @@ impl TriangleMesh {
 struct FreeEdgeGrid {
     radius: f64,
     size: f64,
-    ends: Vec<(usize, [Point; 2])>,
+    /// Edges with their ends and the normals of their triangles.
+    ends: Vec<(usize, [Point; 2], Point)>,
     cells: HashMap<[i64; 3], Vec<u32>>,
 }
 
@@ -121,6 +123,7 @@ impl FreeEdgeGrid {
         };
         for (e, edge) in mesh.free_edges.iter().enumerate() {
             let ends = mesh.free_edge_ends(edge);
+            let normal = mesh.triangles[edge.triangle].normal;
             let [low, high] = bounds(ends);
             let images = |k: usize| {
                 if !domain.periodic[k] {
@@ -133,7 +136,7 @@ impl FreeEdgeGrid {
                 for j in images(1) {
                     for k in images(2) {
                         let shift = domain.shift([i, j, k]);
-                        grid.insert(e, ends.map(|p| add(p, shift)));
+                        grid.insert((e, ends.map(|p| add(p, shift)), normal));
                     }
                 }
             }
@@ -141,10 +144,10 @@ impl FreeEdgeGrid {
         grid
     }
 
-    fn insert(&mut self, edge: usize, ends: [Point; 2]) {
+    fn insert(&mut self, edge: (usize, [Point; 2], Point)) {
         let number = self.ends.len() as u32;
-        self.ends.push((edge, ends));
-        let [low, high] = bounds(ends);
+        let [low, high] = bounds(edge.1);
+        self.ends.push(edge);
         let range = |k: usize| {
             let cell = |x: f64| (x / self.size).floor() as i64;
             cell(low[k] - self.radius)..=cell(high[k] + self.radius)
@@ -158,17 +161,18 @@ impl FreeEdgeGrid {
         }
     }
 
-    /// Distance, edge and place on it nearest to a point, if within the radius.
-    fn nearest(&self, point: Point) -> Option<(f64, usize, Point)> {
+    /// Whether a point is behind an edge and its distance, the edge and the place on it, if within the radius: of the
+    /// nearest in front of which the point is, for that wall should go on there, else of the nearest.
+    fn nearest(&self, point: Point) -> Option<((bool, f64), usize, Point)> {
         let cell = point.map(|x| (x / self.size).floor() as i64);
         let edges = self.cells.get(&cell)?.iter().map(|n| {
-            let (edge, [a, b]) = self.ends[*n as usize];
+            let (edge, [a, b], normal) = self.ends[*n as usize];
             let (t, to) = (sub(b, a), sub(point, a));
             let part = (dot(to, t) / dot(t, t)).clamp(0.0, 1.0);
             let at = along(a, part, t);
-            (norm(sub(point, at)), edge, at)
+            ((dot(to, normal) <= 0.0, norm(sub(point, at))), edge, at)
         });
-        let nearest = edges.min_by(|a, b| a.0.total_cmp(&b.0));
-        nearest.filter(|(distance, ..)| *distance < self.radius)
+        let near = edges.filter(|((_, distance), ..)| *distance < self.radius);
+        near.min_by(|a, b| a.0.partial_cmp(&b.0).unwrap_or(Ordering::Equal))
     }
 }

@@ -6,6 +6,7 @@ use super::edges::Cuts;
 use super::patches::Patch;
 use super::places::{EdgeKey, Places, edge_key};
 use super::vector::{cross, dot, norm, sub};
+use crate::geometry::wedges::{Beside, Parts, wedges};
 
 /// Where walls touched face to face.
 #[derive(Default)]
@@ -16,39 +17,12 @@ pub(super) struct Touched {
     pub pieces: Vec<bool>,
 }
 
-/// A piece at an edge.
-struct Beside {
-    piece: usize,
-    /// Whether it runs along the edge like its key: the fluid is then on the side of rising angles.
-    with: bool,
-    /// About the edge, rad.
-    angle: f64,
-}
-
-/// Pieces that hang together, by a piece that stands for them.
-struct Parts(Vec<usize>);
-
-impl Parts {
-    fn of(&mut self, mut piece: usize) -> usize {
-        while self.0[piece] != piece {
-            self.0[piece] = self.0[self.0[piece]];
-            piece = self.0[piece];
-        }
-        piece
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.of(a), self.of(b));
-        self.0[a.max(b)] = a.min(b);
-    }
-}
-
 /// By piece, whether it bounds the fluid.
 ///
-/// Around an edge a wedge of fluid lies between two faces that look at each other, and these belong together. Where an open face
-/// or another wall closes a pipe that has a thickness, three faces meet: the pipe within, its end, and what closes it.
-/// The first and the last hold the fluid; the end, and what hangs together with it, is the outside of the pipe. It ends there
-/// on the back of another wall, so that no fluid can be before it.
+/// Around an edge a wedge of fluid lies between two faces that look at each other, and these belong together. Where an
+/// open face or another wall closes a pipe that has a thickness, three faces meet: the pipe within, its end, and what
+/// closes it. The first and the last hold the fluid; the end, and what hangs together with it, is the outside of the
+/// pipe. It ends there on the back of another wall, so that no fluid can be before it.
 pub(super) fn seen(pieces: &[Patch], cuts: &Cuts, places: &Places, touched: &Touched) -> Vec<bool> {
     let mut runs: BTreeMap<EdgeKey, Vec<(usize, bool)>> = BTreeMap::new();
     for (piece, patch) in pieces.iter().enumerate() {
@@ -59,7 +33,7 @@ pub(super) fn seen(pieces: &[Patch], cuts: &Cuts, places: &Places, touched: &Tou
             }
         }
     }
-    let mut parts = Parts((0..pieces.len()).collect());
+    let mut parts = Parts::new(pieces.len());
     // Pieces that nothing continues, each with those that do go on there.
     let mut severed: Vec<(usize, Vec<usize>)> = Vec::new();
     for (key, run) in &runs {
@@ -72,33 +46,17 @@ pub(super) fn seen(pieces: &[Patch], cuts: &Cuts, places: &Places, touched: &Tou
                 continue;
             }
             [(a, with), (b, other)] if with != other => vec![[a, b]],
-            _ => wedges(&around(pieces, places, key, run)),
+            _ => wedges(around(pieces, places, key, run)),
         };
-        pairs.iter().for_each(|[a, b]| parts.join(*a, *b));
+        pairs.iter().for_each(|pair| parts.join(*pair));
         let joined: Vec<usize> = pairs.into_iter().flatten().collect();
         let alone = run.iter().filter(|(piece, _)| !joined.contains(piece));
         severed.extend(alone.map(|(piece, _)| (*piece, joined.clone())));
     }
-    let mut outside: BTreeMap<usize, bool> = BTreeMap::new();
-    for (piece, _) in &severed {
-        outside.insert(parts.of(*piece), true);
-    }
-    let ends: HashSet<usize> = outside.keys().copied().collect();
-    for (piece, others) in &severed {
-        let whole = others.iter().all(|o| !ends.contains(&parts.of(*o)));
-        let own = parts.of(*piece);
-        *outside.entry(own).or_default() &= whole && !others.is_empty();
-    }
-    let is_outside = |piece: usize, parts: &mut Parts| {
-        let part = parts.of(piece);
-        outside.get(&part).copied().unwrap_or(false)
-    };
-    (0..pieces.len())
-        .map(|p| !is_outside(p, &mut parts))
-        .collect()
+    parts.bound_fluid(&severed)
 }
 
-/// The pieces at an edge in the order of their angles about it.
+/// The pieces at an edge with their angles about it.
 fn around(pieces: &[Patch], places: &Places, key: &EdgeKey, run: &[(usize, bool)]) -> Vec<Beside> {
     let along = sub(places.at(key.second), places.positions[key.first as usize]);
     let direction = |(piece, with): (usize, bool)| {
@@ -109,29 +67,14 @@ fn around(pieces: &[Patch], places: &Places, key: &EdgeKey, run: &[(usize, bool)
         }
     };
     let first = direction(run[0]);
-    let mut sorted: Vec<Beside> = run
-        .iter()
-        .map(|&(piece, with)| {
-            let own = direction((piece, with));
-            let sine = dot(along, cross(first, own)) / norm(along);
-            Beside {
-                piece,
-                with,
-                angle: sine.atan2(dot(first, own)),
-            }
-        })
-        .collect();
-    // Of two back to back, the one with the fluid before it comes first.
-    sorted.sort_by(|a, b| a.angle.total_cmp(&b.angle).then(a.with.cmp(&b.with)));
-    sorted
-}
-
-/// Neighbours about an edge with the fluid between them.
-fn wedges(sorted: &[Beside]) -> Vec<[usize; 2]> {
-    let next = sorted.iter().cycle().skip(1);
-    let pairs = sorted.iter().zip(next);
-    pairs
-        .filter(|(a, b)| a.with && !b.with)
-        .map(|(a, b)| [a.piece, b.piece])
-        .collect()
+    let beside = |&(piece, with): &(usize, bool)| {
+        let own = direction((piece, with));
+        let sine = dot(along, cross(first, own)) / norm(along);
+        Beside {
+            piece,
+            with,
+            angle: sine.atan2(dot(first, own)),
+        }
+    };
+    run.iter().map(beside).collect()
 }

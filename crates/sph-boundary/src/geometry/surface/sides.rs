@@ -17,7 +17,8 @@ pub(super) struct Sides {
     pub beyond: bool,
     /// Where there are free edges, what finds the nearest wall.
     pub front: Option<TriangleGrid>,
-    /// Where there are free edges, how the walls wind around a place; of the other sign, since normals point into the fluid.
+    /// Where there are free edges, how the walls wind around a place; of the other sign, since normals point into the
+    /// fluid.
     pub winding: Option<Winding>,
 }
 
