@@ -70,7 +70,7 @@ impl<const D: usize> Room<D> {
         if let Some(walls) = &choices.walls {
             let ends = walls.check_free_ends(&placed.positions);
             ends.map_err(|e| wall_problem(scene, &e))?;
-            warnings.extend(thin_walls(walls.thin_walls(&placed.positions))?);
+            warnings.extend(thin_walls(scene, walls.thin_walls(&placed.positions))?);
         }
         Ok(Room {
             world,

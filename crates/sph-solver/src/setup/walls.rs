@@ -35,8 +35,11 @@ pub fn wall_problem(scene: &Scene, error: &BoundaryError) -> SolverError {
     SolverError::at(path, text)
 }
 
-/// Refuses walls that do not hide fluid on one side from fluid on the other; remarks on those that have none there yet.
-pub fn thin_walls<const D: usize>(thin: Vec<ThinWall<D>>) -> Result<Vec<String>, SolverError> {
+/// Refuses walls that do not hide fluid on one side from fluid on the other; remarks on plates that have none there yet.
+pub fn thin_walls<const D: usize>(
+    scene: &Scene,
+    thin: Vec<ThinWall<D>>,
+) -> Result<Vec<String>, SolverError> {
     let told = |thin: &ThinWall<D>, what: &str| {
         let at: Vec<String> = thin.place.iter().map(|x| format!("{x:.4}")).collect();
         // On the safe side of rounding.
@@ -57,5 +60,11 @@ pub fn thin_walls<const D: usize>(thin: Vec<ThinWall<D>>) -> Result<Vec<String>,
     }
     let what = "fluid on its two sides would feel each other";
     let remark = |thin: &ThinWall<D>| format!("wall `{}`: {}", thin.wall, told(thin, what));
-    Ok(thin.iter().map(remark).collect())
+    let plate = |thin: &&ThinWall<D>| {
+        scene
+            .wall
+            .get(&thin.wall)
+            .is_some_and(|w| w.thickness.is_some())
+    };
+    Ok(thin.iter().filter(plate).map(remark).collect())
 }
