@@ -102,6 +102,8 @@ pub use rigid::mover::{Mover, MoverEntry};
 pub use rigid::pose::Pose;
 pub use rigid::rigid_state::{Movement, RigidState};
 pub use rigid::spring::Spring;
-pub use treatment::contract::{Condition, Wall, WallEntry, WallSetup, WallSpec, WallStates};
+pub use treatment::contract::{
+    Condition, ThinWall, Wall, WallEntry, WallSetup, WallSpec, WallStates,
+};
 pub use treatment::dummy::DummyParticles;
 pub use treatment::usaw::Usaw;

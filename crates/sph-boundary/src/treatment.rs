@@ -8,6 +8,7 @@ pub(crate) mod impact;
 pub(crate) mod moving;
 pub(crate) mod near;
 pub(crate) mod outline;
+pub(crate) mod plates;
 pub(crate) mod shepard;
 pub(crate) mod unveiling;
 pub(crate) mod usaw;

@@ -1,6 +1,6 @@
 //! A wall treatment with open faces in it.
 
-use sph_boundary::{BoundaryError, Wall, WallSetup, WallStates};
+use sph_boundary::{BoundaryError, ThinWall, Wall, WallSetup, WallStates};
 use sph_core::{StepError, Vect};
 use sph_neighbours::{Sight, WallSet, World};
 
@@ -42,6 +42,10 @@ impl<const D: usize> Wall<D> for OpenWalls<D> {
 
     fn ends_freely(&self) -> bool {
         self.walls.ends_freely()
+    }
+
+    fn thin_walls(&self, points: &[Vect<D>]) -> Vec<ThinWall<D>> {
+        self.walls.thin_walls(points)
     }
 
     fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {

@@ -253,7 +253,7 @@ impl WallMesh<2> for PlanarWalls {
         }
         integrals.weigh(batch);
         let mut from = 0;
-        let mut sides = ShellSums::default();
+        let mut sides = std::mem::take(&mut found.sides);
         for &end in &batch.ends {
             let mut sum = GammaSum::default();
             let planes = contacts.planes();
@@ -292,6 +292,7 @@ impl WallMesh<2> for PlanarWalls {
             }
             from = end;
         }
+        found.sides = sides;
     }
 
     fn shells(&self) -> &Shells {

@@ -126,6 +126,8 @@ pub struct Gammas {
     pub all: Vec<(f64, u32)>,
     /// Points, counted from 0, and the shells that they are behind.
     pub behind: Vec<(u32, u32)>,
+    /// Of the point at hand; kept for its memory.
+    pub(crate) sides: ShellSums,
 }
 
 impl Gammas {

@@ -156,7 +156,7 @@ impl WallMesh<3> for SpatialWalls {
         contacts: &mut ContactBlock<3>,
         found: &mut Gammas,
     ) {
-        let mut sides = ShellSums::default();
+        let mut sides = std::mem::take(&mut found.sides);
         for of in points {
             let planes = contacts.planes();
             sides.clear();
@@ -170,6 +170,7 @@ impl WallMesh<3> for SpatialWalls {
             let gamma = sides.gamma(sum.signed_sum).unwrap_or_else(|| sum.gamma());
             found.push(gamma, contacts.planes(), &sides);
         }
+        found.sides = sides;
     }
 
     fn shells(&self) -> &Shells {

@@ -93,6 +93,23 @@ pub struct WallStates {
     pub listed: Option<Vec<f64>>,
 }
 
+/// A wall so thin that the fluid on one side feels that on the other.
+#[derive(Clone, Debug)]
+pub struct ThinWall<const D: usize> {
+    /// Its name.
+    pub wall: String,
+    /// Its thinnest place, m.
+    pub place: Vect<D>,
+    /// Thickness there, m.
+    pub thickness: f64,
+    /// Thickness that would do, m.
+    pub least: f64,
+    /// Particle spacing at which it would do as it is, m.
+    pub spacing: f64,
+    /// Whether there is fluid on both sides.
+    pub wet: bool,
+}
+
 /// A treatment of all walls of a scene.
 pub trait Wall<const D: usize>: Send + Sync {
     /// Where the first row of particles stands in front of a flat wall, in spacings beyond half
@@ -130,6 +147,11 @@ pub trait Wall<const D: usize>: Send + Sync {
     /// # Errors
     /// Names the wall and the end.
     fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError>;
+
+    /// The thinnest place of every wall that does not hide fluid on one side from fluid on the other; wet ones first.
+    fn thin_walls(&self, _points: &[Vect<D>]) -> Vec<ThinWall<D>> {
+        Vec::new()
+    }
 
     /// Moves walls with a prescribed motion to a time; those with movers are placed where they are.
     ///

@@ -6,6 +6,7 @@ use sph_neighbours::{Domain, Elements, Frame, LinePull, WallForce, WallPoints};
 use crate::geometry::cover::Cover;
 use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
 use crate::limits::MOST_PERIODS;
+use crate::treatment::plates::far_sight;
 use crate::{BoundaryError, Drawing, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
 
 /// How far queries look, over the support: also those of filling and of a generous skin.
@@ -24,6 +25,8 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     /// Walls with the same number move together.
     pub groups: Vec<usize>,
     pub spacing: f64,
+    /// Distance beyond which nothing of the kernel counts, m.
+    pub far_sight: f64,
     pub domain: Domain<D>,
     /// What stopping particles in front of walls did to these in the last drift.
     pub struck: Vec<WallForce<D>>,
@@ -60,6 +63,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             put_back: false,
             groups: groups(setup.walls),
             spacing: setup.spacing,
+            far_sight: far_sight::<D>(&*setup.kernel.sampler(D, setup.smoothing_length)),
             domain: setup.domain.clone(),
             struck: Vec::new(),
             cover: Cover::default(),
@@ -294,6 +298,11 @@ macro_rules! checks_by_outline {
         fn ends_freely(&self) -> bool {
             let set_up = self.set_up.as_ref();
             set_up.is_some_and(|s| s.outline.mesh.shells().any())
+        }
+
+        fn thin_walls(&self, points: &[Vect<D>]) -> Vec<crate::ThinWall<D>> {
+            let set_up = self.set_up.as_ref();
+            set_up.map_or_else(Vec::new, |s| s.outline.thin_walls(points))
         }
 
         fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {

@@ -96,7 +96,19 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
         let velocity = world.free.get(fields::VELOCITY)?;
         let shift = world.free.get(fields::SHIFT_VELOCITY).ok();
         let behind = self.behind.iter().map(|(place, _)| *place);
-        let mut places: Vec<u32> = self.rims.iter().copied().chain(behind).collect();
+        // What a row holds beyond the support depends on its history.
+        let near_rim = |place: &u32| {
+            let (mesh, x) = (
+                &outline.mesh,
+                &positions[self.particles[*place as usize] as usize],
+            );
+            let row = self.row(*place as usize).iter();
+            let rims = row.filter(|near| mesh.shells().is_rim(mesh.element(**near)));
+            let seen: Vec<_> = rims.map(|near| mesh.seen(x, *near)).collect();
+            M::signed_distance(&seen, &Vect::zeros(), outline.support).is_some()
+        };
+        let rims = self.rims.iter().copied().filter(near_rim);
+        let mut places: Vec<u32> = rims.chain(behind).collect();
         places.sort_unstable();
         places.dedup();
         let later = |place: u32| {

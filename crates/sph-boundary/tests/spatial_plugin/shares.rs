@@ -39,11 +39,8 @@ fn in_a_box_faces_have_a_half_edges_a_quarter_and_corners_an_eighth_of_three_qua
         match faces(x) {
             1 => assert!((share - 0.5).abs() < 1e-14, "{x}: {share}"),
             2 => assert!((share - 0.25).abs() < 1e-14, "{x}: {share}"),
-            // A corner has three quarters of a square of wall, cut along one diagonal or another.
-            _ => assert!(
-                (0.0625 - 1e-14..=0.125 + 1e-14).contains(share),
-                "{x}: {share}"
-            ),
+            // A corner has three quarters of a square of wall.
+            _ => assert!((share - 0.125 * 0.75).abs() < 1e-14, "{x}: {share}"),
         }
     }
     let [inside, flat, edge, corner] = sums(&bench);

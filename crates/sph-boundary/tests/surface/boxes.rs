@@ -46,8 +46,8 @@ fn a_block_has_the_rest_of_the_angles() {
 #[test]
 fn sides_that_are_no_multiple_are_cut_into_equal_parts() {
     let mesh = mesh(&[tank([0.0; 3], [2.2, 1.7, 1.0])], 0.5);
-    // 4 × 3 × 2 parts.
-    assert_eq!(mesh.nodes().len(), 5 * 4 * 3 - 3 * 2);
+    // 4 × 3 × 2 parts; the cells in the middle of three have a node of their own.
+    assert_eq!(mesh.nodes().len(), 5 * 4 * 3 - 3 * 2 + 2 * (4 + 2));
     assert!((area(&mesh) - 2.0 * (2.2 * 1.7 + 2.2 + 1.7)).abs() < 1e-13);
     assert!(leak(&mesh) < 1e-13);
 }
@@ -202,4 +202,29 @@ fn walls_of_a_group_move_together() {
     assert_eq!(mesh.nodes(), before.nodes());
     assert!(mesh.contains([1.5, 1.5, 3.2]) && !mesh.contains([1.5, 1.5, 1.2]));
     assert!(mesh.move_walls(&[rest]).is_err());
+}
+
+/// Every triangle of a box has its mirror image among the others, whether the parts of its sides are even or odd.
+#[test]
+fn a_box_is_its_own_mirror_image() {
+    let size = [2.0, 1.5, 2.5];
+    let mesh = mesh(&[tank([0.0; 3], size)], 0.5);
+    let corners = |t: usize, mirrored: usize| {
+        let mut places = mesh.corners(t).map(|corner| {
+            let mut place = corner;
+            if mirrored < 3 {
+                place[mirrored] = size[mirrored] - place[mirrored];
+            }
+            place.map(|x| (x * 1e6).round() as i64)
+        });
+        places.sort_unstable();
+        places
+    };
+    let set = |mirrored: usize| -> std::collections::BTreeSet<[[i64; 3]; 3]> {
+        let all = 0..mesh.triangles().len();
+        all.map(|t| corners(t, mirrored)).collect()
+    };
+    let drawn = set(3);
+    assert_eq!(drawn.len(), mesh.triangles().len());
+    (0..3).for_each(|axis| assert_eq!(set(axis), drawn, "along axis {axis}"));
 }

@@ -14,7 +14,7 @@ use crate::setup::domain::{check_periods, domain_of};
 use crate::setup::placement::{Placed, place};
 use crate::setup::shapes::Drawn;
 use crate::setup::share::{Share, Standing};
-use crate::setup::walls::{build_walls, wall_problem};
+use crate::setup::walls::{build_walls, thin_walls, wall_problem};
 use crate::step::stages::SharedWall;
 
 /// The room in which particles will move, and where they begin.
@@ -70,6 +70,7 @@ impl<const D: usize> Room<D> {
         if let Some(walls) = &choices.walls {
             let ends = walls.check_free_ends(&placed.positions);
             ends.map_err(|e| wall_problem(scene, &e))?;
+            warnings.extend(thin_walls(scene, walls.thin_walls(&placed.positions))?);
         }
         Ok(Room {
             world,

@@ -1,6 +1,6 @@
 //! Planar pieces cut into triangles.
 
-use std::cmp::Ordering::Equal;
+use std::cmp::Ordering::{Equal, Less};
 use std::collections::HashMap;
 
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
@@ -222,7 +222,8 @@ fn check_area(
 }
 
 /// A rectangle whose sides are cut into equal parts gets a lattice that meets all their nodes, and is its own mirror image
-/// both ways: diagonals point away from the middle, and cells in the middle of an odd number are cut into four.
+/// both ways: diagonals point away from the middle, and cells in the middle of three or more, if odd, are cut into four. A
+/// strip of one cell is so along its length only.
 ///
 /// `first` is the side along the first axis from the origin.
 fn rectangle(
@@ -273,7 +274,10 @@ fn rectangle(
             filling.inside.push(in_space(x, origin, axes));
         }
     }
-    let side_of = |k: usize, all: usize| (2 * k + 1).cmp(&all);
+    let side_of = |k: usize, all: usize| match all {
+        1 => Less,
+        _ => (2 * k + 1).cmp(&all),
+    };
     let tile = |from: usize, all: usize| from..all.min(from + TILE);
     for (low, left) in (0..n)
         .step_by(TILE)

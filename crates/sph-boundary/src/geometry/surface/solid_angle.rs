@@ -76,9 +76,10 @@ impl TriangleMesh {
         let mut count = vec![0u32; self.nodes.len()];
         let mut area = vec![0.0; self.nodes.len()];
         for (t, triangle) in self.triangles.iter().enumerate() {
+            let parts = parts(self.corners(t));
             for (corner, node) in triangle.nodes.iter().enumerate() {
                 count[*node] += u32::from(fans.first(3 * t + corner) == 3 * t + corner);
-                area[*node] += triangle.area / 3.0;
+                area[*node] += triangle.area * parts[corner];
             }
         }
         for (n, node) in self.nodes.iter_mut().enumerate() {
@@ -176,5 +177,21 @@ impl Fans {
         let (a, b) = (self.first(a), self.first(b));
         let (low, high) = (a.min(b), a.max(b));
         self.parent[high] = low as u32;
+    }
+}
+
+/// Two sides are at right angles if their cosine is below this.
+const RIGHT: f64 = 1e-6;
+
+/// Parts of a triangle that its corners answer for: thirds, and of half a rectangle what is nearest to each corner, so that the
+/// rectangle's corners have a quarter of it each, whichever way it is cut.
+fn parts(corners: [Point; 3]) -> [f64; 3] {
+    let right = |k: usize| {
+        let sides = [1, 2].map(|n| sub(corners[(k + n) % 3], corners[k]));
+        dot(sides[0], sides[1]).abs() <= RIGHT * norm(sides[0]) * norm(sides[1])
+    };
+    match (0..3).find(|k| right(*k)) {
+        Some(right) => std::array::from_fn(|k| if k == right { 0.5 } else { 0.25 }),
+        None => [1.0 / 3.0; 3],
     }
 }

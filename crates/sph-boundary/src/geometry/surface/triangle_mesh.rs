@@ -18,8 +18,8 @@ pub struct Node {
     /// right-angled edge seen from the fluid, 1/8 in the corner of a box, 3/4 and 7/8 on the edges
     /// and corners of a block. At a free edge as if the wall went straight on.
     pub theta: f64,
-    /// Wall area that the node answers for, a third of each triangle around it, over the spacing
-    /// squared.
+    /// Wall area that the node answers for, a third of each triangle around it (a quarter of each rectangle), over the
+    /// spacing squared.
     pub size: f64,
     /// Index of the wall; at a joint, one of those that meet.
     pub wall: usize,
