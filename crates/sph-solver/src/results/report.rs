@@ -184,6 +184,13 @@ impl<const D: usize> Running<'_, D> {
             warnings.push(format!("{escaped} particles are behind a wall at the end"));
         }
         warnings.extend(flow.works.iter().flat_map(|w| w.warnings()));
+        if flow.world.free.is_empty() {
+            warnings.push("all particles have left before the end".into());
+        }
+        if let Some([warning, remedy]) = self.energy.remarks() {
+            warnings.push(warning);
+            advice.push(remedy);
+        }
         let mach = self.files.as_ref().map_or(0.0, |f| f.series.peaks[1]);
         if mach > INCOMPRESSIBLE {
             advice.push(format!(
