@@ -10,9 +10,9 @@ use crate::setup::assemble::moves;
 /// Shares of the scale from which the run is told of it, and from which no result is right.
 const TOLD: f64 = 0.01;
 const GROSS: f64 = 0.1;
-/// Least scale over Σ m c²: the energy of a flow with a thirtieth of its speed of sound, so that what is at rest is not
+/// Least scale over Σ m c²: the energy of a flow with a sixteenth of its speed of sound, so that what is at rest is not
 /// measured by its own noise.
-const STILL: f64 = 5e-4;
+const STILL: f64 = 2e-3;
 /// Kinds of plugins that give a flow no energy but what its sums hold.
 const OWN: [&str; 9] = [
     "formulation",
@@ -137,11 +137,11 @@ mod tests {
         flow.look(&balance(6.0, 6.0, 100.0), 5.0);
         flow.look(&balance(1.0, 6.0, 100.0), 6.0);
         assert!(flow.verdict().is_some());
-        // At rest the scale is that of sound: 5e-4 of 100 J.
+        // At rest the scale is that of sound: 2e-3 of 100 J.
         let mut still = watch;
         still.look(&balance(0.0, 10.0, 100.0), 0.0);
-        assert_eq!(still.look(&balance(4e-4, 10.0, 100.0), 1.0), None);
-        assert!(still.look(&balance(6e-4, 10.0, 100.0), 2.0).is_some());
+        assert_eq!(still.look(&balance(1.9e-3, 10.0, 100.0), 1.0), None);
+        assert!(still.look(&balance(2.1e-3, 10.0, 100.0), 2.0).is_some());
         let mut driven = EnergyWatch {
             driven: true,
             ..watch
