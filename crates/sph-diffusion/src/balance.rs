@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sph_contribution::StepWork;
-use sph_core::{Access, Field, StepError, Vector, fields};
+use sph_core::{Access, Field, StepError, Vect, Vector, fields};
 use sph_neighbours::World;
 
 use crate::rhie_chow::PRESSURE_SLOPE;
@@ -15,6 +15,10 @@ use crate::rhie_chow::PRESSURE_SLOPE;
 /// diffused.
 const MEMORY: f64 = 40.0;
 
+/// Largest acceleration that counts, cτ⁻¹ times this: a flow that is not faster than a fifth of its sound has no larger one for
+/// long, and what an impact does within a few steps is sound. With c = 10 √(aH) it binds below H = 2h.
+const SLOW: f64 = 0.2;
+
 /// What tells how particles are accelerated by all but friction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accelerated {
@@ -24,7 +28,8 @@ pub enum Accelerated {
     Slope,
 }
 
-/// A ← A + (1 − e^(−cΔt/40h)) (a − **f** − A): the mean acceleration of a particle, without the driving force **f**.
+/// A ← A + (1 − e^(−cΔt/40h)) (a − **f** − A): the mean acceleration of a particle, without the driving force **f**; |a − **f**|
+/// counts up to c²/200h.
 ///
 /// Under it the pressure has the gradient ρ (**g** − A), whatever accelerates the fluid: walls that move, a fall, a turn. A
 /// smoother that takes this gradient off leaves all of them alone. The mean lags behind sound: with the frequency ω the share
@@ -61,13 +66,17 @@ impl<const D: usize> StepWork<D> for MeanAcceleration {
     fn before_drift(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let memory = MEMORY * world.kernel.smoothing_length() / self.sound;
         let part = -(-dt / memory).exp_m1();
+        let most = SLOW * self.sound / memory;
         let mut mean = world.free.take(fields::MEAN_ACCELERATION)?;
         let source = world.free.get(self.source())?;
         let (gravity, driving) = (world.gravity, world.driving);
+        let toward = |mean: &mut Vect<D>, now: Vect<D>| {
+            *mean += (now.cap_magnitude(most) - *mean) * part;
+        };
         let all = mean.par_iter_mut().zip(source).with_min_len(2048);
         match self.of {
-            Accelerated::Sweep => all.for_each(|(mean, a)| *mean += (a - driving - *mean) * part),
-            Accelerated::Slope => all.for_each(|(mean, s)| *mean += (gravity - s - *mean) * part),
+            Accelerated::Sweep => all.for_each(|(mean, a)| toward(mean, a - driving)),
+            Accelerated::Slope => all.for_each(|(mean, s)| toward(mean, gravity - s)),
         }
         Ok(world.free.put(fields::MEAN_ACCELERATION, mean)?)
     }
