@@ -56,8 +56,8 @@ fn flown(name: &str, end: f64, more: &[&str]) -> Assembled<2> {
     parts
 }
 
-/// Water that falls, meets a wall and splashes has ½ρgWH² at the start. The books close with a
-/// quarter of the scene's steps: what steps make is of first order, 0.128, 0.063 and 0.029 J of
+/// Water that falls, meets a wall and splashes has ½ρgWH² at the start. If it cannot be pulled, the books close with the
+/// scene's steps. If it can, with a quarter of them: what steps make is of first order, 0.128, 0.063 and 0.029 J of
 /// 61 J with 0.6 (the scene's), 0.3 and 0.15 h/c.
 #[test]
 fn the_budget_of_a_dam_break_closes_with_the_damper_and_without() {
@@ -66,8 +66,8 @@ fn the_budget_of_a_dam_break_closes_with_the_damper_and_without() {
     let short_steps = "integrator.symplectic-euler.courant=0.15";
     let damper = "damping.acoustic={}";
     for more in [
-        vec![torn, short_steps],
-        vec![torn, short_steps, damper],
+        vec![torn],
+        vec![torn, damper],
         vec![short_steps],
         vec![short_steps, damper],
     ] {
