@@ -8,6 +8,7 @@ pub(crate) mod course;
 pub(crate) mod drawn_flow;
 pub(crate) mod driver;
 pub(crate) mod edges;
+pub(crate) mod energy;
 pub(crate) mod identity;
 pub(crate) mod lock;
 pub(crate) mod mach;

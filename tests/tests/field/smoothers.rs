@@ -1,3 +1,191 @@
-//! Smoothers under other accelerations than gravity, and energy that rises.
+//! Outlets, smoothers under other accelerations than gravity, and energy that rises.
+
+use sph_io::Table;
 
 use crate::Field;
+
+/// The mean of a column after a time, s.
+fn mean(series: &Table, name: &str, after: f64) -> f64 {
+    let values = series.column(name).unwrap_or_else(|| panic!("no {name}"));
+    let times = series.column("time").expect("times").iter();
+    let late: Vec<f64> = times
+        .zip(values)
+        .filter(|(t, _)| **t > after)
+        .map(|(_, x)| *x)
+        .collect();
+    late.iter().sum::<f64>() / late.len() as f64
+}
+
+/// Sum of the energies in every row, J.
+fn energies(series: &Table) -> Vec<f64> {
+    let of = |name: &str| series.column(name).expect("an energy");
+    let parts = ["kinetic", "potential", "internal"].map(|k| of(&format!("{k}_energy")));
+    (0..series.rows())
+        .map(|k| parts.iter().map(|p| p[k]).sum())
+        .collect()
+}
+
+#[test]
+fn a_block_falls_through_an_outlet_as_if_nobody_had_left() {
+    // The last row falls 0.4 m from 1 m/s; sideways nothing falls, and all go on with 1 m/s.
+    let falls = (1.0f64 + 2.0 * 9.81 * 0.4).sqrt();
+    let plane = "--set run.end=0.19";
+    let as_box = "--set outlet.below={box=[[-0.5,-0.6],[0.5,-0.1]]} --set outlet.more={box=[[-0.5,-0.9],[0.5,-0.7]]}";
+    let rates = "--set formulation.colagrossi-landrini={}";
+    let along_x = "--set numerics.gravity=[0,0] --set outlet.below={axis=\"x\",beyond=0.04} \
+                   --set body.water.velocity=[1,0] --set run.end=0.055";
+    for (more, fastest) in [
+        (plane, falls),
+        (as_box, falls),
+        (rates, falls),
+        (along_x, 1.0),
+    ] {
+        let field = Field::new();
+        let done = field.run("outlet-fall", more);
+        assert_eq!(done.code, Some(0), "{more}: {}", done.err);
+        let (series, summary) = (field.series(), field.summary());
+        let speeds = series.column("largest_speed").expect("speeds");
+        let most = speeds.iter().fold(0.0, |m: f64, u| m.max(*u));
+        assert!(
+            most < 1.005 * fastest,
+            "{more}: {most} m/s of {fastest} m/s"
+        );
+        let range = &summary["density_range"];
+        let [least, largest] = [0, 1].map(|k| range[k].as_f64().expect("a density"));
+        assert!(
+            least > 0.99 && largest < 1.01,
+            "{more}: {least} to {largest}"
+        );
+        let left = summary["left"]["outlet.below.water"]["particles"].as_u64();
+        assert!(left > Some(50), "{more}: {left:?} have left");
+    }
+}
+
+#[test]
+fn a_run_goes_on_when_all_have_left() {
+    let field = Field::new();
+    assert_eq!(field.run("outlet-fall", "").code, Some(0));
+    let summary = field.summary();
+    assert_eq!(
+        (&summary["status"], &summary["particles"]),
+        (&"done".into(), &0.into())
+    );
+    let left = summary["left"]["outlet.below.water"]["mass"]
+        .as_f64()
+        .expect("a mass");
+    // ρ times 7 by 59 cells of 5 mm.
+    assert!((left / 10.325 - 1.0).abs() < 1e-12, "{left} kg/m");
+    assert!(
+        summary["warnings"]
+            .to_string()
+            .contains("all particles have left")
+    );
+}
+
+/// 900 kg/m³ times 1 m/s² times 0.6 m, to either side.
+#[test]
+fn a_tank_that_is_accelerated_has_the_whole_pressure_between_its_ends() {
+    let coarse = "--set numerics.spacing=0.02";
+    let back = "--set wall.tank.motion.translate.along=[-1,0] --set numerics.domain=[[-5.5,-0.3],[1.1,1.0]]";
+    let rhie = "--set smoother={} --set smoother.rhie-chow={}";
+    for (more, asked) in [("", 540.0), (back, -540.0), (rhie, 540.0)] {
+        let field = Field::new();
+        let done = field.run("shake-probe", &format!("{coarse} {more}"));
+        assert_eq!(done.code, Some(0), "{more}: {}", done.err);
+        let series = field.series();
+        let found = mean(&series, "pl", 2.0) - mean(&series, "pr", 2.0);
+        assert!(
+            (found / asked - 1.0).abs() < 0.02,
+            "{more}: {found} Pa of {asked} Pa"
+        );
+    }
+}
+
+/// Over 0.34 m of height there are 3 kPa at rest, and none in the fall.
+#[test]
+fn a_tank_that_falls_freely_has_no_pressure() {
+    let field = Field::new();
+    let done = field.run("fall-tank", "");
+    assert_eq!(done.code, Some(0), "{}", done.err);
+    let series = field.series();
+    let found = mean(&series, "bottom", 0.3) - mean(&series, "top", 0.3);
+    let at_rest = 900.0 * 9.81 * 0.34;
+    assert!(found.abs() < 0.005 * at_rest, "{found} Pa of {at_rest} Pa");
+}
+
+/// ½ρω²r² between the middle and 80 mm, with the ω that the syrup has.
+#[test]
+fn what_turns_with_its_box_has_the_pressure_of_the_turn() {
+    let field = Field::new();
+    let done = field.run("spun-box", "");
+    assert_eq!(done.code, Some(0), "{}", done.err);
+    let series = field.series();
+    let side: f64 = ["left", "right", "up"]
+        .map(|p| mean(&series, p, 0.6))
+        .iter()
+        .sum();
+    let found = side / 3.0 - mean(&series, "middle", 0.6);
+    // Of the square, ρL⁴/6.
+    let omega = mean(&series, "spin", 0.6) / (1000.0 * 0.2f64.powi(4) / 6.0);
+    let asked = 0.5 * 1000.0 * (omega * 0.08).powi(2);
+    assert!(
+        (found / asked - 1.0).abs() < 0.05,
+        "{found} Pa of {asked} Pa"
+    );
+}
+
+#[test]
+fn layers_that_change_places_in_a_closed_box_gain_no_energy() {
+    let coarse = "--set numerics.spacing=0.02";
+    for more in [
+        "",
+        "--set phase.fresh.density=1050",
+        "--set smoother={} --set smoother.brezzi-pitkaranta={}",
+    ] {
+        let field = Field::new();
+        let done = field.run("lock-exchange", &format!("{coarse} {more}"));
+        assert_eq!(done.code, Some(0), "{more}: {}", done.err);
+        let (series, summary) = (field.series(), field.summary());
+        let all = energies(&series);
+        let most = all.iter().fold(all[0], |m, e| m.max(*e));
+        assert!(
+            most - all[0] < 1e-3 * all[0],
+            "{more}: {} J, then {most} J",
+            all[0]
+        );
+        // What moves has come down: 5 % of the weight of half the box over half its height at most.
+        let moves = series.column("kinetic_energy").expect("an energy");
+        let most = moves.iter().fold(0.0, |m: f64, e| m.max(*e));
+        let released = 50.0 * 9.81 * 0.12 * 0.05;
+        assert!(most < released, "{more}: {most} J of {released} J");
+        assert!(
+            !summary["warnings"].to_string().contains("energy"),
+            "{summary}"
+        );
+    }
+}
+
+/// Equal waters without a smoother: sound that walls feed.
+#[test]
+fn a_closed_box_that_makes_energy_says_so_and_has_no_result() {
+    let field = Field::new();
+    let none = "--set smoother.rhie-chow.strength=0 --set phase.salt.density=1000 --set numerics.spacing=0.02";
+    let failed = field
+        .0
+        .call(&format!("run lock-exchange.toml --out r {none}"));
+    assert_eq!(failed.code, Some(1), "{}", failed.err);
+    assert!(
+        (failed.out + &failed.err).contains("warning: at t = "),
+        "while it runs"
+    );
+    let summary = field.summary();
+    assert_eq!(summary["status"], "failed");
+    assert!(
+        summary["warnings"].to_string().contains("nothing drives"),
+        "{summary}"
+    );
+    assert!(
+        summary["advice"].to_string().contains("energy-budget"),
+        "{summary}"
+    );
+}

@@ -29,6 +29,8 @@ pub struct Balance<const D: usize> {
     pub potential: f64,
     /// Σ m ∫p/ρ² dρ, and Σ V τ:τ/4𝒢 of elastic stresses, J.
     pub internal: f64,
+    /// Σ m c² with the speeds of sound at rest, J.
+    pub acoustic: f64,
     /// Largest |u|, m/s.
     pub fastest: f64,
     /// Largest |u| over the speed of sound of its phase, 1.
@@ -50,6 +52,7 @@ impl<const D: usize> Balance<D> {
             kinetic: 0.0,
             potential: 0.0,
             internal: 0.0,
+            acoustic: 0.0,
             fastest: 0.0,
             mach: 0.0,
             faster: [0.0; 3],
@@ -66,6 +69,7 @@ impl<const D: usize> Balance<D> {
             kinetic: self.kinetic + o.kinetic,
             potential: self.potential + o.potential,
             internal: self.internal + o.internal,
+            acoustic: self.acoustic + o.acoustic,
             fastest: self.fastest.max(o.fastest),
             mach: self.mach.max(o.mach),
             faster: std::array::from_fn(|k| self.faster[k] + o.faster[k]),
@@ -106,6 +110,7 @@ impl<const D: usize> Balance<D> {
                 kinetic: 0.5 * m * speed * speed,
                 potential: -m * gravity.dot(&position[i]),
                 internal: m * law.internal_energy(density[i]) + strained(i),
+                acoustic: m * law.reference().sound_speed.powi(2),
                 fastest: speed,
                 mach,
                 faster: [FAST, COMPRESSIBLE, SUPERSONIC]

@@ -203,6 +203,13 @@ impl<const D: usize> Running<'_, D> {
             ));
         }
         warnings.extend(flow.works.iter().flat_map(|w| w.warnings()));
+        if flow.world.free.is_empty() {
+            warnings.push("all particles have left before the end".into());
+        }
+        if let Some([warning, remedy]) = self.energy.remarks() {
+            warnings.push(warning);
+            advice.push(remedy);
+        }
         let peaks = self.files.as_ref().map(|f| f.series.peaks);
         let [_, mach, fast] = peaks.unwrap_or_default();
         if fast > SHARE {

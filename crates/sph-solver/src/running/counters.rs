@@ -27,6 +27,9 @@ pub(crate) struct Counters {
     /// Highest energy, largest Mach number and largest share of fast mass of all rows; an earlier version wrote fewer.
     #[serde(default)]
     pub(crate) series_peaks: Option<Vec<u64>>,
+    /// What the watch on energy has seen.
+    #[serde(default)]
+    pub(crate) energies: Option<[u64; 5]>,
     #[serde(default)]
     pub(crate) first_trouble: Option<Trouble>,
     /// Time at which a run began that started from another's state.
@@ -135,7 +138,8 @@ impl Counters {
             return Some("the mass that has left is negative or not finite".into());
         }
         let peaks = self.series_peaks.iter().flatten().copied();
-        let extrema = self.series_extrema.into_iter().chain(peaks);
+        let energies = self.energies.into_iter().flatten();
+        let extrema = self.series_extrema.into_iter().chain(peaks).chain(energies);
         if extrema.map(f64::from_bits).any(f64::is_nan) {
             return Some("extrema of its series are not numbers".into());
         }

@@ -15,6 +15,7 @@ use crate::running::beginning::begin;
 use crate::running::counters::Counters;
 use crate::running::course::{Files, Running};
 use crate::running::driver::Observer;
+use crate::running::energy::EnergyWatch;
 use crate::running::mach::MachWatch;
 use crate::running::options::{RunOptions, Start};
 use crate::running::output::Outputs;
@@ -75,6 +76,7 @@ pub(crate) fn ready<'a, const D: usize>(
     for warning in &parts.warnings {
         observer.message(&format!("note: {warning}"));
     }
+    let energy = EnergyWatch::of(scene, &parts.flow, counters.energies);
     Ok(Running {
         scene,
         options,
@@ -87,6 +89,7 @@ pub(crate) fn ready<'a, const D: usize>(
         tried: (0.0, "none"),
         limits: Vec::new(),
         mach: MachWatch::default(),
+        energy,
         shares: Vec::new(),
         around: Nearby::NONE,
     })

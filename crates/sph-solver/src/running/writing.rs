@@ -101,9 +101,11 @@ impl<const D: usize> Running<'_, D> {
         let shown = self.whole.as_ref().unwrap_or(&self.parts);
         let dt = shown.flow.world.dt;
         let balance = files.series.row(&shown.flow, &shown.probes, dt)?;
-        if let Some(told) = self.mach.look(&balance) {
-            observer.message(&told);
-        }
+        let told = self.mach.look(&balance);
+        let told = told
+            .into_iter()
+            .chain(self.energy.look(&balance, shown.flow.world.time));
+        told.for_each(|told| observer.message(&told));
         if self.counters.rows == 0 {
             self.remember_start(&balance);
         }
@@ -129,6 +131,7 @@ impl<const D: usize> Running<'_, D> {
         self.counters.series_position = position;
         self.counters.series_extrema = extrema.map(f64::to_bits);
         self.counters.series_peaks = Some(files.series.peaks.map(f64::to_bits).to_vec());
+        self.counters.energies = self.energy.bits();
         self.counters.outputs = files.outputs.written;
         let left = self.parts.flow.left();
         self.counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();

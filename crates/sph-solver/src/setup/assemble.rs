@@ -216,14 +216,16 @@ struct About<'a, const D: usize> {
     shown: &'a [String],
 }
 
+/// Whether a wall moves or slides.
+pub(crate) fn moves(wall: &sph_scene::Wall) -> bool {
+    wall.motion.is_some() || wall.velocity.is_some() || !wall.mover.is_empty()
+}
+
 impl<const D: usize> About<'_, D> {
     fn plan(&self, world: &World<D>, parts: &mut [Part<D>]) -> Result<Planned<D>, SolverError> {
         let phases: Vec<String> = self.scene.phase.keys().cloned().collect();
         let diffused = self.formulation.diffused();
         let coefficients = self.integrator.coefficients();
-        let moves = |wall: &sph_scene::Wall| {
-            wall.motion.is_some() || wall.velocity.is_some() || !wall.mover.is_empty()
-        };
         let moving = self.scene.wall.iter().find(|(_, wall)| moves(wall));
         let setting = Setting {
             laws: self.laws,
