@@ -37,8 +37,8 @@ impl<const D: usize> Faces<D> {
             let mut volume = 0.0;
             if normal > 0.0 {
                 let q = self.phase(k);
-                volume = normal * wetted * dt;
-                let mass = self.density(k, q) * volume;
+                let mass = self.density(k, q) * normal * wetted * dt;
+                volume = mass / self.at_rest(q);
                 self.memory.mass[k * phases + q] += mass;
                 self.memory.totals[face * phases + q].entered.add(mass);
             } else if normal < 0.0 {
@@ -49,19 +49,23 @@ impl<const D: usize> Faces<D> {
                     let error = *port - density * lacking * part;
                     let mass = density * -normal * wetted * dt * part + error * faded;
                     *port -= mass;
-                    volume -= mass / density;
+                    volume -= mass / self.at_rest(q);
                     self.memory.totals[face * phases + q].left.add(mass);
                 }
             } else if dry {
                 for q in 0..phases {
-                    let density = self.density(k, q);
                     let mass = std::mem::take(&mut self.memory.mass[k * phases + q]);
-                    volume -= mass / density;
+                    volume -= mass / self.at_rest(q);
                     self.memory.totals[face * phases + q].left.add(mass);
                 }
             }
             self.memory.volumes[face].passed.add(volume);
         }
+    }
+
+    /// Reference density of a phase, kg/m³.
+    fn at_rest(&self, phase: usize) -> f64 {
+        self.laws[phase].reference().density
     }
 
     /// Counts the volumes that the laws ask for in `dt` seconds up to a `time`, and when faces are dry first.
@@ -77,7 +81,7 @@ impl<const D: usize> Faces<D> {
     }
 
     /// By face and phase: mass that entered, left and is held, kg; and what is missing of entered − left − (born − died) −
-    /// held, which is rounding. By face where its law asks for a volume: this and what has passed, m³.
+    /// held, which is rounding. By face where its law asks for a volume: this and what has passed, m³ at the reference density.
     pub fn budget(&self, phases: &[String]) -> Json {
         let count = self.whole.len();
         let mut all = serde_json::Map::new();
