@@ -20,7 +20,7 @@ impl<const D: usize> Faces<D> {
     /// asks for takes the place of the air: the dry part of the volume is shared out among the elements with air beside
     /// them. Else ρc (u − u_i) would throw jets back. Drops go with their own velocity. Nothing comes in.
     pub(crate) fn draw_air(&mut self, own: Range<usize>) {
-        if own.clone().all(|k| self.inside[k].filled >= AIR) {
+        if !self.draws_air(own.clone()) {
             return;
         }
         let (mut spare, mut wanted) = (0.0, 0.0);
@@ -39,6 +39,11 @@ impl<const D: usize> Faces<D> {
             self.outside[k].velocity = self.places[k].normal * normal;
             self.outside[k].share = None;
         }
+    }
+
+    /// Whether air comes to some elements.
+    pub(crate) fn draws_air(&self, mut own: Range<usize>) -> bool {
+        own.any(|k| self.inside[k].filled < AIR)
     }
 
     /// Velocity along the normal that an element asks for, and by how much the water before it goes out faster as far as air
