@@ -156,8 +156,10 @@ fn a_pump_that_draws_air_idles() {
     let field = Field::new();
     done(&field.run("drain-pipe", ""));
     let (time, left) = field.at("pump.left", 1.4);
+    // A row of 1 kg waits behind the face for a fifth of its passage.
+    let missing = 50.0 * time - left;
     assert!(
-        (left / (50.0 * time) - 1.0).abs() < 0.005,
+        missing.abs() < 0.005 * 50.0 * time + 0.2,
         "{left} kg in {time} s"
     );
     let fastest = field.largest("largest_speed");
