@@ -6,7 +6,8 @@ use sph_core::Vect;
 
 use crate::faces::Faces;
 
-/// Share of an element with fluid before it below which air comes to the face: uneven rows leave more.
+/// Share of an element with fluid before it below which air comes to the face; where rows are very uneven it does so for a
+/// moment in a full pipe, which passes its rate all the same.
 const AIR: f64 = 0.5;
 
 /// Dry share of the elements within a support from which on water goes as if it were alone.
@@ -20,7 +21,7 @@ impl<const D: usize> Faces<D> {
     /// asks for takes the place of the air: the dry part of the volume is shared out among the elements with air beside
     /// them. Else ρc (u − u_i) would throw jets back. Drops go with their own velocity. Nothing comes in.
     pub(crate) fn draw_air(&mut self, own: Range<usize>) {
-        if !self.draws_air(own.clone()) {
+        if own.clone().all(|k| self.inside[k].filled >= AIR) {
             return;
         }
         let (mut spare, mut wanted) = (0.0, 0.0);
@@ -41,27 +42,17 @@ impl<const D: usize> Faces<D> {
         }
     }
 
-    /// Whether air comes to some elements.
-    pub(crate) fn draws_air(&self, mut own: Range<usize>) -> bool {
-        own.any(|k| self.inside[k].filled < AIR)
-    }
-
     /// Velocity along the normal that an element asks for, and by how much the water before it goes out faster as far as air
     /// is beside it, m/s.
     fn speeds(&self, k: usize) -> [f64; 2] {
         let along = |u: &Vect<D>| u.dot(&self.places[k].normal);
-        let (within, aim) = (
-            along(&self.inside[k].velocity),
-            along(&self.outside[k].velocity),
-        );
+        let aim = along(&self.outside[k].velocity);
+        let faster = (aim - along(&self.inside[k].velocity)).max(0.0);
         let around = self.smooth[k].iter();
         let [dry, whole] = around.fold([0.0, 0.0], |[dry, whole], (j, w)| {
             [dry + w * (1.0 - self.inside[*j as usize].filled), whole + w]
         });
-        [
-            aim,
-            (aim - within).max(0.0) * (dry / (BESIDE * whole)).min(1.0),
-        ]
+        [aim, faster * (dry / (BESIDE * whole)).min(1.0)]
     }
 
     /// Velocity along the normal with which an element lets out where the face draws air, m/s; `part` is the share of what

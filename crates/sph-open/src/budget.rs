@@ -70,19 +70,15 @@ impl<const D: usize> Faces<D> {
         self.laws[phase].reference().density
     }
 
-    /// Counts the volumes that the laws ask for in `dt` seconds up to a `time`, and notes when air comes to faces first.
+    /// Counts the volumes that the laws ask for in `dt` seconds up to a `time`, and notes when faces are dry first.
     pub fn ask(&mut self, time: f64, dt: f64) {
         for f in 0..self.faces.len() {
             let own = self.faces[f].elements.clone();
-            let asked = self.asked[f].unwrap_or(0.0);
-            let air = match asked < 0.0 {
-                true => self.draws_air(own),
-                false => self.is_dry(own),
-            };
+            let dry = self.is_dry(own);
             let volumes = &mut self.memory.volumes[f];
-            volumes.asked.add(asked * dt);
-            if air && volumes.air.is_none() {
-                volumes.air = Some(time);
+            volumes.asked.add(self.asked[f].unwrap_or(0.0) * dt);
+            if dry && volumes.dry.is_none() {
+                volumes.dry = Some(time);
             }
         }
     }
@@ -144,13 +140,13 @@ impl<const D: usize> Faces<D> {
 
     fn difference(&self, f: usize) -> Option<String> {
         let (name, volumes) = (&self.faces[f].name, &self.memory.volumes[f]);
-        let first = volumes.air.map(|time| format!("first at {time:.3} s"));
-        let Some(now) = self.asked[f] else {
+        let first = volumes.dry.map(|time| format!("first at {time:.3} s"));
+        if self.asked[f].is_none() {
             let first = first.filter(|_| self.is_dry(self.faces[f].elements.clone()))?;
             return Some(format!(
                 "`{name}` is dry, {first}: nothing passes where no fluid is before a face"
             ));
-        };
+        }
         let [asked, passed] = volumes.both();
         let more = passed / asked - 1.0;
         if more.is_nan() || more.abs() <= BORNE {
@@ -159,8 +155,7 @@ impl<const D: usize> Faces<D> {
         let unit = ["m²", "m³"][D - 2];
         let than = if more > 0.0 { "more" } else { "less" };
         let why = match first {
-            Some(first) if now < 0.0 => format!("it drew air, {first}"),
-            Some(first) => format!("it was dry, {first}"),
+            Some(first) => format!("no fluid was before it, {first}"),
             None => "the particles before it went otherwise".into(),
         };
         Some(format!(

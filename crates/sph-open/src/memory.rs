@@ -39,8 +39,8 @@ pub(crate) struct Totals {
 pub(crate) struct Volumes {
     pub asked: Sum,
     pub passed: Sum,
-    /// When air came to it first, s.
-    pub air: Option<f64>,
+    /// When no fluid was before it first, s.
+    pub dry: Option<f64>,
 }
 
 impl Volumes {
@@ -114,7 +114,7 @@ impl<const D: usize> Memory<D> {
             for sum in [v.asked, v.passed] {
                 to.extend([sum.sum, sum.lost]);
             }
-            to.push(v.air.unwrap_or(NEVER));
+            to.push(v.dry.unwrap_or(NEVER));
         }
         to.push(self.dt);
     }
@@ -155,7 +155,7 @@ impl<const D: usize> Memory<D> {
             *v = Volumes {
                 asked: sum(n, 0),
                 passed: sum(n, 2),
-                air: (n[4] >= 0.0).then_some(n[4]),
+                dry: (n[4] >= 0.0).then_some(n[4]),
             };
         }
         self.dt = from[from.len() - 1];
@@ -177,7 +177,7 @@ mod tests {
         memory.current[0] = 13.0;
         memory.totals[1].left.add(7.0);
         memory.volumes[0].passed.add(14.0);
-        memory.volumes[0].air = Some(15.0);
+        memory.volumes[0].dry = Some(15.0);
         memory.dt = 8.0;
         let mut numbers = Vec::new();
         memory.numbers(&mut numbers);
