@@ -39,6 +39,8 @@ impl<const D: usize> Faces<D> {
         for (k, normal) in own.zip(idling) {
             self.outside[k].velocity = self.places[k].normal * normal;
             self.outside[k].share = None;
+            // A jet has no rows: a port beside it would stand in for fluid that is not there.
+            self.lacking[k] *= 1.0 - self.alone(k);
         }
     }
 
@@ -48,11 +50,16 @@ impl<const D: usize> Faces<D> {
         let along = |u: &Vect<D>| u.dot(&self.places[k].normal);
         let aim = along(&self.outside[k].velocity);
         let faster = (aim - along(&self.inside[k].velocity)).max(0.0);
+        [aim, faster * self.alone(k)]
+    }
+
+    /// How far water before an element goes as if it were alone: 1 from a [share](BESIDE) of dry elements around it on.
+    fn alone(&self, k: usize) -> f64 {
         let around = self.smooth[k].iter();
         let [dry, whole] = around.fold([0.0, 0.0], |[dry, whole], (j, w)| {
             [dry + w * (1.0 - self.inside[*j as usize].filled), whole + w]
         });
-        [aim, faster * (dry / (BESIDE * whole)).min(1.0)]
+        (dry / (BESIDE * whole)).min(1.0)
     }
 
     /// Velocity along the normal with which an element lets out where the face draws air, m/s; `part` is the share of what
