@@ -6,7 +6,8 @@ use sph_core::Vect;
 
 use crate::faces::Faces;
 
-/// Share of an element with fluid before it below which air comes to the face: uneven rows leave more.
+/// Share of an element with fluid before it below which air comes to the face; where rows are very uneven it does so for a
+/// moment in a full pipe, which passes its rate all the same.
 const AIR: f64 = 0.5;
 
 /// Dry share of the elements within a support from which on water goes as if it were alone.
@@ -38,6 +39,8 @@ impl<const D: usize> Faces<D> {
         for (k, normal) in own.zip(idling) {
             self.outside[k].velocity = self.places[k].normal * normal;
             self.outside[k].share = None;
+            // A jet has no rows: a port beside it would stand in for fluid that is not there.
+            self.lacking[k] *= 1.0 - self.alone(k);
         }
     }
 
@@ -45,18 +48,18 @@ impl<const D: usize> Faces<D> {
     /// is beside it, m/s.
     fn speeds(&self, k: usize) -> [f64; 2] {
         let along = |u: &Vect<D>| u.dot(&self.places[k].normal);
-        let (within, aim) = (
-            along(&self.inside[k].velocity),
-            along(&self.outside[k].velocity),
-        );
+        let aim = along(&self.outside[k].velocity);
+        let faster = (aim - along(&self.inside[k].velocity)).max(0.0);
+        [aim, faster * self.alone(k)]
+    }
+
+    /// How far water before an element goes as if it were alone: 1 from a [share](BESIDE) of dry elements around it on.
+    fn alone(&self, k: usize) -> f64 {
         let around = self.smooth[k].iter();
         let [dry, whole] = around.fold([0.0, 0.0], |[dry, whole], (j, w)| {
             [dry + w * (1.0 - self.inside[*j as usize].filled), whole + w]
         });
-        [
-            aim,
-            (aim - within).max(0.0) * (dry / (BESIDE * whole)).min(1.0),
-        ]
+        (dry / (BESIDE * whole)).min(1.0)
     }
 
     /// Velocity along the normal with which an element lets out where the face draws air, m/s; `part` is the share of what

@@ -1,5 +1,7 @@
 //! What has passed, for the summary.
 
+use std::ops::Range;
+
 use serde_json::{Value as Json, json};
 
 use crate::faces::Faces;
@@ -37,8 +39,8 @@ impl<const D: usize> Faces<D> {
             let mut volume = 0.0;
             if normal > 0.0 {
                 let q = self.phase(k);
-                volume = normal * wetted * dt;
-                let mass = self.density(k, q) * volume;
+                let mass = self.density(k, q) * normal * wetted * dt;
+                volume = mass / self.at_rest(q);
                 self.memory.mass[k * phases + q] += mass;
                 self.memory.totals[face * phases + q].entered.add(mass);
             } else if normal < 0.0 {
@@ -49,14 +51,13 @@ impl<const D: usize> Faces<D> {
                     let error = *port - density * lacking * part;
                     let mass = density * -normal * wetted * dt * part + error * faded;
                     *port -= mass;
-                    volume -= mass / density;
+                    volume -= mass / self.at_rest(q);
                     self.memory.totals[face * phases + q].left.add(mass);
                 }
             } else if dry {
                 for q in 0..phases {
-                    let density = self.density(k, q);
                     let mass = std::mem::take(&mut self.memory.mass[k * phases + q]);
-                    volume -= mass / density;
+                    volume -= mass / self.at_rest(q);
                     self.memory.totals[face * phases + q].left.add(mass);
                 }
             }
@@ -64,20 +65,31 @@ impl<const D: usize> Faces<D> {
         }
     }
 
-    /// Counts the volumes that the laws ask for in `dt` seconds up to a `time`, and when faces are dry first.
+    /// Reference density of a phase, kg/m³.
+    fn at_rest(&self, phase: usize) -> f64 {
+        self.laws[phase].reference().density
+    }
+
+    /// Counts the volumes that the laws ask for in `dt` seconds up to a `time`, and notes when faces are dry first.
     pub fn ask(&mut self, time: f64, dt: f64) {
-        for (f, face) in self.faces.iter().enumerate() {
+        for f in 0..self.faces.len() {
+            let own = self.faces[f].elements.clone();
+            let dry = self.is_dry(own);
             let volumes = &mut self.memory.volumes[f];
             volumes.asked.add(self.asked[f].unwrap_or(0.0) * dt);
-            let mut own = self.inside[face.elements.clone()].iter();
-            if volumes.dry.is_none() && own.all(|inside| !inside.wet) {
+            if dry && volumes.dry.is_none() {
                 volumes.dry = Some(time);
             }
         }
     }
 
+    /// Whether no fluid is before any of some elements.
+    fn is_dry(&self, mut own: Range<usize>) -> bool {
+        own.all(|k| !self.inside[k].wet)
+    }
+
     /// By face and phase: mass that entered, left and is held, kg; and what is missing of entered − left − (born − died) −
-    /// held, which is rounding. By face where its law asks for a volume: this and what has passed, m³.
+    /// held, which is rounding. By face where its law asks for a volume: this and what has passed, m³ at the reference density.
     pub fn budget(&self, phases: &[String]) -> Json {
         let count = self.whole.len();
         let mut all = serde_json::Map::new();
@@ -122,35 +134,35 @@ impl<const D: usize> Faces<D> {
 
     /// Faces that have let pass another volume than they ask for, and those that ask for none and are dry at the end.
     pub fn differences(&self) -> Vec<String> {
-        let said = self.faces.iter().enumerate().filter_map(|(f, face)| {
-            let volumes = &self.memory.volumes[f];
-            let name = &face.name;
-            let when = volumes.dry;
-            if self.asked[f].is_none() {
-                let mut own = self.inside[face.elements.clone()].iter();
-                let at_end = own.all(|inside| !inside.wet);
-                return when.filter(|_| at_end).map(|time| {
-                    format!("no fluid is before `{name}`: it was dry first at {time:.3} s, and nothing passes a dry face")
-                });
-            }
-            let [asked, passed] = volumes.both();
-            let more = (passed - asked) / asked;
-            if more.is_nan() || more.abs() <= BORNE {
-                return None;
-            }
-            let (unit, than) = (["m²", "m³"][D - 2], if more > 0.0 { "more" } else { "less" });
-            let why = match (when, self.asked[f].is_some_and(|asked| asked < 0.0)) {
-                (Some(time), _) => format!("no fluid was before it first at {time:.3} s"),
-                (None, true) => "it draws air where no fluid is before a part of it".into(),
-                (None, false) => "see docs/open-boundaries.md".into(),
-            };
-            Some(format!(
-                "`{name}` has let pass {:.4} {unit} for the {:.4} {unit} that it asks for, {:.1} % {than}: {why}",
-                passed.abs(),
-                asked.abs(),
-                100.0 * more.abs()
-            ))
-        });
-        said.collect()
+        let faces = 0..self.faces.len();
+        faces.filter_map(|f| self.difference(f)).collect()
+    }
+
+    fn difference(&self, f: usize) -> Option<String> {
+        let (name, volumes) = (&self.faces[f].name, &self.memory.volumes[f]);
+        let first = volumes.dry.map(|time| format!("first at {time:.3} s"));
+        if self.asked[f].is_none() {
+            let first = first.filter(|_| self.is_dry(self.faces[f].elements.clone()))?;
+            return Some(format!(
+                "`{name}` is dry, {first}: nothing passes where no fluid is before a face"
+            ));
+        }
+        let [asked, passed] = volumes.both();
+        let more = passed / asked - 1.0;
+        if more.is_nan() || more.abs() <= BORNE {
+            return None;
+        }
+        let unit = ["m²", "m³"][D - 2];
+        let than = if more > 0.0 { "more" } else { "less" };
+        let why = match first {
+            Some(first) => format!("no fluid was before it, {first}"),
+            None => "the particles before it went otherwise".into(),
+        };
+        Some(format!(
+            "`{name}` has let pass {:.4} {unit} for the {:.4} {unit} that it asks for, {:.1} % {than}: {why}",
+            passed.abs(),
+            asked.abs(),
+            100.0 * more.abs()
+        ))
     }
 }

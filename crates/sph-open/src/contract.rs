@@ -177,8 +177,8 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     fn keeps_rows_even(&self) -> bool {
         false
     }
-    /// Volume into the fluid per time that it asks for, m³/s, whatever is in front of the face; none where fluid passes as it
-    /// likes.
+    /// Volume into the fluid per time that it asks for at the reference density, m³/s, whatever is in front of the face; none
+    /// where fluid passes as it likes. The velocities of such a law are those at the reference density, too.
     fn asked(&self, _places: &[Place<D>], _time: f64) -> Option<f64> {
         None
     }

@@ -55,7 +55,12 @@ impl<const D: usize> Faces<D> {
             let outside = (face.law).outside(places, &self.inside[own.clone()], &moment);
             self.asked[f] = face.law.asked(places, world.time);
             self.outside[own.clone()].copy_from_slice(&outside);
-            if self.asked[f].is_some_and(|asked| asked < 0.0) {
+            let Some(asked) = self.asked[f] else { continue };
+            for k in own.clone() {
+                let expansion = self.expansion(k);
+                self.outside[k].velocity *= expansion;
+            }
+            if asked < 0.0 {
                 self.draw_air(own);
             }
         }
@@ -84,6 +89,16 @@ impl<const D: usize> Faces<D> {
             inside.velocity = velocity + (inside.velocity - velocity) * share(late - 0.5 * dt);
         }
         inside
+    }
+
+    /// ρ₀/ρ before an element: laws ask for volumes of a fluid that does not compress, and its mass is to pass.
+    fn expansion(&self, k: usize) -> f64 {
+        let (inside, q) = (&self.inside[k], self.phase(k));
+        let law = &self.laws[q];
+        match inside.wet {
+            true => law.reference().density / law.density(inside.pressure + self.background(q)),
+            false => 1.0,
+        }
     }
 
     /// The pressure at an element: that of the law, or where the velocity is imposed of the characteristic that leaves the fluid.

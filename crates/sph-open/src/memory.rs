@@ -34,7 +34,7 @@ pub(crate) struct Totals {
     pub died: Sum,
 }
 
-/// Volumes, m³, into the fluid, that have passed a face.
+/// Volumes at the reference density, m³, into the fluid.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Volumes {
     pub asked: Sum,

@@ -324,7 +324,7 @@ impl<const D: usize> Flow<D> {
             let ratio = k / law.reference().density;
             range = [range[0].min(ratio), range[1].max(ratio)];
         }
-        Some(range)
+        (!constant.is_empty()).then_some(range)
     }
 
     /// Names of the columns that the stages of the plan write.
