@@ -73,7 +73,6 @@ pub fn world(side: usize) -> World<2> {
     };
     world.free.add(fields::POSITION, Role::State);
     world.free.add(fields::VELOCITY, Role::State);
-    world.free.add(fields::MEAN_ACCELERATION, Role::State);
     *column(world.free.get_mut(fields::POSITION)) = position;
     for u in column(world.free.get_mut(fields::VELOCITY)) {
         *u = Vect::from([numbers.next(), numbers.next()]);
@@ -174,7 +173,7 @@ impl Sums {
 
     /// One sweep with kernel and terms as types.
     pub fn by_type(&mut self, world: &World<2>, kernel: &WendlandC2) {
-        let smoother = BrezziPitkaranta { strength: STRENGTH }.of(&laws());
+        let smoother = BrezziPitkaranta::with(STRENGTH).of(&laws());
         let terms = (
             PressureGradient(SquaredVolumes),
             ViscousTerm(FirstDifferences, Uniform(VISCOSITY), Choice::default()),

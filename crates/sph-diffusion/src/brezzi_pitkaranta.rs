@@ -38,11 +38,15 @@ pub struct BrezziPitkaranta {
         extend("unit" = "1", "source" = "Antuono et al. 2010; Ghaïtanellis 2017, Eq. 2.100: 0.4 Λ")
     )]
     pub strength: f64,
+    /// Whether the pressure that accelerates the fluid is left alone, as that of gravity is. Left out: where all walls move, and
+    /// where the fluid falls without any.
+    #[schemars(extend("source" = "ours"))]
+    pub accelerations: Option<bool>,
 }
 
 impl Default for BrezziPitkaranta {
     fn default() -> Self {
-        BrezziPitkaranta { strength: 0.1 }
+        Self::with(0.1)
     }
 }
 
@@ -50,8 +54,11 @@ impl<const D: usize> Smoother<D> for BrezziPitkaranta {
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
         Box::new(Lanewise(self.of(laws)))
     }
+    fn carried(&mut self) {
+        self.accelerations.get_or_insert(true);
+    }
     fn accelerated(&self) -> Option<Accelerated> {
-        Some(Accelerated::Sweep)
+        (self.accelerations == Some(true)).then_some(Accelerated::Sweep)
     }
     fn of_pressures(&self) -> bool {
         true
@@ -70,10 +77,19 @@ register!(
 );
 
 impl BrezziPitkaranta {
+    /// Of this strength.
+    pub fn with(strength: f64) -> Self {
+        BrezziPitkaranta {
+            strength,
+            accelerations: None,
+        }
+    }
+
     /// Its term for the phases of a scene.
     pub fn of(&self, laws: &Laws) -> PressureDiffusion {
         PressureDiffusion {
             slowness: self.strength / fastest(laws),
+            accelerated: self.accelerations == Some(true),
         }
     }
 }
@@ -83,6 +99,8 @@ impl BrezziPitkaranta {
 pub struct PressureDiffusion {
     /// δ/c, s/m.
     slowness: f64,
+    /// Whether the mean accelerations are known.
+    accelerated: bool,
 }
 
 impl<const D: usize> LanePairTerm<D> for PressureDiffusion {
@@ -93,18 +111,24 @@ impl<const D: usize> LanePairTerm<D> for PressureDiffusion {
     }
 
     fn access(&self) -> Access {
-        Access::none()
+        let access = Access::none()
             .both(fields::PRESSURE)
             .both(fields::DENSITY)
-            .both(fields::MEAN_ACCELERATION)
-            .neighbours(fields::VOLUME)
+            .neighbours(fields::VOLUME);
+        match self.accelerated {
+            true => access.both(fields::MEAN_ACCELERATION),
+            false => access,
+        }
     }
 
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
         Ok(Bound {
             pressure: world.free.get(fields::PRESSURE)?,
             density: world.free.get(fields::DENSITY)?,
-            acceleration: world.free.get(fields::MEAN_ACCELERATION)?,
+            acceleration: match self.accelerated {
+                true => Some(world.free.get(fields::MEAN_ACCELERATION)?),
+                false => None,
+            },
             gravity: world.gravity,
             weight: 2.0 * self.slowness * world.kernel.smoothing_length(),
         })
@@ -115,7 +139,7 @@ impl<const D: usize> LanePairTerm<D> for PressureDiffusion {
 pub struct Bound<'a, const D: usize> {
     pressure: &'a [f64],
     density: &'a [f64],
-    acceleration: &'a [Vect<D>],
+    acceleration: Option<&'a [Vect<D>]>,
     gravity: Vect<D>,
     weight: f64,
 }
@@ -128,7 +152,12 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     #[inline(always)]
     fn here(&self, i: usize) -> Self::Here {
         let density = self.density[i];
-        (self.pressure[i], density, self.acceleration[i] * density)
+        let inertia = self.acceleration.map(|a| a[i] * density);
+        (
+            self.pressure[i],
+            density,
+            inertia.unwrap_or_else(Vect::zeros),
+        )
     }
 
     #[inline(always)]
@@ -185,12 +214,16 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         let (pressure, density) = (L::splat(there.pressure), L::splat(there.density));
         let volume = L::splat(there.volume);
         let gravity = splat::<D, L>(&self.gravity);
-        let mut inertia = here.2;
-        for (own, other) in inertia.iter_mut().zip(&self.acceleration[j]) {
-            *own = *own + density * L::splat(*other);
+        let both = here.1 + density;
+        let mut bracket =
+            L::splat(2.0) * (here.0 - pressure) / both - dot(&gravity, &pair.separation);
+        if let Some(acceleration) = self.acceleration {
+            let mut inertia = here.2;
+            for (own, other) in inertia.iter_mut().zip(&acceleration[j]) {
+                *own = *own + density * L::splat(*other);
+            }
+            bracket = bracket + dot(&inertia, &pair.separation) / both;
         }
-        let rise = L::splat(2.0) * (here.0 - pressure) + dot(&inertia, &pair.separation);
-        let bracket = rise / (here.1 + density) - dot(&gravity, &pair.separation);
         *sum += volume * bracket * pair.factor;
     }
 }

@@ -16,6 +16,8 @@ pub trait Smoother<const D: usize>: Send {
     /// The term; it adds dρ/dt to [`Rates::scalar`](sph_neighbours::Rates). It may read the phase
     /// column where there are several laws.
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>>;
+    /// Learns that no wall holds the fluid still: all walls of the scene move, or it falls.
+    fn carried(&mut self) {}
     /// Which accelerations its term takes the mean of, [`MEAN_ACCELERATION`](sph_core::fields::MEAN_ACCELERATION), if it does.
     fn accelerated(&self) -> Option<Accelerated> {
         None

@@ -50,6 +50,10 @@ pub struct DeltaMultiphase {
     /// What is not to be diffused.
     #[schemars(extend("source" = "ours; literal: Krimi et al. 2018, Eq. 30"))]
     pub balance: Balance,
+    /// Whether the hydrostatic balance has the mean acceleration A. Left out: where all walls move, and where the fluid falls
+    /// without any.
+    #[schemars(extend("source" = "ours"))]
+    pub accelerations: Option<bool>,
 }
 
 /// What is not to be diffused.
@@ -69,6 +73,7 @@ impl Default for DeltaMultiphase {
             strength: 0.1,
             walls: true,
             balance: Balance::default(),
+            accelerations: None,
         }
     }
 }
@@ -82,8 +87,12 @@ impl<const D: usize> Smoother<D> for DeltaMultiphase {
             laws: laws.clone(),
         }))
     }
+    fn carried(&mut self) {
+        self.accelerations.get_or_insert(true);
+    }
     fn accelerated(&self) -> Option<Accelerated> {
-        (self.balance == Balance::Hydrostatic).then_some(Accelerated::Sweep)
+        let hydrostatic = self.balance == Balance::Hydrostatic;
+        (hydrostatic && self.accelerations == Some(true)).then_some(Accelerated::Sweep)
     }
     fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         DiffusionLimit::of(self.strength, laws)
@@ -129,9 +138,9 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
             .both(fields::DENSITY)
             .both(fields::VOLUME)
             .and(self.density.access())
-            .and(match self.smoother.balance {
-                Balance::Hydrostatic => Access::none().both(fields::MEAN_ACCELERATION),
-                Balance::Literal => Access::none(),
+            .and(match Smoother::<D>::accelerated(&self.smoother) {
+                Some(_) => Access::none().both(fields::MEAN_ACCELERATION),
+                None => Access::none(),
             })
     }
 
@@ -151,11 +160,13 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
             at_points: beside_walls(&points.pressure),
             at_elements: beside_walls(&elements.pressure),
             normals: &elements.normal,
-            balance: match self.smoother.balance {
-                Balance::Hydrostatic => {
-                    Some((world.gravity, world.free.get(fields::MEAN_ACCELERATION)?))
-                }
-                Balance::Literal => None,
+            gravity: match self.smoother.balance {
+                Balance::Hydrostatic => world.gravity,
+                Balance::Literal => Vect::zeros(),
+            },
+            acceleration: match Smoother::<D>::accelerated(&self.smoother) {
+                Some(_) => Some(world.free.get(fields::MEAN_ACCELERATION)?),
+                None => None,
             },
             nearest: 0.5 * world.spacing,
             weight: 2.0 * self.smoother.strength * world.kernel.smoothing_length(),
@@ -174,8 +185,8 @@ pub struct Bound<'a, const D: usize> {
     at_points: Vec<f64>,
     at_elements: Vec<f64>,
     normals: &'a [Vect<D>],
-    /// Gravity and mean accelerations, where what they balance is left alone.
-    balance: Option<(Vect<D>, &'a [Vect<D>])>,
+    gravity: Vect<D>,
+    acceleration: Option<&'a [Vect<D>]>,
     nearest: f64,
     weight: f64,
 }
@@ -183,10 +194,7 @@ pub struct Bound<'a, const D: usize> {
 impl<const D: usize> Bound<'_, D> {
     /// ∇p of what is left alone, Pa/m.
     fn at_rest(&self, i: usize, density: f64) -> Vect<D> {
-        match self.balance {
-            Some((gravity, acceleration)) => (gravity - acceleration[i]) * density,
-            None => Vect::zeros(),
-        }
+        (self.gravity - self.acceleration.map_or(Vect::zeros(), |a| a[i])) * density
     }
 }
 

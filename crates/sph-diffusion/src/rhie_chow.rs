@@ -55,8 +55,9 @@ impl<const D: usize> Smoother<D> for RhieChow {
         vec![Box::new(PressureSlope)]
     }
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        let strength = self.strength;
-        Smoother::<D>::term(&BrezziPitkaranta { strength }, laws)
+        let mut narrow = BrezziPitkaranta::with(self.strength);
+        narrow.accelerations = Some(true);
+        Smoother::<D>::term(&narrow, laws)
     }
     fn accelerated(&self) -> Option<Accelerated> {
         Some(Accelerated::Slope)

@@ -58,7 +58,7 @@ pub fn viscosity_column<const D: usize>() -> Box<dyn Interaction<D>> {
 }
 
 pub fn smoother<const D: usize>(strength: f64) -> Box<dyn Interaction<D>> {
-    BrezziPitkaranta { strength }.term(&laws(&[(1000.0, 20.0)]))
+    BrezziPitkaranta::with(strength).term(&laws(&[(1000.0, 20.0)]))
 }
 
 /// Linear laws with these reference densities and speeds of sound.

@@ -46,6 +46,7 @@ impl EnergyWatch {
         let kinds = flow.kinds.iter().map(|(_, kind)| kind);
         let mut kinds = kinds.chain(&flow.work_kinds);
         let driven = scene.wall.values().any(moves)
+            || scene.swings()
             || world.driving.norm() > 0.0
             || (0..D).any(around)
             || !flow.outlets.is_empty()

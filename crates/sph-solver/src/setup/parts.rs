@@ -35,6 +35,15 @@ impl<const D: usize> Contribution<D> for Shown {
     }
 }
 
+/// Whether no wall holds the fluid still: all of them move as prescribed, or there is none against gravity.
+fn carried(scene: &Scene) -> bool {
+    let mut walls = scene.wall.values();
+    match scene.wall.is_empty() {
+        true => scene.numerics.gravity.iter().flatten().any(|g| *g != 0.0),
+        false => walls.all(|wall| wall.motion.is_some()),
+    }
+}
+
 /// All of them, in the order in which their terms are summed; `shown` are the names of what is written and measured.
 pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>, shown: &[String]) -> Vec<Part<D>> {
     let share = |(scheme, _): &(Box<dyn sph_implicit::TimeScheme>, _)| scheme.implicit_share();
@@ -66,7 +75,10 @@ pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>, shown: &[String
     all.push(("viscous-operator", Box::new(friction)));
     all.extend(turbulence.map(|part| ("eddy-viscosity", part)));
     all.push(("elastic-force", Box::new(Elasticity(materials.clone()))));
-    if let Some(smoother) = physics.smoother {
+    if let Some(mut smoother) = physics.smoother {
+        if carried(scene) {
+            smoother.carried();
+        }
         all.push(("smoother", Box::new(Smoothed(smoother))));
     }
     for interface in physics.interfaces {
