@@ -195,13 +195,15 @@ fn motion_of<const D: usize>(
     if let Some(levels) = &motion.levels {
         return levels_of(levels, &format!("{place}.motion.levels"));
     }
-    rigid_motion(motion, &format!("{place}.motion"))
+    rigid_motion(motion, &format!("{place}.motion"), end)
 }
 
-/// Translations and a rotation of a motion that follows no levels; `place` is its path in the scene.
+/// Translations and a rotation of a motion that follows no levels; `place` is its path in the scene, `end` the end of the run,
+/// s.
 pub(crate) fn rigid_motion<const D: usize>(
     motion: &sph_scene::Motion,
     place: &str,
+    end: f64,
 ) -> Result<RigidMotion<D>, SolverError> {
     let courses = motion.courses(place);
     let courses = courses.map_err(|problem| SolverError::Scene(vec![problem]))?;

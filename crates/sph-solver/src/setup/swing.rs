@@ -39,7 +39,7 @@ impl<const D: usize> Swing<D> {
         let frame = numerics.frame.as_ref();
         let swing = Swing {
             frame: frame.map_or(Ok(RigidMotion::default()), |m| {
-                rigid_motion(m, "numerics.frame")
+                rigid_motion(m, "numerics.frame", scene.run.end)
             })?,
             given: numerics
                 .gravity_over_time
