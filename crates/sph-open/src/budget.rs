@@ -117,8 +117,9 @@ impl<const D: usize> Faces<D> {
                     }),
                 );
             }
-            if self.asked[f].is_some() {
-                let [asked, passed] = self.memory.volumes[f].both();
+            let asked = self.asked.get(f).is_some_and(Option::is_some);
+            if let Some(volumes) = self.memory.volumes.get(f).filter(|_| asked) {
+                let [asked, passed] = volumes.both();
                 let volumes = json!({ "asked_volume": asked, "passed_volume": passed });
                 all.insert(face.name.clone(), volumes);
             }
@@ -139,9 +140,10 @@ impl<const D: usize> Faces<D> {
     }
 
     fn difference(&self, f: usize) -> Option<String> {
-        let (name, volumes) = (&self.faces[f].name, &self.memory.volumes[f]);
+        // A rank that has not looked at the faces knows none.
+        let (name, volumes) = (&self.faces[f].name, self.memory.volumes.get(f)?);
         let first = volumes.dry.map(|time| format!("first at {time:.3} s"));
-        if self.asked[f].is_none() {
+        if self.asked.get(f)?.is_none() {
             let first = first.filter(|_| self.is_dry(self.faces[f].elements.clone()))?;
             return Some(format!(
                 "`{name}` is dry, {first}: nothing passes where no fluid is before a face"

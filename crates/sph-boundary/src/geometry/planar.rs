@@ -149,7 +149,8 @@ impl WallMesh<2> for PlanarWalls {
         mesh.remark(unseen);
         mesh.bend_by(wall_of.iter().map(|w| walls[*w].motion.clone()).collect());
         let names = walls.iter().map(|w| w.drawing.name().to_string()).collect();
-        let lines = mesh.segments().iter().map(|s| s.vertices);
+        let lines = mesh.segments().iter();
+        let lines = lines.map(|s| (s.vertices, walls[wall_of[s.wall]].open));
         let free = mesh.free_ends().iter().map(|end| end.vertex);
         Ok(PlanarWalls {
             shells: Shells::new(lines, mesh.vertices().len(), free),

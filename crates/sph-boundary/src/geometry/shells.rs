@@ -15,9 +15,11 @@ pub struct Shells {
 }
 
 impl Shells {
-    /// From the nodes of every element, the number of all nodes, and those at free ends.
+    /// From the nodes of every element and whether fluid passes it, the number of all nodes, and those at free ends.
+    ///
+    /// What fluid passes hides nothing: it belongs to no shell and joins none.
     pub fn new<const N: usize>(
-        elements: impl Iterator<Item = [usize; N]> + Clone,
+        elements: impl Iterator<Item = ([usize; N], bool)> + Clone,
         nodes: usize,
         free: impl Iterator<Item = usize>,
     ) -> Self {
@@ -29,7 +31,7 @@ impl Shells {
             }
             k
         };
-        for element in elements.clone() {
+        for (element, _) in elements.clone().filter(|(_, open)| !open) {
             for pair in element.windows(2) {
                 let [a, b] = [pair[0], pair[1]].map(|k| root(&mut parent, k));
                 parent[a.max(b)] = a.min(b);
@@ -48,10 +50,18 @@ impl Shells {
         if shells == 0 {
             return Shells::default();
         }
-        let rim = elements.clone().map(|e| e.iter().any(|node| ends[*node]));
+        let rim = (elements.clone()).map(|(e, open)| !open && e.iter().any(|node| ends[*node]));
         Shells {
             rim: rim.collect(),
-            of: elements.map(|e| number[root(&mut parent, e[0])]).collect(),
+            of: elements
+                .map(|(e, open)| {
+                    if open {
+                        0
+                    } else {
+                        number[root(&mut parent, e[0])]
+                    }
+                })
+                .collect(),
         }
     }
 
@@ -151,11 +161,19 @@ mod tests {
 
     #[test]
     fn only_pieces_with_a_free_end_are_shells() {
-        let lines = [[0, 1], [1, 2], [3, 4], [4, 3], [5, 6], [6, 7]];
+        let lines = [[0, 1], [1, 2], [3, 4], [4, 3], [5, 6], [6, 7]].map(|nodes| (nodes, false));
         let shells = Shells::new(lines.into_iter(), 8, [0, 2, 7].into_iter());
         let of: Vec<u32> = (0..6).map(|k| shells.of(k)).collect();
         assert_eq!(of, [1, 1, 0, 0, 2, 2]);
         assert!(!Shells::new(lines[2..4].iter().copied(), 8, [].into_iter()).any());
+    }
+
+    #[test]
+    fn a_face_that_fluid_passes_is_on_no_shell() {
+        let lines = [([0, 1], false), ([1, 2], true), ([2, 3], false)];
+        let shells = Shells::new(lines.into_iter(), 4, [0, 3].into_iter());
+        assert_eq!([0, 1, 2].map(|k| shells.of(k)), [1, 0, 2]);
+        assert!(shells.is_rim(0) && !shells.is_rim(1));
     }
 
     #[test]

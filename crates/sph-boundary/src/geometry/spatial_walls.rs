@@ -66,7 +66,8 @@ impl WallMesh<3> for SpatialWalls {
             }
         }
         let mesh = TriangleMesh::build(&surfaces, &groups(walls), spacing, domain)?;
-        let triangles = mesh.triangles().iter().map(|t| t.nodes);
+        let triangles = mesh.triangles().iter();
+        let triangles = triangles.map(|t| (t.nodes, walls[t.wall].open));
         let free = mesh.free_edges().iter().flat_map(|edge| edge.nodes);
         Ok(SpatialWalls {
             shells: Shells::new(triangles, mesh.nodes().len(), free),

@@ -12,8 +12,8 @@ use crate::treatment::outline::Outline;
 
 /// Share of a particle's kernel that may be behind a wall.
 const SEEN: f64 = 0.01;
-/// Faces whose normals have a cosine below this are the two of a plate.
-const OPPOSITE: f64 = -0.95;
+/// Faces whose normals have a cosine below this are the two of a plate; a wedge of more than 8° has a tip, and no thickness.
+const OPPOSITE: f64 = -0.99;
 /// Steps of integrals over the kernel.
 const STEPS: u32 = 400;
 

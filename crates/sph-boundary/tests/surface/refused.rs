@@ -165,8 +165,8 @@ fn pieces_drawn_twice() {
     let plate = message(&[sheet("front"), sheet("back").reversed()], 0.1);
     assert_eq!(
         plate,
-        "nothing is left of wall `front`: other walls cover all of it; leave it out, or give a \
-         plate of two sides a thickness"
+        "nothing is left of wall `front`: other walls cover all of it, or turn their backs on its edges; does one of \
+         them face the other way? leave it out, or give a plate of two sides a thickness"
     );
     // One wall folded flat.
     let corners = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];

@@ -129,7 +129,7 @@ fn of_file(file: bool, given: &[&str], path: &str, found: &mut Problems) {
 fn csv(file: &Option<String>, path: &str, found: &mut Problems) {
     let Some(file) = file else { return };
     if !TABLES.iter().any(|ending| has_ending(file, ending)) {
-        let message = format!("expected a file that ends in .csv, found `{file}`");
+        let message = format!("expected a file that ends in .csv, .dat or .txt, found `{file}`");
         found.add(format!("{path}.file"), message);
     }
 }
