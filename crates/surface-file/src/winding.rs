@@ -152,6 +152,9 @@ mod tests {
         }
         // Without the cap over the angle π/4 the middle sees (1 + cos π/4)/2 of it.
         let open = Winding::new(ball(40, 10)).at(&[0.0; 3]);
-        assert!((open - 0.5 * (1.0 + 0.5_f64.sqrt())).abs() < dipole, "{open}");
+        assert!(
+            (open - 0.5 * (1.0 + 0.5_f64.sqrt())).abs() < dipole,
+            "{open}"
+        );
     }
 }

@@ -258,8 +258,11 @@ fn a_pipe_with_a_thickness_is_its_bore() {
     let bore = passed(&field);
     field.run("pipe-thick", end);
     let thick = passed(&field);
-    for (thick, bore) in thick.iter().zip(bore) {
-        assert!((thick / bore - 1.0).abs() < 0.01, "{thick} for {bore}");
+    // Each of the 80 ports of a face may hold half of a particle more or less, and they know nothing of each other.
+    let held = 0.5 * 80f64.sqrt() * 900.0 * 1e-6;
+    let bounds = [0.01 * bore[0], held, 0.01 * bore[2]];
+    for ((thick, bore), bound) in thick.iter().zip(bore).zip(bounds) {
+        assert!((thick - bore).abs() < bound, "{thick} for {bore}");
     }
     // 900 kg/m³ · 0.1 m/s through a polygon of 24 sides, ½ · 24 · sin 15° · (50 mm)².
     let flux = 900.0 * 0.1 * 12.0 * 15f64.to_radians().sin() * 0.0025;

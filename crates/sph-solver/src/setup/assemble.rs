@@ -141,7 +141,13 @@ pub(crate) fn assemble_share<const D: usize>(
     };
     warnings.extend(remarks(scene, &ground, &placed, &mut flow)?);
     let relaxation = start(&beginning, &share, &mut flow)?;
-    accounts::open(scene, &choices.probes, &*choices.integrator, &*formulation, &mut flow)?;
+    accounts::open(
+        scene,
+        &choices.probes,
+        &*choices.integrator,
+        &*formulation,
+        &mut flow,
+    )?;
     flow.nursery = nursery(scene, formulation, columns().collect(), &flow);
     Ok(Assembled {
         flow,
