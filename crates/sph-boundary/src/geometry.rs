@@ -3,6 +3,7 @@
 pub(crate) mod checks;
 pub(crate) mod cover;
 pub(crate) mod drawing;
+pub(crate) mod face_sums;
 pub(crate) mod faces;
 pub(crate) mod grid;
 pub(crate) mod inside;

@@ -3,6 +3,7 @@
 pub(crate) mod contact;
 pub(crate) mod contract;
 pub(crate) mod dummy;
+pub(crate) mod far_sight;
 pub(crate) mod hiding;
 pub(crate) mod impact;
 pub(crate) mod moving;

@@ -5,7 +5,12 @@ use sph_contribution::StepWork;
 use sph_core::{Access, Field, StepError, Vect, Vector, fields};
 use sph_neighbours::World;
 
-use crate::rhie_chow::PRESSURE_SLOPE;
+/// s, ∇p/ρ.
+pub const PRESSURE_SLOPE: Field<Vector> = Field::new(
+    "pressure_slope",
+    "m/s²",
+    "gradient of the pressure over the density of pairs, exact for linear pressures",
+);
 
 /// Over how many h/c accelerations are averaged.
 ///

@@ -220,9 +220,9 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         if let Some(acceleration) = self.acceleration {
             let mut inertia = here.2;
             for (own, other) in inertia.iter_mut().zip(&acceleration[j]) {
-                *own = *own + density * L::splat(*other);
+                *own += density * L::splat(*other);
             }
-            bracket = bracket + dot(&inertia, &pair.separation) / both;
+            bracket += dot(&inertia, &pair.separation) / both;
         }
         *sum += volume * bracket * pair.factor;
     }

@@ -19,12 +19,12 @@ mod per_phase;
 mod rhie_chow;
 mod shift_transport;
 
-pub use balance::{Accelerated, MeanAcceleration};
+pub use balance::{Accelerated, MeanAcceleration, PRESSURE_SLOPE};
 pub use brezzi_pitkaranta::{BrezziPitkaranta, PressureDiffusion};
 pub use contract::{ShiftedFlow, Shifting, ShiftingEntry, Smoother, SmootherEntry};
 pub use contribution::{Shifted, Smoothed};
 pub use delta_multiphase::{Balance, DeltaMultiphase};
 pub use delta_sph::{DENSITY_GRADIENT, DeltaForm, DeltaSph};
 pub use fickian::{Fickian, Transport};
-pub use rhie_chow::{PRESSURE_SLOPE, RhieChow};
+pub use rhie_chow::RhieChow;
 pub use shift_transport::ShiftTransport;

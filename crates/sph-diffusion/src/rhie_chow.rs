@@ -2,9 +2,10 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Access, Declares, Field, Stage, StepError, Vector, fields, register};
+use sph_core::{Access, Declares, Stage, StepError, fields, register};
 use sph_neighbours::{Around, Interaction, Values, World, walk_into};
 
+use crate::balance::PRESSURE_SLOPE;
 use crate::diffusion_limit::DiffusionLimit;
 use crate::linear_exact::linear_exact;
 use crate::{Accelerated, BrezziPitkaranta, Smoother, SmootherEntry};
@@ -76,13 +77,6 @@ register!(
     "rhie-chow",
     "pressure diffusion less what the wide stencil resolves",
     "Ghaïtanellis 2017, Eq. 2.96–2.98"
-);
-
-/// s, ∇p/ρ.
-pub const PRESSURE_SLOPE: Field<Vector> = Field::new(
-    "pressure_slope",
-    "m/s²",
-    "gradient of the pressure over the density of pairs, exact for linear pressures",
 );
 
 /// [`PRESSURE_SLOPE`].

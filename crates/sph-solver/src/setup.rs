@@ -14,6 +14,7 @@ pub(crate) mod layers;
 pub(crate) mod memory;
 pub(crate) mod movers;
 pub(crate) mod open_faces;
+pub(crate) mod output_fields;
 pub(crate) mod parts;
 pub(crate) mod placement;
 pub(crate) mod planning;

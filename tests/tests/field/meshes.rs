@@ -260,7 +260,8 @@ fn a_pipe_with_a_thickness_is_its_bore() {
     let thick = passed(&field);
     // Each of the 80 ports of a face may hold half of a particle more or less, and they know nothing of each other.
     let held = 0.5 * 80f64.sqrt() * 900.0 * 1e-6;
-    let bounds = [0.01 * bore[0], held, 0.01 * bore[2]];
+    // The speed is interpolated to second order, with five rows to the radius.
+    let bounds = [0.01 * bore[0], held, 0.04 * bore[2]];
     for ((thick, bore), bound) in thick.iter().zip(bore).zip(bounds) {
         assert!((thick - bore).abs() < bound, "{thick} for {bore}");
     }

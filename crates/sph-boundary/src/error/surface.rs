@@ -252,7 +252,7 @@ pub enum SurfaceError {
         /// Diagonal of the box around the opening.
         extent: f64,
         /// Middle of that box.
-        centre: [f64; 3],
+        centre: Box<[f64; 3]>,
         /// A wall that meets this one in the edge with its back.
         met: Option<String>,
         /// Place on the edge nearest to the particle.

@@ -6,7 +6,7 @@ use sph_neighbours::{Domain, Elements, Frame, LinePull, WallForce, WallPoints};
 use crate::geometry::cover::Cover;
 use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
 use crate::limits::MOST_PERIODS;
-use crate::treatment::plates::far_sight;
+use crate::treatment::far_sight::far_sight;
 use crate::{BoundaryError, Drawing, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
 
 /// How far queries look, over the support: also those of filling and of a generous skin.

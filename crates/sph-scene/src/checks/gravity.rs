@@ -17,7 +17,7 @@ pub(crate) fn over_time(given: &GravityOverTime, of: Dimension, found: &mut Prob
         .iter()
         .filter(|(_, some)| *some)
         .map(|(name, _)| *name);
-    match (names.next(), names.last()) {
+    match (names.next(), names.next_back()) {
         (None, _) => found.add(path, "a course is missing: `sine`, `table` or `file`"),
         (Some(first), Some(last)) => {
             let message = format!("only one course can stand here, found {first} and {last}");

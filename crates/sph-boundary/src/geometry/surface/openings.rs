@@ -90,7 +90,7 @@ impl TriangleMesh {
             wall: self.walls[free.wall].clone(),
             edges: opening.edges,
             extent: opening.extent,
-            centre: opening.centre,
+            centre: Box::new(opening.centre),
             met: free.met.map(|wall| self.walls[wall].clone()),
             at,
             particle,

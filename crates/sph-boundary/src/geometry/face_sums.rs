@@ -1,0 +1,112 @@
+//! Sums over whole faces of triangles.
+
+use sph_core::Vect;
+use sph_neighbours::ContactBlock;
+
+use crate::geometry::faces::Corner;
+use crate::geometry::shells::ShellSums;
+use crate::geometry::spatial_walls::SpatialWalls;
+use crate::integrals::spatial::{Foot, Weights};
+use crate::{GammaSum3d, NearTriangle, Renormalisation3d};
+
+impl SpatialWalls {
+    /// The triangles of a row, sorted by image and triangle, by face and image.
+    pub(crate) fn faces<'a>(
+        &'a self,
+        mut row: &'a [NearTriangle],
+    ) -> impl Iterator<Item = &'a [NearTriangle]> + 'a {
+        std::iter::from_fn(move || {
+            let first = row.first()?;
+            let end = self.planes.ends[self.planes.faces[first.triangle as usize] as usize];
+            let same = |n: &NearTriangle| n.image == first.image && n.triangle < end;
+            let (part, rest) = row.split_at(first_other(row, same));
+            row = rest;
+            Some(part)
+        })
+    }
+
+    /// A corner of an image of a face relative to a point, m: bitwise what
+    /// [`TriangleMesh::corners_from`] gives.
+    #[inline(always)]
+    pub(crate) fn seen(&self, corner: &Corner, image: [i8; 3], point: &Vect<3>) -> Vect<3> {
+        let from = corner.position - point;
+        if corner.image == [0; 3] && image == [0; 3] {
+            return from;
+        }
+        let shift = |k: usize| corner.image[k] + i32::from(image[k]);
+        from + Vect::from(self.domain.shift([shift(0), shift(1), shift(2)]))
+    }
+
+    /// Adds what the faces of a row do to γ of a point, and pushes their contacts but for those of `hidden` shells.
+    pub(crate) fn see(
+        &self,
+        integrals: &Renormalisation3d,
+        (point, row): (&Vect<3>, &[NearTriangle]),
+        weights: &mut Weights,
+        contacts: &mut ContactBlock<3>,
+        (sides, hidden): (&mut ShellSums, &[u32]),
+    ) -> GammaSum3d {
+        let radius = integrals.kernel_radius();
+        let mut sum = GammaSum3d::default();
+        for part in self.faces(row) {
+            let image = part[0].image;
+            let first = &self.mesh.triangles()[part[0].triangle as usize];
+            let normal = Vect::from(first.normal);
+            let corner = Corner::new(&self.mesh, first.nodes[0], first.images[0]);
+            let height = -self.seen(&corner, image, point).dot(&normal);
+            if height.abs() >= radius {
+                continue;
+            }
+            let unshifted = match image {
+                [0, 0, 0] => *point,
+                _ => point - Vect::from(self.domain.shift(image.map(i32::from))),
+            };
+            let foot = Foot {
+                place: self.planes.planes[first.face].foot(unshifted.into()),
+                height,
+                reach: (radius * radius - height * height).sqrt(),
+            };
+            let triangles = part.iter().map(|near| near.triangle);
+            if !weights.find(triangles, &self.planes.circles, &foot) {
+                continue;
+            }
+            let edges = self.planes.edges[first.face].iter().map(|[start, end]| {
+                let start = self.seen(start, image, point).into();
+                [start, self.seen(end, image, point).into()]
+            });
+            let whole = integrals.polygon(height, first.normal, edges);
+            sum.add(&whole, first.normal);
+            let shell = self.shells.of(part[0].triangle as usize);
+            sides.add(shell, whole.gamma);
+            if whole.kernel == 0.0 || hidden.contains(&shell) {
+                continue;
+            }
+            weights.weigh(integrals, &self.planes.patches, &foot);
+            let (elements, weights) = weights.all();
+            let mut total = 0.0;
+            for weight in weights {
+                total += weight;
+            }
+            let scale = whole.kernel / total;
+            let share = |(&element, &weight): (&u32, &f64)| match weight > 0.0 {
+                true => (element, weight * scale),
+                false => (element, 0.0),
+            };
+            contacts.push(normal, height, elements.iter().zip(weights).map(share));
+        }
+        sum
+    }
+}
+
+/// Where a row that begins with what is alike goes on with others. Steps of a fixed size are foreseen by the processor, those
+/// of a bisection are not.
+#[inline(always)]
+fn first_other<T>(row: &[T], same: impl Fn(&T) -> bool) -> usize {
+    const STEP: usize = 16;
+    let mut from = 1;
+    while row.get(from + STEP).is_some_and(&same) {
+        from += STEP;
+    }
+    let others = row[from..].iter().position(|n| !same(n));
+    others.map_or(row.len(), |k| from + k)
+}
