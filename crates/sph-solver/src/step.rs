@@ -21,3 +21,4 @@ pub(crate) mod ranked;
 pub(crate) mod snapshot;
 pub(crate) mod sorting;
 pub(crate) mod stages;
+pub(crate) mod swing;

@@ -4,22 +4,13 @@ use std::path::Path;
 
 use crate::stl::{Surface, parse, read};
 use crate::vector::{cross, dot, minus};
-use crate::weld::Welder;
+use crate::weld::{Facets, Welder};
 use crate::winding::Winding;
 
 /// Corners of a file nearer to each other than this share of its extent are one: single precision has 6·10⁻⁸.
 const SAME_CORNER: f64 = 1e-6;
 /// Facets at which the side that a surface faces is asked for, at most.
 const ASKED: usize = 256;
-
-/// A surface of triangles that share their points; as a wall, right-hand normals point into the fluid.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Facets {
-    /// Points, m.
-    pub points: Vec<[f64; 3]>,
-    /// Numbers of the three points of every triangle.
-    pub triangles: Vec<[u32; 3]>,
-}
 
 impl Facets {
     /// The surface in an STL file with its corners welded, in the unit of the file, and the number, from 1, of the

@@ -15,11 +15,10 @@ mod vector;
 mod weld;
 mod winding;
 
-pub use facets::Facets;
 pub use stl::{Surface, parse, read};
 pub use topology::{Opening, Topology};
 pub use vector::{cross, dot, minus};
-pub use weld::Welder;
+pub use weld::{Facets, Welder};
 pub use winding::Winding;
 
 #[cfg(doctest)]

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::facets::Facets;
 use crate::vector::{dot, minus};
+use crate::weld::Facets;
 
 /// Edges that hang together and have a facet on one side only.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,14 @@
 
 use std::collections::HashMap;
 
-use crate::facets::Facets;
+/// A surface of triangles that share their points; as a wall, right-hand normals point into the fluid.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Facets {
+    /// Points, m.
+    pub points: Vec<[f64; 3]>,
+    /// Numbers of the three points of every triangle.
+    pub triangles: Vec<[u32; 3]>,
+}
 
 /// Collects triangles and merges points that are equal to the last bit, or nearly so.
 #[derive(Default)]

@@ -4,9 +4,11 @@ use sph_core::unit_factor;
 
 use crate::checks::dimension::Dimension;
 use crate::checks::problems::Problems;
-use crate::checks::walls::TABLES;
 use crate::geometry::wall_geometry::has_ending;
 use crate::{Levels, Motion};
+
+/// Endings of files that are tables of numbers.
+pub(crate) const TABLES: [&str; 3] = ["csv", "dat", "txt"];
 
 /// Checks the vectors, the times and the courses of a motion.
 pub(crate) fn check(motion: &Motion, of: Dimension, path: &str, found: &mut Problems) {

@@ -4,15 +4,12 @@ use sph_core::unit_factor;
 
 use crate::checks::corners::{chain, crossed, polygon};
 use crate::checks::dimension::Dimension;
-use crate::checks::motion;
+use crate::checks::motion::{self, TABLES};
 use crate::checks::problems::Problems;
 use crate::checks::shapes::extrusion;
 use crate::geometry::wall_geometry::has_ending;
 use crate::tables::wall_shapes::{Face, Wedge};
 use crate::{Condition, Side, Wall};
-
-/// Endings of files that are tables of numbers.
-pub(crate) const TABLES: [&str; 3] = ["csv", "dat", "txt"];
 
 /// Checks everything of a wall that has a place in space.
 pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {

@@ -34,13 +34,13 @@ use crate::setup::share::Share;
 use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
 use crate::setup::start::{Start, phases_of_bodies, start};
-use crate::setup::swing::Swing;
 use crate::setup::wall_speeds::speeds;
 use crate::step::accounts;
 use crate::step::flow::Flow;
 use crate::step::nursery::Nursery;
 use crate::step::outlets::Outlets;
 use crate::step::stages::SharedWall;
+use crate::step::swing::Swing;
 
 /// A flow with everything a run needs besides.
 pub struct Assembled<const D: usize> {
@@ -80,8 +80,7 @@ pub(crate) fn assemble_share<const D: usize>(
     scene: &Scene,
     mut share: Share<D>,
 ) -> Result<Assembled<D>, SolverError> {
-    let mut drawn = Drawn::<D>::of(scene)?;
-    crate::setup::estimate::refuse_the_absurd(scene, &drawn)?;
+    let mut drawn = drawn_of::<D>(scene)?;
     let mut choices = chosen::<D>(scene)?;
     let (laws, swing) = bind_laws::<D>(scene, &drawn, &choices)?;
     movers::settle(scene, &mut drawn, &mut choices, &laws)?;
@@ -142,13 +141,8 @@ pub(crate) fn assemble_share<const D: usize>(
     };
     warnings.extend(remarks(scene, &ground, &placed, &mut flow)?);
     let relaxation = start(&beginning, &share, &mut flow)?;
-    accounts::open(
-        scene,
-        &choices.probes,
-        &*choices.integrator,
-        &*formulation,
-        &mut flow,
-    )?;
+    let integrator = &*choices.integrator;
+    accounts::open(scene, &choices.probes, integrator, &*formulation, &mut flow)?;
     flow.nursery = nursery(scene, formulation, columns().collect(), &flow);
     Ok(Assembled {
         flow,
@@ -161,6 +155,13 @@ pub(crate) fn assemble_share<const D: usize>(
         height: height(scene, &drawn.regions),
         body_of: placed.body,
     })
+}
+
+/// Walls and bodies of a scene, if they fit into memory.
+fn drawn_of<const D: usize>(scene: &Scene) -> Result<Drawn<D>, SolverError> {
+    let drawn = Drawn::<D>::of(scene)?;
+    crate::setup::estimate::refuse_the_absurd(scene, &drawn)?;
+    Ok(drawn)
 }
 
 /// The plugins of a scene, with all probes ready.

@@ -9,12 +9,12 @@ use sph_state::Laws;
 
 use crate::setup::builder::Part;
 use crate::setup::planning::Planned;
-use crate::setup::swing::Swing;
 use crate::step::declared::Columns;
 use crate::step::flow::Flow;
 use crate::step::outlets::Outlets;
 use crate::step::snapshot::Snapshot;
 use crate::step::stages::{SharedWall, WALL_STATE};
+use crate::step::swing::Swing;
 
 /// What a flow is made of besides its plan.
 pub(crate) struct Given<const D: usize> {

@@ -7,24 +7,11 @@ use sph_scene::{GravityOverTime, Region, Scene};
 
 use crate::failure::error::SolverError;
 use crate::setup::shapes::rigid_motion;
+use crate::step::swing::{Given, Swing};
 
 const PLACE: &str = "numerics.gravity_over_time";
 /// Moments of a run at which the largest swing is looked for.
 const MOMENTS: u32 = 4096;
-
-/// Gravity over time, without what is steady of it.
-pub(crate) struct Swing<const D: usize> {
-    frame: RigidMotion<D>,
-    given: Given<D>,
-}
-
-enum Given<const D: usize> {
-    None,
-    /// a·r(t)·sin(2πt/T + φ): amplitude, m/s², and course of amplitude 1 with its value at time 0.
-    Sine(Vect<D>, Course, f64),
-    /// Times, s, and what is added then, m/s².
-    Rows(Vec<(f64, Vect<D>)>),
-}
 
 impl<const D: usize> Swing<D> {
     /// That of a scene, if it has any.
@@ -59,11 +46,6 @@ impl<const D: usize> Swing<D> {
             ));
         }
         Ok(Some(swing))
-    }
-
-    /// What is added to gravity at a time (s), m/s².
-    pub fn at(&self, time: f64) -> Vect<D> {
-        self.given.at(time) - self.frame.state(time).acceleration
     }
 
     /// Largest size of every entry until a time (s), m/s².
@@ -114,24 +96,6 @@ impl<const D: usize> Given<D> {
             None => read(given)?,
         };
         Ok(Given::Rows(rows))
-    }
-
-    fn at(&self, time: f64) -> Vect<D> {
-        match self {
-            Given::None => Vect::zeros(),
-            Given::Sine(amplitude, course, first) => amplitude * (course.at(time).value + first),
-            Given::Rows(rows) => {
-                let after = rows.partition_point(|row| row.0 <= time);
-                let before = &rows[after.saturating_sub(1)];
-                match rows.get(after).filter(|_| after > 0) {
-                    None => before.1,
-                    Some(next) => {
-                        let share = (time - before.0) / (next.0 - before.0);
-                        before.1 + (next.1 - before.1) * share
-                    }
-                }
-            }
-        }
     }
 }
 

@@ -15,7 +15,6 @@ use sph_decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
 use sph_state::Laws;
 
-use crate::setup::swing::Swing;
 use crate::step::books::Books;
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::declared::{Columns, writes_any};
@@ -27,6 +26,7 @@ use crate::step::nursery::Nursery;
 use crate::step::outlets::Outlets;
 use crate::step::snapshot::Snapshot;
 use crate::step::stages::{SharedWall, lock};
+use crate::step::swing::Swing;
 
 /// The assembled system of one scene.
 pub struct Flow<const D: usize> {
