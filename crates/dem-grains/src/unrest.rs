@@ -3,7 +3,7 @@
 /// Why grains are not at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Unrest {
-    /// The mean resultant force on a grain, over the mean contact force: [`GrainSystem::unbalanced_force`].
+    /// The mean resultant force on a grain, over the mean contact force: [`unbalanced_force`](crate::GrainSystem::unbalanced_force).
     Unbalanced(f64),
     /// A grain whose weight nothing balances: it falls, or something hits it.
     NotCarried(usize),

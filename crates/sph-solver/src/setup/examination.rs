@@ -99,7 +99,7 @@ pub fn examine(scene: &Scene) -> Result<Examination, SolverError> {
     })
 }
 
-/// As [`examine`], and a [`trial`] of its first steps.
+/// As [`examine`], and a trial of its first steps.
 ///
 /// # Errors
 /// Every problem of the scene, with its path. That of the trial is apart: a scene whose first steps fail is known.
