@@ -245,7 +245,7 @@ pub enum GrainError {
     NotSettled {
         /// Steps made.
         steps: u64,
-        /// What keeps them from rest.
+        /// The condition of rest that does not hold.
         unrest: crate::Unrest,
     },
 }

@@ -8,7 +8,7 @@ use crate::{GrainError, GrainSystem, Vector};
 const CARRIED: f64 = 0.1;
 
 impl GrainSystem {
-    /// What keeps the grains from rest at the last evaluation; nothing if they are at rest to a `tolerance` below 1:
+    /// The condition of rest that does not hold at the last evaluation; none for grains at rest to a `tolerance` below 1:
     ///
     /// ```text
     /// mean |F| ≤ tolerance · F_c,     |F_i| ≤ max(tolerance, 0.1) (m_i g + Σ_c |F_ic|) for every grain with a weight,

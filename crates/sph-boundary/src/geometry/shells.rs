@@ -17,7 +17,7 @@ pub struct Shells {
 impl Shells {
     /// From the nodes of every element and whether fluid passes it, the number of all nodes, and those at free ends.
     ///
-    /// What fluid passes hides nothing: it belongs to no shell and joins none.
+    /// An open face hides nothing: it belongs to no shell and joins none.
     pub fn new<const N: usize>(
         elements: impl Iterator<Item = ([usize; N], bool)> + Clone,
         nodes: usize,
@@ -129,7 +129,7 @@ impl ShellSums {
     }
 }
 
-/// What is found at points side by side.
+/// γ and shells of a batch of points.
 #[derive(Debug, Default)]
 pub struct Gammas {
     /// γ of each point, and planes of contacts up to and including its own.
