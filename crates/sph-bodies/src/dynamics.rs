@@ -1,6 +1,6 @@
 //! Newton's and Euler's equations over a step.
 
-use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
 use sph_boundary::{Load, RigidState};
 use sph_core::Vect;
 
@@ -127,7 +127,9 @@ impl Dynamics {
             *force -= j * (pull + dt * stiffness * rate);
         };
         if !self.holds.is_empty() {
-            let angle = Rotation3::from_matrix_unchecked(turn).scaled_axis();
+            // The axis of a matrix is not a number where rounding makes its trace more than 3.
+            let turn = Rotation3::from_matrix_unchecked(turn);
+            let angle = UnitQuaternion::from_rotation_matrix(&turn).scaled_axis();
             let way = six(shift, angle);
             for (freedom, stiffness, damping) in &self.holds {
                 let k = freedom.index();

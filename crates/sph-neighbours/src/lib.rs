@@ -20,6 +20,7 @@ mod clusters;
 mod contacts;
 mod couplings;
 mod domain;
+mod facing;
 mod fuse;
 mod grid;
 mod half;
@@ -61,6 +62,7 @@ pub use clusters::Clusters;
 pub use contacts::{Contact, ContactBlock, ContactIter, ContactRow, Contacts};
 pub use couplings::{Couplings, CouplingsAt, Kinds, Visitor};
 pub use domain::Domain;
+pub use facing::facing_forces;
 pub use fuse::{
     FusionEntry, Terms, fuse_all, fuse_three, fuse_three_lanes, fuse_two, fuse_two_lanes,
 };

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
-use crate::wall_parts::{Alone, parts_on_walls};
-use crate::{Interaction, SharedElements, WallForce, World};
+use crate::facing::facing_forces;
+use crate::{Interaction, SharedElements, WallForce, World, wall_parts};
 
 /// r × f; the third component alone in two dimensions.
 pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
@@ -21,9 +21,8 @@ pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
 /// It costs a sweep over the particles that see a wanted wall, nothing for the others.
 ///
 /// The walls' part of an acceleration is the whole less what the other particles would contribute
-/// with γ = 1, which is equal and opposite between two particles and leaves no momentum. Each
-/// wall has what its own points and elements add; what is left (the other particles' sums times
-/// 1/γ − 1, and what a term makes of several walls together) is shared as ∇γ is.
+/// with γ = 1, which is equal and opposite between two particles and leaves no momentum; [`wall_parts`] says which wall
+/// has how much of it. [`facing_forces`] are added.
 ///
 /// # Errors
 /// If a term misses a column.
@@ -32,7 +31,12 @@ pub fn wall_forces<const D: usize>(
     terms: &[&dyn Interaction<D>],
     wanted: &[bool],
 ) -> Result<Vec<WallForce<D>>, StepError> {
-    let mut forces = summed(world, terms, wanted, Alone::Apart)?;
+    let mut forces = reactions(world, terms, wanted)?;
+    let facing = facing_forces(world, wanted)?;
+    forces
+        .iter_mut()
+        .zip(&facing)
+        .for_each(|(f, more)| f.add(more));
     for (wall, total) in forces.iter_mut().enumerate().filter(|(w, _)| wanted[*w]) {
         let sums = pressure_on(world, wall as u32)?;
         total.pressure_force = Vect::from_fn(|k, _| sums[k]);
@@ -41,7 +45,7 @@ pub fn wall_forces<const D: usize>(
     Ok(forces)
 }
 
-/// The same, to rounding, with fewer sums, and without the integrals of the pressure, which no single rank knows on all
+/// The same without [`facing_forces`], and without the integrals of the pressure, which no single rank knows on all
 /// elements; they are 0 here.
 ///
 /// # Errors
@@ -50,15 +54,6 @@ pub fn reactions<const D: usize>(
     world: &World<D>,
     terms: &[&dyn Interaction<D>],
     wanted: &[bool],
-) -> Result<Vec<WallForce<D>>, StepError> {
-    summed(world, terms, wanted, Alone::Whole)
-}
-
-fn summed<const D: usize>(
-    world: &World<D>,
-    terms: &[&dyn Interaction<D>],
-    wanted: &[bool],
-    alone: Alone,
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let positions = world.free.get(fields::POSITION)?;
     let (walls, lists) = (&world.walls, &world.lists.wall);
@@ -71,7 +66,7 @@ fn summed<const D: usize>(
     let own = world.team.as_ref().map(|team| team.own(&world.free));
     let sees = |i: usize| own.as_ref().is_none_or(|own| own[i]) && sees(i);
     let mut parts: Vec<Vec<[f64; 6]>> = vec![Vec::new(); wanted.len()];
-    for part in parts_on_walls(world, terms, sees, alone)? {
+    for part in wall_parts(world, terms, sees)? {
         let mut both = [0.0; 6];
         both[..D].copy_from_slice(part.force.as_slice());
         both[3..].copy_from_slice(&cross(&positions[part.particle as usize], &part.force));

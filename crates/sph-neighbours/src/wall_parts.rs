@@ -26,17 +26,14 @@ pub struct WallPart<const D: usize> {
     pub force: Vect<D>,
 }
 
-/// How the part of a wall is found that is the only one before a particle; to rounding it is the same.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Alone {
-    /// As where there are several: what it adds itself, and the rest.
-    Apart,
-    /// As the whole of what walls do, with one sum less.
-    Whole,
-}
-
 /// What the wanted particles exert on the walls that they see, by particle and wall: the parts of
 /// [`wall_forces`](crate::wall_forces).
+///
+/// Terms are of the form a = (B + Σ_k W_k)/γ, B the sum over particles and W_k that over the points and elements of wall
+/// k. The walls' part is a − B = Σ_k W_k + (1 − γ) a. Each wall has its W_k; (1 − γ) a is shared as
+/// Σ_s |∇γ_as| (R − d_as) is over the walls, R the support radius and d_as the distance from the plane of an element:
+/// about the wall's own 1 − γ, which add up. W_k/γ in the place of W_k would leave B (1/γ − 1) to be shared, where the large
+/// gradients of two walls before each other nearly cancel.
 ///
 /// # Errors
 /// If a term misses a column.
@@ -44,15 +41,6 @@ pub fn wall_parts<const D: usize>(
     world: &World<D>,
     terms: &[&dyn Interaction<D>],
     wanted: impl Fn(usize) -> bool + Sync,
-) -> Result<Vec<WallPart<D>>, StepError> {
-    parts_on_walls(world, terms, wanted, Alone::Apart)
-}
-
-pub(crate) fn parts_on_walls<const D: usize>(
-    world: &World<D>,
-    terms: &[&dyn Interaction<D>],
-    wanted: impl Fn(usize) -> bool + Sync,
-    alone: Alone,
 ) -> Result<Vec<WallPart<D>>, StepError> {
     let bound = terms.iter().map(|t| t.bind(world));
     let bound = bound.collect::<Result<Vec<_>, _>>()?;
@@ -81,8 +69,8 @@ pub(crate) fn parts_on_walls<const D: usize>(
         let wanted = |i: usize| asked[i - block * CHUNK];
         sweep.each_wanted(block, wanted, &mut room.0, |cluster| {
             apart.take(world, cluster, wanted);
-            apart.sum(cluster, &bound, (&none, alone));
-            apart.leave(mass, alone, &mut parts);
+            apart.sum(cluster, &bound, &none);
+            apart.leave(mass, &mut parts);
         });
         parts
     });
@@ -94,9 +82,8 @@ struct Apart<const D: usize> {
     near: Vec<Near>,
     /// Of members that see several walls.
     pieces: Vec<Piece<D>>,
-    /// What all terms make of every member with all walls, without any, and without any but with γ = 1.
+    /// What all terms make of every member with all walls, and without any and with γ = 1.
     whole: Vec<Rates<D>>,
-    fluid: Vec<Rates<D>>,
     bare: Vec<Rates<D>>,
     walls: Vec<u32>,
 }
@@ -105,8 +92,8 @@ struct Apart<const D: usize> {
 struct Near {
     member: usize,
     particle: usize,
-    /// The only wall that it sees, and its share in what 1/γ adds.
-    only: Option<(u32, f64)>,
+    /// The only wall that it sees.
+    only: Option<u32>,
     /// Its walls among the pieces, where there are several.
     pieces: Range<usize>,
 }
@@ -116,9 +103,9 @@ struct Piece<const D: usize> {
     wall: u32,
     points: Scratch<D>,
     contacts: ContactBlock<D>,
-    /// Its share in what 1/γ adds.
-    share: f64,
-    /// What all terms make of the member with this wall alone, m/s².
+    /// About its own 1 − γ, in any unit.
+    deficit: f64,
+    /// What all terms make of the member with this wall alone and γ = 1, m/s².
     acceleration: Vect<D>,
 }
 
@@ -128,7 +115,6 @@ impl<const D: usize> Default for Apart<D> {
             near: Vec::new(),
             pieces: Vec::new(),
             whole: Vec::new(),
-            fluid: Vec::new(),
             bare: Vec::new(),
             walls: Vec::new(),
         }
@@ -137,11 +123,6 @@ impl<const D: usize> Default for Apart<D> {
 
 fn all<const D: usize>(contacts: &ContactBlock<D>) -> ContactRow<'_, D> {
     contacts.row(0..contacts.planes())
-}
-
-/// Σ |∇γ_as|, 1/m.
-fn size<const D: usize>(contacts: ContactRow<'_, D>) -> f64 {
-    contacts.iter().map(|c| c.gradient.norm()).sum()
 }
 
 /// Sums all terms for a cluster.
@@ -175,7 +156,7 @@ impl<const D: usize> Apart<D> {
             self.walls.sort_unstable();
             let from = self.pieces.len();
             let only = match self.walls[..] {
-                [only] => Some((only, f64::from(u8::from(!own.contacts.is_empty())))),
+                [only] => Some(only),
                 _ => {
                     let pieces = self.walls.iter().map(|wall| Piece::of(world, &own, *wall));
                     self.pieces.extend(pieces);
@@ -191,12 +172,12 @@ impl<const D: usize> Apart<D> {
         }
     }
 
-    /// Sums all terms with all walls and without any, and those of members with several walls with each of them.
+    /// Sums all terms with all walls and without any, and those of members with several walls with each of them alone.
     fn sum(
         &mut self,
         cluster: &mut Cluster<'_, D>,
         terms: &[Box<dyn RowTerm<D> + '_>],
-        (none, alone): (&Contacts<D>, Alone),
+        none: &Contacts<D>,
     ) {
         sum(cluster, terms, &mut self.whole);
         if !self.pieces.is_empty() {
@@ -217,18 +198,15 @@ impl<const D: usize> Apart<D> {
         }
         let mut without = Cluster {
             contacts: none,
+            renormalisation: None,
             buffers: &mut *cluster.buffers,
             ..*cluster
         };
-        if alone == Alone::Apart || !self.pieces.is_empty() {
-            sum(&mut without, terms, &mut self.fluid);
-        }
-        without.renormalisation = None;
         sum(&mut without, terms, &mut self.bare);
     }
 
-    /// Each wall has what its own points and elements add. What is left is shared as ∇γ is.
-    fn leave(&self, mass: &[f64], alone: Alone, parts: &mut Vec<WallPart<D>>) {
+    /// Each wall has what its own points and elements add. (1 − γ) a is shared as the walls' own 1 − γ are.
+    fn leave(&self, mass: &[f64], parts: &mut Vec<WallPart<D>>) {
         for near in &self.near {
             let at = |rates: &[Rates<D>]| rates[near.member].acceleration;
             let (whole, bare) = (at(&self.whole), at(&self.bare));
@@ -239,21 +217,20 @@ impl<const D: usize> Apart<D> {
                     force: acceleration * -mass[near.particle],
                 });
             };
-            match near.only {
-                Some((wall, _)) if alone == Alone::Whole => leave(wall, whole - bare),
-                Some((wall, share)) => {
-                    let own = whole - at(&self.fluid);
-                    leave(wall, own + (whole - bare - own) * share);
-                }
-                None if near.pieces.is_empty() => {}
-                None => {
-                    let (pieces, fluid) = (&self.pieces[near.pieces.clone()], at(&self.fluid));
-                    let own = |piece: &Piece<D>| piece.acceleration - fluid;
-                    let rest = pieces.iter().fold(whole - bare, |rest, p| rest - own(p));
-                    pieces
-                        .iter()
-                        .for_each(|p| leave(p.wall, own(p) + rest * p.share));
-                }
+            if let Some(wall) = near.only {
+                leave(wall, whole - bare);
+                continue;
+            }
+            let pieces = &self.pieces[near.pieces.clone()];
+            let own = |piece: &Piece<D>| piece.acceleration - bare;
+            let rest = pieces.iter().fold(whole - bare, |rest, p| rest - own(p));
+            let deficits: f64 = pieces.iter().map(|p| p.deficit).sum();
+            for piece in pieces {
+                let share = match deficits > 0.0 {
+                    true => piece.deficit / deficits,
+                    false => 0.0,
+                };
+                leave(piece.wall, own(piece) + rest * share);
             }
         }
     }
@@ -264,14 +241,14 @@ impl<const D: usize> Piece<D> {
         let set = &world.walls;
         let mut contacts = ContactBlock::default();
         contacts.push_row(own.contacts, |s| set.elements.wall[s as usize] == wall);
-        let gradient = size(own.contacts);
+        let support = world.kernel.support_radius();
+        // The part of 1 − γ that a plane leaves falls from ½ at d = 0 as |∇γ| (R − d) does, within a factor of two.
+        let facing = all(&contacts).iter().filter(|c| c.distance > 0.0);
+        let deficit = facing.map(|c| c.gradient.norm() * (support - c.distance).max(0.0));
         Piece {
             wall,
             points: Scratch::of(&own.wall, |v| set.points.wall[v as usize] == wall),
-            share: match gradient > 0.0 {
-                true => size(all(&contacts)) / gradient,
-                false => 0.0,
-            },
+            deficit: deficit.sum(),
             contacts,
             acceleration: Vect::zeros(),
         }
@@ -282,6 +259,7 @@ impl<const D: usize> Piece<D> {
         let alone = Neighbourhood {
             wall: self.points.row(),
             contacts: all(&self.contacts),
+            inverse_renormalisation: 1.0,
             ..*own
         };
         let mut rates = Rates::of(Vect::zeros());

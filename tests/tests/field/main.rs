@@ -1,5 +1,6 @@
 //! Scenes of users that failed or misled: each is run as the user would, and the right value is the test.
 
+mod buoyancy;
 mod courses;
 mod faces;
 mod grains;
@@ -21,10 +22,13 @@ impl Field {
     fn new() -> Self {
         let bench = Bench::new(env!("CARGO_BIN_EXE_sph-under-test"));
         let inputs = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/field/inputs");
-        for entry in std::fs::read_dir(inputs).expect("the inputs") {
-            let path = entry.expect("an input").path();
-            let name = path.file_name().expect("a name");
-            std::fs::copy(&path, bench.folder().join(name)).expect("a copy");
+        for folder in [inputs, &format!("{inputs}/attack")] {
+            let all = std::fs::read_dir(folder).expect("the inputs");
+            let paths = all.map(|entry| entry.expect("an input").path());
+            for path in paths.filter(|path| path.is_file()) {
+                let name = path.file_name().expect("a name");
+                std::fs::copy(&path, bench.folder().join(name)).expect("a copy");
+            }
         }
         Field(bench)
     }

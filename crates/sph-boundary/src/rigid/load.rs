@@ -42,7 +42,7 @@ impl<const D: usize> Load<D> {
 
 /// How a wall that its mover moves freely meets other walls.
 ///
-/// Where two surfaces are nearer than half a spacing, each area S of one pushes the other with
+/// Where two surfaces are nearer than a spacing, or than they were drawn, each area S of one pushes the other with
 /// N = S (k δ − c u_n) ≥ 0, δ the missing distance, u_n the velocity with which they part,
 /// c = 2 ζ √(k m / ΣS), and rubs with at most μ N.
 #[derive(Clone, Copy, Debug, PartialEq)]

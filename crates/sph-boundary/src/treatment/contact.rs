@@ -5,12 +5,16 @@ use std::collections::BTreeMap;
 use sph_core::Vect;
 use sph_neighbours::{Domain, WallForce, cross};
 
-use crate::Touch;
 use crate::geometry::wall_mesh::{MeshElement, MeshPoint, WallMesh};
 use crate::treatment::outline::Outline;
+use crate::{Touch, WallSpec};
 
-/// Distance at which surfaces begin to push, over the spacing: particles of both keep a quarter.
-const GAP: f64 = 0.5;
+/// Distance at which surfaces begin to push, over the spacing: a row of particles fits between them. Particles that are
+/// caught between surfaces half a spacing apart are few for their room, and tension draws them to a clump.
+const GAP: f64 = 1.0;
+
+/// The same of walls that are drawn as near, or nearer.
+const LEAST_GAP: f64 = 0.5;
 
 /// How deep a place may be behind a surface to be pushed out of it, over the spacing.
 const DEPTH: f64 = 1.0;
@@ -68,8 +72,7 @@ impl<const D: usize> Extent<D> {
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// What walls that touch do to each other, by the first of the walls that move together; empty if no mover asks.
     pub fn contacts(&self) -> Vec<WallForce<D>> {
-        let touch = |k: usize| self.specs[k].mover.as_ref().and_then(|m| m.touch());
-        let touches: Vec<_> = (0..self.specs.len()).map(touch).collect();
+        let touches = self.touches();
         if touches.iter().all(Option::is_none) {
             return Vec::new();
         }
@@ -91,6 +94,23 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             }
         }
         forces
+    }
+
+    /// Distances at which walls begin to push that are drawn nearer to each other than a spacing, m.
+    pub fn drawn_gaps(&self) -> BTreeMap<[usize; 2], f64> {
+        let mut gaps = BTreeMap::<[usize; 2], f64>::new();
+        for near in self.near_pairs(&self.touches()) {
+            let height = GAP * self.spacing - near.missing;
+            let gap = gaps.entry(ordered(near.pair)).or_insert(height);
+            *gap = gap.min(height).max(LEAST_GAP * self.spacing);
+        }
+        gaps
+    }
+
+    /// How each wall meets others.
+    fn touches(&self) -> Vec<Option<Touch>> {
+        let touch = |spec: &WallSpec<D>| spec.mover.as_ref().and_then(|m| m.touch());
+        self.specs.iter().map(touch).collect()
     }
 
     fn near_pairs(&self, touches: &[Option<Touch>]) -> Vec<Near<D>> {
@@ -154,11 +174,13 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 *entry = (distance, there, element);
             }
         }
-        let (gap, depth) = (GAP * self.spacing, DEPTH * self.spacing);
         for (group, (distance, there, element)) in nearest {
             let outside = element.normal.dot(&there) <= 0.0;
             let height = if outside { distance } else { -distance };
-            if height >= gap || height <= -depth {
+            let pair = [self.groups[node.wall], group];
+            let gap = self.gaps.get(&ordered(pair));
+            let gap = gap.copied().unwrap_or(GAP * self.spacing);
+            if height >= gap || height <= -DEPTH * self.spacing {
                 continue;
             }
             let away = match outside && distance > 1e-6 * self.spacing {
@@ -171,7 +193,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 .movement(element.wall, &(node.position + there))
                 .velocity;
             found.push(Near {
-                pair: [self.groups[node.wall], group],
+                pair,
                 place,
                 away,
                 missing: gap - height,

@@ -1,5 +1,7 @@
 //! What all wall treatments share: the mesh, the conditions, the motion, the checks.
 
+use std::collections::BTreeMap;
+
 use sph_core::Vect;
 use sph_neighbours::{Domain, Elements, Frame, LinePull, WallForce, WallPoints};
 
@@ -24,6 +26,8 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub put_back: bool,
     /// Walls with the same number move together.
     pub groups: Vec<usize>,
+    /// Distances at which walls begin to push, of those that are drawn nearer to each other than others, m.
+    pub gaps: BTreeMap<[usize; 2], f64>,
     pub spacing: f64,
     /// Distance beyond which nothing of the kernel counts, m.
     pub far_sight: f64,
@@ -62,6 +66,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             listed: Vec::new(),
             put_back: false,
             groups: groups(setup.walls),
+            gaps: BTreeMap::new(),
             spacing: setup.spacing,
             far_sight: far_sight::<D>(&*setup.kernel.sampler(D, setup.smoothing_length)),
             domain: setup.domain.clone(),
@@ -74,6 +79,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             outline.mesh.move_walls(&poses)?;
         }
         outline.listed = outline.states.clone();
+        outline.gaps = outline.drawn_gaps();
         Ok(outline)
     }
 

@@ -78,7 +78,9 @@ fn turned<const D: usize>(rotation: &[[f64; D]; D]) -> [f64; 3] {
         (_, same) => f64::from(u8::from(same)),
     };
     let whole = nalgebra::Matrix3::from_fn(at);
-    nalgebra::Rotation3::from_matrix_unchecked(whole)
+    let whole = nalgebra::Rotation3::from_matrix_unchecked(whole);
+    // The axis of a matrix is not a number where rounding makes its trace more than 3.
+    nalgebra::UnitQuaternion::from_rotation_matrix(&whole)
         .scaled_axis()
         .into()
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 use sph_contribution::Forces;
 use sph_core::{StepError, fields};
-use sph_neighbours::{WallForce, reactions};
+use sph_neighbours::{WallForce, facing_forces, reactions};
 
 use crate::step::books::Books;
 use crate::step::clocks::MOTION;
@@ -95,6 +95,11 @@ impl<const D: usize> Flow<D> {
         }
         let terms: Vec<_> = self.terms.iter().map(|t| &**t).collect();
         self.loads = reactions(&self.world, &terms, felt)?;
+        let facing = facing_forces(&self.world, felt)?;
+        self.loads
+            .iter_mut()
+            .zip(&facing)
+            .for_each(|(f, more)| f.add(more));
         Ok(())
     }
 

@@ -1,0 +1,159 @@
+//! Walls within a support of each other.
+
+use std::f64::consts::TAU;
+
+use rayon::prelude::*;
+use sph_core::{StepError, Vect};
+use sph_kernels::Sampler;
+
+use crate::{CellGrid, SharedElements, WallForce, World, cross};
+
+/// Intervals of the table of the kernel's outer part.
+const INTERVALS: usize = 64;
+
+/// What walls within a support of each other exert through the fluid that is not between them, on the wanted ones.
+///
+/// The sum of a wall's ∇γ over the particles before it is that over its whole support; a second wall at a distance g leaves
+/// out the part beyond g, and the force on the first one is p S (1 − 2 (1 − γ₂)), γ₂ that of the second wall at the
+/// first one. The missing part is 2 p ∫∫ ∇w over both solids, which is equal and opposite. Over the elements s of this
+/// wall and t of others, with δ_st the part of 1 − γ at s that t leaves,
+///
+/// F = −Σ_st ½ (p_s + p_t) [S_s n_s δ_st − S_t n_t δ_ts],
+///
+/// exact for linear pressures between parallel faces. Ours.
+///
+/// # Errors
+/// If the ranks cannot add.
+pub fn facing_forces<const D: usize>(
+    world: &World<D>,
+    wanted: &[bool],
+) -> Result<Vec<WallForce<D>>, StepError> {
+    let mut forces = vec![WallForce::zero(); wanted.len()];
+    let pairs = pairs(world, wanted);
+    if pairs.is_empty() {
+        return Ok(forces);
+    }
+    let elements = &world.walls.elements;
+    let shared = SharedElements::of(world)?;
+    let own = |s: usize| shared.as_ref().is_none_or(|shared| shared.own(s));
+    let part = |s: usize, t: usize, [to_t, to_s]: [f64; 2]| {
+        let known = |e: usize| if own(e) { elements.pressure[e] } else { 0.0 };
+        let half = -0.5 * (known(s) + known(t));
+        let on = |e: usize, share: f64| elements.normal[e] * (half * elements.measure[e] * share);
+        let (on_s, on_t) = (on(s, to_t), on(t, -to_s));
+        let [first, second] = [(s, on_s), (t, on_t)].map(|(e, f)| cross(&elements.centre[e], &f));
+        let mut both = [0.0; 6];
+        both[..D].copy_from_slice((on_s + on_t).as_slice());
+        (0..3).for_each(|k| both[3 + k] = first[k] + second[k]);
+        both
+    };
+    for (wall, force) in forces.iter_mut().enumerate() {
+        let of_wall = |pair: &&Facing| elements.wall[pair.pair[0]] as usize == wall;
+        if !pairs.iter().any(|pair| of_wall(&pair)) {
+            continue;
+        }
+        let all = || pairs.par_iter().with_min_len(256).filter(of_wall);
+        let sums = world.sums_of(|| all().map(|f| part(f.pair[0], f.pair[1], f.parts)))?;
+        force.force = Vect::from_fn(|k, _| sums[k]);
+        force.moment = [sums[3], sums[4], sums[5]];
+    }
+    Ok(forces)
+}
+
+/// Two elements of different walls.
+struct Facing {
+    /// The first is one of a wanted wall.
+    pair: [usize; 2],
+    /// Which part of 1 − γ each leaves at the other: the second at the first, the first at the second.
+    parts: [f64; 2],
+}
+
+/// The elements of wanted walls with all those of other walls within a support.
+fn pairs<const D: usize>(world: &World<D>, wanted: &[bool]) -> Vec<Facing> {
+    let (elements, names) = (&world.walls.elements, &world.walls.names);
+    if names.iter().all(|name| *name == names[0]) || !wanted.contains(&true) {
+        return Vec::new();
+    }
+    let radius = world.kernel.support_radius();
+    let held = (0..elements.centre.len()).filter(|s| wanted[elements.wall[*s] as usize]);
+    let held: Vec<usize> = held.collect();
+    let place = |s: usize| world.domain.wrapped(elements.centre[s]);
+    let places: Vec<_> = held.iter().map(|s| place(*s)).collect();
+    let grid = CellGrid::new(&places, radius, &world.domain);
+    let name = |s: usize| &names[elements.wall[s] as usize];
+    let outer = OuterPart::of(&*world.kernel);
+    let before = |t: usize| {
+        let mut found = Vec::new();
+        grid.ranges(&place(t), radius, |range| {
+            let near = grid.order()[range].iter().map(|k| held[*k as usize]);
+            for s in near.filter(|s| name(*s) != name(t)) {
+                let apart = elements.centre[s] - elements.centre[t];
+                let distance = world.domain.nearest_image(apart).norm();
+                if distance < radius {
+                    let part = outer.at(distance) / (2.0 * TAU);
+                    let parts = [(t, s), (s, t)].map(|(of, at)| part * angle(world, of, at));
+                    found.push(Facing {
+                        pair: [s, t],
+                        parts,
+                    });
+                }
+            }
+        });
+        found
+    };
+    let all = (0..elements.centre.len()).into_par_iter().with_min_len(256);
+    all.flat_map_iter(before).collect()
+}
+
+/// Solid angle of an element at the centre of another one, of 4π, or twice its angle in the plane; positive where that
+/// centre is on the fluid's side of it.
+fn angle<const D: usize>(world: &World<D>, element: usize, at: usize) -> f64 {
+    let (elements, points) = (&world.walls.elements, &world.walls.points.position);
+    let centre = elements.centre[element];
+    let to_centre = world.domain.nearest_image(centre - elements.centre[at]);
+    let corners = elements.corners[element].map(|c| {
+        let corner = points[c as usize] - centre;
+        to_centre + world.domain.nearest_image(corner)
+    });
+    let size = match &corners[..] {
+        [a, b] => 2.0 * cross(a, b)[2].abs().atan2(a.dot(b)),
+        [a, b, c] => {
+            // Van Oosterom & Strackee (1983).
+            let sizes = [a, b, c].map(|x| x.norm());
+            let volume: f64 = (0..3).map(|k| a[k] * cross(b, c)[k]).sum();
+            let pairs = a.dot(b) * sizes[2] + b.dot(c) * sizes[0] + c.dot(a) * sizes[1];
+            2.0 * volume.abs().atan2(sizes.iter().product::<f64>() + pairs)
+        }
+        _ => 0.0,
+    };
+    -size.copysign(to_centre.dot(&elements.normal[element]))
+}
+
+/// Which part of the kernel is beyond a distance.
+struct OuterPart {
+    support: f64,
+    /// At the ends of the intervals.
+    values: Vec<f64>,
+}
+
+impl OuterPart {
+    fn of(kernel: &dyn Sampler) -> Self {
+        let (support, dimension) = (kernel.support_radius(), kernel.dimension());
+        let sphere = if dimension == 2 { TAU } else { 2.0 * TAU };
+        let shell = |r: f64| sphere * r.powi(dimension as i32 - 1) * kernel.at(r).0;
+        let width = support / INTERVALS as f64;
+        let mut values = vec![0.0; INTERVALS + 1];
+        for k in (0..INTERVALS).rev() {
+            let [near, middle, far] = [0.0, 0.5, 1.0].map(|x| shell((k as f64 + x) * width));
+            values[k] = values[k + 1] + width / 6.0 * (near + 4.0 * middle + far);
+        }
+        OuterPart { support, values }
+    }
+
+    fn at(&self, distance: f64) -> f64 {
+        let place = distance / self.support * INTERVALS as f64;
+        let first = (place as usize).min(INTERVALS - 1);
+        let between = place - first as f64;
+        self.values[first] * (1.0 - between) + self.values[first + 1] * between
+    }
+}
