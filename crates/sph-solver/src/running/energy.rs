@@ -49,7 +49,6 @@ impl EnergyWatch {
             || scene.swings()
             || world.driving.norm() > 0.0
             || (0..D).any(around)
-            || !flow.outlets.is_empty()
             || flow.works.iter().any(|work| work.gives_birth())
             || kinds.any(|kind| !OWN.contains(kind));
         EnergyWatch {
@@ -65,9 +64,15 @@ impl EnergyWatch {
         self.so_far.map(|all| all.map(f64::to_bits))
     }
 
-    /// Looks at the sums of a state at a time, s; gives what is to be said, once in a run.
-    pub fn look<const D: usize>(&mut self, now: &Balance<D>, time: f64) -> Option<String> {
-        if self.driven {
+    /// Looks at the sums of a state at a time, s; gives what is to be said, once in a run. The sums of what remains tell
+    /// nothing once some of the fluid has left.
+    pub fn look<const D: usize>(
+        &mut self,
+        now: &Balance<D>,
+        left: f64,
+        time: f64,
+    ) -> Option<String> {
+        if self.driven || left > 0.0 {
             return None;
         }
         let begin = || [now.energy(), now.potential, 0.0, now.potential, 0.0];
@@ -127,28 +132,45 @@ mod tests {
             warned: false,
         };
         let mut flow = watch;
-        assert_eq!(flow.look(&balance(0.0, 10.0, 100.0), 0.0), None);
-        assert_eq!(flow.look(&balance(4.0, 6.0, 100.0), 1.0), None, "it falls");
-        assert_eq!(flow.look(&balance(4.07, 6.0, 100.0), 2.0), None, "0.9 %");
-        let told = flow.look(&balance(4.2, 6.0, 100.0), 3.0).expect("2.4 %");
+        assert_eq!(flow.look(&balance(0.0, 10.0, 100.0), 0.0, 0.0), None);
+        assert_eq!(
+            flow.look(&balance(4.0, 6.0, 100.0), 0.0, 1.0),
+            None,
+            "it falls"
+        );
+        assert_eq!(
+            flow.look(&balance(4.07, 6.0, 100.0), 0.0, 2.0),
+            None,
+            "0.9 %"
+        );
+        let told = flow
+            .look(&balance(4.2, 6.0, 100.0), 0.0, 3.0)
+            .expect("2.4 %");
         assert!(told.contains("2.000e-1 J, 2.4 %"), "{told}");
-        assert_eq!(flow.look(&balance(4.3, 6.0, 100.0), 4.0), None, "once");
+        assert_eq!(flow.look(&balance(4.3, 6.0, 100.0), 0.0, 4.0), None, "once");
         assert!(flow.verdict().is_none() && flow.remarks().is_some());
         // What has been lost again was made all the same.
-        flow.look(&balance(6.0, 6.0, 100.0), 5.0);
-        flow.look(&balance(1.0, 6.0, 100.0), 6.0);
+        flow.look(&balance(6.0, 6.0, 100.0), 0.0, 5.0);
+        flow.look(&balance(1.0, 6.0, 100.0), 0.0, 6.0);
         assert!(flow.verdict().is_some());
         // At rest the scale is that of sound: 2e-3 of 100 J.
         let mut still = watch;
-        still.look(&balance(0.0, 10.0, 100.0), 0.0);
-        assert_eq!(still.look(&balance(1.9e-3, 10.0, 100.0), 1.0), None);
-        assert!(still.look(&balance(2.1e-3, 10.0, 100.0), 2.0).is_some());
+        still.look(&balance(0.0, 10.0, 100.0), 0.0, 0.0);
+        assert_eq!(still.look(&balance(1.9e-3, 10.0, 100.0), 0.0, 1.0), None);
+        assert!(
+            still
+                .look(&balance(2.1e-3, 10.0, 100.0), 0.0, 2.0)
+                .is_some()
+        );
         let mut driven = EnergyWatch {
             driven: true,
             ..watch
         };
-        driven.look(&balance(0.0, 10.0, 100.0), 0.0);
-        assert_eq!(driven.look(&balance(9.0, 10.0, 100.0), 1.0), None);
+        driven.look(&balance(0.0, 10.0, 100.0), 0.0, 0.0);
+        assert_eq!(driven.look(&balance(9.0, 10.0, 100.0), 0.0, 1.0), None);
         assert!(driven.verdict().is_none());
+        let mut leaving = watch;
+        leaving.look(&balance(0.0, 10.0, 100.0), 0.0, 0.0);
+        assert_eq!(leaving.look(&balance(9.0, 10.0, 100.0), 1.0, 1.0), None);
     }
 }

@@ -101,10 +101,9 @@ impl<const D: usize> Running<'_, D> {
         let shown = self.whole.as_ref().unwrap_or(&self.parts);
         let dt = shown.flow.world.dt;
         let balance = files.series.row(&shown.flow, &shown.probes, dt)?;
-        let told = self.mach.look(&balance);
-        let told = told
-            .into_iter()
-            .chain(self.energy.look(&balance, shown.flow.world.time));
+        let (left, time) = (shown.flow.mass_left(), shown.flow.world.time);
+        let told = self.mach.look(&balance).into_iter();
+        let told = told.chain(self.energy.look(&balance, left, time));
         told.for_each(|told| observer.message(&told));
         if self.counters.rows == 0 {
             self.remember_start(&balance);
