@@ -1,5 +1,6 @@
 //! Walls within a support of each other.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
@@ -7,6 +8,9 @@ use sph_core::{StepError, Vect};
 use sph_kernels::Sampler;
 
 use crate::{CellGrid, SharedElements, WallForce, World, cross};
+
+/// Corners that are as near to each other are one, over the size of an element.
+const SAME_PLACE: f64 = 1e-6;
 
 /// Intervals of the table of the kernel's outer part.
 const INTERVALS: usize = 64;
@@ -20,7 +24,8 @@ const INTERVALS: usize = 64;
 ///
 /// F = −Σ_st ½ (p_s + p_t) [S_s n_s δ_st − S_t n_t δ_ts],
 ///
-/// exact for linear pressures between parallel faces. Ours.
+/// exact for linear pressures between parallel faces. Walls with a common corner bound the fluid as one, and have none of it.
+/// Ours.
 ///
 /// # Errors
 /// If the ranks cannot add.
@@ -66,6 +71,7 @@ struct Facing {
     pair: [usize; 2],
     /// Which part of 1 − γ each leaves at the other: the second at the first, the first at the second.
     parts: [f64; 2],
+    joined: bool,
 }
 
 /// The elements of wanted walls with all those of other walls within a support.
@@ -95,6 +101,7 @@ fn pairs<const D: usize>(world: &World<D>, wanted: &[bool]) -> Vec<Facing> {
                     found.push(Facing {
                         pair: [s, t],
                         parts,
+                        joined: are_joined(world, s, t),
                     });
                 }
             }
@@ -102,7 +109,24 @@ fn pairs<const D: usize>(world: &World<D>, wanted: &[bool]) -> Vec<Facing> {
         found
     };
     let all = (0..elements.centre.len()).into_par_iter().with_min_len(256);
-    all.flat_map_iter(before).collect()
+    let mut all: Vec<Facing> = all.flat_map_iter(before).collect();
+    let walls = |facing: &Facing| {
+        let mut walls = facing.pair.map(name);
+        walls.sort_unstable();
+        walls
+    };
+    let joined: BTreeSet<_> = all.iter().filter(|f| f.joined).map(walls).collect();
+    all.retain(|facing| !joined.contains(&walls(facing)));
+    all
+}
+
+/// Whether two elements have a corner at the same place.
+fn are_joined<const D: usize>(world: &World<D>, first: usize, second: usize) -> bool {
+    let (elements, points) = (&world.walls.elements, &world.walls.points.position);
+    let [first, second] = [first, second].map(|e| elements.corners[e].map(|c| points[c as usize]));
+    let size = (first[0] - first[1]).norm();
+    let mut pairs = first.iter().flat_map(|a| second.iter().map(move |b| a - b));
+    pairs.any(|apart| world.domain.nearest_image(apart).norm() < SAME_PLACE * size)
 }
 
 /// Solid angle of an element at the centre of another one, of 4π, or twice its angle in the plane; positive where that

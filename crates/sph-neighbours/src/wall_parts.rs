@@ -31,9 +31,9 @@ pub struct WallPart<const D: usize> {
 ///
 /// Terms are of the form a = (B + Σ_k W_k)/γ, B the sum over particles and W_k that over the points and elements of wall
 /// k. The walls' part is a − B = Σ_k W_k + (1 − γ) a. Each wall has its W_k; (1 − γ) a is shared as
-/// Σ_s |∇γ_as| (R − d_as) is over the walls, R the support radius and d_as the distance from the plane of an element:
-/// about the wall's own 1 − γ, which add up. W_k/γ in the place of W_k would leave B (1/γ − 1) to be shared, where the large
-/// gradients of two walls before each other nearly cancel.
+/// Σ_s ± |∇γ_as| (R − |d_as|) is over the walls, R the support radius and d_as the distance from the plane of an element
+/// with its sign: about the wall's own 1 − γ, which add up. W_k/γ in the place of W_k would leave B (1/γ − 1) to be
+/// shared, where the large gradients of two walls before each other nearly cancel.
 ///
 /// # Errors
 /// If a term misses a column.
@@ -242,13 +242,16 @@ impl<const D: usize> Piece<D> {
         let mut contacts = ContactBlock::default();
         contacts.push_row(own.contacts, |s| set.elements.wall[s as usize] == wall);
         let support = world.kernel.support_radius();
-        // The part of 1 − γ that a plane leaves falls from ½ at d = 0 as |∇γ| (R − d) does, within a factor of two.
-        let facing = all(&contacts).iter().filter(|c| c.distance > 0.0);
-        let deficit = facing.map(|c| c.gradient.norm() * (support - c.distance).max(0.0));
+        // The part of 1 − γ that a plane leaves falls from ½ at d = 0 as |∇γ| (R − d) does, within a factor of two; planes
+        // that look away take it off.
+        let deficit = all(&contacts).iter().map(|c| {
+            let within = (support - c.distance.abs()).max(0.0);
+            (c.gradient.norm() * within).copysign(c.distance)
+        });
         Piece {
             wall,
             points: Scratch::of(&own.wall, |v| set.points.wall[v as usize] == wall),
-            deficit: deficit.sum(),
+            deficit: deficit.sum::<f64>().max(0.0),
             contacts,
             acceleration: Vect::zeros(),
         }
