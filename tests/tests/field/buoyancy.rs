@@ -58,6 +58,18 @@ fn blocks_side_by_side_do_not_push_each_other() {
     assert!(push.abs() < 0.03 * side, "{push} N/m of {side} on a side");
 }
 
+/// Half an ellipse of 0.8 × 0.16 m, 4 spacings high, a hundredth of a spacing over the slope: ρ V g sin θ, whatever its bottom bears.
+#[test]
+fn a_hump_on_a_slope_bears_its_buoyancy_along_the_slope() {
+    let field = Field::new();
+    done(field.run("hump", ""));
+    let (force, exact) = (-field.mean("F.x", 0.4), 1000.0 * 0.100244 * 2.539015);
+    assert!(
+        (force / exact - 1.0).abs() < 0.03,
+        "{force} for {exact} N/m"
+    );
+}
+
 /// Surfaces push each other from one spacing on: it rests there, at 0.05 m, as no weight of these compresses the contact by
 /// more than 2 % of it (k δr = 2 ρ c²).
 #[test]

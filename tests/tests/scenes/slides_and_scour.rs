@@ -1,4 +1,4 @@
-//! A rigid slide under water and a wave over sand, in space, at sizes that take seconds.
+//! A wave over sand, in space, at a size that takes seconds.
 
 use crate::shipped::{Finished, finished};
 
@@ -18,34 +18,6 @@ fn within(run: &Finished, names: &[&str], from: f64, to: f64) -> Vec<Vec<f64>> {
         inside.iter().map(|k| all[*k]).collect()
     };
     names.iter().map(of).collect()
-}
-
-/// Half of a hump that starts down a plane of 15° with 1.12 m/s². Along the plane, where its flat bottom bears nothing, the water pushes
-/// with the weight that it displaces and with the inertia of what it takes along, F = −ρV (g sin θ + C a). C is 0.32 for an
-/// ellipsoid of its length, width and thickness (Lamb 1932, §114), and 0.42 for a cylinder of such a section across its way.
-#[test]
-fn the_water_holds_a_rigid_slide_with_its_buoyancy_and_0_34_of_its_inertia() {
-    let run = finished("rigid-slide-3d", &["numerics.spacing=0.08", "run.end=0.6"]);
-    // Volume of the half hump in the file, and ρ.
-    let (volume, density) = (0.003_777_f64, 1000.0);
-    let (sine, cosine) = 15.0_f64.to_radians().sin_cos();
-    // Until then the sound of the start goes up and down, 4 × 1.02 m at 20 m/s.
-    let rows = within(&run, &["time", "slide.x", "slide.z"], 0.25, 0.6);
-    let mut sum = 0.0;
-    for (k, t) in rows[0].iter().enumerate() {
-        let force = rows[1][k] * cosine - rows[2][k] * sine;
-        // The slide's law of motion, s = 2.58 m ln cosh(t/1.518 s).
-        let acceleration = 2.58 / 1.518_f64.powi(2) / (t / 1.518).cosh().powi(2);
-        sum += (-force / (density * volume) - 9.81 * sine) / acceleration;
-    }
-    let added = sum / rows[0].len() as f64;
-    println!("added mass {added} of the water displaced");
-    // The slide is 0.395 m long, which is known to half a spacing at either end.
-    let spacing = 0.08 / 0.395;
-    assert!(
-        (added - 0.32).abs() < spacing,
-        "an added mass of {added}, 0.34 was measured, an ellipsoid has 0.32"
-    );
 }
 
 /// A solitary wave of 0.1231 m over 0.315 m of water passes x = −2.5 m with √(g(h + A)), 0.352 s after its start, 0.438 m high, while
