@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
-use crate::wall_parts::{Alone, parts_on_walls};
+use crate::wall_parts::{Alone, WallPart, parts_on_walls};
 use crate::{Interaction, SharedElements, WallForce, World};
 
 /// r × f; the third component alone in two dimensions.
@@ -74,7 +74,8 @@ fn summed<const D: usize>(
     for part in parts_on_walls(world, terms, sees, alone)? {
         let mut both = [0.0; 6];
         both[..D].copy_from_slice(part.force.as_slice());
-        both[3..].copy_from_slice(&cross(&positions[part.particle as usize], &part.force));
+        let place = beside(world, &positions[part.particle as usize], &part);
+        both[3..].copy_from_slice(&cross(&place, &part.force));
         parts[part.wall as usize].push(both);
     }
     let all = parts.iter().zip(wanted).map(|(parts, wanted)| {
@@ -91,16 +92,46 @@ fn summed<const D: usize>(
     all.collect()
 }
 
+/// The image of a particle that is beside the wall on which it acts, m.
+fn beside<const D: usize>(world: &World<D>, x: &Vect<D>, part: &WallPart<D>) -> Vect<D> {
+    if !world.domain.periodic.contains(&true) {
+        return *x;
+    }
+    let (i, walls) = (part.particle as usize, &world.walls);
+    let elements = walls.contacts.of(i).elements().iter();
+    let mut of_elements = elements.filter(|s| walls.elements.wall[**s as usize] == part.wall);
+    let of_points = match world.lists.wall.is_empty() {
+        true => &[],
+        false => world.lists.wall.row(i),
+    };
+    let mut of_points = (of_points.iter()).filter(|v| walls.points.wall[**v as usize] == part.wall);
+    let seen = of_elements
+        .next()
+        .map(|s| &walls.elements.centre[*s as usize]);
+    let seen = seen.or_else(|| {
+        of_points
+            .next()
+            .map(|v| &walls.points.position[*v as usize])
+    });
+    let Some(seen) = seen else { return *x };
+    let apart = x - seen;
+    let frame = walls.frames.get(part.wall as usize);
+    let round = frame.map_or_else(Vect::zeros, |frame| frame.round);
+    x + (world.domain.nearest(apart) - apart) + round
+}
+
 /// Force and moment of the pressure on the elements of a wall.
 fn pressure_on<const D: usize>(world: &World<D>, wall: u32) -> Result<[f64; 6], StepError> {
     let elements = &world.walls.elements;
     let shared = SharedElements::of(world)?;
+    let frame = world.walls.frames.get(wall as usize);
+    let round = frame.map_or_else(Vect::zeros, |frame| frame.round);
     let counts = |s: usize| shared.as_ref().is_none_or(|shared| shared.own(s));
     let part = |s: usize| {
         let force = elements.normal[s] * (-elements.pressure[s] * elements.measure[s]);
         let mut both = [0.0; 6];
         both[..D].copy_from_slice(force.as_slice());
-        both[3..].copy_from_slice(&cross(&elements.centre[s], &force));
+        both[3..].copy_from_slice(&cross(&(elements.centre[s] + round), &force));
         both
     };
     let all = (0..elements.centre.len()).into_par_iter().with_min_len(256);

@@ -3,9 +3,11 @@
 mod courses;
 mod faces;
 mod grains;
+mod impacts;
 mod meshes;
 mod motion;
 mod plates;
+mod seams;
 mod smoothers;
 mod words;
 
@@ -21,10 +23,16 @@ impl Field {
     fn new() -> Self {
         let bench = Bench::new(env!("CARGO_BIN_EXE_sph-under-test"));
         let inputs = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/field/inputs");
-        for entry in std::fs::read_dir(inputs).expect("the inputs") {
+        let folders = [inputs.to_string(), format!("{inputs}/attack")];
+        for entry in folders
+            .iter()
+            .flat_map(|f| std::fs::read_dir(f).expect("the inputs"))
+        {
             let path = entry.expect("an input").path();
             let name = path.file_name().expect("a name");
-            std::fs::copy(&path, bench.folder().join(name)).expect("a copy");
+            if path.is_file() {
+                std::fs::copy(&path, bench.folder().join(name)).expect("a copy");
+            }
         }
         Field(bench)
     }

@@ -44,12 +44,18 @@ impl<const D: usize> Load<D> {
 ///
 /// Where two surfaces are nearer than half a spacing, each area S of one pushes the other with
 /// N = S (k δ − c u_n) ≥ 0, δ the missing distance, u_n the velocity with which they part,
-/// c = 2 ζ √(k m / ΣS), and rubs with at most μ N.
+/// c = 2 ζ √(k m / ΣS), and rubs with at most μ N. A step is taken in parts that resolve the fastest swing of a body on its
+/// contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
     /// Mass m, kg (per metre of depth in two dimensions); of two bodies m₁m₂/(m₁ + m₂) counts.
     pub mass: f64,
-    /// Stiffness k, Pa/m; of two bodies the smaller one counts.
+    /// Least inertia about its centre, kg m²; infinite if it does not turn.
+    pub inertia: f64,
+    /// Area of a face, m^(D−1): that of a box in the mean.
+    pub face: f64,
+    /// Stiffness k, Pa/m; of two bodies the smaller one counts, but on the smaller face never less than holds the weight of
+    /// all bodies within a fortieth of the spacing.
     pub stiffness: f64,
     /// Share of the velocity that is left after an impact; it gives ζ ≤ 1, so that e⁻² is the least. Of two bodies the smaller one counts.
     pub restitution: f64,

@@ -104,7 +104,8 @@ impl<const D: usize> Running<'_, D> {
         let told = self.mach.look(&balance);
         let told = told
             .into_iter()
-            .chain(self.energy.look(&balance, shown.flow.world.time));
+            .chain(self.energy.look(&balance, shown.flow.world.time))
+            .chain(self.departure.look(self.scene, &shown.flow));
         told.for_each(|told| observer.message(&told));
         if self.counters.rows == 0 {
             self.remember_start(&balance);

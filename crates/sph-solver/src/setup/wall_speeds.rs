@@ -43,6 +43,8 @@ pub fn speeds<const D: usize>(
     }
     let (end, crossing) = (scene.run.end, length / sound);
     let times = (0..SAMPLES).map(|n| end * (n as f64 + 0.5) / SAMPLES as f64);
+    let jumps = walls.iter().flat_map(|w| w.motion.steepest());
+    let times = times.chain(jumps.filter(|t| *t < end));
     let mut fastest = vec![(0.0_f64, 0.0); walls.len()];
     let [mut pressed, mut changed] = [(0.0_f64, 0.0); 2];
     let begin: Vec<f64> = walls.iter().map(|w| moving(w, 0.0, 0.0).speed).collect();
