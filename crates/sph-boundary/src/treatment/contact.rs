@@ -31,8 +31,25 @@ pub(crate) struct Near<const D: usize> {
     pub away: Vect<D>,
     /// Distance of the surfaces, m; negative where one is behind the other.
     pub height: f64,
+    /// Whether the first wall is beside a corner or an edge, so that the direction changes as it goes on.
+    pub round: bool,
     /// Area that the place stands for, m^(D−1).
     pub area: f64,
+}
+
+impl<const D: usize> Near<D> {
+    /// The first wall goes a way, m, against the second: along the plane of an element or past a corner.
+    pub fn go(&mut self, way: &Vect<D>) {
+        if !self.round {
+            self.height += way.dot(&self.away);
+            return;
+        }
+        let apart = self.away * self.height + way;
+        self.height = apart.norm();
+        if self.height > 0.0 {
+            self.away = apart / self.height;
+        }
+    }
 }
 
 /// Where a body is.
@@ -146,6 +163,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 image: self.domain.nearest(to(element.corners[0])) - to(element.corners[0]),
                 away,
                 height,
+                round: outside && away.dot(&element.normal) < 1.0 - 1e-9,
                 area: node.size * self.spacing.powi(D as i32 - 1),
             });
         }

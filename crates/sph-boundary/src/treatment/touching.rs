@@ -168,7 +168,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             states = self.after(&states, loads, [time + part * f64::from(n), part])?;
             velocity = self.closing(&states, &touching.near);
             for (near, velocity) in touching.near.iter_mut().zip(&velocity) {
-                near.height += part * velocity.dot(&near.away);
+                near.go(&(velocity * part));
             }
         }
         for (near, before) in touching.near.iter().zip(heights) {

@@ -1,4 +1,5 @@
-//! Whether walls stay in the domain: a warning while the run goes on, and no result where a body has left.
+//! Whether walls stay in the domain and go no farther in a step than they may: a warning while the run goes on, and no
+//! result where a body has left.
 
 use std::collections::BTreeSet;
 
@@ -6,14 +7,17 @@ use sph_core::{StepError, Vect};
 use sph_scene::Scene;
 
 use crate::Flow;
+use crate::step::drift::WALL_MOTION;
 
-/// The walls that were seen outside of the domain.
+/// The walls that were seen outside of the domain, or on too long a way.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DepartureWatch {
     /// Walls that reached over the border.
     over: BTreeSet<String>,
     /// The first body of which nothing is left in the domain, and when, s.
     gone: Option<(String, f64)>,
+    /// The first step that failed because a wall went too far.
+    leap: Option<String>,
 }
 
 impl DepartureWatch {
@@ -48,14 +52,28 @@ impl DepartureWatch {
         told
     }
 
+    /// Looks at why a step failed, which the run tells itself.
+    pub fn failed(&mut self, cause: &StepError) {
+        if let StepError::Stage { stage, reason } = cause
+            && stage == WALL_MOTION
+        {
+            let told = || format!("a step was taken back: {reason}");
+            self.leap.get_or_insert_with(told);
+        }
+    }
+
     /// What stands in the summary: warnings, and advice.
-    pub fn remarks(&self) -> (Vec<String>, Option<String>) {
-        let advice = "a wall leaves the domain: give `numerics.domain` the room that it needs, or find out what throws it \
-                      (the `wall-force` probe tells the force of the fluid)";
-        let some = !self.over.is_empty();
+    pub fn remarks(&self) -> (Vec<String>, Vec<String>) {
+        let room = "a wall leaves the domain: give `numerics.domain` the room that it needs, or find out what throws it \
+                    (the `wall-force` probe tells the force of the fluid)";
+        let shorter = "walls or bodies are thrown about within a step: smooth their courses and forces, or shorten the step \
+                       with `run.safety`";
+        let of = |some: bool, what: &str| some.then(|| what.to_string());
+        let warnings = self.over.iter().map(|n| out_of(n));
+        let advice = of(!self.over.is_empty(), room).into_iter();
         (
-            self.over.iter().map(|n| out_of(n)).collect(),
-            some.then(|| advice.into()),
+            warnings.chain(self.leap.clone()).collect(),
+            advice.chain(of(self.leap.is_some(), shorter)).collect(),
         )
     }
 
@@ -63,7 +81,7 @@ impl DepartureWatch {
     pub fn verdict(&self) -> Option<StepError> {
         let (name, time) = self.gone.as_ref()?;
         Some(StepError::Stage {
-            stage: "wall motion".into(),
+            stage: WALL_MOTION.into(),
             reason: format!(
                 "the body `{name}` has left the domain by t = {time:.4} s: is it thrown out by a force that is too large, \
                  or is `numerics.domain` too small?"

@@ -147,14 +147,17 @@ fn vessel<const D: usize>(
     }
 }
 
-/// The key of the course of the first wall that moves, and where its file says what it does at a time.
+/// The key of the course of the first wall that moves, and where its file, if it has one, says what it does at a time.
 fn told_at<const D: usize>(scene: &Scene, walls: &[WallSpec<D>], time: f64) -> (String, String) {
     let moving = walls.iter().find(|w| w.motion.moves());
     let name = moving.map_or("", |w| w.drawing.name());
     let place = format!("wall.{name}.motion");
     let motion = scene.wall.get(name).and_then(|w| w.motion.as_ref());
     match motion.and_then(|m| m.told_at(&place, time)) {
-        Some((key, file)) => (key, format!(" ({file})")),
+        Some((key, file)) => (
+            key,
+            file.map_or_else(String::new, |file| format!(" ({file})")),
+        ),
         None => (place, String::new()),
     }
 }
