@@ -1,6 +1,6 @@
 //! Newton's and Euler's equations over a step.
 
-use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
 use sph_boundary::{Load, RigidState};
 use sph_core::Vect;
 
@@ -67,7 +67,6 @@ impl Dynamics {
         self.hold(now, &velocity, dt, &mut matrix, &mut force);
         let acceleration = solve(matrix, force, self.free);
         let (along, about) = parts(&acceleration);
-
         let mut state = *now;
         let moved = padded(now.velocity.as_slice()) + along * dt;
         state.velocity = Vect::from_fn(|k, _| moved[k]);
@@ -127,7 +126,8 @@ impl Dynamics {
             *force -= j * (pull + dt * stiffness * rate);
         };
         if !self.holds.is_empty() {
-            let angle = Rotation3::from_matrix_unchecked(turn).scaled_axis();
+            let rotation = Rotation3::from_matrix_unchecked(turn);
+            let angle = UnitQuaternion::from_rotation_matrix(&rotation).scaled_axis();
             let way = six(shift, angle);
             for (freedom, stiffness, damping) in &self.holds {
                 let k = freedom.index();

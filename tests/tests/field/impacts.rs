@@ -172,8 +172,8 @@ fn a_body_that_leaves_the_domain_has_no_result() {
 #[test]
 fn a_body_that_goes_too_far_in_a_step_is_told_of() {
     let field = Field::new();
-    let more =
-        "--set numerics.gravity=[0,-2e5] --set run.end=0.002 --set output.series_every=0.001";
+    let more = "--set numerics.gravity=[0,-2e5] --set run.end=0.002 \
+                --set output.series_every=0.001 --set output.every=0.002 --set output.picture=[]";
     let outcome = field.run("two-boxes", more);
     assert_eq!(outcome.code, Some(0), "{}", outcome.err);
     let summary = field.summary();

@@ -35,6 +35,10 @@ fn a_body_does_not_feel_a_periodic_border() {
             "seam-body-drawn",
             "--set wall.a.mover.rigid-body.density=200 --set wall.a.mover.rigid-body.angular_velocity=[1]",
         ),
+        (
+            "seam-body-drawn",
+            "--set walls={dummy-particles={}} --set wall.a.mover.rigid-body.angular_velocity=[1]",
+        ),
         // It drifts along with 3 m/s: across the border once, and round it several times.
         ("seam-body", ""),
         (
@@ -94,23 +98,25 @@ fn a_wall_goes_through_a_periodic_border() {
     let field = Field::new();
     let towed = "--set wall.a.mover={} --set wall.a.motion.translate.along=[1,0] \
                  --set wall.a.motion.translate.speed=3 --set run.end=0.5 --set output.every=0.5";
-    let stirred = |x: f64| {
+    let stirred = |x: f64, walls: &str| {
         courses(
             &field,
             "seam-body",
-            &format!("{} {towed}", at(x, [0.6, 0.9])),
+            &format!("{} {towed} {walls}", at(x, [0.6, 0.9])),
         );
         field.summary()["kinetic_energy"]
             .as_f64()
             .expect("a number")
     };
-    let there = stirred(1.0);
-    for x in [0.0, 0.7] {
-        let here = stirred(x);
-        assert!(
-            (here / there - 1.0).abs() < 1e-6,
-            "{here} J for {there} J at {x} m"
-        );
+    for walls in ["", "--set walls={dummy-particles={}}"] {
+        let there = stirred(1.0, walls);
+        for x in [0.0, 0.7] {
+            let here = stirred(x, walls);
+            assert!(
+                (here / there - 1.0).abs() < 1e-6,
+                "{walls}: {here} J for {there} J at {x} m"
+            );
+        }
     }
 }
 
