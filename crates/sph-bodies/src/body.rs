@@ -75,8 +75,7 @@ pub struct RigidBody {
     /// Lines to places that stay: elastic ones, and chains that hang.
     #[serde(default)]
     pub line: Vec<Line>,
-    /// Share of the normal velocity that is left after it meets a wall or a body; 0.135 is the least, which is critical
-    /// damping.
+    /// Share of the normal velocity that is left after it meets a wall or a body.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1"))]
     pub restitution: f64,

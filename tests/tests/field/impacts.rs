@@ -139,6 +139,34 @@ fn heavy_bodies_stand_on_light_ones() {
     }
 }
 
+/// A contact gives back e² of the energy, whatever stands between the body and the floor; no surface goes through another.
+#[test]
+fn a_heavy_body_that_falls_on_a_light_one_bounces_as_restitution_says() {
+    let field = Field::new();
+    let fall = 0.5;
+    for (density, e) in [(100.0, 0.0), (1e3, 0.5), (1e5, 1.0)] {
+        let set = format!(
+            "--set wall.b.box=[[0.0,0.85],[0.4,1.15]] --set probe.B.at=[0.2,1.0] --set run.end=0.7 \
+             --set wall.b.mover.rigid-body.density={density} --set wall.b.mover.rigid-body.restitution={e} \
+             --set wall.a.mover.rigid-body.restitution={e} --set output.series_every=0.002"
+        );
+        done(&field, "heavy-on-light", &set);
+        let series = field.series();
+        let [time, a, b] = ["time", "A.y", "B.y"].map(|name| column(&series, name));
+        // √(2 h/g) is 0.319 s, and it is up again before 0.7 s.
+        let landed = time.iter().position(|t| *t > 0.34).expect("it lands");
+        let top = b[landed..]
+            .iter()
+            .fold(f64::NEG_INFINITY, |top, y| top.max(*y));
+        let left = ((top + fall) / fall).max(0.0).sqrt();
+        assert!((left - e).abs() < 0.02, "{density}: {left} for {e}");
+        for (a, b) in a.iter().zip(b) {
+            let missing = f64::max(-a, a - b - fall);
+            assert!(missing < 0.5 * 0.05, "{density}: {missing} m are missing");
+        }
+    }
+}
+
 #[test]
 fn a_body_that_leaves_the_domain_has_no_result() {
     let field = Field::new();

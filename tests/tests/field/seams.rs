@@ -60,6 +60,28 @@ fn a_body_does_not_feel_a_periodic_border() {
     }
 }
 
+/// In space, across all borders at once.
+#[test]
+fn a_cube_does_not_feel_periodic_borders() {
+    let field = Field::new();
+    let run = |x: f64| {
+        let [low, high] = [x - 0.3, x + 0.3];
+        let more = format!(
+            "--threads 1 --set wall.a.box=[[{low},{low},{low}],[{high},{high},{high}]] --set probe.A.at=[{x},{x},{x}]"
+        );
+        let outcome = field.run("seam-cube", &more);
+        assert_eq!(outcome.code, Some(0), "{}", outcome.err);
+        let series = field.series();
+        ["A.x", "A.y", "A.z", "A.rx", "A.ry", "A.rz"]
+            .map(|name| *series.column(name).and_then(<[f64]>::last).expect("a row"))
+    };
+    let (there, here) = (run(1.0), run(0.0));
+    assert!(there[3] > 0.02, "it turns: {there:?}");
+    for (a, b) in there.iter().zip(here) {
+        assert!((a - b).abs() < 1e-9, "{there:?} and {here:?}");
+    }
+}
+
 /// Two boxes that meet across the border do what they do in the middle.
 #[test]
 fn bodies_meet_across_a_periodic_border() {
@@ -67,7 +89,8 @@ fn bodies_meet_across_a_periodic_border() {
     let other = |x: f64| {
         format!(
             "--set wall.b.box=[[{},1.4],[{},1.6]] --set wall.b.fluid=outside \
-             --set wall.b.mover.rigid-body.density=800 --set wall.b.mover.rigid-body.restitution=0.5",
+             --set wall.b.mover.rigid-body.density=800 --set wall.b.mover.rigid-body.restitution=1 \
+             --set wall.a.mover.rigid-body.restitution=1",
             x - 0.1,
             x + 0.1
         )

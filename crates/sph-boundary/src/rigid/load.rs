@@ -43,8 +43,8 @@ impl<const D: usize> Load<D> {
 /// How a wall that its mover moves freely meets other walls.
 ///
 /// Where two surfaces are nearer than half a spacing, each area S of one pushes the other with
-/// N = S (k δ − c u_n) ≥ 0, δ the missing distance, u_n the velocity with which they part,
-/// c = 2 ζ √(k m / ΣS), and rubs with at most μ N. A step is taken in parts that resolve the fastest swing of a body on its
+/// N = S k δ, δ the missing distance, with e² of that while they part (Walton & Braun 1986), and rubs with
+/// min(μ N, 2 S √(k m / ΣS) u_t). A step is taken in parts that resolve the fastest swing of a body on its
 /// contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
@@ -57,7 +57,7 @@ pub struct Touch {
     /// Stiffness k, Pa/m; of two bodies the smaller one counts, but on the smaller face never less than holds the weight of
     /// all bodies within a fortieth of the spacing.
     pub stiffness: f64,
-    /// Share of the velocity that is left after an impact; it gives ζ ≤ 1, so that e⁻² is the least. Of two bodies the smaller one counts.
+    /// Share e of the velocity that is left after an impact. Of two bodies the smaller one counts.
     pub restitution: f64,
     /// Coefficient of friction μ; of two bodies √(μ₁μ₂) counts.
     pub friction: f64,
