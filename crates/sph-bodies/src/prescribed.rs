@@ -34,8 +34,8 @@ pub struct Prescribed {
     pub course: Vec<Vec<f64>>,
 }
 
-/// Refuses times that are not one after the other, courses that do not say all, and those that move a point of the body, at
-/// most `radius` m from its centre, faster than `sound`, m/s.
+/// Refuses times that are not one after the other, courses that do not say all, and those that move a point of the body,
+/// at most `radius` m from its centre, faster than `sound`, m/s.
 pub(crate) fn check<const D: usize>(
     all: &[Prescribed],
     start: f64,

@@ -54,8 +54,8 @@ pub struct Touch {
     pub inertia: f64,
     /// Area of a face, m^(D−1): that of a box in the mean.
     pub face: f64,
-    /// Stiffness k, Pa/m; of two bodies the smaller one counts, but on the smaller face never less than holds the weight of
-    /// all bodies within a fortieth of the spacing.
+    /// Stiffness k, Pa/m; of two bodies the smaller one counts, but on the smaller face never less than holds the weight
+    /// of all bodies within a fortieth of the spacing.
     pub stiffness: f64,
     /// Share e of the velocity that is left after an impact. Of two bodies the smaller one counts.
     pub restitution: f64,

@@ -44,8 +44,8 @@ impl Law {
         }
     }
 
-    /// The force on the first of a pair, N, from an area that is one of `all` at which the pair touches; `missing` m of the gap,
-    /// at a velocity against the second.
+    /// The force on the first of a pair, N, from an area that is one of `all` at which the pair touches; `missing` m of
+    /// the gap, at a velocity against the second.
     pub fn force<const D: usize>(
         &self,
         away: &Vect<D>,
@@ -71,8 +71,8 @@ impl Law {
 mod tests {
     use super::*;
 
-    /// By small steps: the share that is left is the one that was asked for, also of a body far heavier than the one whose
-    /// contact it is.
+    /// By small steps: the share that is left is the one that was asked for, also of a body far heavier than that
+    /// whose contact it is.
     #[test]
     fn an_impact_leaves_the_share_that_was_asked_for() {
         for (restitution, mass) in [(1.0, 1.0), (0.5, 1.0), (0.2, 1e4), (0.0, 1e4)] {

@@ -76,8 +76,8 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
     }
 }
 
-/// What stopping particles over `dt` did to the walls of movers, each with all its pieces: the same on all ranks, however many
-/// have a part of the particles.
+/// What stopping particles over `dt` did to the walls of movers, each with all its pieces: the same on all ranks,
+/// however many have a part of the particles.
 fn blows<const D: usize, M: WallMesh<D>>(
     outline: &Outline<D, M>,
     world: &World<D>,
@@ -116,7 +116,8 @@ fn blows<const D: usize, M: WallMesh<D>>(
     each.iter().enumerate().map(whole).collect()
 }
 
-/// The velocity of a particle that walls have stopped, and what each of them did to it, m/s, with the whole periods to it.
+/// The velocity of a particle that walls have stopped, and what each of them did to it, m/s, with the whole periods
+/// to the wall.
 struct Corrected<const D: usize> {
     velocity: Vect<D>,
     pushes: Vec<(usize, Vect<D>, Vect<D>)>,

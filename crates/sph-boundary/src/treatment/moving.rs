@@ -7,7 +7,7 @@ use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::outline::{Outline, is_piece};
 use crate::{BoundaryError, Load, RigidState, WallSpec, WallStates};
 
-/// The longest way of any point of a wall within a step, over the spacing: farther, it would leap over what is before it.
+/// The longest way of any point of a wall within a step, over the spacing: farther, it would leap over particles.
 const MOST_WAY: f64 = 0.5;
 
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {

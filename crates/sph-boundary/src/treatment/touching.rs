@@ -13,7 +13,7 @@ use crate::{BoundaryError, Load, RigidState, Touch};
 
 /// Both surfaces of a pair are looked at from the other.
 const SHARE: f64 = 0.5;
-/// Parts per radian of the fastest swing of a body on its contacts: an impact is then right to (1/10)²/8.
+/// Parts per radian of the fastest swing of a body on its contacts: an impact is then right to (1/10)²/8 of its energy.
 const PARTS: f64 = 10.0;
 /// Most parts of a step.
 const MOST_PARTS: f64 = 20_000.0;
@@ -45,8 +45,8 @@ impl<const D: usize> Touching<D> {
         parts.min(MOST_PARTS) as u32
     }
 
-    /// What the walls do to each other, by the first of the walls that move together; `velocity` is that of the first of a pair
-    /// against the second.
+    /// What the walls do to each other, by the first of the walls that move together; `velocity` is that of the first of
+    /// a pair against the second.
     fn forces(&self, velocity: &[Vect<D>], forces: &mut [WallForce<D>]) {
         forces.fill(WallForce::zero());
         let missing = |n: usize| self.gap - self.near[n].height;

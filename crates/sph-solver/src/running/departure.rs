@@ -64,10 +64,10 @@ impl DepartureWatch {
 
     /// What stands in the summary: warnings, and advice.
     pub fn remarks(&self) -> (Vec<String>, Vec<String>) {
-        let room = "a wall leaves the domain: give `numerics.domain` the room that it needs, or find out what throws it \
+        let room = "a wall leaves the domain: give `numerics.domain` the room that it needs, or find what throws it \
                     (the `wall-force` probe tells the force of the fluid)";
-        let shorter = "walls or bodies are thrown about within a step: smooth their courses and forces, or shorten the step \
-                       with `run.safety`";
+        let shorter = "walls or bodies are thrown about within a step: smooth their courses and forces, or shorten the \
+                       step with `run.safety`";
         let of = |some: bool, what: &str| some.then(|| what.to_string());
         let warnings = self.over.iter().map(|n| out_of(n));
         let advice = of(!self.over.is_empty(), room).into_iter();
@@ -83,8 +83,8 @@ impl DepartureWatch {
         Some(StepError::Stage {
             stage: WALL_MOTION.into(),
             reason: format!(
-                "the body `{name}` has left the domain by t = {time:.4} s: is it thrown out by a force that is too large, \
-                 or is `numerics.domain` too small?"
+                "the body `{name}` has left the domain by t = {time:.4} s: is it thrown out by a force that is too \
+                 large, or is `numerics.domain` too small?"
             ),
         })
     }

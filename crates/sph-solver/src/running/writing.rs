@@ -105,7 +105,7 @@ impl<const D: usize> Running<'_, D> {
         let told = told
             .into_iter()
             .chain(self.energy.look(&balance, shown.flow.world.time))
-            .chain(self.departure.look(self.scene, &shown.flow));
+            .chain(self.departure.look(self.scene, &self.parts.flow));
         told.for_each(|told| observer.message(&told));
         if self.counters.rows == 0 {
             self.remember_start(&balance);
