@@ -20,6 +20,9 @@ use crate::six::padded;
 /// Least density of a body over that of the lightest fluid: that of air over water's.
 const LIGHTEST: f64 = 1.2e-3;
 
+/// Speed that a contact stops within half a spacing, over the largest speed of sound.
+const FASTEST: f64 = 10.0;
+
 /// A rigid body that floats, sinks and turns: Newton's and Euler's equations with the force of the fluid.
 ///
 /// The force is the reaction to what the wall does to the particles, so that momentum is conserved to rounding. Mass and
@@ -72,8 +75,7 @@ pub struct RigidBody {
     /// Lines to places that stay: elastic ones, and chains that hang.
     #[serde(default)]
     pub line: Vec<Line>,
-    /// Share of the normal velocity that is left after it meets a wall or a body; 0.135 is the least, which is critical
-    /// damping.
+    /// Share of the normal velocity that is left after it meets a wall or a body.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1"))]
     pub restitution: f64,
@@ -200,34 +202,39 @@ impl RigidBody {
             .collect()
     }
 
-    /// Penalty of contact: as stiff as the fluid in the gap, but never so stiff that an explicit step is too long for it.
+    /// Penalty of contact: a face of the body stops ten times the speed of sound within half a spacing.
     fn touch_of<const D: usize>(
         &self,
         setting: &MoverSetting<'_, D>,
-        mass: f64,
+        dynamics: &Dynamics,
         surface: f64,
     ) -> Touch {
-        let [_, heaviest] = setting.densities;
-        let (sound, spacing) = (setting.sound_speed, setting.spacing);
-        let fluid = heaviest * sound * sound / (0.5 * spacing);
-        let slowest = mass * (0.6 * sound / spacing).powi(2) / (0.5 * surface);
+        let (mass, face) = (dynamics.mass, surface / (2.0 * D as f64));
+        let fastest = FASTEST * setting.sound_speed / (0.5 * setting.spacing);
         Touch {
             mass,
-            stiffness: fluid.min(slowest),
+            inertia: match dynamics.free[3..] {
+                [false, false, false] => f64::INFINITY,
+                _ if D == 2 => dynamics.inertia[(2, 2)],
+                _ => dynamics.inertia.symmetric_eigenvalues().min(),
+            },
+            face,
+            stiffness: mass * fastest.powi(2) / face,
             restitution: self.restitution,
             friction: self.friction,
         }
     }
 }
 
+fn corners(drawing: &Drawing) -> Vec<Vector3<f64>> {
+    match drawing {
+        Drawing::Line(line) => line.points.iter().map(|p| padded(p)).collect(),
+        Drawing::Surface(surface) => surface.points.iter().map(|p| padded(p)).collect(),
+    }
+}
+
 /// Refuses a body that holds a corner of another wall, or has one in it.
 fn apart<const D: usize>(setting: &MoverSetting<'_, D>) -> Settled<()> {
-    let corners = |drawing: &Drawing| -> Vec<Vector3<f64>> {
-        match drawing {
-            Drawing::Line(line) => line.points.iter().map(|p| padded(p)).collect(),
-            Drawing::Surface(surface) => surface.points.iter().map(|p| padded(p)).collect(),
-        }
-    };
     let own = || setting.pieces();
     for other in setting.others() {
         let holds = corners(other).into_iter().any(|x| winding(own(), x) > 0.75);
@@ -288,7 +295,13 @@ impl<const D: usize> Mover<D> for RigidBody {
         apart(setting)?;
         let free = self.freedoms::<D>()?;
         let lines = self.moorings(setting)?;
-        prescribed::check::<D>(&self.prescribed, self.start)?;
+        let centre = weighed.centre;
+        let far = setting
+            .pieces()
+            .flat_map(corners)
+            .map(|x| (x - centre).norm());
+        let bounds = [far.fold(0.0, f64::max), setting.sound_speed];
+        prescribed::check::<D>(&self.prescribed, self.start, bounds)?;
         vector::<D>("velocity", &self.velocity)?;
         let turns = if D == 2 { 1 } else { 3 };
         if let Some(given) = self.angular_velocity.as_ref().filter(|g| g.len() != turns) {
@@ -311,7 +324,8 @@ impl<const D: usize> Mover<D> for RigidBody {
             start: self.start,
             prescribed: self.prescribed.clone(),
         };
-        self.settled = Some((dynamics, self.touch_of(setting, weighed.mass, surface)));
+        let touch = self.touch_of(setting, &dynamics, surface);
+        self.settled = Some((dynamics, touch));
         Ok(())
     }
 

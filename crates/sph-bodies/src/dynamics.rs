@@ -67,7 +67,6 @@ impl Dynamics {
         self.hold(now, &velocity, dt, &mut matrix, &mut force);
         let acceleration = solve(matrix, force, self.free);
         let (along, about) = parts(&acceleration);
-
         let mut state = *now;
         let moved = padded(now.velocity.as_slice()) + along * dt;
         state.velocity = Vect::from_fn(|k, _| moved[k]);
@@ -127,9 +126,8 @@ impl Dynamics {
             *force -= j * (pull + dt * stiffness * rate);
         };
         if !self.holds.is_empty() {
-            // The axis of a matrix is not a number where rounding makes its trace more than 3.
-            let turn = Rotation3::from_matrix_unchecked(turn);
-            let angle = UnitQuaternion::from_rotation_matrix(&turn).scaled_axis();
+            let rotation = Rotation3::from_matrix_unchecked(turn);
+            let angle = UnitQuaternion::from_rotation_matrix(&rotation).scaled_axis();
             let way = six(shift, angle);
             for (freedom, stiffness, damping) in &self.holds {
                 let k = freedom.index();

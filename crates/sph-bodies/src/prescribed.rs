@@ -34,8 +34,13 @@ pub struct Prescribed {
     pub course: Vec<Vec<f64>>,
 }
 
-/// Refuses times that are not one after the other, and courses that do not say all.
-pub(crate) fn check<const D: usize>(all: &[Prescribed], start: f64) -> Result<(), MoverRefusal> {
+/// Refuses times that are not one after the other, courses that do not say all, and those that move a point of the body,
+/// at most `radius` m from its centre, faster than `sound`, m/s.
+pub(crate) fn check<const D: usize>(
+    all: &[Prescribed],
+    start: f64,
+    [radius, sound]: [f64; 2],
+) -> Result<(), MoverRefusal> {
     let columns = if D == 2 { 4 } else { 7 };
     let mut before = start;
     for (k, one) in all.iter().enumerate() {
@@ -72,6 +77,15 @@ pub(crate) fn check<const D: usize>(all: &[Prescribed], start: f64) -> Result<()
                 "course",
                 format!("row {row} has a number that is not finite"),
             );
+        }
+        let size = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let speed = |row: &Vec<f64>| size(&row[1..=D]) + radius * size(&row[D + 1..]);
+        if let Some(row) = one.course.iter().position(|row| speed(row) >= sound) {
+            let why = format!(
+                "row {row} moves the body with {:.3e} m/s, faster than sound, {sound:.3} m/s",
+                speed(&one.course[row])
+            );
+            return refused("course", why);
         }
         if let Some(row) = (1..one.course.len()).find(|j| one.course[*j][0] <= one.course[j - 1][0])
         {
@@ -190,7 +204,7 @@ mod tests {
 
     #[test]
     fn what_is_not_in_order_is_refused_with_its_key() {
-        let why = |all: &[Prescribed]| match check::<2>(all, 0.5) {
+        let why = |all: &[Prescribed]| match check::<2>(all, 0.5, [1.0, 1500.0]) {
             Ok(()) => String::new(),
             Err(MoverRefusal { key, why }) => format!("{key}: {why}"),
         };

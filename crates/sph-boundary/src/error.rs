@@ -10,6 +10,29 @@ use crate::limits::{MOST_PAIRS, MOST_PERIODS};
 /// A refused wall, motion or kernel. Lengths are in metres, edges and points count from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BoundaryError {
+    /// A wall that goes so far within a step that it would leap over particles and walls.
+    #[error(
+        "wall `{wall}` moves by {way:.3e} m in one step, and {most:.3e} m, half a spacing, is the most"
+    )]
+    Leap {
+        /// Name of the wall.
+        wall: String,
+        /// Way of one of its points, m.
+        way: f64,
+        /// The longest way, m.
+        most: f64,
+    },
+    /// Walls that meet too fast, or under too heavy a load.
+    #[error(
+        "wall `{wall}` goes through wall `{other}`: it is too fast or too heavy for a contact as stiff as the speed of \
+         sound allows; raise `speed_of_sound`"
+    )]
+    Through {
+        /// Name of the wall.
+        wall: String,
+        /// Name of the other.
+        other: String,
+    },
     /// A polyline without an edge.
     #[error("wall `{wall}` has {count} point(s), at least two are needed")]
     TooFewPoints {

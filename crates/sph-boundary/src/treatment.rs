@@ -1,6 +1,7 @@
 //! How the fluid meets the walls: the contract of a treatment, and the two that there are.
 
 pub(crate) mod contact;
+pub(crate) mod contact_law;
 pub(crate) mod contract;
 pub(crate) mod dummy;
 pub(crate) mod far_sight;
@@ -11,5 +12,6 @@ pub(crate) mod near;
 pub(crate) mod outline;
 pub(crate) mod plates;
 pub(crate) mod shepard;
+pub(crate) mod touching;
 pub(crate) mod unveiling;
 pub(crate) mod usaw;

@@ -4,7 +4,8 @@
 //!   limits. The solver asks all of them for all of it and knows none by name.
 //! * [`StepWork`]: what it does with velocities, positions and columns of its own between the evaluations, and [`Newborn`] particles.
 //! * [`OwnColumn`]: a column that carries history. The store sorts, saves, keeps and rolls it back by its role.
-//! * [`Limiter`]: a bound on the step; [`SoundLimit`] and [`ForceLimit`] are in every scene.
+//! * [`Limiter`]: a bound on the step; [`SoundLimit`] and [`ForceLimit`] are in every scene, [`MotionLimit`] where
+//!   walls move.
 //! * [`contribution_kind!`] declares a kind: scenes may name its plugins, `sph plugins` and the schema list them.
 //!
 //! What a contribution remembers from step to step belongs into its columns, not into its own fields: only
@@ -26,7 +27,7 @@ pub use contribution::{Contribution, Setting};
 pub use even_out::even_out;
 pub use kinds::{OpenKind, open_kinds};
 pub use limiter::Limiter;
-pub use limits::{ForceLimit, SoundLimit};
+pub use limits::{ForceLimit, MotionLimit, SoundLimit};
 pub use newborn::Newborn;
 pub use refusal::Refusal;
 pub use step_work::{Forces, OutsideForce, StepWork, StoredEnergy};

@@ -72,6 +72,25 @@ impl<const D: usize> Limiter<D> for ForceLimit {
     }
 }
 
+/// Δt ≤ C δr / |u| with the fastest point of any wall, so that walls leap over neither particles nor walls.
+pub struct MotionLimit {
+    /// C.
+    pub share: f64,
+}
+
+impl<const D: usize> Limiter<D> for MotionLimit {
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+        let fastest = largest(&world.walls.points.velocity, |u| u.norm_squared()).sqrt();
+        Ok(StepLimit::new(
+            "motion",
+            self.share * world.spacing / fastest,
+        ))
+    }
+    fn formula(&self) -> String {
+        format!("motion: dt <= {} spacing / |u_wall|", self.share)
+    }
+}
+
 /// The largest value of a column; a value that is not a number counts as infinite.
 fn largest<T: Sync>(column: &[T], value: impl Fn(&T) -> f64 + Sync) -> f64 {
     let all = column.par_iter().with_min_len(1024).map(|x| {

@@ -51,6 +51,15 @@ impl<const D: usize> Domain<D> {
         d
     }
 
+    /// The same of any displacement, however many periods it has.
+    pub fn nearest(&self, mut d: Vect<D>) -> Vect<D> {
+        for axis in (0..D).filter(|axis| self.periodic[*axis]) {
+            let length = self.length(axis);
+            d[axis] -= (d[axis] / length).round() * length;
+        }
+        d
+    }
+
     /// [`Domain::nearest_image`] in all lanes.
     #[inline(always)]
     pub(crate) fn nearest_images<L: Lane>(&self, mut d: [L; D]) -> [L; D] {

@@ -41,16 +41,29 @@ pub fn facing_forces<const D: usize>(
     let elements = &world.walls.elements;
     let shared = SharedElements::of(world)?;
     let own = |s: usize| shared.as_ref().is_none_or(|shared| shared.own(s));
-    let part = |s: usize, t: usize, [to_t, to_s]: [f64; 2]| {
-        let known = |e: usize| if own(e) { elements.pressure[e] } else { 0.0 };
-        let half = -0.5 * (known(s) + known(t));
+    // Periods that a wall has gone.
+    let round = |wall: u32| {
+        let frame = world.walls.frames.get(wall as usize);
+        frame.map_or_else(Vect::zeros, |frame| frame.round)
+    };
+    // Of the pressure of one of the two, which one rank knows.
+    let part = |facing: &Facing, pressure: f64| {
+        let ([s, t], [to_t, to_s]) = (facing.pair, facing.parts);
+        let half = -0.5 * pressure;
         let on = |e: usize, share: f64| elements.normal[e] * (half * elements.measure[e] * share);
         let (on_s, on_t) = (on(s, to_t), on(t, -to_s));
-        let [first, second] = [(s, on_s), (t, on_t)].map(|(e, f)| cross(&elements.centre[e], &f));
+        let at_s = elements.centre[s] + round(elements.wall[s]);
+        let apart = elements.centre[s] - elements.centre[t];
+        let at_t = at_s - world.domain.nearest_image(apart);
+        let [first, second] = [(at_s, on_s), (at_t, on_t)].map(|(x, f)| cross(&x, &f));
         let mut both = [0.0; 6];
         both[..D].copy_from_slice((on_s + on_t).as_slice());
         (0..3).for_each(|k| both[3 + k] = first[k] + second[k]);
         both
+    };
+    let parts = |facing: &Facing| {
+        let known = facing.pair.map(|e| own(e).then_some(elements.pressure[e]));
+        known.map(|p| p.map(|p| part(facing, p)))
     };
     for (wall, force) in forces.iter_mut().enumerate() {
         let of_wall = |pair: &&Facing| elements.wall[pair.pair[0]] as usize == wall;
@@ -58,7 +71,7 @@ pub fn facing_forces<const D: usize>(
             continue;
         }
         let all = || pairs.par_iter().with_min_len(256).filter(of_wall);
-        let sums = world.sums_of(|| all().map(|f| part(f.pair[0], f.pair[1], f.parts)))?;
+        let sums = world.sums_of(|| all().flat_map_iter(|f| parts(f).into_iter().flatten()))?;
         force.force = Vect::from_fn(|k, _| sums[k]);
         force.moment = [sums[3], sums[4], sums[5]];
     }

@@ -196,7 +196,14 @@ impl<const D: usize> CellGrid<D> {
     }
 
     fn coordinate(&self, x: &Vect<D>, axis: usize) -> usize {
-        let c = (x[axis] - self.lower[axis]) * self.inverse_width[axis];
+        let (mut c, n) = (
+            (x[axis] - self.lower[axis]) * self.inverse_width[axis],
+            self.all[axis] as f64,
+        );
+        // Walls may lie across a periodic border; a rounding beyond it counts as within.
+        if self.periodic[axis] && (c < 0.0 || c > n * (1.0 + 1e-12)) {
+            c = c.rem_euclid(n);
+        }
         // A negative or non-finite value casts to 0, a large one is clamped.
         let cell = (c as usize).min(self.all[axis] - 1);
         cell.saturating_sub(self.first[axis])
@@ -264,7 +271,7 @@ impl<const D: usize> CellGrid<D> {
                 (0, 0),
             ];
         }
-        if high - low + 2 * reach + 1 >= n {
+        if high < low || high - low + 2 * reach + 1 >= n {
             return [(0, n), (0, 0)];
         }
         if low < reach {

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
 use crate::facing::facing_forces;
-use crate::{Interaction, SharedElements, WallForce, World, wall_parts};
+use crate::{Interaction, SharedElements, WallForce, WallPart, World, wall_parts};
 
 /// r × f; the third component alone in two dimensions.
 pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
@@ -69,7 +69,8 @@ pub fn reactions<const D: usize>(
     for part in wall_parts(world, terms, sees)? {
         let mut both = [0.0; 6];
         both[..D].copy_from_slice(part.force.as_slice());
-        both[3..].copy_from_slice(&cross(&positions[part.particle as usize], &part.force));
+        let place = beside(world, &positions[part.particle as usize], &part);
+        both[3..].copy_from_slice(&cross(&place, &part.force));
         parts[part.wall as usize].push(both);
     }
     let all = parts.iter().zip(wanted).map(|(parts, wanted)| {
@@ -86,16 +87,46 @@ pub fn reactions<const D: usize>(
     all.collect()
 }
 
+/// The image of a particle that is beside the wall on which it acts, m.
+fn beside<const D: usize>(world: &World<D>, x: &Vect<D>, part: &WallPart<D>) -> Vect<D> {
+    if !world.domain.periodic.contains(&true) {
+        return *x;
+    }
+    let (i, walls) = (part.particle as usize, &world.walls);
+    let elements = walls.contacts.of(i).elements().iter();
+    let mut of_elements = elements.filter(|s| walls.elements.wall[**s as usize] == part.wall);
+    let of_points = match world.lists.wall.is_empty() {
+        true => &[],
+        false => world.lists.wall.row(i),
+    };
+    let mut of_points = (of_points.iter()).filter(|v| walls.points.wall[**v as usize] == part.wall);
+    let seen = of_elements
+        .next()
+        .map(|s| &walls.elements.centre[*s as usize]);
+    let seen = seen.or_else(|| {
+        of_points
+            .next()
+            .map(|v| &walls.points.position[*v as usize])
+    });
+    let Some(seen) = seen else { return *x };
+    let apart = x - seen;
+    let frame = walls.frames.get(part.wall as usize);
+    let round = frame.map_or_else(Vect::zeros, |frame| frame.round);
+    x + (world.domain.nearest(apart) - apart) + round
+}
+
 /// Force and moment of the pressure on the elements of a wall.
 fn pressure_on<const D: usize>(world: &World<D>, wall: u32) -> Result<[f64; 6], StepError> {
     let elements = &world.walls.elements;
     let shared = SharedElements::of(world)?;
+    let frame = world.walls.frames.get(wall as usize);
+    let round = frame.map_or_else(Vect::zeros, |frame| frame.round);
     let counts = |s: usize| shared.as_ref().is_none_or(|shared| shared.own(s));
     let part = |s: usize| {
         let force = elements.normal[s] * (-elements.pressure[s] * elements.measure[s]);
         let mut both = [0.0; 6];
         both[..D].copy_from_slice(force.as_slice());
-        both[3..].copy_from_slice(&cross(&elements.centre[s], &force));
+        both[3..].copy_from_slice(&cross(&(elements.centre[s] + round), &force));
         both
     };
     let all = (0..elements.centre.len()).into_par_iter().with_min_len(256);

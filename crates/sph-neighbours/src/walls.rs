@@ -110,6 +110,8 @@ pub struct Frame<const D: usize> {
     pub rotation: [[f64; D]; D],
     /// b, m.
     pub offset: Vect<D>,
+    /// Whole periods by which the wall is farther than its points and elements, which stay in the box, m.
+    pub round: Vect<D>,
 }
 
 impl<const D: usize> Frame<D> {

@@ -5,6 +5,7 @@ pub(crate) mod checkpoint;
 pub(crate) mod clock;
 pub(crate) mod counters;
 pub(crate) mod course;
+pub(crate) mod departure;
 pub(crate) mod drawn_flow;
 pub(crate) mod driver;
 pub(crate) mod edges;

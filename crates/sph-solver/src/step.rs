@@ -6,7 +6,7 @@ pub(crate) mod books;
 pub(crate) mod clocks;
 pub(crate) mod cost;
 pub(crate) mod declared;
-mod drift;
+pub(crate) mod drift;
 pub(crate) mod flow;
 pub(crate) mod going_back;
 pub(crate) mod guard;

@@ -4,9 +4,11 @@ mod buoyancy;
 mod courses;
 mod faces;
 mod grains;
+mod impacts;
 mod meshes;
 mod motion;
 mod plates;
+mod seams;
 mod smoothers;
 mod words;
 

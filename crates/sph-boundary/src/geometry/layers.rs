@@ -21,7 +21,7 @@ pub(crate) fn layers(
     [spacing, support]: [f64; 2],
 ) -> Vec<(usize, Vect<2>)> {
     let rows = (support / spacing - 1e-9).ceil() as usize;
-    let mut kept: Vec<(usize, Vect<2>)> = Vec::new();
+    let (mut kept, mut places) = (Vec::<(usize, Vect<2>)>::new(), Vec::new());
     let mut cells = std::collections::HashMap::<(i64, i64), Vec<usize>>::new();
     let cell = |p: [f64; 2]| {
         let index = |x: f64| (x / spacing).floor() as i64;
@@ -47,7 +47,7 @@ pub(crate) fn layers(
                 let along = segment.length * 0.5 + k as f64 * spacing;
                 let p = [0, 1].map(|a| start[a] + tangent[a] * along - segment.normal[a] * depth);
                 let beyond = k != 0;
-                if !inside_period(p) || walls.contains(&p.into()) {
+                if walls.contains(&p.into()) {
                     continue;
                 }
                 let clearance = walls.nearest(&p.into(), depth);
@@ -58,19 +58,25 @@ pub(crate) fn layers(
                 if beyond && walls.nearest(&p.into(), depth * (1.0 + 1e-6)).is_some() {
                     continue;
                 }
-                let (cx, cy) = cell(p);
+                // A wall may lie across a periodic border; what closes through it has a place there already.
+                let seen = match inside_period(p) {
+                    true => p,
+                    false => domain.wrapped(p),
+                };
+                let (cx, cy) = cell(seen);
                 let taken = (-1..=1).any(|dx| {
                     (-1..=1).any(|dy| {
                         cells.get(&(cx + dx, cy + dy)).is_some_and(|list| {
                             list.iter().any(|&i: &usize| {
-                                let q = kept[i].1;
-                                (p[0] - q[0]).hypot(p[1] - q[1]) < TOO_CLOSE * spacing
+                                let q: [f64; 2] = places[i];
+                                (seen[0] - q[0]).hypot(seen[1] - q[1]) < TOO_CLOSE * spacing
                             })
                         })
                     })
                 });
                 if !taken {
                     cells.entry((cx, cy)).or_default().push(kept.len());
+                    places.push(seen);
                     kept.push((wall_of[segment.wall], p.into()));
                 }
             }

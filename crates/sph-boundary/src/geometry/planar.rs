@@ -76,6 +76,7 @@ impl PlanarWalls {
             only_if: None,
             wall: self.wall_of[segment.wall],
             place: x + nearest,
+            image: self.mesh.domain().shift(near.image).into(),
         };
         if (0.0..=1.0).contains(&share) {
             return Some(plane);

@@ -241,6 +241,7 @@ impl WallMesh<3> for SpatialWalls {
                 only_if: None,
                 wall: self.mesh.triangles()[near.triangle as usize].wall,
                 place: point + offset,
+                image: self.domain.shift(near.image.map(i32::from)).into(),
             });
         }
     }

@@ -47,8 +47,10 @@ pub struct Hindrance<const D: usize> {
     pub only_if: Option<(Vect<D>, f64)>,
     /// Index of the wall.
     pub wall: usize,
-    /// The nearest place of the wall, m.
+    /// The nearest place of the wall, as near as it is seen, m.
     pub place: Vect<D>,
+    /// Whole periods from the wall to what is seen of it, m.
+    pub image: Vect<D>,
 }
 
 /// The walls of a scene as a mesh of elements of about the particle spacing.

@@ -107,6 +107,16 @@ impl Course {
         }
     }
 
+    /// The middle of the steepest interval of a table, s; none of other courses, which have no jumps.
+    pub fn steepest(&self) -> Option<f64> {
+        let Self::Table { rows } = self else {
+            return None;
+        };
+        let slope = |w: &[[f64; 2]]| ((w[1][1] - w[0][1]) / (w[1][0] - w[0][0])).abs();
+        let steepest = rows.windows(2).max_by(|a, b| slope(a).total_cmp(&slope(b)));
+        steepest.map(|w| 0.5 * (w[0][0] + w[1][0]))
+    }
+
     /// Value and derivatives at a time ≥ 0.
     pub fn at(&self, t: f64) -> Stage {
         match self {

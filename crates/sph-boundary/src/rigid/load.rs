@@ -43,15 +43,21 @@ impl<const D: usize> Load<D> {
 /// How a wall that its mover moves freely meets other walls.
 ///
 /// Where two surfaces are nearer than a spacing, or than they were drawn, each area S of one pushes the other with
-/// N = S (k δ − c u_n) ≥ 0, δ the missing distance, u_n the velocity with which they part,
-/// c = 2 ζ √(k m / ΣS), and rubs with at most μ N.
+/// N = S k δ, δ the missing distance, with e² of that while they part (Walton & Braun 1986), and rubs with
+/// min(μ N, 2 S √(k m / ΣS) u_t). A step is taken in parts that resolve the fastest swing of a body on its
+/// contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
     /// Mass m, kg (per metre of depth in two dimensions); of two bodies m₁m₂/(m₁ + m₂) counts.
     pub mass: f64,
-    /// Stiffness k, Pa/m; of two bodies the smaller one counts.
+    /// Least inertia about its centre, kg m²; infinite if it does not turn.
+    pub inertia: f64,
+    /// Area of a face, m^(D−1): that of a box in the mean.
+    pub face: f64,
+    /// Stiffness k, Pa/m; of two bodies the smaller one counts, but on the smaller face never less than holds the weight
+    /// of all bodies within a fortieth of the spacing.
     pub stiffness: f64,
-    /// Share of the velocity that is left after an impact; it gives ζ ≤ 1, so that e⁻² is the least. Of two bodies the smaller one counts.
+    /// Share e of the velocity that is left after an impact. Of two bodies the smaller one counts.
     pub restitution: f64,
     /// Coefficient of friction μ; of two bodies √(μ₁μ₂) counts.
     pub friction: f64,

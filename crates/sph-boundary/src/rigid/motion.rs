@@ -74,6 +74,13 @@ impl<const D: usize> RigidMotion<D> {
             || self.bend.is_some()
     }
 
+    /// The middle of the steepest interval of every table, s.
+    pub fn steepest(&self) -> impl Iterator<Item = f64> {
+        let all = self.translations.iter().map(|t| &t.course);
+        let all = all.chain(self.rotation.iter().map(|r| &r.course));
+        all.filter_map(|course| Some(self.start + course.steepest()?))
+    }
+
     /// Whether all its numbers are finite and its courses sound.
     pub fn is_sound(&self) -> bool {
         let finite = |v: &[f64]| v.iter().all(|x| x.is_finite());

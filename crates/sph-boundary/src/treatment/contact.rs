@@ -1,9 +1,9 @@
-//! Walls that meet: a penalty on the distance between their surfaces.
+//! Where walls are near each other: pieces of surfaces and their distances.
 
 use std::collections::BTreeMap;
 
 use sph_core::Vect;
-use sph_neighbours::{Domain, WallForce, cross};
+use sph_neighbours::Domain;
 
 use crate::geometry::wall_mesh::{MeshElement, MeshPoint, WallMesh};
 use crate::treatment::outline::Outline;
@@ -17,23 +17,47 @@ const GAP: f64 = 1.0;
 const LEAST_GAP: f64 = 0.5;
 
 /// How deep a place may be behind a surface to be pushed out of it, over the spacing.
-const DEPTH: f64 = 1.0;
+pub(crate) const DEPTH: f64 = 1.0;
 
-/// Both surfaces of a pair are looked at from the other.
-const SHARE: f64 = 0.5;
+/// How near surfaces are looked at, over the spacing: those that meet within a step, in which no wall goes farther than
+/// half a spacing.
+const REACH: f64 = GAP + 1.0;
 
 /// A piece of a surface near another one.
-struct Near<const D: usize> {
-    /// Who is pushed along `away`, and who against it: groups of walls.
-    pair: [usize; 2],
-    place: Vect<D>,
-    away: Vect<D>,
-    /// Distance that is missing to the gap, m.
-    missing: f64,
+pub(crate) struct Near<const D: usize> {
+    /// Which is pushed along `away`, and which against it: groups of walls.
+    pub pair: [usize; 2],
+    /// The walls themselves.
+    pub walls: [usize; 2],
+    pub place: Vect<D>,
+    /// Whole periods from the second wall to what the first one sees of it, m.
+    pub image: Vect<D>,
+    pub away: Vect<D>,
+    /// Distance of the surfaces, m; negative where one is behind the other.
+    pub height: f64,
+    /// Whether the first wall is beside a corner or an edge, so that the direction changes as it goes on.
+    pub round: bool,
     /// Area that the place stands for, m^(D−1).
-    area: f64,
-    /// Velocity of the first against the second there, m/s.
-    velocity: Vect<D>,
+    pub area: f64,
+}
+
+impl<const D: usize> Near<D> {
+    /// The first wall goes a way, m, against the second: along the plane of an element or past a corner.
+    pub fn go(&mut self, way: &Vect<D>) {
+        if !self.round {
+            self.height += way.dot(&self.away);
+            return;
+        }
+        let apart = self.away * self.height + way;
+        self.height = apart.norm();
+        if self.height > 0.0 {
+            self.away = apart / self.height;
+        }
+    }
+}
+
+fn ordered([a, b]: [usize; 2]) -> [usize; 2] {
+    [a.min(b), a.max(b)]
 }
 
 /// Where a body is.
@@ -63,60 +87,41 @@ impl<const D: usize> Extent<D> {
 
     /// Whether a ball may reach into it.
     fn sees(&self, x: &Vect<D>, radius: f64, domain: &Domain<D>) -> bool {
-        let apart = domain.nearest_image(x - self.centre());
+        let apart = domain.nearest(x - self.centre());
         let half = (self.high - self.low) * 0.5;
         (0..D).all(|k| apart[k].abs() <= half[k] + radius)
     }
 }
 
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
-    /// What walls that touch do to each other, by the first of the walls that move together; empty if no mover asks.
-    pub fn contacts(&self) -> Vec<WallForce<D>> {
-        let touches = self.touches();
-        if touches.iter().all(Option::is_none) {
-            return Vec::new();
-        }
-        let near = self.near_pairs(&touches);
-        let mut areas = BTreeMap::<[usize; 2], f64>::new();
-        for n in &near {
-            *areas.entry(ordered(n.pair)).or_default() += SHARE * n.area;
-        }
-        let mut forces = vec![WallForce::zero(); self.specs.len()];
-        for n in &near {
-            let law = Law::of(n.pair.map(|k| touches[k]), areas[&ordered(n.pair)]);
-            let force = law.force(n);
-            for (k, force) in n.pair.into_iter().zip([force, -force]) {
-                forces[k].add(&WallForce {
-                    force,
-                    moment: cross(&n.place, &force),
-                    ..WallForce::zero()
-                });
-            }
-        }
-        forces
-    }
-
     /// Distances at which walls begin to push that are drawn nearer to each other than a spacing, m.
     pub fn drawn_gaps(&self) -> BTreeMap<[usize; 2], f64> {
         let mut gaps = BTreeMap::<[usize; 2], f64>::new();
-        for near in self.near_pairs(&self.touches()) {
-            let height = GAP * self.spacing - near.missing;
-            let gap = gaps.entry(ordered(near.pair)).or_insert(height);
-            *gap = gap.min(height).max(LEAST_GAP * self.spacing);
+        let near = self.near_pairs(&self.touches());
+        for near in near.iter().filter(|n| n.height < GAP * self.spacing) {
+            let gap = gaps.entry(ordered(near.pair)).or_insert(near.height);
+            *gap = gap.min(near.height).max(LEAST_GAP * self.spacing);
         }
         gaps
     }
 
+    /// Distance at which a pair of walls begins to push, m.
+    pub(crate) fn gap(&self, pair: [usize; 2]) -> f64 {
+        let drawn = self.gaps.get(&ordered(pair));
+        drawn.copied().unwrap_or(GAP * self.spacing)
+    }
+
     /// How each wall meets others.
-    fn touches(&self) -> Vec<Option<Touch>> {
+    pub(crate) fn touches(&self) -> Vec<Option<Touch>> {
         let touch = |spec: &WallSpec<D>| spec.mover.as_ref().and_then(|m| m.touch());
         self.specs.iter().map(touch).collect()
     }
 
-    fn near_pairs(&self, touches: &[Option<Touch>]) -> Vec<Near<D>> {
+    /// All pieces of surfaces of which one moves freely and that may meet within a step.
+    pub(crate) fn near_pairs(&self, touches: &[Option<Touch>]) -> Vec<Near<D>> {
         let nodes: Vec<MeshPoint<D>> = self.mesh.points().collect();
         let elements: Vec<MeshElement<D>> = self.mesh.elements().collect();
-        let reach = DEPTH * self.spacing;
+        let reach = REACH * self.spacing;
         let mut all = Vec::new();
         let free = (0..touches.len()).filter(|k| touches[*k].is_some() && self.groups[*k] == *k);
         for body in free {
@@ -154,15 +159,12 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         found: &mut Vec<Near<D>>,
     ) {
         let mut nearest = BTreeMap::<usize, (f64, Vect<D>, &MeshElement<D>)>::new();
+        let to = |c: u32| nodes[c as usize].position - node.position;
         for element in elements {
-            let to = |c: u32| {
-                self.domain
-                    .nearest_image(nodes[c as usize].position - node.position)
-            };
-            let first = to(element.corners[0]);
+            let first = self.domain.nearest(to(element.corners[0]));
             let corners = element
                 .corners
-                .map(|c| first + self.domain.nearest_image(to(c) - first));
+                .map(|c| first + self.domain.nearest(to(c) - first));
             let there = nearest_place(&corners);
             let distance = there.norm();
             let entry = nearest.entry(self.groups[element.wall]);
@@ -174,38 +176,29 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 *entry = (distance, there, element);
             }
         }
+        let (reach, depth) = (REACH * self.spacing, DEPTH * self.spacing);
         for (group, (distance, there, element)) in nearest {
             let outside = element.normal.dot(&there) <= 0.0;
             let height = if outside { distance } else { -distance };
-            let pair = [self.groups[node.wall], group];
-            let gap = self.gaps.get(&ordered(pair));
-            let gap = gap.copied().unwrap_or(GAP * self.spacing);
-            if height >= gap || height <= -DEPTH * self.spacing {
+            if height >= reach || height <= -depth {
                 continue;
             }
             let away = match outside && distance > 1e-6 * self.spacing {
                 true => there / -distance,
                 false => element.normal,
             };
-            let place = node.position + there * 0.5;
-            let own = self.movement(node.wall, &node.position).velocity;
-            let other = self
-                .movement(element.wall, &(node.position + there))
-                .velocity;
             found.push(Near {
-                pair,
-                place,
+                pair: [self.groups[node.wall], group],
+                walls: [node.wall, element.wall],
+                place: node.position + there * 0.5,
+                image: self.domain.nearest(to(element.corners[0])) - to(element.corners[0]),
                 away,
-                missing: gap - height,
+                height,
+                round: outside && away.dot(&element.normal) < 1.0 - 1e-9,
                 area: node.size * self.spacing.powi(D as i32 - 1),
-                velocity: own - other,
             });
         }
     }
-}
-
-fn ordered([a, b]: [usize; 2]) -> [usize; 2] {
-    [a.min(b), a.max(b)]
 }
 
 /// The place of a segment or triangle that is nearest to the origin.
@@ -236,79 +229,6 @@ fn nearest_place<const D: usize>(corners: &[Vect<D>; D]) -> Vect<D> {
     }
 }
 
-/// Share of the velocity that is left of an impact on a spring and a damper that never pull, with the damping ratio ζ ≤ 1
-/// (Schwager & Pöschel 2007): exp(−ζ/s · atan2(2 ζ s, 2 ζ² − 1)), s = √(1 − ζ²).
-fn left_over(ratio: f64) -> f64 {
-    let s = (1.0 - ratio * ratio).sqrt();
-    (-ratio / s * (2.0 * ratio * s).atan2(2.0 * ratio * ratio - 1.0)).exp()
-}
-
-/// The damping ratio that leaves a share of the velocity; 1, which leaves e⁻², for shares below.
-fn damping_ratio(restitution: f64) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..50 {
-        let middle = 0.5 * (low + high);
-        match left_over(middle) > restitution {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    low
-}
-
-/// What counts between two walls.
-struct Law {
-    stiffness: f64,
-    /// c, Pa s/m.
-    damping: f64,
-    /// Largest friction over velocity, Pa s/m.
-    grip: f64,
-    friction: f64,
-}
-
-impl Law {
-    fn of(pair: [Option<Touch>; 2], area: f64) -> Self {
-        let mut all = pair.into_iter().flatten();
-        let law = |t: Touch| {
-            let critical = 2.0 * (t.stiffness * t.mass / area).sqrt();
-            let ratio = damping_ratio(t.restitution);
-            Law {
-                stiffness: t.stiffness,
-                damping: ratio * critical,
-                grip: critical,
-                friction: t.friction,
-            }
-        };
-        let none = Touch {
-            mass: 0.0,
-            stiffness: 0.0,
-            restitution: 0.0,
-            friction: 0.0,
-        };
-        let first = all.next().unwrap_or(none);
-        law(all.next().map_or(first, |second| Touch {
-            mass: first.mass * second.mass / (first.mass + second.mass),
-            stiffness: first.stiffness.min(second.stiffness),
-            restitution: first.restitution.min(second.restitution),
-            friction: (first.friction * second.friction).sqrt(),
-        }))
-    }
-
-    /// The force on the first of a pair, N.
-    fn force<const D: usize>(&self, near: &Near<D>) -> Vect<D> {
-        let area = SHARE * near.area;
-        let parting = near.velocity.dot(&near.away);
-        let push = area * (self.stiffness * near.missing - self.damping * parting).max(0.0);
-        let along = near.velocity - near.away * parting;
-        let speed = along.norm();
-        if speed == 0.0 {
-            return near.away * push;
-        }
-        let rub = (self.friction * push).min(self.grip * area * speed);
-        near.away * push - along * (rub / speed)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -322,24 +242,5 @@ mod tests {
         assert!((nearest_place(&beside) - Vect::<3>::new(0.0, 2.0, 0.0)).norm() < 1e-15);
         let segment = [[1.0, 1.0], [1.0, 3.0]].map(Vect::<2>::from);
         assert_eq!(nearest_place(&segment), Vect::<2>::new(1.0, 1.0));
-    }
-
-    /// By small steps: the share that is left is the one that was asked for.
-    #[test]
-    fn a_damped_impact_leaves_the_share_that_was_asked_for() {
-        for restitution in [1.0, 0.8, 0.5, 0.2] {
-            let ratio = damping_ratio(restitution);
-            let (mut x, mut v, dt) = (0.0, 1.0, 1e-5);
-            loop {
-                let push = x + 2.0 * ratio * v;
-                if push < 0.0 || x < 0.0 {
-                    break;
-                }
-                v -= dt * push;
-                x += dt * v;
-            }
-            assert!((v + restitution).abs() < 1e-3, "{restitution}: {v}");
-        }
-        assert!(damping_ratio(0.0) > 0.999_999);
     }
 }

@@ -6,7 +6,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{StepError, Vect, fields, register};
 use sph_lanes::{Lane, dot};
-use sph_neighbours::{Contacts, InMemory, TargetMean, WallPoints, WallSet, World, loaded, shepard};
+use sph_neighbours::{
+    Contacts, Frame, InMemory, TargetMean, WallPoints, WallSet, World, loaded, shepard,
+};
 
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
@@ -86,12 +88,12 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         })
     }
 
-    fn place(&self, points: &mut WallPoints<D>) {
+    fn place(&self, points: &mut WallPoints<D>, frames: &[Frame<D>]) {
         let maps = self.outline.maps();
         for (v, (wall, drawn)) in self.drawn.iter().enumerate() {
             let position = maps[*wall]((*drawn).into()).into();
             let movement = self.outline.movement(*wall, &position);
-            points.position[v] = position;
+            points.position[v] = Outline::<D, M>::in_box(frames, *wall, position);
             points.velocity[v] = movement.velocity;
             if let Some(acceleration) = points.acceleration.get_mut(v) {
                 *acceleration = movement.acceleration;
@@ -111,8 +113,8 @@ impl<const D: usize, M: WallMesh<D>> DummyParticles<D, M> {
             return Ok(());
         };
         way(&mut set_up.outline)?;
-        set_up.place(&mut walls.points);
         walls.frames = set_up.outline.frames();
+        set_up.place(&mut walls.points, &walls.frames);
         walls.pulls = set_up.outline.pulls();
         Ok(())
     }
@@ -145,9 +147,9 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
                 points.acceleration.push(Vect::zeros());
             }
         }
-        set_up.place(&mut points);
-        let names = set_up.outline.mesh.names().to_vec();
         let (frames, pulls) = (set_up.outline.frames(), set_up.outline.pulls());
+        set_up.place(&mut points, &frames);
+        let names = set_up.outline.mesh.names().to_vec();
         self.set_up = Some(set_up);
         Ok(WallSet {
             names,

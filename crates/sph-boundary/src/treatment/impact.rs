@@ -64,21 +64,10 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
                 u.map(|u| (p, u))
             })
             .collect();
-        let mut forces = Vec::new();
-        if outline.any_feels() {
-            forces.resize(outline.specs.len(), WallForce::zero());
-            let mass = world.free.get(fields::MASS)?;
-            for (p, corrected) in &changed {
-                for (wall, push) in &corrected.pushes {
-                    let force = push * (-mass[*p] / dt);
-                    forces[*wall].add(&WallForce {
-                        force,
-                        moment: cross(&position[*p], &force),
-                        ..WallForce::zero()
-                    });
-                }
-            }
-        }
+        let forces = match outline.any_feels() {
+            true => blows(outline, world, &changed, dt)?,
+            false => Vec::new(),
+        };
         for (p, corrected) in changed {
             velocity[p] = corrected.velocity;
         }
@@ -87,10 +76,51 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
     }
 }
 
-/// The velocity of a particle that walls have stopped, and what each of them did to it, m/s.
+/// What stopping particles over `dt` did to the walls of movers, each with all its pieces: the same on all ranks,
+/// however many have a part of the particles.
+fn blows<const D: usize, M: WallMesh<D>>(
+    outline: &Outline<D, M>,
+    world: &World<D>,
+    changed: &[(usize, Corrected<D>)],
+    dt: f64,
+) -> Result<Vec<WallForce<D>>, StepError> {
+    let (mass, position) = (
+        world.free.get(fields::MASS)?,
+        world.free.get(fields::POSITION)?,
+    );
+    let own = world.team.as_ref().map(|team| team.own(&world.free));
+    let mut each: Vec<Vec<[f64; 6]>> = vec![Vec::new(); outline.specs.len()];
+    for (p, corrected) in changed
+        .iter()
+        .filter(|(p, _)| own.as_ref().is_none_or(|own| own[*p]))
+    {
+        for (wall, push, image) in &corrected.pushes {
+            let force = push * (-mass[*p] / dt);
+            let mut both = [0.0; 6];
+            both[..D].copy_from_slice(force.as_slice());
+            both[3..].copy_from_slice(&cross(&(position[*p] - image), &force));
+            each[outline.groups[*wall]].push(both);
+        }
+    }
+    let whole = |(wall, blows): (usize, &Vec<[f64; 6]>)| {
+        if outline.groups[wall] != wall || !outline.feels(wall) {
+            return Ok(WallForce::zero());
+        }
+        let sums = world.sums_of(|| blows.par_iter().copied())?;
+        Ok(WallForce {
+            force: Vect::from_fn(|k, _| sums[k]),
+            moment: [sums[3], sums[4], sums[5]],
+            ..WallForce::zero()
+        })
+    };
+    each.iter().enumerate().map(whole).collect()
+}
+
+/// The velocity of a particle that walls have stopped, and what each of them did to it, m/s, with the whole periods
+/// to the wall.
 struct Corrected<const D: usize> {
     velocity: Vect<D>,
-    pushes: Vec<(usize, Vect<D>)>,
+    pushes: Vec<(usize, Vect<D>, Vect<D>)>,
 }
 
 /// What a step would do to a particle next to a wall.
@@ -125,14 +155,15 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
             for (hindrance, wall) in hindrances.iter().zip(&walls) {
                 if let Some(push) = self.push(&new.velocity, hindrance, wall) {
                     new.velocity += push;
-                    new.pushes.push((hindrance.wall, push));
-                    held = Some((hindrance.wall, *wall));
+                    new.pushes.push((hindrance.wall, push, hindrance.image));
+                    held = Some((hindrance, *wall));
                 }
             }
             match held {
                 None => return (turn > 0).then_some(new),
-                Some((wall, velocity)) if turn == TURNS => {
-                    new.pushes.push((wall, velocity - new.velocity));
+                Some((by, velocity)) if turn == TURNS => {
+                    let push = velocity - new.velocity;
+                    new.pushes.push((by.wall, push, by.image));
                     new.velocity = velocity;
                     return Some(new);
                 }
@@ -144,7 +175,8 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
 
     fn wall_velocity(&self, hindrance: &Hindrance<D>) -> Vect<D> {
         let wall = hindrance.wall;
-        let movement = self.outline.movement(wall, &hindrance.place);
+        let place = hindrance.place - hindrance.image;
+        let movement = self.outline.movement(wall, &place);
         // Its mean over the step: where a wall turns, what follows its velocity leaves it by ½ a Δt².
         movement.velocity + movement.acceleration * (0.5 * self.dt)
     }

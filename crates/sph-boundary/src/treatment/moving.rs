@@ -7,6 +7,9 @@ use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::outline::{Outline, is_piece};
 use crate::{BoundaryError, Load, RigidState, WallSpec, WallStates};
 
+/// The longest way of any point of a wall within a step, over the spacing: farther, it would leap over particles.
+const MOST_WAY: f64 = 0.5;
+
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// The states at a time; those of walls with movers are taken from `others`.
     fn states_at(&self, time: f64, others: &[RigidState<D>]) -> Vec<RigidState<D>> {
@@ -32,31 +35,52 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         time: f64,
         dt: f64,
     ) -> Result<bool, BoundaryError> {
-        let mut states = self.states_at(time + dt, &self.states);
-        let contacts = self.contacts();
+        let load = |k: usize| self.load(k, forces, gravity);
+        let mut loads: Vec<_> = (0..self.specs.len()).map(load).collect();
+        let states = self.met(&mut loads, gravity, [time, dt])?;
+        let before: Vec<_> = self.mesh.points().map(|p| p.position).collect();
+        let moved = self.put(states)?;
+        let most = MOST_WAY * self.spacing;
+        for (point, before) in self.mesh.points().zip(before) {
+            let way = (point.position - before).norm();
+            if way > most {
+                let wall = self.specs[point.wall].drawing.name().to_string();
+                return Err(BoundaryError::Leap { wall, way, most });
+            }
+        }
+        Ok(moved)
+    }
+
+    /// The states after a step from given ones.
+    ///
+    /// # Errors
+    /// A wall whose state is no number.
+    pub(crate) fn after(
+        &self,
+        from: &[RigidState<D>],
+        loads: &[Load<D>],
+        [time, dt]: [f64; 2],
+    ) -> Result<Vec<RigidState<D>>, BoundaryError> {
+        let mut states = self.states_at(time + dt, from);
         for k in 0..states.len() {
             if is_piece(&self.specs, k) {
                 states[k] = states[k - 1];
             } else if let Some(mover) = &self.specs[k].mover {
-                let load = self.load(k, forces, contacts.get(k), gravity);
-                states[k] = mover.next(&self.states[k], &load, time, dt);
-                let name = || self.specs[k].drawing.name().to_string();
+                states[k] = mover.next(&from[k], &loads[k], time, dt);
                 if RigidState::<D>::from_numbers(&states[k].numbers()).is_none() {
-                    return Err(BoundaryError::Motion { wall: name() });
+                    let wall = self.specs[k].drawing.name().to_string();
+                    return Err(BoundaryError::Motion { wall });
                 }
             }
         }
-        self.put(states)
+        Ok(states)
     }
 
     /// What acts on a wall with all its pieces.
-    fn load(
-        &self,
-        wall: usize,
-        forces: &[WallForce<D>],
-        contact: Option<&WallForce<D>>,
-        gravity: Vect<D>,
-    ) -> Load<D> {
+    fn load(&self, wall: usize, forces: &[WallForce<D>], gravity: Vect<D>) -> Load<D> {
+        if self.specs[wall].mover.is_none() || is_piece(&self.specs, wall) {
+            return Load::of_gravity(gravity);
+        }
         let mut whole = WallForce::zero();
         let pieces =
             (wall..self.specs.len()).take_while(|k| *k == wall || is_piece(&self.specs, *k));
@@ -64,14 +88,11 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             let parts = [forces.get(k), self.struck.get(k)];
             parts.into_iter().flatten().for_each(|f| whole.add(f));
         }
-        let contact = contact.copied().unwrap_or_else(WallForce::zero);
         Load {
             force: whole.force,
             moment: whole.moment,
-            contact_force: contact.force,
-            contact_moment: contact.moment,
             depth: Some(whole.depth).filter(|depth| *depth > 0.0),
-            gravity,
+            ..Load::of_gravity(gravity)
         }
     }
 

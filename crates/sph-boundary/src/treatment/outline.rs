@@ -85,9 +85,14 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// Velocity and acceleration of the wall: its motion and the velocity of its surface.
     pub fn movement(&self, wall: usize, point: &Vect<D>) -> Movement<D> {
-        let mut movement = self.states[wall].movement((*point).into());
+        self.movement_in(&self.states[wall], wall, point)
+    }
+
+    /// The same of a wall in another state.
+    pub fn movement_in(&self, state: &RigidState<D>, wall: usize, point: &Vect<D>) -> Movement<D> {
+        let mut movement = state.movement((*point).into());
         let spec = &self.specs[wall];
-        let moment = self.states[wall].pose.moment;
+        let moment = state.pose.moment;
         spec.motion
             .add_bending(&mut movement, (*point).into(), moment);
         movement.velocity += spec.surface_velocity;
@@ -131,14 +136,37 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// Where the walls are; empty where none ever moves.
     pub fn frames(&self) -> Vec<Frame<D>> {
-        let frame = |state: &RigidState<D>| Frame {
+        if !self.moves() {
+            return Vec::new();
+        }
+        let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::<D>::repeat);
+        let mut boxes = vec![none; self.states.len()];
+        if self.domain.periodic.contains(&true) {
+            for point in self.mesh.points() {
+                let [low, high] = &mut boxes[point.wall];
+                (*low, *high) = (low.inf(&point.position), high.sup(&point.position));
+            }
+        }
+        let round = |[low, high]: [Vect<D>; 2]| {
+            Vect::from_fn(|k, _| {
+                let (length, middle) = (self.domain.length(k), 0.5 * (low[k] + high[k]));
+                match self.domain.periodic[k] && middle.is_finite() {
+                    true => ((middle - self.domain.lower[k]) / length).floor() * length,
+                    false => 0.0,
+                }
+            })
+        };
+        let frame = |(state, all): (&RigidState<D>, [Vect<D>; 2])| Frame {
             rotation: state.pose.rotation,
             offset: state.pose.map()([0.0; D]).into(),
+            round: round(all),
         };
-        match self.moves() {
-            true => self.states.iter().map(frame).collect(),
-            false => Vec::new(),
-        }
+        self.states.iter().zip(boxes).map(frame).collect()
+    }
+
+    /// Places of a wall as others see them, in the box.
+    pub fn in_box(frames: &[Frame<D>], wall: usize, place: Vect<D>) -> Vect<D> {
+        frames.get(wall).map_or(place, |frame| place - frame.round)
     }
 
     /// What the lines of movers do to their walls.

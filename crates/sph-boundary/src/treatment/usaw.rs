@@ -142,7 +142,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let points = &mut walls.points;
         for (v, node) in nodes.iter().enumerate() {
             let movement = outline.movement(node.wall, &node.position);
-            points.position[v] = node.position;
+            points.position[v] = Outline::<D, M>::in_box(&walls.frames, node.wall, node.position);
             points.velocity[v] = movement.velocity;
             points.viscous_velocity[v] = movement.velocity;
             if let Some(acceleration) = points.acceleration.get_mut(v) {
@@ -155,7 +155,8 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let elements = &mut walls.elements;
         for (s, element) in outline.mesh.elements().enumerate() {
             let movement = outline.movement(element.wall, &element.centre);
-            elements.centre[s] = element.centre;
+            elements.centre[s] =
+                Outline::<D, M>::in_box(&walls.frames, element.wall, element.centre);
             elements.normal[s] = element.normal;
             elements.velocity[s] = movement.velocity;
             if bends {

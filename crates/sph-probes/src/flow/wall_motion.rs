@@ -78,9 +78,9 @@ fn turned<const D: usize>(rotation: &[[f64; D]; D]) -> [f64; 3] {
         (_, same) => f64::from(u8::from(same)),
     };
     let whole = nalgebra::Matrix3::from_fn(at);
-    let whole = nalgebra::Rotation3::from_matrix_unchecked(whole);
-    // The axis of a matrix is not a number where rounding makes its trace more than 3.
-    nalgebra::UnitQuaternion::from_rotation_matrix(&whole)
+    // By way of a quaternion: the arc cosine of the trace is no number where rounding makes it too large.
+    let rotation = nalgebra::Rotation3::from_matrix_unchecked(whole);
+    nalgebra::UnitQuaternion::from_rotation_matrix(&rotation)
         .scaled_axis()
         .into()
 }
@@ -103,6 +103,8 @@ mod tests {
         let [x, y, z] = turned(&[[cosine, -sine], [sine, cosine]]);
         assert!(x.abs() + y.abs() < 1e-15 && (z - 2.5).abs() < 1e-14);
         let [x, y, z] = turned(&[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+        let [.., z] = turned(&[[1.0 + 4e-16, -1e-10], [1e-10, 1.0 + 4e-16]]);
+        assert!((z - 1e-10).abs() < 1e-24);
         let third = std::f64::consts::TAU / 3.0 / 3.0_f64.sqrt();
         assert!((x - third).abs() + (y - third).abs() + (z - third).abs() < 1e-14);
     }

@@ -230,23 +230,28 @@ fn course_rows(path: &Path, form: &Form) -> Result<Vec<Row>, String> {
 }
 
 impl Motion {
-    /// Where a file says what the wall does at a time, s: the key, and the file's name with the line. None of a motion
-    /// without a file.
-    pub fn told_at(&self, place: &str, time: f64) -> Option<(String, String)> {
-        let translate = self
-            .translate
-            .iter()
-            .enumerate()
-            .find(|(_, t)| t.path.is_some());
-        let (key, file, rows) = match (translate, &self.rotate) {
-            (Some((k, t)), _) => (self.translate_path(place, k), &t.file, t.rows()),
-            (None, Some(rotate)) => (format!("{place}.rotate"), &rotate.file, rotate.rows()),
+    /// Where the scene says what the wall does at a time, s: the key, and the name of the file with the line if it is in
+    /// one. None of a motion without a table.
+    pub fn told_at(&self, place: &str, time: f64) -> Option<(String, Option<String>)> {
+        let mut translations = self.translate.iter().enumerate();
+        let translate = translations.find(|(_, t)| t.path.is_some() || t.table.is_some());
+        let (key, file, table, rows) = match (translate, &self.rotate) {
+            (Some((k, t)), _) => (self.translate_path(place, k), &t.file, &t.table, t.rows()),
+            (None, Some(r)) => (format!("{place}.rotate"), &r.file, &r.table, r.rows()),
             (None, None) => return None,
         };
+        let before = |t: f64| t <= time - self.start;
+        if let Some(table) = table {
+            let row = table.partition_point(|r| before(r[0])).saturating_sub(1);
+            return Some((format!("{key}.table[{row}]"), None));
+        }
         let rows = rows.ok()?;
-        let after = rows.partition_point(|r| r.values[0] <= time - self.start);
+        let after = rows.partition_point(|r| before(r.values[0]));
         let line = rows[after.saturating_sub(1)].line;
         let file = file.as_deref()?;
-        Some((format!("{key}.file"), format!("`{file}`, line {line}")))
+        Some((
+            format!("{key}.file"),
+            Some(format!("`{file}`, line {line}")),
+        ))
     }
 }

@@ -32,6 +32,7 @@ impl<const D: usize> Running<'_, D> {
     ) -> Result<(), SolverError> {
         let cause = self.known_to_all(cause);
         self.note_trouble(&cause);
+        self.departure.failed(&cause);
         let Some(kept) = snapshot.filter(|_| self.counters.retries < self.scene.run.retries) else {
             return Err(self.fail(cause, snapshot, observer));
         };

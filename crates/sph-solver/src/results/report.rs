@@ -210,6 +210,9 @@ impl<const D: usize> Running<'_, D> {
             warnings.push(warning);
             advice.push(remedy);
         }
+        let (over, remedy) = self.departure.remarks();
+        warnings.extend(over);
+        advice.extend(remedy);
         let peaks = self.files.as_ref().map(|f| f.series.peaks);
         let [_, mach, fast] = peaks.unwrap_or_default();
         if fast > SHARE {

@@ -8,6 +8,7 @@ use sph_scene::Scene;
 
 use crate::results::summary::RankShare;
 use crate::running::counters::Counters;
+use crate::running::departure::DepartureWatch;
 use crate::running::energy::EnergyWatch;
 use crate::running::mach::MachWatch;
 use crate::running::options::RunOptions;
@@ -33,6 +34,7 @@ pub(crate) struct Running<'a, const D: usize> {
     pub(crate) limits: Vec<StepLimit>,
     pub(crate) mach: MachWatch,
     pub(crate) energy: EnergyWatch,
+    pub(crate) departure: DepartureWatch,
     /// Every rank's share, on the first at the end.
     pub(crate) shares: Vec<RankShare>,
     /// What the particles of all ranks have near them, at the end.

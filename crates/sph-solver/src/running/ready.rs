@@ -14,6 +14,7 @@ use crate::results::references;
 use crate::running::beginning::begin;
 use crate::running::counters::Counters;
 use crate::running::course::{Files, Running};
+use crate::running::departure::DepartureWatch;
 use crate::running::driver::Observer;
 use crate::running::energy::EnergyWatch;
 use crate::running::mach::MachWatch;
@@ -90,6 +91,7 @@ pub(crate) fn ready<'a, const D: usize>(
         limits: Vec::new(),
         mach: MachWatch::default(),
         energy,
+        departure: DepartureWatch::default(),
         shares: Vec::new(),
         around: Nearby::NONE,
     })

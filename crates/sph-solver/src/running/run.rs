@@ -158,7 +158,9 @@ impl<const D: usize> Running<'_, D> {
         if self.is_due(time).any() {
             let written = self.write_what_is_due(time, observer);
             self.all_have_written(written)?;
-            if let Some(cause) = self.agreed(self.mach.verdict(self.scene)) {
+            let verdict = self.mach.verdict(self.scene);
+            let verdict = verdict.or_else(|| self.departure.verdict());
+            if let Some(cause) = self.agreed(verdict) {
                 return Err(self.fail(cause, good.state(), observer));
             }
         }

@@ -103,7 +103,9 @@ impl<const D: usize> Running<'_, D> {
         let balance = files.series.row(&shown.flow, &shown.probes, dt)?;
         let (left, time) = (shown.flow.mass_left(), shown.flow.world.time);
         let told = self.mach.look(&balance).into_iter();
-        let told = told.chain(self.energy.look(&balance, left, time));
+        let told = told
+            .chain(self.energy.look(&balance, left, time))
+            .chain(self.departure.look(self.scene, &self.parts.flow));
         told.for_each(|told| observer.message(&told));
         if self.counters.rows == 0 {
             self.remember_start(&balance);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sph_contribution::{ForceLimit, OwnColumn, Setting};
+use sph_contribution::{ForceLimit, MotionLimit, OwnColumn, Setting};
 use sph_core::{Born, Role, Store, fields};
 use sph_integrators::Integrator;
 use sph_multiphase::Formulation;
@@ -41,6 +41,9 @@ use crate::step::nursery::Nursery;
 use crate::step::outlets::Outlets;
 use crate::step::stages::SharedWall;
 use crate::step::swing::Swing;
+
+/// How far the fastest point of a wall goes within a step, over the spacing: two that meet close half a spacing.
+const WAY: f64 = 0.25;
 
 /// A flow with everything a run needs besides.
 pub struct Assembled<const D: usize> {
@@ -259,6 +262,10 @@ impl<const D: usize> About<'_, D> {
             coefficient: coefficients.force,
         });
         planned.limiters.push(force);
+        let mut walls = self.scene.wall.values();
+        if walls.any(|w| w.motion.is_some() || !w.mover.is_empty()) {
+            planned.limiters.push(Box::new(MotionLimit { share: WAY }));
+        }
         Ok(planned)
     }
 }

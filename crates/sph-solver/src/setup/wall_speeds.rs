@@ -43,6 +43,8 @@ pub fn speeds<const D: usize>(
     }
     let (end, crossing) = (scene.run.end, length / sound);
     let times = (0..SAMPLES).map(|n| end * (n as f64 + 0.5) / SAMPLES as f64);
+    let jumps = walls.iter().flat_map(|w| w.motion.steepest());
+    let times = times.chain(jumps.filter(|t| *t < end));
     let mut fastest = vec![(0.0_f64, 0.0); walls.len()];
     let [mut pressed, mut changed] = [(0.0_f64, 0.0); 2];
     let begin: Vec<f64> = walls.iter().map(|w| moving(w, 0.0, 0.0).speed).collect();
@@ -145,14 +147,17 @@ fn vessel<const D: usize>(
     }
 }
 
-/// The key of the course of the first wall that moves, and where its file says what it does at a time.
+/// The key of the course of the first wall that moves, and where its file, if it has one, says what it does at a time.
 fn told_at<const D: usize>(scene: &Scene, walls: &[WallSpec<D>], time: f64) -> (String, String) {
     let moving = walls.iter().find(|w| w.motion.moves());
     let name = moving.map_or("", |w| w.drawing.name());
     let place = format!("wall.{name}.motion");
     let motion = scene.wall.get(name).and_then(|w| w.motion.as_ref());
     match motion.and_then(|m| m.told_at(&place, time)) {
-        Some((key, file)) => (key, format!(" ({file})")),
+        Some((key, file)) => (
+            key,
+            file.map_or_else(String::new, |file| format!(" ({file})")),
+        ),
         None => (place, String::new()),
     }
 }

@@ -14,6 +14,9 @@ use crate::step::stages::lock;
 /// Particles that one thread takes at least.
 const BATCH: usize = 2048;
 
+/// The stage in which walls move.
+pub(crate) const WALL_MOTION: &str = "wall motion";
+
 /// What work before a drift may ask for at the present positions.
 const STATE: [AnyField; 4] = [
     fields::RENORMALISATION.any(),
@@ -96,7 +99,7 @@ impl<const D: usize> Flow<D> {
             let moved = lock(walls).advance(set, gravity, time, dt);
             std::mem::swap(&mut set.forces, &mut self.loads);
             moved.map_err(|e| StepError::Stage {
-                stage: "wall motion".into(),
+                stage: WALL_MOTION.into(),
                 reason: e.to_string(),
             })?;
         }
