@@ -3,6 +3,7 @@
 mod courses;
 mod faces;
 mod grains;
+mod guards;
 mod meshes;
 mod motion;
 mod plates;
@@ -21,10 +22,14 @@ impl Field {
     fn new() -> Self {
         let bench = Bench::new(env!("CARGO_BIN_EXE_sph-under-test"));
         let inputs = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/field/inputs");
-        for entry in std::fs::read_dir(inputs).expect("the inputs") {
-            let path = entry.expect("an input").path();
-            let name = path.file_name().expect("a name");
-            std::fs::copy(&path, bench.folder().join(name)).expect("a copy");
+        for folder in [inputs, &format!("{inputs}/attack")] {
+            for entry in std::fs::read_dir(folder).expect("the inputs") {
+                let path = entry.expect("an input").path();
+                let name = path.file_name().expect("a name");
+                if path.is_file() {
+                    std::fs::copy(&path, bench.folder().join(name)).expect("a copy");
+                }
+            }
         }
         Field(bench)
     }
