@@ -7,6 +7,7 @@ mod guards;
 mod meshes;
 mod motion;
 mod plates;
+mod reversing;
 mod smoothers;
 mod words;
 

@@ -10,7 +10,7 @@ use sph_neighbours::World;
 use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
-use sph_state::{Laws, Reference};
+use sph_state::{Laws, Lift, Lifted, Reference};
 
 use crate::failure::error::SolverError;
 use crate::results::summary::PluginInForce;
@@ -34,6 +34,7 @@ use crate::setup::share::Share;
 use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
 use crate::setup::start::{Start, phases_of_bodies, start};
+use crate::setup::tension;
 use crate::setup::wall_speeds::speeds;
 use crate::step::accounts;
 use crate::step::flow::Flow;
@@ -82,7 +83,7 @@ pub(crate) fn assemble_share<const D: usize>(
 ) -> Result<Assembled<D>, SolverError> {
     let mut drawn = drawn_of::<D>(scene)?;
     let mut choices = chosen::<D>(scene)?;
-    let (laws, swing) = bind_laws::<D>(scene, &drawn, &choices)?;
+    let (laws, swing, lift) = bind_laws::<D>(scene, &drawn, &choices)?;
     movers::settle(scene, &mut drawn, &mut choices, &laws)?;
     let speeds = wall_speeds(scene, &drawn, &laws)?;
     let opened = open_faces::settle(scene, &mut drawn, &mut choices, &laws)?;
@@ -94,6 +95,13 @@ pub(crate) fn assemble_share<const D: usize>(
     } = Room::for_share(scene, &drawn, &mut choices, &mut share)?;
     warnings.extend(speeds);
     warnings.extend(open_faces::check(scene, opened.as_ref(), walls.as_ref())?);
+    let stands = (&room, walls.as_ref(), placed.positions.as_slice());
+    warnings.extend(tension::lift(
+        scene,
+        opened.as_ref(),
+        stands,
+        (&laws, &lift),
+    ));
     let ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
     let constant = constant_viscosities(scene, &choices.physics.rheologies);
@@ -335,12 +343,12 @@ fn shown<const D: usize>(scene: &Scene, probes: &[(String, Box<dyn Probe<D>>)]) 
     shown.cloned().chain(measured).collect()
 }
 
-/// Equations of state with their reference states, and what gravity changes by.
+/// Equations of state with their reference states, and what gravity changes by; what may lift them where faces are open.
 fn bind_laws<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,
     choices: &Choices<D>,
-) -> Result<(Laws, Option<Swing<D>>), SolverError> {
+) -> Result<(Laws, Option<Swing<D>>, Lift), SolverError> {
     let swing = Swing::<D>::of(scene)?;
     let more = swing.as_ref().map(|s| s.head(scene, &drawn.regions));
     let head = height(scene, &drawn.regions) * scene.gravity::<D>().norm();
@@ -351,8 +359,12 @@ fn bind_laws<const D: usize>(
         sound_speed,
     });
     let laws = choices.equations_of_state.iter().zip(reference);
-    let laws = laws.map(|(eos, reference)| eos.bind(reference));
-    Ok((laws.collect(), swing))
+    let lift = Lift::default();
+    let laws = laws.map(|(eos, reference)| match choices.open.is_empty() {
+        true => eos.bind(reference),
+        false => Box::new(Lifted::new(eos.bind(reference), &lift)),
+    });
+    Ok((laws.collect(), swing, lift))
 }
 
 /// η/ρ₀ of every phase, m²/s.
