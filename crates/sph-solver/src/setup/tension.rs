@@ -13,12 +13,13 @@ use crate::step::stages::{SharedWall, lock};
 
 /// Lift over ρcΔu: half as much again for what faces and walls throw back.
 const LIFT: f64 = 1.5;
-/// The largest lift over ρc² of the softest phase: that of a flow of Mach 0.1 that turns round.
+/// The largest lift over ρc²: that of a flow of Mach 0.1 that turns round.
 const MOST: f64 = 0.3;
 /// Distance over the spacing within which a particle fills a place.
 const NEAR: f64 = 0.8;
 
-/// Lifts the laws of a full box if a face brakes its fluid and no phase has a background pressure; a remark on it.
+/// Lifts the law of a full box of one phase if a face brakes its fluid and the law has no background pressure; a remark on
+/// it, or on the background pressure that is missing.
 pub(crate) fn lift<const D: usize>(
     scene: &Scene,
     opened: Option<&OpenBoundaries<D>>,
@@ -52,21 +53,22 @@ pub(crate) fn lift<const D: usize>(
     if background >= tension || !is_full(room, walls, positions) {
         return None;
     }
-    let softest = references().map(|r| r.density * r.sound_speed.powi(2));
-    let softest = softest.fold(f64::INFINITY, f64::min);
+    let stiffness = references().map(|r| r.density * r.sound_speed.powi(2));
+    let stiffness = stiffness.fold(f64::INFINITY, f64::min);
     let pressure = LIFT * tension;
     let why = format!(
         "the open face `{face}` brakes the fluid of a full box by {fall:.3} m/s, which takes a tension of {tension:.3e} Pa \
          that particles do not carry"
     );
-    if background > 0.0 {
+    // A light phase beside a heavy one would be stirred by a background pressure of the heavy one's size.
+    if background > 0.0 || laws.len() > 1 {
         return Some(format!(
-            "{why}: give a `background_pressure` of {pressure:.2e} Pa"
+            "{why}: let it change more slowly, or give a `background_pressure` of {pressure:.2e} Pa"
         ));
     }
-    if pressure > MOST * softest {
+    if pressure > MOST * stiffness {
         return Some(format!(
-            "{why}: raise `speed_of_sound` until ρc² of every phase is above {:.2e} Pa, or give a `background_pressure`",
+            "{why}: raise `speed_of_sound` until ρc² is above {:.2e} Pa, or give a `background_pressure`",
             pressure / MOST
         ));
     }
