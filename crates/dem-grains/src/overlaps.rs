@@ -9,8 +9,8 @@ use crate::{GrainError, GrainSystem};
 const AT_START: f64 = 0.1;
 
 impl GrainSystem {
-    /// Share of the smaller radius that an overlap may have in a step. Contact laws hold for overlaps that are small beside
-    /// the radius: a floor cuts 4 % of the volume off a sphere that is sunk by a quarter of its radius.
+    /// Share of the smaller radius that an overlap may have in a step. Contact laws hold for overlaps that are small
+    /// beside the radius: a floor cuts 4 % of the volume off a sphere that is sunk by a quarter of its radius.
     pub const DEEPEST: f64 = 0.25;
 
     /// The first contact that is deeper than a share of the smaller radius, with the number of its part of the table.

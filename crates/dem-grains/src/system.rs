@@ -260,7 +260,8 @@ impl GrainSystem {
     /// The same without asking for the critical step: for those who know a better limit.
     ///
     /// # Errors
-    /// A pressed wall of unknown area, a step too short to move the clock, [`GrainError::TooDeep`]; nothing is moved then.
+    /// A pressed wall of unknown area, a step too short to move the clock, [`GrainError::TooDeep`]; nothing is moved
+    /// then.
     pub fn integrate_unchecked(&mut self, step: f64) -> Result<(), GrainError> {
         let moves = self.time + step > self.time;
         number("step", step, "long enough to move the clock", moves)?;

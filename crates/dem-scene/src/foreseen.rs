@@ -64,8 +64,8 @@ pub fn foreseen(loaded: &Loaded, count: Option<usize>) -> Result<(Cost, Vec<Stri
     let seconds = SECONDS * grains as f64 * steps;
     let days = seconds / 86400.0;
     let remark = format!(
-        "the run takes at least {steps:.1e} steps of {step:.1e} s, some {days:.0} days on one core: take larger grains, \
-         a smaller `modulus` or an earlier `run.end`"
+        "the run takes at least {steps:.1e} steps of {step:.1e} s, some {days:.0} days on one core: take larger \
+         grains, a smaller `modulus` or an earlier `run.end`"
     );
     let remarks = (days > LONG).then_some(remark).into_iter().collect();
     let cost = Cost {

@@ -1,4 +1,5 @@
-//! Ctrl-C, SIGTERM as from a batch system, SIGHUP as from a terminal that closes: once to stop with a checkpoint, twice to stop at once.
+//! Ctrl-C, SIGTERM as from a batch system, SIGHUP as from a terminal that closes: once to stop with a checkpoint,
+//! twice to stop at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,8 +45,8 @@ fn too_long() {
 #[cfg(not(unix))]
 fn too_long() {}
 
-/// SIGTERM raises the flag too; where it is up, the process ends. So does SIGHUP, of which a terminal that closes may send
-/// several: none of them ends the process.
+/// SIGTERM raises the flag too; where it is up, the process ends. So does SIGHUP, of which a terminal that closes may
+/// send several: none of them ends the process.
 #[cfg(unix)]
 fn terminated(raised: &Arc<AtomicBool>) -> std::io::Result<()> {
     use signal_hook::{

@@ -128,8 +128,9 @@ impl<const D: usize> OpenBoundaries<D> {
         lock(&self.faces).faces.iter().any(|f| f.law.lets_out())
     }
 
-    /// The largest fall, m/s, of a velocity into the fluid that a law asks for, in the mean over its face, within a time
-    /// (s) and the longest [memory](OpenBoundary::memory) up to the `end` of a run, s; with the name of that face.
+    /// The largest fall, m/s, of a velocity into the fluid that a law asks for, in the mean over its face, within a
+    /// time (s) and the longest [memory](OpenBoundary::memory) up to the `end` of a run, s; with the name of that
+    /// face.
     pub fn braking(&self, time: f64, end: f64) -> Option<(String, f64)> {
         let faces = lock(&self.faces);
         let memories = faces.faces.iter().filter_map(|f| f.law.memory());

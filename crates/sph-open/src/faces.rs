@@ -257,8 +257,8 @@ impl<const D: usize> Faces<D> {
         own.map_or_else(|| most(mix), |phase| phase as usize)
     }
 
-    /// The phase whose sound arrives at an element before which the phases have these shares: that which comes in, or most of
-    /// what is there if it is not.
+    /// The phase whose sound arrives at an element before which the phases have these shares: that which comes in, or
+    /// most of what is there if it is not.
     pub fn before_all(&self, element: usize, mix: &[f64]) -> usize {
         let own = self.faces[self.face_of[element]].phase.map(|q| q as usize);
         own.filter(|q| mix[*q] > 0.0).unwrap_or_else(|| most(mix))
@@ -274,8 +274,8 @@ impl<const D: usize> Faces<D> {
         self.density_at(self.outside[element].pressure, phase)
     }
 
-    /// Density of a phase at a pressure over that of its reference density, Pa, in kg/m³, but no less than a share of this:
-    /// characteristics are linear, and may lead to a tension at which the law has no density.
+    /// Density of a phase at a pressure over that of its reference density, Pa, in kg/m³, but no less than a share of
+    /// this: characteristics are linear, and may lead to a tension at which the law has no density.
     pub fn density_at(&self, pressure: f64, phase: usize) -> f64 {
         let law = &self.laws[phase];
         let density = law.density(pressure + self.background(phase));

@@ -32,7 +32,8 @@ fn held(field: &Field, spacing: f64) -> [f64; 3] {
     ]
 }
 
-/// The inlet goes from 0.5 to −0.5 m/s and back within 0.2 s: the water in a full channel follows it, and so does the outlet.
+/// The inlet goes from 0.5 to −0.5 m/s and back within 0.2 s: the water in a full channel follows it, and so does the
+/// outlet.
 #[test]
 fn an_outlet_lets_in_while_the_inlet_takes_out() {
     let field = Field::new();

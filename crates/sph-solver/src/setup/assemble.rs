@@ -343,7 +343,8 @@ fn shown<const D: usize>(scene: &Scene, probes: &[(String, Box<dyn Probe<D>>)]) 
     shown.cloned().chain(measured).collect()
 }
 
-/// Equations of state with their reference states, and what gravity changes by; what may lift them where faces are open.
+/// Equations of state with their reference states, and what gravity changes by; what may lift them where faces are
+/// open.
 fn bind_laws<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,

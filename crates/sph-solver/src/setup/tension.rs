@@ -1,7 +1,8 @@
-//! Background pressure of a full box whose open faces brake the fluid: without it the fluid would have to carry tension.
+//! Background pressure of a full box whose open faces brake the fluid: without it the fluid would have to carry
+//! tension.
 //!
-//! A face whose velocity into the fluid falls by Δu sends off a wave of −ρcΔu. Particles carry no tension: a full box without
-//! background pressure is torn apart, and what is torn off goes its own way.
+//! A face whose velocity into the fluid falls by Δu sends off a wave of −ρcΔu. Particles carry no tension: a full box
+//! without background pressure is torn apart, and what is torn off goes its own way.
 
 use sph_core::Vect;
 use sph_neighbours::{CellGrid, World};
@@ -18,8 +19,8 @@ const MOST: f64 = 0.3;
 /// Distance over the spacing within which a particle fills a place.
 const NEAR: f64 = 0.8;
 
-/// Lifts the law of a full box of one phase if a face brakes its fluid and the law has no background pressure; a remark on
-/// it, or on the background pressure that is missing.
+/// Lifts the law of a full box of one phase if a face brakes its fluid and the law has no background pressure; a
+/// remark on it, or on the background pressure that is missing.
 pub(crate) fn lift<const D: usize>(
     scene: &Scene,
     opened: Option<&OpenBoundaries<D>>,
@@ -57,8 +58,8 @@ pub(crate) fn lift<const D: usize>(
     let stiffness = stiffness.fold(f64::INFINITY, f64::min);
     let pressure = LIFT * tension;
     let why = format!(
-        "the open face `{face}` brakes the fluid of a full box by {fall:.3} m/s, which takes a tension of {tension:.3e} Pa \
-         that particles do not carry"
+        "the open face `{face}` brakes the fluid of a full box by {fall:.3} m/s, which takes a tension of {tension:.3e} \
+         Pa that particles do not carry"
     );
     // A light phase beside a heavy one would be stirred by a background pressure of the heavy one's size.
     if background > 0.0 || laws.len() > 1 {
@@ -75,7 +76,8 @@ pub(crate) fn lift<const D: usize>(
     lift.set(pressure);
     opened.lifted();
     Some(format!(
-        "{why}: all pressures are {pressure:.3e} Pa higher; a `background_pressure` of the equations of state takes its place"
+        "{why}: all pressures are {pressure:.3e} Pa higher; a `background_pressure` of the equation of state takes \
+         its place"
     ))
 }
 

@@ -69,7 +69,8 @@ impl Lattice {
         points
     }
 
-    /// Marks the points near an edge that are within the bounds of the polygon: the clearance may be many times its size.
+    /// Marks the points near an edge that are within the bounds of the polygon: the clearance may be many times its
+    /// size.
     fn mark_close(
         &self,
         [a, b]: [[f64; 2]; 2],
