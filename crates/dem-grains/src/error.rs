@@ -78,11 +78,11 @@ pub enum GrainError {
         /// Depth, m.
         overlap: f64,
     },
-    /// A grain overlaps another body by more than [`DEEPEST`](crate::GrainSystem::DEEPEST) in a step.
+    /// A grain overlaps another body too deep for a step.
     #[error(
         "grain {grain} at ({:.4e}, {:.4e}, {:.4e}) m overlaps {body} by {overlap:.3e} m, {share:.2} of its radius; \
-         contacts hold up to {} of the smaller radius: give the contact law a larger `modulus`, or take shorter steps",
-        at[0], at[1], at[2], crate::GrainSystem::DEEPEST
+         contacts hold up to {most} of the smaller radius: give the contact law a larger `modulus`, or take shorter steps",
+        at[0], at[1], at[2]
     )]
     TooDeep {
         /// The grain.
@@ -97,6 +97,8 @@ pub enum GrainError {
         overlap: f64,
         /// Depth over the radius of the grain.
         share: f64,
+        /// Depth over the smaller radius that a step may have.
+        most: f64,
     },
     /// A grain is not in the periodic box.
     #[error(

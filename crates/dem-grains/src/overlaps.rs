@@ -46,6 +46,7 @@ impl GrainSystem {
             wall: (part > 0 && part <= walls).then(|| part - 1),
             overlap: slot.overlap,
             share: slot.overlap / self.grains.radius[grain],
+            most: Self::DEEPEST,
         })
     }
 

@@ -34,7 +34,6 @@ use crate::setup::share::Share;
 use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
 use crate::setup::start::{Start, phases_of_bodies, start};
-use crate::setup::tension;
 use crate::setup::wall_speeds::speeds;
 use crate::step::accounts;
 use crate::step::flow::Flow;
@@ -94,14 +93,8 @@ pub(crate) fn assemble_share<const D: usize>(
         mut warnings,
     } = Room::for_share(scene, &drawn, &mut choices, &mut share)?;
     warnings.extend(speeds);
-    warnings.extend(open_faces::check(scene, opened.as_ref(), walls.as_ref())?);
-    let stands = (&room, walls.as_ref(), placed.positions.as_slice());
-    warnings.extend(tension::lift(
-        scene,
-        opened.as_ref(),
-        stands,
-        (&laws, &lift),
-    ));
+    let filled = (&room, placed.positions.as_slice(), &laws, &lift);
+    warnings.extend(open_faces::check(scene, &opened, &walls, filled)?);
     let ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
     let constant = constant_viscosities(scene, &choices.physics.rheologies);
@@ -136,8 +129,7 @@ pub(crate) fn assemble_share<const D: usize>(
         evolved: evolved(&*formulation, &parts),
     };
     let mut flow = joined(world, planned, given);
-    follow_displacements(&shown, &choices.probes, &mut flow);
-    check_output_fields(scene, &flow)?;
+    show(scene, &shown, &choices.probes, &mut flow)?;
     let columns = || parts.iter().flat_map(|(_, p)| p.columns());
     let beginning = Start {
         scene,
@@ -323,16 +315,18 @@ fn give_places<const D: usize>(
     Ok(())
 }
 
-/// Keeps displacements where an output or a probe asks for them.
-fn follow_displacements<const D: usize>(
+/// Keeps displacements where an output or a probe asks for them; refuses outputs of fields that there are none of.
+fn show<const D: usize>(
+    scene: &Scene,
     shown: &[String],
     probes: &[(String, Box<dyn Probe<D>>)],
     flow: &mut Flow<D>,
-) {
+) -> Result<(), SolverError> {
     let moved = shown.iter().any(|f| f == fields::DISPLACEMENT.name);
     if moved || probes.iter().any(|(_, p)| p.needs_displacement()) {
         flow.world.free.add(fields::DISPLACEMENT, Role::State);
     }
+    check_output_fields(scene, flow)
 }
 
 /// Names of the columns that outputs show and probes measure.

@@ -19,15 +19,18 @@ const MOST: f64 = 0.3;
 /// Distance over the spacing within which a particle fills a place.
 const NEAR: f64 = 0.8;
 
+/// A box, its particles, their laws and what lifts these.
+pub(crate) type Filled<'a, const D: usize> = (&'a World<D>, &'a [Vect<D>], &'a Laws, &'a Lift);
+
 /// Lifts the law of a full box of one phase if a face brakes its fluid and the law has no background pressure; a
 /// remark on it, or on the background pressure that is missing.
 pub(crate) fn lift<const D: usize>(
     scene: &Scene,
-    opened: Option<&OpenBoundaries<D>>,
-    (room, walls, positions): (&World<D>, Option<&SharedWall<D>>, &[Vect<D>]),
-    (laws, lift): (&Laws, &Lift),
+    opened: &OpenBoundaries<D>,
+    walls: Option<&SharedWall<D>>,
+    (room, positions, laws, lift): Filled<'_, D>,
 ) -> Option<String> {
-    let (opened, walls) = (opened?, walls?);
+    let walls = walls?;
     let references = || laws.iter().map(|law| law.reference());
     let slowest = references()
         .map(|r| r.sound_speed)
