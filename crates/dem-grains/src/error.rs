@@ -78,6 +78,28 @@ pub enum GrainError {
         /// Depth, m.
         overlap: f64,
     },
+    /// A grain overlaps another body too deep for a step.
+    #[error(
+        "grain {grain} at ({:.4e}, {:.4e}, {:.4e}) m overlaps {body} by {overlap:.3e} m, {share:.2} of its radius; \
+         contacts hold up to {most} of the smaller radius: give the contact law a larger `modulus`, or take shorter steps",
+        at[0], at[1], at[2]
+    )]
+    TooDeep {
+        /// The grain.
+        grain: usize,
+        /// Where its centre is, m.
+        at: [f64; 3],
+        /// The grain, wall or triangle that it overlaps.
+        body: String,
+        /// The number of that wall, if it is one.
+        wall: Option<usize>,
+        /// Depth, m.
+        overlap: f64,
+        /// Depth over the radius of the grain.
+        share: f64,
+        /// Depth over the smaller radius that a step may have.
+        most: f64,
+    },
     /// A grain is not in the periodic box.
     #[error(
         "grain {grain} is at {value} m on axis {axis}, outside the period from {from} to {to} m"

@@ -43,6 +43,7 @@ mod linear;
 mod measure;
 mod mesh;
 mod motion;
+mod overlaps;
 mod registry;
 mod rest;
 mod rolling;

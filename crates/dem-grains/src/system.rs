@@ -260,8 +260,12 @@ impl GrainSystem {
     /// The same without asking for the critical step: for those who know a better limit.
     ///
     /// # Errors
-    /// A pressed wall of unknown area.
+    /// A pressed wall of unknown area, a step too short to move the clock, [`GrainError::TooDeep`]; nothing is moved
+    /// then.
     pub fn integrate_unchecked(&mut self, step: f64) -> Result<(), GrainError> {
+        let moves = self.time + step > self.time;
+        number("step", step, "long enough to move the clock", moves)?;
+        self.check_depths()?;
         self.steer_walls(step)?;
         self.advance_grains(step);
         for wall in &mut self.walls {
@@ -297,47 +301,6 @@ impl GrainSystem {
         };
         self.limit = Some(limit);
         limit
-    }
-
-    fn check_overlaps(&mut self) -> Result<(), GrainError> {
-        self.evaluate()?;
-        let radius = |grain: u32| self.grains.radius[grain as usize];
-        for part in 0..self.table.ends.len() {
-            for slot in &self.table.slots[self.table.part(part)] {
-                let (grain, overlap) = (slot.first as usize, slot.overlap);
-                let smaller = if part == 0 {
-                    radius(slot.first).min(radius(slot.second))
-                } else {
-                    radius(slot.first)
-                };
-                if !slot.active || overlap <= 0.1 * smaller {
-                    continue;
-                }
-                return Err(if part == 0 {
-                    GrainError::Overlap {
-                        first: grain,
-                        second: slot.second as usize,
-                        overlap,
-                    }
-                } else if part <= self.walls.len() {
-                    let wall = part - 1;
-                    GrainError::InWall {
-                        grain,
-                        wall,
-                        overlap,
-                        distance: self.walls[wall].distance(&self.grains.position[grain]),
-                    }
-                } else {
-                    GrainError::InMesh {
-                        grain,
-                        mesh: part - 1 - self.walls.len(),
-                        triangle: slot.second as usize,
-                        overlap,
-                    }
-                });
-            }
-        }
-        Ok(())
     }
 }
 

@@ -9,23 +9,33 @@ use crate::read::Loaded;
 /// A refusal at the start with the names of its walls, and with the lines of its grains if they come from a file.
 pub fn at_start(loaded: &Loaded, error: GrainError) -> DemError {
     let file = loaded.scene.start.file.as_ref();
-    let (mut message, mut names) = (error.to_string(), Vec::new());
-    if let GrainError::InWall { wall, .. } | GrainError::BadWall { wall, .. } = error
-        && let Some(name) = planes(&loaded.scene).get(wall)
+    let message = format!("{error}{}", named(loaded, &error));
+    DemError::at(file.map_or("start", |_| "start.file"), message)
+}
+
+/// The names of the walls and the lines of the grains that an error numbers, in brackets; empty if it has none.
+pub fn named(loaded: &Loaded, error: &GrainError) -> String {
+    let mut names = Vec::new();
+    if let GrainError::InWall { wall, .. }
+    | GrainError::BadWall { wall, .. }
+    | GrainError::TooDeep {
+        wall: Some(wall), ..
+    } = error
+        && let Some(name) = planes(&loaded.scene).get(*wall)
     {
         names.push(format!("wall {wall} is `{name}`"));
     }
-    if let Some(file) = file {
-        for grain in grains(&error) {
+    if let Some(file) = &loaded.scene.start.file {
+        for grain in grains(error) {
             if let Some(line) = line(loaded, file, grain) {
                 names.push(format!("grain {grain} is line {line} of `{file}`"));
             }
         }
     }
-    if !names.is_empty() {
-        message = format!("{message} ({})", names.join(", "));
+    match names.is_empty() {
+        true => String::new(),
+        false => format!(" ({})", names.join(", ")),
     }
-    DemError::at(file.map_or("start", |_| "start.file"), message)
 }
 
 /// The grains that an error names.
@@ -34,6 +44,7 @@ fn grains(error: &GrainError) -> Vec<usize> {
         GrainError::Overlap { first, second, .. } => vec![first, second],
         GrainError::InWall { grain, .. }
         | GrainError::InMesh { grain, .. }
+        | GrainError::TooDeep { grain, .. }
         | GrainError::NotPositive { grain, .. }
         | GrainError::NotFinite { grain, .. }
         | GrainError::OutsidePeriod { grain, .. } => vec![grain],

@@ -35,9 +35,11 @@ pub struct Progress {
     pub dt: f64,
     /// Steps by what limited them.
     pub limited: std::collections::BTreeMap<String, u64>,
-    /// Wall-clock time so far, s.
+    /// Wall-clock time so far, s. Kept beside the state, which has the same bits in equal runs.
+    #[serde(skip)]
     pub wall_seconds: f64,
     /// That of the preparation, s.
+    #[serde(skip)]
     pub preparation_seconds: f64,
 }
 
@@ -64,7 +66,12 @@ pub fn save(kept: &Kept, scene: &str, path: &Path) -> Result<(), DemError> {
         u32::from_le_bytes(word)
     });
     let checkpoint = Checkpoint {
-        meta: serde_json::json!({ "method": "grains", "scene": scene }),
+        meta: serde_json::json!({
+            "method": "grains",
+            "scene": scene,
+            "wall_seconds": kept.progress.wall_seconds,
+            "preparation_seconds": kept.progress.preparation_seconds,
+        }),
         columns: vec![Column {
             name: STATE.into(),
             components: 1,
@@ -94,5 +101,10 @@ pub fn load(scene: &str, changed: bool, path: &Path) -> Result<Kept, DemError> {
         return Err(refused("it holds no state"));
     };
     let bytes: Vec<u8> = words.iter().flat_map(|w| w.to_le_bytes()).collect();
-    serde_json::from_slice(&bytes).map_err(|e| refused(&e.to_string()))
+    let kept = serde_json::from_slice(&bytes);
+    let mut kept: Kept = kept.map_err(|e| refused(&e.to_string()))?;
+    let seconds = |name: &str| checkpoint.meta[name].as_f64().unwrap_or_default();
+    kept.progress.wall_seconds = seconds("wall_seconds");
+    kept.progress.preparation_seconds = seconds("preparation_seconds");
+    Ok(kept)
 }

@@ -50,7 +50,7 @@ impl DemError {
 
 /// A step that went wrong.
 #[derive(Debug, Error)]
-#[error("at t = {time} s, step {step}: {error}")]
+#[error("at t = {time} s, step {step}: {error}{named}")]
 pub struct Failure {
     /// Time, s.
     pub time: f64,
@@ -59,6 +59,8 @@ pub struct Failure {
     /// What happened; it names the grain, the wall or the cell.
     #[source]
     pub error: CoupledError,
+    /// What the scene calls the grains and the wall that the error numbers, in brackets; empty if it names none.
+    pub named: String,
     /// The grain at fault, if it is one.
     pub grain: Option<usize>,
     /// Where that grain was, m.
@@ -72,6 +74,7 @@ pub(crate) fn grain_of(error: &CoupledError) -> Option<usize> {
             GrainError::NotFinite { grain, .. }
             | GrainError::InWall { grain, .. }
             | GrainError::InMesh { grain, .. }
+            | GrainError::TooDeep { grain, .. }
             | GrainError::NotPositive { grain, .. }
             | GrainError::StepTooLarge { grain, .. }
             | GrainError::Overlap { first: grain, .. },

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::columns::headings;
 use crate::error::DemError;
+use crate::foreseen::{Cost, foreseen};
 use crate::laws::told;
 use crate::names::{planes, surfaces};
 use crate::read::Loaded;
@@ -39,21 +40,26 @@ pub struct Examination {
     pub limits: Vec<String>,
     /// Quantities that follow from the numbers of the scene: name, value, unit.
     pub derived: Vec<(String, f64, String)>,
+    /// What the run costs at least.
+    pub estimate: Cost,
+    /// Remarks.
+    pub warnings: Vec<String>,
 }
 
 /// Examines a scene.
 ///
 /// # Errors
-/// Files that are not there.
+/// Files that are not there or hold no grains; runs that cannot end or cannot be right.
 pub fn examine(loaded: &Loaded) -> Result<Examination, DemError> {
     loaded.check_files()?;
     let scene = &loaded.scene;
     let coupled = scene.fluid.is_some();
     let columns = headings(loaded).into_iter();
+    let (estimate, warnings) = foreseen(loaded, count(scene))?;
     Ok(Examination {
         scene: scene.title.clone(),
         method: "grains",
-        grains: count(scene),
+        grains: count(scene).or(scene.start.file.as_ref().map(|_| estimate.grains)),
         start: start(scene),
         walls: planes(scene),
         surfaces: surfaces(scene),
@@ -66,6 +72,8 @@ pub fn examine(loaded: &Loaded) -> Result<Examination, DemError> {
         stages: stages(scene.fluid.as_ref()),
         limits: limits(coupled),
         derived: derived(scene),
+        estimate,
+        warnings,
     })
 }
 

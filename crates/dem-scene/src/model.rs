@@ -166,6 +166,7 @@ impl Model {
             position: position.map(|x| [x.x, x.y, x.z]),
             grain,
             error,
+            named: String::new(),
         }
     }
 

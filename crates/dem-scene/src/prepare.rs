@@ -6,7 +6,7 @@ use dem_grains::{
     Cloud, Grain, GrainError, GrainSystem, Growth, Target, rain, settle, uniform_radii,
 };
 
-use crate::at_fault::{at_start, rows};
+use crate::at_fault::{at_start, named, rows};
 use crate::error::DemError;
 use crate::highest_point::highest;
 use crate::laws::Laws;
@@ -16,7 +16,7 @@ use crate::tables::{Lattice, Oedometer, Scene};
 use crate::walls::{FAR, control, setup};
 
 /// Porosity at which a poured bed is expected to lie.
-const POURED: f64 = 0.4;
+pub(crate) const POURED: f64 = 0.4;
 /// Share of the box that grains fill before they grow.
 const BEFORE_GROWTH: f64 = 0.25;
 
@@ -67,7 +67,7 @@ pub fn grains(
         let steps = steps.map_err(|e| DemError::at("start.grown", e))?;
         tell(&format!("grown in {steps} steps{}", porosity(&system)));
     }
-    settled(scene, &mut system, tell)?;
+    settled(loaded, &mut system, tell)?;
     if let Some(law) = run_law {
         system.replace_law(0, law).map_err(told)?;
     }
@@ -85,10 +85,11 @@ fn porosity(system: &GrainSystem) -> String {
 /// Lets the grains come to rest under gravity and the prepared stress of pistons; in a fluid under their buoyant weight, as
 /// if they were laid down slowly there.
 fn settled(
-    scene: &Scene,
+    loaded: &Loaded,
     system: &mut GrainSystem,
     tell: &mut dyn FnMut(&str),
 ) -> Result<(), DemError> {
+    let scene = &loaded.scene;
     let poured = scene.start.rained.as_ref().map(|_| 1e-2);
     let Some(tolerance) = scene.start.settle.or(poured) else {
         return Ok(());
@@ -120,7 +121,7 @@ fn settled(
         scene.start.most_steps,
     );
     system.set_gravity(gravity);
-    let steps = steps.map_err(|e| DemError::at("start", e))?;
+    let steps = steps.map_err(|e| DemError::at("start", format!("{e}{}", named(loaded, &e))))?;
     tell(&format!("settled in {steps} steps"));
     Ok(())
 }
@@ -150,7 +151,8 @@ fn lower_the_top(
     Ok(())
 }
 
-fn volume(radii: &[f64]) -> f64 {
+/// Volume of spheres, m³.
+pub(crate) fn volume(radii: &[f64]) -> f64 {
     radii.iter().map(|r| 4.0 / 3.0 * PI * r.powi(3)).sum()
 }
 
@@ -246,7 +248,7 @@ fn lattice_of(
     Ok((0..count).map(grain).collect())
 }
 
-fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemError> {
+pub(crate) fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemError> {
     let key = "start.file";
     let path = loaded.source.resolve(key, file);
     let path = path.map_err(|e| DemError::at(key, e))?;

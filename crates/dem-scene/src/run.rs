@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use dem_coupled::CoupledError;
+
 use crate::assemble::{Assembled, assemble, loads};
+use crate::at_fault;
 use crate::checkpoint::{self, Kept, Progress};
 use crate::compare;
 use crate::error::{DemError, Failure};
@@ -244,7 +247,10 @@ impl<'a> Running<'a> {
     }
 
     /// What a failed step leaves: the last state in files, a picture with the grain at fault, the summary.
-    fn failed(&mut self, failure: Box<Failure>) -> DemError {
+    fn failed(&mut self, mut failure: Box<Failure>) -> DemError {
+        if let CoupledError::Grains(error) = &failure.error {
+            failure.named = at_fault::named(self.loaded, error);
+        }
         let warnings = vec![failure.to_string()];
         let (model, origin) = (&self.parts.model, &self.parts.origin);
         let title = format!("{}: failed", self.loaded.scene.title);

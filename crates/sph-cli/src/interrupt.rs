@@ -1,11 +1,12 @@
-//! Ctrl-C, or SIGTERM as from a batch system: once to stop with a checkpoint, twice to stop at once.
+//! Ctrl-C, SIGTERM as from a batch system, SIGHUP as from a terminal that closes: once to stop with a checkpoint,
+//! twice to stop at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::telling::console;
 
-/// A flag that the first Ctrl-C (or SIGTERM) raises; the second ends the process with code 1.
+/// A flag that the first Ctrl-C (or SIGTERM, or SIGHUP) raises; the second ends the process with code 1.
 pub fn flag() -> Arc<AtomicBool> {
     let raised = Arc::new(AtomicBool::new(false));
     let seen = raised.clone();
@@ -28,7 +29,7 @@ pub fn flag() -> Arc<AtomicBool> {
     too_long();
     terminated(&raised).unwrap_or_else(|error| {
         console::err(&format!(
-            "note: SIGTERM will stop without a checkpoint ({error})"
+            "note: SIGTERM and SIGHUP will stop without a checkpoint ({error})"
         ));
     });
     raised
@@ -44,13 +45,29 @@ fn too_long() {
 #[cfg(not(unix))]
 fn too_long() {}
 
-/// SIGTERM raises the flag too; where it is up, the process ends. SIGHUP is left to `nohup`.
+/// SIGTERM raises the flag too; where it is up, the process ends. So does SIGHUP, of which a terminal that closes may
+/// send several: none of them ends the process.
 #[cfg(unix)]
 fn terminated(raised: &Arc<AtomicBool>) -> std::io::Result<()> {
-    use signal_hook::{consts::SIGTERM, flag};
+    use signal_hook::{
+        consts::{SIGHUP, SIGTERM},
+        flag,
+    };
     flag::register_conditional_shutdown(SIGTERM, 1, raised.clone())?;
     flag::register(SIGTERM, raised.clone())?;
+    if told_of_hang_up() {
+        flag::register(SIGHUP, raised.clone())?;
+    }
     Ok(())
+}
+
+/// Whether SIGHUP is not ignored, as `nohup` has it. Where that is not known, it keeps its effect.
+#[cfg(unix)]
+fn told_of_hang_up() -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|l| l.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    ignored.is_some_and(|mask| mask & 1 == 0)
 }
 
 #[cfg(not(unix))]

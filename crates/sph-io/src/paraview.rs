@@ -1,5 +1,6 @@
 //! Files for ParaView.
 
+pub(crate) mod beside;
 pub mod frame;
 pub mod pvd;
 pub mod pvtu;

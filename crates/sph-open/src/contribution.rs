@@ -14,6 +14,9 @@ use crate::passing::Passing;
 use crate::walls::OpenWalls;
 use crate::{Entering, OpenBoundary, OpenRefusal};
 
+/// Parts of the run at the ends of which the course of a law is looked at.
+const COURSE: usize = 4096;
+
 /// The open faces of a scene as a contribution.
 pub struct OpenBoundaries<const D: usize> {
     faces: SharedFaces<D>,
@@ -123,6 +126,34 @@ impl<const D: usize> OpenBoundaries<D> {
     /// Whether fluid can leave by any of them.
     pub fn let_out(&self) -> bool {
         lock(&self.faces).faces.iter().any(|f| f.law.lets_out())
+    }
+
+    /// The largest fall, m/s, of a velocity into the fluid that a law asks for, in the mean over its face, within a
+    /// time (s) and the longest [memory](OpenBoundary::memory) up to the `end` of a run, s; with the name of that
+    /// face.
+    pub fn braking(&self, time: f64, end: f64) -> Option<(String, f64)> {
+        let faces = lock(&self.faces);
+        let memories = faces.faces.iter().filter_map(|f| f.law.memory());
+        let time = time + memories.fold(0.0, f64::max);
+        let back = ((time / end * COURSE as f64).ceil() as usize).clamp(1, COURSE);
+        let fall = |face: &Face<D>| {
+            let places = &faces.places[face.elements.clone()];
+            let area: f64 = places.iter().map(|p| p.measure).sum();
+            let at =
+                |k: usize| Some(face.law.asked(places, end * k as f64 / COURSE as f64)? / area);
+            let course: Vec<f64> = (0..=COURSE).map_while(at).collect();
+            let before = |k: usize| course[k.saturating_sub(back)..=k].iter().copied();
+            let falls = (0..course.len()).map(|k| before(k).fold(course[k], f64::max) - course[k]);
+            (face.name.clone(), falls.fold(0.0, f64::max))
+        };
+        let falls = faces.faces.iter().map(fall).filter(|(_, fall)| *fall > 0.0);
+        falls.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// Learns anew at which pressures the laws of the phases have their reference densities.
+    pub fn lifted(&self) {
+        let mut faces = lock(&self.faces);
+        faces.backgrounds = faces.laws.iter().map(|law| at_reference(&**law)).collect();
     }
 
     /// As the solver keeps it.

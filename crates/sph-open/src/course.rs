@@ -32,6 +32,16 @@ pub(crate) fn factor(course: &Course, time: f64) -> f64 {
     course.as_ref().map_or(1.0, |table| between(table, time))
 }
 
+/// The least and the largest of a value over its course.
+pub(crate) fn range(course: &Course, value: f64) -> [f64; 2] {
+    let table = course.as_deref().unwrap_or(&[[0.0, 1.0]]);
+    let all = || table.iter().map(|[_, factor]| value * factor);
+    [
+        all().fold(f64::INFINITY, f64::min),
+        all().fold(f64::NEG_INFINITY, f64::max),
+    ]
+}
+
 /// Refuses a course that does not last as long as the run.
 pub(crate) fn check_course(course: &Course, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
     let Some(table) = course else {

@@ -36,6 +36,9 @@ pub(crate) fn as_share(lacks: f64) -> f64 {
     }
 }
 
+/// Least density of what passes, over the reference density of its phase.
+const THINNEST: f64 = 0.5;
+
 /// The element that nobody opened.
 pub(crate) const CLOSED: u32 = u32::MAX;
 
@@ -249,14 +252,16 @@ impl<const D: usize> Faces<D> {
     /// The phase that comes in at an element: the face's, or most of what is in front of it.
     pub fn phase(&self, element: usize) -> usize {
         let phases = self.whole.len();
-        match self.faces[self.face_of[element]].phase {
-            Some(phase) => phase as usize,
-            None => {
-                let mix = &self.mix[element * phases..(element + 1) * phases];
-                let most = (0..phases).reduce(|a, b| if mix[b] > mix[a] { b } else { a });
-                most.unwrap_or(0)
-            }
-        }
+        let mix = &self.mix[element * phases..(element + 1) * phases];
+        let own = self.faces[self.face_of[element]].phase;
+        own.map_or_else(|| most(mix), |phase| phase as usize)
+    }
+
+    /// The phase whose sound arrives at an element before which the phases have these shares: that which comes in, or
+    /// most of what is there if it is not.
+    pub fn before_all(&self, element: usize, mix: &[f64]) -> usize {
+        let own = self.faces[self.face_of[element]].phase.map(|q| q as usize);
+        own.filter(|q| mix[*q] > 0.0).unwrap_or_else(|| most(mix))
     }
 
     /// Pressure of a phase at its reference density, Pa.
@@ -266,8 +271,15 @@ impl<const D: usize> Faces<D> {
 
     /// Density at an element of what passes there, kg/m³.
     pub fn density(&self, element: usize, phase: usize) -> f64 {
-        let pressure = self.outside[element].pressure + self.background(phase);
-        self.laws[phase].density(pressure)
+        self.density_at(self.outside[element].pressure, phase)
+    }
+
+    /// Density of a phase at a pressure over that of its reference density, Pa, in kg/m³, but no less than a share of
+    /// this: characteristics are linear, and may lead to a tension at which the law has no density.
+    pub fn density_at(&self, pressure: f64, phase: usize) -> f64 {
+        let law = &self.laws[phase];
+        let density = law.density(pressure + self.background(phase));
+        density.max(THINNEST * law.reference().density)
     }
 
     /// The velocity with which fluid passes an element, m/s: what is imposed, or that of the row in front of it and what the law
@@ -337,4 +349,10 @@ impl<const D: usize> Faces<D> {
         }
         all
     }
+}
+
+/// The first of the largest.
+fn most(mix: &[f64]) -> usize {
+    let larger = |a: usize, b: usize| if mix[b] > mix[a] { b } else { a };
+    (0..mix.len()).reduce(larger).unwrap_or(0)
 }

@@ -94,9 +94,8 @@ impl<const D: usize> Faces<D> {
     /// ρ₀/ρ before an element: laws ask for volumes of a fluid that does not compress, and its mass is to pass.
     fn expansion(&self, k: usize) -> f64 {
         let (inside, q) = (&self.inside[k], self.phase(k));
-        let law = &self.laws[q];
         match inside.wet {
-            true => law.reference().density / law.density(inside.pressure + self.background(q)),
+            true => self.laws[q].reference().density / self.density_at(inside.pressure, q),
             false => 1.0,
         }
     }
@@ -141,12 +140,10 @@ impl<const D: usize> Faces<D> {
         let mix = &mut seen.mix;
         mix.clear();
         mix.resize(self.whole.len(), 0.0);
-        // Σ V w ρ, by phase: the speed of sound is asked once for each.
-        let weighed = &mut room.weighed;
-        weighed.clear();
-        weighed.resize(self.whole.len(), 0.0);
-        let (mut filling, mut p, mut reach) = (0.0, 0.0, 0.0);
-        let mut u = Vect::<D>::zeros();
+        let sums = &mut room.sums;
+        sums.clear();
+        sums.resize(self.whole.len(), Sums::default());
+        let (mut filling, mut reach) = (0.0, 0.0);
         let mut row = Row::default();
         for ((j, apart), w) in room.near.iter().zip(&room.value) {
             let j = *j;
@@ -156,23 +153,23 @@ impl<const D: usize> Faces<D> {
             filling += vw;
             reach -= vw * apart.dot(&place.normal);
             mix[phase] += vw;
-            p += vw * (over + columns.density[j] * world.gravity.dot(apart));
             let velocity = &columns.velocity[j];
-            u += velocity * vw;
+            let of_phase = &mut sums[phase];
+            of_phase.pressure += vw * (over + columns.density[j] * world.gravity.dot(apart));
+            of_phase.velocity += velocity * vw;
+            of_phase.density += vw * columns.density[j];
             let weights = [vw, columns.volume[j]];
             row.add(&place.normal, apart, self.spacing, weights, velocity);
-            weighed[phase] += vw * columns.density[j];
         }
-        let (mut z, mut rho) = (0.0, 0.0);
-        for ((law, sum), filled) in self.laws.iter().zip(&*weighed).zip(&*mix) {
-            if *filled > 0.0 {
-                rho += sum;
-                z += sum * law.sound_speed(sum / filled);
-            }
-        }
-        if filling > 0.0 {
+        // Sound of one phase says nothing of the pressure of another beside it, which may be a thousand times as heavy.
+        let q = self.before_all(k, mix);
+        let (of_phase, filled) = (sums[q], mix[q]);
+        let (mut p, mut u, mut z, mut rho) = (0.0, Vect::zeros(), 0.0, 0.0);
+        if filled > 0.0 {
             mix.iter_mut().for_each(|m| *m /= filling);
-            (p, u, z, rho) = (p / filling, u / filling, z / filling, rho / filling);
+            (p, u) = (of_phase.pressure / filled, of_phase.velocity / filled);
+            rho = of_phase.density / filled;
+            z = of_phase.density * self.laws[q].sound_speed(rho) / filled;
             reach = (reach / filling).max(0.0);
         }
         let (mean_pressure, mean) = match self.memory.dt > 0.0 {
@@ -221,6 +218,24 @@ impl<'a, const D: usize> Columns<'a, D> {
     }
 }
 
+/// Sums over the particles of a phase before an element, each with V w.
+#[derive(Clone, Copy)]
+struct Sums<const D: usize> {
+    pressure: f64,
+    density: f64,
+    velocity: Vect<D>,
+}
+
+impl<const D: usize> Default for Sums<D> {
+    fn default() -> Self {
+        Sums {
+            pressure: 0.0,
+            density: 0.0,
+            velocity: Vect::zeros(),
+        }
+    }
+}
+
 /// Buffers of a task.
 struct Room<const D: usize> {
     /// Particles within the support of an element's centre, and the ways from them to it, m.
@@ -229,7 +244,8 @@ struct Room<const D: usize> {
     distance2: Vec<f64>,
     /// w, 1/m^d.
     value: Vec<f64>,
-    weighed: Vec<f64>,
+    /// By phase.
+    sums: Vec<Sums<D>>,
 }
 
 impl<const D: usize> Default for Room<D> {
@@ -238,7 +254,7 @@ impl<const D: usize> Default for Room<D> {
             near: Vec::new(),
             distance2: Vec::new(),
             value: Vec::new(),
-            weighed: Vec::new(),
+            sums: Vec::new(),
         }
     }
 }

@@ -29,6 +29,7 @@ pub(crate) mod soil_remarks;
 pub(crate) mod sound;
 pub(crate) mod start;
 pub(crate) mod swing;
+pub(crate) mod tension;
 pub(crate) mod transported;
 pub(crate) mod wall_speeds;
 pub(crate) mod walls;

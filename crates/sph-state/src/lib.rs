@@ -7,12 +7,14 @@
 
 mod compressible_grains;
 mod eos;
+mod lifted;
 mod linear;
 mod pressure_stage;
 mod tait;
 
 pub use compressible_grains::CompressibleGrains;
 pub use eos::{BoundState, EquationOfState, EquationOfStateEntry, Laws, Reference};
+pub use lifted::{Lift, Lifted};
 pub use linear::Linear;
 pub use pressure_stage::PressureStage;
 pub use tait::Tait;

@@ -36,7 +36,7 @@ impl Field {
     }
 
     /// The value of a column at the row before a time.
-    fn at(&self, column: &str, time: f64) -> (f64, f64) {
+    pub(crate) fn at(&self, column: &str, time: f64) -> (f64, f64) {
         let course = self.course(column);
         *course
             .iter()

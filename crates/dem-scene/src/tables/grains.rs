@@ -13,7 +13,7 @@ pub struct Grains {
     #[schemars(range(min = 1, max = 10_000_000))]
     pub count: Option<usize>,
     /// Smallest and largest radius, m; drawn evenly from between them. Not with a file.
-    #[schemars(inner(range(min = 0.0)), extend("unit" = "m"))]
+    #[schemars(inner(range(min = 0.0)), extend("unit" = "m", "quantity" = "spacing"))]
     pub radius: Option<[f64; 2]>,
     /// Density ρ_s, kg/m³.
     #[schemars(extend("unit" = "kg/m³", "exclusiveMinimum" = 0.0))]

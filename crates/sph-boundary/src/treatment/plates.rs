@@ -12,6 +12,9 @@ use crate::treatment::outline::Outline;
 /// Faces whose normals have a cosine below this are the two of a plate; a wedge of more than 8° has a tip, and no thickness.
 const OPPOSITE: f64 = -0.99;
 
+/// Places that differ by less than the spacing over this along every axis are nearly the same.
+const ALIKE: f64 = 4.0;
+
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// The thinnest place of every wall that is too thin, with fluid at `points`; wet places first.
     ///
@@ -23,9 +26,17 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         };
         let all: Vec<MeshElement<D>> = self.mesh.elements().collect();
         let most = self.far_sight - 0.5 * self.spacing;
+        // Of elements far smaller than the spacing, one for all that look the same way from nearly the same place.
+        let mut looked = HashSet::new();
+        let alike = |element: &MeshElement<D>| {
+            let place = cell(&(element.centre * ALIKE));
+            let way: [bool; D] = std::array::from_fn(|k| element.normal[k] < 0.0);
+            (element.wall, place, way)
+        };
+        let some: Vec<_> = all.iter().filter(|e| looked.insert(alike(e))).collect();
         let thin =
-            |element: &MeshElement<D>| Some((self.thickness(element, &all, most)?, *element));
-        let mut thin: Vec<(f64, MeshElement<D>)> = all.par_iter().filter_map(thin).collect();
+            |element: &&MeshElement<D>| Some((self.thickness(element, &all, most)?, **element));
+        let mut thin: Vec<(f64, MeshElement<D>)> = some.par_iter().filter_map(thin).collect();
         if thin.is_empty() {
             return Vec::new();
         }

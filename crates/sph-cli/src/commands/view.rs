@@ -1,12 +1,15 @@
 //! `sph view`: a page on 127.0.0.1 with the pictures, plots and series of a run, which may be going on.
 
 mod answer;
+mod series;
 mod state;
 
-use std::io::{BufRead, BufReader, Read, Write};
-use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::collections::VecDeque;
+use std::io::{ErrorKind, Read, Write};
+use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
 use std::path::Path;
-use std::time::Duration;
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use crate::telling::console;
 use crate::telling::trouble::Trouble;
@@ -14,7 +17,7 @@ use crate::tool_arguments::ViewArguments;
 use answer::{Answer, answer};
 
 /// Longest head of a request, bytes.
-const LONGEST: u64 = 8192;
+const LONGEST: usize = 8192;
 /// Time that a browser has to say what it wants, and to take it.
 const PATIENCE: Duration = Duration::from_secs(10);
 /// Browsers that are served at once.
@@ -45,36 +48,54 @@ pub fn command(arguments: &ViewArguments) -> Result<(), Trouble> {
     Ok(())
 }
 
+/// Serves as many browsers at once as there is room for: one more takes the place of the one that was there first.
 fn serve(listener: &TcpListener, folder: &Path, port: u16) {
-    let busy = std::sync::atomic::AtomicUsize::new(0);
+    let open: Mutex<VecDeque<(u64, TcpStream)>> = Mutex::default();
+    let held = || open.lock().unwrap_or_else(PoisonError::into_inner);
     std::thread::scope(|scope| {
-        for stream in listener.incoming().flatten() {
-            use std::sync::atomic::Ordering::SeqCst;
-            if busy.load(SeqCst) >= MOST {
+        for (number, stream) in (0..).zip(listener.incoming().flatten()) {
+            let Ok(handle) = stream.try_clone() else {
                 continue;
+            };
+            let mut all = held();
+            if all.len() >= MOST
+                && let Some((_, first)) = all.pop_front()
+            {
+                let _ = first.shutdown(Shutdown::Both);
             }
-            busy.fetch_add(1, SeqCst);
-            let busy = &busy;
+            all.push_back((number, handle));
+            drop(all);
             scope.spawn(move || {
                 // A browser that has gone needs no answer.
                 let _ = one(stream, folder, port);
-                busy.fetch_sub(1, SeqCst);
+                held().retain(|(other, _)| *other != number);
             });
         }
     });
 }
 
-/// Reads a request and answers it; the connection ends with it.
-fn one(mut stream: TcpStream, folder: &Path, port: u16) -> std::io::Result<()> {
-    stream.set_read_timeout(Some(PATIENCE))?;
-    stream.set_write_timeout(Some(PATIENCE))?;
-    let mut head = Vec::new();
-    let mut reader = BufReader::new(stream.try_clone()?).take(LONGEST);
-    while !head.ends_with(b"\r\n\r\n") && !head.ends_with(b"\n\n") {
-        if reader.read_until(b'\n', &mut head)? == 0 {
-            break;
+/// The head of a request, which has to be there in time as a whole.
+fn head(stream: &mut TcpStream) -> std::io::Result<Vec<u8>> {
+    let end = Instant::now() + PATIENCE;
+    let (mut head, mut part) = (Vec::new(), [0; 1024]);
+    while !head.ends_with(b"\r\n\r\n") && !head.ends_with(b"\n\n") && head.len() < LONGEST {
+        let left = end.saturating_duration_since(Instant::now());
+        stream.set_read_timeout(Some(left.max(Duration::from_millis(1))))?;
+        match stream.read(&mut part)? {
+            0 => break,
+            n => head.extend_from_slice(&part[..n]),
+        }
+        if left.is_zero() {
+            return Err(ErrorKind::TimedOut.into());
         }
     }
+    Ok(head)
+}
+
+/// Reads a request and answers it; the connection ends with it.
+fn one(mut stream: TcpStream, folder: &Path, port: u16) -> std::io::Result<()> {
+    stream.set_write_timeout(Some(PATIENCE))?;
+    let head = head(&mut stream)?;
     let head = String::from_utf8_lossy(&head);
     let Answer { status, kind, body } = answer(&head, folder, port);
     write!(

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use crate::error::{IoError, Result};
 use crate::files::atomic::{Durability, write_atomic};
 use crate::files::folder::writable;
+use crate::paraview::beside::beside;
 use crate::paraview::frame::Frame;
 use crate::paraview::pvtu::{file_name, write_pvtu, write_share};
 use crate::paraview::vtu::write_vtu;
@@ -38,19 +39,21 @@ pub struct Listed {
 /// The files that a `.pvd` lists, in the order of their times.
 ///
 /// # Errors
-/// If it cannot be read, or is not one of [`PvdSeries`].
+/// If it cannot be read, is not one of [`PvdSeries`], or names a file outside its folder.
 pub fn list_pvd(path: impl AsRef<Path>) -> Result<Vec<Listed>> {
     let series = PvdSeries {
         path: path.as_ref().to_path_buf(),
         entries: Vec::new(),
     };
-    let listed = |entry: Entry| Listed {
-        time: entry.time,
-        name: entry.name,
-        path: series.path.with_file_name(entry.file),
+    let listed = |entry: Entry| {
+        Ok(Listed {
+            time: entry.time,
+            name: entry.name,
+            path: beside(&series.path, &entry.file)?,
+        })
     };
     // A list that is not there is none, not an empty one.
-    Ok(series.load(1)?.into_iter().map(listed).collect())
+    series.load(1)?.into_iter().map(listed).collect()
 }
 
 /// One file of the series.

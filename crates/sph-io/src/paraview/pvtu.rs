@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{IoError, Result};
 use crate::files::atomic::{Durability, write_atomic};
+use crate::paraview::beside::beside;
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece};
 use crate::paraview::vtu::write_vtu;
 use crate::paraview::vtu_read::read_vtu;
@@ -110,7 +111,7 @@ pub fn read_piece(path: impl AsRef<Path>) -> Result<(Piece<'static>, f64)> {
         let found = attributes(tag).ok_or_else(|| unfit("a tag cannot be read"))?;
         let source = found.iter().find(|(name, _)| *name == "Source");
         let (_, source) = source.ok_or_else(|| unfit("a piece has no file"))?;
-        let (mut share, time) = read_vtu(path.with_file_name(source))?;
+        let (mut share, time) = read_vtu(beside(path, source)?)?;
         whole = Some(match whole {
             None => {
                 let stem = path.file_stem().unwrap_or_default().to_string_lossy();

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::register;
 
-use crate::course::{Course, check_course, factor};
+use crate::course::{Course, check_course, factor, range};
 use crate::laws::imposed_velocity;
 use crate::{
     Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
@@ -57,7 +57,7 @@ impl<const D: usize> OpenBoundary<D> for FlowRate {
         }
     }
     fn lets_out(&self) -> bool {
-        self.rate < 0.0
+        range(&self.over_time, self.rate)[0] < 0.0
     }
     fn asked(&self, _: &[Place<D>], time: f64) -> Option<f64> {
         Some(self.rate * factor(&self.over_time, time))

@@ -57,6 +57,7 @@ pub(crate) fn columns_of_all<const D: usize>(
         Box::new((walls.clone(), set))
     });
     let mut all = assemble_share::<D>(scene, Share::Columns(standing))?;
+    all.flow.laws = parts.flow.laws.clone();
     all.flow.recount(&counters.left);
     Ok(all)
 }

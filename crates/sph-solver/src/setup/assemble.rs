@@ -10,7 +10,7 @@ use sph_neighbours::World;
 use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
-use sph_state::{Laws, Reference};
+use sph_state::{Laws, Lift, Lifted, Reference};
 
 use crate::failure::error::SolverError;
 use crate::results::summary::PluginInForce;
@@ -85,7 +85,7 @@ pub(crate) fn assemble_share<const D: usize>(
 ) -> Result<Assembled<D>, SolverError> {
     let mut drawn = drawn_of::<D>(scene)?;
     let mut choices = chosen::<D>(scene)?;
-    let (laws, swing) = bind_laws::<D>(scene, &drawn, &choices)?;
+    let (laws, swing, lift) = bind_laws::<D>(scene, &drawn, &choices)?;
     movers::settle(scene, &mut drawn, &mut choices, &laws)?;
     let speeds = wall_speeds(scene, &drawn, &laws)?;
     let opened = open_faces::settle(scene, &mut drawn, &mut choices, &laws)?;
@@ -96,7 +96,8 @@ pub(crate) fn assemble_share<const D: usize>(
         mut warnings,
     } = Room::for_share(scene, &drawn, &mut choices, &mut share)?;
     warnings.extend(speeds);
-    warnings.extend(open_faces::check(scene, opened.as_ref(), walls.as_ref())?);
+    let filled = (&room, placed.positions.as_slice(), &laws, &lift);
+    warnings.extend(open_faces::check(scene, &opened, &walls, filled)?);
     let ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
     let constant = constant_viscosities(scene, &choices.physics.rheologies);
@@ -131,8 +132,7 @@ pub(crate) fn assemble_share<const D: usize>(
         evolved: evolved(&*formulation, &parts),
     };
     let mut flow = joined(world, planned, given);
-    follow_displacements(&shown, &choices.probes, &mut flow);
-    check_output_fields(scene, &flow)?;
+    show(scene, &shown, &choices.probes, &mut flow)?;
     let columns = || parts.iter().flat_map(|(_, p)| p.columns());
     let beginning = Start {
         scene,
@@ -322,16 +322,18 @@ fn give_places<const D: usize>(
     Ok(())
 }
 
-/// Keeps displacements where an output or a probe asks for them.
-fn follow_displacements<const D: usize>(
+/// Keeps displacements where an output or a probe asks for them; refuses outputs of fields that there are none of.
+fn show<const D: usize>(
+    scene: &Scene,
     shown: &[String],
     probes: &[(String, Box<dyn Probe<D>>)],
     flow: &mut Flow<D>,
-) {
+) -> Result<(), SolverError> {
     let moved = shown.iter().any(|f| f == fields::DISPLACEMENT.name);
     if moved || probes.iter().any(|(_, p)| p.needs_displacement()) {
         flow.world.free.add(fields::DISPLACEMENT, Role::State);
     }
+    check_output_fields(scene, flow)
 }
 
 /// Names of the columns that outputs show and probes measure.
@@ -342,12 +344,13 @@ fn shown<const D: usize>(scene: &Scene, probes: &[(String, Box<dyn Probe<D>>)]) 
     shown.cloned().chain(measured).collect()
 }
 
-/// Equations of state with their reference states, and what gravity changes by.
+/// Equations of state with their reference states, and what gravity changes by; what may lift them where faces are
+/// open.
 fn bind_laws<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,
     choices: &Choices<D>,
-) -> Result<(Laws, Option<Swing<D>>), SolverError> {
+) -> Result<(Laws, Option<Swing<D>>, Lift), SolverError> {
     let swing = Swing::<D>::of(scene)?;
     let more = swing.as_ref().map(|s| s.head(scene, &drawn.regions));
     let head = height(scene, &drawn.regions) * scene.gravity::<D>().norm();
@@ -358,8 +361,12 @@ fn bind_laws<const D: usize>(
         sound_speed,
     });
     let laws = choices.equations_of_state.iter().zip(reference);
-    let laws = laws.map(|(eos, reference)| eos.bind(reference));
-    Ok((laws.collect(), swing))
+    let lift = Lift::default();
+    let laws = laws.map(|(eos, reference)| match choices.open.is_empty() {
+        true => eos.bind(reference),
+        false => Box::new(Lifted::new(eos.bind(reference), &lift)),
+    });
+    Ok((laws.collect(), swing, lift))
 }
 
 /// η/ρ₀ of every phase, m²/s.

@@ -12,6 +12,7 @@ use crate::failure::error::SolverError;
 use crate::setup::builder::Part;
 use crate::setup::choices::Choices;
 use crate::setup::shapes::Drawn;
+use crate::setup::tension::{self, Filled};
 use crate::step::stages::{SharedWall, lock};
 
 /// Why walls with points of their own cannot be opened.
@@ -87,14 +88,16 @@ fn path(scene: &Scene, wall: &str, key: &str) -> String {
     choice.map_or(format!("wall.{wall}"), |c| c.inside(key))
 }
 
-/// Refuses faces that do not fit their law, and those that something blocks; remarks on those by which more comes in than can leave. Nothing without open faces.
+/// Refuses faces that do not fit their law, and those that something blocks; remarks on those by which more comes in
+/// than can leave, and on those that brake the fluid, which may lift the laws. Nothing without open faces.
 ///
 /// # Errors
 /// The law of a face that it does not fit, or before which there is no room.
 pub(crate) fn check<const D: usize>(
     scene: &Scene,
-    opened: Option<&OpenBoundaries<D>>,
-    walls: Option<&SharedWall<D>>,
+    opened: &Option<OpenBoundaries<D>>,
+    walls: &Option<SharedWall<D>>,
+    filled: Filled<'_, D>,
 ) -> Result<Vec<String>, SolverError> {
     let Some(opened) = opened else {
         return Ok(Vec::new());
@@ -121,10 +124,12 @@ pub(crate) fn check<const D: usize>(
             }
         }
     }
-    match blocked.is_empty() {
-        true => Ok(remarks(scene, opened)),
-        false => Err(SolverError::Scene(blocked)),
+    if !blocked.is_empty() {
+        return Err(SolverError::Scene(blocked));
     }
+    let mut all = remarks(scene, opened);
+    all.extend(tension::lift(scene, opened, walls.as_ref(), filled));
+    Ok(all)
 }
 
 fn remarks<const D: usize>(scene: &Scene, opened: &OpenBoundaries<D>) -> Vec<String> {

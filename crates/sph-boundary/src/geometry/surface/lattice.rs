@@ -25,8 +25,15 @@ impl Lattice {
     pub fn inside(&self, edges: &[[[f64; 2]; 2]], clearance: f64) -> Vec<[i64; 2]> {
         let mut crossings: HashMap<i64, Vec<(f64, i32)>> = HashMap::new();
         let mut close: HashSet<[i64; 2]> = HashSet::new();
+        let ends = |k: usize| {
+            let ends = edges.iter().flatten().map(|p| p[k]);
+            ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+                [low.min(x), high.max(x)]
+            })
+        };
+        let bounds = [0, 1].map(ends);
         for &[a, b] in edges {
-            self.mark_close([a, b], clearance, &mut close);
+            self.mark_close([a, b], clearance, bounds, &mut close);
             // Rows between the two ends, the lower end's own left out.
             let (low, high) = (a[1].min(b[1]), a[1].max(b[1]));
             let first = (low / self.steps[1]).floor() as i64;
@@ -62,11 +69,20 @@ impl Lattice {
         points
     }
 
-    fn mark_close(&self, [a, b]: [[f64; 2]; 2], clearance: f64, close: &mut HashSet<[i64; 2]>) {
+    /// Marks the points near an edge that are within the bounds of the polygon: the clearance may be many times its
+    /// size.
+    fn mark_close(
+        &self,
+        [a, b]: [[f64; 2]; 2],
+        clearance: f64,
+        bounds: [[f64; 2]; 2],
+        close: &mut HashSet<[i64; 2]>,
+    ) {
         let range = |k: usize| {
-            let low = (a[k].min(b[k]) - clearance) / self.steps[k];
-            let high = (a[k].max(b[k]) + clearance) / self.steps[k];
-            low.ceil() as i64..=high.floor() as i64
+            let low = (a[k].min(b[k]) - clearance).max(bounds[k][0]) / self.steps[k];
+            let high = (a[k].max(b[k]) + clearance).min(bounds[k][1]) / self.steps[k];
+            // Rounding must not leave out a point on the bounds.
+            low.floor() as i64..=high.ceil() as i64
         };
         let t = [b[0] - a[0], b[1] - a[1]];
         let length2 = (t[0] * t[0] + t[1] * t[1]).max(f64::MIN_POSITIVE);

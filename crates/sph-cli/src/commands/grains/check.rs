@@ -4,7 +4,7 @@ use dem_scene::{Examination, Loaded, examine};
 use serde_json::Value as Json;
 
 use crate::number;
-use crate::telling::layout::columns;
+use crate::telling::layout::{columns, remarks};
 use crate::telling::told::Told;
 use crate::telling::trouble::Trouble;
 
@@ -53,15 +53,27 @@ fn text(e: &Examination, file: &str) -> String {
         .map(|(name, value, unit)| row(name, format!("{} {unit}", number::plain(*value))));
     let derived: Vec<_> = derived.collect();
     let limits: Vec<_> = e.limits.iter().map(|l| vec![l.clone()]).collect();
+    let cost = &e.estimate;
+    let estimate = vec![
+        row("steps", format!("at least {}", number::count(cost.steps))),
+        row(
+            "wall time",
+            format!("at least {} on one core", number::duration(cost.seconds)),
+        ),
+    ];
     let mut text = format!("{}\n{file} is a good scene of grains\n", e.scene);
     for (title, rows) in [
         ("size", size),
         ("derived", derived),
         ("limits of the time step", limits),
+        ("estimate", estimate),
     ] {
         if !rows.is_empty() {
             text.push_str(&format!("\n{title}\n{}", columns(2, &rows)));
         }
+    }
+    if !e.warnings.is_empty() {
+        text.push_str(&format!("\nwarnings\n{}", remarks(&e.warnings)));
     }
     text
 }

@@ -1,8 +1,8 @@
 //! What a browser gets.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::state;
+use super::{series, state};
 
 const PAGE: &str = include_str!("../../../templates/view.html");
 
@@ -55,8 +55,22 @@ pub fn answer(head: &str, folder: &Path, port: u16) -> Answer {
     if !host.is_some_and(|host| own.iter().any(|own| own == host)) {
         return refused("403 Forbidden");
     }
-    let path = target.split(['?', '#']).next().unwrap_or_default();
+    let mut parts = target.split(['?', '#']);
+    let path = parts.next().unwrap_or_default();
     match path {
+        "/series.csv" => {
+            let asked = parts.next().and_then(|query| query.strip_prefix("column="));
+            let column = asked.and_then(decoded).unwrap_or_default();
+            let file = inside(folder, "series.csv");
+            match file.and_then(|file| series::thinned(&file, &column).ok()) {
+                Some(text) => Answer {
+                    status: "200 OK",
+                    kind: "text/csv; charset=utf-8",
+                    body: text.into_bytes(),
+                },
+                None => refused("404 Not Found"),
+            }
+        }
         "/" => Answer {
             status: "200 OK",
             kind: "text/html; charset=utf-8",
@@ -71,7 +85,13 @@ pub fn answer(head: &str, folder: &Path, port: u16) -> Answer {
     }
 }
 
-/// A file of the folder, links followed and still within it.
+/// The path of something in the folder, links followed and still within it.
+fn inside(folder: &Path, name: &str) -> Option<PathBuf> {
+    let real = folder.join(name).canonicalize().ok();
+    real.filter(|real| real.starts_with(folder))
+}
+
+/// A file of the folder.
 fn file(path: &str, folder: &Path) -> Answer {
     let Some(name) = path.strip_prefix("/files/").and_then(decoded) else {
         return refused("404 Not Found");
@@ -79,9 +99,7 @@ fn file(path: &str, folder: &Path) -> Answer {
     let kind = KINDS
         .iter()
         .find(|(extension, _)| name.ends_with(&format!(".{extension}")));
-    let real = folder.join(&name).canonicalize().ok();
-    let inside = real.filter(|real| real.starts_with(folder));
-    let (Some((_, kind)), Some(real)) = (kind, inside) else {
+    let (Some((_, kind)), Some(real)) = (kind, inside(folder, &name)) else {
         return refused("404 Not Found");
     };
     match std::fs::read(real) {
