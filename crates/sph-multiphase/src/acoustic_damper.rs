@@ -11,21 +11,23 @@ use sph_core::{
 use sph_damping::DampingEntry;
 use sph_neighbours::{
     BoundTerm, Contact, Declared, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm,
-    Lanewise, Pair, Rates, Sums, Terms, There, World, add_scaled, all_sums, splat, vector,
+    Lanewise, Pair, Rates, Sums, Terms, There, Values, World, add_scaled, all_sums, splat, vector,
+    walk_some,
 };
 
 use crate::divergence::{Divergence, OwnVolume};
 use crate::interface_limit::shortest_wave;
 
 /// m_a a = −1/γ_a [Σ_b θ_b (q_aV_a² + q_bV_b²) ∇w_ab − Σ_s q_a (V_a² + V_s²)/V_s ∇γ_as],
-/// q_a = −α ρ₀ c h D_a{u}, not below −max(p_a, 0).
+/// q_a = −α ρ₀ c h D_a{u}, not below −max(p_a, 0), ρ₀ that of the lightest phase within the support.
 ///
 /// A pressure against the rate of compression, that is a bulk viscosity ζ = α ρ₀ c h. Symbols: h smoothing length (m), c
 /// speed of sound of the phase at rest (m/s), D{u} divergence of the velocity (1/s), α number. Divergence and force are
 /// adjoint, so that between particles it takes Σ V q²/ζ from the motion and never gives. A wave of sound of the
 /// wave number k loses the share ½ α h c k² of its amplitude in a second; what is free of divergence it leaves alone. q is no
 /// tension where there is no pressure: a splash tears. Conserves momentum between particles, and
-/// angular momentum.
+/// angular momentum. The sound of a heavy phase moves the light particles next to it: what resists there may not be more than these
+/// can take within a step, so that rows within a support of a lighter phase are damped as that phase is.
 ///
 /// Limits: a divergence that is made by free surfaces and by disorder is damped as that of sound is. One more walk over the
 /// neighbours in a step.
@@ -59,8 +61,10 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
         let term: Box<dyn Interaction<D>> = Divergence::boxed(OwnVolume);
         vec![Box::new(Resistance {
             impedance: laws
+                .clone()
                 .map(|r| self.strength * r.density * r.sound_speed)
                 .collect(),
+            densities: laws.map(|r| r.density).collect(),
             declared: Declared::of([&*term]),
             term: [term],
             states: Vec::new(),
@@ -106,6 +110,8 @@ pub const DAMPING_PRESSURE: Field<Scalar> = Field::new(
 struct Resistance<const D: usize> {
     /// α ρ₀ c of every phase, kg/(m² s).
     impedance: Vec<f64>,
+    /// ρ₀ of every phase, kg/m³.
+    densities: Vec<f64>,
     term: [Box<dyn Interaction<D>>; 1],
     /// What the term declares: no step asks for memory to find it out.
     declared: Declared,
@@ -120,11 +126,36 @@ impl<const D: usize> Declares for Resistance<D> {
     }
     fn access(&self) -> Access {
         let access = self.term[0].access().both(fields::POSITION);
-        access
+        let access = access
             .here(fields::MASS)
             .here(fields::PRESSURE)
-            .where_there(fields::PHASE)
-            .writes(DAMPING_PRESSURE)
+            .writes(DAMPING_PRESSURE);
+        match self.densities.len() {
+            1 => access,
+            _ => access.both(fields::PHASE),
+        }
+    }
+}
+
+impl<const D: usize> Resistance<D> {
+    /// Least density of a phase within the support over that of a particle's own, where it sees another phase.
+    fn lightest(&self, world: &World<D>) -> Result<Vec<Option<f64>>, StepError> {
+        let Ok(phase) = world.free.get(fields::PHASE) else {
+            return Ok(Vec::new());
+        };
+        let density = |i: usize| self.densities[phase[i] as usize];
+        let lists = world.lists.nearest();
+        let near = |i: usize| {
+            let mut others = lists.candidates(i).iter();
+            others.any(|j| density(*j as usize) < density(i))
+        };
+        walk_some(world, Values::Gradient, near, |around| {
+            let (own, row) = (density(around.rows.particle), &around.rows.free);
+            let all = row.index.iter().zip(row.factor);
+            let seen = all.filter(|(_, factor)| **factor != 0.0);
+            let least = seen.map(|(j, _)| density(*j as usize));
+            least.fold(own, f64::min) / own
+        })
     }
 }
 
@@ -139,11 +170,13 @@ impl<const D: usize> Stage<World<D>> for Resistance<D> {
             more: &mut [],
         };
         all_sums(world, &mut self.states, &self.declared, &self.term, sums)?;
+        let lightest = self.lightest(world)?;
         let h = world.kernel.smoothing_length();
         let phase = world.free.get(fields::PHASE).ok();
         let fluid = world.free.get(fields::PRESSURE)?;
         for (i, (q, p)) in pressure.iter_mut().zip(fluid).enumerate() {
-            let impedance = self.impedance[phase.map_or(0, |p| p[i] as usize)];
+            let lighter = lightest.get(i).copied().flatten().unwrap_or(1.0);
+            let impedance = self.impedance[phase.map_or(0, |p| p[i] as usize)] * lighter;
             *q = (-impedance * h * *q).max(-p.max(0.0));
         }
         Ok(world.free.put(DAMPING_PRESSURE, pressure)?)
