@@ -1,6 +1,6 @@
 //! The mover `rigid-body`.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_boundary::{
@@ -17,8 +17,9 @@ use crate::prescribed::{self, Prescribed};
 use crate::shape::{Solid, winding};
 use crate::six::padded;
 
-/// Least density of a body over that of the lightest fluid: that of air over water's.
-const LIGHTEST: f64 = 1.2e-3;
+/// Least density of a body over that of the lightest fluid. Lighter ones are stable, but what a particle of the fluid does to them in one blow
+/// throws them: it has several times their mass.
+const LIGHTEST: f64 = 0.02;
 
 /// Speed that a contact stops within half a spacing, over the largest speed of sound.
 const FASTEST: f64 = 10.0;
@@ -41,7 +42,7 @@ const FASTEST: f64 = 10.0;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidBody {
-    /// Density of the body, kg/m³; it or the `mass` has to be given.
+    /// Density of the body, kg/m³, a fiftieth of the fluid's or more; it or the `mass` has to be given.
     #[schemars(extend("unit" = "kg/m³", "exclusiveMinimum" = 0.0))]
     pub density: Option<f64>,
     /// Mass, kg (per metre of depth in two dimensions).
@@ -123,7 +124,7 @@ impl RigidBody {
         };
         let density = mass / solid.volume;
         let [lightest, _] = setting.densities;
-        if density < LIGHTEST * lightest {
+        if density < LIGHTEST * lightest * (1.0 - 1e-9) {
             let key = if self.mass.is_some() {
                 "mass"
             } else {
@@ -132,8 +133,8 @@ impl RigidBody {
             return Err(MoverRefusal::of(
                 key,
                 format!(
-                    "the body is lighter than air: {density:.3} kg/m³ in a fluid of {lightest:.3} kg/m³; it has a volume of \
-                 {:.3e} {}",
+                    "the body is too light: {density:.3} kg/m³ in a fluid of {lightest:.3} kg/m³, of which a fiftieth is the \
+                 least; it has a volume of {:.3e} {}",
                     solid.volume,
                     if D == 2 {
                         "m² per metre of depth"
@@ -353,6 +354,11 @@ impl<const D: usize> Mover<D> for RigidBody {
             None => {}
         }
         state
+    }
+
+    fn mobility(&self, now: &RigidState<D>, time: f64) -> Option<Matrix6<f64>> {
+        let (dynamics, _) = self.settled.as_ref()?;
+        Some(dynamics.mobility(now, time))
     }
 
     fn next(&self, now: &RigidState<D>, load: &Load<D>, time: f64, dt: f64) -> RigidState<D> {

@@ -27,7 +27,7 @@ pub use contribution::{Contribution, Setting};
 pub use even_out::even_out;
 pub use kinds::{OpenKind, open_kinds};
 pub use limiter::Limiter;
-pub use limits::{ForceLimit, MotionLimit, SoundLimit};
+pub use limits::{ForceLimit, LightBodyLimit, MotionLimit, SoundLimit};
 pub use newborn::Newborn;
 pub use refusal::Refusal;
 pub use step_work::{Forces, OutsideForce, StepWork, StoredEnergy};

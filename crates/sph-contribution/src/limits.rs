@@ -51,6 +51,33 @@ impl<const D: usize> Limiter<D> for SoundLimit {
     }
 }
 
+/// Δt ≤ (h/c)/√Λ, Λ the largest ratio of the inertia of a layer of fluid of the thickness h at a body to that of the body: the
+/// compressed layer is a spring between both, which an explicit step twice as long would swing up.
+pub struct LightBodyLimit {
+    /// The equations of state.
+    pub laws: Laws,
+}
+
+impl<const D: usize> Limiter<D> for LightBodyLimit {
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+        let references = self.laws.iter().map(|law| law.reference());
+        let stiffness = references.map(|r| r.density * r.sound_speed.powi(2));
+        let stiffest = stiffness.fold(0.0, f64::max);
+        let bodies = world.walls.bodies.iter();
+        let lightness = bodies.map(|body| body.lightness(&world.walls.elements));
+        let lightest = lightness.fold(0.0, f64::max);
+        let h = world.kernel.smoothing_length();
+        let dt = (h / (stiffest * lightest)).sqrt();
+        Ok(StepLimit::new("light body", dt))
+    }
+    fn remedy(&self) -> Option<String> {
+        Some("a heavier or thicker body lengthens the step, and `[pressure.implicit]` needs no such bound".into())
+    }
+    fn formula(&self) -> String {
+        "light body: dt <= (h / c) sqrt(inertia of the body / that of a layer h of fluid)".into()
+    }
+}
+
 /// Δt ≤ C √(h / |a|) with the largest acceleration.
 pub struct ForceLimit {
     /// C.

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use sph_contribution::{Contribution, Limiter, Refusal, Setting, SoundLimit, Stages, StepWork};
+use sph_contribution::{
+    Contribution, LightBodyLimit, Limiter, Refusal, Setting, SoundLimit, Stages, StepWork,
+};
 use sph_core::AnyField;
 use sph_neighbours::Terms;
 use sph_state::PressureStage;
@@ -29,6 +31,10 @@ impl<const D: usize> Compressible<D> {
         let interfaces = InterfaceLimit::of(setting.laws).into_iter();
         let mut limits: Vec<Box<dyn Limiter<D>>> = vec![Box::new(sound)];
         limits.extend(interfaces.map(|limit| Box::new(limit) as Box<dyn Limiter<D>>));
+        if !setting.world.walls.bodies.is_empty() {
+            let laws = setting.laws.clone();
+            limits.push(Box::new(LightBodyLimit { laws }));
+        }
         limits
     }
 }

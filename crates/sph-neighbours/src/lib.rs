@@ -21,6 +21,7 @@ mod contacts;
 mod couplings;
 mod domain;
 mod facing;
+mod free_body;
 mod fuse;
 mod grid;
 mod half;
@@ -63,6 +64,7 @@ pub use contacts::{Contact, ContactBlock, ContactIter, ContactRow, Contacts};
 pub use couplings::{Couplings, CouplingsAt, Kinds, Visitor};
 pub use domain::Domain;
 pub use facing::facing_forces;
+pub use free_body::FreeBody;
 pub use fuse::{
     FusionEntry, Terms, fuse_all, fuse_three, fuse_three_lanes, fuse_two, fuse_two_lanes,
 };

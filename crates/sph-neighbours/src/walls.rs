@@ -4,7 +4,7 @@
 
 use sph_core::Vect;
 
-use crate::{Contacts, Domain, WallForce};
+use crate::{Contacts, Domain, FreeBody, WallForce};
 
 /// Wall points that take part in sums like particles: USAW vertices, dummy particles.
 #[derive(Clone, Debug, Default)]
@@ -161,6 +161,8 @@ pub struct WallSet<const D: usize> {
     pub contacts: Contacts<D>,
     /// Where every wall is, in the order of the names; empty where no wall ever moves.
     pub frames: Vec<Frame<D>>,
+    /// The walls that forces move; empty where there is none.
+    pub bodies: Vec<FreeBody<D>>,
     /// What has passed the open faces, face by face; empty where there is none.
     pub passed: Vec<Passed>,
     /// What the lines of movers do, wall by wall in the order of their scene; empty where there is none.
@@ -194,6 +196,7 @@ impl<const D: usize> WallSet<D> {
             elements.acceleration.clone_from(&there.acceleration);
         }
         self.frames.clone_from(&other.frames);
+        self.bodies.clone_from(&other.bodies);
         self.passed.clone_from(&other.passed);
         self.pulls.clone_from(&other.pulls);
     }

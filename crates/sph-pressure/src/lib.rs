@@ -4,6 +4,7 @@
 //!   [`PressureScheme`](sph_multiphase::PressureScheme) is.
 #![doc = include_str!("../README.md")]
 
+mod bodies;
 mod implicit;
 mod limit;
 mod stage;

@@ -1,11 +1,14 @@
 //! The stage that solves for the pressure.
 
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
-use sph_implicit::{Assembly, Automatic, DividedMatrix, Entries, LinearSolver, Matrix};
+use sph_implicit::{
+    Assembly, Automatic, DividedMatrix, Entries, LinearSolver, LowRank, Matrix, Operator,
+};
 use sph_multiphase::{Acting, FREE_SURFACE, Place};
 use sph_neighbours::{Interaction, SharedRows, There, World, interactions, lattice_sum};
 use sph_state::{BoundState, PressureStage};
 
+use crate::bodies::give_way;
 use crate::system::{Couplings, Part};
 
 const NAME: &str = "implicit pressure";
@@ -153,14 +156,22 @@ impl<const D: usize> SolvePressure<D> {
         )?;
         let values = std::mem::take(&mut assembly.values);
         let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
-        let sources = &assembly.sources;
-        let solved = match shared {
-            None => self.solver.solve(&matrix, sources, x),
-            Some(shared) => {
-                let divided = DividedMatrix::new(&matrix, shared, None);
-                self.solver.solve(&divided, sources, x)
+        let sources = &mut assembly.sources;
+        let divided = shared.map(|shared| DividedMatrix::new(&matrix, shared, None));
+        let base = divided.as_ref().map_or(&matrix as &dyn Operator<1>, |d| d);
+        let solved = match world.walls.bodies.is_empty() {
+            true => self.solver.solve(base, sources, x),
+            false => {
+                let vectors = give_way(world, base, sources, x)?;
+                let operator = LowRank {
+                    base,
+                    vectors: &vectors,
+                    sign: 1.0,
+                };
+                self.solver.solve(&operator, sources, x)
             }
         };
+        drop(divided);
         if let Entries::Scalar(values) = matrix.entries {
             assembly.values = values;
         }

@@ -28,6 +28,7 @@ pub struct FrictionSystem<const D: usize> {
     scalar: Diagonals<f64>,
     block: Diagonals<Block<D>>,
     mixes: bool,
+    dt: f64,
     matrices: Mutex<Matrices<D>>,
 }
 
@@ -102,6 +103,7 @@ impl<const D: usize> FrictionSystem<D> {
         [ahead, dt]: [f64; 2],
     ) -> Result<(), StepError> {
         self.mixes = coupling.mixes_components();
+        self.dt = dt;
         coupling.lend(world, &mut |bound| {
             let part = Part {
                 coupling: bound,
@@ -117,6 +119,15 @@ impl<const D: usize> FrictionSystem<D> {
                 true => part.fill(world, couplings, &mut self.block, right),
             }
         })
+    }
+
+    /// θΔt W over Δt of a particle, N s/m: what walls do to it.
+    pub(crate) fn of_walls(&self, particle: usize) -> Block<D> {
+        let own = match self.mixes {
+            false => Block::<D>::identity() * self.scalar.own[particle],
+            true => self.block.own[particle],
+        };
+        (own - Block::<D>::identity() * self.mass[particle]) / self.dt
     }
 
     /// The system's left side, for a world that stands where it was filled.

@@ -9,9 +9,10 @@ use std::time::Instant;
 use serde_json::Value as Json;
 use sph_contribution::{Forces, OutsideForce, Stages, StepWork};
 use sph_core::{Access, Stage, StepError, Vect, fields};
-use sph_implicit::{LinearSolver, Operator, TimeScheme};
+use sph_implicit::{LinearSolver, LowRank, Operator, TimeScheme};
 use sph_neighbours::{Interaction, World};
 
+use crate::giving_way::Bodies;
 use crate::start::{Start, put};
 use crate::{Coupling, FrictionSystem, Solves};
 
@@ -98,6 +99,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             &mut ahead,
             world.free.get(fields::VELOCITY)?.iter().copied(),
         );
+        self.give_way(world, [earlier, &ahead], dt)?;
         let (mut iterations, mut change) = (0, f64::INFINITY);
         while iterations < most && change > outer.tolerance {
             let again = iterations > 0;
@@ -115,7 +117,8 @@ impl<const D: usize> ImplicitViscosity<D> {
             if self.lagged.stiffens {
                 stiffen(world, &mut self.plain)?;
             }
-            let solved = self.solve(world, [earlier, &ahead], again, &mut velocity, dt);
+            let known = [earlier, &ahead];
+            let solved = self.solve(world, known, again, (&mut velocity, None), dt);
             if self.lagged.stiffens {
                 unstiffen(world, &mut self.plain)?;
             }
@@ -141,7 +144,32 @@ impl<const D: usize> ImplicitViscosity<D> {
         Ok(())
     }
 
-    /// One linear solve from uⁿ and u*; `velocity` is the start and the result.
+    /// Gives bodies that friction moves the velocity of the end of the step, which a first solve finds with that of the fluid.
+    fn give_way(
+        &mut self,
+        world: &mut World<D>,
+        [earlier, ahead]: [&[Vect<D>]; 2],
+        dt: f64,
+    ) -> Result<(), StepError> {
+        let elements = &world.walls.elements;
+        let mut grips = elements.grip.iter().zip(&elements.wall);
+        let rubs = |wall: usize| world.walls.bodies.iter().any(|body| body.is(wall));
+        if !grips.any(|(grip, wall)| *grip > 0.0 && rubs(*wall as usize)) {
+            return Ok(());
+        }
+        let share = self.scheme.implicit_share();
+        let system = &mut self.system;
+        system.fill(&*self.coupling, world, earlier, [share, dt])?;
+        let Some(bodies) = Bodies::of(world, system, earlier, dt)? else {
+            return Ok(());
+        };
+        let mut velocity = ahead.to_vec();
+        let known = [earlier, ahead];
+        self.solve(world, known, false, (&mut velocity, Some(&bodies)), dt)?;
+        bodies.carry(world, &velocity, dt)
+    }
+
+    /// One linear solve from uⁿ and u*, where bodies may give way; `velocity` is the start and the result.
     ///
     /// The first one of a step starts on the line from uⁿ to u*, one that comes `again` where the last ended.
     fn solve(
@@ -149,7 +177,7 @@ impl<const D: usize> ImplicitViscosity<D> {
         world: &World<D>,
         [earlier, ahead]: [&[Vect<D>]; 2],
         again: bool,
-        velocity: &mut [Vect<D>],
+        (velocity, bodies): (&mut [Vect<D>], Option<&Bodies<D>>),
         dt: f64,
     ) -> Result<(), StepError> {
         let share = self.scheme.implicit_share();
@@ -177,14 +205,25 @@ impl<const D: usize> ImplicitViscosity<D> {
                 self.start.between((&operator, &right), earlier, velocity);
             }
         }
+        let vectors = bodies.map_or(Vec::new(), |all| all.bind(&operator, &mut right, dt));
+        let update = LowRank {
+            base: &operator,
+            vectors: &vectors,
+            sign: -1.0,
+        };
+        let whole: &dyn Operator<D> = if vectors.is_empty() {
+            &operator
+        } else {
+            &update
+        };
         let start = Instant::now();
         let solved = match self.lagged.stages.is_empty() {
-            true => self.solver.solve(&operator, &right, velocity),
+            true => self.solver.solve(whole, &right, velocity),
             false => {
                 // More than the outer iteration asks for would be lost on it.
                 let enough = INNER * self.scheme.outer().tolerance;
                 let solver = &mut self.solver;
-                solver.solve_roughly(&operator, &right, velocity, enough)
+                solver.solve_roughly(whole, &right, velocity, enough)
             }
         };
         let bytes = operator.bytes();

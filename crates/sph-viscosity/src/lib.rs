@@ -13,6 +13,7 @@ mod espanol_revenga;
 mod friction;
 mod friction_operator;
 mod friction_system;
+mod giving_way;
 mod held_back;
 mod hu_adams_viscosity;
 mod implicit;

@@ -24,11 +24,11 @@ fn told(from: &str, to: &str, place: &str) -> String {
 const BODY: &str = "density = 500.0";
 
 #[test]
-fn bodies_without_volume_or_lighter_than_air_are_refused() {
-    let said = told(BODY, "density = 1.0", "density = 1.0");
-    assert!(said.contains("lighter than air"), "{said}");
-    let said = told(BODY, "mass = 0.02", "mass = 0.02");
-    assert!(said.contains("lighter than air"), "{said}");
+fn bodies_without_volume_or_too_light_are_refused() {
+    let said = told(BODY, "density = 19.0", "density = 19.0");
+    assert!(said.contains("a fiftieth is the least"), "{said}");
+    let said = told(BODY, "mass = 0.39", "mass = 0.39");
+    assert!(said.contains("a fiftieth is the least"), "{said}");
     let drawn = "box = [[0.3, 0.2], [0.5, 0.3]]\nfluid = \"outside\"";
     let open = "polyline = [[0.3, 0.3], [0.5, 0.3], [0.5, 0.2]]";
     let said = told(drawn, open, "[wall.float.mover.rigid-body]");

@@ -1,5 +1,6 @@
 //! What moves a wall.
 
+use nalgebra::Matrix6;
 use sph_core::{Vect, contract};
 use sph_neighbours::Sight;
 
@@ -33,6 +34,11 @@ pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
     /// hangs on nothing.
     fn pulls(&self, _now: &RigidState<D>) -> Vec<(Vect<D>, f64)> {
         Vec::new()
+    }
+    /// What an impulse and its moment about the centre do to both velocities in a state at a time, s: the inverse of mass and
+    /// inertia, with zeros for what cannot give way; none if nothing does.
+    fn mobility(&self, _now: &RigidState<D>, _time: f64) -> Option<Matrix6<f64>> {
+        None
     }
     /// The state at `time + dt` from that at `time`, s, with the load of the last evaluation.
     fn next(&self, now: &RigidState<D>, load: &Load<D>, time: f64, dt: f64) -> RigidState<D>;

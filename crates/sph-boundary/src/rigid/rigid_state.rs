@@ -19,6 +19,10 @@ pub struct RigidState<const D: usize> {
     pub angular_velocity: [f64; 3],
     /// Its rate ω̇, rad/s².
     pub angular_acceleration: [f64; 3],
+    /// Change of both velocities over the last step, m/s² and rad/s², of walls with movers.
+    pub rate: [f64; 6],
+    /// Both velocities less those that friction was last solved with, m/s and rad/s.
+    pub missed: [f64; 6],
 }
 
 /// Velocity and acceleration of a place of the wall.
@@ -39,6 +43,8 @@ impl<const D: usize> Default for RigidState<D> {
             acceleration: Vect::zeros(),
             angular_velocity: [0.0; 3],
             angular_acceleration: [0.0; 3],
+            rate: [0.0; 6],
+            missed: [0.0; 6],
         }
     }
 }
@@ -60,6 +66,16 @@ impl<const D: usize> RigidState<D> {
             movement.acceleration += swept(rate, &arm) + swept(omega, &velocity);
         }
         movement
+    }
+
+    /// Change of both velocities from an earlier state over a time, m/s² and rad/s².
+    pub fn rate_from(&self, earlier: &Self, dt: f64) -> [f64; 6] {
+        let change = self.velocity - earlier.velocity;
+        let turns = [self, earlier].map(|s| s.angular_velocity);
+        std::array::from_fn(|k| match k {
+            0..3 => change.get(k).copied().unwrap_or(0.0) / dt,
+            _ => (turns[0][k - 3] - turns[1][k - 3]) / dt,
+        })
     }
 
     /// Where the centre is now, m.
@@ -84,7 +100,7 @@ impl<const D: usize> RigidState<D> {
     }
 
     /// All its numbers, for files: translation, rotation row by row, centres, velocity, acceleration, angular velocity and
-    /// acceleration.
+    /// acceleration, rate, what was missed.
     pub fn numbers(&self) -> Vec<f64> {
         let mut all = self.pose.translation.to_vec();
         all.extend(self.pose.rotation.iter().flatten());
@@ -94,11 +110,13 @@ impl<const D: usize> RigidState<D> {
         all.extend(self.acceleration.iter());
         all.extend(self.angular_velocity);
         all.extend(self.angular_acceleration);
+        all.extend(self.rate);
+        all.extend(self.missed);
         all
     }
 
     /// How many [`numbers`](Self::numbers) a state has.
-    pub const NUMBERS: usize = 5 * D + D * D + 6;
+    pub const NUMBERS: usize = 5 * D + D * D + 18;
 
     /// From its numbers; none if there are not as many, or not finite ones.
     pub fn from_numbers(numbers: &[f64]) -> Option<Self> {
@@ -116,6 +134,8 @@ impl<const D: usize> RigidState<D> {
         state.acceleration = Vect::from_fn(|_, _| next());
         state.angular_velocity = std::array::from_fn(|_| next());
         state.angular_acceleration = std::array::from_fn(|_| next());
+        state.rate = std::array::from_fn(|_| next());
+        state.missed = std::array::from_fn(|_| next());
         Some(state)
     }
 }
@@ -133,6 +153,8 @@ mod tests {
             acceleration: Vect::<3>::new(0.5, 0.25, 0.125),
             angular_velocity: [0.0, 0.6, 0.8],
             angular_acceleration: [4.0, 0.5, -5.0],
+            rate: [0.5, 0.25, 0.125, 4.0, 0.5, -5.0],
+            missed: [0.25, 0.125, 4.0, 0.5, -5.0, 0.5],
         };
         let numbers = state.numbers();
         assert_eq!(numbers.len(), RigidState::<3>::NUMBERS);

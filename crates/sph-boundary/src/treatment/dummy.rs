@@ -116,6 +116,7 @@ impl<const D: usize, M: WallMesh<D>> DummyParticles<D, M> {
         walls.frames = set_up.outline.frames();
         set_up.place(&mut walls.points, &walls.frames);
         walls.pulls = set_up.outline.pulls();
+        walls.bodies.clone_from(&set_up.outline.bodies);
         Ok(())
     }
 }
@@ -150,6 +151,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
         let (frames, pulls) = (set_up.outline.frames(), set_up.outline.pulls());
         set_up.place(&mut points, &frames);
         let names = set_up.outline.mesh.names().to_vec();
+        let bodies = set_up.outline.bodies.clone();
         self.set_up = Some(set_up);
         Ok(WallSet {
             names,
@@ -157,6 +159,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
             elements: Default::default(),
             contacts: Contacts::default(),
             frames,
+            bodies,
             passed: Vec::new(),
             pulls,
             forces: Vec::new(),

@@ -1,8 +1,9 @@
 //! What keeps particles from flying through walls within a step.
 
+use nalgebra::{Matrix6, Vector6};
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::{WallForce, World, cross};
+use sph_neighbours::{FreeBody, WallForce, World, cross};
 
 use crate::geometry::wall_mesh::{Hindrance, WallMesh};
 use crate::treatment::near::NearLists;
@@ -47,7 +48,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             spacing: world.spacing,
             dt,
         };
-        let changed: Vec<(usize, Corrected<D>)> = self
+        let mut changed: Vec<(usize, Corrected<D>)> = self
             .particles
             .par_iter()
             .enumerate()
@@ -65,7 +66,12 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             })
             .collect();
         let forces = match outline.any_feels() {
-            true => blows(outline, world, &changed, dt)?,
+            true => {
+                for body in &world.walls.bodies {
+                    give_way(body, world, &mut changed)?;
+                }
+                blows(outline, world, &changed, dt)?
+            }
             false => Vec::new(),
         };
         for (p, corrected) in changed {
@@ -74,6 +80,55 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
         world.free.put(fields::VELOCITY, velocity)?;
         Ok(forces)
     }
+}
+
+/// Lets a body give way to the particles that it has stopped: all leave the plastic impact with one velocity along e, that of the
+/// body after it, (M + Σ m j jᵀ) Δv = −Σ m |Δu| j. As if it were infinitely heavy, a body lighter than what it meets would be thrown.
+fn give_way<const D: usize>(
+    body: &FreeBody<D>,
+    world: &World<D>,
+    changed: &mut [(usize, Corrected<D>)],
+) -> Result<(), StepError> {
+    let position = world.free.get(fields::POSITION)?;
+    let mass = world.free.get(fields::MASS)?;
+    let own = world.team.as_ref().map(|team| team.own(&world.free));
+    let along = |p: usize, push: &Vect<D>, image: &Vect<D>| {
+        let size = push.norm();
+        (body.along(&(position[p] - image), &(push / size)), size)
+    };
+    let mut parts = Vec::new();
+    for (p, corrected) in changed.iter() {
+        if own.as_ref().is_some_and(|own| !own[*p]) {
+            continue;
+        }
+        for (_, push, image) in corrected.pushes.iter().filter(|(wall, ..)| body.is(*wall)) {
+            let (j, size) = along(*p, push, image);
+            let inertia = j * j.transpose() * mass[*p];
+            let mut part = [0.0; 42];
+            part[..6].copy_from_slice((j * (mass[*p] * size)).as_slice());
+            part[6..].copy_from_slice(inertia.as_slice());
+            parts.push(part);
+        }
+    }
+    let sums = world.sums_of(|| parts.par_iter().copied())?;
+    let impulse = Vector6::from_column_slice(&sums[..6]);
+    if impulse == Vector6::zeros() {
+        return Ok(());
+    }
+    let inertia = Matrix6::from_column_slice(&sums[6..]);
+    let factors = (Matrix6::identity() + body.mobility * inertia).lu();
+    let change = factors.solve(&(body.mobility * -impulse));
+    let change = change.unwrap_or_else(Vector6::zeros);
+    for (p, corrected) in changed {
+        let own = corrected.pushes.iter_mut();
+        for (_, push, image) in own.filter(|(wall, ..)| body.is(*wall)) {
+            let (j, size) = along(*p, push, image);
+            let given = *push * (j.dot(&change) / size);
+            *push += given;
+            corrected.velocity += given;
+        }
+    }
+    Ok(())
 }
 
 /// What stopping particles over `dt` did to the walls of movers, each with all its pieces: the same on all ranks,

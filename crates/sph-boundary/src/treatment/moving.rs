@@ -1,7 +1,7 @@
 //! Outlines that move: by prescribed courses and by movers.
 
 use sph_core::Vect;
-use sph_neighbours::{Sight, WallForce};
+use sph_neighbours::{FreeBody, Sight, WallForce};
 
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::outline::{Outline, is_piece};
@@ -24,22 +24,23 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// Moves the mesh to what is prescribed at a time; says whether anything moved.
     pub fn move_to(&mut self, time: f64) -> Result<bool, BoundaryError> {
         let states = self.states_at(time, &self.states);
-        self.put(states)
+        self.put(states, time)
     }
 
     /// Moves the mesh on by `dt`; says whether anything moved.
     pub fn advance(
         &mut self,
         forces: &[WallForce<D>],
+        bodies: &[FreeBody<D>],
         gravity: Vect<D>,
-        time: f64,
-        dt: f64,
+        [time, dt]: [f64; 2],
     ) -> Result<bool, BoundaryError> {
         let load = |k: usize| self.load(k, forces, gravity);
         let mut loads: Vec<_> = (0..self.specs.len()).map(load).collect();
-        let states = self.met(&mut loads, gravity, [time, dt])?;
+        let mut states = self.met(&mut loads, gravity, [time, dt])?;
+        self.compare(&mut states, bodies, dt);
         let before: Vec<_> = self.mesh.points().map(|p| p.position).collect();
-        let moved = self.put(states)?;
+        let moved = self.put(states, time + dt)?;
         let most = MOST_WAY * self.spacing;
         for (point, before) in self.mesh.points().zip(before) {
             let way = (point.position - before).norm();
@@ -49,6 +50,22 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             }
         }
         Ok(moved)
+    }
+
+    /// Notes how fast velocities changed over a step, and by how much otherwise than the solves have expected.
+    fn compare(&self, states: &mut [RigidState<D>], bodies: &[FreeBody<D>], dt: f64) {
+        for k in 0..states.len() {
+            if is_piece(&self.specs, k) {
+                states[k] = states[k - 1];
+            } else if self.specs[k].mover.is_some() {
+                let rate = states[k].rate_from(&self.states[k], dt);
+                states[k].rate = rate;
+                if let Some(body) = bodies.iter().find(|body| body.is(k)) {
+                    let missed = |i: usize| rate[i] * dt - body.expected[i];
+                    states[k].missed = std::array::from_fn(missed);
+                }
+            }
+        }
     }
 
     /// The states after a step from given ones.
@@ -151,17 +168,36 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             self.listed = given(listed)?;
             self.put_back = true;
         }
-        self.put(states)
+        self.put(states, time)
     }
 
-    fn put(&mut self, states: Vec<RigidState<D>>) -> Result<bool, BoundaryError> {
+    fn put(&mut self, states: Vec<RigidState<D>>, time: f64) -> Result<bool, BoundaryError> {
         let poses: Vec<_> = states.iter().map(|s| s.pose).collect();
         let moved = !self.states.iter().map(|s| &s.pose).eq(&poses);
         if moved {
             self.mesh.move_walls(&poses)?;
         }
         self.states = states;
+        self.bodies = self.bodies_at(time);
         Ok(moved)
+    }
+
+    /// The walls that forces move, as they are at a time.
+    pub fn bodies_at(&self, time: f64) -> Vec<FreeBody<D>> {
+        let body = |k: usize| {
+            let state = &self.states[k];
+            let mobility = self.specs[k].mover.as_ref()?.mobility(state, time)?;
+            let more = (k + 1..self.specs.len()).take_while(|p| is_piece(&self.specs, *p));
+            Some(FreeBody {
+                walls: k as u32..(k + 1 + more.count()) as u32,
+                place: state.place(),
+                mobility,
+                rate: state.rate.into(),
+                missed: state.missed.into(),
+                expected: Default::default(),
+            })
+        };
+        self.moved().filter_map(body).collect()
     }
 
     /// Asks the mesh something as if the walls were where they were at the last build of the lists, at a time.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sph_core::Vect;
-use sph_neighbours::{Domain, Elements, Frame, LinePull, WallForce, WallPoints};
+use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints};
 
 use crate::geometry::cover::Cover;
 use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
@@ -34,6 +34,8 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub domain: Domain<D>,
     /// What stopping particles in front of walls did to these in the last drift.
     pub struck: Vec<WallForce<D>>,
+    /// The walls that forces move.
+    pub bodies: Vec<FreeBody<D>>,
     cover: Cover<M::Near>,
     pub specs: Vec<WallSpec<D>>,
 }
@@ -71,6 +73,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             far_sight: far_sight::<D>(&*setup.kernel.sampler(D, setup.smoothing_length)),
             domain: setup.domain.clone(),
             struck: Vec::new(),
+            bodies: Vec::new(),
             cover: Cover::default(),
             specs: setup.walls.to_vec(),
         };
@@ -80,6 +83,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         }
         outline.listed = outline.states.clone();
         outline.gaps = outline.drawn_gaps();
+        outline.bodies = outline.bodies_at(0.0);
         Ok(outline)
     }
 
@@ -375,7 +379,10 @@ macro_rules! checks_by_outline {
             dt: f64,
         ) -> Result<(), BoundaryError> {
             let forces = std::mem::take(&mut walls.forces);
-            let moved = self.moved(walls, |outline| outline.advance(&forces, gravity, time, dt));
+            let bodies = std::mem::take(&mut walls.bodies);
+            let moved = self.moved(walls, |outline| {
+                outline.advance(&forces, &bodies, gravity, [time, dt])
+            });
             walls.forces = forces;
             moved
         }

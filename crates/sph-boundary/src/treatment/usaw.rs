@@ -139,6 +139,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let outline = &self.outline;
         walls.frames = outline.frames();
         walls.pulls = outline.pulls();
+        walls.bodies.clone_from(&outline.bodies);
         let points = &mut walls.points;
         for (v, node) in nodes.iter().enumerate() {
             let movement = outline.movement(node.wall, &node.position);
@@ -265,6 +266,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             elements: outline.elements(setup.spacing),
             contacts: Contacts::default(),
             frames: Vec::new(),
+            bodies: Vec::new(),
             passed: Vec::new(),
             pulls: Vec::new(),
             forces: Vec::new(),
