@@ -12,8 +12,11 @@ use crate::FrictionSystem;
 /// than the true one light bodies swing from step to step, with more they follow within some steps.
 const RESPONSE: f64 = 2.0;
 
-/// Δt C/M up to which a body moves with the friction of the step before: a twentieth of where it would swing.
+/// Δt C/M up to which a body moves with the friction of the step before, far from where it swings.
 const FAINT: f64 = 0.1;
+
+/// Δt C/M up to which a step is right: with more the force that the wall is told swings.
+const MOST: f64 = 4.0;
 
 /// A body of mass M whose velocity v is an unknown of the friction of a step.
 ///
@@ -91,16 +94,27 @@ impl<const D: usize> GivingWay<D> {
         }
         let friction = world.sums_of(|| parts.par_iter().copied())?;
         let friction = Matrix6::from_column_slice(&friction);
-        let response: f64 = std::env::var("KV").map_or(2.0, |v| v.parse().unwrap());
-        let mobility = body.mobility * response;
-        let columns: Vec<_> = body.roots().map(|r| r * response.sqrt()).collect();
+        let mobility = body.mobility * RESPONSE;
+        let columns: Vec<_> = body.roots().map(|r| r * RESPONSE.sqrt()).collect();
         if columns.is_empty() {
             return Ok(None);
         }
         let root = DMatrix::from_fn(6, columns.len(), |i, k| columns[k][i]);
         let coupled = root.transpose() * friction * &root * dt;
-        if coupled.symmetric_eigenvalues().max() < FAINT {
+        let share = coupled.symmetric_eigenvalues().max() / RESPONSE;
+        if share < FAINT {
             return Ok(None);
+        }
+        if share > MOST {
+            let reason = format!(
+                "in a step of {dt:.1e} s friction moves a body {share:.1} times as much as its mass resists, {MOST} is the most: \
+                 multiply `run.safety` by {:.2}, or take a heavier body or less viscosity",
+                0.8 * MOST / share
+            );
+            return Err(StepError::Stage {
+                stage: "friction of a light body".into(),
+                reason,
+            });
         }
         let matrix = DMatrix::identity(columns.len(), columns.len()) + coupled;
         let factor = matrix.clone().try_inverse().and_then(|m| m.cholesky());

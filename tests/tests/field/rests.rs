@@ -1,0 +1,49 @@
+//! Energy that dampers and walls make of flows that should lose it.
+
+use crate::Field;
+
+/// Two streams of unlike densities past each other, at any ratio: the damper only takes, and nothing gains.
+#[test]
+fn the_acoustic_damper_takes_energy_at_any_ratio_of_densities() {
+    for ratio in [1.0, 10.0, 100.0, 1000.0] {
+        for strength in [0.5, 2.0] {
+            let field = Field::new();
+            let done = field.run(
+                "damper-ratio",
+                &format!(
+                    "--threads 1 --set phase.w.density={ratio} --set phase.w.rheology.newtonian.viscosity={ratio} \
+                     --set damping.acoustic.strength={strength} --set run.end=0.1"
+                ),
+            );
+            assert_eq!(done.code, Some(0), "{ratio}: {}", done.err);
+            let series = field.series();
+            let of = |name: &str| series.column(name).expect("a column");
+            let damper = of("b.damper");
+            for k in 1..series.rows() {
+                assert!(
+                    damper[k] <= damper[k - 1],
+                    "{ratio}: {} J in row {k}",
+                    damper[k]
+                );
+            }
+            let whole = |k: usize| of("b.kinetic")[k] + of("b.internal")[k];
+            let most = (0..series.rows()).map(whole).fold(0.0, f64::max);
+            assert!(
+                most <= whole(0) * (1.0 + 1e-6),
+                "{ratio}: {most} of {} J",
+                whole(0)
+            );
+        }
+    }
+}
+
+/// From rest to 10 m/s, the level 7 % up: walls make the energy, and the run says so.
+#[test]
+fn a_narrow_tank_that_explodes_from_rest_has_no_result() {
+    let field = Field::new();
+    let done = field.run("narrow-tank-100", "--threads 1 --set run.end=0.3");
+    assert_eq!(done.code, Some(1), "{}", done.err);
+    let summary = field.summary();
+    assert_eq!(summary["status"], "failed");
+    assert!(done.err.contains("nothing drives"), "{}", done.err);
+}
