@@ -17,8 +17,8 @@ use crate::prescribed::{self, Prescribed};
 use crate::shape::{Solid, winding};
 use crate::six::padded;
 
-/// Least density of a body over that of the lightest fluid. Lighter ones are stable, but what a particle of the fluid does to them in one blow
-/// throws them: it has several times their mass.
+/// Least density of a body over that of the lightest fluid. Lighter ones are stable, but what a particle of the fluid
+/// does to them in one blow throws them: it has several times their mass.
 const LIGHTEST: f64 = 0.02;
 
 /// Speed that a contact stops within half a spacing, over the largest speed of sound.

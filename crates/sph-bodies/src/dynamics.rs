@@ -100,18 +100,6 @@ impl Dynamics {
         state
     }
 
-    /// The inverse of mass and inertia over what is free at a time.
-    pub fn mobility<const D: usize>(&self, now: &RigidState<D>, time: f64) -> Matrix6<f64> {
-        if time < self.start || self.prescribed.iter().any(|p| p.holds(time)) {
-            return Matrix6::zeros();
-        }
-        let turn = rotation(now);
-        let inertia = turn * self.inertia * turn.transpose();
-        let mass = blocks(Matrix3::identity() * self.mass, inertia);
-        let column = |k| solve(mass, Matrix6::identity().column(k).into_owned(), self.free);
-        Matrix6::from_columns(&std::array::from_fn::<_, 6, _>(column))
-    }
-
     /// Force and moment about the centre.
     fn force<const D: usize>(&self, now: &RigidState<D>, load: &Load<D>) -> Vector6<f64> {
         let place = padded(now.place().as_slice());

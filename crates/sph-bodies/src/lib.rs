@@ -13,6 +13,7 @@ mod dynamics;
 mod freedom;
 mod layer;
 mod line;
+mod mobility;
 mod mooring;
 mod prescribed;
 mod shape;

@@ -51,8 +51,8 @@ impl<const D: usize> Limiter<D> for SoundLimit {
     }
 }
 
-/// Δt ≤ (h/c)/√Λ, Λ the largest ratio of the inertia of a layer of fluid of the thickness h at a body to that of the body: the
-/// compressed layer is a spring between both, which an explicit step twice as long would swing up.
+/// Δt ≤ (h/c)/√Λ, Λ the largest ratio of the inertia of a layer of fluid of the thickness h at a body to that of the
+/// body: the compressed layer is a spring between both, which an explicit step twice as long would swing up.
 pub struct LightBodyLimit {
     /// The equations of state.
     pub laws: Laws,

@@ -5,7 +5,8 @@ use sph_core::Vect;
 use crate::vector::add;
 use crate::{Diagonal, Matrix, Operator};
 
-/// A + s Σ g gᵀ with few vectors g, s = 1 or −1: what is left of unknowns that many rows share. A alone makes its preconditioner.
+/// A + s Σ g gᵀ with few vectors g, s = 1 or −1: what is left of unknowns that many rows share. A alone makes its
+/// preconditioner.
 pub struct LowRank<'a, const D: usize> {
     /// A.
     pub base: &'a dyn Operator<D>,

@@ -21,13 +21,13 @@ use crate::interface_limit::shortest_wave;
 /// m_a a = −1/γ_a [Σ_b θ_b (q_aV_a² + q_bV_b²) ∇w_ab − Σ_s q_a (V_a² + V_s²)/V_s ∇γ_as],
 /// q_a = −α ρ₀ c h D_a{u}, not below −max(p_a, 0), ρ₀ that of the lightest phase within the support.
 ///
-/// A pressure against the rate of compression, that is a bulk viscosity ζ = α ρ₀ c h. Symbols: h smoothing length (m), c
-/// speed of sound of the phase at rest (m/s), D{u} divergence of the velocity (1/s), α number. Divergence and force are
-/// adjoint, so that between particles it takes Σ V q²/ζ from the motion and never gives. A wave of sound of the
-/// wave number k loses the share ½ α h c k² of its amplitude in a second; what is free of divergence it leaves alone. q is no
-/// tension where there is no pressure: a splash tears. Conserves momentum between particles, and
-/// angular momentum. The sound of a heavy phase moves the light particles next to it: what resists there may not be more than these
-/// can take within a step, so that rows within a support of a lighter phase are damped as that phase is.
+/// A pressure against the rate of compression, that is a bulk viscosity ζ = α ρ₀ c h. Symbols: h smoothing length (m),
+/// c speed of sound of the phase at rest (m/s), D{u} divergence of the velocity (1/s), α number. Divergence and force
+/// are adjoint, so that between particles it takes Σ V q²/ζ from the motion and never gives. A wave of sound of the
+/// wave number k loses the share ½ α h c k² of its amplitude in a second; what is free of divergence it leaves alone.
+/// q is no tension where there is no pressure: a splash tears. Conserves momentum between particles, and angular
+/// momentum. The sound of a heavy phase moves the light particles next to it: what resists there may not be more than
+/// these can take within a step, so that rows within a support of a lighter phase are damped as that phase is.
 ///
 /// Limits: a divergence that is made by free surfaces and by disorder is damped as that of sound is. One more walk over the
 /// neighbours in a step.

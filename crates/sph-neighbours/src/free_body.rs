@@ -47,8 +47,8 @@ impl<const D: usize> FreeBody<D> {
         })
     }
 
-    /// The largest λ of Σ S j jᵀ a = λ M a over its elements of area S, m^(d−1)/kg: a layer of fluid of the thickness l at its surface has ρ l λ
-    /// times its inertia.
+    /// The largest λ of Σ S j jᵀ a = λ M a over its elements of area S, m^(d−1)/kg: a layer of fluid of the thickness
+    /// l at its surface has ρ l λ times its inertia.
     pub fn lightness(&self, elements: &Elements<D>) -> f64 {
         let mut surface = Matrix6::zeros();
         for (s, wall) in elements.wall.iter().enumerate() {

@@ -4,18 +4,20 @@ use sph_core::{StepError, Vect, fields};
 use sph_implicit::Operator;
 use sph_neighbours::{FreeBody, World};
 
-/// The force of the wall over Bᵀp that is reckoned with: it is 2 for a pressure that is the same everywhere, 2.5 were measured for one that falls
-/// off from the body. With less than the true one light bodies swing from step to step, with more they follow within some steps.
+/// The force of the wall over Bᵀp that is reckoned with: it is 2 for a pressure that is the same everywhere, 2.5 were
+/// measured for one that falls off from the body. With less than the true one light bodies swing from step to step,
+/// with more they follow within some steps.
 const RESPONSE: f64 = 4.0;
 
 /// What bodies leave in the system of the pressure: p moves a body within the step, and the body the fluid.
 ///
-/// With B_a = −γ_aV_a ∂(1/γ_a Σ_s u_s·∇γ_as)/∂(v, ω), W the mobility of a body, a its acceleration over the last step and pⁿ the pressure before,
+/// With B_a = −γ_aV_a ∂(1/γ_a Σ_s u_s·∇γ_as)/∂(v, ω), W the mobility of a body, a its acceleration over the last step
+/// and pⁿ the pressure before,
 ///
 /// (A + 4Δt² B W Bᵀ) p = s − Δt² B (a − 4 W Bᵀ pⁿ): vⁿ⁺¹ = vⁿ + Δt [a + 4 W Bᵀ (p − pⁿ)].
 ///
-/// All forces are in a, and p alone has changed since, so that a body at rest stays at rest; it may be lighter than its added mass by any factor.
-/// Gives the vectors 2Δt B S, W = S Sᵀ, of that update.
+/// All forces are in a, and p alone has changed since, so that a body at rest stays at rest; it may be lighter than
+/// its added mass by any factor. Gives the vectors 2Δt B S, W = S Sᵀ, of that update.
 pub(crate) fn give_way<const D: usize>(
     world: &World<D>,
     base: &dyn Operator<1>,

@@ -8,8 +8,9 @@ use sph_neighbours::{FreeBody, World};
 
 use crate::FrictionSystem;
 
-/// The force of the friction over that of W alone, at the most: rows beside a flat wall have γ ≥ ½, and all that acts on them goes with 1/γ. With less
-/// than the true one light bodies swing from step to step, with more they follow within some steps.
+/// The force of the friction over that of W alone, at the most: rows beside a flat wall have γ ≥ ½, and all that acts
+/// on them goes with 1/γ. With less than the true one light bodies swing from step to step, with more they follow
+/// within some steps.
 const RESPONSE: f64 = 2.0;
 
 /// Δt C/M up to which a body moves with the friction of the step before, far from where it swings.
@@ -20,8 +21,9 @@ const MOST: f64 = 4.0;
 
 /// A body of mass M whose velocity v is an unknown of the friction of a step.
 ///
-/// With B_a = W_a P_a J_a, W_a what walls do to a particle, P_a the part along the wall, J_a v the velocity of the body at the particle,
-/// C = Σ JᵀPWPJ, a its acceleration over the last step, v* the velocity that friction was solved with then, and M half of the mass,
+/// With B_a = W_a P_a J_a, W_a what walls do to a particle, P_a the part along the wall, J_a v the velocity of the
+/// body at the particle, C = Σ JᵀPWPJ, a its acceleration over the last step, v* the velocity that friction was solved
+/// with then, and M half of the mass,
 ///
 /// (M + Δt C)(vⁿ⁺¹ − vⁿ) = Δt [M a + Bᵀ(uⁿ⁺¹ − uⁿ) − C (vⁿ − v*)], so that u is left with A − Δt² B (M + Δt C)⁻¹ Bᵀ.
 struct GivingWay<const D: usize> {
@@ -107,8 +109,8 @@ impl<const D: usize> GivingWay<D> {
         }
         if share > MOST {
             let reason = format!(
-                "in a step of {dt:.1e} s friction moves a body {share:.1} times as much as its mass resists, {MOST} is the most: \
-                 multiply `run.safety` by {:.2}, or take a heavier body or less viscosity",
+                "in a step of {dt:.1e} s friction moves a body {share:.1} times as much as its mass resists, {MOST} is \
+                 the most: multiply `run.safety` by {:.2}, or take a heavier body or less viscosity",
                 0.8 * MOST / share
             );
             return Err(StepError::Stage {

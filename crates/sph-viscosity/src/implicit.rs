@@ -144,7 +144,8 @@ impl<const D: usize> ImplicitViscosity<D> {
         Ok(())
     }
 
-    /// Gives bodies that friction moves the velocity of the end of the step, which a first solve finds with that of the fluid.
+    /// Gives bodies that friction moves the velocity of the end of the step, which a first solve finds with that of
+    /// the fluid.
     fn give_way(
         &mut self,
         world: &mut World<D>,

@@ -34,8 +34,10 @@ fn run(input: &str, more: &str) -> Table {
     field.series()
 }
 
-/// Cylinders of a radius of 4 spacings in the middle of a tank of 8 radii: a = (ρ_w − ρ_b) V g/(ρ_b V + m_a), m_a = 1.108 ρ_w π R² by
-/// potential theory in this tank with a free surface (1 without walls). Before 0.05 s the rows around it find their places.
+/// Cylinders of a radius of 4 spacings in the middle of a tank of 8 radii: a = (ρ_w − ρ_b) V g/(ρ_b V + m_a), m_a =
+/// 1.108 ρ_w π R² by
+/// potential theory in this tank with a free surface (1 without walls). Before 0.05 s the rows around it find their
+/// places.
 #[test]
 fn a_light_cylinder_starts_as_its_added_mass_says() {
     for more in ["", "--set implicit-viscosity.backward-euler={}"] {
@@ -53,7 +55,8 @@ fn a_light_cylinder_starts_as_its_added_mass_says() {
     }
 }
 
-/// A box 0.4 m wide and 0.3 m high at the surface of a tank 1.6 m wide, 0.02 m deep: it comes to rest ρ_b/ρ_w 0.3 m deep, by half a spacing.
+/// A box 0.4 m wide and 0.3 m high at the surface of a tank 1.6 m wide, 0.02 m deep: it comes to rest ρ_b/ρ_w 0.3 m
+/// deep, by half a spacing.
 #[test]
 fn a_light_box_floats_and_does_not_fly() {
     for density in [20.0, 50.0, 100.0] {
@@ -61,7 +64,8 @@ fn a_light_box_floats_and_does_not_fly() {
         let series = run("light-5", &set);
         let y = of(&series, "A.y");
         let most = y.iter().fold(0.0, |m: f64, y| m.max(*y));
-        // It comes out with no more than its net buoyancy gives it, 27 N over 14 mm: 16 mm at 20 kg/m³, and a spacing is not seen.
+        // It comes out with no more than its net buoyancy gives it, 27 N over 14 mm: 16 mm at 20 kg/m³, and a
+        // spacing is not seen.
         assert!(most < 0.0105 + 0.016 + 0.05, "{density} kg/m³: {most} m up");
         let late: Vec<f64> = (of(&series, "time").iter().zip(y))
             .filter(|(t, _)| **t > 1.0)

@@ -47,3 +47,24 @@ fn a_narrow_tank_that_explodes_from_rest_has_no_result() {
     assert_eq!(summary["status"], "failed");
     assert!(done.err.contains("nothing drives"), "{}", done.err);
 }
+
+/// Water at rest in a U-tube of 8 rows moves with 1 m/s: walls make 2 % of what would move, and the run tells. The
+/// damper that the advice names leaves a seventh of √(gH) = 3.1 m/s at the most.
+#[test]
+fn a_tube_at_rest_that_moves_warns_and_the_advice_helps() {
+    let field = Field::new();
+    let done = field.run("utube-at-rest", "--threads 1");
+    assert_eq!(done.code, Some(0), "{}", done.err);
+    let summary = field.summary();
+    let warned =
+        |summary: &serde_json::Value| summary["warnings"].to_string().contains("nothing drives");
+    assert!(warned(&summary));
+    assert!(summary["advice"].to_string().contains("[damping.acoustic]"));
+    let field = Field::new();
+    let done = field.run("utube-at-rest", "--threads 1 --set damping.acoustic={}");
+    assert_eq!(done.code, Some(0), "{}", done.err);
+    let series = field.series();
+    let speeds = series.column("largest_speed").expect("speeds");
+    let most = speeds.iter().fold(0.0, |m: f64, u| m.max(*u));
+    assert!(!warned(&field.summary()) && most < 3.1 / 7.0, "{most} m/s");
+}

@@ -82,8 +82,9 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
     }
 }
 
-/// Lets a body give way to the particles that it has stopped: all leave the plastic impact with one velocity along e, that of the
-/// body after it, (M + Σ m j jᵀ) Δv = −Σ m |Δu| j. As if it were infinitely heavy, a body lighter than what it meets would be thrown.
+/// Lets a body give way to the particles that it has stopped: all leave the plastic impact with one velocity along e,
+/// that of the body after it, (M + Σ m j jᵀ) Δv = −Σ m |Δu| j. As if it were infinitely heavy, a body lighter than
+/// what it meets would be thrown.
 fn give_way<const D: usize>(
     body: &FreeBody<D>,
     world: &World<D>,
