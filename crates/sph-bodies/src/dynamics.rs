@@ -7,7 +7,7 @@ use sph_core::Vect;
 use crate::freedom::Freedom;
 use crate::mooring::{Mooring, Pull};
 use crate::prescribed::{Prescribed, moved};
-use crate::six::{blocks, padded, parts, six, solve};
+use crate::six::{blocks, padded, parts, rotation, six, solve};
 
 /// A body as the equations of motion know it; matrices as it is drawn.
 #[derive(Clone, Debug)]
@@ -27,17 +27,6 @@ pub(crate) struct Dynamics {
     pub start: f64,
     /// Times in which it is not free again.
     pub prescribed: Vec<Prescribed>,
-}
-
-/// The rotation of a state; about z in two dimensions.
-pub(crate) fn rotation<const D: usize>(state: &RigidState<D>) -> Matrix3<f64> {
-    let mut whole = Matrix3::identity();
-    for i in 0..D {
-        for k in 0..D {
-            whole[(i, k)] = state.pose.rotation[i][k];
-        }
-    }
-    whole
 }
 
 impl Dynamics {

@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Matrix6};
 use sph_boundary::RigidState;
 
-use crate::dynamics::{Dynamics, rotation};
-use crate::six::{blocks, solve};
+use crate::dynamics::Dynamics;
+use crate::six::{blocks, rotation, solve};
 
 impl Dynamics {
     /// The inverse of mass and inertia over what is free at a time.

@@ -1,6 +1,7 @@
-//! Six numbers: three along the axes, three about them.
+//! Six numbers: three along the axes, three about them; and the rotation of a state.
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use sph_boundary::RigidState;
 
 /// A vector of three and one of three.
 pub(crate) fn six(along: Vector3<f64>, about: Vector3<f64>) -> Vector6<f64> {
@@ -41,4 +42,15 @@ pub(crate) fn solve(mut a: Matrix6<f64>, mut b: Vector6<f64>, free: [bool; 6]) -
 pub(crate) fn padded(v: &[f64]) -> Vector3<f64> {
     let at = |k: usize| v.get(k).copied().unwrap_or(0.0);
     Vector3::new(at(0), at(1), at(2))
+}
+
+/// The rotation of a state; about z in two dimensions.
+pub(crate) fn rotation<const D: usize>(state: &RigidState<D>) -> Matrix3<f64> {
+    let mut whole = Matrix3::identity();
+    for i in 0..D {
+        for k in 0..D {
+            whole[(i, k)] = state.pose.rotation[i][k];
+        }
+    }
+    whole
 }
