@@ -72,14 +72,14 @@ mod tests {
             others: Vec::new(),
         };
         let base = Matrix::<1>::new(pattern, Entries::Scalar(values));
-        let g: Vec<_> = [1.0, 2.0, 3.0].map(|v| Vect::<1>::new(v)).to_vec();
+        let g: Vec<_> = [1.0, 2.0, 3.0].map(Vect::<1>::new).to_vec();
         let vectors = [g.clone()];
         let operator = LowRank {
             base: &base,
             vectors: &vectors,
             sign: 1.0,
         };
-        let right: Vec<_> = [4.0, -1.0, 2.0].map(|v| Vect::<1>::new(v)).to_vec();
+        let right: Vec<_> = [4.0, -1.0, 2.0].map(Vect::<1>::new).to_vec();
         let mut x = vec![Vect::<1>::zeros(); 3];
         let solved = ConjugateGradient::default().solve(&operator, &right, &mut x);
         assert!(solved.is_ok());
