@@ -5,6 +5,7 @@ pub(crate) mod contact_law;
 pub(crate) mod contract;
 pub(crate) mod dummy;
 pub(crate) mod far_sight;
+pub(crate) mod groups;
 pub(crate) mod hiding;
 pub(crate) mod impact;
 pub(crate) mod moving;

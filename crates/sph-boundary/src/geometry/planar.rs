@@ -14,7 +14,7 @@ use crate::geometry::segment_distance::distance_squared;
 use crate::geometry::shells::{Gammas, ShellSums, Shells};
 use crate::geometry::touching::without_shared;
 use crate::geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
-use crate::treatment::outline::groups;
+use crate::treatment::groups::groups;
 use crate::{
     BoundaryError, Drawing, GammaSum, NearSegment, PeriodicBox, Polyline, Pose, Renormalisation2d,
     SeenSegment, Segment, SegmentBatch, SegmentGrid, SegmentMesh, Vertex, WallSpec,

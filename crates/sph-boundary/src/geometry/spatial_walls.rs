@@ -10,7 +10,7 @@ use crate::geometry::faces::{Corner, Planes};
 use crate::geometry::shells::{Gammas, ShellSums, Shells};
 use crate::geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
 use crate::integrals::spatial::Weights;
-use crate::treatment::outline::groups;
+use crate::treatment::groups::groups;
 use crate::{
     BoundaryError, Closest, Drawing, Feature, NearTriangle, PeriodicBox, Pose, Renormalisation3d,
     SeenTriangle, Surface, TriangleGrid, TriangleMesh, WallSpec,

@@ -4,7 +4,8 @@ use sph_core::Vect;
 use sph_neighbours::{FreeBody, Sight, WallForce};
 
 use crate::geometry::wall_mesh::WallMesh;
-use crate::treatment::outline::{Outline, is_piece};
+use crate::treatment::groups::is_piece;
+use crate::treatment::outline::Outline;
 use crate::{BoundaryError, Load, RigidState, WallSpec, WallStates};
 
 /// The longest way of any point of a wall within a step, over the spacing: farther, it would leap over particles.

@@ -9,6 +9,7 @@ use crate::geometry::cover::Cover;
 use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
 use crate::limits::MOST_PERIODS;
 use crate::treatment::far_sight::far_sight;
+use crate::treatment::groups::{groups, is_piece};
 use crate::{BoundaryError, Drawing, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
 
 /// How far queries look, over the support: also those of filling and of a generous skin.
@@ -286,30 +287,6 @@ fn check_reach<const D: usize>(
 /// A place of as many dimensions as are asked for.
 fn of<const N: usize, const D: usize>(place: &[f64; N]) -> [f64; D] {
     std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0))
-}
-
-/// For every wall the first one that moves as it does.
-pub(crate) fn groups<const D: usize>(walls: &[WallSpec<D>]) -> Vec<usize> {
-    let mut groups: Vec<usize> = Vec::with_capacity(walls.len());
-    for (k, wall) in walls.iter().enumerate() {
-        let first = match is_piece(walls, k) {
-            true => groups[k - 1],
-            false => {
-                let prescribed = |w: &WallSpec<D>| w.mover.is_none();
-                let as_it = |o: &WallSpec<D>| prescribed(o) && o.motion == wall.motion;
-                let mut before = walls[..k].iter();
-                let together = before.position(|o| prescribed(wall) && as_it(o));
-                together.unwrap_or(k)
-            }
-        };
-        groups.push(first);
-    }
-    groups
-}
-
-/// Whether a wall is a further piece of the one before it, of which there may be thousands.
-pub(crate) fn is_piece<const D: usize>(walls: &[WallSpec<D>], k: usize) -> bool {
-    k > 0 && walls[k].drawing.name() == walls[k - 1].drawing.name()
 }
 
 /// The methods of [`Wall`](crate::Wall) that ask nothing but the outline of the walls; the

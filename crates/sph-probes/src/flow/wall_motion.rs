@@ -103,9 +103,9 @@ mod tests {
         let [x, y, z] = turned(&[[cosine, -sine], [sine, cosine]]);
         assert!(x.abs() + y.abs() < 1e-15 && (z - 2.5).abs() < 1e-14);
         let [x, y, z] = turned(&[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
-        let [.., z] = turned(&[[1.0 + 4e-16, -1e-10], [1e-10, 1.0 + 4e-16]]);
-        assert!((z - 1e-10).abs() < 1e-24);
         let third = std::f64::consts::TAU / 3.0 / 3.0_f64.sqrt();
         assert!((x - third).abs() + (y - third).abs() + (z - third).abs() < 1e-14);
+        let [.., z] = turned(&[[1.0 + 4e-16, -1e-10], [1e-10, 1.0 + 4e-16]]);
+        assert!((z - 1e-10).abs() < 1e-24);
     }
 }
