@@ -13,7 +13,7 @@ use crate::read::Loaded;
 use crate::tables::Scene;
 use crate::walls::setup;
 
-/// Time of a grain in a step on one core, s: packings of 1000 and 5000 dry grains.
+/// Time of a grain in a step on one core, s: a round number, so that run times are told as "at least".
 const SECONDS: f64 = 1e-6;
 /// Longer runs are remarked upon, days.
 const LONG: f64 = 30.0;

@@ -91,8 +91,8 @@ impl EnergyWatch {
 
     /// What stands in the summary, if there is anything to tell: a warning, and advice.
     pub fn remarks(&self) -> Option<[String; 2]> {
-        let advice = "`[probe.NAME] kind = \"energy-budget\"` tells who makes the energy; against sound that walls feed take \
-                      `[smoother.brezzi-pitkaranta]` with more `strength`, or `[damping.acoustic]`";
+        let advice = "`[probe.NAME] kind = \"energy-budget\"` tells what makes the energy; `[damping.acoustic]` takes sound that \
+                      walls feed, also beside `[smoother.brezzi-pitkaranta]`";
         (self.share > TOLD).then(|| [self.told(), advice.into()])
     }
 
