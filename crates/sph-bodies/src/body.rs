@@ -124,7 +124,8 @@ impl RigidBody {
         };
         let density = mass / solid.volume;
         let [lightest, _] = setting.densities;
-        if density < LIGHTEST * lightest * (1.0 - 1e-9) {
+        let dry = density < LIGHTEST * lightest * (1.0 - 1e-9);
+        if dry && beside_fluid(setting) {
             let key = if self.mass.is_some() {
                 "mass"
             } else {
@@ -157,6 +158,7 @@ impl RigidBody {
             mass,
             centre: centre.unwrap_or(solid.centre),
             inertia,
+            dry,
         })
     }
 
@@ -208,7 +210,7 @@ impl RigidBody {
         &self,
         setting: &MoverSetting<'_, D>,
         dynamics: &Dynamics,
-        surface: f64,
+        (surface, dry): (f64, bool),
     ) -> Touch {
         let (mass, face) = (dynamics.mass, surface / (2.0 * D as f64));
         let fastest = FASTEST * setting.sound_speed / (0.5 * setting.spacing);
@@ -223,8 +225,26 @@ impl RigidBody {
             stiffness: mass * fastest.powi(2) / face,
             restitution: self.restitution,
             friction: self.friction,
+            dry,
         }
     }
+}
+
+/// Whether fluid is drawn within a support of the wall: two boxes around both meet.
+fn beside_fluid<const D: usize>(setting: &MoverSetting<'_, D>) -> bool {
+    let places: Vec<_> = setting.pieces().flat_map(corners).collect();
+    let reach = 3.0 * setting.smoothing_length;
+    let most = |k: usize| {
+        places
+            .iter()
+            .map(|x| x[k])
+            .fold(f64::NEG_INFINITY, f64::max)
+    };
+    let least = |k: usize| places.iter().map(|x| x[k]).fold(f64::INFINITY, f64::min);
+    let meets = |(low, high): &([f64; D], [f64; D])| {
+        (0..D).all(|k| low[k] <= most(k) + reach && high[k] >= least(k) - reach)
+    };
+    setting.fluid.iter().any(meets)
 }
 
 fn corners(drawing: &Drawing) -> Vec<Vector3<f64>> {
@@ -257,6 +277,7 @@ struct Weighed {
     mass: f64,
     centre: Vector3<f64>,
     inertia: Matrix3<f64>,
+    dry: bool,
 }
 
 /// The inertia that a scene gives.
@@ -325,7 +346,7 @@ impl<const D: usize> Mover<D> for RigidBody {
             start: self.start,
             prescribed: self.prescribed.clone(),
         };
-        let touch = self.touch_of(setting, &dynamics, surface);
+        let touch = self.touch_of(setting, &dynamics, (surface, weighed.dry));
         self.settled = Some((dynamics, touch));
         Ok(())
     }

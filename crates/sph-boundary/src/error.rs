@@ -22,6 +22,15 @@ pub enum BoundaryError {
         /// The longest way, m.
         most: f64,
     },
+    /// Fluid at a body that is too light for it.
+    #[error(
+        "fluid acts on the body `{wall}`, which has less than a fiftieth of its density: one particle of it would throw the \
+         body; give it more `density`"
+    )]
+    Light {
+        /// Name of the wall.
+        wall: String,
+    },
     /// Walls that meet too fast, or under too heavy a load.
     #[error(
         "wall `{wall}` goes through wall `{other}`: it is too fast or too heavy for a contact as stiff as the speed of \

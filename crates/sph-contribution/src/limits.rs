@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sph_core::{StepError, StepLimit, fields};
-use sph_neighbours::World;
+use sph_neighbours::{World, lightness};
 use sph_state::{BoundState, Laws};
 
 use crate::Limiter;
@@ -64,7 +64,7 @@ impl<const D: usize> Limiter<D> for LightBodyLimit {
         let stiffness = references.map(|r| r.density * r.sound_speed.powi(2));
         let stiffest = stiffness.fold(0.0, f64::max);
         let bodies = world.walls.bodies.iter();
-        let lightness = bodies.map(|body| body.lightness(&world.walls.elements));
+        let lightness = bodies.map(|body| lightness(body, &world.walls.elements));
         let lightest = lightness.fold(0.0, f64::max);
         let h = world.kernel.smoothing_length();
         let dt = (h / (stiffest * lightest)).sqrt();

@@ -5,15 +5,17 @@ use std::ops::Range;
 use nalgebra::{Matrix6, Vector6};
 use sph_core::Vect;
 
-use crate::{Elements, cross};
+use crate::{Domain, cross};
 
 /// A wall that gives way to forces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeBody<const D: usize> {
     /// Its pieces among the walls.
     pub walls: Range<u32>,
-    /// Its centre, m.
+    /// Its centre, m; periods that it has gone count.
     pub place: Vect<D>,
+    /// The periods of the domain; a body is smaller than half of one.
+    pub domain: Domain<D>,
     /// What an impulse and its moment about the centre do to its velocity and angular velocity, 1/kg and 1/(kg m²): the
     /// inverse of mass and inertia, with zeros for what is locked.
     pub mobility: Matrix6<f64>,
@@ -33,7 +35,7 @@ impl<const D: usize> FreeBody<D> {
 
     /// j = (e, (x − c) × e): the velocity at a place x of the body along e is j·(v, ω), a force f along e is f j.
     pub fn along(&self, x: &Vect<D>, e: &Vect<D>) -> Vector6<f64> {
-        let turn = cross(&(x - self.place), e);
+        let turn = cross(&self.domain.nearest(x - self.place), e);
         let at = |k: usize| e.get(k).copied().unwrap_or(0.0);
         Vector6::new(at(0), at(1), at(2), turn[0], turn[1], turn[2])
     }
@@ -45,24 +47,5 @@ impl<const D: usize> FreeBody<D> {
             let value = eigen.eigenvalues[k];
             (value > 0.0).then(|| eigen.eigenvectors.column(k) * value.sqrt())
         })
-    }
-
-    /// The largest λ of Σ S j jᵀ a = λ M a over its elements of area S, m^(d−1)/kg: a layer of fluid of the thickness
-    /// l at its surface has ρ l λ times its inertia.
-    pub fn lightness(&self, elements: &Elements<D>) -> f64 {
-        let mut surface = Matrix6::zeros();
-        for (s, wall) in elements.wall.iter().enumerate() {
-            if self.walls.contains(wall) {
-                let j = self.along(&elements.centre[s], &elements.normal[s]);
-                surface += j * j.transpose() * elements.measure[s];
-            }
-        }
-        let mut root = Matrix6::zeros();
-        for (k, column) in self.roots().enumerate() {
-            root.set_column(k, &column);
-        }
-        (root.transpose() * surface * root)
-            .symmetric_eigenvalues()
-            .max()
     }
 }

@@ -4,17 +4,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
 use crate::facing::facing_forces;
-use crate::{Interaction, SharedElements, WallForce, WallPart, World, wall_parts};
-
-/// r × f; the third component alone in two dimensions.
-pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
-    let at = |v: &Vect<D>, k: usize| v.get(k).copied().unwrap_or(0.0);
-    [
-        at(r, 1) * at(f, 2) - at(r, 2) * at(f, 1),
-        at(r, 2) * at(f, 0) - at(r, 0) * at(f, 2),
-        at(r, 0) * at(f, 1) - at(r, 1) * at(f, 0),
-    ]
-}
+use crate::{Interaction, SharedElements, WallForce, WallPart, World, cross, wall_parts};
 
 /// Forces on the wanted ones of all walls, in the order of their names, at the state of the last sweep; NaN on the others.
 ///

@@ -61,6 +61,8 @@ pub struct Touch {
     pub restitution: f64,
     /// Coefficient of friction μ; of two bodies √(μ₁μ₂) counts.
     pub friction: f64,
+    /// Whether the wall is too light for any fluid, so that a step in which fluid acts on it fails.
+    pub dry: bool,
 }
 
 /// What a mover is told before the start.
@@ -74,6 +76,8 @@ pub struct MoverSetting<'a, const D: usize> {
     pub spacing: f64,
     /// Smoothing length h, m.
     pub smoothing_length: f64,
+    /// Boxes around the regions that are filled with fluid, m.
+    pub fluid: &'a [([f64; D], [f64; D])],
     /// Densities of the lightest and the heaviest phase, kg/m³.
     pub densities: [f64; 2],
     /// The largest speed of sound c, m/s.

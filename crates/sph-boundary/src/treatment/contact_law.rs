@@ -83,6 +83,7 @@ mod tests {
                 stiffness: 1.0,
                 restitution,
                 friction: 0.0,
+                dry: false,
             };
             let law = Law::of([Some(touch), None], 0.0);
             let (mut x, mut v, dt) = (0.0, Vect::<2>::new(-1.0, 0.0), 1e-3 * f64::sqrt(mass));

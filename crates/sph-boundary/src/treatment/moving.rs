@@ -38,6 +38,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     ) -> Result<bool, BoundaryError> {
         let load = |k: usize| self.load(k, forces, gravity);
         let mut loads: Vec<_> = (0..self.specs.len()).map(load).collect();
+        self.check_dry(&loads)?;
         let mut states = self.met(&mut loads, gravity, [time, dt])?;
         self.compare(&mut states, bodies, dt);
         let before: Vec<_> = self.mesh.points().map(|p| p.position).collect();
@@ -51,6 +52,17 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             }
         }
         Ok(moved)
+    }
+
+    /// Refuses fluid at bodies that are too light for any.
+    fn check_dry(&self, loads: &[Load<D>]) -> Result<(), BoundaryError> {
+        for (k, touch) in self.touches().into_iter().enumerate() {
+            if touch.is_some_and(|t| t.dry) && loads[k].force != Vect::<D>::zeros() {
+                let wall = self.specs[k].drawing.name().to_string();
+                return Err(BoundaryError::Light { wall });
+            }
+        }
+        Ok(())
     }
 
     /// Notes how fast velocities changed over a step, and by how much otherwise than the solves have expected.
@@ -192,6 +204,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             Some(FreeBody {
                 walls: k as u32..(k + 1 + more.count()) as u32,
                 place: state.place(),
+                domain: self.domain.clone(),
                 mobility,
                 rate: state.rate.into(),
                 missed: state.missed.into(),

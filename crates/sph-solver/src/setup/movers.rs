@@ -26,6 +26,7 @@ pub(crate) fn settle<const D: usize>(
     let walls = choices.walls.as_ref();
     let flush = walls.is_some_and(|walls| walls.lattice_offset() > 0.0);
     let walls: Vec<_> = drawn.walls.iter().map(|w| &w.drawing).collect();
+    let fluid: Vec<_> = drawn.regions.iter().map(|region| region.bounds()).collect();
     let mut problems = Vec::new();
     let mut settled = Vec::<(String, Arc<dyn Mover<D>>)>::new();
     for (wall, mut mover) in std::mem::take(&mut choices.movers) {
@@ -33,6 +34,7 @@ pub(crate) fn settle<const D: usize>(
             wall: &wall,
             walls: &walls,
             spacing: scene.numerics.spacing,
+            fluid: &fluid,
             smoothing_length: scene.numerics.smoothing_ratio * scene.numerics.spacing,
             densities: [
                 densities().fold(f64::INFINITY, f64::min),

@@ -5,6 +5,7 @@ use super::*;
 fn setting<const D: usize>() -> MoverSetting<'static, D> {
     MoverSetting {
         wall: "paddle",
+        fluid: &[],
         walls: &[],
         spacing: 0.02,
         smoothing_length: 0.04,
