@@ -59,7 +59,7 @@ pub struct Failure {
     /// What happened; it names the grain, the wall or the cell.
     #[source]
     pub error: CoupledError,
-    /// What the scene calls the grains and the wall that the error numbers, in brackets; empty if it names none.
+    /// Names of the grains and the wall that the error has as numbers, in brackets; empty without names.
     pub named: String,
     /// The grain at fault, if it is one.
     pub grain: Option<usize>,

@@ -40,7 +40,7 @@ pub struct Examination {
     pub limits: Vec<String>,
     /// Quantities that follow from the numbers of the scene: name, value, unit.
     pub derived: Vec<(String, f64, String)>,
-    /// What the run costs at least.
+    /// Lower bound of steps and run time.
     pub estimate: Cost,
     /// Remarks.
     pub warnings: Vec<String>,

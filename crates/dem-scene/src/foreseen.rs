@@ -1,4 +1,4 @@
-//! What a run costs and whether floors carry a grain, before the grains are prepared.
+//! Lower bound of the run time, and a check that floors carry a grain, before the grains are prepared.
 
 use std::f64::consts::PI;
 
@@ -18,7 +18,7 @@ const SECONDS: f64 = 1e-6;
 /// Longer runs are remarked upon, days.
 const LONG: f64 = 30.0;
 
-/// What a run costs at least.
+/// Lower bound of steps and run time.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Cost {
     /// Grains.
@@ -31,7 +31,7 @@ pub struct Cost {
     pub seconds: f64,
 }
 
-/// What a run costs at least, and what to remark upon.
+/// Lower bound of steps and run time, and remarks.
 ///
 /// # Errors
 /// Files that cannot be read, steps too short to move the clock, floors that do not carry a single grain.

@@ -42,7 +42,7 @@ const FASTEST: f64 = 10.0;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidBody {
-    /// Density of the body, kg/m³, a fiftieth of the fluid's or more; it or the `mass` has to be given.
+    /// Density of the body, kg/m³, beside fluid a fiftieth of its density or more; it or the `mass` has to be given.
     #[schemars(extend("unit" = "kg/m³", "exclusiveMinimum" = 0.0))]
     pub density: Option<f64>,
     /// Mass, kg (per metre of depth in two dimensions).

@@ -41,18 +41,13 @@ pub fn facing_forces<const D: usize>(
     let elements = &world.walls.elements;
     let shared = SharedElements::of(world)?;
     let own = |s: usize| shared.as_ref().is_none_or(|shared| shared.own(s));
-    // Periods that a wall has gone.
-    let round = |wall: u32| {
-        let frame = world.walls.frames.get(wall as usize);
-        frame.map_or_else(Vect::zeros, |frame| frame.round)
-    };
     // Of the pressure of one of the two, which one rank knows.
     let part = |facing: &Facing, pressure: f64| {
         let ([s, t], [to_t, to_s]) = (facing.pair, facing.parts);
         let half = -0.5 * pressure;
         let on = |e: usize, share: f64| elements.normal[e] * (half * elements.measure[e] * share);
         let (on_s, on_t) = (on(s, to_t), on(t, -to_s));
-        let at_s = elements.centre[s] + round(elements.wall[s]);
+        let at_s = elements.centre[s] + world.walls.round(elements.wall[s]);
         let apart = elements.centre[s] - elements.centre[t];
         let at_t = at_s - world.domain.nearest_image(apart);
         let [first, second] = [(at_s, on_s), (at_t, on_t)].map(|(x, f)| cross(&x, &f));

@@ -1,4 +1,4 @@
-//! Bodies that the fluid moves, as what pushes them has to know them.
+//! Bodies that the fluid moves: place, mobility and change of velocity.
 
 use std::ops::Range;
 
@@ -16,8 +16,8 @@ pub struct FreeBody<const D: usize> {
     pub place: Vect<D>,
     /// The periods of the domain; a body is smaller than half of one.
     pub domain: Domain<D>,
-    /// What an impulse and its moment about the centre do to its velocity and angular velocity, 1/kg and 1/(kg m²): the
-    /// inverse of mass and inertia, with zeros for what is locked.
+    /// Inverse of mass and inertia, 1/kg and 1/(kg m²): the change of velocity and angular velocity over an impulse and
+    /// its moment about the centre, with zeros for locked freedoms.
     pub mobility: Matrix6<f64>,
     /// Change of both velocities over the last step, m/s² and rad/s².
     pub rate: Vector6<f64>,

@@ -100,17 +100,14 @@ fn beside<const D: usize>(world: &World<D>, x: &Vect<D>, part: &WallPart<D>) -> 
     });
     let Some(seen) = seen else { return *x };
     let apart = x - seen;
-    let frame = walls.frames.get(part.wall as usize);
-    let round = frame.map_or_else(Vect::zeros, |frame| frame.round);
-    x + (world.domain.nearest(apart) - apart) + round
+    x + (world.domain.nearest(apart) - apart) + walls.round(part.wall)
 }
 
 /// Force and moment of the pressure on the elements of a wall.
 fn pressure_on<const D: usize>(world: &World<D>, wall: u32) -> Result<[f64; 6], StepError> {
     let elements = &world.walls.elements;
     let shared = SharedElements::of(world)?;
-    let frame = world.walls.frames.get(wall as usize);
-    let round = frame.map_or_else(Vect::zeros, |frame| frame.round);
+    let round = world.walls.round(wall);
     let counts = |s: usize| shared.as_ref().is_none_or(|shared| shared.own(s));
     let part = |s: usize| {
         let force = elements.normal[s] * (-elements.pressure[s] * elements.measure[s]);

@@ -178,6 +178,12 @@ impl<const D: usize> WallSet<D> {
         self.points.position.is_empty() && self.elements.centre.is_empty()
     }
 
+    /// Whole periods by which a wall is farther than its points and elements, m.
+    pub fn round(&self, wall: u32) -> Vect<D> {
+        let frame = self.frames.get(wall as usize);
+        frame.map_or_else(Vect::zeros, |frame| frame.round)
+    }
+
     /// Takes over where the same walls are in another set, and what has passed and pulled there; not what walls feel.
     pub fn follow(&mut self, other: &Self) {
         if !(other.frames.is_empty() && other.passed.is_empty()) {

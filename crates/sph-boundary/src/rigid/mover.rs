@@ -35,8 +35,8 @@ pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
     fn pulls(&self, _now: &RigidState<D>) -> Vec<(Vect<D>, f64)> {
         Vec::new()
     }
-    /// What an impulse and its moment about the centre do to both velocities in a state at a time, s: the inverse of
-    /// mass and inertia, with zeros for what cannot give way; none if nothing does.
+    /// Inverse of mass and inertia in a state at a time, s: the change of both velocities over an impulse and its moment
+    /// about the centre, with zeros for locked freedoms; none for a wall without mass.
     fn mobility(&self, _now: &RigidState<D>, _time: f64) -> Option<Matrix6<f64>> {
         None
     }

@@ -100,7 +100,7 @@ impl<const D: usize> RigidState<D> {
     }
 
     /// All its numbers, for files: translation, rotation row by row, centres, velocity, acceleration, angular velocity and
-    /// acceleration, rate, what was missed.
+    /// acceleration, rate, error of the expected change.
     pub fn numbers(&self) -> Vec<f64> {
         let mut all = self.pose.translation.to_vec();
         all.extend(self.pose.rotation.iter().flatten());

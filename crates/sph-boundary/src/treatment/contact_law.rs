@@ -1,10 +1,10 @@
-//! What counts between two walls that touch.
+//! Contact law of two walls that touch.
 
 use sph_core::Vect;
 
 use crate::Touch;
 
-/// What counts between two walls.
+/// Contact law of two walls.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Law {
     /// k, Pa/m.
