@@ -7,7 +7,7 @@ use crate::HuAdamsPressure as Pressure;
 
 use sph_diffusion::PressureDiffusion as Smooth;
 
-use sph_viscosity::{InSeries, MorrisTerm, PerParticle, Uniform};
+use sph_viscosity::MorrisTerm;
 
 macro_rules! fuse {
     ($terms:literal, $fuse:ident: $($t:ty),+) => {
@@ -21,9 +21,6 @@ macro_rules! fuse {
     };
 }
 
-fuse!(3, fuse_three_lanes: Pressure, MorrisTerm<Uniform>, Smooth);
-fuse!(3, fuse_three_lanes: Pressure, MorrisTerm<PerParticle>, Smooth);
-fuse!(3, fuse_three_lanes: Pressure, MorrisTerm<InSeries>, Smooth);
-fuse!(2, fuse_two_lanes: Pressure, MorrisTerm<Uniform>);
-fuse!(2, fuse_two_lanes: Pressure, MorrisTerm<PerParticle>);
+fuse!(3, fuse_three_lanes: Pressure, MorrisTerm, Smooth);
+fuse!(2, fuse_two_lanes: Pressure, MorrisTerm);
 fuse!(2, fuse_two_lanes: Pressure, Smooth);

@@ -6,8 +6,7 @@ use sph_neighbours::{
     There, World, add_scaled, dot, scaled, splat, vector,
 };
 
-use crate::ViscositySource;
-use crate::viscosity_source::BoundViscosity;
+use crate::{BoundViscosity, OwnViscosity, ViscositySource};
 
 mod choice;
 mod coupling;
@@ -65,10 +64,10 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
     }
     /// η̄ of pairs with one neighbour; that of the source.
     #[inline(always)]
-    fn means<S: BoundViscosity, L: Lane>(
+    fn means<L: Lane>(
         self,
-        viscosity: &S,
-        here: &S::Side<L>,
+        viscosity: &BoundViscosity<'_>,
+        here: &OwnViscosity<L>,
         j: usize,
         _: [L; 2],
     ) -> L {
@@ -83,10 +82,10 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
 
 /// The term of a pair formula with a source of viscosities.
 #[derive(Clone, Copy, Debug)]
-pub struct ViscousTerm<F, S>(pub F, pub S, pub Choice);
+pub struct ViscousTerm<F>(pub F, pub ViscositySource, pub Choice);
 
-impl<const D: usize, F: PairFriction<D>, S: ViscositySource> LanePairTerm<D> for ViscousTerm<F, S> {
-    type Bound<'a> = Bound<'a, D, F, S::Bound<'a>>;
+impl<const D: usize, F: PairFriction<D>> LanePairTerm<D> for ViscousTerm<F> {
+    type Bound<'a> = Bound<'a, D, F>;
 
     fn name(&self) -> String {
         F::NAME.into()
@@ -146,13 +145,13 @@ fn rubs<const D: usize>(world: &World<D>) -> bool {
 }
 
 /// [`ViscousTerm`] with its columns.
-pub struct Bound<'a, const D: usize, F, S> {
+pub struct Bound<'a, const D: usize, F> {
     friction: F,
     velocity: &'a [Vect<D>],
     volume: &'a [f64],
     density: &'a [f64],
     mass: &'a [f64],
-    viscosity: S,
+    viscosity: BoundViscosity<'a>,
     wall_velocity: &'a [Vect<D>],
     wall_volume: &'a [f64],
     wall_share: &'a [f64],
@@ -173,10 +172,9 @@ pub struct Bound<'a, const D: usize, F, S> {
 
 /// The particle's own values.
 #[derive(Clone, Copy)]
-pub struct Here<const D: usize, V> {
+pub struct Here<const D: usize> {
     velocity: Vect<D>,
-    viscosity: V,
-    own_viscosity: f64,
+    viscosity: OwnViscosity<f64>,
     volume: f64,
     density: f64,
     /// V/m, which a formulation may keep apart from 1/ρ.
@@ -211,7 +209,7 @@ const LEAST_DISTANCE: f64 = 0.5;
 /// Bounds of κ.
 const BOUNDS: [f64; 2] = [0.0, 4.0];
 
-impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
+impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
     /// Whether fluid passes an element.
     #[inline(always)]
     fn is_open(&self, element: u32) -> bool {
@@ -252,7 +250,7 @@ impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
 
     /// Friction per tangential velocity at an element, before κ: 2 η |∇γ_as|/δr; 2 τ_w/u_t |∇γ_as| of a wall function.
     #[inline(always)]
-    fn weight<V>(&self, here: &Here<D, V>, contact: &Contact<D>) -> f64 {
+    fn weight(&self, here: &Here<D>, contact: &Contact<D>) -> f64 {
         let s = contact.element as usize;
         // A phase that the wall function is not for has none, and the condition of the wall.
         if self.elements.wall_function.get(s) == Some(&true) && here.wall_friction > 0.0 {
@@ -268,7 +266,7 @@ impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
                 .at_element(here.volume, self.elements.volume[s]),
         };
         let grip = self.elements.grip[s];
-        2.0 * factor * grip * here.own_viscosity * contact.gradient.norm() / distance
+        2.0 * factor * grip * here.viscosity.eta * contact.gradient.norm() / distance
     }
 
     /// Share of a wall point's friction that counts.
@@ -285,7 +283,7 @@ impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
 
     /// κ.
     #[inline(always)]
-    fn correction<V>(&self, here: &Here<D, V>, sum: &Sum<D>) -> f64 {
+    fn correction(&self, here: &Here<D>, sum: &Sum<D>) -> f64 {
         let squared = sum.gradient.norm_squared();
         match here.nearest.is_some() && squared * self.spacing * self.spacing > FAINT * FAINT {
             true => (sum.discrete.dot(&sum.gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]),
@@ -295,7 +293,7 @@ impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
 
     /// Over which the velocity falls to that of an element.
     #[inline(always)]
-    fn distance<V>(&self, here: &Here<D, V>, contact: &Contact<D>, normal: &Vect<D>) -> f64 {
+    fn distance(&self, here: &Here<D>, contact: &Contact<D>, normal: &Vect<D>) -> f64 {
         let Some((nearest, distance)) = &here.nearest else {
             return contact.distance.max(self.spacing);
         };
@@ -308,8 +306,8 @@ impl<const D: usize, F: PairFriction<D>, S> Bound<'_, D, F, S> {
     }
 }
 
-impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bound<'_, D, F, S> {
-    type Here = Here<D, S::Here>;
+impl<const D: usize, F: PairFriction<D>> BoundTerm<D> for Bound<'_, D, F> {
+    type Here = Here<D>;
     type Sum = Sum<D>;
 
     #[inline(always)]
@@ -319,11 +317,9 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
             (true, Some(nearest)) => self.along(i, &nearest),
             _ => Vect::zeros(),
         };
-        let viscosity = self.viscosity.here(i);
         Here {
             velocity: self.velocity[i],
-            viscosity,
-            own_viscosity: self.viscosity.own(&viscosity),
+            viscosity: self.viscosity.here(i),
             volume: self.volume[i],
             density: self.density[i],
             specific_volume: self.volume[i] / self.mass[i],
@@ -364,7 +360,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundTerm<D> for Bou
         let rubbing = self.rubbing(v, pair);
         let relative = here.velocity - self.wall_velocity[v];
         let force = self.friction.force(here.volume, volume, &relative, pair);
-        sum.force += force * (rubbing * here.own_viscosity);
+        sum.force += force * (rubbing * here.viscosity.eta);
         let shear = self.friction.shear(here.volume, volume, &here.along, pair);
         sum.discrete += pair.separation * (share * shear);
     }

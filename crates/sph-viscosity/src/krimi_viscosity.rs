@@ -6,7 +6,7 @@ use sph_core::register;
 use sph_neighbours::{Interaction, Lane};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
-use crate::viscosity_source::BoundViscosity;
+use crate::{BoundViscosity, OwnViscosity};
 use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry, Within};
 use sph_contribution::Stages;
 
@@ -109,15 +109,15 @@ impl<const D: usize> PairFriction<D> for BetweenStresses {
         [even, even / distance2.max(L::splat(f64::MIN_POSITIVE))]
     }
     #[inline(always)]
-    fn means<S: BoundViscosity, L: Lane>(
+    fn means<L: Lane>(
         self,
-        viscosity: &S,
-        here: &S::Side<L>,
+        viscosity: &BoundViscosity<'_>,
+        here: &OwnViscosity<L>,
         j: usize,
         rho: [L; 2],
     ) -> L {
         let there = L::splat(viscosity.at(j));
-        (rho[0] * there + rho[1] * viscosity.owns(here)) / (rho[0] + rho[1])
+        (rho[0] * there + rho[1] * here.eta) / (rho[0] + rho[1])
     }
     #[inline(always)]
     fn at_element(self, _: f64, _: f64) -> f64 {

@@ -41,7 +41,5 @@ pub use krimi_viscosity::{KrimiViscosity, Strength};
 pub use monaghan_gingold::MonaghanGingold;
 pub use morris::{FirstDifferences, Morris, MorrisTerm};
 pub use solves::{OuterSolves, Solves};
-pub use viscosity_source::{
-    BoundViscosity, InSeries, PerParticle, Uniform, ViscositySource, Within,
-};
+pub use viscosity_source::{BoundViscosity, Layers, OwnViscosity, ViscositySource, Within};
 pub use viscous_limit::ViscousLimit;

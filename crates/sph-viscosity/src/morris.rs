@@ -88,7 +88,7 @@ register!(
 pub struct FirstDifferences;
 
 /// The term of [`Morris`].
-pub type MorrisTerm<S> = ViscousTerm<FirstDifferences, S>;
+pub type MorrisTerm = ViscousTerm<FirstDifferences>;
 
 impl<const D: usize> PairFriction<D> for FirstDifferences {
     const NAME: &'static str = "Morris viscosity";

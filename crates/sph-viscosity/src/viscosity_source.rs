@@ -7,83 +7,6 @@ use sph_neighbours::{Lane, World, unlike};
 
 use crate::interface_distance::INTERFACE_DISTANCE;
 
-/// A source of viscosities for a pair term.
-pub trait ViscositySource: Copy + Send + Sync + 'static {
-    /// The source with its column.
-    type Bound<'a>: BoundViscosity + 'a;
-    /// Columns read.
-    fn access(self) -> Access;
-    /// Looks the column up.
-    ///
-    /// # Errors
-    /// If the column is missing.
-    fn bind<const D: usize>(self, world: &World<D>) -> Result<Self::Bound<'_>, StepError>;
-}
-
-/// Viscosities of particles and pairs.
-pub trait BoundViscosity: Copy + Sync {
-    /// What is read once per particle.
-    type Here: Copy;
-    /// The same of several particles.
-    type Side<L: Lane>: Copy;
-    /// Puts what was read of several particles side by side.
-    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L>;
-    /// η of the particles themselves, Pa s.
-    fn owns<L: Lane>(&self, here: &Self::Side<L>) -> L;
-    /// Means of the particles and one neighbour, Pa s.
-    fn means<L: Lane>(&self, here: &Self::Side<L>, neighbour: usize) -> L;
-    /// Reads the particle's own values.
-    fn here(&self, particle: usize) -> Self::Here;
-    /// η of the particle itself, Pa s.
-    fn own(&self, here: &Self::Here) -> f64;
-    /// η of a neighbour, Pa s.
-    fn at(&self, neighbour: usize) -> f64;
-    /// Mean of a pair, Pa s.
-    #[inline(always)]
-    fn mean(&self, here: &Self::Here, neighbour: usize) -> f64 {
-        self.means::<f64>(&self.side(std::slice::from_ref(here)), neighbour)
-    }
-}
-
-/// The same viscosity everywhere, Pa s.
-#[derive(Clone, Copy, Debug)]
-pub struct Uniform(pub f64);
-
-impl ViscositySource for Uniform {
-    type Bound<'a> = Uniform;
-    fn access(self) -> Access {
-        Access::none()
-    }
-    fn bind<const D: usize>(self, _world: &World<D>) -> Result<Uniform, StepError> {
-        Ok(self)
-    }
-}
-
-impl BoundViscosity for Uniform {
-    type Here = ();
-    type Side<L: Lane> = ();
-    #[inline(always)]
-    fn side<L: Lane>(&self, _here: &[()]) {}
-    #[inline(always)]
-    fn owns<L: Lane>(&self, _here: &()) -> L {
-        L::splat(self.0)
-    }
-    #[inline(always)]
-    fn means<L: Lane>(&self, _here: &(), _neighbour: usize) -> L {
-        L::splat(self.0)
-    }
-    #[inline(always)]
-    fn here(&self, _particle: usize) {}
-    #[inline(always)]
-    fn own(&self, _here: &()) -> f64 {
-        self.0
-    }
-    #[inline(always)]
-    fn at(&self, _neighbour: usize) -> f64 {
-        self.0
-    }
-}
-
 /// Mean viscosity of pairs of one phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -95,143 +18,151 @@ pub enum Within {
     Arithmetic,
 }
 
-/// The viscosity column, with means of pairs: harmonic is Ghaïtanellis 2017, Eq. 3.30.
+/// A source of viscosities for a pair term.
 #[derive(Clone, Copy, Debug)]
-pub struct PerParticle(pub Within);
-
-/// The viscosity column, found.
-#[derive(Clone, Copy, Debug)]
-pub struct Column<'a>(&'a [f64], Within);
-
-impl ViscositySource for PerParticle {
-    type Bound<'a> = Column<'a>;
-    fn access(self) -> Access {
-        Access::none().both(fields::VISCOSITY)
-    }
-    fn bind<const D: usize>(self, world: &World<D>) -> Result<Column<'_>, StepError> {
-        Ok(Column(world.free.get(fields::VISCOSITY)?, self.0))
-    }
+pub enum ViscositySource {
+    /// The same viscosity everywhere, Pa s.
+    Uniform(f64),
+    /// The viscosity column, with means of pairs: harmonic is Ghaïtanellis 2017, Eq. 3.30.
+    PerParticle(Within),
+    /// The viscosity column, with means of two layers in series across interfaces:
+    /// η̄ = (d_a + d_b)/(d_a/η_a + d_b/η_b) for particles of two phases at d from their interface.
+    ///
+    /// With it a first difference of a velocity with continuous shear stress is τ r·n/η̄, whatever the
+    /// place of the interface between the two; the harmonic mean has it in the middle. Ours.
+    /// Pairs of one phase have the mean that is given.
+    InSeries(Within),
 }
 
-impl BoundViscosity for Column<'_> {
-    type Here = f64;
-    type Side<L: Lane> = L;
-    #[inline(always)]
-    fn side<L: Lane>(&self, here: &[f64]) -> L {
-        side(here, |eta| *eta)
+impl ViscositySource {
+    /// Columns read.
+    pub fn access(self) -> Access {
+        match self {
+            Self::Uniform(_) => Access::none(),
+            Self::PerParticle(_) => Access::none().both(fields::VISCOSITY),
+            Self::InSeries(_) => Access::none()
+                .both(fields::VISCOSITY)
+                .both(fields::PHASE)
+                .both(INTERFACE_DISTANCE),
+        }
     }
-    #[inline(always)]
-    fn owns<L: Lane>(&self, here: &L) -> L {
-        *here
-    }
-    #[inline(always)]
-    fn means<L: Lane>(&self, here: &L, neighbour: usize) -> L {
-        within(self.1, *here, L::splat(self.0[neighbour]))
-    }
-    #[inline(always)]
-    fn here(&self, particle: usize) -> f64 {
-        self.0[particle]
-    }
-    #[inline(always)]
-    fn own(&self, here: &f64) -> f64 {
-        *here
-    }
-    #[inline(always)]
-    fn at(&self, neighbour: usize) -> f64 {
-        self.0[neighbour]
-    }
-}
 
-/// The viscosity column, with means of two layers in series across interfaces:
-/// η̄ = (d_a + d_b)/(d_a/η_a + d_b/η_b) for particles of two phases at d from their interface.
-///
-/// With it a first difference of a velocity with continuous shear stress is τ r·n/η̄, whatever the
-/// place of the interface between the two; the harmonic mean has it in the middle. Ours.
-/// Pairs of one phase have the mean that is given.
-#[derive(Clone, Copy, Debug)]
-pub struct InSeries(pub Within);
-
-/// The columns of [`InSeries`].
-#[derive(Clone, Copy, Debug)]
-pub struct SeriesColumns<'a> {
-    viscosity: &'a [f64],
-    phase: &'a [u32],
-    distance: &'a [f64],
-    within: Within,
-}
-
-impl ViscositySource for InSeries {
-    type Bound<'a> = SeriesColumns<'a>;
-    fn access(self) -> Access {
-        Access::none()
-            .both(fields::VISCOSITY)
-            .both(fields::PHASE)
-            .both(INTERFACE_DISTANCE)
-    }
-    fn bind<const D: usize>(self, world: &World<D>) -> Result<SeriesColumns<'_>, StepError> {
-        Ok(SeriesColumns {
-            viscosity: world.free.get(fields::VISCOSITY)?,
-            phase: world.free.get(fields::PHASE)?,
-            distance: world.free.get(INTERFACE_DISTANCE)?,
-            within: self.0,
+    /// Looks the columns up.
+    ///
+    /// # Errors
+    /// If one is missing.
+    pub fn bind<const D: usize>(self, world: &World<D>) -> Result<BoundViscosity<'_>, StepError> {
+        let column = || world.free.get(fields::VISCOSITY);
+        Ok(match self {
+            Self::Uniform(eta) => BoundViscosity::Uniform(eta),
+            Self::PerParticle(within) => BoundViscosity::Column(column()?, within, None),
+            Self::InSeries(within) => {
+                let layers = Layers {
+                    phase: world.free.get(fields::PHASE)?,
+                    distance: world.free.get(INTERFACE_DISTANCE)?,
+                };
+                BoundViscosity::Column(column()?, within, Some(layers))
+            }
         })
     }
 }
 
-impl BoundViscosity for SeriesColumns<'_> {
-    /// Viscosity, phase, distance.
-    type Here = (f64, u32, f64);
-    /// The same; phases are small whole numbers, exact as any.
-    type Side<L: Lane> = (L, L, L);
+/// Phases of particles and their distances from the interface, m.
+#[derive(Clone, Copy, Debug)]
+pub struct Layers<'a> {
+    phase: &'a [u32],
+    distance: &'a [f64],
+}
+
+/// A [`ViscositySource`] with its columns.
+#[derive(Clone, Copy, Debug)]
+pub enum BoundViscosity<'a> {
+    /// The same viscosity everywhere, Pa s.
+    Uniform(f64),
+    /// The viscosities of the particles, the mean of pairs of one phase, and layers in series where there are some.
+    Column(&'a [f64], Within, Option<Layers<'a>>),
+}
+
+/// What a mean reads of the particle itself, or of several: phases are small whole numbers, exact as any.
+#[derive(Clone, Copy, Debug)]
+pub struct OwnViscosity<L> {
+    /// η, Pa s.
+    pub eta: L,
+    phase: L,
+    distance: L,
+}
+
+impl BoundViscosity<'_> {
+    /// Reads the particle's own values.
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Self::Here]) -> (L, L, L) {
-        let phase = side(here, |own| f64::from(own.1));
-        (side(here, |own| own.0), phase, side(here, |own| own.2))
+    pub fn here(&self, i: usize) -> OwnViscosity<f64> {
+        let (eta, layers) = match self {
+            Self::Uniform(eta) => (*eta, &None),
+            Self::Column(column, _, layers) => (column[i], layers),
+        };
+        let layers = layers.map(|l| (f64::from(l.phase[i]), l.distance[i]));
+        let (phase, distance) = layers.unwrap_or_default();
+        OwnViscosity {
+            eta,
+            phase,
+            distance,
+        }
     }
+
+    /// Puts what was read of several particles side by side.
     #[inline(always)]
-    fn owns<L: Lane>(&self, here: &(L, L, L)) -> L {
-        here.0
+    pub fn side<L: Lane>(&self, here: &[OwnViscosity<f64>]) -> OwnViscosity<L> {
+        let mut side = OwnViscosity {
+            eta: L::splat(here[0].eta),
+            phase: L::splat(0.0),
+            distance: L::splat(0.0),
+        };
+        if matches!(self, Self::Uniform(_)) {
+            return side;
+        }
+        for (lane, own) in here.iter().enumerate() {
+            side.eta.set(lane, own.eta);
+            side.phase.set(lane, own.phase);
+            side.distance.set(lane, own.distance);
+        }
+        side
     }
+
+    /// η of a neighbour, Pa s.
     #[inline(always)]
-    fn means<L: Lane>(&self, here: &(L, L, L), j: usize) -> L {
-        let there = L::splat(self.viscosity[j]);
-        let unlike = unlike(here.1, self.phase[j]);
-        let alike = within(self.within, here.0, there);
+    pub fn at(&self, neighbour: usize) -> f64 {
+        match self {
+            Self::Uniform(eta) => *eta,
+            Self::Column(column, ..) => column[neighbour],
+        }
+    }
+
+    /// Means of the particles and one neighbour, Pa s.
+    #[inline(always)]
+    pub fn means<L: Lane>(&self, here: &OwnViscosity<L>, j: usize) -> L {
+        let Self::Column(column, within, layers) = self else {
+            return here.eta;
+        };
+        let there = L::splat(column[j]);
+        let alike = mean(*within, here.eta, there);
+        let Some(layers) = layers else {
+            return alike;
+        };
+        let unlike = unlike(here.phase, layers.phase[j]);
         // Most pairs are of one phase.
         if !L::splat(0.0).any_less(unlike) {
             return alike;
         }
-        let mixed = in_series(here.2, here.0, L::splat(self.distance[j]), there);
+        let distance = L::splat(layers.distance[j]);
+        let mixed = in_series(here.distance, here.eta, distance, there);
         unlike.where_positive(mixed, alike)
     }
-    #[inline(always)]
-    fn here(&self, i: usize) -> Self::Here {
-        (self.viscosity[i], self.phase[i], self.distance[i])
-    }
-    #[inline(always)]
-    fn own(&self, here: &Self::Here) -> f64 {
-        here.0
-    }
-    #[inline(always)]
-    fn at(&self, neighbour: usize) -> f64 {
-        self.viscosity[neighbour]
-    }
-}
-
-/// One number of several particles.
-#[inline(always)]
-fn side<H, L: Lane>(here: &[H], of: impl Fn(&H) -> f64) -> L {
-    let mut side = L::splat(0.0);
-    for (lane, own) in here.iter().enumerate() {
-        side.set(lane, of(own));
-    }
-    side
 }
 
 /// Mean of a pair of one phase.
 #[inline(always)]
-fn within<L: Lane>(mean: Within, eta: L, other: L) -> L {
-    match mean {
+fn mean<L: Lane>(within: Within, eta: L, other: L) -> L {
+    match within {
         Within::Harmonic => in_series(L::splat(1.0), eta, L::splat(1.0), other),
         Within::Arithmetic => L::splat(0.5) * (eta + other),
     }

@@ -7,7 +7,7 @@ use sph_neighbours::{Interaction, Lanewise, Pair, World};
 
 use super::{PairFriction, ViscousTerm};
 use crate::interface_distance::InterfaceDistance;
-use crate::{Coupling, InSeries, PerParticle, Uniform, Viscosity, Within};
+use crate::{Coupling, Viscosity, ViscositySource, Within};
 use sph_contribution::Stages;
 use sph_neighbours::{lattice_sum, rows_sum};
 
@@ -94,19 +94,11 @@ impl Choice {
         friction: F,
         viscosity: Viscosity,
     ) -> Box<dyn Interaction<D>> {
-        match (viscosity, self.across) {
-            (Viscosity::Uniform(eta), _) => {
-                Box::new(Lanewise(ViscousTerm(friction, Uniform(eta), self)))
-            }
-            (Viscosity::PerPhase, Across::Series) => {
-                Box::new(Lanewise(ViscousTerm(friction, InSeries(self.within), self)))
-            }
-            _ => Box::new(Lanewise(ViscousTerm(
-                friction,
-                PerParticle(self.within),
-                self,
-            ))),
-        }
+        Box::new(Lanewise(ViscousTerm(
+            friction,
+            self.source(viscosity),
+            self,
+        )))
     }
 
     /// The same friction as rows of a matrix.
@@ -115,12 +107,14 @@ impl Choice {
         friction: F,
         viscosity: Viscosity,
     ) -> Box<dyn Coupling<D>> {
+        Box::new(ViscousTerm(friction, self.source(viscosity), self))
+    }
+
+    fn source(self, viscosity: Viscosity) -> ViscositySource {
         match (viscosity, self.across) {
-            (Viscosity::Uniform(eta), _) => Box::new(ViscousTerm(friction, Uniform(eta), self)),
-            (Viscosity::PerPhase, Across::Series) => {
-                Box::new(ViscousTerm(friction, InSeries(self.within), self))
-            }
-            _ => Box::new(ViscousTerm(friction, PerParticle(self.within), self)),
+            (Viscosity::Uniform(eta), _) => ViscositySource::Uniform(eta),
+            (Viscosity::PerPhase, Across::Series) => ViscositySource::InSeries(self.within),
+            _ => ViscositySource::PerParticle(self.within),
         }
     }
 

@@ -8,10 +8,9 @@ use sph_neighbours::{
 };
 
 use super::{Bound, Here, PairFriction, Sum, ViscousTerm};
-use crate::viscosity_source::BoundViscosity;
-use crate::{BoundCoupling, Coupling, CouplingRow, ViscositySource, WithCoupling};
+use crate::{BoundCoupling, Coupling, CouplingRow, OwnViscosity, WithCoupling};
 
-impl<const D: usize, F: PairFriction<D>, S: ViscositySource> Coupling<D> for ViscousTerm<F, S> {
+impl<const D: usize, F: PairFriction<D>> Coupling<D> for ViscousTerm<F> {
     fn access(&self) -> Access {
         LanePairTerm::<D>::access(self)
     }
@@ -34,10 +33,10 @@ fn pairs<'a, const D: usize>(row: &'a Row<'_, D>) -> impl Iterator<Item = (usize
     })
 }
 
-impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
+impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
     /// −α and −β of a wall point times its viscosity.
     #[inline(always)]
-    fn at_point(&self, here: &Here<D, S::Here>, there: f64, pair: &Pair<D>, eta: f64) -> [f64; 2] {
+    fn at_point(&self, here: &Here<D>, there: f64, pair: &Pair<D>, eta: f64) -> [f64; 2] {
         let (distance2, factor) = (pair.distance2, pair.factor);
         let strengths = self
             .friction
@@ -46,7 +45,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
     }
 
     /// κ from what the explicit term sums.
-    fn correction_of(&self, here: &Here<D, S::Here>, rows: &Neighbourhood<'_, D>) -> f64 {
+    fn correction_of(&self, here: &Here<D>, rows: &Neighbourhood<'_, D>) -> f64 {
         if here.nearest.is_none() {
             return 1.0;
         }
@@ -72,21 +71,19 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> Bound<'_, D, F, S> {
 }
 
 /// α, β and their norm of pairs.
-struct Strengths<'a, 'b, const D: usize, F, S>(&'a Bound<'b, D, F, S>);
+struct Strengths<'a, 'b, const D: usize, F>(&'a Bound<'b, D, F>);
 
 /// What a particle has of a pair.
 #[derive(Clone, Copy)]
-struct Own<V, L> {
+struct Own<L> {
     volume: L,
     density: L,
-    viscosity: V,
+    viscosity: OwnViscosity<L>,
 }
 
-impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> LanePairs<D, 3>
-    for Strengths<'_, '_, D, F, S>
-{
-    type Here = Own<S::Here, f64>;
-    type Side<L: Lane> = Own<S::Side<L>, L>;
+impl<const D: usize, F: PairFriction<D>> LanePairs<D, 3> for Strengths<'_, '_, D, F> {
+    type Here = Own<f64>;
+    type Side<L: Lane> = Own<L>;
 
     #[inline(always)]
     fn here(&self, i: usize) -> Self::Here {
@@ -101,7 +98,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> LanePairs<D, 3>
     #[inline(always)]
     fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L> {
         let zero = L::splat(0.0);
-        let viscosities: [S::Here; MOST] =
+        let viscosities: [OwnViscosity<f64>; MOST] =
             std::array::from_fn(|lane| here[lane.min(here.len() - 1)].viscosity);
         let mut side = Own {
             volume: zero,
@@ -132,9 +129,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> LanePairs<D, 3>
     }
 }
 
-impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundCoupling<D>
-    for Bound<'_, D, F, S>
-{
+impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for Bound<'_, D, F> {
     fn kinds(&self) -> Kinds {
         Kinds {
             even: F::EVEN,
@@ -155,7 +150,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundCoupling<D>
         let scale = self.scale * here.volume;
         let (mut wall, mut source) = (0.0, Vect::zeros());
         for (v, pair) in pairs(&rows.wall) {
-            let rubbing = self.rubbing(v, &pair) * here.own_viscosity;
+            let rubbing = self.rubbing(v, &pair) * here.viscosity.eta;
             let [friction, _] = self.at_point(&here, self.wall_volume[v], &pair, rubbing);
             wall += friction;
             source += self.wall_velocity[v] * friction;
@@ -181,7 +176,7 @@ impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> BoundCoupling<D>
         let scale = self.scale * here.volume;
         let (mut wall, mut source) = (Block::zeros(), Vect::zeros());
         for (v, pair) in pairs(&rows.wall) {
-            let rubbing = self.rubbing(v, &pair) * here.own_viscosity;
+            let rubbing = self.rubbing(v, &pair) * here.viscosity.eta;
             let [even, along] = self.at_point(&here, self.wall_volume[v], &pair, rubbing);
             let friction = Block::central(even, along, &pair.separation);
             wall += friction;

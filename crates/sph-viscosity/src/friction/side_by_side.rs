@@ -5,13 +5,13 @@ use sph_neighbours::{
 };
 
 use super::{Bound, PairFriction, Sum};
-use crate::viscosity_source::BoundViscosity;
+use crate::OwnViscosity;
 
 /// Own values of several particles.
 #[derive(Clone, Copy)]
-pub struct Side<const D: usize, V, L> {
+pub struct Side<const D: usize, L> {
     velocity: [L; D],
-    viscosity: V,
+    viscosity: OwnViscosity<L>,
     volume: L,
     density: L,
     along: [L; D],
@@ -27,8 +27,8 @@ pub struct Sums<const D: usize, L> {
     start: Sum<D>,
 }
 
-impl<const D: usize, F: PairFriction<D>, S: BoundViscosity> LaneTerm<D> for Bound<'_, D, F, S> {
-    type Side<L: Lane> = Side<D, S::Side<L>, L>;
+impl<const D: usize, F: PairFriction<D>> LaneTerm<D> for Bound<'_, D, F> {
+    type Side<L: Lane> = Side<D, L>;
     type Sums<L: Lane> = Sums<D, L>;
 
     #[inline(always)]
