@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use crate::blocks::each_block;
 
 /// Particles per batch.
 const BATCH: usize = 1024;
@@ -16,8 +16,7 @@ pub fn by_phase<T: Send>(
     column: &mut [T],
     work: impl Fn(usize, Range<usize>, &mut [T]) + Sync,
 ) {
-    let batches = column.par_chunks_mut(BATCH).enumerate();
-    batches.for_each(|(k, part)| {
+    each_block(column, BATCH, &|k, part| {
         let from = k * BATCH;
         for (number, run) in runs(phase, from, part.len()) {
             let own = run.start - from..run.end - from;

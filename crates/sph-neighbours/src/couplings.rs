@@ -1,9 +1,9 @@
 //! Couplings of pairs, kept in lanes for many sums over particles that stay where they are.
 
-use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_lanes::{Body, Lane, Width, dispatch_at};
 
+use crate::blocks::each_block;
 use crate::lane_vector::{minus, vector};
 use crate::separation::places;
 use crate::{CHUNK, Domain, World};
@@ -104,8 +104,8 @@ impl<const D: usize> CouplingsAt<'_, D> {
         out: &mut [Vect<D>],
         of: impl Fn(usize, Vect<D>) -> Vect<D> + Sync,
     ) {
-        let blocks = out.par_chunks_mut(CHUNK).zip(&self.couplings.blocks);
-        blocks.enumerate().for_each(|(block, (out, kept))| {
+        each_block(out, CHUNK, &|block, out| {
+            let kept = &self.couplings.blocks[block];
             let mut start = 0;
             let numbers = &mut &kept.numbers[..];
             for group in &kept.groups {

@@ -65,8 +65,11 @@ pub fn facing_forces<const D: usize>(
         if !pairs.iter().any(|pair| of_wall(&pair)) {
             continue;
         }
-        let all = || pairs.par_iter().with_min_len(256).filter(of_wall);
-        let sums = world.sums_of(|| all().flat_map_iter(|f| parts(f).into_iter().flatten()))?;
+        let one = |k: usize| {
+            let pair = &pairs[k / 2];
+            of_wall(&pair).then(|| parts(pair)[k % 2]).flatten()
+        };
+        let sums = world.sums_of(2 * pairs.len(), &one)?;
         force.force = Vect::from_fn(|k, _| sums[k]);
         force.moment = [sums[3], sums[4], sums[5]];
     }

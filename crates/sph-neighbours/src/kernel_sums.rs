@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
 use sph_lanes::{Body, Lane, MOST, dispatch_at, dot, width};
 
+use crate::blocks::each_block;
 use crate::lane_vector::minus;
 use crate::list::{CHUNK, make_room};
 use crate::members::{Members, groups};
@@ -183,10 +183,9 @@ pub fn shepard<const D: usize, const K: usize, M: TargetMean<D, K>>(
     let width = width();
     out.resize_with(targets.len(), || mean.mean(0, [0.0; K]));
     let limit = kernel.support_radius().powi(2);
-    let room = || world.lists.shelf.lend::<(Values, Vec<u32>)>();
-    let blocks = out.par_chunks_mut(CHUNK).enumerate();
-    blocks.for_each_init(room, |room, (b, out)| {
-        let (values, inside) = &mut **room;
+    each_block(out, CHUNK, &|b, out| {
+        let mut room = world.lists.shelf.lend::<(Values, Vec<u32>)>();
+        let (values, inside) = &mut *room;
         for all in list.of_block(b) {
             for members in groups(all, width.lanes()) {
                 let own = members.from..members.from + members.count;

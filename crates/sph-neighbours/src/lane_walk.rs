@@ -1,9 +1,9 @@
 //! Walks whose sums over free neighbours are written for lanes.
 
-use rayon::prelude::*;
 use sph_core::StepError;
 use sph_lanes::{Body, Lane, MOST, dispatch_at, width};
 
+use crate::blocks::each_block;
 use crate::cluster::Cluster;
 use crate::lane_pair::LanePair;
 use crate::members::{Members, groups};
@@ -58,37 +58,34 @@ pub fn walk_in_lanes<const D: usize, S: LaneSum<D>, R: Send>(
 ) -> Result<(), StepError> {
     let sweep = Sweep::new(world, &[], &*world.kernel)?;
     let shelf = &world.lists.shelf;
-    let blocks = out.par_chunks_mut(CHUNK).enumerate();
-    blocks.for_each_init(
-        || shelf.lend::<Room<D>>(),
-        |room, (block, out)| {
-            for cluster in sweep.clusters(block) {
-                for members in groups(cluster, width().lanes()) {
-                    let own = members.from..members.from + members.count;
-                    if !own.clone().any(&wanted) {
+    each_block(out, CHUNK, &|block, out| {
+        let mut room = shelf.lend::<Room<D>>();
+        for cluster in sweep.clusters(block) {
+            for members in groups(cluster, width().lanes()) {
+                let own = members.from..members.from + members.count;
+                if !own.clone().any(&wanted) {
+                    continue;
+                }
+                let mut cluster = sweep.measured(&mut room.0, members);
+                if S::VALUES {
+                    cluster.weigh(&*world.kernel);
+                }
+                let mut sums: [Option<S::Sum>; MOST] = std::array::from_fn(|_| None);
+                let body = SideBySide {
+                    sum,
+                    cluster: &cluster,
+                    out: &mut sums,
+                };
+                dispatch_at(cluster.width, body);
+                for ((k, i), sum) in own.enumerate().zip(sums) {
+                    let Some(sum) = sum.filter(|_| wanted(i)) else {
                         continue;
-                    }
-                    let mut cluster = sweep.measured(&mut room.0, members);
-                    if S::VALUES {
-                        cluster.weigh(&*world.kernel);
-                    }
-                    let mut sums: [Option<S::Sum>; MOST] = std::array::from_fn(|_| None);
-                    let body = SideBySide {
-                        sum,
-                        cluster: &cluster,
-                        out: &mut sums,
                     };
-                    dispatch_at(cluster.width, body);
-                    for ((k, i), sum) in own.enumerate().zip(sums) {
-                        let Some(sum) = sum.filter(|_| wanted(i)) else {
-                            continue;
-                        };
-                        out[i - block * CHUNK] = of(sum, &cluster.walls(k));
-                    }
+                    out[i - block * CHUNK] = of(sum, &cluster.walls(k));
                 }
             }
-        },
-    );
+        }
+    });
     Ok(())
 }
 

@@ -13,6 +13,7 @@
 //! bits for any number of threads.
 
 mod batches;
+mod blocks;
 mod class_rates;
 mod cluster;
 mod cluster_walk;
@@ -58,6 +59,7 @@ mod walls;
 mod world;
 
 pub use batches::by_phase;
+pub use blocks::{each_block, joined};
 pub use class_rates::{ClassRate, class_rates};
 pub use cluster::Cluster;
 pub use cluster_walk::{ClusterWalk, LanePairs};

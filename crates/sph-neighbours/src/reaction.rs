@@ -1,6 +1,5 @@
 //! What the fluid exerts on the walls.
 
-use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
 use crate::facing::facing_forces;
@@ -67,7 +66,7 @@ pub fn reactions<const D: usize>(
         if !wanted {
             return Ok(WallForce::unknown());
         }
-        let sums = world.sums_of(|| parts.par_iter().with_min_len(1024).copied())?;
+        let sums = world.sums_of(parts.len(), &|k| Some(parts[k]))?;
         Ok(WallForce {
             force: Vect::from_fn(|k, _| sums[k]),
             moment: [sums[3], sums[4], sums[5]],
@@ -116,7 +115,6 @@ fn pressure_on<const D: usize>(world: &World<D>, wall: u32) -> Result<[f64; 6], 
         both[3..].copy_from_slice(&cross(&(elements.centre[s] + round), &force));
         both
     };
-    let all = (0..elements.centre.len()).into_par_iter().with_min_len(256);
-    let on = all.filter(|s| elements.wall[*s] == wall && counts(*s));
-    world.sums_of(|| on.clone().map(part))
+    let on = |s: usize| elements.wall[s] == wall && counts(s);
+    world.sums_of(elements.centre.len(), &|s| on(s).then(|| part(s)))
 }

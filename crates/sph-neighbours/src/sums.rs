@@ -1,14 +1,16 @@
 //! Sums over all particles of a flow, whoever holds them.
 
-use rayon::prelude::*;
+use std::ops::Range;
+
 use sph_core::StepError;
 
 use crate::World;
+use crate::blocks::joined;
 
 /// Bits of the largest value in a sum: with as many as these, 2⁴⁶ values cannot overflow 128 bits.
 const BITS: i32 = 80;
 const LIMBS: usize = 4;
-const BATCH: usize = 4096;
+const BATCH: usize = 1024;
 
 impl<const D: usize> World<D> {
     /// Sums over all particles, of those of other ranks, too: each value in whole numbers of 2⁻⁸⁰ of the largest one, so that the
@@ -21,22 +23,25 @@ impl<const D: usize> World<D> {
         each: impl Fn(usize) -> [f64; N] + Sync,
     ) -> Result<[f64; N], StepError> {
         let own = self.team.as_ref().map(|team| team.own(&self.free));
-        let counts = |i: &usize| own.as_ref().is_none_or(|own| own[*i]);
-        let all = || (0..self.free.len()).into_par_iter().with_min_len(BATCH);
-        self.sums_of(|| all().filter(counts).map(&each))
+        let counts = |i: usize| own.as_ref().is_none_or(|own| own[i]);
+        self.sums_of(self.free.len(), &|i| counts(i).then(|| each(i)))
     }
 
-    /// The same of values that are made twice; of several ranks each has some.
+    /// The same of `count` values, some of which may be missing; of several ranks each has some. Each is asked for twice.
     ///
     /// # Errors
     /// As [`sums`](Self::sums).
-    pub fn sums_of<const N: usize, I: ParallelIterator<Item = [f64; N]>>(
+    pub fn sums_of<const N: usize>(
         &self,
-        all: impl Fn() -> I,
+        count: usize,
+        each: &(dyn Fn(usize) -> Option<[f64; N]> + Sync),
     ) -> Result<[f64; N], StepError> {
         let larger = |a: [f64; N], b: [f64; N]| std::array::from_fn(|k| a[k].max(b[k]));
-        let sizes = all().map(|values| values.map(f64::abs));
-        let mut largest = sizes.reduce(|| [0.0; N], larger);
+        let largest_of = |range: Range<usize>| {
+            let sizes = range.filter_map(each).map(|values| values.map(f64::abs));
+            sizes.fold([0.0; N], larger)
+        };
+        let mut largest = joined(count, BATCH, [0.0; N], &largest_of, larger);
         if let Some(team) = &self.team {
             team.largest(&mut largest)?;
         }
@@ -48,7 +53,8 @@ impl<const D: usize> World<D> {
             std::array::from_fn(|k| scaled(k).round_ties_even() as i128)
         };
         let plus = |a: [i128; N], b: [i128; N]| std::array::from_fn(|k| a[k].wrapping_add(b[k]));
-        let mut sums = all().map(whole).reduce(|| [0; N], plus);
+        let sum_of = |range: Range<usize>| range.filter_map(each).map(whole).fold([0; N], plus);
+        let mut sums = joined(count, BATCH, [0; N], &sum_of, plus);
         if let Some(team) = &self.team {
             let limb = |sum: i128, k: usize| (sum as u128 >> (32 * k)) as u64 & 0xFFFF_FFFF;
             let mut limbs: Vec<u64> = sums

@@ -1,8 +1,8 @@
 //! Walks that make something else than rates of the neighbourhoods.
 
-use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 
+use crate::blocks::each_block;
 use crate::{CHUNK, Clusters, NOBODY, Neighbourhood, Scratch, World};
 
 /// Finds neighbourhoods one by one, with the buffers of one thread.
@@ -155,15 +155,14 @@ pub fn walk_into<const D: usize, R: Send>(
         };
         of(&Around { rows, free, wall })
     };
-    let all = out.par_iter_mut().enumerate().with_min_len(CHUNK);
-    all.for_each_init(
-        || world.lists.shelf.lend::<Room<D>>(),
-        |room, (i, out)| {
+    each_block(out, CHUNK, &|block, out| {
+        let mut room = world.lists.shelf.lend::<Room<D>>();
+        for (out, i) in out.iter_mut().zip(block * CHUNK..) {
             if wanted(i) {
-                *out = one(room, i);
+                *out = one(&mut room, i);
             }
-        },
-    );
+        }
+    });
     Ok(())
 }
 

@@ -167,8 +167,8 @@ fn felt<const D: usize>(
             .any(|(c, w)| *w as usize == wall && c.coefficient > 0.0)
     };
     let on = |wall: usize| {
-        let part = |(&particle, pull): (&u32, &Pull<D>)| {
-            let i = particle as usize;
+        let part = |k: usize| {
+            let (i, pull) = (contacts.particles[k] as usize, &pulls[k]);
             let rubbed = |c: &Contact<D>| {
                 let s = c.element as usize;
                 elements.wall[s] as usize == wall && elements.coulomb[s].coefficient > 0.0
@@ -176,16 +176,15 @@ fn felt<const D: usize>(
             let rubbed = contacts.of(i).iter().filter(rubbed);
             let gradient: f64 = rubbed.map(|c| c.gradient.norm()).sum();
             if gradient == 0.0 || own.as_ref().is_some_and(|own| !own[i]) {
-                return [0.0; 6];
+                return None;
             }
             let force = -pull.change * (mass[i] * gradient / (pull.gradient * dt));
             let mut both = [0.0; 6];
             both[..D].copy_from_slice(force.as_slice());
             both[3..].copy_from_slice(&cross(&position[i], &force));
-            both
+            Some(both)
         };
-        let all = contacts.particles.par_iter().zip(pulls).with_min_len(512);
-        let sums = world.sums_of(|| all.clone().map(part))?;
+        let sums = world.sums_of(pulls.len(), &part)?;
         Ok(WallForce {
             force: Vect::from_fn(|k, _| sums[k]),
             moment: [sums[3], sums[4], sums[5]],

@@ -1,7 +1,6 @@
 //! Bodies that give way to the friction that is solved for.
 
 use nalgebra::{DMatrix, Matrix6, SMatrix, Vector6};
-use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_implicit::Operator;
 use sph_neighbours::{FreeBody, World};
@@ -48,12 +47,12 @@ fn pushed<const D: usize>(
     u: &[Vect<D>],
 ) -> Result<Vector6<f64>, StepError> {
     let own = world.team.as_ref().map(|team| team.own(&world.free));
-    let part = |(i, b): &(usize, SMatrix<f64, D, 6>)| {
+    let part = |k: usize| {
+        let (i, b) = &rows[k];
         let counts = own.as_ref().is_none_or(|own| own[*i]);
-        let push = b.transpose() * u[*i] * f64::from(u8::from(counts));
-        <[f64; 6]>::from(push)
+        counts.then(|| <[f64; 6]>::from(b.transpose() * u[*i]))
     };
-    Ok(world.sums_of(|| rows.par_iter().map(part))?.into())
+    Ok(world.sums_of(rows.len(), &part)?.into())
 }
 
 impl<const D: usize> GivingWay<D> {
@@ -94,7 +93,7 @@ impl<const D: usize> GivingWay<D> {
                 parts.push(<[f64; 36]>::try_from(c.as_slice()).unwrap_or([0.0; 36]));
             }
         }
-        let friction = world.sums_of(|| parts.par_iter().copied())?;
+        let friction = world.sums_of(parts.len(), &|k| Some(parts[k]))?;
         let friction = Matrix6::from_column_slice(&friction);
         let mobility = body.mobility * RESPONSE;
         let columns: Vec<_> = body.roots().map(|r| r * RESPONSE.sqrt()).collect();

@@ -111,7 +111,7 @@ fn give_way<const D: usize>(
             parts.push(part);
         }
     }
-    let sums = world.sums_of(|| parts.par_iter().copied())?;
+    let sums = world.sums_of(parts.len(), &|k| Some(parts[k]))?;
     let impulse = Vector6::from_column_slice(&sums[..6]);
     if impulse == Vector6::zeros() {
         return Ok(());
@@ -162,7 +162,7 @@ fn blows<const D: usize, M: WallMesh<D>>(
         if outline.groups[wall] != wall || !outline.feels(wall) {
             return Ok(WallForce::zero());
         }
-        let sums = world.sums_of(|| blows.par_iter().copied())?;
+        let sums = world.sums_of(blows.len(), &|k| Some(blows[k]))?;
         Ok(WallForce {
             force: Vect::from_fn(|k, _| sums[k]),
             moment: [sums[3], sums[4], sums[5]],
