@@ -22,3 +22,4 @@ pub(crate) mod snapshot;
 pub(crate) mod sorting;
 pub(crate) mod stages;
 pub(crate) mod swing;
+pub(crate) mod system;

@@ -8,8 +8,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use sph_contribution::{Limiter, OutsideForce, StepWork};
 use sph_core::{
-    Access, AnyField, Evolved, Field, Recall, Role, Scalar, Stage, StepError, StepLimit, System,
-    fields,
+    Access, AnyField, Evolved, Field, Role, Scalar, Stage, StepError, StepLimit, fields,
 };
 use sph_decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
@@ -17,7 +16,7 @@ use sph_state::Laws;
 
 use crate::step::books::Books;
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
-use crate::step::declared::{Columns, writes_any};
+use crate::step::declared::Columns;
 use crate::step::guard;
 use crate::step::guests::{run_and_tell, tell_guests};
 use crate::step::kept_image::KeptImage;
@@ -128,67 +127,6 @@ impl<const D: usize> Flow<D> {
             }
         }
         Ok(all)
-    }
-}
-
-impl<const D: usize> System for Flow<D> {
-    fn evaluate(&mut self) -> Result<(), StepError> {
-        self.run_stages(|_| true)?;
-        match &self.books {
-            Some(books) => Ok(books.evaluated(&mut self.world)?),
-            None => Ok(()),
-        }
-    }
-
-    fn evaluate_forces(&mut self) -> Result<(), StepError> {
-        let state = [fields::DENSITY, fields::VOLUME, fields::PRESSURE].map(|f| f.any());
-        self.refresh_lists_and_derived()?;
-        self.run_stages(|stage| !writes_any(stage, &state))
-    }
-
-    fn keep(&mut self) -> Result<(), StepError> {
-        self.kept
-            .save(&self.world, self.walls.as_ref(), &self.loads)?;
-        self.kept_rates.keep(&self.world.free, &self.evolved)?;
-        self.kept_image.keep(self.parts.as_ref(), &self.world);
-        Ok(())
-    }
-
-    fn recall(&mut self, what: Recall) -> Result<(), StepError> {
-        let by_stages = match what {
-            Recall::State => self.written_by_stages(),
-            Recall::Motion | Recall::Scalars => Vec::new(),
-        };
-        self.kept_follows()?;
-        let named = (&self.integrated[..], &by_stages[..]);
-        let walls = (self.walls.as_ref(), &mut self.loads);
-        self.kept.recall(&mut self.world, walls, what, named)?;
-        Ok(())
-    }
-
-    fn average_rates(&mut self) -> Result<(), StepError> {
-        self.kept_follows()?;
-        let places = self.kept.places(&self.world.free)?;
-        let free = &mut self.world.free;
-        self.kept_rates
-            .average(free, &self.evolved, places.as_deref())?;
-        Ok(())
-    }
-
-    fn kick(&mut self, dt: f64) -> Result<(), StepError> {
-        self.kick_over(dt)
-    }
-
-    fn drift(&mut self, dt: f64) -> Result<(), StepError> {
-        self.drift_over(dt)
-    }
-
-    fn time(&self) -> f64 {
-        self.world.time
-    }
-
-    fn limits(&self) -> Vec<StepLimit> {
-        self.step_limits().unwrap_or_default()
     }
 }
 

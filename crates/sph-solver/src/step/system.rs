@@ -1,0 +1,125 @@
+//! A flow as the system that a time integrator advances.
+//!
+//! The motions are compiled here for the plane and for space: a crate that steps a flow does not compile them again.
+
+use std::any::Any;
+
+use sph_core::{Recall, StepError, StepLimit, System, fields};
+
+use crate::step::declared::writes_any;
+use crate::step::flow::Flow;
+
+/// The motions of [`System`].
+enum Motion {
+    Evaluate,
+    EvaluateForces,
+    Keep,
+    Recall(Recall),
+    AverageRates,
+    Kick(f64),
+    Drift(f64),
+}
+
+fn perform<const D: usize>(flow: &mut Flow<D>, motion: Motion) -> Result<(), StepError> {
+    let flow: &mut dyn Any = flow;
+    if let Some(flow) = flow.downcast_mut() {
+        return plane(flow, motion);
+    }
+    match flow.downcast_mut() {
+        Some(flow) => space(flow, motion),
+        None => unreachable!("flows have two or three dimensions"),
+    }
+}
+
+fn plane(flow: &mut Flow<2>, motion: Motion) -> Result<(), StepError> {
+    flow.perform(motion)
+}
+
+fn space(flow: &mut Flow<3>, motion: Motion) -> Result<(), StepError> {
+    flow.perform(motion)
+}
+
+impl<const D: usize> System for Flow<D> {
+    fn evaluate(&mut self) -> Result<(), StepError> {
+        perform(self, Motion::Evaluate)
+    }
+
+    fn evaluate_forces(&mut self) -> Result<(), StepError> {
+        perform(self, Motion::EvaluateForces)
+    }
+
+    fn keep(&mut self) -> Result<(), StepError> {
+        perform(self, Motion::Keep)
+    }
+
+    fn recall(&mut self, what: Recall) -> Result<(), StepError> {
+        perform(self, Motion::Recall(what))
+    }
+
+    fn average_rates(&mut self) -> Result<(), StepError> {
+        perform(self, Motion::AverageRates)
+    }
+
+    fn kick(&mut self, dt: f64) -> Result<(), StepError> {
+        perform(self, Motion::Kick(dt))
+    }
+
+    fn drift(&mut self, dt: f64) -> Result<(), StepError> {
+        perform(self, Motion::Drift(dt))
+    }
+
+    fn time(&self) -> f64 {
+        self.world.time
+    }
+
+    fn limits(&self) -> Vec<StepLimit> {
+        self.step_limits().unwrap_or_default()
+    }
+}
+
+impl<const D: usize> Flow<D> {
+    fn perform(&mut self, motion: Motion) -> Result<(), StepError> {
+        match motion {
+            Motion::Evaluate => {
+                self.run_stages(|_| true)?;
+                match &self.books {
+                    Some(books) => Ok(books.evaluated(&mut self.world)?),
+                    None => Ok(()),
+                }
+            }
+            Motion::EvaluateForces => {
+                let state = [fields::DENSITY, fields::VOLUME, fields::PRESSURE].map(|f| f.any());
+                self.refresh_lists_and_derived()?;
+                self.run_stages(|stage| !writes_any(stage, &state))
+            }
+            Motion::Keep => {
+                self.kept
+                    .save(&self.world, self.walls.as_ref(), &self.loads)?;
+                self.kept_rates.keep(&self.world.free, &self.evolved)?;
+                self.kept_image.keep(self.parts.as_ref(), &self.world);
+                Ok(())
+            }
+            Motion::Recall(what) => {
+                let by_stages = match what {
+                    Recall::State => self.written_by_stages(),
+                    Recall::Motion | Recall::Scalars => Vec::new(),
+                };
+                self.kept_follows()?;
+                let named = (&self.integrated[..], &by_stages[..]);
+                let walls = (self.walls.as_ref(), &mut self.loads);
+                self.kept.recall(&mut self.world, walls, what, named)?;
+                Ok(())
+            }
+            Motion::AverageRates => {
+                self.kept_follows()?;
+                let places = self.kept.places(&self.world.free)?;
+                let free = &mut self.world.free;
+                self.kept_rates
+                    .average(free, &self.evolved, places.as_deref())?;
+                Ok(())
+            }
+            Motion::Kick(dt) => self.kick_over(dt),
+            Motion::Drift(dt) => self.drift_over(dt),
+        }
+    }
+}
