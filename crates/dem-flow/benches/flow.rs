@@ -8,7 +8,7 @@ fn main() {
 }
 
 fn mesh() -> Triangulation {
-    let text = include_str!("../tests/packings/box1000_mono.txt");
+    let text = include_str!("../../dem-coupled/tests/packings/box1000_mono.txt");
     let lines = text.lines().filter(|l| !l.starts_with('#'));
     let sphere = |l: &str| {
         let n: Vec<f64> = l

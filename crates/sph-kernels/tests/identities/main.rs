@@ -2,6 +2,7 @@
 
 mod constants;
 mod derivatives;
+mod lanes;
 mod quadrature;
 mod sampling;
 mod shapes;

@@ -1,0 +1,6 @@
+//! Triangulated packings, grains, the flow in their pores, and both together.
+
+mod coupled;
+mod flow;
+mod grains;
+mod triangulation;

@@ -1,0 +1,8 @@
+//! Wall integrals, wall geometry and wall treatments, in the plane and in space.
+
+mod gamma;
+mod plugin;
+mod spatial;
+mod spatial_plugin;
+mod surface;
+mod walls;

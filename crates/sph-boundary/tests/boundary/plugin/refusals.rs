@@ -1,0 +1,137 @@
+//! What a wall treatment refuses, by name.
+
+use sph_boundary::{BoundaryError, Drawing, Polyline, WallSpec};
+use sph_core::Vect;
+use sph_kernels::{Kernel, Sampler, ScalarSampler, wendland_c2};
+
+use crate::plugin::bench::{fixed, line, setup, treatment, wide};
+
+/// f(q) = exp(−q²), cut at q = 3.
+#[derive(Clone, Debug)]
+struct Gaussian;
+
+impl Kernel for Gaussian {
+    fn name(&self) -> &str {
+        "gaussian"
+    }
+    fn source(&self) -> &str {
+        "Gingold & Monaghan (1977)"
+    }
+    fn support(&self) -> f64 {
+        3.0
+    }
+    fn value(&self, q: f64) -> f64 {
+        if q < 3.0 { (-q * q).exp() } else { 0.0 }
+    }
+    fn derivative(&self, q: f64) -> f64 {
+        -2.0 * q * self.value(q)
+    }
+    fn sampler(&self, dimension: usize, h: f64) -> Box<dyn Sampler> {
+        Box::new(ScalarSampler::new(self.clone(), dimension, h))
+    }
+}
+
+fn square() -> WallSpec<2> {
+    let corners = vec![[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]];
+    fixed(Polyline::closed("tank", corners))
+}
+
+fn built(name: &str, walls: &[WallSpec<2>], kernel: &dyn Kernel) -> Result<(), BoundaryError> {
+    let domain = wide();
+    let mut wall = treatment(name);
+    wall.build(&setup(walls, 0.5, kernel, &domain)).map(|_| ())
+}
+
+#[test]
+fn a_kernel_without_polynomial_is_refused_by_usaw_and_by_nobody_else() {
+    let refused = built("usaw", &[square()], &Gaussian).unwrap_err();
+    assert!(matches!(refused, BoundaryError::Kernel { .. }));
+    let told = refused.to_string();
+    assert!(
+        told.contains("`gaussian` gives no radial moments"),
+        "{told}"
+    );
+    built("dummy-particles", &[square()], &Gaussian).expect("dummies ask no moments");
+    built("usaw", &[square()], &wendland_c2()).expect("a polynomial");
+}
+
+#[test]
+fn a_free_end_within_reach_is_refused_by_name_and_one_beyond_is_not() {
+    for name in ["usaw", "dummy-particles"] {
+        let line = vec![[0.0, 3.0], [0.0, 0.0], [8.0, 0.0], [8.0, 5.0]];
+        let open = fixed(Polyline::open("beaker", line));
+        let domain = wide();
+        let mut wall = treatment(name);
+        wall.build(&setup(&[open], 0.5, &wendland_c2(), &domain))
+            .unwrap();
+        let far = Vect::<2>::new(1.0, 1.2);
+        wall.check_free_ends(&[far]).expect("2.06 h from the rim");
+        let refused = wall
+            .check_free_ends(&[far, Vect::<2>::new(0.5, 1.2)])
+            .unwrap_err();
+        let BoundaryError::FreeEndInReach {
+            wall,
+            particle,
+            distance,
+            radius,
+            ..
+        } = &refused
+        else {
+            panic!("{refused}");
+        };
+        assert_eq!((wall.as_str(), *particle), ("beaker", 1));
+        assert!((distance - 0.5f64.hypot(1.8)).abs() < 1e-14 && *radius == 2.0);
+        let told = refused.to_string();
+        assert!(told.contains("end of wall `beaker`"), "{told}");
+    }
+}
+
+#[test]
+fn walls_that_cross_are_refused_with_both_names_and_the_place() {
+    for name in ["usaw", "dummy-particles"] {
+        let sill = Polyline::closed(
+            "sill",
+            vec![[3.0, -1.0], [3.0, 1.0], [5.0, 1.0], [5.0, -1.0]],
+        );
+        let refused = built(name, &[square(), fixed(sill)], &wendland_c2()).unwrap_err();
+        let BoundaryError::Crossing {
+            wall, other, x, y, ..
+        } = &refused
+        else {
+            panic!("{refused}");
+        };
+        let mut names = [wall.as_str(), other.as_str()];
+        names.sort_unstable();
+        assert_eq!(names, ["sill", "tank"]);
+        assert!((*x == 3.0 || *x == 5.0) && *y == 0.0, "({x}, {y})");
+    }
+}
+
+#[test]
+fn a_wall_drawn_the_wrong_way_round_has_its_fluid_outside() {
+    let mut inside_out = square();
+    inside_out.drawing = Drawing::Line(line(&inside_out).clone().reversed());
+    let domain = wide();
+    for (spec, fluid_inside) in [(square(), true), (inside_out, false)] {
+        let mut wall = treatment("usaw");
+        wall.build(&setup(&[spec], 0.5, &wendland_c2(), &domain))
+            .unwrap();
+        for (x, y) in [(4.0, 4.0), (0.1, 0.1), (7.9, 4.0)] {
+            assert_eq!(
+                wall.contains(&Vect::<2>::new(x, y)),
+                fluid_inside,
+                "({x}, {y})"
+            );
+            assert_eq!(
+                wall.contains(&Vect::<2>::new(-x, y)),
+                !fluid_inside,
+                "({}, {y})",
+                -x
+            );
+        }
+        assert_eq!(
+            wall.clearance(&Vect::<2>::new(0.1, 4.0), 1.0).unwrap().1,
+            "tank"
+        );
+    }
+}

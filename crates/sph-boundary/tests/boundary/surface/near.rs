@@ -1,0 +1,229 @@
+//! Triangles near a point, and the nearest place on them.
+
+use sph_boundary::{Feature, NearTriangle, SeenTriangle, TriangleGrid, TriangleMesh};
+
+use crate::surface::shapes::*;
+
+fn sampled(corners: [Point; 3], n: usize) -> f64 {
+    let mut nearest = f64::INFINITY;
+    for i in 0..=n {
+        for j in 0..=n - i {
+            let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
+            let at = [0, 1, 2].map(|k| {
+                corners[0][k]
+                    + u * (corners[1][k] - corners[0][k])
+                    + v * (corners[2][k] - corners[0][k])
+            });
+            nearest = nearest.min(norm(at));
+        }
+    }
+    nearest
+}
+
+#[test]
+fn the_nearest_place_against_samples() {
+    let mesh = mesh(&[pyramid([0.0, 0.0], 1.0, 0.0, 1.3)], 0.4);
+    let mut random = Random(3);
+    let mut features = [0; 3];
+    let mut worst: f64 = 0.0;
+    for _ in 0..300 {
+        let point = random.point([-1.2, -1.2, -0.2], [1.2, 1.2, 1.4]);
+        for triangle in (0..mesh.triangles().len()).step_by(7) {
+            let near = NearTriangle {
+                triangle: triangle as u32,
+                image: [0; 3],
+            };
+            let closest = mesh.closest(point, near);
+            let corners = mesh.corners_from(point, near);
+            let samples = sampled(corners, 60);
+            // The samples are half a step of 0.4/60 off at most.
+            assert!(closest.distance() <= samples + 1e-12);
+            assert!(samples - closest.distance() < 0.006);
+            worst = worst.max(samples - closest.distance());
+            let normal = mesh.triangles()[triangle].normal;
+            assert!((closest.height + dot(corners[1], normal)).abs() < 1e-12);
+            match closest.feature {
+                Feature::Face => {
+                    assert!((closest.distance() - closest.height.abs()).abs() < 1e-12);
+                    features[0] += 1;
+                }
+                Feature::Edge(e) => {
+                    let e = e as usize;
+                    let edge = sub(corners[(e + 1) % 3], corners[e]);
+                    assert!(dot(closest.offset, edge).abs() < 1e-12);
+                    features[1] += 1;
+                }
+                Feature::Corner(c) => {
+                    assert_eq!(closest.offset, corners[c as usize]);
+                    features[2] += 1;
+                }
+            }
+        }
+    }
+    println!("faces, edges, corners: {features:?}; samples at most {worst:.2e} m farther");
+    assert!(features.iter().all(|n| *n > 50));
+}
+
+fn all_near(mesh: &TriangleMesh, point: Point, radius: f64) -> Vec<NearTriangle> {
+    let mut found = Vec::new();
+    let range = |k: usize| {
+        if mesh.domain().periodic[k] {
+            -2..=2i8
+        } else {
+            0..=0
+        }
+    };
+    for triangle in 0..mesh.triangles().len() as u32 {
+        for i in range(0) {
+            for j in range(1) {
+                for k in range(2) {
+                    let image = [i, j, k];
+                    let near = NearTriangle { triangle, image };
+                    if mesh.closest(point, near).distance() < radius {
+                        found.push(near);
+                    }
+                }
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn the_grid_finds_all_and_only_those() {
+    let pipe = prism("pipe", &polygon(12, 1.0), [0.0, 2.0], false).reversed();
+    let domain = periodic([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0], [true, false, true]);
+    let body = block("body", [1.25, -0.2, 0.5], [1.75, 0.2, 1.0]);
+    let mesh = mesh_in(&[pipe, body], 0.25, &domain);
+    assert_eq!(size_of::<NearTriangle>(), 8);
+    let mut random = Random(11);
+    let mut found = 0;
+    for reach in [0.1, 0.6, 1.1] {
+        let grid = TriangleGrid::build(&mesh, reach);
+        for radius in [reach, 0.7 * reach] {
+            for _ in 0..200 {
+                let point = random.point([-1.55, -1.8, -0.1], [1.55, 1.8, 2.1]);
+                let near: Vec<_> = grid.near(&mesh, point, radius).collect();
+                assert_eq!(near, all_near(&mesh, point, radius), "{point:?}");
+                found += near.len();
+            }
+        }
+    }
+    println!("{found} triangles found, as by brute force");
+    assert!(
+        TriangleGrid::build(&crate::surface::shapes::mesh(&[], 1.0), 1.0)
+            .near(&crate::surface::shapes::mesh(&[], 1.0), [0.0; 3], 1.0)
+            .next()
+            .is_none()
+    );
+}
+
+#[test]
+fn rows_of_points_together_hold_what_is_near_each() {
+    let pipe = prism("pipe", &polygon(12, 1.0), [0.0, 2.0], false).reversed();
+    let domain = periodic([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0], [true, false, true]);
+    let body = block("body", [1.25, -0.2, 0.5], [1.75, 0.2, 1.0]);
+    let mesh = mesh_in(&[pipe, body], 0.25, &domain);
+    let mut random = Random(12);
+    let (mut found, mut besides) = (0, 0);
+    for (reach, radius) in [(0.6, 0.6), (1.1, 0.8)] {
+        let grid = TriangleGrid::build(&mesh, reach);
+        // Points side by side, and now and then one far away.
+        let mut points = Vec::new();
+        for _ in 0..40 {
+            let first = random.point([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0]);
+            let beside = |k: usize| [0, 1, 2].map(|x| first[x] + 0.1 * (k >> x & 1) as f64);
+            points.extend((0..8).map(beside));
+        }
+        let (mut counts, mut rows) = (Vec::new(), Vec::new());
+        grid.rows(&points, radius, &mut counts, &mut rows);
+        assert_eq!(counts.len(), points.len());
+        let mut rest = &rows[..];
+        for (point, count) in points.iter().zip(counts) {
+            let (row, after) = rest.split_at(count as usize);
+            rest = after;
+            assert!(row.windows(2).all(|w| {
+                let key = |n: &NearTriangle| (n.image, n.triangle);
+                key(&w[0]) < key(&w[1])
+            }));
+            let near = all_near(&mesh, *point, radius);
+            assert!(near.iter().all(|n| row.contains(n)), "{point:?}");
+            // A sphere around a triangle of 0.25 has at most its diagonal.
+            let out = |n: &NearTriangle| mesh.closest(*point, *n).distance() > radius + 0.5;
+            assert!(!row.iter().any(out), "{point:?}");
+            // The same whoever is served with it.
+            let (mut alone, mut same) = (Vec::new(), Vec::new());
+            grid.rows(&[*point], radius, &mut alone, &mut same);
+            assert_eq!(same, row);
+            found += near.len();
+            besides += row.len() - near.len();
+        }
+        assert!(rest.is_empty());
+    }
+    println!("{found} triangles found, as by brute force, and {besides} more");
+}
+
+#[test]
+fn a_node_is_the_same_vector_in_all_triangles() {
+    let pipe = prism("pipe", &polygon(24, 1.0), [0.1, 2.1], false).reversed();
+    let domain = periodic([-1.5, -1.5, 0.1], [1.5, 1.5, 2.1], [false, false, true]);
+    let mesh = mesh_in(&[pipe], 0.25, &domain);
+    let grid = TriangleGrid::build(&mesh, 0.8);
+    let point = [0.41, 0.3, 0.2];
+    let mut seen = std::collections::HashMap::new();
+    let mut faces = std::collections::BTreeSet::new();
+    let mut repeated = 0;
+    for near in grid.near(&mesh, point, 0.8) {
+        let triangle = mesh.triangles()[near.triangle as usize];
+        faces.insert((triangle.face, near.image));
+        for (k, corner) in mesh.corners_from(point, near).iter().enumerate() {
+            let image = [0, 1, 2].map(|a| triangle.images[k][a] + i32::from(near.image[a]));
+            if let Some(before) = seen.insert((triangle.nodes[k], image), *corner) {
+                assert_eq!(before, *corner);
+                repeated += 1;
+            }
+        }
+    }
+    assert!(repeated > 100);
+    let corners: Vec<Point> = faces
+        .iter()
+        .flat_map(|(face, image)| mesh.face_edges_from(point, *face, *image).flatten())
+        .collect();
+    let known = corners
+        .iter()
+        .filter(|c| seen.values().any(|s| s == *c))
+        .count();
+    assert!(
+        known > 10,
+        "{known} corners of faces are corners of triangles"
+    );
+}
+
+/// A block seen from points around it: distance and side are those of the block itself.
+#[test]
+fn the_nearest_of_some_triangles_tells_the_side_of_a_block() {
+    let mesh = mesh(&[block("block", [0.0; 3], [1.0, 2.0, 1.5])], 0.25);
+    let grid = TriangleGrid::build(&mesh, 2.0);
+    let mut random = Random(8);
+    let (mut found, mut largest) = (0, 0.0_f64);
+    for _ in 0..400 {
+        let at = random.point([-0.5; 3], [1.5, 2.5, 2.0]);
+        let offset = random.point([-0.3; 3], [0.3; 3]);
+        let near = grid.near(&mesh, at, 1.5);
+        let seen: Vec<_> = near.map(|n| mesh.seen(at, n)).collect();
+        let place: [f64; 3] = std::array::from_fn(|k| at[k] + offset[k]);
+        // Beyond the sides along every axis, negative between them.
+        let [x, y, z] = [0, 1, 2].map(|k| (-place[k]).max(place[k] - [1.0, 2.0, 1.5][k]));
+        let outside = norm([x, y, z].map(|d| d.max(0.0)));
+        let exact = outside + x.max(y).max(z).min(0.0);
+        match SeenTriangle::signed_distance(&seen, offset, 0.9) {
+            Some(distance) => {
+                found += 1;
+                largest = largest.max((distance - exact).abs());
+            }
+            None => assert!(exact.abs() >= 0.9, "{exact} m from {place:?}"),
+        }
+    }
+    println!("{found} of 400, {largest:.1e} m");
+    assert!(found > 300 && largest < 1e-14, "{found}: {largest:e}");
+}

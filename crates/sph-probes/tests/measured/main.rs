@@ -1,0 +1,9 @@
+//! Probes on fields whose measures are known.
+
+mod bed;
+mod common;
+mod line;
+mod phases;
+mod profile;
+mod scour_map;
+mod stream_function;

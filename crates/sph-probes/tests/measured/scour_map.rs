@@ -1,0 +1,93 @@
+//! The scour map, on a bed with a pit of known depth.
+
+use sph_core::{Registry, Role, Store, Vect, fields};
+use sph_neighbours::World;
+use sph_probes::{Probe, ProbeEntry};
+
+const SPACING: f64 = 0.05;
+/// Top of the bed, m.
+const LEVEL: f64 = 0.4;
+
+/// Eight by eight columns of eight grains under two particles of water. A quarter has lost three rows, the neighbouring
+/// quarter has gained one, and a grain swims in the water over the pit.
+fn world() -> World<3> {
+    let at = |n: u32| (f64::from(n) + 0.5) * SPACING;
+    let mut rows = Vec::new();
+    for (i, j) in (0..8).flat_map(|i| (0..8).map(move |j| (i, j))) {
+        let grains = match (i < 4, j < 4) {
+            (true, true) => 5,
+            (true, false) => 9,
+            _ => 8,
+        };
+        rows.extend(
+            (0..grains + 2).map(|k| (Vect::from([at(i), at(j), at(k)]), u32::from(k >= grains))),
+        );
+    }
+    rows.push((Vect::from([at(1), at(1), at(9)]), 0));
+    let mut free = Store::new(rows.len());
+    free.add(fields::POSITION, Role::State);
+    free.add(fields::PHASE, Role::State);
+    *free.get_mut(fields::POSITION).unwrap() = rows.iter().map(|r| r.0).collect();
+    *free.get_mut(fields::PHASE).unwrap() = rows.iter().map(|r| r.1).collect();
+    super::common::world(free, SPACING)
+}
+
+fn probe(keys: &str) -> Box<dyn Probe<3>> {
+    let registry = Registry::<ProbeEntry>::discovered().unwrap();
+    let keys = format!("phase = \"sand\"\nlevel = {LEVEL}\n{keys}");
+    let entry = registry.find("scour-map").unwrap();
+    let mut probe = entry.build::<3>(&toml::from_str(&keys).unwrap()).unwrap();
+    probe
+        .name_phases(&["sand", "water"].map(String::from))
+        .unwrap();
+    probe
+}
+
+fn near(found: f64, expected: f64) {
+    assert!(
+        (found - expected).abs() < 1e-12,
+        "{found} against {expected}"
+    );
+}
+
+#[test]
+fn a_pit_has_its_depth_and_volume_and_grains_in_suspension_do_not_fill_it() {
+    let found = probe("").measure(&world()).unwrap();
+    near(found[0], 3.0 * SPACING);
+    near(found[1], SPACING);
+    near(found[2], 16.0 * SPACING * SPACING * 3.0 * SPACING);
+    let outside = probe("within = [[0.0, 0.2], [0.4, 0.4]]")
+        .measure(&world())
+        .unwrap();
+    near(outside[0], 0.0);
+    near(outside[1], SPACING);
+    near(outside[2], 0.0);
+}
+
+/// Seven columns from x = 0.05 on: three cells, not four of which one is half outside.
+#[test]
+fn whole_cells_fill_the_part_that_counts() {
+    let probe = probe("within = [[0.05, 0.0], [0.4, 0.4]]");
+    let rows = probe.curves(&world()).unwrap();
+    let mut across: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    across.dedup();
+    assert_eq!(across.len(), 3);
+    for (n, x) in across.iter().enumerate() {
+        near(*x, 0.05 + (n as f64 + 0.5) * 0.35 / 3.0);
+    }
+    assert_eq!(rows.len(), 12);
+}
+
+#[test]
+fn the_map_has_a_row_for_every_cell_of_two_spacings() {
+    let probe = probe("");
+    let rows = probe.curves(&world()).unwrap();
+    assert_eq!(rows.len(), 16);
+    let drawn = probe.drawn_column().unwrap();
+    assert_eq!(probe.curve_columns()[drawn].suffix, "depth");
+    let pit = rows.iter().filter(|row| row[drawn] > 0.0).count();
+    assert_eq!(pit, 4);
+    for row in rows {
+        near(row[2] + row[drawn], LEVEL);
+    }
+}

@@ -1,0 +1,11 @@
+//! Scenes and drawings as they are read, and the messages of those that are refused.
+
+mod common;
+mod drawings;
+mod filling;
+mod motion;
+mod overrides;
+mod robust;
+mod scenes;
+mod schema;
+mod stl;

@@ -1,0 +1,104 @@
+//! How walls move.
+
+use super::common::scene;
+use sph_scene::{Condition, Course, Courses};
+use tempfile::tempdir;
+
+fn courses(folder: &std::path::Path, motion: &str) -> Result<Courses, String> {
+    let wall = format!("box = [[0, 0], [1, 1]]\n[wall.w.motion]\n{motion}");
+    let scene = scene(folder, 2, &wall);
+    let motion = scene.wall["w"].motion.as_ref().unwrap();
+    let found = motion.courses("wall.w.motion");
+    found.map_err(|p| p.to_string())
+}
+
+#[test]
+fn constant_motions_are_courses_too() {
+    let folder = tempdir().unwrap();
+    let text = "velocity = [3, 4]\nangular_velocity = \"30 rpm\"\ncentre = [1, 2]\nstart = 0.5\nstop = \"2 s\"";
+    let found = courses(folder.path(), text).unwrap();
+    assert_eq!(found.translations, [(vec![0.6, 0.8], Course::Speed(5.0))]);
+    let rotation = found.rotation.unwrap();
+    assert_eq!(
+        (rotation.centre, rotation.axis),
+        (vec![1.0, 2.0], [0.0, 0.0, 1.0])
+    );
+    assert_eq!(rotation.course, Course::Speed(std::f64::consts::PI));
+    assert_eq!((found.start, found.stop), (0.5, 2.0));
+    let still = courses(folder.path(), "velocity = [0, 0]").unwrap();
+    assert!(still.translations.is_empty() && still.rotation.is_none());
+    assert_eq!(still.stop, f64::INFINITY);
+}
+
+#[test]
+fn units_of_courses_and_of_columns_reach_si() {
+    let folder = tempdir().unwrap();
+    let text = "translate = [\n\
+        { along = [2, 0], ramp = { speed = \"10 cm/s\", over = \"500 ms\" } },\n\
+        { along = [0, -1], sine = { amplitude = \"5 cm\", period = 2, phase = \"180 deg\", ramp = 1 } },\n\
+        { along = [1, 0], table = [[\"0 s\", \"1 cm\"], [1, 0.5]] },\n]\n\
+        rotate = { centre = [0, 0], table = [[0, \"0 deg\"], [\"1 min\", \"180 deg\"]] }";
+    let found = courses(folder.path(), text).unwrap();
+    let pi = std::f64::consts::PI;
+    let sine = Course::Sine {
+        amplitude: 0.05,
+        period: 2.0,
+        phase: pi,
+        ramp: 1.0,
+    };
+    let ramp = Course::Ramp {
+        speed: 0.1,
+        over: 0.5,
+    };
+    let table = Course::Table(vec![[0.0, 0.01], [1.0, 0.5]]);
+    let expected = [
+        (vec![1.0, 0.0], ramp),
+        (vec![0.0, -1.0], sine),
+        (vec![1.0, 0.0], table),
+    ];
+    assert_eq!(found.translations, expected);
+    let turn = Course::Table(vec![[0.0, 0.0], [60.0, pi]]);
+    assert_eq!(found.rotation.unwrap().course, turn);
+}
+
+#[test]
+fn courses_come_from_files() {
+    let folder = tempdir().unwrap();
+    let file = |text: &str| std::fs::write(folder.path().join("gate.csv"), text).unwrap();
+    let text = "translate = { along = [0, 1], file = \"gate.csv\" }";
+    file("t,s\n0,0\n# faster\n0.1,0.02\n0.2,0.5\n");
+    let found = courses(folder.path(), text).unwrap();
+    let rows = vec![[0.0, 0.0], [0.1, 0.02], [0.2, 0.5]];
+    assert_eq!(found.translations[0].1, Course::Table(rows));
+    for (content, message) in [
+        ("t,s\n0,0\n", "holds 1 rows, and a course needs at least 2"),
+        (
+            "0,0\n1,1\n1,2\n",
+            "line 3: times must rise, 1 s follows 1 s",
+        ),
+        ("0,0\n1,x\n", "line 2: `x` is not a number"),
+    ] {
+        file(content);
+        let told = courses(folder.path(), text).unwrap_err();
+        assert!(told.starts_with("wall.w.motion.translate.file: "), "{told}");
+        assert!(told.contains(message), "{told}");
+    }
+    std::fs::remove_file(folder.path().join("gate.csv")).unwrap();
+    let turn = "rotate = { centre = [0, 0], file = \"gate.csv\" }";
+    let told = courses(folder.path(), turn).unwrap_err();
+    assert!(
+        told.starts_with("wall.w.motion.rotate.file: cannot read"),
+        "{told}"
+    );
+}
+
+#[test]
+fn partial_slip_has_a_length() {
+    let folder = tempdir().unwrap();
+    let text = "box = [[0, 0], [1, 1]]\ncondition = \"partial-slip\"\nslip_length = \"2 cm\"";
+    let wall = &scene(folder.path(), 2, text).wall["w"];
+    assert_eq!(
+        (wall.condition, wall.slip_length),
+        (Condition::PartialSlip, Some(0.02))
+    );
+}

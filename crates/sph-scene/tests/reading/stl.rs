@@ -1,0 +1,260 @@
+//! Walls in space, from shapes and from STL files.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use super::common::facets;
+use sph_scene::Facets;
+use stl_io::{Normal, Triangle, Vertex, write_stl};
+use tempfile::{TempDir, tempdir};
+
+/// A box of 1 m with outward normals, as an STL file of millimetres has it.
+fn cube(folder: &Path) -> Vec<Triangle> {
+    let shape = facets(folder, "box = [[0, 0, 0], [1, 1, 1]]\nfluid = \"outside\"").unwrap();
+    let vertex = |k: u32| Vertex::new(shape.points[k as usize].map(|c| 1000.0 * c as f32));
+    let triangle = |t: &[u32; 3]| Triangle {
+        normal: Normal::new([0.0; 3]),
+        vertices: t.map(vertex),
+    };
+    shape.triangles.iter().map(triangle).collect()
+}
+
+fn binary(triangles: &[Triangle]) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    write_stl(&mut bytes, triangles.iter()).unwrap();
+    bytes.into_inner()
+}
+
+fn ascii(name: &str, triangles: &[Triangle]) -> String {
+    let vertex = |v: &Vertex| format!("   Vertex {} {} {:e}\r\n", v[0], v[1], v[2]);
+    let facet = |t: &Triangle| {
+        let corners: String = t.vertices.iter().map(vertex).collect();
+        let n = t.normal.0;
+        format!(
+            "  facet normal {} {} {}\n  outer loop\n{corners}  endloop\n  endfacet\n",
+            n[0], n[1], n[2]
+        )
+    };
+    let all: String = triangles.iter().map(facet).collect();
+    format!("SOLID{name}\n{all}endsolid{name}\n")
+}
+
+/// A folder with that file, and the cube.
+fn with(bytes: &[u8]) -> TempDir {
+    let folder = tempdir().unwrap();
+    std::fs::write(folder.path().join("part.stl"), bytes).unwrap();
+    folder
+}
+
+const PART: &str = "file = \"part.stl\"\nunit = \"mm\"";
+
+fn refused(bytes: &[u8], wall: &str) -> String {
+    let problem = facets(with(bytes).path(), wall).unwrap_err();
+    assert!(problem.path.starts_with("wall.w."), "{problem}");
+    problem.to_string()
+}
+
+fn is_the_cube(surface: &Facets, volume: f64) {
+    assert_eq!((surface.points.len(), surface.triangles.len()), (8, 12));
+    assert!(
+        (surface.volume() - volume).abs() < 1e-6,
+        "{}",
+        surface.volume()
+    );
+}
+
+#[test]
+fn binary_and_ascii_files_are_the_same_surface() {
+    let folder = tempdir().unwrap();
+    let cube = cube(folder.path());
+    let mut solid = binary(&cube);
+    solid[..14].copy_from_slice(b"solid of a CAD");
+    let halves = ascii(" a b", &cube[..5]) + &ascii("", &cube[5..]);
+    for bytes in [binary(&cube), solid, ascii("", &cube).into(), halves.into()] {
+        let folder = with(&bytes);
+        is_the_cube(&facets(folder.path(), PART).unwrap(), 1.0);
+    }
+}
+
+#[test]
+fn the_fluid_is_on_the_side_that_is_asked_for() {
+    let folder = tempdir().unwrap();
+    let cube = cube(folder.path());
+    let inside_out: Vec<Triangle> = cube
+        .iter()
+        .map(|t| Triangle {
+            normal: t.normal,
+            vertices: [t.vertices[0], t.vertices[2], t.vertices[1]],
+        })
+        .collect();
+    for (given, drawn) in [(&cube, 1.0), (&inside_out, -1.0)] {
+        let folder = with(&binary(given));
+        let of = |fluid: &str| facets(folder.path(), &format!("{PART}\n{fluid}")).unwrap();
+        is_the_cube(&of(""), drawn);
+        is_the_cube(&of("fluid = \"as-drawn\""), drawn);
+        is_the_cube(&of("fluid = \"outside\""), 1.0);
+        is_the_cube(&of("fluid = \"inside\""), -1.0);
+    }
+    // What an open surface winds around most is its inside; a flat one has none.
+    for (given, side, sense) in [
+        (&cube, "outside", 1.0),
+        (&cube, "inside", -1.0),
+        (&inside_out, "outside", 1.0),
+        (&inside_out, "inside", -1.0),
+    ] {
+        let folder = with(&binary(&given[1..]));
+        let sided = facets(folder.path(), &format!("{PART}\nfluid = \"{side}\"")).unwrap();
+        assert!(sense * sided.sense() > 0.3, "{side}: {}", sided.sense());
+    }
+    let told = refused(&binary(&cube[..2]), &format!("{PART}\nfluid = \"inside\""));
+    assert!(
+        told.starts_with("wall.w.fluid: ") && told.contains("1 openings (4 edges, "),
+        "{told}"
+    );
+    let mut odd = cube.clone();
+    odd[4].normal = Normal::new([0.0, 1.0, 0.0]);
+    odd[5].normal = Normal::new([0.0, -1.0, 0.0]);
+    assert!(refused(&binary(&odd), PART).contains("the normal of facet"));
+}
+
+#[test]
+fn broken_files_are_refused_with_the_facet() {
+    let folder = tempdir().unwrap();
+    let cube = cube(folder.path());
+    let whole = binary(&cube);
+    assert!(refused(&whole[..whole.len() - 20], PART).contains("12 facets and ends after 11"));
+    assert!(refused(&whole[..60], PART).contains("has 60 bytes"));
+    let mut huge = whole.clone();
+    huge[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
+    assert!(refused(&huge, PART).contains("declares 4294967295 facets, more than 5000000"));
+    assert!(refused(b"", PART).contains("is empty"));
+    assert!(
+        refused(
+            &whole[..80]
+                .iter()
+                .copied()
+                .chain([0; 4])
+                .collect::<Vec<_>>(),
+            PART
+        )
+        .contains("holds no facets")
+    );
+    assert!(refused(b"solid\nendsolid\n", PART).contains("holds no facets"));
+    let mut infinite = cube.clone();
+    infinite[3].vertices[1] = Vertex::new([f32::NAN, 0.0, 0.0]);
+    let told = refused(&binary(&infinite), PART);
+    assert!(
+        told.contains("facet 4: expected finite coordinates, found NaN"),
+        "{told}"
+    );
+    assert!(refused(ascii("", &infinite).as_bytes(), PART).contains("facet 4: expected finite"));
+    let text = ascii("", &cube);
+    assert!(refused(&text.as_bytes()[..text.len() - 40], PART).contains("`endsolid` is missing"));
+    let odd = text.replacen("outer loop", "inner loop", 1);
+    assert!(refused(odd.as_bytes(), PART).contains("facet 1: expected"));
+    let missing = facets(tempdir().unwrap().path(), PART).unwrap_err();
+    assert!(missing.to_string().contains("cannot read"));
+    let folder = tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("part.stl")).unwrap();
+    let told = facets(folder.path(), PART).unwrap_err();
+    assert!(told.to_string().contains("is not a file"));
+}
+
+#[test]
+fn a_size_that_does_not_fit_the_spacing_asks_for_the_unit() {
+    let folder = tempdir().unwrap();
+    let whole = binary(&cube(folder.path()));
+    let told = refused(&whole, "file = \"part.stl\"\nscale = 10");
+    assert!(
+        told.contains("is the factor from `unit` or `scale` right?"),
+        "{told}"
+    );
+    let large: Vec<Triangle> = cube(folder.path())
+        .iter()
+        .map(|t| Triangle {
+            vertices: t.vertices.map(|v| Vertex::new(v.0.map(|c| 2.0 * c))),
+            ..*t
+        })
+        .collect();
+    let told = refused(&binary(&large), "file = \"part.stl\"");
+    assert!(
+        told.contains("are the coordinates in millimetres? give `unit = \"mm\"`"),
+        "{told}"
+    );
+    let told = refused(&whole, "file = \"part.stl\"\nunit = \"um\"");
+    assert!(told.contains("less than 2 spacings of 0.1 m"), "{told}");
+    let ball = "sphere = { centre = [0, 0, 0], radius = \"1 um\" }";
+    let told = facets(folder.path(), ball).unwrap_err().to_string();
+    assert!(told.starts_with("wall.w.sphere: ") && told.contains("take a smaller spacing"));
+    let ball = "sphere = { centre = [0, 0, 0], radius = \"1e9 km\" }";
+    let told = facets(folder.path(), ball).unwrap_err().to_string();
+    assert!(told.contains("take a larger spacing"), "{told}");
+}
+
+#[test]
+fn shapes_are_closed_unless_left_open_and_hold_the_fluid() {
+    let folder = tempdir().unwrap();
+    let of = |wall: &str| facets(folder.path(), wall).unwrap();
+    for (wall, volume, triangles) in [
+        ("box = [[0, 0, 0], [1, 2, 3]]", 6.0, 12),
+        (
+            "cone = { base = [0, 0, 0], apex = [0, 0, 3], radius = 1, sides = 4 }",
+            2.0,
+            6,
+        ),
+        (
+            "wedge = { lo = [0, 0, 0], hi = [1, 2, 3], rise = \"y-\" }",
+            3.0,
+            8,
+        ),
+        (
+            "wedge = { lo = [0, 0, 0], hi = [1, 2, 3], rise = \"z+\", up = \"x-\" }",
+            3.0,
+            8,
+        ),
+        (
+            "extrusion = { polygon = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]], axis = \"y\", from = 3, to = 1 }",
+            6.0,
+            20,
+        ),
+        (
+            "cylinder = { from = [0, 0, 0], to = [2, 0, 0], radius = 1, sides = 6 }",
+            3.0 * 3f64.sqrt(),
+            20,
+        ),
+    ] {
+        let surface = of(wall);
+        assert!(
+            (surface.volume() + volume).abs() < 1e-9,
+            "{wall}: {}",
+            surface.volume()
+        );
+        assert_eq!(surface.triangles.len(), triangles, "{wall}");
+        let outside = of(&format!("{wall}\nfluid = \"outside\""));
+        assert!((outside.volume() - volume).abs() < 1e-9, "{wall}");
+    }
+    assert_eq!(
+        of("box = [[0, 0, 0], [1, 1, 1]]\nopen = [\"z+\", \"x-\"]")
+            .triangles
+            .len(),
+        8
+    );
+    let pipe = of(
+        "cylinder = { from = [0, 0, 0], to = [0, 0, 1], radius = 1, sides = 6, open_ends = true }",
+    );
+    assert_eq!((pipe.points.len(), pipe.triangles.len()), (12, 12));
+}
+
+#[test]
+fn geometries_are_scaled_then_turned_then_shifted() {
+    let folder = tempdir().unwrap();
+    let wall = "box = [[0, 0, 0], [1, 2, 3]]\nscale = 2\ntranslate = [10, 0, 0]\n\
+                rotate = { axis = [0, 0, 5], angle = \"90 deg\", centre = [1, 0, 0] }";
+    let surface = facets(folder.path(), wall).unwrap();
+    // (2, 4, 6) turns about (1, 0, ·) to (−3, 1, 6).
+    let corner = |x: [f64; 3]| surface.points.contains(&x);
+    assert!(
+        corner([7.0, 1.0, 6.0]) && corner([11.0, -1.0, 0.0]),
+        "{surface:?}"
+    );
+}

@@ -1,0 +1,151 @@
+//! What the fluid gives a body it has no more.
+
+use sph_core::Vect;
+use sph_tests::Bench;
+
+use crate::bodies::{PROGRAM, reals, states};
+
+/// A box that is shot through a fluid without borders, and turns.
+const SHOT: &str = r#"
+title = "A box is shot through a fluid"
+dimension = 2
+[run]
+end = 0.2
+[numerics]
+spacing = 0.05
+periodic = { x = [0, 2], y = [0, 2] }
+[smoother.brezzi-pitkaranta]
+strength = 0.04
+[walls.usaw]
+vertices = false
+[wall.box]
+box = [[0.8, 0.8], [1.2, 1.1]]
+fluid = "outside"
+[wall.box.mover.rigid-body]
+density = 300.0
+velocity = [1.0, 0.3]
+angular_velocity = [2.0]
+[phase.fluid]
+density = 1000.0
+speed_of_sound = 20.0
+rheology.newtonian = { viscosity = "20 Pa s" }
+[body.fluid]
+phase = "fluid"
+clip = true
+box = [[0, 0], [2, 2]]
+[output]
+every = 0.2
+vtk = false
+"#;
+
+/// Momentum of the fluid and of the box, kg m/s.
+fn momenta(bench: &Bench, folder: &str) -> [[f64; 2]; 2] {
+    let folder = bench.path(folder);
+    let mass = reals(&folder, "mass");
+    let velocity = reals(&folder, "velocity");
+    let of = |k: usize| {
+        mass.iter()
+            .enumerate()
+            .map(|(i, m)| m * velocity[2 * i + k])
+            .sum::<f64>()
+    };
+    let state = states::<2>(&folder)[0];
+    let body = 300.0 * 0.12;
+    [
+        std::array::from_fn(of),
+        std::array::from_fn(|k| body * state.velocity[k]),
+    ]
+}
+
+/// Of the box's momentum most goes into the fluid; the sum stays to rounding.
+#[test]
+fn fluid_and_body_together_keep_their_momentum_to_rounding() {
+    for (name, changes) in [
+        ("explicit", ""),
+        ("dummies", " --set walls={\"dummy-particles\"={}}"),
+    ] {
+        let bench = Bench::with(PROGRAM, SHOT);
+        bench.done(&format!(
+            "run scene.toml --quiet --out r --threads 1{changes}"
+        ));
+        let [fluid, body] = momenta(&bench, "r");
+        let start = [36.0, 36.0 * 0.3];
+        let given = (fluid[0] / start[0]).abs();
+        assert!(
+            given > 0.3,
+            "{name}: the fluid took {given} of the momentum"
+        );
+        for k in 0..2 {
+            let lost = (fluid[k] + body[k] - start[k]).abs() / start[0];
+            assert!(
+                lost < 1e-11,
+                "{name}: {lost:e} of the momentum along axis {k} is lost"
+            );
+        }
+    }
+}
+
+/// A brick that is shot through a fluid without borders in space, and tumbles.
+const BRICK: &str = r#"
+title = "A brick is shot through a fluid"
+dimension = 3
+[run]
+end = 0.1
+[numerics]
+spacing = 0.1
+periodic = { x = [0, 1.2], y = [0, 1.2], z = [0, 1.2] }
+[smoother.brezzi-pitkaranta]
+strength = 0.04
+[walls.usaw]
+vertices = false
+[wall.brick]
+box = [[0.4, 0.4, 0.4], [0.8, 0.9, 0.7]]
+fluid = "outside"
+[wall.brick.mover.rigid-body]
+density = 300.0
+velocity = [1.0, 0.3, -0.2]
+angular_velocity = [2.0, -1.0, 0.5]
+[phase.fluid]
+density = 1000.0
+speed_of_sound = 20.0
+rheology.newtonian = { viscosity = "20 Pa s" }
+[body.fluid]
+phase = "fluid"
+clip = true
+box = [[0, 0, 0], [1.2, 1.2, 1.2]]
+[output]
+every = 0.1
+vtk = false
+"#;
+
+#[test]
+fn in_space_momentum_stays_to_rounding_as_well() {
+    let bench = Bench::with(PROGRAM, BRICK);
+    bench.done("run scene.toml --quiet --out r --threads 1");
+    let folder = bench.path("r");
+    let (mass, velocity) = (reals(&folder, "mass"), reals(&folder, "velocity"));
+    let state = states::<3>(&folder)[0];
+    let body = 300.0 * 0.4 * 0.5 * 0.3;
+    for (k, start) in [1.0, 0.3, -0.2].into_iter().enumerate() {
+        let of = mass
+            .iter()
+            .enumerate()
+            .map(|(i, m)| m * velocity[3 * i + k]);
+        let fluid: f64 = of.sum();
+        let lost = (fluid + body * (state.velocity[k] - start)).abs() / body;
+        assert!(
+            lost < 1e-11,
+            "{lost:e} of the momentum along axis {k} is lost"
+        );
+    }
+    assert!(
+        state.velocity[0] < 0.9,
+        "the fluid took nothing: {}",
+        state.velocity[0]
+    );
+    let spin = Vect::<3>::from(state.angular_velocity).norm();
+    assert!(
+        spin < 0.95 * 5.25_f64.sqrt(),
+        "nothing slows its turn: {spin} rad/s"
+    );
+}

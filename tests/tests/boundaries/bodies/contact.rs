@@ -1,0 +1,130 @@
+//! Bodies that meet walls and each other, away from the fluid.
+
+use sph_io::read_table;
+use sph_tests::Bench;
+
+use crate::bodies::{PROGRAM, states};
+
+/// A puddle in the corner of a wide tank, and two boxes in the dry.
+const DRY: &str = r#"
+title = "Boxes in the dry"
+dimension = 2
+[run]
+end = 0.5
+[numerics]
+spacing = 0.02
+gravity = [0.0, -9.81]
+[walls.usaw]
+vertices = false
+[wall.tank]
+polyline = [[-0.4, 2], [-0.4, 0], [4, 0], [4, 2]]
+condition = "free-slip"
+[wall.dam]
+box = [[-0.1, 0.0], [0.0, 0.3]]
+fluid = "outside"
+condition = "free-slip"
+[wall.one]
+box = [[0.6, 0.01], [0.8, 0.21]]
+fluid = "outside"
+condition = "free-slip"
+[wall.one.mover.rigid-body]
+density = 500.0
+[wall.two]
+box = [[1.6, 0.01], [1.8, 0.21]]
+fluid = "outside"
+condition = "free-slip"
+[wall.two.mover.rigid-body]
+density = 1500.0
+[phase.water]
+density = 1000.0
+speed_of_sound = 30.0
+rheology.newtonian = { viscosity = "1 mPa s" }
+[body.water]
+phase = "water"
+box = [[-0.4, 0], [-0.1, 0.1]]
+clip = true
+pressure = "hydrostatic"
+[probe.one]
+kind = "wall-motion"
+wall = "one"
+at = [0.7, 0.11]
+[output]
+every = 0.5
+series_every = 0.002
+vtk = false
+"#;
+
+const ONE: &str = "--set wall.one.mover.rigid-body";
+const TWO: &str = "--set wall.two.mover.rigid-body";
+
+/// A fall of 0.49 m with e = 0.5: back to e² of the height, at its time √(2 h/g) (1 + e).
+#[test]
+fn a_box_that_falls_bounces_to_the_square_of_its_restitution() {
+    let lifted = DRY.replace("[0.6, 0.01], [0.8, 0.21]", "[0.6, 0.51], [0.8, 0.71]");
+    let bench = Bench::with(PROGRAM, &lifted);
+    bench.done(&format!(
+        "run scene.toml --quiet --out r --threads 1 --set run.end=0.6 {ONE}.restitution=0.5"
+    ));
+    let series = read_table(bench.path("r/series.csv")).expect("a series");
+    let (time, height) = (
+        series.column("time").expect("t"),
+        series.column("one.y").expect("y"),
+    );
+    let down = height.iter().position(|y| *y < -0.48).expect("it falls");
+    let (top, at) = (height.iter().zip(time).skip(down)).fold((-1.0, 0.0), |best, (y, t)| {
+        if *y > best.0 { (*y, *t) } else { best }
+    });
+    // It meets the floor at a spacing, where it rests.
+    let fall: f64 = 0.51 - 0.02;
+    let left = ((top + fall) / fall).sqrt();
+    assert!(
+        (left - 0.5).abs() < 0.02,
+        "{left:.3} of the velocity is left"
+    );
+    let expected = (2.0 * fall / 9.81).sqrt() * (1.0 + left);
+    assert!(
+        (at / expected - 1.0).abs() < 0.03,
+        "at {at:.3} s for {expected:.3} s"
+    );
+    let turned = states::<2>(&bench.path("r"))[0].angular_velocity[2];
+    assert!(turned.abs() < 1e-6, "it turns with {turned:e} rad/s");
+}
+
+/// v²/(2 μ g) with 1 m/s and μ = 0.4.
+#[test]
+fn a_box_that_slides_stops_where_friction_stops_it() {
+    let bench = Bench::with(PROGRAM, DRY);
+    bench.done(&format!(
+        "run scene.toml --quiet --out r --threads 1 {ONE}.friction=0.4 {ONE}.velocity=[1,0]"
+    ));
+    let state = states::<2>(&bench.path("r"))[0];
+    let way = state.pose.translation[0] / (1.0 / (2.0 * 0.4 * 9.81));
+    assert!((way - 1.0).abs() < 0.02, "it slides {way:.3} of the way");
+    assert!(
+        state.velocity.norm() < 0.005,
+        "it still has {:?}",
+        state.velocity
+    );
+    let sunk = 0.01 - (0.01 + state.pose.translation[1]);
+    assert!(sunk.abs() < 0.002, "it stands {sunk} m too deep");
+}
+
+/// One of 20 kg with 1 m/s into one of 60 kg at rest, e = 1: −0.5 m/s and 0.5 m/s.
+#[test]
+fn two_boxes_that_meet_keep_their_momentum_and_part_as_restitution_says() {
+    let weightless = DRY.replace("gravity = [0.0, -9.81]\n", "");
+    let weightless = weightless.replace("pressure = \"hydrostatic\"\n", "");
+    let bench = Bench::with(PROGRAM, &weightless);
+    bench.done(&format!(
+        "run scene.toml --quiet --out r --threads 1 --set run.end=1.1 \
+         {ONE}.restitution=1 {TWO}.restitution=1 {ONE}.velocity=[1,0]"
+    ));
+    let states = states::<2>(&bench.path("r"));
+    let [one, two] = [states[0].velocity[0], states[1].velocity[0]];
+    let momentum = 20.0 * one + 60.0 * two;
+    assert!((momentum / 20.0 - 1.0).abs() < 1e-12, "{momentum}");
+    assert!(
+        (one + 0.5).abs() < 0.02 && (two - 0.5).abs() < 0.01,
+        "{one} {two}"
+    );
+}

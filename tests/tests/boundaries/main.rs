@@ -1,0 +1,7 @@
+//! Walls, bodies, motion and open faces in whole scenes.
+
+mod bodies;
+mod motion;
+mod open_boundaries;
+mod open_boundaries_3d;
+mod walls;

@@ -1,0 +1,44 @@
+//! Animations of the pictures of a run.
+
+use sph_tests::DAM_BREAK;
+
+use crate::hands::with;
+
+#[test]
+fn an_animation_has_a_frame_for_every_picture_and_is_there_after_a_resume() {
+    let bench = with(DAM_BREAK);
+    let set = "--set output.picture=pressure --set output.animation=5 --set run.end=0.1 --set output.every=0.025";
+    bench.done(&format!("run scene.toml -q --threads 1 {set} --out whole"));
+    let whole = std::fs::read(bench.path("whole/animations/pressure.gif")).expect("an animation");
+    assert_eq!(&whole[..6], b"GIF89a");
+    // Every frame is introduced by its delay: a graphic control extension of four bytes.
+    let delay = |hundredths: u8| {
+        let frames = whole
+            .windows(6)
+            .filter(|w| w[..3] == [0x21, 0xF9, 4] && w[4] == hundredths && w[5] == 0);
+        frames.count()
+    };
+    assert_eq!((delay(20), delay(150)), (4, 1));
+    let stopped = bench.call(&format!(
+        "run scene.toml -q --threads 1 {set} --set run.max_steps=30 --out parts"
+    ));
+    assert_eq!(stopped.code, Some(1));
+    bench.done(&format!(
+        "run scene.toml -q --threads 1 {set} --out parts --resume --changed"
+    ));
+    let parts = std::fs::read(bench.path("parts/animations/pressure.gif")).expect("an animation");
+    assert!(parts == whole, "{} and {} bytes", parts.len(), whole.len());
+    let listed = bench
+        .done(&format!("run scene.toml --threads 1 {set} --out whole"))
+        .out;
+    assert!(listed.contains("animations/pressure.gif"), "{listed}");
+}
+
+#[test]
+fn who_does_not_ask_gets_none() {
+    let bench = with(DAM_BREAK);
+    bench.done("run scene.toml -q --set output.picture=pressure --set run.end=0.02 --out a");
+    assert!(!bench.path("a/animations").exists());
+    let refused = bench.call("check scene.toml --set output.animation=0");
+    assert_eq!(refused.code, Some(2));
+}

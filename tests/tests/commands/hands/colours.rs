@@ -1,0 +1,56 @@
+//! Values at the ends of the colours of pictures.
+
+use sph_tests::DAM_BREAK;
+
+use crate::hands::with;
+
+const SHORT: &str =
+    "--set run.end=0.02 --set output.every=0.02 --set output.picture=[\"pressure\",\"velocity\"]";
+
+#[test]
+fn a_range_by_field_colours_its_field_and_leaves_the_others() {
+    let bench = with(DAM_BREAK);
+    for (set, out) in [
+        ("", "free"),
+        ("--set output.picture_range=[0,9000]", "all"),
+        ("--set output.picture_range={pressure=[0,9000]}", "by-field"),
+    ] {
+        bench.done(&format!(
+            "run scene.toml -q --threads 1 {SHORT} {set} --out {out}"
+        ));
+    }
+    let picture = |out: &str, field: &str| {
+        std::fs::read(bench.path(&format!("{out}/pictures/{field}_0001.png"))).expect("a picture")
+    };
+    let same = |a, b, field| picture(a, field) == picture(b, field);
+    assert!(same("by-field", "all", "pressure"));
+    assert!(!same("by-field", "free", "pressure"));
+    assert!(same("by-field", "free", "velocity"));
+    assert!(!same("all", "free", "velocity"));
+}
+
+#[test]
+fn a_range_of_no_field_is_told_with_the_nearest_name_and_one_of_a_field_that_is_not_drawn_is_kept()
+{
+    let bench = with(DAM_BREAK);
+    let checked = |set: &str| {
+        bench.call(&format!(
+            "check scene.toml --set output.picture_range.{set}"
+        ))
+    };
+    let refused = checked("presure=[0,1]");
+    assert_eq!(refused.code, Some(2));
+    for word in ["output.picture_range.presure", "did you mean `pressure`?"] {
+        assert!(refused.err.contains(word), "{}", refused.err);
+    }
+    let falling = checked("pressure=[1,0]");
+    assert!(
+        falling.err.contains("output.picture_range.pressure")
+            && falling
+                .err
+                .contains("the first must be less than the second"),
+        "{}",
+        falling.err
+    );
+    assert_eq!(checked("vorticity=[-50,50]").code, Some(0));
+}

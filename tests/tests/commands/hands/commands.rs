@@ -1,0 +1,85 @@
+//! Completions and manual pages.
+
+use crate::hands::bench;
+
+#[test]
+fn every_shell_completes_the_commands() {
+    let bench = bench();
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = bench.done(&format!("completions {shell}")).out;
+        assert!(
+            script.contains("explain") && script.contains("compare"),
+            "{shell}"
+        );
+    }
+    let bash = bench.done("completions bash").out;
+    bench.write("sph.bash", &bash);
+    let asked = "source ./sph.bash; COMP_WORDS=(sph ex); COMP_CWORD=1; _sph sph ex sph; echo \"${COMPREPLY[@]}\"";
+    // Where there is no bash, the text above is all that can be looked at.
+    let told = std::process::Command::new("bash")
+        .args(["-c", asked])
+        .current_dir(bench.folder())
+        .output();
+    if let Ok(told) = told {
+        assert_eq!(String::from_utf8_lossy(&told.stdout).trim(), "explain");
+    }
+}
+
+#[test]
+fn the_reference_of_the_book_is_that_of_the_registries() {
+    let printed = bench().done("plugins --markdown").out;
+    let page = include_str!("../../../../docs/reference.md");
+    assert!(
+        printed == page,
+        "docs/reference.md is another: cargo run -p sph-cli -- plugins --markdown > docs/reference.md"
+    );
+}
+
+/// A page that no reader is led to is not in the book.
+#[test]
+fn every_page_of_docs_is_in_the_table_of_contents_once() {
+    let docs = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
+    let summary = std::fs::read_to_string(docs.join("SUMMARY.md")).expect("a table of contents");
+    let inner = |folder: &str| std::fs::read_dir(docs.join(folder)).expect("a folder");
+    let mut pages = 0;
+    for folder in ["", "tutorials/", "rheology/", "validation/", "appendix/"] {
+        for entry in inner(folder) {
+            let name = entry
+                .expect("an entry")
+                .file_name()
+                .into_string()
+                .expect("plain");
+            if name.ends_with(".md") && name != "SUMMARY.md" {
+                let link = format!("]({folder}{name})");
+                assert_eq!(summary.matches(&link).count(), 1, "{link}");
+                pages += 1;
+            }
+        }
+    }
+    assert_eq!(
+        summary.matches("](").count(),
+        pages,
+        "links that are no page of docs"
+    );
+}
+
+#[test]
+fn manual_pages_are_printed_and_written() {
+    let bench = bench();
+    let page = bench.done("man run").out;
+    assert!(
+        page.contains(".TH sph-run 1") && page.contains("checkpoint"),
+        "{page}"
+    );
+    assert!(bench.done("man").out.contains(".TH sph 1"));
+    let told = bench.call("man rn");
+    assert_eq!(told.code, Some(2));
+    assert!(told.err.contains("did you mean `run`?"), "{}", told.err);
+    bench.done("man --out pages");
+    for name in ["sph.1", "sph-run.1", "sph-compare.1"] {
+        assert!(
+            bench.read(&format!("pages/{name}")).contains(".SH NAME"),
+            "{name}"
+        );
+    }
+}

@@ -1,0 +1,45 @@
+//! Flow that is faster than its sound ends a run, unless the scene allows it.
+
+use sph_tests::{Bench, PERIODIC};
+
+use crate::resume::PROGRAM;
+
+#[test]
+fn above_a_mach_number_of_0p3_it_is_said_once_and_above_1_the_run_ends() {
+    let bench = Bench::with(PROGRAM, PERIODIC);
+    // The whole fluid flies at 20 m/s.
+    let run = |sound: f64, more: &str| {
+        let set = format!(
+            "--set run.end=0.004 --set phase.water.speed_of_sound={sound} --set body.all.velocity=[20,0] {more}"
+        );
+        bench.call(&format!("run scene.toml --out r {set}"))
+    };
+    let slow = run(200.0, "");
+    assert_eq!(slow.code, Some(0), "{}", slow.err);
+    assert!(!slow.err.contains("of the speed of sound"), "{}", slow.err);
+    let fast = run(40.0, "");
+    assert_eq!(fast.code, Some(0), "{}", fast.err);
+    assert_eq!(
+        fast.err
+            .matches("faster than 0.3 of the speed of sound")
+            .count(),
+        1,
+        "{}",
+        fast.err
+    );
+    let supersonic = run(10.0, "");
+    assert_eq!(supersonic.code, Some(1), "{}", supersonic.err);
+    for told in [
+        "Mach number",
+        "100 % of the mass",
+        "numerics.supersonic = true",
+    ] {
+        assert!(
+            supersonic.err.contains(told),
+            "no `{told}` in {}",
+            supersonic.err
+        );
+    }
+    let allowed = run(10.0, "--set numerics.supersonic=true");
+    assert_eq!(allowed.code, Some(0), "{}", allowed.err);
+}

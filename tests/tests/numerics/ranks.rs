@@ -1,0 +1,322 @@
+//! A scene that is divided between ranks gives the bits of one process.
+
+use std::path::Path;
+
+use sph_io::{Checkpoint, ColumnData};
+use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+
+fn series(folder: &Path) -> String {
+    std::fs::read_to_string(folder.join("series.csv")).expect("a series")
+}
+
+/// A run's last state and its series, after a run with these arguments.
+fn ran(bench: &Bench, out: &str, arguments: &str) -> (FinalState, String) {
+    bench.done(&format!(
+        "run scene.toml --quiet --out {out} --threads 1 {arguments}"
+    ));
+    let folder = bench.path(out);
+    (FinalState::of(&folder), series(&folder))
+}
+
+/// The series that all ranks agree on.
+fn same_on_all_ranks(scene: &str, set: &str) -> String {
+    let bench = Bench::with(PROGRAM, scene);
+    let (one, row) = ran(&bench, "r1", set);
+    for ranks in [2, 3, 4] {
+        let (state, rows) = ran(
+            &bench,
+            &format!("r{ranks}"),
+            &format!("--ranks {ranks} {set}"),
+        );
+        one.assert_same(&state, &format!("1 and {ranks} ranks"));
+        assert_eq!(row, rows, "series of 1 and {ranks} ranks");
+    }
+    row
+}
+
+/// The last value in a series of the first column whose name begins so.
+fn last(series: &str, name: &str) -> f64 {
+    let mut rows = series.lines().map(|row| row.split(','));
+    let head = rows.next().expect("a head");
+    let place = head.into_iter().position(|c| c.starts_with(name));
+    let place = place.unwrap_or_else(|| panic!("no column {name}"));
+    let value = rows.next_back().and_then(|mut row| row.nth(place));
+    value.and_then(|v| v.parse().ok()).expect("a number")
+}
+
+/// A scene without the tables that compare it, which ask for its files and its end.
+fn without_references(scene: &str) -> String {
+    let mut kept = true;
+    let wanted = |line: &&str| {
+        if line.starts_with('[') {
+            kept = !line.starts_with("[reference") && !line.starts_with("[[reference");
+        }
+        kept
+    };
+    let lines: Vec<&str> = scene.lines().filter(wanted).collect();
+    lines.join("\n")
+}
+
+#[test]
+fn a_dam_break_gives_the_same_bits() {
+    same_on_all_ranks(DAM_BREAK, "");
+}
+
+#[test]
+fn a_moving_wall_gives_the_same_bits() {
+    same_on_all_ranks(PADDLE, "");
+}
+
+#[test]
+fn a_soil_gives_the_same_bits() {
+    same_on_all_ranks(SOIL, "--set run.end=0.06");
+}
+
+/// Particles are shifted against the mean velocity of all, and a body feels the fluid of all.
+#[test]
+fn sums_over_all_ranks_do_not_depend_on_their_number() {
+    let body = "[wall.float]\nbox = [[0.3, 0.04], [0.4, 0.1]]\nfluid = \"outside\"\n\
+                condition = \"free-slip\"\nmover.rigid-body = { density = 500 }\n";
+    let flush = DAM_BREAK.replace("[walls.usaw]\n", "[walls.usaw]\nvertices = false\n");
+    let probes = "[probe.float]\nkind = \"wall-force\"\nwall = \"float\"\n\
+                  [probe.tank]\nkind = \"wall-force\"\nwall = \"tank\"\n";
+    let scene = format!("{flush}\n[shifting.fickian]\n{body}{probes}");
+    same_on_all_ranks(&scene, "--set run.end=0.1");
+}
+
+/// Who leaves is counted once.
+#[test]
+fn outlets_give_the_same_bits() {
+    let scene = format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.3\n");
+    let series = same_on_all_ranks(&scene, "--set run.end=0.3");
+    assert!(last(&series, "outlet.end") > 0.0, "somebody left");
+}
+
+/// Particles are born at faces and leave through others, on whatever rank.
+#[test]
+fn open_faces_give_the_same_bits() {
+    let scene = without_references(include_str!("../../../scenes/channel-open-2d.toml"));
+    same_on_all_ranks(&scene, "--set run.end=0.2 --set numerics.spacing=0.0625");
+}
+
+/// The books of energy are those of one process.
+#[test]
+fn an_energy_budget_gives_the_same_bits() {
+    let scene = format!("{DAM_BREAK}\n[probe.energy]\nkind = \"energy-budget\"\n");
+    same_on_all_ranks(&scene, "--set run.end=0.1");
+}
+
+/// Schemes that go back within a step, where lists are built anew in the middle of many of them.
+#[test]
+fn what_is_kept_within_a_step_follows_its_particles() {
+    for integrator in ["leap-frog", "verlet", "predictor-corrector"] {
+        let scene = format!("{DAM_BREAK}\n[integrator.{integrator}]\n");
+        same_on_all_ranks(&scene, "--set numerics.skin=0.02 --set run.end=0.1");
+    }
+}
+
+/// Iterations add up over ranks in an order that follows their number, so that velocities differ by what a solve leaves: a
+/// share of 1e-8 of the right-hand side in each step, times the condition of the system, at most 1 + 4 νΔt/δr².
+#[test]
+fn solves_agree_to_their_tolerance() {
+    let scene = format!("{DAM_BREAK}\n[implicit-viscosity.backward-euler]\n");
+    let bench = Bench::with(PROGRAM, &scene);
+    let (steps, viscosity) = (20.0, 50.0);
+    let set = format!(
+        "--set phase.water.rheology.newtonian.viscosity={viscosity} --set run.max_steps={steps}"
+    );
+    let velocities = |ranks: u32| {
+        let out = format!("r{ranks}");
+        let call = format!("run scene.toml --quiet --out {out} --threads 1 --ranks {ranks} {set}");
+        assert_eq!(bench.call(&call).code, Some(1), "it stops before its end");
+        let checkpoint = Checkpoint::load(bench.path(&out).join("checkpoint.sph"));
+        let checkpoint = checkpoint.expect("a checkpoint");
+        match &checkpoint.column("velocity").expect("velocities").data {
+            ColumnData::F64(v) => v.clone(),
+            _ => panic!("velocities are reals"),
+        }
+    };
+    let one = velocities(1);
+    let largest = one.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    // Δt is at most 0.4 h/c with h = 2 δr and c = 30 m/s.
+    let spacing = 0.02;
+    let dt = 0.4 * 2.0 * spacing / 30.0;
+    let condition = 1.0 + 4.0 * viscosity / 1000.0 * dt / (spacing * spacing);
+    let bound = steps * condition * 1e-8;
+    for ranks in [2, 4] {
+        let apart = one
+            .iter()
+            .zip(velocities(ranks))
+            .map(|(a, b)| (a - b).abs());
+        let apart = apart.fold(0.0, f64::max) / largest;
+        println!(
+            "{ranks} ranks: velocities differ by {apart:.1e} of the largest, bound {bound:.1e}"
+        );
+        assert!(
+            apart < bound,
+            "{ranks} ranks: {apart:.1e}, bound {bound:.1e}"
+        );
+    }
+}
+
+/// A rank that fails takes the others back with it; in the end all give up, and the first tells why.
+#[test]
+fn ranks_fail_together() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let set = "--set numerics.density_bounds=[0.99,1.005] --set run.retries=2";
+    let told = |ranks: u32| {
+        let failed = bench.call(&format!(
+            "run scene.toml --quiet --out f{ranks} --threads 1 --ranks {ranks} {set}"
+        ));
+        assert_eq!(failed.code, Some(1), "{}", failed.err);
+        assert!(
+            bench.path(&format!("f{ranks}/checkpoint.sph")).is_file(),
+            "{}",
+            failed.err
+        );
+        let line = failed.err.lines().find(|l| l.contains("the run failed at"));
+        line.unwrap_or_else(|| panic!("{}", failed.err)).to_string()
+    };
+    let one = told(1);
+    for ranks in [2, 4] {
+        let several = told(ranks);
+        let quantity = one.split(": ").nth(2).expect("a cause");
+        assert!(several.contains(quantity), "{several} for {one}");
+    }
+}
+
+#[test]
+fn a_run_goes_on_with_another_number_of_ranks() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let (whole, row) = ran(&bench, "whole", "");
+    let out = "run scene.toml --quiet --out parts --threads 1";
+    let stopped = bench.call(&format!("{out} --ranks 4 --set run.max_steps=40"));
+    assert_eq!(stopped.code, Some(1), "{stopped:?}");
+    bench.done(&format!("{out} --ranks 2 --resume --changed"));
+    let folder = bench.path("parts");
+    whole.assert_same(&FinalState::of(&folder), "4 ranks, then 2");
+    assert_eq!(row, series(&folder));
+}
+
+#[test]
+fn what_cannot_be_divided_is_refused_before_anything_is_written() {
+    let bed = without_references(include_str!("../../../scenes/saturated-bed-at-rest.toml"));
+    let laplace = "[effective-pressure.laplace]";
+    let sweeps = bed.replace(laplace, &format!("{laplace}\nsolver = \"jacobi\""));
+    for (scene, ranks, why) in [
+        (
+            sweeps.as_str(),
+            2,
+            "`effective pressure` cannot run on several ranks",
+        ),
+        (DAM_BREAK, 256, "some would own nothing"),
+    ] {
+        let bench = Bench::with(PROGRAM, scene);
+        let more = if ranks > 2 {
+            "--set numerics.spacing=0.1"
+        } else {
+            ""
+        };
+        let refused = bench.call(&format!("run scene.toml --out r --ranks {ranks} {more}"));
+        let told = &refused.err;
+        assert_eq!(refused.code, Some(2), "{told}");
+        assert!(told.contains(why), "{told}");
+        assert!(!bench.path("r").exists(), "{why}");
+    }
+}
+
+#[cfg(not(feature = "mpi"))]
+#[test]
+fn mpirun_is_left_out() {
+    println!("skipped: built without the feature `mpi` (crates/sph-mpi/README.md)");
+}
+
+/// Ranks that are processes; ends with the bits of one process.
+#[cfg(feature = "mpi")]
+#[test]
+fn mpirun_gives_the_same_bits() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let (one, row) = ran(&bench, "r1", "");
+    for ranks in [1, 2, 4] {
+        let out = format!("m{ranks}");
+        let done = mpirun(&bench, ranks, &out).output().expect("mpirun");
+        assert!(done.status.success(), "{done:?}");
+        one.assert_same(
+            &FinalState::of(&bench.path(&out)),
+            &format!("{ranks} processes"),
+        );
+        assert_eq!(
+            row,
+            series(&bench.path(&out)),
+            "series of {ranks} processes"
+        );
+    }
+}
+
+/// One of four ranks is killed in mid-run: the job ends, the last checkpoint is whole, and two ranks go on to the same bits.
+#[cfg(feature = "mpi")]
+#[test]
+fn a_killed_rank_ends_the_job_and_others_go_on_from_the_checkpoint() {
+    use std::time::{Duration, Instant};
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let (whole, row) = ran(&bench, "whole", "");
+    let mut job = mpirun(&bench, 4, "killed").spawn().expect("mpirun");
+    let checkpoint = bench.path("killed").join("checkpoint.sph");
+    let start = Instant::now();
+    while !checkpoint.exists() && start.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    kill_a_child(job.id());
+    let killed = Instant::now();
+    let ended = job.wait().expect("an end");
+    assert!(
+        killed.elapsed() < Duration::from_secs(60),
+        "{:?}",
+        killed.elapsed()
+    );
+    assert!(!ended.success(), "the run was over before it was killed");
+    bench.done("run scene.toml --quiet --out killed --threads 1 --ranks 2 --resume");
+    whole.assert_same(&FinalState::of(&bench.path("killed")), "killed and resumed");
+    assert_eq!(row, series(&bench.path("killed")));
+}
+
+/// Kills the youngest process that mpirun has started.
+#[cfg(feature = "mpi")]
+fn kill_a_child(parent: u32) {
+    let children = std::process::Command::new("pgrep")
+        .args(["-P", &parent.to_string()])
+        .output()
+        .expect("pgrep");
+    let children = String::from_utf8_lossy(&children.stdout);
+    if let Some(child) = children.lines().last() {
+        let _ = std::process::Command::new("kill")
+            .args(["-9", child])
+            .status();
+    }
+}
+
+#[cfg(feature = "mpi")]
+fn mpirun(bench: &Bench, ranks: usize, out: &str) -> std::process::Command {
+    let mut job = std::process::Command::new("mpirun");
+    // More ranks than cores, and in containers everybody is root.
+    job.args([
+        "--oversubscribe",
+        "--allow-run-as-root",
+        "-n",
+        &ranks.to_string(),
+        PROGRAM,
+    ]);
+    job.args([
+        "run",
+        "scene.toml",
+        "--quiet",
+        "--threads",
+        "1",
+        "--out",
+        out,
+    ]);
+    job.current_dir(bench.folder());
+    job
+}

@@ -1,0 +1,118 @@
+//! Means over time and layers, and spectra.
+
+use sph_solver::Start;
+use sph_tests::{Bench, FinalState, PERIODIC};
+
+use crate::turbulence::{CHANNEL, PROGRAM, into, last};
+
+const MEANS: &str =
+    "[probe.means]\nkind = \"mean-profile\"\naxis = \"y\"\nfrom = 0.0\nto = 0.2\nlayers = 20\n";
+
+fn curve(folder: &std::path::Path, name: &str) -> sph_io::Table {
+    let path = folder.join("curves").join(name);
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    sph_io::Table::parse(&text, name).expect("a table")
+}
+
+/// u_x = −3y at the start: layers of two rows have the mean of their middle, and half a spacing of fluctuation.
+#[test]
+fn layers_have_the_means_of_their_particles() {
+    let turning = CHANNEL
+        .replace("velocity = [1.0, 0.0]", "")
+        .replace("end = 0.02", "end = 1e-7")
+        + "[body.water.initial.rigid-rotation]\nangular_velocity = 3.0\ncentre = [0.1, 0.0]\n"
+        + &MEANS.replace("layers = 20", "layers = 10");
+    let folder = tempfile::tempdir().expect("a folder");
+    into(folder.path(), &turning, &[], 1, Start::Afresh);
+    let table = curve(folder.path(), "means_0000.csv");
+    let column = |name: &str| table.column(name).expect("a column").to_vec();
+    let [distance, mean, rms] = ["distance", "mean.x", "rms.x"].map(column);
+    assert_eq!(distance.len(), 10);
+    for k in 0..10 {
+        assert!(
+            (mean[k] + 3.0 * distance[k]).abs() < 1e-3,
+            "{} at {}",
+            mean[k],
+            distance[k]
+        );
+        assert!((rms[k] / (3.0 * 0.005) - 1.0).abs() < 1e-2, "{}", rms[k]);
+    }
+}
+
+/// What was gathered before a run was stopped counts after it is resumed: the same file bit for bit.
+#[test]
+fn means_go_on_in_a_run_that_is_resumed() {
+    let text =
+        format!("{CHANNEL}{MEANS}").replace("every = 0.02", "every = 0.02\nseries_every = 1e-9");
+    let [whole, stopped] = [0, 1].map(|_| tempfile::tempdir().expect("a folder"));
+    into(whole.path(), &text, &[], 1, Start::Afresh);
+    into(
+        stopped.path(),
+        &text,
+        &["run.max_steps=20"],
+        1,
+        Start::Afresh,
+    );
+    into(stopped.path(), &text, &[], 2, Start::Resumed);
+    FinalState::of(whole.path()).assert_same(&FinalState::of(stopped.path()), "whole and resumed");
+    let [a, b] = [&whole, &stopped].map(|f| {
+        let path = f.path().join("curves/means_0001.csv");
+        std::fs::read_to_string(path).expect("a curve")
+    });
+    assert_eq!(a, b);
+    // 1 m/s but for what the bed has taken from the first rows.
+    let mean = curve(whole.path(), "means_0001.csv")
+        .column("mean.x")
+        .expect("means")
+        .to_vec();
+    assert!(
+        mean[0] < mean[19] && (mean[19] - 1.0).abs() < 1e-3,
+        "{mean:?}"
+    );
+}
+
+/// Vortices of one wave along both axes: all in the shell of √2, and ½⟨u²⟩ = U²/4 but for what the means over the kernel lessen.
+#[test]
+fn vortices_of_one_wave_stand_in_one_shell() {
+    let text = PERIODIC
+        .replace("velocity = [1.0, 0.5]", "")
+        .replace("end = 0.1", "end = 1e-6")
+        + "[body.all.initial.taylor-green]\nspeed = 1.0\nlength = 1.0\nkinematic_viscosity = 1.0\ndensity = 1.0\n\
+           [probe.spectrum]\nkind = \"energy-spectrum\"\npoints = 16\n";
+    let folder = tempfile::tempdir().expect("a folder");
+    into(folder.path(), &text, &[], 1, Start::Afresh);
+    let table = curve(folder.path(), "spectrum_0000.csv");
+    let [k, e] = ["wavenumber", "energy"].map(|c| table.column(c).expect("a column").to_vec());
+    let first = std::f64::consts::TAU;
+    assert!((k[0] - first).abs() < 1e-9 && k.len() == 8, "{k:?}");
+    let total: f64 = e.iter().map(|e| e * first).sum();
+    assert!(e[0] * first / total > 0.999, "{e:?}");
+    assert!((last(folder.path(), "spectrum.energy") / total - 1.0).abs() < 1e-3);
+    assert!(total < 0.25 && total > 0.15, "{total}");
+}
+
+#[test]
+fn probes_that_do_not_fit_are_refused_before_a_file_is_written() {
+    let cases = [
+        (
+            "[probe.s]\nkind = \"energy-spectrum\"\npoints = 8\n",
+            "periodic along all axes",
+        ),
+        (
+            &MEANS.replace("from = 0.0", "from = 1.0"),
+            "`to` is to be larger",
+        ),
+        (
+            &MEANS.replace("axis = \"y\"", "axis = \"z\""),
+            "no such `axis`",
+        ),
+        (&format!("{MEANS}field = \"mud\"\n"), "mud"),
+    ];
+    for (probe, expected) in cases {
+        let bench = Bench::with(PROGRAM, &format!("{CHANNEL}{probe}"));
+        let outcome = bench.call("run scene.toml");
+        let told = outcome.out + &outcome.err;
+        assert!(told.contains(expected), "`{expected}` is not in: {told}");
+        assert!(!bench.path("scene").exists(), "{probe}");
+    }
+}

@@ -1,0 +1,148 @@
+//! Drawings as large as the limits allow, or of a size that only near-linear work gets through.
+
+use std::fmt::Write as _;
+use std::process::{Command, Output};
+
+use sph_tests::Bench;
+
+use crate::bad_files::PROGRAM;
+
+/// Address space of a check, KiB: twice the gigabyte that no drawing of these sizes may take.
+const MEMORY: &str = "2000000";
+
+fn scene(dimension: usize, body: &str, wall: &str) -> String {
+    let gravity = ["[0, -9.81]", "[0, 0, -9.81]"][dimension - 2];
+    format!(
+        "title = \"t\"\ndimension = {dimension}\nrun.end = 0.1\nnumerics = {{ spacing = 1, gravity = {gravity} }}\n\
+         [walls.usaw]\n[phase.water]\ndensity = 1000\nvelocity_scale = 2\nrheology.newtonian = {{ viscosity = 1 }}\n\
+         [body.water]\nphase = \"water\"\nbox = {body}\n[wall.w]\n{wall}\n"
+    )
+}
+
+/// `sph check` of a scene, in the memory that it may have.
+fn checked(bench: &Bench, scene: &str) -> Output {
+    bench.write("scene.toml", scene);
+    Command::new("bash")
+        .args([
+            "-c",
+            &format!("ulimit -v {MEMORY}; exec {PROGRAM} check scene.toml"),
+        ])
+        .env("RAYON_NUM_THREADS", "2")
+        .current_dir(bench.folder())
+        .output()
+        .expect("bash")
+}
+
+fn good(bench: &Bench, scene: &str) {
+    let output = checked(bench, scene);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+}
+
+fn refused(bench: &Bench, scene: &str, word: &str) {
+    let output = checked(bench, scene);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains(word), "no `{word}` in\n{told}");
+}
+
+#[test]
+fn a_drawing_of_eight_thousand_sub_paths() {
+    let bench = Bench::new(PROGRAM);
+    let squares = (0..8000).fold(String::new(), |mut all, k| {
+        let _ = write!(all, "M{} {}h5v5h-5z", k % 90 * 10, k / 90 * 10);
+        all
+    });
+    bench.write(
+        "w.svg",
+        &format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 900 900'><path d='{squares}'/></svg>"),
+    );
+    let body = "[[-100, -100], [-50, -50]]";
+    for fluid in ["as-drawn", "outside"] {
+        let wall = format!("file = \"w.svg\"\nfluid = \"{fluid}\"");
+        good(&bench, &scene(2, body, &wall));
+    }
+    // The motion is one for all of them.
+    let rows = (0..200_000).fold(String::new(), |mut all, k| {
+        let _ = writeln!(all, "{k},{}", k % 2);
+        all
+    });
+    bench.write("m.csv", &rows);
+    let moved = "file = \"w.svg\"\nmotion.translate = { along = [0.01, 0], file = \"m.csv\" }";
+    good(&bench, &scene(2, body, moved));
+}
+
+#[test]
+fn polylines_of_twenty_thousand_corners() {
+    let bench = Bench::new(PROGRAM);
+    let body = "[[-100, -100], [-50, -50]]";
+    for tooth in [[1, 0], [0, 1]] {
+        let corners = (0..20_000).fold(String::new(), |mut all, k| {
+            let [along, out] = [k, k % 2 * 3];
+            let _ = match tooth {
+                [1, _] => write!(all, "[{along}, {out}],"),
+                _ => write!(all, "[{out}, {along}],"),
+            };
+            all
+        });
+        good(&bench, &scene(2, body, &format!("polyline = [{corners}]")));
+    }
+    // Each within all that came after it; the innermost has no room for a particle.
+    let rings = (10..8010).fold(String::new(), |mut all, k| {
+        let _ = write!(all, "{k},{k}\n-{k},{k}\n-{k},-{k}\n{k},-{k}\n{k},{k}\n\n");
+        all
+    });
+    bench.write("w.csv", &rings);
+    let wall = "file = \"w.csv\"\nfluid = \"inside\"\nscale = 0.001";
+    refused(
+        &bench,
+        &scene(2, "[[-0.5, -0.5], [0.5, 0.5]]", wall),
+        "body.water",
+    );
+}
+
+/// A binary STL file of these triangles.
+fn stl(triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
+    let mut bytes = vec![0; 80];
+    bytes.extend((triangles.len() as u32).to_le_bytes());
+    for triangle in triangles {
+        bytes.extend([0; 12]);
+        let corners = triangle.iter().flatten();
+        bytes.extend(corners.flat_map(|x| x.to_le_bytes()));
+        bytes.extend([0; 2]);
+    }
+    bytes
+}
+
+#[test]
+fn facets_by_the_ten_thousand() {
+    let bench = Bench::new(PROGRAM);
+    let mut state = 1_u64;
+    let mut random = || {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (state >> 40) as f32 / (1 << 24) as f32
+    };
+    let tangle: Vec<[[f32; 3]; 3]> = (0..200_000)
+        .map(|_| std::array::from_fn(|_| std::array::from_fn(|_| 10.0 * random())))
+        .collect();
+    std::fs::write(bench.path("w.stl"), stl(&tangle)).expect("a file");
+    let body = "[[-10, -10, -10], [-5, -5, -5]]";
+    refused(&bench, &scene(3, body, "file = \"w.stl\""), "cross");
+    // A sheet of 20,000, of which each has a dozen beside it.
+    let height = |i: usize, j: usize| (0.1 * i as f32).sin() + (0.13 * j as f32).cos();
+    let at = |i: usize, j: usize| [i as f32, j as f32, height(i, j)];
+    let sheet: Vec<_> = (0..10_000)
+        .flat_map(|k| {
+            let (i, j) = (k % 100, k / 100);
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        })
+        .collect();
+    std::fs::write(bench.path("w.stl"), stl(&sheet)).expect("a file");
+    good(
+        &bench,
+        &scene(3, "[[10, 10, 10], [15, 15, 15]]", "file = \"w.stl\""),
+    );
+}
