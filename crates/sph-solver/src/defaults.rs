@@ -30,6 +30,17 @@ const SUGGESTIONS: [(&str, &str); 2] = [
     ("implicit-viscosity", "backward-euler"),
 ];
 
+/// Takes one kick and one drift per step.
+pub const ONE_KICK: &str = "`[integrator.symplectic-euler]`";
+/// Walls that can be opened.
+pub const OPEN_WALLS: &str = "`[walls.usaw]` with `vertices = false`";
+/// Lets fluid out.
+pub const OUTFLOW: &str = "`open-boundary.outflow`";
+/// Takes sound that walls feed.
+pub const SOUND_DAMPING: &str = "`[damping.acoustic]`";
+/// Lets densities forget a surface.
+pub const SURFACE: &str = "`[surface.cone-test]`";
+
 /// The table of what a scene without a plugin of a kind is advised to take.
 pub fn suggested(kind: &str) -> Option<String> {
     let found = SUGGESTIONS.iter().find(|(k, _)| *k == kind);

@@ -52,8 +52,11 @@ fn against_quantity(cause: &StepError, found: &Findings) -> Vec<String> {
         } => text(&[
             "particles are squeezed or torn apart: raise `speed_of_sound` of the phase to ten times the largest speed, or give \
              `velocity_scale`",
-            "if a splash folds or tears the surface, `[surface.cone-test]` lets densities forget it, where they are sums; \
-             `numerics.density_bounds` may be too narrow",
+            &format!(
+                "if a splash folds or tears the surface, {} lets densities forget it, where they are sums; \
+                 `numerics.density_bounds` may be too narrow",
+                defaults::SURFACE
+            ),
         ]),
         StepError::Bad {
             quantity: "position",

@@ -4,6 +4,7 @@ use sph_core::StepError;
 use sph_scene::Scene;
 
 use crate::Flow;
+use crate::defaults;
 use crate::results::balance::Balance;
 use crate::setup::assemble::moves;
 
@@ -91,9 +92,12 @@ impl EnergyWatch {
 
     /// What stands in the summary, if there is anything to tell: a warning, and advice.
     pub fn remarks(&self) -> Option<[String; 2]> {
-        let advice = "`[probe.NAME] kind = \"energy-budget\"` tells what makes the energy; `[damping.acoustic]` takes sound that \
-                      walls feed, also beside `[smoother.brezzi-pitkaranta]`";
-        (self.share > TOLD).then(|| [self.told(), advice.into()])
+        let damping = defaults::SOUND_DAMPING;
+        let advice = format!(
+            "`[probe.NAME] kind = \"energy-budget\"` tells what makes the energy; {damping} takes sound that walls feed, also \
+             beside a smoother"
+        );
+        (self.share > TOLD).then(|| [self.told(), advice])
     }
 
     /// Why the run has no result, if it made too much energy.

@@ -8,16 +8,13 @@ use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenSetting, open};
 use sph_scene::Scene;
 use sph_state::Laws;
 
+use crate::defaults;
 use crate::failure::error::SolverError;
 use crate::setup::builder::Part;
 use crate::setup::choices::Choices;
 use crate::setup::shapes::Drawn;
 use crate::setup::tension::{self, Filled};
 use crate::step::stages::{SharedWall, lock};
-
-/// Why walls with points of their own cannot be opened.
-const OTHER_WALLS: &str = "open faces are known of semi-analytical walls without vertices: write `[walls.usaw]` with \
-     `vertices = false`";
 
 /// How far in front of a port the room of a particle is looked at, over the spacing.
 const ROOM: f64 = 0.5;
@@ -38,7 +35,11 @@ pub(crate) fn settle<const D: usize>(
     };
     let walls = choices.walls.take();
     let Some(walls) = walls.filter(|w| w.renormalises() && w.lattice_offset() > 0.0) else {
-        return Err(SolverError::at(path(scene, first, ""), OTHER_WALLS));
+        let write = defaults::OPEN_WALLS;
+        let other = format!(
+            "open faces are known of semi-analytical walls without vertices: write {write}"
+        );
+        return Err(SolverError::at(path(scene, first, ""), other));
     };
     let phases: Vec<String> = scene.phase.keys().cloned().collect();
     let speeds = laws.iter().map(|law| law.reference().sound_speed);
@@ -136,11 +137,11 @@ fn remarks<const D: usize>(scene: &Scene, opened: &OpenBoundaries<D>) -> Vec<Str
     if opened.let_out() || !scene.outlet.is_empty() {
         return Vec::new();
     }
-    vec![
+    let outflow = defaults::OUTFLOW;
+    vec![format!(
         "fluid comes in and none can leave: where there is no room over a free surface the pressure will rise until the run \
-         fails; open another wall with `open-boundary.outflow`, `pressure` or `level`, or add an `[outlet.NAME]`"
-            .into(),
-    ]
+         fails; open another wall with {outflow}, `pressure` or `level`, or add an `[outlet.NAME]`"
+    )]
 }
 
 /// Refuses values of columns that no plugin of the scene brings along, and such as they cannot have.

@@ -6,6 +6,7 @@ use sph_multiphase::Formulation;
 use sph_probes::Probe;
 use sph_scene::Scene;
 
+use crate::defaults;
 use crate::failure::error::SolverError;
 use crate::step::books::Books;
 use crate::step::flow::Flow;
@@ -28,10 +29,11 @@ pub(crate) fn open<const D: usize>(
     let goes = !flow.outlets.labels().is_empty();
     let why = match (integrator.kicks_once(), comes || goes) {
         (false, _) => {
-            "energy is booked for steps of one kick and one drift: take `[integrator.symplectic-euler]`"
+            let take = defaults::ONE_KICK;
+            format!("energy is booked for steps of one kick and one drift: take {take}")
         }
         (_, true) => {
-            "particles come in or leave, and their energy is not booked: take the probe out"
+            "particles come in or leave, and their energy is not booked: take the probe out".into()
         }
         _ => {
             let (laws, kinds) = (flow.laws.clone(), flow.work_kinds.clone());

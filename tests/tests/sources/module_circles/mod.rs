@@ -176,7 +176,8 @@ fn no_circle_of_imports_stands_between_modules() {
 fn a_circle_is_found_through_re_exports_and_not_in_tests() {
     let circles = |low: &str| {
         let lib = "mod high; mod low; mod shelf; pub use high::Top; pub(crate) use shelf::*;";
-        let high = "use crate::{low::{self, Below as B}, Other}; struct Top; struct Mark { low: B }";
+        let high =
+            "use crate::{low::{self, Below as B}, Other}; struct Top; struct Mark { low: B }";
         let shelf = "mod inner; pub(crate) use inner::Deep; fn of_all() { inner::each() }";
         let files = [
             ("lib.rs", lib),
@@ -191,10 +192,7 @@ fn a_circle_is_found_through_re_exports_and_not_in_tests() {
         Modules::read(files).circles()
     };
     let ring = ["high -> low", "low -> high"];
-    assert_eq!(
-        circles("use crate::Top; struct Below;"),
-        ring
-    );
+    assert_eq!(circles("use crate::Top; struct Below;"), ring);
     assert_eq!(
         circles("struct Below; fn f() -> char { crate::high::g('\"'); '\"' }"),
         ring
