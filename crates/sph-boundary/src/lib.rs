@@ -37,9 +37,7 @@
 //! # In space
 //! The fluid is on the side from which the corners of a triangle run anticlockwise.
 //! ```
-//! use sph_boundary::{
-//!     GammaSum3d, PeriodicBox, Renormalisation3d, Surface, TriangleGrid, TriangleMesh,
-//! };
+//! use sph_boundary::{PeriodicBox, Renormalisation3d, Surface, TriangleGrid, TriangleMesh};
 //! # use sph_kernels::PiecewisePolynomial;
 //! # let wendland = PiecewisePolynomial {
 //! #     breaks: vec![0.0, 2.0],
@@ -54,16 +52,8 @@
 //! };
 //! let mesh = TriangleMesh::build(&[tank], &[0], 0.5, &PeriodicBox::none())?;
 //! let renormalisation = Renormalisation3d::new(&wendland, 1.0)?;
-//! let radius = renormalisation.kernel_radius();
-//! let grid = TriangleGrid::build(&mesh, radius);
-//! let gamma = |x: [f64; 3]| {
-//!     let mut sum = GammaSum3d::default();
-//!     for near in grid.near(&mesh, x, radius) {
-//!         let normal = mesh.triangles()[near.triangle as usize].normal;
-//!         sum.add(&renormalisation.triangle(mesh.corners_from(x, near), normal), normal);
-//!     }
-//!     sum.gamma()
-//! };
+//! let grid = TriangleGrid::build(&mesh, renormalisation.kernel_radius());
+//! let gamma = |x| renormalisation.at(x, &mesh, &grid).gamma();
 //! assert!((gamma([4.0, 4.0, 0.5]) - 0.827583313).abs() < 1e-9); // half a length from the floor
 //! assert!((gamma([0.0; 3]) - 0.125).abs() < 1e-9); // in the corner, touching three walls
 //! # Ok::<(), sph_boundary::BoundaryError>(())

@@ -1,7 +1,7 @@
 //! γ, the share of a kernel inside a closed mesh of triangles, with `sph-boundary` and `sph-kernels` alone.
 
 use sph_boundary::{
-    BoundaryError, GammaSum3d, PeriodicBox, Renormalisation3d, Surface, TriangleGrid, TriangleMesh,
+    BoundaryError, PeriodicBox, Renormalisation3d, Surface, TriangleGrid, TriangleMesh,
 };
 
 /// A box of 1 m, its triangles anticlockwise seen from the inside, where the fluid is.
@@ -31,14 +31,7 @@ pub fn gammas(points: &[[f64; 3]]) -> Result<Vec<f64>, BoundaryError> {
     let kernel = sph_kernels::wendland_c2();
     let gamma = Renormalisation3d::new(kernel.shape(), 0.1)?;
     let grid = TriangleGrid::build(&mesh, gamma.kernel_radius());
-    let at = |x: &[f64; 3]| {
-        let mut sum = GammaSum3d::default();
-        for near in grid.near(&mesh, *x, gamma.kernel_radius()) {
-            let normal = mesh.triangles()[near.triangle as usize].normal;
-            sum.add(&gamma.triangle(mesh.corners_from(*x, near), normal), normal);
-        }
-        sum.gamma()
-    };
+    let at = |x: &[f64; 3]| gamma.at(*x, &mesh, &grid).gamma();
     Ok(points.iter().map(at).collect())
 }
 

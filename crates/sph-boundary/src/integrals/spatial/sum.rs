@@ -1,6 +1,7 @@
 //! γ of a point from the facets around it, and the decision between inside and outside.
 
-use super::FacetIntegral;
+use super::{FacetIntegral, Renormalisation3d};
+use crate::geometry::surface::{TriangleGrid, TriangleMesh};
 
 /// A γ below this is taken for its other representative, 1 + γ.
 const SURELY_FLUID: f64 = 1e-9;
@@ -52,5 +53,23 @@ impl GammaSum3d {
     /// γ for a θ that is known: 1 in the fluid, 0 outside.
     pub fn gamma_with(&self, theta: f64) -> f64 {
         theta - self.signed_sum
+    }
+}
+
+impl Renormalisation3d {
+    /// γ and ∇γ of a point from the triangles that `grid` finds around it.
+    ///
+    /// `grid` must have been built for at least this kernel radius and for the present position of
+    /// the walls. With periodic directions the point belongs in the box.
+    pub fn at(&self, point: [f64; 3], mesh: &TriangleMesh, grid: &TriangleGrid) -> GammaSum3d {
+        let mut sum = GammaSum3d::default();
+        for near in grid.near(mesh, point, self.kernel_radius()) {
+            let normal = mesh.triangles()[near.triangle as usize].normal;
+            sum.add(
+                &self.triangle(mesh.corners_from(point, near), normal),
+                normal,
+            );
+        }
+        sum
     }
 }
