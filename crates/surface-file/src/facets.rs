@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::stl::{Surface, parse, read};
+use crate::stl::{StlFile, parse, read};
 use crate::vector::{cross, dot, minus};
 use crate::weld::{Facets, Welder};
 use crate::winding::Winding;
@@ -31,11 +31,11 @@ impl Facets {
     }
 
     /// Facets of which corners are one after welding are lines, and left out.
-    fn welded(surface: Surface, name: &str) -> Result<(Self, Option<usize>), String> {
-        let [low, high] = bounds(surface.triangles.iter().flatten());
+    fn welded(file: StlFile, name: &str) -> Result<(Self, Option<usize>), String> {
+        let [low, high] = bounds(file.triangles.iter().flatten());
         let extent = minus(&high, &low).into_iter().fold(0.0, f64::max);
         let mut welder = Welder::within(SAME_CORNER * extent);
-        for corners in surface.triangles {
+        for corners in file.triangles {
             welder.triangle(corners);
         }
         let mut facets = welder.finish();
@@ -43,7 +43,7 @@ impl Facets {
         facets.triangles.retain(|t| !lines(t));
         match facets.triangles.is_empty() {
             true => Err(format!("`{name}` holds no facets with an area")),
-            false => Ok((facets, surface.odd)),
+            false => Ok((facets, file.odd)),
         }
     }
 

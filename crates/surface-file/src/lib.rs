@@ -15,7 +15,7 @@ mod vector;
 mod weld;
 mod winding;
 
-pub use stl::{Surface, parse, read};
+pub use stl::{StlFile, parse, read};
 pub use topology::{Opening, Topology};
 pub use vector::{cross, dot, minus};
 pub use weld::{Facets, Welder};

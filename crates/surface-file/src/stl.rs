@@ -17,9 +17,9 @@ const RECORD: usize = 50;
 /// Longest file, bytes: an ascii file needs five times the room of a binary one.
 const BYTES: u64 = 512 << 20;
 
-/// The triangles of a file.
+/// The triangles of an STL file, each with corners of its own.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Surface {
+pub struct StlFile {
     /// Corners, in the unit of the file.
     pub triangles: Vec<[[f64; 3]; 3]>,
     /// Number, from 1, of the first facet whose normal in the file is not that of its corners' order.
@@ -30,7 +30,7 @@ pub struct Surface {
 ///
 /// # Errors
 /// What cannot be read, with the name of the file and the number of the facet.
-pub fn read(path: &Path) -> Result<Surface, String> {
+pub fn read(path: &Path) -> Result<StlFile, String> {
     parse(bytes(path)?, &path.display().to_string())
 }
 
@@ -58,7 +58,7 @@ fn bytes(path: &Path) -> Result<Vec<u8>, String> {
 ///
 /// # Errors
 /// As [`read`].
-pub fn parse(bytes: Vec<u8>, name: &str) -> Result<Surface, String> {
+pub fn parse(bytes: Vec<u8>, name: &str) -> Result<StlFile, String> {
     let bytes = prepared(bytes).map_err(|why| format!("`{name}` {why}"))?;
     let mut cursor = Cursor::new(bytes);
     let reader = create_stl_reader(&mut cursor);
@@ -84,7 +84,7 @@ pub fn parse(bytes: Vec<u8>, name: &str) -> Result<Surface, String> {
     }
     match triangles.is_empty() {
         true => Err(format!("`{name}` holds no facets")),
-        false => Ok(Surface { triangles, odd }),
+        false => Ok(StlFile { triangles, odd }),
     }
 }
 

@@ -1,7 +1,7 @@
 //! A frame with ticks: the part that pictures and plots have in common.
 
 use crate::drawing::colour::Colour;
-use crate::drawing::surface::{Anchor, Lettering, Pen, Rect, Spot, Surface};
+use crate::drawing::draw_target::{Anchor, DrawTarget, Lettering, Pen, Rect, Spot};
 use crate::drawing::text;
 use crate::drawing::ticks::{self, Ticks};
 
@@ -66,7 +66,7 @@ impl Axes {
     }
 
     /// Grid lines, to be drawn below the content.
-    pub(crate) fn draw_grid(&self, on: &mut dyn Surface) {
+    pub(crate) fn draw_grid(&self, on: &mut dyn DrawTarget) {
         if !self.grid {
             return;
         }
@@ -83,7 +83,7 @@ impl Axes {
     }
 
     /// Frame, ticks and labels, to be drawn above the content.
-    pub(crate) fn draw(&self, on: &mut dyn Surface) {
+    pub(crate) fn draw(&self, on: &mut dyn DrawTarget) {
         let (f, size) = (self.frame, self.size);
         let pen = Pen::solid(Colour::INK, size / 16.0);
         let [a, b, c, d] = f.corners().map(|[x, y]| [crisp(x), crisp(y)]);

@@ -7,7 +7,7 @@ use tiny_skia::{
 };
 
 use crate::drawing::colour::Colour;
-use crate::drawing::surface::{Anchor, Fill, Lettering, Pen, Rect, Spot, Surface};
+use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
 use crate::drawing::text;
 use crate::error::{IoError, Result};
 use crate::files::atomic::{Durability, write_atomic};
@@ -97,7 +97,7 @@ impl Canvas {
     }
 }
 
-impl Surface for Canvas {
+impl DrawTarget for Canvas {
     fn line(&mut self, points: &[Spot], pen: Pen) {
         let Some(path) = path(points, false) else {
             return;

@@ -3,7 +3,7 @@
 use crate::drawing::axes::crisp;
 use crate::drawing::canvas::Canvas;
 use crate::drawing::colour::{Colour, ColourMap};
-use crate::drawing::surface::{Anchor, Fill, Lettering, Pen, Rect, Surface};
+use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect};
 use crate::drawing::text;
 use crate::drawing::ticks::{Ticks, linear};
 

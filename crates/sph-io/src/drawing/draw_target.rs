@@ -43,7 +43,7 @@ pub(crate) struct Lettering {
 }
 
 /// Pixels or a vector file.
-pub(crate) trait Surface {
+pub(crate) trait DrawTarget {
     /// A line through `points`.
     fn line(&mut self, points: &[Spot], pen: Pen);
     /// A filled polygon.

@@ -1,6 +1,6 @@
 //! What part of the plane a picture shows.
 
-use crate::drawing::surface::Spot;
+use crate::drawing::draw_target::Spot;
 use crate::drawing::ticks::widened;
 
 /// The least box around some spots.

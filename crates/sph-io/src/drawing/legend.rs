@@ -2,9 +2,9 @@
 
 use crate::drawing::axes::Axes;
 use crate::drawing::colour::Colour;
+use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
 use crate::drawing::drawn_series::Style;
 use crate::drawing::mark::Mark;
-use crate::drawing::surface::{Anchor, Fill, Lettering, Pen, Rect, Spot, Surface};
 use crate::drawing::text;
 
 /// Names and samples of the series that have a name.
@@ -36,7 +36,7 @@ impl<'a> Legend<'a> {
         }
     }
 
-    pub(crate) fn draw(&self, on: &mut dyn Surface) {
+    pub(crate) fn draw(&self, on: &mut dyn DrawTarget) {
         if self.marks.is_empty() {
             return;
         }

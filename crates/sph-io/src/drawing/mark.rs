@@ -2,8 +2,8 @@
 
 use crate::drawing::axes::{Axes, shown};
 use crate::drawing::colour::{Colour, SERIES};
+use crate::drawing::draw_target::{DrawTarget, Fill, Pen, Spot};
 use crate::drawing::drawn_series::{Series, Style};
-use crate::drawing::surface::{Fill, Pen, Spot, Surface};
 
 /// Points beyond which lines are thinned to what can be seen.
 const MANY: usize = 4000;
@@ -46,7 +46,7 @@ impl<'a> Mark<'a> {
         spots.filter(|s: &Vec<Spot>| !s.is_empty()).collect()
     }
 
-    pub(crate) fn draw(&self, on: &mut dyn Surface, axes: &Axes) {
+    pub(crate) fn draw(&self, on: &mut dyn DrawTarget, axes: &Axes) {
         if let Style::Band(upper) = &self.series.style {
             self.draw_band(on, axes, upper);
             return;
@@ -57,7 +57,7 @@ impl<'a> Mark<'a> {
     }
 
     /// The sample in a legend between the spots `from` and `to`.
-    pub(crate) fn draw_sample(&self, on: &mut dyn Surface, [from, to]: [Spot; 2], size: f64) {
+    pub(crate) fn draw_sample(&self, on: &mut dyn DrawTarget, [from, to]: [Spot; 2], size: f64) {
         let middle = [(from[0] + to[0]) / 2.0, from[1]];
         match self.series.style {
             Style::Band(_) => {
@@ -76,7 +76,7 @@ impl<'a> Mark<'a> {
         }
     }
 
-    fn draw_stretch(&self, on: &mut dyn Surface, stretch: &[Spot], size: f64) {
+    fn draw_stretch(&self, on: &mut dyn DrawTarget, stretch: &[Spot], size: f64) {
         let style = &self.series.style;
         if *style != Style::Markers {
             on.line(&thinned(stretch), self.pen(size));
@@ -93,7 +93,7 @@ impl<'a> Mark<'a> {
         }
     }
 
-    fn draw_band(&self, on: &mut dyn Surface, axes: &Axes, upper: &[f64]) {
+    fn draw_band(&self, on: &mut dyn DrawTarget, axes: &Axes, upper: &[f64]) {
         let edges = self.series.points.iter().zip(upper);
         let edges: Vec<([f64; 2], f64)> = edges.map(|(&p, &y)| (p, y)).collect();
         let visible = |(p, y): &([f64; 2], f64)| {
@@ -111,7 +111,7 @@ impl<'a> Mark<'a> {
     }
 
     /// Circle, square, diamond and triangle in turn.
-    fn draw_marker(&self, on: &mut dyn Surface, [x, y]: Spot, size: f64) {
+    fn draw_marker(&self, on: &mut dyn DrawTarget, [x, y]: Spot, size: f64) {
         let r = 0.27 * size;
         let fill = Fill::solid(self.colour());
         match self.number % 4 {

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::drawing::canvas::Canvas;
+use crate::drawing::draw_target::{DrawTarget, Rect};
 use crate::drawing::plot::Plot;
-use crate::drawing::surface::{Rect, Surface};
 use crate::drawing::svg::Svg;
 use crate::error::{IoError, Result};
 
@@ -59,7 +59,7 @@ impl Panels {
         canvas.save(path)
     }
 
-    fn draw(&self, on: &mut dyn Surface) {
+    fn draw(&self, on: &mut dyn DrawTarget) {
         let [width, height] = PANEL.map(f64::from);
         for (k, plot) in self.0.iter().enumerate() {
             let left = width * k as f64;

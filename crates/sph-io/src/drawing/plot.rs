@@ -7,10 +7,10 @@ use std::path::Path;
 
 use crate::drawing::axes::{Axes, Axis, left_room, shown};
 use crate::drawing::canvas::Canvas;
+use crate::drawing::draw_target::{Anchor, DrawTarget, Lettering, Rect};
 use crate::drawing::drawn_series::{Series, Style};
 use crate::drawing::legend::Legend;
 use crate::drawing::mark::Mark;
-use crate::drawing::surface::{Anchor, Lettering, Rect, Surface};
 use crate::drawing::svg::Svg;
 use crate::drawing::ticks::widened;
 use crate::error::{IoError, Result};
@@ -103,7 +103,7 @@ impl Plot {
     }
 
     /// Draws the plot into a part of a surface.
-    pub(crate) fn draw(&self, on: &mut dyn Surface, place: &Rect) {
+    pub(crate) fn draw(&self, on: &mut dyn DrawTarget, place: &Rect) {
         let axes = self.axes(place);
         let marks: Vec<Mark> = self.series.iter().enumerate().map(Mark::new).collect();
         axes.draw_grid(on);

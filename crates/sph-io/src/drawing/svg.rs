@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::drawing::colour::Colour;
-use crate::drawing::surface::{Anchor, Fill, Lettering, Pen, Spot, Surface};
+use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Spot};
 use crate::error::Result;
 use crate::files::atomic::{Durability, write_atomic};
 use crate::paraview::xml::escape;
@@ -46,7 +46,7 @@ impl Svg {
     }
 }
 
-impl Surface for Svg {
+impl DrawTarget for Svg {
     fn line(&mut self, points: &[Spot], pen: Pen) {
         let (list, colour, width) = (list(points), code(pen.colour), pen.width);
         let dash = if pen.dashed {
