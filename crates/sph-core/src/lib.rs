@@ -52,7 +52,7 @@ pub use kinds::{KindInfo, Place, kind_of, kinds};
 pub use limit::StepLimit;
 pub use plan::{Plan, plan};
 pub use registry::{
-    Contract, ContractInfo, Makes, Parameter, PluginInfo, Registry, contracts, parameters,
+    Contract, ContractInfo, Makes, Parameter, PluginInfo, Registry, contracts, node_of, parameters,
     registry_contract_info, schema_of, typed,
 };
 pub use saved::Saved;

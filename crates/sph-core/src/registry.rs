@@ -29,7 +29,7 @@ pub struct PluginInfo {
 pub struct Parameter {
     /// Key in the scene.
     pub name: String,
-    /// Type as the schema names it.
+    /// Type as the schema names it, `table`, or `choice`.
     pub kind: String,
     /// SI unit, "1" or empty where there is none.
     pub unit: String,
@@ -39,6 +39,14 @@ pub struct Parameter {
     pub meaning: String,
     /// Where it comes from.
     pub source: String,
+}
+
+/// The node of a schema that describes a parameter: the parameter itself, or the definition that it refers to.
+pub fn node_of<'s>(parameter: &'s Json, schema: &'s Json) -> &'s Json {
+    let name = parameter["$ref"].as_str();
+    let name = name.or_else(|| parameter["anyOf"][0]["$ref"].as_str());
+    let defined = name.and_then(|name| schema.pointer(name.strip_prefix('#')?));
+    defined.unwrap_or(parameter)
 }
 
 /// The parameters that a schema describes.
@@ -53,9 +61,10 @@ pub fn parameters(schema: &Json) -> Vec<Parameter> {
         .flatten()
         .map(|(name, p)| Parameter {
             name: name.clone(),
-            kind: match p.get("type") {
-                Some(Json::String(kind)) => kind.clone(),
-                Some(Json::Array(kinds)) => kinds[0].as_str().unwrap_or_default().to_string(),
+            kind: match &node_of(p, schema)["type"] {
+                Json::String(kind) if kind == "object" => "table".to_string(),
+                Json::String(kind) if p.get("type").is_some() => kind.clone(),
+                Json::Array(kinds) => kinds[0].as_str().unwrap_or_default().to_string(),
                 _ => "choice".to_string(),
             },
             unit: text(p, "unit"),
@@ -192,9 +201,21 @@ fn one_problem(message: &str) -> RegistryError {
     RegistryError::Parameters(vec![SceneProblem::new("", message)])
 }
 
-/// The JSON schema of a parameter type.
+/// The JSON schema of a parameter type; that of a transparent wrapper is that of the type within.
 pub fn schema_of<P: JsonSchema>() -> Json {
-    schemars::schema_for!(P).to_value()
+    let mut schema = schemars::schema_for!(P).to_value();
+    while let Some(within) = schema.get("$ref").and_then(Json::as_str) {
+        let Some(mut found) = within
+            .strip_prefix('#')
+            .and_then(|p| schema.pointer(p))
+            .cloned()
+        else {
+            break;
+        };
+        found["$defs"] = schema["$defs"].take();
+        schema = found;
+    }
+    schema
 }
 
 /// Declares a kind of plugin: `contract!(/** doc */ pub WallEntry, "walls", "what for", Wall<D>)`

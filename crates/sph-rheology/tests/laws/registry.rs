@@ -35,6 +35,35 @@ register!(
     "Newton 1687"
 );
 
+/// Makes a law of another type.
+#[derive(Deserialize, JsonSchema)]
+#[serde(transparent)]
+struct Wrapped(Newtonian);
+
+/// A wrapper of a wrapper, with a choice beside it.
+#[derive(Deserialize, JsonSchema)]
+#[serde(transparent)]
+struct Twice(Wrapped);
+
+/// Parameters of all types.
+#[derive(Deserialize, JsonSchema)]
+#[expect(dead_code, reason = "only its schema is asked for")]
+struct Varied {
+    form: Form,
+    perhaps: Option<Form>,
+    inner: Option<Newtonian>,
+    number: Option<f64>,
+}
+
+/// One of two.
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[expect(dead_code, reason = "only its schema is asked for")]
+enum Form {
+    Rough,
+    Smooth,
+}
+
 fn table(text: &str) -> toml::Table {
     toml::from_str(text).unwrap()
 }
@@ -81,4 +110,34 @@ fn the_same_name_twice_is_refused() {
         twice,
         RegistryError::Duplicate { name: "same", .. }
     ));
+}
+
+/// `Lanewise` and `Term` are such wrappers of terms.
+#[test]
+fn a_transparent_wrapper_has_the_parameters_and_the_text_of_the_type_within() {
+    for schema in [
+        sph_core::schema_of::<Wrapped>(),
+        sph_core::schema_of::<Twice>(),
+    ] {
+        assert_eq!(schema["description"], "τ = η γ̇");
+        let listed = sph_core::parameters(&schema);
+        assert_eq!(
+            (listed.len(), listed[0].name.as_str()),
+            (1, "viscosity"),
+            "{schema}"
+        );
+    }
+}
+
+#[test]
+fn tables_and_choices_are_told_apart() {
+    let listed = sph_core::parameters(&sph_core::schema_of::<Varied>());
+    let kinds = listed.iter().map(|p| (p.name.as_str(), p.kind.as_str()));
+    let expected = [
+        ("form", "choice"),
+        ("inner", "table"),
+        ("number", "number"),
+        ("perhaps", "choice"),
+    ];
+    assert_eq!(kinds.collect::<Vec<_>>(), expected);
 }
