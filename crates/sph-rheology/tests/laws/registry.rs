@@ -38,12 +38,12 @@ register!(
 /// Makes a law of another type.
 #[derive(Deserialize, JsonSchema)]
 #[serde(transparent)]
-struct Wrapped(Newtonian);
+struct Wrapped(#[expect(dead_code, reason = "only its schema is asked for")] Newtonian);
 
 /// A wrapper of a wrapper, with a choice beside it.
 #[derive(Deserialize, JsonSchema)]
 #[serde(transparent)]
-struct Twice(Wrapped);
+struct Twice(#[expect(dead_code, reason = "only its schema is asked for")] Wrapped);
 
 /// Parameters of all types.
 #[derive(Deserialize, JsonSchema)]
@@ -58,7 +58,6 @@ struct Varied {
 /// One of two.
 #[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-#[expect(dead_code, reason = "only its schema is asked for")]
 enum Form {
     Rough,
     Smooth,
