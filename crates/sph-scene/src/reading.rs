@@ -2,6 +2,7 @@
 
 pub(crate) mod columns;
 pub(crate) mod files;
+pub(crate) mod hints;
 pub(crate) mod kinematic;
 pub(crate) mod limits;
 pub(crate) mod load;

@@ -10,7 +10,7 @@ use crate::checks::problems::Problems;
 use crate::{Motion, Norm, Reference, Scene, Source};
 
 /// Kinds of tables with names that the user chooses.
-const NAMED: [&str; 7] = [
+pub(crate) const NAMED: [&str; 7] = [
     "wall",
     "phase",
     "body",

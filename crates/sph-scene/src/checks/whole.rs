@@ -8,27 +8,15 @@ use crate::checks::names::{self, inside};
 use crate::checks::overlap;
 use crate::checks::problems::Problems;
 use crate::checks::time;
+use crate::reading::plugins::holders;
 use crate::{Scene, Source};
 
 /// Checks that need no types: names, and one plugin where there is to be one.
 pub(crate) fn tables(scene: &Table) -> Vec<SceneProblem> {
     let mut found = Problems(Vec::new());
-    let mut nested = vec![("body", "initial")];
-    for kind in kinds() {
-        match kind.place {
-            Place::One => single(scene.get(kind.name), kind.name, &mut found),
-            Place::InPhase => nested.push(("phase", kind.name)),
-            Place::InWall => nested.push(("wall", kind.name)),
-            Place::Any | Place::Probe | Place::Solution => {}
-        }
-    }
-    for (parent, kind) in nested {
-        for (name, keys) in inside(scene.get(parent)) {
-            single(
-                keys.get(kind),
-                &format!("{parent}.{name}.{kind}"),
-                &mut found,
-            );
+    for kind in kinds().into_iter().filter(|k| k.place != Place::Any) {
+        for (path, held) in holders(kind, scene) {
+            single(held, &path, &mut found);
         }
     }
     for (name, keys) in inside(scene.get("phase")) {
@@ -45,8 +33,10 @@ pub(crate) fn tables(scene: &Table) -> Vec<SceneProblem> {
     found.0
 }
 
-fn single(plugins: Option<&Value>, path: &str, found: &mut Problems) {
-    let names: Vec<&str> = inside(plugins).map(|(name, _)| name.as_str()).collect();
+fn single(plugins: &Value, path: &str, found: &mut Problems) {
+    let names: Vec<&str> = inside(Some(plugins))
+        .map(|(name, _)| name.as_str())
+        .collect();
     if let [_, .., last] = names.as_slice() {
         let list: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
         let message = format!("only one plugin can stand here, found {}", list.join(", "));

@@ -1,9 +1,7 @@
 //! Viscosities that are given as kinematic ones: η = ρν with the density of the phase.
 
 use sph_core::{contracts, parameters, parse_quantity};
-use toml::Value;
-
-use crate::Scene;
+use toml::{Table, Value};
 
 const DYNAMIC: &str = "Pa s";
 const KINEMATIC: &str = "m²/s";
@@ -11,23 +9,36 @@ const KINEMATIC: &str = "m²/s";
 /// Turns every text of a law that is in m²/s, where its parameter is in Pa s, into pascal seconds.
 ///
 /// A number without a unit is left in Pa s, as all other texts are left to whoever builds the law.
-pub(crate) fn to_dynamic(scene: &mut Scene) {
+pub(crate) fn to_dynamic(scene: &mut Table) {
     let laws = contracts().into_iter().find(|c| c.kind == "rheology");
     let laws = laws.map_or(Vec::new(), |c| (c.plugins)());
-    for phase in scene.phase.values_mut() {
-        for (name, table) in &mut phase.rheology {
+    let phases = scene.get_mut("phase").and_then(Value::as_table_mut);
+    for (_, phase) in phases.into_iter().flatten() {
+        let density = phase.get("density").and_then(density);
+        let chosen = phase.get_mut("rheology").and_then(Value::as_table_mut);
+        for (name, keys) in chosen.into_iter().flatten() {
             let Some(law) = laws.iter().find(|law| law.name == name) else {
                 continue;
             };
             let dynamic = parameters(&(law.schema)()).into_iter();
             for parameter in dynamic.filter(|p| p.unit == DYNAMIC) {
-                if let Some(value) = table.get_mut(&parameter.name)
+                if let Some(value) = keys.get_mut(&parameter.name)
                     && let Some(kinematic) = kinematic(value)
                 {
-                    *value = Value::Float(phase.density * kinematic);
+                    // Without a density the scene is refused for that.
+                    *value = Value::Float(density.unwrap_or(1.0) * kinematic);
                 }
             }
         }
+    }
+}
+
+/// A density as it stands in a scene, kg/m³.
+fn density(value: &Value) -> Option<f64> {
+    match value {
+        Value::Float(density) => Some(*density),
+        Value::Integer(density) => Some(*density as f64),
+        text => parse_quantity(text.as_str()?, "kg/m³").ok(),
     }
 }
 

@@ -12,6 +12,7 @@ use toml::{Table, Value};
 use crate::Scene;
 use crate::checks::whole;
 use crate::reading::columns;
+use crate::reading::hints;
 use crate::reading::kinematic;
 use crate::reading::limits;
 use crate::reading::plugins::Plugins;
@@ -43,7 +44,7 @@ impl Loaded {
 /// A scene that is not valid.
 #[derive(Clone, Debug)]
 pub struct Refused {
-    /// Every mistake found, sorted by position.
+    /// The mistakes found, sorted by position.
     pub diagnostics: Vec<Diagnostic>,
     /// The text they stand in.
     pub source: Source,
@@ -80,7 +81,7 @@ pub enum LoadError {
 /// Reads a scene file, with overrides put on top.
 ///
 /// # Errors
-/// If the file cannot be read, or with every mistake in it.
+/// If the file cannot be read, or with the mistakes in it: all of its form and its plugins, or else all of what it says.
 pub fn load(path: &Path, overrides: &[Override]) -> Result<Loaded, LoadError> {
     load_allowing(path, overrides, &[])
 }
@@ -128,17 +129,20 @@ pub fn read(source: Source) -> Result<Loaded, Refused> {
 fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     let diagnosed = |problems: Vec<SceneProblem>| source.diagnose(&problems);
     let unread = |e: toml::de::Error| diagnosed(vec![SceneProblem::new("", e.message())]);
-    let (mut table, mut remarks) = resolved(source)?;
+    let (resolved, mut remarks) = resolved(source)?;
+    let mut whole = resolved.as_table().cloned().unwrap_or_default();
+    kinematic::to_dynamic(&mut whole);
+    let (of_plugins, mistakes) = remarks::of_plugins(&whole);
+    let mut table = Value::Table(whole.clone());
     let plugins = take_plugins(&mut table).map_err(unread)?;
     let mut scene: Scene = table.try_into().map_err(unread)?;
     scene.plugins = plugins;
-    kinematic::to_dynamic(&mut scene);
     let mut problems = whole::scene(&mut scene, source);
+    add_new(&mut problems, mistakes);
     if !problems.is_empty() {
-        add_new(&mut problems, remarks::mistakes(&scene));
-        return Err(diagnosed(problems));
+        return Err(diagnosed(hints::added(problems, &whole)));
     }
-    remarks.extend(remarks::of_plugins(&scene));
+    remarks.extend(of_plugins);
     let remarks = source.diagnose(&remarks);
     scene.remarks = remarks.iter().map(Diagnostic::to_string).collect();
     Ok(scene)
@@ -168,7 +172,8 @@ fn resolved(source: &Source) -> Result<(Value, Vec<SceneProblem>), Vec<Diagnosti
     }
     problems.extend(whole::tables(&table));
     problems.extend(columns::convert(&mut table));
-    let mistakes = remarks::mistakes_in_tables(&table);
+    let mut written = table.clone();
+    kinematic::to_dynamic(&mut written);
     let mut value = Value::Table(table);
     let remarks = conform(&mut value, &schema::of_scene()).unwrap_or_else(|found| {
         problems.extend(found);
@@ -177,8 +182,8 @@ fn resolved(source: &Source) -> Result<(Value, Vec<SceneProblem>), Vec<Diagnosti
     match problems.is_empty() {
         true => Ok((value, remarks)),
         false => {
-            add_new(&mut problems, mistakes);
-            Err(diagnosed(problems))
+            add_new(&mut problems, remarks::of_plugins(&written).1);
+            Err(diagnosed(hints::added(problems, &written)))
         }
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{KindInfo, Place, RegistryError, SceneProblem, kinds};
-use toml::Table;
+use toml::{Table, Value};
 
 /// Tables that hold exactly one plugin, as the keys that lead to them.
 fn single_tables() -> Vec<Vec<&'static str>> {
@@ -88,23 +88,93 @@ impl PluginChoice {
     }
 }
 
-/// Every entry of a table of plugins, as choices.
-pub(crate) fn several(kind: &'static str, plugins: &Plugins) -> Vec<PluginChoice> {
-    let choice = |(name, table): (&String, &Table)| PluginChoice {
-        table: table.clone(),
-        ..PluginChoice::default_of(kind, name)
+/// The tables of a scene that hold plugins of a kind, with their paths; probes and references hold theirs otherwise.
+pub(crate) fn holders<'t>(kind: &KindInfo, scene: &'t Table) -> Vec<(String, &'t Value)> {
+    let nested = |root: &str, key: &str| {
+        let named = scene.get(root).and_then(Value::as_table);
+        let held = |(name, keys): (&String, &'t Value)| {
+            Some((format!("{root}.{name}.{key}"), keys.get(key)?))
+        };
+        named.into_iter().flatten().filter_map(held).collect()
     };
-    plugins.iter().map(choice).collect()
+    match kind.place {
+        Place::One | Place::Any => {
+            let own = scene.get(kind.name);
+            own.map(|held| (kind.name.to_string(), held))
+                .into_iter()
+                .collect()
+        }
+        Place::InPhase => nested("phase", kind.name),
+        Place::InWall => nested("wall", kind.name),
+        Place::Solution => nested("body", "initial"),
+        Place::Probe => Vec::new(),
+    }
+}
+
+/// The plugins of such a table, as far as they are tables themselves.
+pub(crate) fn in_table<'t, T: Into<Value> + Clone + 't>(
+    kind: &'static str,
+    held: impl IntoIterator<Item = (&'t String, &'t T)>,
+    path: &str,
+) -> Vec<PluginChoice> {
+    let choice = |(name, table): (&String, &T)| {
+        let Value::Table(table) = table.clone().into() else {
+            return None;
+        };
+        let path = format!("{path}.{name}");
+        Some(PluginChoice {
+            kind,
+            name: name.clone(),
+            table,
+            path: path.clone(),
+            name_path: path,
+        })
+    };
+    held.into_iter().filter_map(choice).collect()
+}
+
+/// The probes of `[probe]` or `[gauge]`: the name of each and its plugin.
+pub(crate) fn probes<'t, T: Into<Value> + Clone + 't>(
+    parent: &str,
+    tables: impl IntoIterator<Item = (&'t String, &'t T)>,
+) -> Vec<(String, PluginChoice)> {
+    let choice = |(name, table): (&String, &T)| {
+        let Value::Table(mut table) = table.clone().into() else {
+            return None;
+        };
+        let Some(Value::String(kind)) = table.remove("kind") else {
+            return None;
+        };
+        let path = format!("{parent}.{name}");
+        let choice = PluginChoice {
+            kind: "probe",
+            name: kind,
+            table,
+            name_path: format!("{path}.kind"),
+            path,
+        };
+        Some((name.clone(), choice))
+    };
+    tables.into_iter().filter_map(choice).collect()
+}
+
+/// The solutions of the references of a scene.
+pub(crate) fn solutions(scene: &Table) -> Vec<PluginChoice> {
+    let all = scene.get("reference").and_then(Value::as_table);
+    let choice = |(name, given): (&String, &Value)| {
+        let parameters = given.get("parameters").and_then(Value::as_table);
+        Some(PluginChoice {
+            kind: "solution",
+            name: given.get("solution")?.as_str()?.to_string(),
+            table: parameters.cloned().unwrap_or_default(),
+            path: format!("reference.{name}.parameters"),
+            name_path: format!("reference.{name}.solution"),
+        })
+    };
+    all.into_iter().flatten().filter_map(choice).collect()
 }
 
 /// The only entry of a table of plugins, as a choice.
 pub(crate) fn single(kind: &'static str, plugins: &Plugins, parent: &str) -> Option<PluginChoice> {
-    let (name, table) = plugins.first_key_value()?;
-    Some(PluginChoice {
-        kind,
-        name: name.clone(),
-        table: table.clone(),
-        path: format!("{parent}.{name}"),
-        name_path: format!("{parent}.{name}"),
-    })
+    in_table(kind, plugins, parent).into_iter().next()
 }

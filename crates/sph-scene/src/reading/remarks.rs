@@ -4,36 +4,18 @@ use scene_text::suggestion;
 use sph_core::{PluginInfo, RegistryError, SceneProblem, conform, contracts, kinds};
 use toml::{Table, Value};
 
-use crate::Scene;
-use crate::reading::plugins::{PluginChoice, Plugins, several};
+use crate::reading::plugins::{PluginChoice, holders, in_table, probes, solutions};
 
-/// What is to be said of the parameters of every plugin that is known by its name; those that are wrong are left
-/// to whoever builds it.
-pub(crate) fn of_plugins(scene: &Scene) -> Vec<SceneProblem> {
-    let checked = choices(scene).into_iter().map(|c| check(&c));
-    checked.filter_map(Result::ok).flatten().collect()
-}
-
-/// Names and parameters that are wrong, for a scene that is refused for another reason: all is told at once.
-pub(crate) fn mistakes(scene: &Scene) -> Vec<SceneProblem> {
-    let checked = choices(scene).into_iter().map(|c| check(&c));
-    checked.filter_map(Result::err).flatten().collect()
-}
-
-/// The same for a table that is no scene, of the plugins with a table of the scene's own.
-pub(crate) fn mistakes_in_tables(table: &Table) -> Vec<SceneProblem> {
-    let mut found = Vec::new();
-    for kind in kinds().into_iter().filter(|k| k.has_table()) {
-        let Some(Ok(plugins)) = table
-            .get(kind.name)
-            .map(|t| t.clone().try_into::<Plugins>())
-        else {
-            continue;
-        };
-        let checked = several(kind.name, &plugins).into_iter().map(|c| check(&c));
-        found.extend(checked.filter_map(Result::err).flatten());
+/// Of every plugin that a scene names: remarks on its parameters, and what is wrong with its name or with them.
+pub(crate) fn of_plugins(scene: &Table) -> (Vec<SceneProblem>, Vec<SceneProblem>) {
+    let (mut remarks, mut mistakes) = (Vec::new(), Vec::new());
+    for choice in choices(scene) {
+        match check(&choice) {
+            Ok(found) => remarks.extend(found),
+            Err(found) => mistakes.extend(found),
+        }
     }
-    found
+    (remarks, mistakes)
 }
 
 /// Remarks on the parameters of a plugin, or what is wrong with its name or with them.
@@ -64,16 +46,20 @@ fn unknown(choice: &PluginChoice, plugins: &[PluginInfo]) -> RegistryError {
     }
 }
 
-/// Every plugin that the scene names.
-fn choices(scene: &Scene) -> Vec<PluginChoice> {
-    let named = kinds().into_iter().flat_map(|k| scene.choices(k.name));
-    let mut all: Vec<_> = named.collect();
-    for phase in scene.phase.keys() {
-        all.extend(scene.equation_of_state(phase));
-        all.extend(scene.rheology(phase));
+/// Every plugin that a scene names, in whatever form the rest of the scene is.
+fn choices(scene: &Table) -> Vec<PluginChoice> {
+    let mut all = Vec::new();
+    for kind in kinds() {
+        for (path, held) in holders(kind, scene) {
+            let held = held.as_table().into_iter().flatten();
+            all.extend(in_table(kind.name, held, &path));
+        }
     }
-    all.extend(scene.body.keys().filter_map(|body| scene.initial(body)));
-    all.extend(scene.reference.keys().filter_map(|r| scene.solution(r)));
-    all.extend(scene.probes().into_iter().map(|(_, probe)| probe));
+    for parent in ["probe", "gauge"] {
+        let tables = scene.get(parent).and_then(Value::as_table);
+        let found = tables.map(|tables| probes(parent, tables));
+        all.extend(found.into_iter().flatten().map(|(_, probe)| probe));
+    }
+    all.extend(solutions(scene));
     all
 }

@@ -6,10 +6,9 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{SceneProblem, Vect};
-use toml::Value;
 
 use crate::geometry::vector::array;
-use crate::reading::plugins::{PluginChoice, Plugins, Probe, several, single};
+use crate::reading::plugins::{PluginChoice, Plugins, Probe, in_table, probes, single};
 use crate::{Body, Numerics, Outlet, Output, Phase, Reference, Region, Run, Wall};
 
 /// Displacement at the start, over the spacing, where particles are shifted and the scene says nothing.
@@ -138,7 +137,7 @@ impl Scene {
     /// The plugins that the scene names of a kind of which it has one or any number.
     pub fn choices(&self, kind: &str) -> Vec<PluginChoice> {
         match self.plugins.get_key_value(kind) {
-            Some((kind, plugins)) => several(kind, plugins),
+            Some((kind, plugins)) => in_table(kind, plugins, kind),
             None => Vec::new(),
         }
     }
@@ -201,27 +200,8 @@ impl Scene {
 
     /// Probes and gauges: the name of each and its plugin.
     pub fn probes(&self) -> Vec<(String, PluginChoice)> {
-        let of = |parent: &'static str, tables: &Plugins| {
-            let choice = |(name, table): (&String, &toml::Table)| {
-                let mut table = table.clone();
-                let kind = table.remove("kind").and_then(|k| match k {
-                    Value::String(kind) => Some(kind),
-                    _ => None,
-                })?;
-                let path = format!("{parent}.{name}");
-                let choice = PluginChoice {
-                    kind: "probe",
-                    name: kind,
-                    table,
-                    name_path: format!("{path}.kind"),
-                    path,
-                };
-                Some((name.clone(), choice))
-            };
-            tables.iter().filter_map(choice).collect::<Vec<_>>()
-        };
-        let mut all = of("probe", &self.probe);
-        all.extend(of("gauge", &self.gauge));
+        let mut all = probes("probe", &self.probe);
+        all.extend(probes("gauge", &self.gauge));
         all.sort_by(|a, b| a.0.cmp(&b.0));
         all
     }

@@ -1,0 +1,169 @@
+//! Hints at the place where a table was probably meant to stand.
+
+use sph_core::{KindInfo, Place, SceneProblem, contracts, kind_of, kinds, nearest};
+use toml::{Table, Value};
+
+use crate::checks::names::NAMED;
+use crate::reading::plugins::holders;
+
+/// The problems of a scene; where a plugin or a name stands in the wrong place, one problem with the right place instead
+/// of those that follow from it.
+pub(crate) fn added(problems: Vec<SceneProblem>, scene: &Table) -> Vec<SceneProblem> {
+    let mut told: Vec<SceneProblem> = Vec::new();
+    let mut explained: Vec<String> = Vec::new();
+    for mut problem in problems {
+        if explained
+            .iter()
+            .any(|table| is_within(&problem.path, table))
+        {
+            continue;
+        }
+        if let Some((table, message)) = explanation(&problem, scene) {
+            told.retain(|other| !is_within(&other.path, &table));
+            problem.message = message;
+            explained.push(table);
+        }
+        told.push(problem);
+    }
+    told
+}
+
+fn is_within(path: &str, table: &str) -> bool {
+    let rest = path.strip_prefix(table);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+}
+
+/// The table that a mistake of place explains, and the message.
+fn explanation(problem: &SceneProblem, scene: &Table) -> Option<(String, String)> {
+    let path: Vec<&str> = problem.path.split('.').collect();
+    let (last, parents) = path.split_last()?;
+    let value = at(scene, &path)?;
+    let (whole, message) = (problem.path.clone(), &problem.message);
+    if message.contains("is not a known key") {
+        let place = places(last, value, parents)?;
+        return Some((whole, format!("`{last}` is not a known key here: {place}")));
+    }
+    if message.starts_with("expected a table, found") {
+        let (table, place) =
+            named_by_a_key(&problem.path, scene).or_else(|| without_a_name(&path))?;
+        return Some((table, format!("{message}: {place}")));
+    }
+    let [root, name] = path.as_slice() else {
+        return None;
+    };
+    if ["probe", "gauge"].contains(root) && message.starts_with("the key `kind` is missing") {
+        return Some((whole, kind_of_probe(name, value.as_table()?)?));
+    }
+    if NAMED.contains(root) && message.contains("is missing") {
+        let place = places(name, value, &[*root])?;
+        let name = format!("`{name}` is a name that you choose");
+        return Some((whole, format!("{message} ({name}; {place})")));
+    }
+    None
+}
+
+fn at<'t>(scene: &'t Table, path: &[&str]) -> Option<&'t Value> {
+    let (first, rest) = path.split_first()?;
+    rest.iter()
+        .try_fold(scene.get(*first)?, |value, key| value.get(*key))
+}
+
+/// Where plugins of a name stand, or those of a kind of that name.
+fn places(name: &str, value: &Value, parents: &[&str]) -> Option<String> {
+    if let Some(kind) = kind_of(name) {
+        let only = value.as_table().and_then(|table| table.keys().next());
+        let plugin = only.filter(|plugin| is_of(kind, plugin));
+        let place = place(kind, plugin.map_or("PLUGIN", String::as_str), parents);
+        return Some(format!("plugins of the kind `{name}` stand in {place}"));
+    }
+    let all = kinds().into_iter().filter(|kind| is_of(kind, name));
+    let each = all.map(|kind| {
+        let place = place(kind, name, parents);
+        format!(
+            "the plugin `{name}` of the kind `{}` stands in {place}",
+            kind.name
+        )
+    });
+    let each: Vec<String> = each.collect();
+    (!each.is_empty()).then(|| each.join(", "))
+}
+
+fn plugins_of(kind: &KindInfo) -> Vec<&'static str> {
+    let found = contracts().into_iter().find(|c| c.kind == kind.name);
+    let all = found.map_or(Vec::new(), |c| (c.plugins)());
+    all.iter().map(|plugin| plugin.name).collect()
+}
+
+fn is_of(kind: &KindInfo, plugin: &str) -> bool {
+    plugins_of(kind).contains(&plugin)
+}
+
+/// The table of a plugin, with the name that the user chose where there is one.
+fn place(kind: &KindInfo, plugin: &str, parents: &[&str]) -> String {
+    let own = |root: &str| match parents {
+        [first, name, ..] if *first == root && kind_of(name).is_none() => name.to_string(),
+        _ => "NAME".to_string(),
+    };
+    let inner = kind.name;
+    match kind.place {
+        Place::One | Place::Any => format!("`[{inner}.{plugin}]`"),
+        Place::InPhase => format!("`[phase.{}.{inner}.{plugin}]`", own("phase")),
+        Place::InWall => format!("`[wall.{}.{inner}.{plugin}]`", own("wall")),
+        Place::Probe => format!("`[probe.{}]` with `kind = \"{plugin}\"`", own("probe")),
+        Place::Solution if parents.first() == Some(&"reference") => {
+            format!(
+                "`[reference.{}]` with `solution = \"{plugin}\"`",
+                own("reference")
+            )
+        }
+        Place::Solution => format!("`[body.{}.initial.{plugin}]`", own("body")),
+    }
+}
+
+/// A plugin that a key names, `kernel = "wendland-c2"` or `kernel.kind = "wendland-c2"`, where its table has to.
+fn named_by_a_key(path: &str, scene: &Table) -> Option<(String, String)> {
+    let single = kinds()
+        .into_iter()
+        .filter(|kind| kind.place != Place::Probe);
+    let mut held = single.flat_map(|kind| {
+        let tables = holders(kind, scene).into_iter();
+        tables.map(move |(table, held)| (kind, table, held))
+    });
+    let (kind, table, held) = held.find(|(_, table, _)| is_within(path, table))?;
+    let within = held
+        .as_table()
+        .into_iter()
+        .flatten()
+        .map(|(_, value)| value);
+    let mut names = std::iter::once(held)
+        .chain(within)
+        .filter_map(Value::as_str);
+    let plugin = names.find(|name| is_of(kind, name)).unwrap_or("PLUGIN");
+    let message = format!("a table names the plugin, `[{table}.{plugin}]`");
+    Some((table, message))
+}
+
+/// Keys of a wall, phase, … that stand in `[wall]`, `[phase]`, ….
+fn without_a_name(path: &[&str]) -> Option<(String, String)> {
+    let root = path
+        .first()
+        .filter(|root| NAMED.contains(root) && path.len() <= 2)?;
+    let message = format!("its name is one that you choose, `[{root}.NAME]`");
+    Some((root.to_string(), message))
+}
+
+fn kind_of_probe(name: &str, table: &Table) -> Option<String> {
+    let known = kind_of("probe").map_or(Vec::new(), plugins_of);
+    let texts = table.values().filter_map(Value::as_str);
+    let inner = table.keys().map(String::as_str);
+    let meant = inner.chain(texts).find(|text| known.contains(text));
+    let meant = meant.or_else(|| nearest(name, known.iter().copied()));
+    let head = format!(
+        "the key `kind` is missing: the plugin that measures (`{name}` is a name that you choose)"
+    );
+    match meant {
+        Some(plugin) => Some(format!("{head}, did you mean `kind = \"{plugin}\"`?")),
+        None if known.is_empty() => None,
+        None => Some(format!("{head}, one of {}", known.join(", "))),
+    }
+}
