@@ -1,5 +1,6 @@
 //! `sph plugins`.
 
+mod choices;
 mod kernel_picture;
 mod page;
 mod picture;
@@ -178,6 +179,12 @@ fn parameter_text(parameter: &Parameter, schema: &Json) -> String {
         parameter.name, parameter.kind
     );
     text.push_str(&paragraph(6, 98, &parameter.meaning));
+    for (k, choice) in choices::of(schema, &parameter.name).iter().enumerate() {
+        let lead = if k == 0 { "one of " } else { "or " };
+        let colon = if choice.meaning.is_empty() { "" } else { ": " };
+        let line = format!("{lead}{}{colon}{}", choice.value, choice.meaning);
+        text.push_str(&paragraph(8, 98, &line));
+    }
     if !parameter.source.is_empty() {
         text.push_str(&paragraph(6, 98, &format!("source: {}", parameter.source)));
     }
@@ -190,27 +197,6 @@ fn required(schema: &Json, name: &str) -> bool {
     listed.into_iter().flatten().any(|r| r == name)
 }
 
-/// The texts that a parameter may be, if it is one of a few.
-fn choices(schema: &Json, name: &str) -> Vec<String> {
-    let property = &schema["properties"][name];
-    let options = property["anyOf"].as_array().into_iter().flatten();
-    let places = std::iter::once(property).chain(options);
-    let resolved = places.map(|p| {
-        let target = p["$ref"].as_str().and_then(|r| r.strip_prefix('#'));
-        target.and_then(|t| schema.pointer(t)).unwrap_or(p)
-    });
-    let each = resolved.flat_map(|p| {
-        let tagged = p["oneOf"]
-            .as_array()
-            .into_iter()
-            .flatten()
-            .map(|o| &o["const"]);
-        p["enum"].as_array().into_iter().flatten().chain(tagged)
-    });
-    each.filter_map(|c| Some(format!("\"{}\"", c.as_str()?)))
-        .collect()
-}
-
 fn kind_json(kind: &ContractInfo) -> Json {
     let plugins = (kind.plugins)();
     let plugins: Vec<Json> = plugins.iter().map(|p| plugin_json(kind.kind, p)).collect();
@@ -221,9 +207,11 @@ fn plugin_json(kind: &str, plugin: &PluginInfo) -> Json {
     let schema = (plugin.schema)();
     let all = parameters(&schema).into_iter().map(|p| {
         let required = required(&schema, &p.name);
+        let choices = choices::of(&schema, &p.name).into_iter();
+        let choices: Vec<String> = choices.map(|c| c.value).collect();
         json!({
             "name": p.name, "type": p.kind, "unit": p.unit, "default": p.default,
-            "required": required, "choices": choices(&schema, &p.name), "meaning": p.meaning, "source": p.source,
+            "required": required, "choices": choices, "meaning": p.meaning, "source": p.source,
         })
     });
     json!({

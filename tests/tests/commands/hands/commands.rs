@@ -83,3 +83,33 @@ fn manual_pages_are_printed_and_written() {
         );
     }
 }
+
+#[test]
+fn the_values_of_every_choice_are_listed() {
+    let listed = bench().done("plugins --json").out;
+    let kinds: serde_json::Value = serde_json::from_str(&listed).expect("JSON");
+    let plugins = kinds.as_array().into_iter().flatten();
+    let plugins = plugins.flat_map(|kind| kind["plugins"].as_array().into_iter().flatten());
+    let parameters = plugins.flat_map(|p| p["parameters"].as_array().into_iter().flatten());
+    let choices: Vec<_> = parameters.filter(|p| p["type"] == "choice").collect();
+    assert!(choices.len() > 30, "{}", choices.len());
+    for parameter in choices {
+        let values = parameter["choices"].as_array().map_or(0, Vec::len);
+        assert!(values > 1, "{parameter}");
+    }
+    for (plugin, value) in [
+        (
+            "viscous-operator morris",
+            "or \"rows\": Scaled to be exact in the mean",
+        ),
+        (
+            "rheology bingham",
+            "one of { papanastasiou = { stress_growth } }: ",
+        ),
+        ("mover rigid-body", "or \"rz\": About z"),
+        ("damping rayleigh", "zones (array; optional)"),
+    ] {
+        let told = bench().done(&format!("plugins {plugin}")).out;
+        assert!(told.contains(value), "{value}: {told}");
+    }
+}
