@@ -1,5 +1,8 @@
-//! A law from outside: `[phase.NAME.rheology.syrup]`.
+//! Laws from outside: `[phase.NAME.rheology.syrup]`, and `powell-eyring`, which reads the strain rate.
 
+mod powell_eyring;
+
+pub use powell_eyring::PowellEyring;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::register;

@@ -1,130 +1,14 @@
-//! A pair term in lanes from outside, and the bits of all widths of lanes.
+//! The pair term in lanes of `examples/artificial-viscosity`, and the bits of all widths of lanes.
 
+use artificial_viscosity::{ArtificialViscosity, Bound};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Access, StepError, Vect, fields, register};
+use sph_core::{Access, StepError, register};
 use sph_lanes::{Width, force_width};
-use sph_neighbours::{
-    BoundTerm, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, PairTerm, Rates, Term,
-    TermEntry, There, World, add_scaled, dot, minus, set, splat, vector,
-};
+use sph_neighbours::{LanePairTerm, PairTerm, Term, TermEntry, World};
 use sph_scene::{Override, parse};
 use sph_solver::{RunOptions, Start, run};
 use sph_tests::{DAM_BREAK, FinalState, PERIODIC, SOAK, STIRRER};
-
-/// a = α c h Σ_b m_b µ_ab/ρ̄ ∇w_ab where particles approach, µ_ab = u_ab·r_ab/(r² + h²/100).
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct ArtificialViscosity {
-    /// α c, a share of the speed of sound.
-    #[schemars(range(min = 0.0), extend("unit" = "m/s"))]
-    speed: f64,
-}
-
-/// The term with its columns.
-struct Bound<'a, const D: usize> {
-    velocity: &'a [Vect<D>],
-    density: &'a [f64],
-    strength: f64,
-    softening: f64,
-}
-
-impl<const D: usize> LanePairTerm<D> for ArtificialViscosity {
-    type Bound<'a> = Bound<'a, D>;
-    fn name(&self) -> String {
-        "artificial viscosity".into()
-    }
-    fn access(&self) -> Access {
-        let access = Access::none().both(fields::VELOCITY).both(fields::DENSITY);
-        access.neighbours(fields::VOLUME)
-    }
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
-        let h = world.kernel.smoothing_length();
-        Ok(Bound {
-            velocity: world.free.get(fields::VELOCITY)?,
-            density: world.free.get(fields::DENSITY)?,
-            strength: 2.0 * self.speed * h,
-            softening: 0.01 * h * h,
-        })
-    }
-}
-
-impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
-    type Side<L: Lane> = ([L; D], L);
-    type Sums<L: Lane> = [L; D];
-
-    #[inline(always)]
-    fn side<L: Lane>(&self, here: &[(Vect<D>, f64)]) -> Self::Side<L> {
-        let (mut velocity, mut density) = ([L::splat(0.0); D], L::splat(0.0));
-        for (lane, own) in here.iter().enumerate() {
-            set(&mut velocity, lane, &own.0);
-            density.set(lane, own.1);
-        }
-        (velocity, density)
-    }
-    #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &Vect<D>) -> [L; D] {
-        splat(sum)
-    }
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &[L; D], lane: usize) -> Vect<D> {
-        vector(sums, lane)
-    }
-    #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        here: &Self::Side<L>,
-        _neighbour: usize,
-        there: &There<D>,
-        pair: &LanePair<D, L>,
-        sums: &mut [L; D],
-    ) {
-        let parting = dot(&minus(&here.0, &there.velocity), &pair.separation);
-        let zero = L::splat(0.0);
-        let approach = (-parting).where_positive(parting, zero);
-        let rate = approach / (pair.distance2 + L::splat(self.softening));
-        let mass = L::splat(self.strength * there.density * there.volume);
-        let weight = mass / (here.1 + L::splat(there.density));
-        add_scaled(sums, &pair.separation, weight * rate * pair.factor);
-    }
-}
-
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    /// Velocity and density.
-    type Here = (Vect<D>, f64);
-    type Sum = Vect<D>;
-    #[inline(always)]
-    fn here(&self, i: usize) -> Self::Here {
-        (self.velocity[i], self.density[i])
-    }
-    #[inline(always)]
-    fn zero(&self) -> Vect<D> {
-        Vect::zeros()
-    }
-    #[inline(always)]
-    fn free(
-        &self,
-        here: &Self::Here,
-        j: usize,
-        there: &There<D>,
-        pair: &Pair<D>,
-        sum: &mut Vect<D>,
-    ) {
-        self.add_one(here, j, there, pair, sum);
-    }
-    #[inline(always)]
-    fn finish(&self, _: &Self::Here, sum: &Vect<D>, _: f64, rates: &mut Rates<D>) {
-        rates.acceleration += sum;
-    }
-}
-
-register!(
-    TermEntry [2, 3],
-    Lanewise<ArtificialViscosity>,
-    "artificial-viscosity",
-    "friction of particles that approach each other",
-    "Monaghan 1992, Eq. 4.1 with β = 0"
-);
 
 /// The same term for one particle at a time.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
@@ -151,6 +35,23 @@ register!(
     "the same for one particle at a time",
     "Monaghan 1992, Eq. 4.1 with β = 0"
 );
+
+/// `Lanewise` and `Term` show the parameters of the term within, in listings and in the schema for editors.
+#[test]
+fn the_parameters_of_wrapped_terms_are_listed() {
+    let kind = sph_core::contracts().into_iter().find(|c| c.kind == "term");
+    for plugin in (kind.expect("terms").plugins)() {
+        let schema = (plugin.schema)();
+        let listed = sph_core::parameters(&schema);
+        assert_eq!(listed.len(), 1, "{}: {schema}", plugin.name);
+        assert_eq!(
+            (listed[0].name.as_str(), listed[0].unit.as_str()),
+            ("speed", "m/s")
+        );
+        let told = schema["description"].as_str().unwrap_or_default();
+        assert!(!told.contains("Interaction"), "{told}");
+    }
+}
 
 /// The end of a run of some steps.
 fn end_of(scene: &str, steps: usize) -> FinalState {

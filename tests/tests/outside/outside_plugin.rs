@@ -1,5 +1,5 @@
-//! Plugins from outside: a kernel, a force and eddy viscosities that no crate of the workspace knows, and the law of
-//! `examples/syrup`.
+//! Plugins from outside: a kernel, a force and eddy viscosities that no crate of the workspace knows, and the
+//! laws of `examples/syrup`.
 //!
 //! Everything between the two lines could be a crate of its own. A binary that mentions it,
 //! `use my_plugins as _;`, and calls `sph_cli::main()` has the plugins in all its commands.
@@ -211,10 +211,11 @@ register!(
 
 // ------------------------------------------------------------------------------------------------
 
+use sph_rheology::{Rheology, rheometer};
 use sph_scene::parse;
 use sph_solver::{RunOptions, SolverError, Start, Summary, run};
 use sph_tests::{DAM_BREAK, FinalState, PERIODIC};
-use syrup as _;
+use syrup::PowellEyring;
 
 fn run_text(scene: &str) -> Result<(Summary, tempfile::TempDir), SolverError> {
     let loaded = parse(scene, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
@@ -277,6 +278,34 @@ fn a_rheology_of_ones_own_is_as_good_as_a_built_in_one() {
     let (_, theirs) = run_text(DAM_BREAK).unwrap();
     let state = |folder: &tempfile::TempDir| FinalState::of(folder.path());
     state(&ours).assert_same(&state(&theirs), "syrup and a Newtonian fluid");
+}
+
+/// arsinh(2)/2 = 0.7218; far up the curve η γ̇ = η₀ ln(2λγ̇)/λ.
+#[test]
+fn a_law_of_ones_own_that_reads_the_strain_rate_thins_the_flow() {
+    let law = PowellEyring {
+        rest_viscosity: 10.0,
+        infinite_viscosity: 0.0,
+        relaxation_time: 2.0,
+    };
+    assert!(law.needs().strain_rate);
+    let found = rheometer::viscosities(&law, 0.0, &[0.0, 1.0, 1e3, 1e6]);
+    assert_eq!(found[0], 10.0);
+    assert!((found[1] - 7.218_177).abs() < 1e-6, "{found:?}");
+    let grown = 1e6 * found[3] - 1e3 * found[2];
+    assert!((grown - 5.0 * 1e3f64.ln()).abs() < 1e-5, "{grown}");
+    let newtonian = "[phase.water.rheology.newtonian]\nviscosity = \"1 mPa s\"";
+    let energy = |keys: &str| {
+        let law = format!("[phase.water.rheology.{keys}");
+        let scene = DAM_BREAK.replace(newtonian, &law);
+        assert_ne!(scene, DAM_BREAK);
+        run_text(&scene).unwrap().0.kinetic_energy
+    };
+    let thick = energy("newtonian]\nviscosity = 10.0");
+    let rest = energy("powell-eyring]\nrest_viscosity = 10.0\nrelaxation_time = 0.0");
+    assert!((rest / thick - 1.0).abs() < 1e-9, "{rest} J for {thick} J");
+    let thin = energy("powell-eyring]\nrest_viscosity = 10.0\nrelaxation_time = \"10 s\"");
+    assert!(thin > 1.2 * thick, "{thin} J for {thick} J");
 }
 
 /// 1 mPa s of water and 9 of eddies are 10 mPa s; with Smagorinsky's part the flow loses more.

@@ -264,7 +264,9 @@ fn every_dependency_within_the_workspace_is_an_arrow_of_the_design() {
             let fine = match (name.as_str(), allowed) {
                 ("sph-tests", _) => true,
                 // Examples stand for crates of strangers.
-                ("syrup" | "tracer" | "winch", _) => target != "sph-solver",
+                ("artificial-viscosity" | "syrup" | "tracer" | "winch", _) => {
+                    target != "sph-solver"
+                }
                 ("embedding", _) => true,
                 ("sph-solver", _) => {
                     !["sph-study", "sph-cli", "sph-tests"].contains(&target.as_str())

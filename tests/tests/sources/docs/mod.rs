@@ -3,16 +3,21 @@
 mod book;
 mod crates;
 mod dependencies;
+mod keys;
 
 use std::path::{Path, PathBuf};
 
+use {artificial_viscosity as _, sph_cli as _, syrup as _, tracer as _};
+
 const PLUGINS: &str = include_str!("../../../../docs/plugins.md");
-const QUOTED: [&str; 4] = [
-    include_str!("../../outside/outside_plugin.rs"),
+const QUOTED: [&str; 5] = [
+    LANES,
+    include_str!("../../../../examples/artificial-viscosity/examples/sph.rs"),
     include_str!("../../../../examples/syrup/src/lib.rs"),
+    include_str!("../../../../examples/syrup/src/powell_eyring.rs"),
     include_str!("../../../../examples/tracer/src/lib.rs"),
-    include_str!("../../../../examples/winch/src/lib.rs"),
 ];
+const LANES: &str = include_str!("../../../../examples/artificial-viscosity/src/lib.rs");
 const MANIFEST: &str = include_str!("../../../../examples/syrup/Cargo.toml");
 
 fn root() -> PathBuf {
@@ -46,28 +51,91 @@ fn blocks<'t>(text: &'t str, language: &str) -> Vec<&'t str> {
 }
 
 #[test]
-fn the_code_of_the_plugin_page_is_that_of_a_test() {
-    let (binary, quoted): (Vec<_>, Vec<_>) = blocks(PLUGINS, "rust")
-        .into_iter()
-        .partition(|block| block.starts_with("use my_plugins as _;"));
-    assert_eq!((binary.len(), quoted.len()), (1, 10));
-    for block in quoted {
+fn the_code_of_the_plugin_page_is_that_of_the_examples() {
+    let quoted = blocks(PLUGINS, "rust");
+    assert_eq!(quoted.len(), 5);
+    for block in &quoted {
         let found = QUOTED.iter().any(|file| file.contains(block));
-        assert!(found, "in none of the tests and examples:\n{block}");
+        assert!(found, "in none of the examples:\n{block}");
     }
-    let manifests = blocks(PLUGINS, "toml");
-    let manifest = manifests.iter().find(|b| b.starts_with("[package]"));
-    assert_eq!(manifest, Some(&MANIFEST), "the manifest of the page");
+    assert_eq!(PLUGINS.matches("```").count() / 2, quoted.len() + 4);
+}
+
+/// Manifests: that of the syrup, and that of a stranger's program with the profile and the paths of this workspace.
+#[test]
+fn the_manifests_of_the_plugin_page_are_those_of_the_workspace() {
+    let blocks = blocks(PLUGINS, "toml");
+    let manifests: Vec<_> = blocks
+        .iter()
+        .filter(|b| b.starts_with("[package]"))
+        .collect();
+    let [syrup, program] = manifests.as_slice() else {
+        panic!("{} manifests", manifests.len());
+    };
+    assert_eq!(**syrup, MANIFEST);
+    let own = std::fs::read_to_string(root().join("Cargo.toml")).expect("a manifest");
+    let table = |text: &str| text.parse::<toml::Table>().expect("TOML");
+    let (program, own) = (table(program), table(&own));
+    for key in ["opt-level", "lto", "codegen-units"] {
+        let of = |manifest: &toml::Table| manifest["profile"]["release"].get(key).cloned();
+        assert_eq!(of(&program), of(&own), "{key}");
+    }
+    for (name, dependency) in program["dependencies"].as_table().expect("a table") {
+        let path = dependency["path"].as_str().expect("a path");
+        let path = path.strip_prefix("../sph/").expect("a clone called sph");
+        let manifest = root().join(path).join("Cargo.toml");
+        let manifest = table(&std::fs::read_to_string(&manifest).expect("a crate"));
+        assert_eq!(manifest["package"]["name"].as_str(), Some(name.as_str()));
+    }
+}
+
+/// Parts of scenes: each is one plugin or more, with parameters that it takes.
+#[test]
+fn the_scenes_of_the_plugin_page_name_plugins_with_their_parameters() {
+    let mut checked = 0;
+    for block in blocks(PLUGINS, "toml") {
+        let table: toml::Table = block.parse().expect("TOML");
+        let phases = table.get("phase").and_then(toml::Value::as_table);
+        let laws = phases.into_iter().flat_map(|all| all.values());
+        let laws = laws.filter_map(toml::Value::as_table);
+        let kinds = std::iter::once(&table).chain(laws).flatten();
+        for (kind, plugins) in kinds {
+            let contracts = sph_core::contracts();
+            let Some(kind) = contracts.into_iter().find(|c| c.kind == kind) else {
+                continue;
+            };
+            for (name, keys) in plugins.as_table().expect("a table") {
+                let all = (kind.plugins)();
+                let plugin = all.iter().find(|p| p.name == name).expect("a plugin");
+                let conforms = sph_core::conform(&mut keys.clone(), &(plugin.schema)());
+                assert_eq!(conforms, Ok(vec![]), "{name}");
+                checked += 1;
+            }
+        }
+    }
+    assert_eq!(checked, 3);
+}
+
+/// The kinds of particles are all that are registered, those of grains are in a list of the command line.
+#[test]
+fn the_plugin_page_has_a_row_for_every_kind() {
+    let own = sph_core::contracts().into_iter().map(|c| c.kind);
+    let grains = ["conductance", "contact-law"];
+    let kinds: Vec<_> = own.chain(grains).filter(|k| *k != "tracer").collect();
+    assert!(kinds.len() > 28, "{kinds:?}");
+    for kind in kinds {
+        let row = format!("\n| `{kind}` | `");
+        assert_eq!(PLUGINS.matches(&row).count(), 1, "{kind}");
+    }
 }
 
 #[test]
-fn the_code_of_the_page_on_lanes_is_that_of_a_test() {
+fn the_code_of_the_page_on_lanes_is_that_of_an_example() {
     let page = include_str!("../../../../docs/lanes.md");
-    let test = include_str!("../../outside/lanes.rs");
     let quoted = blocks(page, "rust");
     assert_eq!(quoted.len(), 2);
     for block in quoted {
-        assert!(test.contains(block), "not in the test:\n{block}");
+        assert!(LANES.contains(block), "not in the example:\n{block}");
     }
 }
 
