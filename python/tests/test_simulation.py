@@ -13,6 +13,7 @@ def by_identity(simulation, name):
 
 
 def test_stepped_to_the_outputs_a_scene_has_the_bits_of_its_run(coarse, tmp_path):
+    coarse["output.fields"] = ["velocity", "pressure", "velocity_gradient"]
     result = sph.run("dam-break-koshizuka", tmp_path, set=coarse, threads=1)
     simulation = sph.Simulation("dam-break-koshizuka", set=coarse, threads=1)
     for time in result.times:
@@ -21,7 +22,11 @@ def test_stepped_to_the_outputs_a_scene_has_the_bits_of_its_run(coarse, tmp_path
     assert simulation.steps == result.summary.steps
     frame = result.frame(-1)
     order = np.argsort(frame["identity"])
-    assert np.array_equal(by_identity(simulation, "position"), frame.points[order, :2])
+    assert np.array_equal(by_identity(simulation, "position"), frame.points[order])
+    for name in ["velocity", "velocity_gradient"]:
+        assert np.array_equal(by_identity(simulation, name), frame[name][order]), name
+        assert frame[name].shape[1:] == simulation.columns[name].axes
+    assert frame.walls.points.shape[1] == 2
 
 
 def test_columns_are_told_and_state_can_be_set(coarse):
@@ -131,4 +136,4 @@ def test_a_simulation_starts_where_a_run_ended(coarse, tmp_path):
     assert simulation.time == 0.06
     frame = result.frame(-1)
     order = np.argsort(frame["identity"])
-    assert np.array_equal(by_identity(simulation, "position"), frame.points[order, :2])
+    assert np.array_equal(by_identity(simulation, "position"), frame.points[order])

@@ -97,21 +97,25 @@ class Curves(Series):
 
 
 class Frame(Mapping[str, np.ndarray]):
-    """Fields at one output time: ``frame["pressure"]``, one row per particle."""
+    """Fields at one output time: ``frame["pressure"]``, one row per particle.
 
-    def __init__(self, read: Mapping[str, Any], walls: Optional[str]) -> None:
+    Arrays have the axes that :class:`sph.Simulation` gives them: vectors have two components in a plane.
+    """
+
+    def __init__(self, read: Mapping[str, Any], walls: Optional[str], dimension: int) -> None:
         #: Simulated time, s.
         self.time: float = read["time"]
-        #: Positions, m, one row of three per particle.
-        self.points: np.ndarray = read["points"]
-        self._data = {name: values for name, (values, _) in read["point_data"].items()}
+        #: Positions, m, one row of as many as there are dimensions per particle.
+        self.points: np.ndarray = _unpadded(read["points"], dimension)
+        self._data = {name: _unpadded(values, dimension) for name, (values, _) in read["point_data"].items()}
         #: Unit of every field.
         self.units = {name: unit for name, (_, unit) in read["point_data"].items()}
         #: Fields at the cells of a mesh, by name.
-        self.cell_data = {name: values for name, (values, _) in read["cell_data"].items()}
+        self.cell_data = {name: _unpadded(values, dimension) for name, (values, _) in read["cell_data"].items()}
         #: Indices of the corners of every cell.
         self.cells: np.ndarray = read["cells"]
         self._walls = walls
+        self._dimension = dimension
 
     def __getitem__(self, name: str) -> np.ndarray:
         try:
@@ -132,7 +136,17 @@ class Frame(Mapping[str, np.ndarray]):
     @property
     def walls(self) -> Optional["Frame"]:
         """The walls at the same time, if the scene has any."""
-        return None if self._walls is None else Frame(_sph.read_vtu(self._walls), None)
+        return None if self._walls is None else Frame(_sph.read_vtu(self._walls), None, self._dimension)
+
+
+def _unpadded(values: np.ndarray, dimension: int) -> np.ndarray:
+    """Vectors without the third component that ParaView asks for, tensors as matrices."""
+    width = values.shape[1] if values.ndim == 2 else 1
+    if width == 3:
+        return np.ascontiguousarray(values[:, :dimension])
+    if width == dimension**2:
+        return values.reshape(-1, dimension, dimension)
+    return values
 
 
 class Results:
@@ -153,6 +167,7 @@ class Results:
         #: Calls and seconds of every function of Python, by name.
         self.python_cost = dict(python_cost or {})
         self._summary = summary
+        self._dimension: Optional[int] = None
         if not self.folder.is_dir():
             raise FileError(f"there are no results in {self.folder}")
 
@@ -183,6 +198,15 @@ class Results:
     def series(self) -> Series:
         """``series.csv``: balances and probes over time."""
         return Series(self._file("series.csv"))
+
+    @property
+    def dimension(self) -> int:
+        """Dimensions of space."""
+        if self._dimension is None:
+            # A run that goes on has no summary. Its series has a column for each component of the momentum.
+            columns = self.series if (self.folder / "series.csv").is_file() else {}
+            self._dimension = 2 if "momentum.y" in columns and "momentum.z" not in columns else 3
+        return self._dimension
 
     def curves(self, probe: str) -> list[Curves]:
         """The curves of a probe, one table per output."""
@@ -225,13 +249,14 @@ class Results:
             for identity, places in wanted.items():
                 if identity in rows:
                     places.append([frame.time, *frame.points[rows[identity]]])
-        return {identity: np.array(places).reshape(-1, 4) for identity, places in wanted.items()}
+        width = 1 + self.dimension
+        return {identity: np.array(places).reshape(-1, width) for identity, places in wanted.items()}
 
     def _frame(self, time: float) -> Frame:
         here = {name: path for t, name, path in self._listed() if t == time}
         walls = here.pop("walls", None)
         (path,) = list(here.values())[:1] or [walls]
-        return Frame(_sph.read_vtu(path), walls)
+        return Frame(_sph.read_vtu(path), walls, self.dimension)
 
     def _listed(self) -> Sequence[tuple[float, str, str]]:
         return _sph.list_pvd(os.fspath(self._file("fields.pvd")))
