@@ -70,12 +70,19 @@ fn at<'t>(scene: &'t Table, path: &[&str]) -> Option<&'t Value> {
 
 /// Where plugins of a name stand, or those of a kind of that name.
 fn places(name: &str, value: &Value, parents: &[&str]) -> Option<String> {
+    let table = value.as_table();
     if let Some(kind) = kind_of(name) {
-        let only = value.as_table().and_then(|table| table.keys().next());
+        let only = table.and_then(|table| table.keys().next());
+        let only = only.map(String::as_str).or_else(|| value.as_str());
         let plugin = only.filter(|plugin| is_of(kind, plugin));
-        let place = place(kind, plugin.map_or("PLUGIN", String::as_str), parents);
+        // Other values are of keys that happen to be called as a kind.
+        if table.is_none() && plugin.is_none() {
+            return None;
+        }
+        let place = place(kind, plugin.unwrap_or("PLUGIN"), parents);
         return Some(format!("plugins of the kind `{name}` stand in {place}"));
     }
+    table?;
     let all = kinds().into_iter().filter(|kind| is_of(kind, name));
     let each = all.map(|kind| {
         let place = place(kind, name, parents);

@@ -153,6 +153,10 @@ fn a_table_in_the_wrong_place_is_led_to_the_right_one() {
             "`[body.column.initial.poiseuille]`",
         ),
         (
+            instead("[numerics]", "[numerics]\nkernel = \"wendland-c2\""),
+            "`[kernel.wendland-c2]`",
+        ),
+        (
             besides("[output.front]"),
             "`[probe.NAME]` with `kind = \"front\"`",
         ),
@@ -189,4 +193,7 @@ fn names_of_plugins_are_good_names() {
         checked.err
     );
     assert!(!checked.err.contains("NAME"), "{}", checked.err);
+    // A number is no plugin.
+    let checked = with(DAM_BREAK).call("check scene.toml --set numerics.pressure=3");
+    assert!(checked.err.contains("(valid here: "), "{}", checked.err);
 }
