@@ -276,7 +276,10 @@ fn water_is_not_thrown_up_where_it_leaves_below_a_level() {
 fn problems(text: &str) -> Vec<SceneProblem> {
     let loaded = match parse(text, "scene.toml", &[]) {
         Ok(loaded) => loaded,
-        Err(e) => panic!("refused earlier: {e}"),
+        Err(refused) => {
+            let all = refused.diagnostics.into_iter();
+            return all.map(|d| SceneProblem::new(d.path, d.message)).collect();
+        }
     };
     match assemble::<2>(&loaded.scene) {
         Err(SolverError::Scene(problems)) => problems,
