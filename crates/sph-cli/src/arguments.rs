@@ -129,7 +129,7 @@ language server (taplo, Even Better TOML) complete and check it.")]
     #[command(after_help = "\
 The scenes in ./scenes are listed if there are any, otherwise those compiled into the program.
 Their names can be given to run, check, explain and new --from.")]
-    Scenes(JsonArguments),
+    Scenes(ScenesArguments),
     /// Write a commented starting scene
     #[command(after_help = "\
 Examples:
@@ -366,9 +366,12 @@ pub struct SchemaArguments {
     pub grains: bool,
 }
 
-/// Arguments of commands that only list.
+/// Arguments of `sph scenes`.
 #[derive(Debug, Args)]
-pub struct JsonArguments {
+pub struct ScenesArguments {
+    /// Print the gallery as a page of Markdown
+    #[arg(long, conflicts_with = "json")]
+    pub markdown: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

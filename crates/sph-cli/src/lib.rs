@@ -16,6 +16,7 @@
 mod app;
 mod arguments;
 mod commands;
+mod gallery;
 mod interrupt;
 pub mod library;
 mod ranks;

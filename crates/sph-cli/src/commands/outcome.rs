@@ -27,8 +27,7 @@ pub fn text(summary: &Summary, out: &Path) -> String {
         text.push_str("advice\n");
         text.push_str(&remarks(&summary.advice));
     }
-    text.push_str(&format!("written to {}\n", out.display()));
-    text.push_str(&columns(2, &written::listing(out)));
+    text.push_str(&written::ending(out));
     text
 }
 
@@ -77,13 +76,8 @@ fn cost(s: &Summary) -> Vec<Vec<String>> {
         row("speed", speed),
         row("memory", memory(&s.memory)),
         row("Δt limited by", limiters.join(", ")),
-        row(
-            "drift",
-            format!(
-                "mass {:.1e}, momentum {:.1e}, energy {:.1e}",
-                s.drift.mass, s.drift.momentum, s.drift.energy
-            ),
-        ),
+        // Momentum and energy, which walls and friction take, are in the summary.
+        row("mass drift", format!("{:.1e}", s.drift.mass)),
     ]
 }
 

@@ -1,21 +1,29 @@
 //! `sph scenes`.
 
+mod page;
+
 use serde_json::{Value as Json, json};
 use sph_scene::{Source, read_text};
 
-use crate::arguments::JsonArguments;
+use crate::arguments::ScenesArguments;
+use crate::gallery::Gallery;
 use crate::scene_file::{self, AnyScene};
 use crate::shipped::{self, Shipped};
-use crate::telling::layout::{columns, paragraph};
+use crate::telling::layout::columns;
 use crate::telling::trouble::Trouble;
 use crate::telling::{console, diagnostics};
 
 /// Lists the shipped scenes.
-pub fn command(arguments: &JsonArguments) -> Result<(), Trouble> {
+pub fn command(arguments: &ScenesArguments) -> Result<(), Trouble> {
+    let gallery = Gallery::own();
+    if arguments.markdown {
+        console::out(&page::of(gallery));
+        return Ok(());
+    }
     let all = shipped::all();
     match arguments.json {
-        true => console::json(&all.iter().map(entry).collect()),
-        false => console::out(&text(&all)),
+        true => console::json(&all.iter().map(|s| entry(gallery, s)).collect()),
+        false => console::out(&text(gallery, &all)),
     }
     Ok(())
 }
@@ -35,48 +43,54 @@ fn read(shipped: &Shipped) -> Result<AnyScene, String> {
     })
 }
 
-/// The first sentence of a description.
-fn sentence(description: Option<&str>) -> String {
-    let words = description.unwrap_or_default();
-    let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
-    match words.split_once(". ") {
-        Some((first, _)) => format!("{first}."),
-        None => words,
-    }
-}
-
-fn entry(shipped: &Shipped) -> Json {
+fn entry(gallery: &Gallery, shipped: &Shipped) -> Json {
     let file = shipped.file.as_ref().map(|f| f.display().to_string());
+    let mut all = json!({ "name": shipped.name, "file": file });
     match read(shipped) {
         Ok(scene) => {
             let (title, description, dimension) = scene.card();
-            json!({
-                "name": shipped.name, "file": file, "title": title,
-                "description": description, "dimension": dimension,
-            })
+            all["title"] = json!(title);
+            all["description"] = json!(description);
+            all["dimension"] = json!(dimension);
         }
-        Err(problem) => json!({ "name": shipped.name, "file": file, "problem": problem }),
+        Err(problem) => all["problem"] = json!(problem),
     }
+    if let Some((theme, entry)) = gallery.find(&shipped.name) {
+        all["theme"] = json!(theme.title);
+        all["shows"] = json!(entry.shows);
+        all["time"] = json!(entry.scenes[&shipped.name]);
+    }
+    all
 }
 
-fn text(all: &[Shipped]) -> String {
-    let mut text = String::new();
-    for shipped in all {
-        let (title, sentence) = match read(shipped) {
-            Ok(scene) => {
-                let (title, description, _) = scene.card();
-                (title.to_string(), sentence(description))
-            }
-            Err(_) => (
-                "has mistakes".into(),
-                format!("sph check {} tells them", shipped.name),
-            ),
+fn text(gallery: &Gallery, all: &[Shipped]) -> String {
+    let row = |shipped: &Shipped| {
+        let found = gallery.find(&shipped.name).map(|(_, entry)| entry);
+        let time = found.map(|entry| entry.scenes[&shipped.name].clone());
+        let told = match (read(shipped), found) {
+            (Err(_), _) => format!("has mistakes: sph check {} tells them", shipped.name),
+            (Ok(_), Some(entry)) => entry.shows.clone(),
+            (Ok(scene), None) => scene.card().0.to_string(),
         };
-        text.push_str(&columns(0, &[vec![shipped.name.clone(), title]]));
-        text.push_str(&paragraph(4, 98, &sentence));
+        vec![shipped.name.clone(), time.unwrap_or_default(), told]
+    };
+    let block = |title: &str, scenes: Vec<&Shipped>| {
+        let rows: Vec<_> = scenes.into_iter().map(row).collect();
+        match rows.is_empty() {
+            true => String::new(),
+            false => format!("{title}\n{}\n", columns(2, &rows)),
+        }
+    };
+    let of = |theme: &str| {
+        let own = |s: &&Shipped| gallery.find(&s.name).map_or("", |(t, _)| &t.title) == theme;
+        all.iter().filter(own).collect()
+    };
+    let themes = gallery.theme.iter().map(|t| block(&t.title, of(&t.title)));
+    let text = themes.collect::<String>() + &block("Others", of(""));
+    if text.is_empty() {
+        return "there is no scene in ./scenes, and none was compiled in\n".into();
     }
-    match all.is_empty() {
-        true => "there is no scene in ./scenes, and none was compiled in\n".into(),
-        false => format!("{text}\nsph run NAME runs one of them\n"),
-    }
+    let start = gallery.start.iter().map(|[name, why]| vec![name.clone(), why.clone()]);
+    let start = columns(2, &start.collect::<Vec<_>>());
+    format!("{text}Start here\n{start}\nsph run NAME runs one of them. {}\n", gallery.times)
 }

@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use crate::telling::layout::columns;
+use crate::telling::shell::quoted;
+
 /// Known files, in the order in which a person wants them.
 const KNOWN: [(&str, &str); 4] = [
     ("fields.pvd", "fields over time: open it in ParaView"),
@@ -10,8 +13,15 @@ const KNOWN: [(&str, &str); 4] = [
     ("checkpoint.sph", "the last state, for --resume"),
 ];
 
+/// The last lines of a run: its files, and the command that shows them.
+pub fn ending(folder: &Path) -> String {
+    let shown = folder.display().to_string();
+    let files = columns(2, &listing(folder));
+    format!("written to {shown}\n{files}look at it: sph view {}\n", quoted(&shown))
+}
+
 /// Rows of name and meaning: pictures first.
-pub fn listing(folder: &Path) -> Vec<Vec<String>> {
+fn listing(folder: &Path) -> Vec<Vec<String>> {
     let row = |name: String, what: &str| vec![name, what.to_string()];
     let mut rows = Vec::new();
     for (sub, extension, one, many) in [

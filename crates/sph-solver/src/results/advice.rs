@@ -12,6 +12,10 @@ const FEW_STEPS: u64 = 20;
 const SHORT: f64 = 1.0;
 /// Least factor that is worth a change.
 const WORTH: f64 = 1.2;
+/// Largest Mach number of a flow whose density hardly moves.
+const LIQUID: f64 = 0.1;
+/// The bound of sound, by the name that [`SoundLimit`](sph_contribution::SoundLimit) gives it.
+const SOUND: &str = "sound";
 
 /// What a run cost, and why.
 pub struct Costs<'a> {
@@ -27,6 +31,15 @@ pub struct Costs<'a> {
     pub dt_limits: &'a BTreeMap<String, f64>,
     /// Wall-clock time per stage, s.
     pub stages: &'a BTreeMap<String, f64>,
+    /// Factor by which all speeds of sound may fall ([`room_of_sound`]).
+    pub sound: f64,
+}
+
+/// Factor by which the speeds of sound may fall, below 1 if they should rise: ten times the largest speed is enough, and
+/// densities may move by 1 %, as u²/c² and p/ρc² do. `density` is the least and the largest over that at rest.
+pub fn room_of_sound(mach: f64, density: [f64; 2]) -> f64 {
+    let moved = density.map(|ratio| (ratio - 1.0).abs());
+    (LIQUID / mach).min((LIQUID.powi(2) / moved[0].max(moved[1])).sqrt())
 }
 
 /// Settings to try, with what they may bring.
@@ -50,7 +63,9 @@ fn limiter(s: &Costs) -> Option<String> {
     let others = s.dt_limits.iter().filter(|(n, _)| *n != name);
     let next = others.min_by(|a, b| a.1.total_cmp(b.1));
     let factor = next.map(|(_, dt)| dt / own);
-    if s.steps < FEW_STEPS || factor.is_some_and(|f| f < WORTH) {
+    let room = (name == SOUND).then_some(s.sound);
+    let gain = [factor, room].into_iter().flatten().reduce(f64::min);
+    if s.steps < FEW_STEPS || gain.is_some_and(|f| f < WORTH) {
         return None;
     }
     let then = match (next, factor) {
@@ -60,8 +75,12 @@ fn limiter(s: &Costs) -> Option<String> {
         ),
         _ => "no other bound is in force".to_string(),
     };
+    let room = room.map_or(String::new(), |f| match f.is_finite() {
+        true => format!(": here for a factor of {}", significant(f)),
+        false => String::new(),
+    });
     let what = match s.remedies.get(name) {
-        Some(remedy) => format!("{remedy}; {then}"),
+        Some(remedy) => format!("{remedy}{room}; {then}"),
         None => format!("{then}; a coarser `numerics.spacing` lengthens it"),
     };
     let share = (100.0 * share).round();
@@ -119,7 +138,31 @@ mod tests {
             remedies: &BTreeMap::from([("viscosity".into(), "solve for it".into())]),
             dt_limits: &table(limits),
             stages: &table(stages),
+            sound: 1.5,
         })
+    }
+
+    #[test]
+    fn sound_may_fall_as_far_as_speeds_and_densities_allow_and_no_further() {
+        let room = room_of_sound(0.02, [0.9984, 1.0004]);
+        assert!((room - 2.5).abs() < 1e-9, "{room}: the density");
+        assert!((room_of_sound(0.05, [1.0, 1.0001]) - 2.0).abs() < 1e-9);
+        // Who lowered it to ten times the largest speed is not told to lower it again.
+        assert!(room_of_sound(0.1, [1.0; 2]) < WORTH);
+        let told = |sound| {
+            limiter(&Costs {
+                steps: 1000,
+                wall_seconds: 100.0,
+                dt_limiters: &table(&[("sound", 1.0)]),
+                remedies: &BTreeMap::from([("sound".into(), "lower it".into())]),
+                dt_limits: &table(&[("sound", 1.0), ("force", 9.0)]),
+                stages: &table(&[]),
+                sound,
+            })
+        };
+        assert_eq!(told(1.1), None);
+        let told = told(2.0).expect("room");
+        assert!(told.contains("lower it: here for a factor of 2.0; the next bound, `force`"));
     }
 
     #[test]

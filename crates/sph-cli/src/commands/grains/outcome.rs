@@ -28,8 +28,7 @@ pub fn text(summary: &Summary, out: &Path) -> String {
     if !summary.warnings.is_empty() {
         text.push_str(&format!("warnings\n{}", remarks(&summary.warnings)));
     }
-    text.push_str(&format!("written to {}\n", out.display()));
-    text.push_str(&columns(2, &written::listing(out)));
+    text.push_str(&written::ending(out));
     text
 }
 

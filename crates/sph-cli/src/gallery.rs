@@ -1,0 +1,65 @@
+//! What is told of the shipped scenes: theme, what each shows, its error, how long it takes. The source is
+//! docs/gallery.toml.
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+
+/// The file as it was when the program was built.
+static GALLERY: LazyLock<Gallery> = LazyLock::new(|| {
+    let text = include_str!("../../../docs/gallery.toml");
+    toml::from_str(text).expect("docs/gallery.toml is read by every test of `sph scenes`")
+});
+
+/// All that is told of the shipped scenes.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gallery {
+    /// What the times are.
+    pub times: String,
+    /// The scenes to begin with, and why.
+    pub start: Vec<[String; 2]>,
+    /// The themes, in order.
+    pub theme: Vec<Theme>,
+}
+
+/// Scenes that belong together.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Theme {
+    /// Its heading.
+    pub title: String,
+    /// Markdown under the heading.
+    pub text: Option<String>,
+    /// The scenes, in order.
+    pub entry: Vec<Entry>,
+}
+
+/// One scene, or some that differ in a number.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Entry {
+    /// Run time by name.
+    pub scenes: BTreeMap<String, String>,
+    /// What is seen, in a few words.
+    pub shows: String,
+    /// What it is measured against, and the errors: Markdown.
+    pub measured: Option<String>,
+    /// The moment of the picture, and what differs from the shipped scene in it.
+    pub picture: String,
+}
+
+impl Gallery {
+    /// That of the program.
+    pub fn own() -> &'static Gallery {
+        &GALLERY
+    }
+
+    /// The theme and the entry of a scene.
+    pub fn find(&self, name: &str) -> Option<(&Theme, &Entry)> {
+        let all = self.theme.iter();
+        let mut all = all.flat_map(|theme| theme.entry.iter().map(move |entry| (theme, entry)));
+        all.find(|(_, entry)| entry.scenes.contains_key(name))
+    }
+}
