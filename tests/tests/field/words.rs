@@ -61,6 +61,43 @@ fn defaults_draw_no_remark_on_sound_and_slow_sound_does() {
     );
 }
 
+/// Advice that is followed is silent, and its contrary is not given.
+#[test]
+fn a_slower_sound_is_advised_as_far_as_it_may_fall_and_then_no_further() {
+    let bench = Bench::with(PROGRAM, TANK);
+    let run = |sound: f64| {
+        let set = format!("--set phase.water.speed_of_sound={sound}");
+        bench.done(&format!("run scene.toml --quiet --out r {set}"));
+        said(&json(&bench.read("r/summary.json")))
+    };
+    let advised = run(100.0);
+    let factor = advised
+        .split_once("`speed_of_sound`")
+        .and_then(|(_, rest)| rest.split_once("here for a factor of "))
+        .and_then(|(_, rest)| rest.split_once(';')?.0.parse::<f64>().ok());
+    let factor = factor.unwrap_or_else(|| panic!("no factor: {advised}"));
+    // The depth of 0.2 m compresses by gH/c² = 1 % at 14 m/s.
+    assert!((4.0..9.0).contains(&factor), "{advised}");
+    let advised = run(100.0 / factor);
+    assert!(!advised.contains("sound"), "{advised}");
+}
+
+#[test]
+fn the_scene_of_new_has_no_remark_on_itself() {
+    let bench = Bench::new(PROGRAM);
+    bench.done("new pool");
+    let told = bench.done("check pool.toml --json").out;
+    assert_eq!(said(&json(&told)), "", "{told}");
+    let told = bench.done("run pool.toml --json").out;
+    assert_eq!(said(&json(&told)), "", "{told}");
+}
+
+#[test]
+fn a_phase_at_rest_has_not_the_speed_of_another() {
+    let told = Bench::new(PROGRAM).done("check elastic-beam --json").out;
+    assert!(!said(&json(&told)).contains("Mach"), "{told}");
+}
+
 /// Simulates `end` seconds on one thread; the estimates of steps and seconds over what they were.
 fn estimated(field: &Field, input: &str, more: &str) -> [f64; 2] {
     let told = field.check(input, &format!("--json --threads 1 {more}"));

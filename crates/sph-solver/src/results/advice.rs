@@ -8,10 +8,12 @@ use crate::step::clocks::LISTS_NAME;
 const MOST: f64 = 0.5;
 /// Steps below which shares say nothing.
 const FEW_STEPS: u64 = 20;
-/// Wall seconds below which stages say nothing.
-const SHORT: f64 = 1.0;
+/// Wall seconds of a stage below which it is not worth a word.
+const SHORT: f64 = 10.0;
 /// Least factor that is worth a change.
 const WORTH: f64 = 1.2;
+/// Least factor of room that a speed of sound must leave: below it sound is a choice of its scene, for accuracy.
+const ROOMY: f64 = 4.0;
 /// Largest Mach number of a flow whose density hardly moves.
 const LIQUID: f64 = 0.1;
 /// The bound of sound, by the name that [`SoundLimit`](sph_contribution::SoundLimit) gives it.
@@ -64,8 +66,8 @@ fn limiter(s: &Costs) -> Option<String> {
     let next = others.min_by(|a, b| a.1.total_cmp(b.1));
     let factor = next.map(|(_, dt)| dt / own);
     let room = (name == SOUND).then_some(s.sound);
-    let gain = [factor, room].into_iter().flatten().reduce(f64::min);
-    if s.steps < FEW_STEPS || gain.is_some_and(|f| f < WORTH) {
+    let vain = factor.is_some_and(|f| f < WORTH) || room.is_some_and(|f| f < ROOMY);
+    if s.steps < FEW_STEPS || vain {
         return None;
     }
     let then = match (next, factor) {
@@ -91,7 +93,7 @@ fn limiter(s: &Costs) -> Option<String> {
 fn stage(s: &Costs) -> Option<String> {
     let all: f64 = s.stages.values().sum();
     let (name, seconds) = s.stages.iter().find(|(_, t)| **t > MOST * all)?;
-    if s.wall_seconds < SHORT {
+    if seconds.min(s.wall_seconds) < SHORT {
         return None;
     }
     let share = seconds / all;
@@ -148,7 +150,7 @@ mod tests {
         assert!((room - 2.5).abs() < 1e-9, "{room}: the density");
         assert!((room_of_sound(0.05, [1.0, 1.0001]) - 2.0).abs() < 1e-9);
         // Who lowered it to ten times the largest speed is not told to lower it again.
-        assert!(room_of_sound(0.1, [1.0; 2]) < WORTH);
+        assert!(room_of_sound(0.1, [1.0; 2]) < ROOMY);
         let told = |sound| {
             limiter(&Costs {
                 steps: 1000,
@@ -160,9 +162,9 @@ mod tests {
                 sound,
             })
         };
-        assert_eq!(told(1.1), None);
-        let told = told(2.0).expect("room");
-        assert!(told.contains("lower it: here for a factor of 2.0; the next bound, `force`"));
+        assert_eq!(told(3.9), None);
+        let told = told(7.0).expect("room");
+        assert!(told.contains("lower it: here for a factor of 7.0; the next bound, `force`"));
     }
 
     #[test]
@@ -178,7 +180,7 @@ mod tests {
         let limits = [("elastic wave", 1e-5), ("sound", 1e-4)];
         let told_of = told(&[("elastic wave", 1.0)], &limits, &[]);
         assert!(told_of[0].contains("spacing") && told_of[0].contains("10 times"));
-        let solves = [("implicit viscosity", 9.0), ("interactions (a)", 1.0)];
+        let solves = [("implicit viscosity", 90.0), ("interactions (a)", 1.0)];
         let told_of = told(&[], &[], &solves);
         assert!(told_of[0].contains("tolerance"), "{told_of:?}");
     }
@@ -190,7 +192,9 @@ mod tests {
         assert!(told(&[("sound", 0.5)], &[("sound", 1.0)], &[]).is_empty());
         let sweep = [("interactions (a)", 9.0), ("output", 1.0)];
         assert!(told(&[], &[], &sweep).is_empty());
-        let told = told(&[], &[], &[("interactions (a)", 1.0), ("output", 3.0)]);
+        let brief = [("interactions (a)", 1.0), ("output", 3.0)];
+        assert!(told(&[], &[], &brief).is_empty(), "seconds");
+        let told = told(&[], &[], &[("interactions (a)", 10.0), ("output", 30.0)]);
         assert!(told[0].contains("75 %"), "{told:?}");
     }
 

@@ -144,7 +144,10 @@ impl<const D: usize> Running<'_, D> {
         [dt_limiters, dt_limits]: [&BTreeMap<String, f64>; 2],
         stages: &BTreeMap<String, f64>,
     ) -> Result<Vec<String>, SolverError> {
-        let [_, mach, _] = self.files.as_ref().map_or([f64::INFINITY; 3], |f| f.series.peaks);
+        let [_, mach, _] = self
+            .files
+            .as_ref()
+            .map_or([f64::INFINITY; 3], |f| f.series.peaks);
         Ok(advice::advice(&Costs {
             steps: self.counters.steps,
             wall_seconds,

@@ -240,14 +240,21 @@ fn derived<const D: usize>(
         say("depth H".into(), length, "m");
         say("gravity wave speed √(gH)".into(), fall, "m/s");
     }
-    let velocity = world.free.get(fields::VELOCITY).into_iter().flatten();
-    let fastest = velocity.map(|u| u.norm()).fold(0.0, f64::max);
+    let numbers = world.free.get(fields::PHASE).ok();
+    let fastest = |k: usize| {
+        let velocity = world.free.get(fields::VELOCITY).into_iter().flatten();
+        let own = velocity
+            .enumerate()
+            .filter(|(i, _)| numbers.is_none_or(|n| n[*i] as usize == k));
+        own.map(|(_, u)| u.norm()).fold(0.0, f64::max)
+    };
     let viscosities = flow.kinematic_viscosities.iter();
-    for ((name, phase), (law, nu)) in scene.phase.iter().zip(flow.laws.iter().zip(viscosities)) {
+    let phases = scene.phase.iter().zip(flow.laws.iter().zip(viscosities));
+    for (k, ((name, phase), (law, nu))) in phases.enumerate() {
         let c0 = law.reference().sound_speed;
         say(format!("{name}: speed of sound c₀"), c0, "m/s");
         say(format!("{name}: kinematic viscosity ν"), *nu, "m²/s");
-        let speed = phase.velocity_scale.unwrap_or(fall).max(fastest);
+        let speed = phase.velocity_scale.unwrap_or(fall).max(fastest(k));
         if speed > 0.0 {
             say(format!("{name}: expected speed U"), speed, "m/s");
             say(format!("{name}: Mach number U/c₀"), speed / c0, "1");
