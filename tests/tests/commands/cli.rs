@@ -188,16 +188,32 @@ fn every_shipped_scene_passes_check_as_a_file_and_from_the_program() {
 }
 
 #[test]
-fn scenes_lists_every_shipped_scene_with_its_title() {
+fn scenes_lists_every_shipped_scene_under_its_theme_with_its_time() {
     let bench = Bench::new(PROGRAM);
     let listed = json(&bench.done("scenes --json"));
     let listed = listed.as_array().expect("an array");
     assert_eq!(listed.len(), shipped().len());
     let lines = bench.done("scenes").out;
     for scene in listed {
-        assert!(lines.contains(text(&scene["name"])), "{lines}");
-        assert!(lines.contains(text(&scene["title"])) && !text(&scene["title"]).is_empty());
+        let [name, theme, time, shows] =
+            ["name", "theme", "time", "shows"].map(|key| text(&scene[key]));
+        assert!(!text(&scene["title"]).is_empty(), "{name}");
+        let (_, block) = lines
+            .split_once(&format!("{theme}\n"))
+            .unwrap_or_else(|| panic!("{theme} is no heading"));
+        let (block, _) = block.split_once("\n\n").expect("blocks");
+        let row = block
+            .lines()
+            .find(|row| row.split_whitespace().next() == Some(name));
+        let row = row.unwrap_or_else(|| panic!("{name} is not under {theme}"));
+        // All of it: nothing is cut at the stop of an abbreviation.
+        assert!(row.contains(time) && row.ends_with(shows), "{row}");
     }
+    // A scene of one's own in ./scenes has its title.
+    std::fs::create_dir(bench.path("scenes")).expect("a folder");
+    bench.write("scenes/own.toml", DAM_BREAK);
+    let lines = bench.done("scenes").out;
+    assert!(lines.starts_with("Others\n  own  "), "{lines}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::shipped::finished;
+use crate::shipped::{finished, whole};
 
 /// What is required of the drop at 40 spacings to the radius: its semi-axes to 1 % of their range, and 1 % of its energy.
 #[test]
@@ -37,7 +37,7 @@ fn a_steady_jet_has_the_pressures_of_its_free_streamlines() {
 /// A floor takes 48 % of the energy of a patch that lands on it; the bound is the 3 % that are asked of the closed forms.
 #[test]
 fn a_patch_of_fluid_keeps_what_its_impulse_leaves() {
-    finished("patch-of-fluid", &[]).error("energy", 0.03, 0.0263);
+    whole("patch-of-fluid").error("energy", 0.03, 0.0263);
 }
 
 /// Π = ρUW Σ aₙ cos(nπx/W) sinh(nπ(H − y)/W)/cosh(nπH/W), aₙ = ±4/(nπ)², n odd: the impulse of a floor on a patch W wide and H

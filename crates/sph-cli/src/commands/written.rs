@@ -17,7 +17,10 @@ const KNOWN: [(&str, &str); 4] = [
 pub fn ending(folder: &Path) -> String {
     let shown = folder.display().to_string();
     let files = columns(2, &listing(folder));
-    format!("written to {shown}\n{files}look at it: sph view {}\n", quoted(&shown))
+    format!(
+        "written to {shown}\n{files}look at it: sph view {}\n",
+        quoted(&shown)
+    )
 }
 
 /// Rows of name and meaning: pictures first.

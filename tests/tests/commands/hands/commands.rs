@@ -26,13 +26,25 @@ fn every_shell_completes_the_commands() {
 }
 
 #[test]
-fn the_reference_of_the_book_is_that_of_the_registries() {
-    let printed = bench().done("plugins --markdown").out;
-    let page = include_str!("../../../../docs/reference.md");
-    assert!(
-        printed == page,
-        "docs/reference.md is another: cargo run -p sph-cli -- plugins --markdown > docs/reference.md"
-    );
+fn the_reference_and_the_gallery_are_what_the_program_prints() {
+    for (command, file, page) in [
+        (
+            "plugins --markdown",
+            "reference.md",
+            include_str!("../../../../docs/reference.md"),
+        ),
+        (
+            "scenes --markdown",
+            "gallery.md",
+            include_str!("../../../../docs/gallery.md"),
+        ),
+    ] {
+        let printed = bench().done(command).out;
+        assert!(
+            printed == page,
+            "docs/{file} is another: cargo run -p sph-cli -- {command} > docs/{file}"
+        );
+    }
 }
 
 /// A page that no reader is led to is not in the book.

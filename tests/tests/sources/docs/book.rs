@@ -84,5 +84,5 @@ fn no_line_is_too_long() {
 fn the_readme_is_read_in_minutes() {
     let readme = std::fs::read_to_string(root().join("README.md")).expect("a page");
     let lines = readme.lines().count();
-    assert!(lines <= 150, "{lines} lines");
+    assert!(lines <= 120, "{lines} lines");
 }

@@ -141,7 +141,10 @@ fn the_code_of_the_page_on_lanes_is_that_of_an_example() {
 
 #[test]
 fn every_scene_and_every_study_is_in_its_page() {
-    for (folder, page) in [("scenes", "docs/scenes.md"), ("studies", "docs/studies.md")] {
+    for (folder, page) in [
+        ("scenes", "docs/gallery.md"),
+        ("studies", "docs/studies.md"),
+    ] {
         let page = std::fs::read_to_string(root().join(page)).expect("a page");
         let files = std::fs::read_dir(root().join(folder)).expect("a folder");
         let files = files.map(|f| f.expect("an entry").path());
@@ -151,6 +154,23 @@ fn every_scene_and_every_study_is_in_its_page() {
             assert!(page.contains(&link), "{link} is not linked");
         }
     }
+}
+
+#[test]
+fn every_scene_has_a_small_picture() {
+    let files = std::fs::read_dir(root().join("docs/images/scenes")).expect("a folder");
+    let files = files.map(|f| f.expect("an entry"));
+    let sizes: Vec<_> = files
+        .map(|f| (f.path(), f.metadata().expect("a file").len()))
+        .collect();
+    for (path, size) in &sizes {
+        let name = path.file_stem().and_then(|n| n.to_str()).expect("a name");
+        let scene = root().join(format!("scenes/{name}.toml"));
+        assert!(scene.is_file(), "{path:?} is of no scene");
+        assert!(*size < 20_000, "{path:?}: {size} bytes");
+    }
+    let all: u64 = sizes.iter().map(|(_, size)| size).sum();
+    assert!(all < 1_500_000, "{all} bytes of all scenes");
 }
 
 #[test]

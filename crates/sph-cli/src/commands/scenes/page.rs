@@ -27,7 +27,10 @@ pub fn of(gallery: &Gallery) -> String {
         if let Some(text) = &theme.text {
             page.push_str(&format!("{}\n", paragraph(0, WIDTH, text)));
         }
-        theme.entry.iter().for_each(|entry| page.push_str(&of_entry(entry)));
+        theme
+            .entry
+            .iter()
+            .for_each(|entry| page.push_str(&of_entry(entry)));
     }
     page
 }
@@ -35,7 +38,10 @@ pub fn of(gallery: &Gallery) -> String {
 fn of_entry(entry: &Entry) -> String {
     let names: Vec<String> = entry.scenes.keys().map(|name| link(name)).collect();
     let times: Vec<&str> = entry.scenes.values().map(String::as_str).collect();
-    let measured = entry.measured.as_ref().map_or(String::new(), |m| format!(" {m}"));
+    let measured = entry
+        .measured
+        .as_ref()
+        .map_or(String::new(), |m| format!(" {m}"));
     let images: Vec<String> = entry.scenes.keys().map(|name| image(name)).collect();
     item(&format!(
         "* {}: {}.{measured} Time: {}. Picture: {}. {}",
@@ -50,7 +56,9 @@ fn of_entry(entry: &Entry) -> String {
 /// An item of a list, broken between words.
 fn item(text: &str) -> String {
     let lines = paragraph(2, WIDTH, text);
-    lines.strip_prefix("  * ").map_or(lines.clone(), |rest| format!("* {rest}"))
+    lines
+        .strip_prefix("  * ")
+        .map_or(lines.clone(), |rest| format!("* {rest}"))
 }
 
 fn link(name: &str) -> String {
