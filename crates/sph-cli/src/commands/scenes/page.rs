@@ -44,7 +44,7 @@ fn of_entry(entry: &Entry) -> String {
         .map_or(String::new(), |m| format!(" {m}"));
     let images: Vec<String> = entry.scenes.keys().map(|name| image(name)).collect();
     item(&format!(
-        "* {}: {}.{measured} Time: {}. Picture: {}. {}",
+        "* {}: {}.{measured} Time: {}. Picture at {}. {}",
         names.join(", "),
         entry.shows,
         times.join(", "),
