@@ -11,7 +11,7 @@
 //! | time series | [`SeriesWriter`] | [`read_table`], [`read_columns`] |
 //! | restart | [`Checkpoint::save`] | [`Checkpoint::load`] |
 //! | pictures of particles | [`Picture`] | your eyes |
-//! | animations | [`write_gif`] from pictures | your eyes |
+//! | films | [`write_film`], [`write_gif`] from pictures | your eyes |
 //! | plots | [`Plot`], or [`Panels`] of them, as PNG or SVG | your eyes |
 //! | summaries | [`write_json`] | anything |
 //!
@@ -47,8 +47,9 @@ mod files;
 mod paraview;
 
 pub use checkpoint::{Checkpoint, CheckpointFault, Column, ColumnData};
-pub use drawing::animation::write_gif;
+pub use drawing::animation::{write_film, write_gif};
 pub use drawing::colour::{Colour, ColourMap};
+pub use drawing::colour_ranges::{ColourRanges, quantiles};
 pub use drawing::drawn_series::{Series, Style};
 pub use drawing::panels::Panels;
 pub use drawing::picture::{Picture, View};

@@ -8,11 +8,36 @@ use tiny_skia::Pixmap;
 
 use crate::error::{IoError, Result};
 use crate::files::atomic::{Durability, write_atomic};
+use crate::files::folder::writable;
 
 /// Every tenth pixel is looked at for the 256 colours of a frame.
 const SPEED: i32 = 10;
 /// The last picture stands for so long, hundredths of a second.
 const LAST: u16 = 150;
+
+/// Most pictures of a film; of more, every second, third, … is shown.
+const MOST: usize = 400;
+
+/// Joins the pictures of a run that are there to `animations/NAME.gif` in its folder; writes nothing if there are none.
+///
+/// # Errors
+/// As [`write_gif`].
+pub fn write_film(
+    folder: &Path,
+    name: &str,
+    pictures: impl Iterator<Item = PathBuf>,
+    frames_per_second: f64,
+) -> Result<()> {
+    let all: Vec<PathBuf> = pictures.filter(|p| p.is_file()).collect();
+    if all.is_empty() {
+        return Ok(());
+    }
+    writable(folder.join("animations"))?;
+    let every = all.len().div_ceil(MOST);
+    let shown: Vec<PathBuf> = all.into_iter().step_by(every).collect();
+    let path = folder.join("animations").join(format!("{name}.gif"));
+    write_gif(path, &shown, frames_per_second)
+}
 
 /// Writes the PNG `pictures` to `path` as a GIF that begins again after its end, all or nothing.
 ///

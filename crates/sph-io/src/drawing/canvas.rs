@@ -86,6 +86,15 @@ impl Canvas {
         }
     }
 
+    /// Fills a pixel.
+    pub(crate) fn dot(&mut self, [i, j]: [usize; 2], colour: Colour) {
+        let (width, height) = (self.map.width() as usize, self.map.height() as usize);
+        if i < width && j < height {
+            let at = 4 * (j * width + i);
+            blend(&mut self.map.data_mut()[at..at + 3], colour, 1.0);
+        }
+    }
+
     /// The whole image.
     pub(crate) fn bounds(&self) -> Rect {
         Rect {

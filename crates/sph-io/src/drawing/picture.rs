@@ -3,18 +3,20 @@
 //! Particles are discs of their own diameter, coloured by a field, between
 //! walls drawn as dark lines, with axes in metres and a colour bar. Discs of a
 //! few pixels are drawn up to √2 times larger, so that a full lattice shows its
-//! field and not the gaps between the discs. In 3D the
-//! scene is seen along +y: what is drawn is the x–z plane, and of particles
-//! behind each other the one with the least y is on top.
+//! field and not the gaps between the discs. Spheres in 3D are seen along +y: what is
+//! drawn is the x–z plane, and of particles behind each other the one with the
+//! least y is on top; a fluid in 3D is seen from above and shows its surface.
 
 use std::path::Path;
 
 use crate::drawing::axes::{Axes, Axis, left_room};
 use crate::drawing::canvas::{Canvas, SIDES};
+use crate::drawing::class_bar::ClassBar;
 use crate::drawing::colour::{Colour, ColourMap};
 use crate::drawing::colour_bar::ColourBar;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect};
 use crate::drawing::extent;
+use crate::drawing::relief;
 use crate::drawing::text;
 use crate::drawing::ticks::{time_stamp, widened};
 use crate::error::{IoError, Result};
@@ -27,6 +29,8 @@ pub enum View {
     Plane,
     /// x to the right, z upwards, seen along +y: 3D.
     Front,
+    /// Seen from the front, the left and above, without perspective; the particles as one shaded surface: 3D.
+    Above,
 }
 
 /// A particle field and how it is to be drawn.
@@ -64,6 +68,12 @@ pub struct Picture<'a> {
     pub walls: &'a [[[f64; 3]; 2]],
     /// Lines over the particles, by their points in metres: streamlines, tracks.
     pub lines: &'a [Vec<[f64; 3]>],
+    /// Coloured lines over all of these.
+    pub strokes: &'a [(Vec<[f64; 3]>, Colour)],
+    /// Texts and the places in metres of their left ends.
+    pub labels: &'a [([f64; 3], String)],
+    /// Names where the values are 0, 1, …: they stand beside their colours in place of the colour bar.
+    pub classes: &'a [String],
     /// Which plane is drawn.
     pub view: View,
     /// What is shown, as `[[left, right], [bottom, top]]` in metres; if absent,
@@ -93,6 +103,9 @@ impl<'a> Picture<'a> {
             diameters: &[],
             walls: &[],
             lines: &[],
+            strokes: &[],
+            labels: &[],
+            classes: &[],
             view: View::Plane,
             window: None,
             ring: None,
@@ -111,15 +124,23 @@ impl<'a> Picture<'a> {
 
     fn draw(&self) -> std::result::Result<Canvas, String> {
         self.check()?;
-        let range = self.range.unwrap_or_else(|| self.automatic_range());
+        let range = match self.classes.len() {
+            0 => self.range.unwrap_or_else(|| self.automatic_range()),
+            count => [0.0, count as f64],
+        };
         let width = self.width.clamp(*SIDES.start(), *SIDES.end());
         // At 1200 pixels letters of 20; never too small to read.
         let size = (f64::from(width) / 60.0).max(9.0);
         let beyond = self.beyond(range);
         let bar = ColourBar::new(range, self.colours, self.label, beyond, size);
-        let (axes, height) = self.layout(f64::from(width), size, bar.room());
+        let classes = ClassBar::new(self.classes, size);
+        let room = match self.classes {
+            [] => bar.room(),
+            _ => classes.room(),
+        };
+        let (axes, height) = self.layout(f64::from(width), size, room);
         let mut canvas = Canvas::new(width, height).ok_or("no memory for the picture")?;
-        if self.view == View::Front {
+        if self.view != View::Plane {
             self.draw_walls(&mut canvas, &axes);
         }
         self.draw_particles(&mut canvas, &axes, range);
@@ -130,9 +151,16 @@ impl<'a> Picture<'a> {
         if let Some(place) = self.ring {
             self.draw_ring(&mut canvas, &axes, place);
         }
-        axes.draw(&mut canvas);
-        bar.draw(&mut canvas, &axes.frame);
+        self.draw_strokes(&mut canvas, &axes);
         let frame = &axes.frame;
+        match self.view {
+            View::Above => relief::draw_compass(&mut canvas, &axes),
+            _ => axes.draw(&mut canvas),
+        }
+        match self.classes {
+            [] => bar.draw(&mut canvas, frame),
+            _ => classes.draw(&mut canvas, frame),
+        }
         let time = self.time.map(time_stamp).unwrap_or_default();
         let taken = text::width(&time, size) + if time.is_empty() { 0.0 } else { size };
         let title = text::fitted(self.title, 1.15 * size, frame.right - frame.left - taken);
@@ -183,7 +211,7 @@ impl<'a> Picture<'a> {
         let [w, h] = window.map(|[lo, hi]| hi - lo);
         let upwards = match self.view {
             View::Plane => "y [m]",
-            View::Front => "z [m]",
+            View::Front | View::Above => "z [m]",
         };
         let axis = |[lo, hi]: [f64; 2], label: &str| Axis {
             lo,
@@ -228,43 +256,6 @@ impl<'a> Picture<'a> {
         (axes, height)
     }
 
-    fn draw_particles(&self, canvas: &mut Canvas, axes: &Axes, [lo, hi]: [f64; 2]) {
-        let scale = axes.frame.width() / (axes.x.hi - axes.x.lo);
-        let radius = |i: usize| match self.diameters.get(i) {
-            // Spheres of their own size are drawn as they are.
-            Some(diameter) => 0.5 * diameter * scale,
-            None => drawn_radius(0.5 * self.diameter * scale),
-        };
-        let mut order: Vec<usize> = (0..self.points.len()).collect();
-        if self.view == View::Front {
-            order.sort_by(|&a, &b| self.points[b][1].total_cmp(&self.points[a][1]));
-        }
-        for i in order {
-            let [x, y] = self.flat(self.points[i]);
-            let value = self.values[i];
-            let colour = if value.is_finite() {
-                self.colours.at((value - lo) / (hi - lo))
-            } else {
-                Colour::MISSING
-            };
-            if x.is_finite() && y.is_finite() {
-                let (spot, radius) = (axes.spot(x, y), radius(i));
-                let fill = Fill::solid(colour);
-                // A rim tells spheres of one colour apart.
-                let rim = if self.diameters.is_empty() {
-                    0.0
-                } else {
-                    0.1 * radius
-                };
-                if rim > 0.0 {
-                    let dark = Fill::solid(colour.darker());
-                    canvas.clipped_disc(spot, radius, dark, &axes.frame);
-                }
-                canvas.clipped_disc(spot, radius - rim, fill, &axes.frame);
-            }
-        }
-    }
-
     fn draw_walls(&self, canvas: &mut Canvas, axes: &Axes) {
         let pen = Pen::solid(Colour::WALL, axes.size / 7.0);
         for ends in self.walls {
@@ -288,6 +279,43 @@ impl<'a> Picture<'a> {
                     }
                 }
             }
+        }
+    }
+
+    /// Coloured lines with a light edge, and texts.
+    fn draw_strokes(&self, canvas: &mut Canvas, axes: &Axes) {
+        for (points, colour) in self.strokes {
+            let spots = points.iter().map(|p| self.flat(*p));
+            let spots: Vec<_> = spots.map(|[x, y]| axes.spot(x, y)).collect();
+            for (colour, width) in [(Colour::WHITE, 0.2), (*colour, 0.11)] {
+                let pen = Pen::solid(colour, width * axes.size);
+                for ends in spots.windows(2) {
+                    if let Some(inside) = axes.frame.clipped(ends[0], ends[1]) {
+                        canvas.line(&inside, pen);
+                    }
+                }
+            }
+        }
+        let size = 0.8 * axes.size;
+        for (place, text) in self.labels {
+            let [x, y] = self.flat(*place);
+            let [x, y] = axes.spot(x, y);
+            let wide = text::width(text, size);
+            // Texts do not leave the frame.
+            let x = (x + 0.3 * size)
+                .min(axes.frame.right - wide)
+                .max(axes.frame.left);
+            let y = (y - 0.3 * size).clamp(axes.frame.top + size, axes.frame.bottom);
+            let paper = Fill {
+                colour: Colour::WHITE,
+                opacity: 0.7,
+            };
+            let (above, below) = (y - 0.85 * size, y + 0.25 * size);
+            canvas.area(
+                &[[x, above], [x + wide, above], [x + wide, below], [x, below]],
+                paper,
+            );
+            canvas.text([x, y], text, Lettering::new(size, Anchor::Start));
         }
     }
 
@@ -349,17 +377,11 @@ impl<'a> Picture<'a> {
         [any(&|v| v < lo), any(&|v| v > hi)]
     }
 
-    fn flat(&self, [x, y, z]: [f64; 3]) -> [f64; 2] {
+    pub(crate) fn flat(&self, [x, y, z]: [f64; 3]) -> [f64; 2] {
         match self.view {
             View::Plane => [x, y],
             View::Front => [x, z],
+            View::Above => relief::seen([x, y, z]).0,
         }
     }
-}
-
-/// The radius in pixels at which a disc of true radius `r` pixels is drawn:
-/// touching along the diagonals of a lattice if small, true if large.
-fn drawn_radius(r: f64) -> f64 {
-    let small = ((6.0 - r) / 3.0).clamp(0.0, 1.0);
-    r * (1.0 + small * (std::f64::consts::SQRT_2 - 1.0))
 }

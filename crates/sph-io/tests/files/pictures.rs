@@ -232,3 +232,46 @@ fn odd_plots_do_no_harm() {
     uneven.series[2].style = Style::Band(vec![]);
     assert!(matches!(uneven.save_png(&png), Err(IoError::Input { .. })));
 }
+
+#[test]
+fn a_fluid_in_space_shows_its_surface_brighter_where_the_light_falls() {
+    // A block, level above and steep in front.
+    let grid = |k: usize| [k % 10, k / 10 % 10, k / 100].map(|n| 0.1 * n as f64);
+    let points: Vec<[f64; 3]> = (0..1000).map(grid).collect();
+    let values = vec![0.5; points.len()];
+    let picture = Picture {
+        diameter: 0.1,
+        view: View::Above,
+        range: Some([0.0, 1.0]),
+        width: 600,
+        ..Picture::of(&points, &values)
+    };
+    let map = drawn(&picture);
+    let brightness = |x: u32, y: u32| pixel(&map, x, y).0.map(u32::from).iter().sum::<u32>();
+    let (across, height) = (map.width() / 2, map.height());
+    let (above, before) = (
+        brightness(across, height * 3 / 10),
+        brightness(across, height * 7 / 10),
+    );
+    assert!(above > before + 60 && above < 3 * 250, "{above} {before}");
+    assert_eq!(pixel(&map, 60, 60), Colour([255; 3]));
+}
+
+#[test]
+fn classes_have_their_names_and_colours_of_their_own() {
+    let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+    let names = ["water".to_string(), "air".to_string()];
+    let picture = Picture {
+        diameter: 0.9,
+        width: 600,
+        classes: &names,
+        labels: &[([0.5, 0.0, 0.0], "between".into())],
+        strokes: &[(vec![[0.0; 3], [1.0, 0.0, 0.0]], Colour([1, 2, 3]))],
+        ..Picture::of(&points, &[0.0, 1.0])
+    };
+    let map = drawn(&picture);
+    for colour in [[0x00, 0x72, 0xb2], [0xd5, 0x5e, 0x00]] {
+        assert!(count(&map, Colour(colour)) > 2000);
+    }
+    assert!(count(&map, Colour([1, 2, 3])) > 100, "a stroke");
+}

@@ -1,0 +1,46 @@
+//! Names beside their colours.
+
+use crate::drawing::canvas::Canvas;
+use crate::drawing::colour::{Colour, SERIES};
+use crate::drawing::draw_target::{Anchor, Lettering, Pen, Rect, DrawTarget};
+use crate::drawing::text;
+
+/// A list of names, one below the other, to the right of the frame.
+pub(crate) struct ClassBar<'a> {
+    names: &'a [String],
+    size: f64,
+}
+
+impl<'a> ClassBar<'a> {
+    pub(crate) fn new(names: &'a [String], size: f64) -> Self {
+        Self { names, size }
+    }
+
+    /// Pixels that the list takes to the right of the frame.
+    pub(crate) fn room(&self) -> f64 {
+        let widths = self.names.iter().map(|name| text::width(name, self.size));
+        widths.fold(0.0, f64::max) + 3.2 * self.size
+    }
+
+    pub(crate) fn draw(&self, on: &mut Canvas, frame: &Rect) {
+        let size = self.size;
+        for (k, name) in self.names.iter().enumerate() {
+            let top = frame.top + 1.6 * k as f64 * size;
+            let block = Rect {
+                left: frame.right + 0.8 * size,
+                right: frame.right + 1.8 * size,
+                top,
+                bottom: top + size,
+            };
+            on.block(block, SERIES[k % SERIES.len()]);
+            let [a, b, c, d] = block.corners();
+            on.line(&[a, b, c, d, a], Pen::solid(Colour::INK, size / 16.0));
+            let start = Lettering::new(size, Anchor::Start);
+            on.text(
+                [block.right + 0.4 * size, block.bottom - 0.14 * size],
+                name,
+                start,
+            );
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! Particles in space as one surface, seen from the front, the left and above.
+//!
+//! Every particle is a sphere of 1.5 times its diameter. Depths of the nearest spheres are made smooth over about a
+//! diameter, and light from the upper left shades what their slopes are.
+
+use crate::drawing::axes::Axes;
+use crate::drawing::canvas::Canvas;
+use crate::drawing::colour::Colour;
+use crate::drawing::picture::Picture;
+use crate::drawing::draw_target::{Anchor, Lettering, Pen, DrawTarget};
+
+/// Angle of the x axis on the screen, and of the view above the horizontal: cosine and sine of 25° and 30°.
+const TURN: [f64; 2] = [0.906_307_787, 0.422_618_262];
+const TILT: [f64; 2] = [0.866_025_404, 0.5];
+/// Diameter of the spheres over that of the particles.
+const SWOLLEN: f64 = 1.5;
+/// How often depths are averaged.
+const PASSES: usize = 3;
+/// Direction to the light: to the right, upwards, away from the eye.
+const LIGHT: [f64; 3] = [-0.35, 0.75, -0.56];
+/// Brightness of what is turned away from the light.
+const DARK: f64 = 0.45;
+
+/// Place on the screen, and distance from it, m.
+pub(crate) fn seen([x, y, z]: [f64; 3]) -> ([f64; 2], f64) {
+    let ([ct, st], [ce, se]) = (TURN, TILT);
+    let away = -st * x + ct * y;
+    ([ct * x + st * y, se * away + ce * z], ce * away - se * z)
+}
+
+/// What is seen at every pixel of a frame: distance (m), infinite where there is nothing, and value.
+struct Relief {
+    width: usize,
+    height: usize,
+    depth: Vec<f64>,
+    value: Vec<f64>,
+}
+
+/// Draws the particles of a picture.
+pub(crate) fn draw_surface(picture: &Picture<'_>, on: &mut Canvas, axes: &Axes, range: [f64; 2]) {
+    let scale = axes.frame.width() / (axes.x.hi - axes.x.lo);
+    let mut relief = Relief {
+        width: axes.frame.width() as usize,
+        height: axes.frame.height() as usize,
+        depth: Vec::new(),
+        value: Vec::new(),
+    };
+    let count = relief.width * relief.height;
+    relief.depth.resize(count, f64::INFINITY);
+    relief.value.resize(count, 0.0);
+    for (i, point) in picture.points.iter().enumerate() {
+        let diameter = picture
+            .diameters
+            .get(i)
+            .copied()
+            .unwrap_or(picture.diameter);
+        let ([x, y], depth) = seen(*point);
+        let [x, y] = axes.spot(x, y);
+        let at = [x - axes.frame.left, y - axes.frame.top];
+        if at.iter().all(|x| x.is_finite()) {
+            let radius = (0.5 * SWOLLEN * diameter * scale).max(0.75);
+            relief.add(at, radius, (depth, scale), picture.values[i]);
+        }
+    }
+    let diameter = picture.diameter * scale;
+    let reach = (0.5 * diameter).round().clamp(1.0, 12.0) as usize;
+    for _ in 0..PASSES {
+        relief.smooth(reach, 2.0 * picture.diameter);
+    }
+    let corner = [axes.frame.left, axes.frame.top].map(|x| x.round() as usize);
+    for j in 0..relief.height {
+        for i in 0..relief.width {
+            let k = j * relief.width + i;
+            if relief.depth[k].is_finite() {
+                let colour = picture.colour_of(relief.value[k], range);
+                let colour = lit(colour, relief.brightness([i, j], scale, picture.diameter));
+                on.dot([corner[0] + i, corner[1] + j], colour);
+            }
+        }
+    }
+}
+
+fn lit(Colour(parts): Colour, brightness: f64) -> Colour {
+    Colour(parts.map(|part| (f64::from(part) * brightness).min(255.0) as u8))
+}
+
+impl Relief {
+    /// A sphere around a pixel.
+    fn add(&mut self, [x, y]: [f64; 2], radius: f64, (depth, scale): (f64, f64), value: f64) {
+        let span = |at: f64, side: usize| {
+            let end = side as f64;
+            (at - radius).clamp(0.0, end) as usize..(at + radius + 1.0).clamp(0.0, end) as usize
+        };
+        for j in span(y, self.height) {
+            for i in span(x, self.width) {
+                let [dx, dy] = [i as f64 + 0.5 - x, j as f64 + 0.5 - y];
+                let rest = radius * radius - dx * dx - dy * dy;
+                let near = depth - rest.max(0.0).sqrt() / scale;
+                let k = j * self.width + i;
+                if rest >= 0.0 && near < self.depth[k] {
+                    self.depth[k] = near;
+                    self.value[k] = value;
+                }
+            }
+        }
+    }
+
+    /// Averages depths and values over `reach` pixels to all sides, of what is not further away by more than `step` m.
+    fn smooth(&mut self, reach: usize, step: f64) {
+        for [right, down] in [[1, 0], [0, 1]] {
+            let (depth, value) = (self.depth.clone(), self.value.clone());
+            for j in 0..self.height {
+                for i in 0..self.width {
+                    let k = j * self.width + i;
+                    if !depth[k].is_finite() {
+                        continue;
+                    }
+                    let (at, side) = if right == 1 {
+                        (i, self.width)
+                    } else {
+                        (j, self.height)
+                    };
+                    let stride = right + down * self.width;
+                    let from = k - at.min(reach) * stride;
+                    let count = at.min(reach) + 1 + (side - 1 - at).min(reach);
+                    let mut sum = [0.0; 3];
+                    for n in 0..count {
+                        let m = from + n * stride;
+                        if (depth[m] - depth[k]).abs() < step && value[m].is_finite() {
+                            sum = [sum[0] + 1.0, sum[1] + depth[m], sum[2] + value[m]];
+                        }
+                    }
+                    if sum[0] > 0.0 {
+                        self.depth[k] = sum[1] / sum[0];
+                        self.value[k] = sum[2] / sum[0];
+                    }
+                }
+            }
+        }
+    }
+
+    /// How bright the surface at a pixel is, from its slope; ridges before something far stay as they are.
+    fn brightness(&self, [i, j]: [usize; 2], scale: f64, diameter: f64) -> f64 {
+        let depth = |i: usize, j: usize| self.depth[j * self.width + i];
+        let here = depth(i, j);
+        let slope = |a: f64, b: f64| {
+            let one = |d: f64| (d.abs() < diameter).then_some(d * scale);
+            match (one(here - a), one(b - here)) {
+                (Some(a), Some(b)) => 0.5 * (a + b),
+                (a, b) => a.or(b).unwrap_or(0.0),
+            }
+        };
+        let (last_i, last_j) = (self.width - 1, self.height - 1);
+        let across = slope(depth(i.saturating_sub(1), j), depth((i + 1).min(last_i), j));
+        let down = slope(depth(i, j.saturating_sub(1)), depth(i, (j + 1).min(last_j)));
+        // The distance grows to the right by `across` and upwards by −`down`: so points the normal to the eye.
+        let normal = [across, -down, -1.0];
+        let size = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let cosine: f64 = normal.iter().zip(LIGHT).map(|(n, l)| n * l).sum::<f64>() / size;
+        DARK + (1.15 - DARK) * cosine.max(0.0)
+    }
+}
+
+/// The directions of the axes and a length, in the lower left corner.
+pub(crate) fn draw_compass(on: &mut Canvas, axes: &Axes) {
+    let (frame, size) = (&axes.frame, axes.size);
+    let pen = Pen::solid(Colour::INK, size / 10.0);
+    let origin = [frame.left - 1.6 * size, frame.bottom - 1.0 * size];
+    let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let middle = Lettering::new(0.9 * size, Anchor::Middle);
+    for (name, unit) in ["x", "y", "z"].into_iter().zip(units) {
+        let [right, up] = seen(unit).0;
+        let at = |r: f64| [origin[0] + r * size * right, origin[1] - r * size * up];
+        on.line(&[origin, at(2.2)], pen);
+        let [x, y] = at(2.9);
+        on.text([x, y + 0.3 * size], name, middle);
+    }
+    // A round length of about a fifth of the width.
+    let scale = frame.width() / (axes.x.hi - axes.x.lo);
+    let wide = 0.2 * frame.width() / scale;
+    let unit = 10f64.powi(wide.log10().floor() as i32);
+    let factors = [5.0, 2.0, 1.0].into_iter();
+    let length = factors
+        .map(|f| f * unit)
+        .find(|l| *l <= wide)
+        .unwrap_or(unit);
+    let y = frame.bottom + 1.4 * size;
+    let ends = [
+        frame.left + 3.0 * size,
+        frame.left + 3.0 * size + length * scale,
+    ];
+    on.line(&[[ends[0], y], [ends[1], y]], pen);
+    for x in ends {
+        on.line(&[[x, y - 0.3 * size], [x, y + 0.3 * size]], pen);
+    }
+    // Along the screen: lengths across the view are true.
+    let text = format!("{length} m");
+    on.text([0.5 * (ends[0] + ends[1]), y + 1.3 * size], &text, middle);
+}
