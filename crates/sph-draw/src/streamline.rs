@@ -230,6 +230,7 @@ pub fn draw_streamlines(
     let picture = sph_io::Picture {
         label: &column.label,
         lines: &drawn,
+        range: frames.range(field)?,
         ..snapshot.picture(&points, &values)
     };
     picture.save(path)?;

@@ -83,6 +83,7 @@ pub fn draw_tracks(
     let picture = sph_io::Picture {
         label: &column.label,
         lines: &lines,
+        range: frames.range(field)?,
         ..snapshot.picture(snapshot.points(), &column.values)
     };
     picture.save(path)?;
