@@ -31,6 +31,9 @@ pub struct Progress {
     pub frames: usize,
     /// Checkpoints made.
     pub checkpoints: u64,
+    /// Ranges of the colours of pictures.
+    #[serde(default)]
+    pub colours: sph_io::ColourRanges,
     /// The last step, s.
     pub dt: f64,
     /// Steps by what limited them.

@@ -192,6 +192,7 @@ impl<'a> Running<'a> {
             }
         }
         self.checkpoint()?;
+        self.written.film(self.loaded)?;
         let status = if interrupted {
             Status::Interrupted
         } else {
@@ -223,7 +224,14 @@ impl<'a> Running<'a> {
         let fields = due(self.progress.outputs, scene.output.interval(end));
         if fields && later(self.progress.last_output) {
             let (model, origin) = (&self.parts.model, &self.parts.origin);
-            self.progress.frames = self.written.frame(self.loaded, model, origin)?;
+            let (frames, wider) = self.written.frame(self.loaded, model, origin)?;
+            for field in wider {
+                self.observer.message(&format!(
+                    "note: the range of colours of `{field}` is wider from t = {time:.4} s on; `output.picture_range` fixes it"
+                ));
+            }
+            self.progress.frames = frames;
+            self.progress.colours = self.written.colours.clone();
             self.progress.outputs = next(time, scene.output.interval(end));
             self.progress.last_output = Some(time);
         }

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use sph_io::{Frame, PvdSeries, SeriesWriter};
+use sph_io::{ColourRanges, Frame, PvdSeries, SeriesWriter};
 
 use crate::checkpoint::Progress;
 use crate::columns::headings;
 use crate::error::DemError;
+use crate::fields::values;
 use crate::frames;
 use crate::model::Model;
 use crate::origin::Origin;
@@ -18,6 +19,8 @@ pub struct Written {
     series: SeriesWriter,
     pvd: Option<PvdSeries>,
     pictures: usize,
+    /// Ranges of colours, for checkpoints.
+    pub colours: ColourRanges,
 }
 
 impl Written {
@@ -54,6 +57,7 @@ impl Written {
             series,
             pvd,
             pictures,
+            colours: progress.map_or_else(ColourRanges::default, |p| p.colours.clone()),
         })
     }
 
@@ -66,7 +70,7 @@ impl Written {
         Ok(self.series.position())
     }
 
-    /// Writes fields and pictures; tells how many there are now.
+    /// Writes fields and pictures; tells how many there are now, and whose colours have changed.
     ///
     /// # Errors
     /// If they cannot be written.
@@ -75,7 +79,8 @@ impl Written {
         loaded: &Loaded,
         model: &Model,
         origin: &Origin,
-    ) -> Result<usize, DemError> {
+    ) -> Result<(usize, Vec<String>), DemError> {
+        let mut wider = Vec::new();
         let scene = &loaded.scene;
         let index = self.pictures;
         if let Some(pvd) = &mut self.pvd {
@@ -93,12 +98,33 @@ impl Written {
             for field in &scene.output.picture {
                 let path = folder.join(format!("{field}_{index:06}.png"));
                 let range = scene.output.picture_range.as_ref();
-                let range = range.and_then(|all| all.of(field));
+                let given = range.and_then(|all| all.of(field));
+                let range = given.or_else(|| {
+                    let seen = self.colours.of(field, &values(field, model, origin))?;
+                    wider.extend(seen.1.then(|| field.clone()));
+                    Some(seen.0)
+                });
                 frames::picture(model, origin, field, range, &scene.title, None, &path)?;
             }
         }
         self.pictures += 1;
-        Ok(self.pictures)
+        Ok((self.pictures, wider))
+    }
+
+    /// Joins the pictures of every field to a film, unless the scene wants none.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn film(&self, loaded: &Loaded) -> Result<(), DemError> {
+        let output = &loaded.scene.output;
+        for field in &output.picture {
+            let file = |k| self.out.join(format!("pictures/{field}_{k:06}.png"));
+            let speed = output.animation.unwrap_or(10.0);
+            if speed > 0.0 {
+                sph_io::write_film(&self.out, field, (0..self.pictures).map(file), speed)?;
+            }
+        }
+        Ok(())
     }
 
     /// The file of the series.

@@ -17,9 +17,12 @@ pub struct Output {
     /// Fields of which pictures are drawn; none if left out.
     pub picture: Vec<String>,
     /// Values at the ends of the pictures' colours, SI: `[low, high]` for all pictures, or a table of fields with such
-    /// pairs; least and largest value where none is given.
+    /// pairs. Where none is given, round numbers that hold 98 % of the values of the first picture in which they differ.
     #[schemars(extend("unit" = "1"))]
     pub picture_range: Option<PictureRange>,
+    /// Pictures per second of the film of every field that has pictures, `animations/NAME.gif`; 10 if left out, 0 for no film.
+    #[schemars(extend("unit" = "1/s"), range(min = 0.0, max = 50.0))]
+    pub animation: Option<f64>,
     /// Whether files for ParaView are left out.
     pub no_vtk: bool,
 }
