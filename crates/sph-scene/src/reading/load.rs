@@ -145,6 +145,10 @@ fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     remarks.extend(of_plugins);
     let remarks = source.diagnose(&remarks);
     scene.remarks = remarks.iter().map(Diagnostic::to_string).collect();
+    for (name, wall) in &mut scene.wall {
+        let found = source.diagnose(&[SceneProblem::new(format!("wall.{name}"), "")]);
+        wall.place = found.first().map(|d| format!("{}:{}", d.file, d.line));
+    }
     Ok(scene)
 }
 

@@ -101,6 +101,9 @@ pub struct Wall {
     /// The file with its folder, set when the scene is read.
     #[serde(skip)]
     pub path: Option<PathBuf>,
+    /// File and line in which its table begins, set when the scene is read.
+    #[serde(skip)]
+    pub place: Option<String>,
 }
 
 /// What a wall does to the velocity along it.

@@ -47,15 +47,21 @@ pub fn draw<const D: usize>(
     folder: &Path,
 ) -> Vec<PathBuf> {
     let world = &flow.world;
-    let Some((label, values)) = column_of(flow, telling(cause)) else {
+    let Some((label, mut values)) = column_of(flow, telling(cause)) else {
         return Vec::new();
     };
     let Ok(position) = world.free.get(fields::POSITION) else {
         return Vec::new();
     };
-    let points: Vec<[f64; 3]> = position.iter().map(padded).collect();
+    let mut points: Vec<[f64; 3]> = position.iter().map(padded).collect();
     let walls = drawn_walls(world);
     let ring = place.as_ref().map(padded);
+    // What is drawn last covers its neighbours.
+    if let Some(k) = points.iter().position(|x| Some(*x) == ring) {
+        let last = points.len() - 1;
+        points.swap(k, last);
+        values.swap(k, last);
+    }
     let whole = Picture {
         title,
         time: Some(world.time),

@@ -14,10 +14,12 @@ use crate::running::checkpoint;
 use crate::running::course::Running;
 use crate::running::driver::Observer;
 use crate::running::output::{BAD_STATE, write_everything};
+use crate::setup::leaks::Leak;
 use crate::step::snapshot::Snapshot;
 
-/// Ways within a step, in spacings, beyond which the particle is shown where it was.
-const FAR: f64 = 10.0;
+/// Distance from a leak, in kernel supports, within which it is the cause: neighbours of the particles that it
+/// disturbs are two supports away.
+const NEAR_LEAKS: f64 = 2.0;
 
 impl<const D: usize> Running<'_, D> {
     /// After a step that failed: back to the state before it, with half of the step.
@@ -33,7 +35,9 @@ impl<const D: usize> Running<'_, D> {
         let cause = self.known_to_all(cause);
         self.note_trouble(&cause);
         self.departure.failed(&cause);
-        let Some(kept) = snapshot.filter(|_| self.counters.retries < self.scene.run.retries) else {
+        let hopeless = self.leak_at(&cause).is_some();
+        let left = self.counters.retries < self.scene.run.retries;
+        let Some(kept) = snapshot.filter(|_| left && !hopeless) else {
             return Err(self.fail(cause, snapshot, observer));
         };
         self.counters.retries += 1;
@@ -46,6 +50,24 @@ impl<const D: usize> Running<'_, D> {
             self.counters.steps, self.parts.flow.world.time
         ));
         Ok(())
+    }
+
+    /// The leak of a wall beside the particle that a failed step names: no shorter step mends a wall.
+    ///
+    /// Parts of a divided flow try again, as each knows its own walls only.
+    fn leak_at(&self, cause: &StepError) -> Option<&Leak<D>> {
+        let world = &self.parts.flow.world;
+        let StepError::Bad { position, .. } = cause else {
+            return None;
+        };
+        if self.parts.flow.parts.is_some() || position.len() != D {
+            return None;
+        }
+        let at = Vect::<D>::from_column_slice(position);
+        let reach = NEAR_LEAKS * world.kernel.support_radius();
+        let near = |x: &Vect<D>| world.domain.nearest(at - x).norm() < reach;
+        let mut leaks = self.parts.leaks.iter();
+        leaks.find(|leak| leak.places.iter().any(near))
     }
 
     /// Keeps the first sign of trouble.
@@ -147,21 +169,16 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    /// Where a particle is, or was before it went where no picture goes.
+    /// Where a particle is, or was before it left the domain.
     fn place(&self, number: u32, snapshot: Option<&Snapshot<D>>) -> Option<Vect<D>> {
         let flow = &self.shown().flow;
         let now = flow.world.free.get(fields::POSITION).ok()?[flow.place_of(number)?];
         let before = snapshot.and_then(|s| s.position_of(number));
-        let far = FAR * flow.world.spacing;
-        let shown = match before {
-            // What is not a number is nowhere.
-            Some(before) => match (now - before).norm() <= far {
-                true => now,
-                false => before,
-            },
-            None => now,
-        };
-        shown.iter().all(|x| x.is_finite()).then_some(shown)
+        // What is not a number is nowhere.
+        let shown = [Some(now), before].into_iter().flatten();
+        let mut shown = shown.filter(|x| x.iter().all(|x| x.is_finite()));
+        let within = |x: &Vect<D>| flow.world.domain.contains(x);
+        shown.clone().find(within).or_else(|| shown.next())
     }
 
     /// Back to the last good state, which becomes the checkpoint; what acted on the particle there.
@@ -201,6 +218,8 @@ impl<const D: usize> Running<'_, D> {
         failure.findings.files = files.filter_map(name).collect();
         let told = &self.parts.flow.remedies;
         let all = remedies(self.scene, &failure.cause, &failure.findings, told);
-        failure.findings.advice = all;
+        let leak = self.leak_at(&failure.cause);
+        let leak = leak.map(|leak| format!("mend the wall beside the particle, {}", leak.text));
+        failure.findings.advice = leak.into_iter().chain(all).collect();
     }
 }

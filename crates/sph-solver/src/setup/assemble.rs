@@ -17,10 +17,11 @@ use crate::failure::error::SolverError;
 use crate::results::summary::PluginInForce;
 use crate::setup::builder::Part;
 use crate::setup::choices::Choices;
-use crate::setup::domain::{extent, height};
+use crate::setup::domain::{extent, height, pressure_at_rest};
 use crate::setup::field_error;
 use crate::setup::joining::{Given, evolved, joined, remedies};
 use crate::setup::lattices;
+use crate::setup::leaks::Leak;
 use crate::setup::movers;
 use crate::setup::open_faces;
 use crate::setup::output_fields::check_output_fields;
@@ -60,10 +61,14 @@ pub struct Assembled<const D: usize> {
     pub plugins: Vec<PluginInForce>,
     /// Remarks for the summary.
     pub warnings: Vec<String>,
+    /// Walls behind which fluid can get.
+    pub leaks: Vec<Leak<D>>,
     /// What relaxing the first particles did, if it was asked for.
     pub relaxation: Option<Relaxation>,
     /// Extent of all bodies along gravity, m.
     pub height: f64,
+    /// Pressure that all bodies above one another would have below them at rest, Pa.
+    pub pressure: f64,
     /// Body that a particle came from, by its number.
     pub body_of: Vec<u32>,
 }
@@ -108,6 +113,7 @@ pub(crate) fn assemble_share<const D: usize>(
         world: room,
         walls,
         placed,
+        leaks,
         mut warnings,
     } = Room::for_share(scene, &drawn, &mut choices, &mut share)?;
     warnings.extend(speeds);
@@ -169,8 +175,10 @@ pub(crate) fn assemble_share<const D: usize>(
         solutions: choices.solutions,
         plugins: choices.in_force,
         warnings,
+        leaks,
         relaxation,
         height: height(scene, &drawn.regions),
+        pressure: pressure_at_rest(scene, &drawn.regions),
         body_of: placed.body,
     })
 }

@@ -2,15 +2,18 @@
 
 use std::sync::{Arc, Mutex};
 
+use sph_boundary::WallEntry;
 use sph_core::Store;
 use sph_core::plausible::Quantity;
 use sph_neighbours::{WallSet, World};
-use sph_scene::Scene;
+use sph_scene::{PluginChoice, Scene};
 
 use crate::defaults;
 use crate::failure::error::SolverError;
+use crate::setup::builder::Builder;
 use crate::setup::choices::Choices;
 use crate::setup::domain::{check_periods, domain_of};
+use crate::setup::leaks::{Leak, leaks};
 use crate::setup::placement::{Placed, place};
 use crate::setup::shapes::Drawn;
 use crate::setup::share::{Share, Standing};
@@ -25,6 +28,8 @@ pub(crate) struct Room<const D: usize> {
     pub walls: Option<SharedWall<D>>,
     /// Places and bodies of the particles.
     pub placed: Placed<D>,
+    /// Walls behind which fluid can get.
+    pub leaks: Vec<Leak<D>>,
     /// Remarks.
     pub warnings: Vec<String>,
 }
@@ -72,7 +77,15 @@ impl<const D: usize> Room<D> {
             ends.map_err(|e| wall_problem(scene, &e))?;
             warnings.extend(thin_walls(scene, walls.thin_walls(&placed.positions))?);
         }
+        let elements = match world.walls.elements.corners.is_empty() && !drawn.walls.is_empty() {
+            true => with_elements(scene, drawn, &world, choices, h),
+            false => None,
+        };
+        let skins = elements.as_ref().unwrap_or(&world.walls);
+        let leaks = leaks(scene, &world, skins, &placed.positions);
+        warnings.extend(leaks.iter().map(|leak| leak.text.clone()));
         Ok(Room {
+            leaks,
             world,
             walls: choices.walls.take().map(|w| Arc::new(Mutex::new(w))),
             placed,
@@ -105,9 +118,26 @@ impl<const D: usize> Room<D> {
                 body: Vec::new(),
                 warnings: Vec::new(),
             },
+            leaks: Vec::new(),
             warnings: Vec::new(),
         })
     }
+}
+
+/// The walls as the default treatment cuts them into elements, for a treatment that has none; nothing where it refuses them.
+fn with_elements<const D: usize>(
+    scene: &Scene,
+    drawn: &Drawn<D>,
+    world: &World<D>,
+    choices: &Choices<D>,
+    h: f64,
+) -> Option<WallSet<D>> {
+    let name = defaults::of("walls")?;
+    let default = PluginChoice::default_of("walls", name);
+    let made = Builder::new(scene).each::<D, WallEntry>(vec![default]);
+    let mut walls = made.into_iter().next()?;
+    let kernel = &*choices.kernel;
+    build_walls(scene, &drawn.walls, &mut *walls, kernel, &world.domain, h).ok()
 }
 
 /// A box with a kernel and nothing in it.
