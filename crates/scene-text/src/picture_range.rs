@@ -20,7 +20,7 @@ use crate::SceneProblem;
 pub enum PictureRange {
     /// Those of all pictures.
     All([f64; 2]),
-    /// Those of single fields; pictures of others go from their least to their largest value.
+    /// Those of single fields.
     ByField(BTreeMap<String, [f64; 2]>),
 }
 

@@ -3,6 +3,7 @@
 pub(crate) mod beginning;
 pub(crate) mod checkpoint;
 pub(crate) mod clock;
+pub(crate) mod colours;
 pub(crate) mod counters;
 pub(crate) mod course;
 pub(crate) mod departure;

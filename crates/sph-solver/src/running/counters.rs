@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
+use sph_io::ColourRanges;
 use sph_scene::Scene;
 
 use crate::failure::trouble::Trouble;
@@ -54,6 +55,9 @@ pub(crate) struct Counters {
     /// What probes have gathered so far, bit by bit, by their names.
     #[serde(default)]
     pub(crate) probes: BTreeMap<String, Vec<u64>>,
+    /// Ranges of the colours of pictures so far.
+    #[serde(default)]
+    pub(crate) colours: ColourRanges,
 }
 
 /// Largest count that is believed: a million steps a second for three centuries. Far below 2⁶⁴, so that

@@ -2,11 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use sph_core::fields;
 use sph_io::{ColourMap, FieldData, Frame, IoError, Picture, PvdSeries, View};
 use sph_probes::{SURFACE_DISTANCE, surface_distance};
-use sph_scene::{PictureRange, Scene};
+use sph_scene::Scene;
 
 use crate::failure::bad_pictures;
+use crate::running::colours::Colours;
 use crate::running::drawn_flow::{column_of, drawn_walls};
 use crate::running::pieces::{own_particles, particles, points, walls};
 use crate::running::series::Probes;
@@ -30,8 +32,10 @@ pub struct Outputs {
     series: Option<PvdSeries>,
     fields: Vec<String>,
     pictures: Vec<String>,
-    ranges: Option<PictureRange>,
+    pub(crate) colours: Colours,
     title: String,
+    /// Names of the phases, for pictures of them.
+    phases: Vec<String>,
     /// Pictures per second of animations.
     animation: Option<f64>,
     /// Outputs written so far, for the names of pictures.
@@ -41,12 +45,13 @@ pub struct Outputs {
 impl Outputs {
     /// Starts anew, or goes on after `written` outputs. With `changed_at` the scene's outputs may be others than before:
     /// the list of fields goes on with what there is of it until that time, s, or begins there.
-    pub fn open<const D: usize>(
+    pub(crate) fn open<const D: usize>(
         scene: &Scene,
         probes: &Probes<D>,
         folder: &Path,
         written: Option<usize>,
         changed_at: Option<f64>,
+        colours: Colours,
     ) -> Result<Self, IoError> {
         if written.is_none() {
             forget_earlier_run(folder);
@@ -80,21 +85,23 @@ impl Outputs {
             series,
             fields: scene.output.fields.clone(),
             pictures: scene.output.picture.clone(),
-            ranges: scene.output.picture_range.clone(),
+            colours,
             title: scene.title.clone(),
-            animation: scene.output.animation,
+            phases: scene.phase.keys().cloned().collect(),
+            animation: scene.output.pictures_per_second(),
             written: written.unwrap_or(0),
         })
     }
 
     /// Writes everything the scene asks for at the flow's present time; `among` has this process' part of it and the number of
-    /// ranks, where these write frames together.
+    /// ranks, where these write frames together. Tells what changes in the pictures.
     pub fn write<const D: usize>(
         &mut self,
         flow: &Flow<D>,
         probes: &Probes<D>,
         among: Option<(&Flow<D>, usize)>,
-    ) -> Result<(), SolverError> {
+    ) -> Result<Vec<String>, SolverError> {
+        let mut remarks = Vec::new();
         let time = flow.world.time;
         let points = points(flow)?;
         // No column: nobody but an output has a use for it.
@@ -130,11 +137,20 @@ impl Outputs {
             };
             let Some(drawn) = drawn else { continue };
             let file = format!("pictures/{name}_{:04}.png", self.written);
+            let classes = match name == fields::PHASE.name {
+                true => &self.phases[..],
+                false => &[],
+            };
+            let range = match classes {
+                [] => self.colours.range(name, &drawn.1),
+                _ => (None, None),
+            };
+            remarks.extend(range.1);
             picture(
                 flow,
-                &points,
+                (&points, classes),
                 drawn,
-                self.ranges.as_ref().and_then(|all| all.of(name)),
+                range.0,
                 &self.title,
                 &self.folder.join(file),
             )?;
@@ -151,21 +167,24 @@ impl Outputs {
             if let Some(drawn) = probe.drawn_column() {
                 let label = format!("{} [{}]", columns[drawn].suffix, columns[drawn].unit);
                 let file = format!("pictures/{name}_{:04}.png", self.written);
+                let values: Vec<f64> = rows.iter().map(|row| row[drawn]).collect();
+                let (range, told) = self.colours.range(name, &values);
+                remarks.extend(told);
                 map(
                     flow,
                     &rows,
-                    drawn,
-                    &label,
+                    (&label, &values),
+                    range,
                     &self.title,
                     &self.folder.join(file),
                 )?;
             }
         }
         self.written += 1;
-        Ok(())
+        Ok(remarks)
     }
 
-    /// Joins the pictures of every field to an animation, if the scene asks for it.
+    /// Joins the pictures of every field to a film, unless the scene wants none.
     pub fn animate(&self) -> Result<(), IoError> {
         let Some(speed) = self.animation else {
             return Ok(());
@@ -173,14 +192,7 @@ impl Outputs {
         for name in &self.pictures {
             let file = |k| self.folder.join(format!("pictures/{name}_{k:04}.png"));
             // A scene that was changed on the way may have drawn other fields before.
-            let pictures = (0..self.written).map(file).filter(|p| p.is_file());
-            let pictures: Vec<PathBuf> = pictures.collect();
-            if pictures.is_empty() {
-                continue;
-            }
-            sph_io::writable(self.folder.join("animations"))?;
-            let path = self.folder.join(format!("animations/{name}.gif"));
-            sph_io::write_gif(path, &pictures, speed)?;
+            sph_io::write_film(&self.folder, name, (0..self.written).map(file), speed)?;
         }
         Ok(())
     }
@@ -206,6 +218,7 @@ fn forget_earlier_run(folder: &Path) {
         };
         matches!(kind, "png" | "vtu" | "pvtu" | "csv") && number.len() >= 4 && is_number(number)
     };
+    let _ = std::fs::remove_dir_all(folder.join("animations"));
     for sub in FOLDERS {
         let entries = std::fs::read_dir(folder.join(sub))
             .into_iter()
@@ -230,18 +243,17 @@ pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<(
     Ok(())
 }
 
-/// A column of a probe's table as a map over the first two.
+/// Values of a probe's table as a map over its first two columns.
 fn map<const D: usize>(
     flow: &Flow<D>,
     rows: &[Vec<f64>],
-    column: usize,
-    label: &str,
+    (label, values): (&str, &[f64]),
+    range: Option<[f64; 2]>,
     title: &str,
     path: &Path,
 ) -> Result<(), SolverError> {
     let world = &flow.world;
     let points: Vec<[f64; 3]> = rows.iter().map(|row| [row[0], row[1], 0.0]).collect();
-    let values: Vec<f64> = rows.iter().map(|row| row[column]).collect();
     // Cells are as wide as the nearest ones are apart.
     let apart = |[a, b]: [&[f64; 3]; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs();
     let pairs = points.windows(2).map(|pair| apart([&pair[0], &pair[1]]));
@@ -256,15 +268,16 @@ fn map<const D: usize>(
             world.spacing
         },
         view: View::Plane,
+        range,
         colours: ColourMap::Viridis,
-        ..Picture::of(&points, &values)
+        ..Picture::of(&points, values)
     };
     Ok(picture.save(path)?)
 }
 
 fn picture<const D: usize>(
     flow: &Flow<D>,
-    points: &[[f64; 3]],
+    (points, classes): (&[[f64; 3]], &[String]),
     (label, values): (String, Vec<f64>),
     range: Option<[f64; 2]>,
     title: &str,
@@ -278,7 +291,8 @@ fn picture<const D: usize>(
         label: &label,
         diameter: world.spacing,
         walls: &walls,
-        view: if D == 2 { View::Plane } else { View::Front },
+        classes,
+        view: if D == 2 { View::Plane } else { View::Above },
         range,
         colours: ColourMap::Viridis,
         ..Picture::of(points, &values)

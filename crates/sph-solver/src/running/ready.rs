@@ -12,6 +12,7 @@ use sph_scene::Scene;
 use crate::failure::error::SolverError;
 use crate::results::references;
 use crate::running::beginning::begin;
+use crate::running::colours::Colours;
 use crate::running::counters::Counters;
 use crate::running::course::{Files, Running};
 use crate::running::departure::DepartureWatch;
@@ -116,6 +117,7 @@ impl Files {
             &options.out,
             resumed.map(|c| c.outputs),
             changed.then_some(flow.world.time),
+            Colours::of(scene, shown.pressure, &counters.colours),
         )?;
         let kept = counters.series_peaks.iter().flatten();
         for (peak, bits) in series.peaks.iter_mut().zip(kept) {

@@ -60,7 +60,9 @@ impl<const D: usize> Running<'_, D> {
             self.counters.last_row = Some(time.to_bits());
         }
         if due.output {
-            self.write_output()?;
+            for told in self.write_output()? {
+                observer.message(&told);
+            }
             self.counters.outputs += 1;
             self.counters.next_output = self.next_output(time);
         }
@@ -74,8 +76,8 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Fields, pictures and curves. Ranks write the particles of a frame together, but where these have a depth that the first
-    /// alone has found.
-    fn write_output(&mut self) -> Result<(), SolverError> {
+    /// alone has found. Tells what changes in the pictures.
+    fn write_output(&mut self) -> Result<Vec<String>, SolverError> {
         let parts = self.parts.flow.parts.as_ref();
         let team = parts.map(|p| (p.transport().rank(), p.transport().ranks()));
         let together = self.scene.output.vtk && !shows_depths(self.scene);
@@ -88,9 +90,10 @@ impl<const D: usize> Running<'_, D> {
             }
             (None, Some((rank, _))) => {
                 let place = (self.counters.outputs, rank);
-                write_own_share(self.scene, &self.parts.flow, &self.options.out, place)
+                write_own_share(self.scene, &self.parts.flow, &self.options.out, place)?;
+                Ok(Vec::new())
             }
-            (None, None) => Ok(()),
+            (None, None) => Ok(Vec::new()),
         }
     }
 
@@ -134,6 +137,7 @@ impl<const D: usize> Running<'_, D> {
         self.counters.series_peaks = Some(files.series.peaks.map(f64::to_bits).to_vec());
         self.counters.energies = self.energy.bits();
         self.counters.outputs = files.outputs.written;
+        self.counters.colours = files.outputs.colours.seen.clone();
         let left = self.parts.flow.left();
         self.counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
         let shown = self.shown();
