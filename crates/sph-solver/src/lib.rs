@@ -24,6 +24,7 @@ mod step;
 pub use failure::error::{Failure, SolverError};
 pub use failure::findings::{Findings, Share, Sighting, Suspect};
 pub use failure::trouble::Trouble;
+pub use results::scene_picture::draw_scene;
 pub use results::summary::{Drift, ErrorEntry, PluginInForce, RankShare, Status, Summary};
 pub use running::driver::{Command, Observer, Progress};
 pub use running::identity::{FileMark, Identity, marks};

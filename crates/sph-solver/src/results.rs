@@ -6,4 +6,5 @@ pub(crate) mod reference_plots;
 pub(crate) mod reference_table;
 pub(crate) mod references;
 pub(crate) mod report;
+pub(crate) mod scene_picture;
 pub(crate) mod summary;

@@ -1,5 +1,7 @@
 //! Pictures of probes beside their references.
 
+use std::fs::File;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use sph_io::{Plot, Series, read_table};
@@ -11,6 +13,9 @@ use crate::results::reference_table::reference_table;
 
 /// More points than this are drawn as a line: markers would cover one another, and the run.
 const MOST_MARKERS: usize = 200;
+
+/// Longest list of authors in a legend, characters.
+const LONGEST: usize = 40;
 
 /// A reference is shown this much beyond the end of the run, over its length.
 const BEYOND: f64 = 0.05;
@@ -62,21 +67,62 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<(), SolverError> {
         let pairs = |x: &[f64], y: &[f64]| -> Vec<[f64; 2]> {
             x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
         };
+        let source = source(path).unwrap_or_else(|| name.clone());
         let given = match reference.norm() {
-            Norm::Band => Series::band("reference band", pairs(&at, &value(1)), value(2)),
-            _ if at.len() > MOST_MARKERS => Series::line("reference", pairs(&at, &value(1))),
-            _ => Series::markers("reference", pairs(&at, &value(1))),
+            Norm::Band => Series::band(format!("band: {source}"), pairs(&at, &value(1)), value(2)),
+            _ if at.len() > MOST_MARKERS => Series::line(source, pairs(&at, &value(1))),
+            _ => Series::markers(source, pairs(&at, &value(1))),
+        };
+        let y_label = match unit.as_deref() {
+            None | Some("" | "1") => probe.clone(),
+            Some(unit) => format!("{probe} [{unit}]"),
         };
         let plot = Plot {
             title: format!("{}: {name}", scene.title),
             x_label: "time [s]".into(),
-            y_label: format!("{probe} [{}]", unit.unwrap_or_default()),
+            y_label,
             series: vec![given, Series::line("this run", pairs(times, &values))],
             ..Plot::default()
         };
         plot.save_png(plots.join(format!("{name}.png")))?;
     }
     Ok(())
+}
+
+/// Who made the reference: what a line `# Source: …` of its file says up to the year.
+fn source(path: &Path) -> Option<String> {
+    let lines = BufReader::new(File::open(path).ok()?).lines();
+    let heads = lines
+        .map_while(Result::ok)
+        .take_while(|line| line.starts_with('#'));
+    let mut sources = heads.filter_map(|line| cited(line.split_once("Source:")?.1));
+    sources.next()
+}
+
+/// Authors and year of a source; of many authors the first.
+fn cited(source: &str) -> Option<String> {
+    let source = source.trim();
+    let year = |(k, _): &(usize, &str)| {
+        let digits = source[k + 1..]
+            .chars()
+            .take_while(char::is_ascii_digit)
+            .count();
+        digits == 4
+    };
+    let Some((open, _)) = source.match_indices('(').find(year) else {
+        // What this project has computed says so before its first colon.
+        let what = source.split([':', ';', ',']).next()?.trim();
+        return (!what.is_empty()).then(|| what.to_string());
+    };
+    let authors = source[..open].trim();
+    let year = &source[open..open + 6.min(source.len() - open)];
+    Some(match authors.chars().count() > LONGEST {
+        true => format!(
+            "{} et al. {year}",
+            authors.split([',', '&', ';']).next()?.trim()
+        ),
+        false => format!("{authors} {year}"),
+    })
 }
 
 /// Which of a reference's times a picture shows: those to a little beyond the end of the run, or all if there are none.
@@ -91,6 +137,22 @@ fn shown(times: &[f64], end: f64) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_legend_names_authors_and_year() {
+        let faltinsen = " Faltinsen O.M., Rognebakke O.F., Lukovsky I.A., Timokha A.N. (2000) J. Fluid Mech. (407)";
+        assert_eq!(
+            cited(faltinsen).as_deref(),
+            Some("Faltinsen O.M. et al. (2000)")
+        );
+        assert_eq!(
+            cited("Enet F., Grilli S.T. (2007) Exp").as_deref(),
+            Some("Enet F., Grilli S.T. (2007)")
+        );
+        let own = "computed for this project: potential flow (linear)";
+        assert_eq!(cited(own).as_deref(), Some("computed for this project"));
+        assert_eq!(cited(" "), None);
+    }
 
     #[test]
     fn a_picture_ends_with_the_run_unless_nothing_were_left() {
