@@ -89,11 +89,12 @@ Exit codes: 0 the study is complete (failed variants are results too) or compare
 Examples:
   sph check pool.toml
   sph check pool.toml --set numerics.spacing='1 mm' --threads 16    what would it cost?
+  sph check pool.toml --picture pool.png                            does it look as it should?
   sph check tank.stl                                                what is in a file from CAD?
 
 Prints what follows from the scene: smoothing length, speeds, dimensionless numbers, time steps, \
 particles, and an estimate of time, memory and disk. Of an STL file: extent, facets, openings with their places, which \
-way it faces. Writes nothing.
+way it faces. Writes nothing but the picture.
 
 Exit codes: 0 the scene is good, 2 it is not.")]
     Check(CheckArguments),
@@ -291,6 +292,9 @@ pub struct CheckArguments {
     /// Number of threads for the estimate [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     pub threads: Option<u16>,
+    /// Draw walls with ticks to the fluid's side, particles, open faces and probes into FILE.png
+    #[arg(long, value_name = "FILE")]
+    pub picture: Option<PathBuf>,
     /// Print the result, or the diagnostics as an array, as JSON on stdout
     #[arg(long)]
     pub json: bool,

@@ -1,12 +1,13 @@
 //! `sph check`.
 
+use std::path::Path;
 use std::time::Duration;
 
 use serde_json::{Value as Json, json};
-use sph_solver::{Examination, Memory, examine_and_try};
+use sph_solver::{Examination, Memory, draw_scene, examine_and_try};
 
 use crate::arguments::CheckArguments;
-use crate::commands::{grains, mesh};
+use crate::commands::{draw, grains, mesh};
 use crate::number;
 use crate::scene_file::{AnyScene, Opened, open};
 use crate::telling::layout::{columns, remarks};
@@ -20,13 +21,37 @@ const TRIAL: Duration = Duration::from_secs(2);
 
 /// Tells what follows from a scene, without running it.
 pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
+    let picture = arguments.picture.as_deref();
+    let picture = picture
+        .map(|out| draw::picture("picture", out, &["png"]))
+        .transpose()?;
     if mesh::is_mesh(&arguments.scene.scene) {
+        if picture.is_some() {
+            return Err(Trouble::usage("--picture: it draws scenes, no meshes"));
+        }
         mesh::told(&arguments.scene.scene)?.print(arguments.json);
         return Ok(());
     }
     let opened = open(&arguments.scene)?;
-    told(&opened, arguments.threads.map(usize::from))?.print(arguments.json);
+    let drawn = picture.map(|path| drawn(&opened, path)).transpose()?;
+    let mut told = told(&opened, arguments.threads.map(usize::from))?;
+    if let Some(path) = drawn {
+        told.text
+            .push_str(&format!("\npicture\n  {}\n", path.display()));
+        told.json["picture"] = json!(path);
+    }
+    told.print(arguments.json);
     Ok(())
+}
+
+/// Draws the scene before any run.
+fn drawn<'a>(opened: &Opened, path: &'a Path) -> Result<&'a Path, Trouble> {
+    let AnyScene::Particles(loaded) = &opened.scene else {
+        let text = "--picture: grains have no place before they are prepared; `output.picture` of a run draws them";
+        return Err(Trouble::usage(text));
+    };
+    draw_scene(&loaded.scene, path).map_err(|e| Trouble::of(e, &loaded.source))?;
+    Ok(path)
 }
 
 /// What follows from a scene, for a number of threads.

@@ -21,7 +21,7 @@ pub fn command(asked: &DrawCommand) -> Result<(), Trouble> {
 }
 
 fn streamlines(arguments: &StreamlineArguments) -> Result<(), Trouble> {
-    let path = picture(&arguments.out, &["png"])?;
+    let path = picture("out", &arguments.out, &["png"])?;
     let frames = frames(&arguments.results)?;
     let time = quantity("time", arguments.time.as_deref(), "s")?;
     let apart = quantity("apart", arguments.apart.as_deref(), "m")?;
@@ -38,7 +38,7 @@ fn streamlines(arguments: &StreamlineArguments) -> Result<(), Trouble> {
 }
 
 fn profile(arguments: &ProfileArguments) -> Result<(), Trouble> {
-    let path = picture(&arguments.out, &["png", "svg"])?;
+    let path = picture("out", &arguments.out, &["png", "svg"])?;
     let line = Line {
         from: place("from", &arguments.from)?,
         to: place("to", &arguments.to)?,
@@ -62,7 +62,7 @@ fn profile(arguments: &ProfileArguments) -> Result<(), Trouble> {
 }
 
 fn tracks(arguments: &TrackArguments) -> Result<(), Trouble> {
-    let path = picture(&arguments.out, &["png"])?;
+    let path = picture("out", &arguments.out, &["png"])?;
     let frames = frames(&arguments.results)?;
     let mut identities = arguments.identity.clone();
     let first = &frames.entries()[0];
@@ -101,12 +101,12 @@ fn frames(folder: &Path) -> Result<Frames, Trouble> {
 }
 
 /// The file of the picture, if it can be one.
-fn picture<'a>(out: &'a Path, kinds: &[&str]) -> Result<&'a Path, Trouble> {
+pub fn picture<'a>(option: &str, out: &'a Path, kinds: &[&str]) -> Result<&'a Path, Trouble> {
     let kind = out.extension().and_then(|e| e.to_str()).unwrap_or_default();
     match kinds.contains(&kind) {
         true => Ok(out),
         false => Err(Trouble::usage(format!(
-            "--out {}: it must end in .{}",
+            "--{option} {}: it must end in .{}",
             out.display(),
             kinds.join(" or .")
         ))),

@@ -54,9 +54,74 @@ pub fn thinned(file: &Path, column: &str) -> Result<String> {
     Ok(text)
 }
 
+/// Columns that every run has.
+const COMMON: [&str; 8] = [
+    "dt",
+    "momentum",
+    "kinetic_energy",
+    "potential_energy",
+    "internal_energy",
+    "largest_speed",
+    "least_density_ratio",
+    "largest_density_ratio",
+];
+
+/// The column that a page opens on: the first one of a probe that changes, else the first of a probe, else the kinetic energy,
+/// else the first one after the time.
+pub fn first_shown(file: &Path) -> Option<String> {
+    let mut lines = BufReader::new(File::open(file).ok()?).lines();
+    let head = lines.next()?.ok()?;
+    let names: Vec<&str> = head.split(',').collect();
+    let plain = |k: usize| names[k].split(['[', '.']).next().unwrap_or_default();
+    let probes: Vec<usize> = (1..names.len())
+        .filter(|k| !COMMON.contains(&plain(*k)))
+        .collect();
+    let mut seen = vec![None; names.len()];
+    let mut changes = vec![false; names.len()];
+    for line in lines.map_while(Result::ok) {
+        for (k, cell) in line.split(',').enumerate().take(names.len()) {
+            if let Some(x) = cell.trim().parse::<f64>().ok().filter(|x| x.is_finite()) {
+                changes[k] |= *seen[k].get_or_insert(x) != x;
+            }
+        }
+        if probes.first().is_none_or(|k| changes[*k]) {
+            break;
+        }
+    }
+    let changing = probes.iter().find(|k| changes[**k]);
+    let energy = || (1..names.len()).find(|k| plain(*k) == "kinetic_energy");
+    let shown = changing.or(probes.first()).copied().or_else(energy);
+    names
+        .get(shown.unwrap_or(1))
+        .map(|name| (*name).to_string())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_page_opens_on_a_probe_that_has_something_to_show() {
+        let folder = sph_io::Scratch::new(".sph-series-").expect("a folder");
+        let file = folder.path().join("series.csv");
+        let opens_on = |text: &str| {
+            std::fs::write(&file, text).expect("written");
+            first_shown(&file)
+        };
+        let head = "time[s],dt[s],momentum.x[kg m/s],kinetic_energy[J]";
+        let probes = format!("{head},gate[m],front[m]\n0,1,2,3,0,0.1\n1,1,2,4,0,0.2\n");
+        assert_eq!(opens_on(&probes).as_deref(), Some("front[m]"));
+        let still = format!("{head},gate[m]\n0,1,2,3,nan\n");
+        assert_eq!(opens_on(&still).as_deref(), Some("gate[m]"));
+        assert_eq!(
+            opens_on(&format!("{head}\n0,1,2,3\n")).as_deref(),
+            Some("kinetic_energy[J]")
+        );
+        assert_eq!(
+            opens_on("time[s],height[m]\n").as_deref(),
+            Some("height[m]")
+        );
+    }
 
     #[test]
     fn a_long_series_keeps_its_ends_and_its_peaks() {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::{Value as Json, json};
 
-/// Pictures by field, plots, columns of the series, the summary if there is one.
+/// Pictures by field, plots, whether there is a series and what of it is shown first, the summary if there is one.
 pub fn of(folder: &Path) -> Json {
     let summary = std::fs::read_to_string(folder.join("summary.json")).ok();
     let summary: Option<Json> = summary.and_then(|text| serde_json::from_str(&text).ok());
@@ -17,6 +17,7 @@ pub fn of(folder: &Path) -> Json {
         "animations": names(&folder.join("animations"), &["gif"]),
         "bad": names(folder, &["png"]),
         "series": folder.join("series.csv").is_file(),
+        "column": super::series::first_shown(&folder.join("series.csv")),
         "running": folder.join(".lock").exists(),
         "summary": summary,
     })
