@@ -397,3 +397,23 @@ fn bodies_a_third_of_a_spacing_off_are_remarked_upon() {
     let row = "the first row of `right` is 1.35 spacings from the wall `tank`";
     assert!(high.contains(row), "{high}");
 }
+
+#[test]
+fn check_draws_a_scene_before_any_run_and_says_where() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let told = bench.done("check scene.toml --picture drawn.png").out;
+    assert!(told.ends_with("picture\n  drawn.png\n"), "{told}");
+    let png = std::fs::read(bench.path("drawn.png")).expect("a picture");
+    assert!(png.starts_with(b"\x89PNG"));
+    let json = json(&bench.done("check scene.toml --picture drawn.png --json"));
+    assert_eq!(json["picture"], "drawn.png");
+    for (scene, file, word) in [
+        ("scene.toml", "drawn.jpg", "it must end in .png"),
+        ("grains-column-collapse", "drawn-2.png", "output.picture"),
+    ] {
+        let refused = bench.call(&format!("check {scene} --picture {file}"));
+        assert_eq!(refused.code, Some(2));
+        assert!(refused.err.contains(word), "{}", refused.err);
+        assert!(!bench.path(file).exists());
+    }
+}

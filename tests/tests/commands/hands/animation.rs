@@ -35,10 +35,16 @@ fn an_animation_has_a_frame_for_every_picture_and_is_there_after_a_resume() {
 }
 
 #[test]
-fn who_does_not_ask_gets_none() {
+fn pictures_are_joined_to_a_film_unless_the_scene_wants_none() {
     let bench = with(DAM_BREAK);
-    bench.done("run scene.toml -q --set output.picture=pressure --set run.end=0.02 --out a");
+    let set = "--set output.picture=pressure --set run.end=0.02";
+    bench.done(&format!("run scene.toml -q {set} --out a"));
+    assert!(bench.path("a/animations/pressure.gif").is_file());
+    // No film of an earlier run stays.
+    bench.done(&format!(
+        "run scene.toml -q {set} --set output.animation=0 --out a"
+    ));
     assert!(!bench.path("a/animations").exists());
-    let refused = bench.call("check scene.toml --set output.animation=0");
+    let refused = bench.call("check scene.toml --set output.animation=-1");
     assert_eq!(refused.code, Some(2));
 }

@@ -54,3 +54,35 @@ fn a_range_of_no_field_is_told_with_the_nearest_name_and_one_of_a_field_that_is_
     );
     assert_eq!(checked("vorticity=[-50,50]").code, Some(0));
 }
+
+#[test]
+fn colours_are_those_of_the_whole_run_also_after_a_resume() {
+    let bench = with(DAM_BREAK);
+    let set =
+        "--set run.end=0.1 --set output.every=0.02 --set output.picture=[\"pressure\",\"speed\"]";
+    let whole = bench.call(&format!("run scene.toml --threads 1 {set} --out whole"));
+    assert!(
+        whole.err.contains("colours of `speed` go from 0 to"),
+        "{}",
+        whole.err
+    );
+    assert!(
+        !whole.err.contains("colours of `pressure`"),
+        "{}",
+        whole.err
+    );
+    bench.call(&format!(
+        "run scene.toml -q --threads 1 {set} --set run.max_steps=60 --out parts"
+    ));
+    bench.done(&format!(
+        "run scene.toml -q --threads 1 {set} --out parts --resume --changed"
+    ));
+    let pictures =
+        |out: &str| sph_tests::files_with_extension(&bench.path(out).join("pictures"), "png");
+    let (all, again) = (pictures("whole"), pictures("parts"));
+    assert_eq!((all.len(), again.len()), (12, 12));
+    for (a, b) in all.iter().zip(&again) {
+        let read = |path: &std::path::PathBuf| std::fs::read(path).expect("a picture");
+        assert!(read(a) == read(b), "{}", b.display());
+    }
+}

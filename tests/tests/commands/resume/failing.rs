@@ -180,3 +180,51 @@ fn three_dimensions_are_drawn_too() {
     let place = failed.told["particle"]["after"]["position"].as_array();
     assert_eq!(place.map(Vec::len), Some(3));
 }
+
+/// An obstacle on the floor, inside out and with open feet, in the way of a column of water.
+const LEAKING: &str = r#"
+title = "An obstacle with open feet"
+dimension = 2
+run.end = 0.5
+[numerics]
+spacing = 0.005
+gravity = [0.0, -9.81]
+[smoother.brezzi-pitkaranta]
+strength = 0.4
+[wall.tank]
+polyline = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.4], [0.0, 0.4]]
+closed = true
+condition = "free-slip"
+[wall.obstacle]
+polyline = [[0.28, 0.0], [0.28, 0.05], [0.25, 0.05], [0.25, 0.0]]
+condition = "free-slip"
+[phase.water]
+density = 1000.0
+velocity_scale = 2.8
+[phase.water.rheology.newtonian]
+viscosity = 1e-3
+[body.column]
+phase = "water"
+box = [[0.0, 0.0], [0.1, 0.2]]
+pressure = "hydrostatic"
+"#;
+
+#[test]
+fn a_step_that_fails_beside_an_open_wall_is_not_tried_again() {
+    let failed = failed(LEAKING, "--threads 1");
+    let told = &failed.outcome.err;
+    failed.says(
+        "density",
+        &[
+            "mend the wall beside the particle",
+            "wall.obstacle",
+            "not tried again",
+        ],
+    );
+    assert!(
+        told.contains("note: scene.toml:14: wall.obstacle: its first end"),
+        "{told}"
+    );
+    assert!(!told.contains("going back"), "{told}");
+    assert_eq!(failed.told["retries"], 0);
+}

@@ -79,3 +79,23 @@ pub fn refused(scene: &str, files: &[(&str, &[u8])], words: &[&str]) -> String {
     }
     told
 }
+
+/// What `check` says of a good scene, in one line.
+fn checked(scene: &str) -> String {
+    let outcome = Bench::with(PROGRAM, scene).done("check scene.toml");
+    outcome.out.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The scene is good, and `check` warns of a wall with all the words.
+pub fn warned(scene: &str, words: &[&str]) {
+    let told = checked(scene);
+    for word in words {
+        assert!(told.contains(word), "no `{word}` in\n{told}");
+    }
+}
+
+/// The scene is good, and `check` warns of no wall.
+pub fn silent(scene: &str) {
+    let told = checked(scene);
+    assert!(!told.contains(": wall."), "{told}");
+}
