@@ -4,13 +4,13 @@ use crate::drawing::axes::Axes;
 use crate::drawing::canvas::Canvas;
 use crate::drawing::colour::{Colour, SERIES};
 use crate::drawing::picture::{Picture, View};
-use crate::drawing::relief;
+use crate::drawing::relief::{Relief, seen};
 use crate::drawing::draw_target::Fill;
 
 impl Picture<'_> {
     pub(crate) fn draw_particles(&self, canvas: &mut Canvas, axes: &Axes, [lo, hi]: [f64; 2]) {
         if self.view == View::Above {
-            return relief::draw_surface(self, canvas, axes, [lo, hi]);
+            return self.draw_surface(canvas, axes, [lo, hi]);
         }
         let scale = axes.frame.width() / (axes.x.hi - axes.x.lo);
         let radius = |i: usize| match self.diameters.get(i) {
@@ -42,6 +42,17 @@ impl Picture<'_> {
                 canvas.clipped_disc(spot, radius - rim, fill, &axes.frame);
             }
         }
+    }
+
+    /// The particles as one surface, seen from above.
+    fn draw_surface(&self, canvas: &mut Canvas, axes: &Axes, range: [f64; 2]) {
+        let mut relief = Relief::within(axes);
+        for (i, point) in self.points.iter().enumerate() {
+            let diameter = self.diameters.get(i).copied().unwrap_or(self.diameter);
+            let ([x, y], depth) = seen(*point);
+            relief.particle(axes.spot(x, y), (depth, diameter), self.values[i]);
+        }
+        relief.draw(canvas, self.diameter, |value| self.colour_of(value, range));
     }
 
     /// The colour of a value between the ends of a range.

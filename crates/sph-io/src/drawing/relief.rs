@@ -6,8 +6,7 @@
 use crate::drawing::axes::Axes;
 use crate::drawing::canvas::Canvas;
 use crate::drawing::colour::Colour;
-use crate::drawing::picture::Picture;
-use crate::drawing::draw_target::{Anchor, Lettering, Pen, DrawTarget};
+use crate::drawing::draw_target::{Anchor, Lettering, Pen, Spot, DrawTarget};
 
 /// Angle of the x axis on the screen, and of the view above the horizontal: cosine and sine of 25° and 30°.
 const TURN: [f64; 2] = [0.906_307_787, 0.422_618_262];
@@ -29,64 +28,62 @@ pub(crate) fn seen([x, y, z]: [f64; 3]) -> ([f64; 2], f64) {
 }
 
 /// What is seen at every pixel of a frame: distance (m), infinite where there is nothing, and value.
-struct Relief {
+pub(crate) struct Relief {
     width: usize,
     height: usize,
     depth: Vec<f64>,
     value: Vec<f64>,
-}
-
-/// Draws the particles of a picture.
-pub(crate) fn draw_surface(picture: &Picture<'_>, on: &mut Canvas, axes: &Axes, range: [f64; 2]) {
-    let scale = axes.frame.width() / (axes.x.hi - axes.x.lo);
-    let mut relief = Relief {
-        width: axes.frame.width() as usize,
-        height: axes.frame.height() as usize,
-        depth: Vec::new(),
-        value: Vec::new(),
-    };
-    let count = relief.width * relief.height;
-    relief.depth.resize(count, f64::INFINITY);
-    relief.value.resize(count, 0.0);
-    for (i, point) in picture.points.iter().enumerate() {
-        let diameter = picture
-            .diameters
-            .get(i)
-            .copied()
-            .unwrap_or(picture.diameter);
-        let ([x, y], depth) = seen(*point);
-        let [x, y] = axes.spot(x, y);
-        let at = [x - axes.frame.left, y - axes.frame.top];
-        if at.iter().all(|x| x.is_finite()) {
-            let radius = (0.5 * SWOLLEN * diameter * scale).max(0.75);
-            relief.add(at, radius, (depth, scale), picture.values[i]);
-        }
-    }
-    let diameter = picture.diameter * scale;
-    let reach = (0.5 * diameter).round().clamp(1.0, 12.0) as usize;
-    for _ in 0..PASSES {
-        relief.smooth(reach, 2.0 * picture.diameter);
-    }
-    let corner = [axes.frame.left, axes.frame.top].map(|x| x.round() as usize);
-    for j in 0..relief.height {
-        for i in 0..relief.width {
-            let k = j * relief.width + i;
-            if relief.depth[k].is_finite() {
-                let colour = picture.colour_of(relief.value[k], range);
-                let colour = lit(colour, relief.brightness([i, j], scale, picture.diameter));
-                on.dot([corner[0] + i, corner[1] + j], colour);
-            }
-        }
-    }
-}
-
-fn lit(Colour(parts): Colour, brightness: f64) -> Colour {
-    Colour(parts.map(|part| (f64::from(part) * brightness).min(255.0) as u8))
+    corner: Spot,
+    /// Pixels per metre.
+    scale: f64,
 }
 
 impl Relief {
+    /// Nothing yet, within the frame of some axes.
+    pub(crate) fn within(axes: &Axes) -> Self {
+        let frame = &axes.frame;
+        let (width, height) = (frame.width() as usize, frame.height() as usize);
+        Self {
+            width,
+            height,
+            depth: vec![f64::INFINITY; width * height],
+            value: vec![0.0; width * height],
+            corner: [frame.left, frame.top],
+            scale: frame.width() / (axes.x.hi - axes.x.lo),
+        }
+    }
+
+    /// A particle of a diameter (m) at a spot.
+    pub(crate) fn particle(&mut self, spot: Spot, (depth, diameter): (f64, f64), value: f64) {
+        let at = [0, 1].map(|k| spot[k] - self.corner[k]);
+        if at.iter().all(|x| x.is_finite()) {
+            let radius = (0.5 * SWOLLEN * diameter * self.scale).max(0.75);
+            self.add(at, radius, depth, value);
+        }
+    }
+
+    /// Draws what is seen of particles of a diameter, in colours of their values.
+    pub(crate) fn draw(&mut self, on: &mut Canvas, diameter: f64, colour: impl Fn(f64) -> Colour) {
+        let reach = (0.5 * diameter * self.scale).round().clamp(1.0, 12.0) as usize;
+        for _ in 0..PASSES {
+            self.smooth(reach, 2.0 * diameter);
+        }
+        let corner = self.corner.map(|x| x.round() as usize);
+        for j in 0..self.height {
+            for i in 0..self.width {
+                let k = j * self.width + i;
+                if self.depth[k].is_finite() {
+                    let brightness = self.brightness([i, j], diameter);
+                    let Colour(parts) = colour(self.value[k]);
+                    let lit = parts.map(|part| (f64::from(part) * brightness).min(255.0) as u8);
+                    on.dot([corner[0] + i, corner[1] + j], Colour(lit));
+                }
+            }
+        }
+    }
+
     /// A sphere around a pixel.
-    fn add(&mut self, [x, y]: [f64; 2], radius: f64, (depth, scale): (f64, f64), value: f64) {
+    fn add(&mut self, [x, y]: [f64; 2], radius: f64, depth: f64, value: f64) {
         let span = |at: f64, side: usize| {
             let end = side as f64;
             (at - radius).clamp(0.0, end) as usize..(at + radius + 1.0).clamp(0.0, end) as usize
@@ -95,7 +92,7 @@ impl Relief {
             for i in span(x, self.width) {
                 let [dx, dy] = [i as f64 + 0.5 - x, j as f64 + 0.5 - y];
                 let rest = radius * radius - dx * dx - dy * dy;
-                let near = depth - rest.max(0.0).sqrt() / scale;
+                let near = depth - rest.max(0.0).sqrt() / self.scale;
                 let k = j * self.width + i;
                 if rest >= 0.0 && near < self.depth[k] {
                     self.depth[k] = near;
@@ -140,11 +137,11 @@ impl Relief {
     }
 
     /// How bright the surface at a pixel is, from its slope; ridges before something far stay as they are.
-    fn brightness(&self, [i, j]: [usize; 2], scale: f64, diameter: f64) -> f64 {
+    fn brightness(&self, [i, j]: [usize; 2], diameter: f64) -> f64 {
         let depth = |i: usize, j: usize| self.depth[j * self.width + i];
         let here = depth(i, j);
         let slope = |a: f64, b: f64| {
-            let one = |d: f64| (d.abs() < diameter).then_some(d * scale);
+            let one = |d: f64| (d.abs() < diameter).then_some(d * self.scale);
             match (one(here - a), one(b - here)) {
                 (Some(a), Some(b)) => 0.5 * (a + b),
                 (a, b) => a.or(b).unwrap_or(0.0),

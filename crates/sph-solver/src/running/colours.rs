@@ -43,7 +43,7 @@ impl Colours {
         };
         let [low, high] = range.map(sph_core::number::plain);
         let told = wider.then(|| {
-            format!("note: colours of `{field}` go from {low} to {high} now; `output.picture_range` fixes them")
+            format!("note: colours of `{field}` go from {low} to {high} from here on; `output.picture_range` fixes them")
         });
         (Some(range), told)
     }

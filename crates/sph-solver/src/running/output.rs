@@ -102,7 +102,6 @@ impl Outputs {
         among: Option<(&Flow<D>, usize)>,
     ) -> Result<Vec<String>, SolverError> {
         let mut remarks = Vec::new();
-        let time = flow.world.time;
         let points = points(flow)?;
         // No column: nobody but an output has a use for it.
         let depth = SURFACE_DISTANCE;
@@ -111,25 +110,7 @@ impl Outputs {
             true => surface_distance(&flow.world)?,
             false => Vec::new(),
         };
-        if let Some(series) = &mut self.series {
-            let wanted = |name: &str| self.fields.iter().any(|f| f == name);
-            let mut fluid = match among {
-                Some((part, _)) => own_particles(part, wanted)?,
-                None => particles(&flow.world.free, &points, wanted),
-            };
-            if wanted(depth.name) {
-                let field = FieldData::scalar(depth.name, depth.unit, &depths[..]);
-                fluid.fields.push(field);
-            }
-            let mut pieces = vec![fluid];
-            pieces.extend(walls(&flow.world));
-            let frame = Frame {
-                time,
-                index: self.written,
-                pieces,
-            };
-            series.write_among(&frame, among.map_or(1, |(_, ranks)| ranks))?;
-        }
+        self.write_frame(flow, (&points, &depths), among)?;
         for name in &self.pictures {
             let drawn = match name == depth.name {
                 true => Some(("surface distance [m]".to_string(), depths.clone())),
@@ -182,6 +163,37 @@ impl Outputs {
         }
         self.written += 1;
         Ok(remarks)
+    }
+
+    /// Adds a frame for ParaView; `depths` are distances to the surface, if these are asked for.
+    fn write_frame<const D: usize>(
+        &mut self,
+        flow: &Flow<D>,
+        (points, depths): (&[[f64; 3]], &[f64]),
+        among: Option<(&Flow<D>, usize)>,
+    ) -> Result<(), SolverError> {
+        let Some(series) = &mut self.series else {
+            return Ok(());
+        };
+        let wanted = |name: &str| self.fields.iter().any(|f| f == name);
+        let mut fluid = match among {
+            Some((part, _)) => own_particles(part, wanted)?,
+            None => particles(&flow.world.free, points, wanted),
+        };
+        let depth = SURFACE_DISTANCE;
+        if wanted(depth.name) {
+            let field = FieldData::scalar(depth.name, depth.unit, depths);
+            fluid.fields.push(field);
+        }
+        let mut pieces = vec![fluid];
+        pieces.extend(walls(&flow.world));
+        let frame = Frame {
+            time: flow.world.time,
+            index: self.written,
+            pieces,
+        };
+        series.write_among(&frame, among.map_or(1, |(_, ranks)| ranks))?;
+        Ok(())
     }
 
     /// Joins the pictures of every field to a film, unless the scene wants none.

@@ -109,16 +109,12 @@ pub(crate) fn assemble_share<const D: usize>(
     movers::settle(scene, &mut drawn, &mut choices, &laws)?;
     let speeds = wall_speeds(scene, &drawn, &laws)?;
     let opened = open_faces::settle(scene, &mut drawn, &mut choices, &laws)?;
-    let Room {
-        world: room,
-        walls,
-        placed,
-        leaks,
-        mut warnings,
-    } = Room::for_share(scene, &drawn, &mut choices, &mut share)?;
-    warnings.extend(speeds);
+    let room = Room::for_share(scene, &drawn, &mut choices, &mut share)?;
+    let (walls, placed, mut warnings) = (room.walls, room.placed, room.warnings);
+    let (leaks, room) = (room.leaks, room.world);
     let filled = (&room, placed.positions.as_slice(), &laws, &lift);
-    warnings.extend(open_faces::check(scene, &opened, &walls, filled)?);
+    let faces = open_faces::check(scene, &opened, &walls, filled)?;
+    warnings.extend(speeds.into_iter().chain(faces));
     let ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
     let constant = constant_viscosities(scene, &choices.physics.rheologies);
@@ -127,10 +123,8 @@ pub(crate) fn assemble_share<const D: usize>(
     let mut parts = parts(scene, choices.physics, &shown);
     let entering = opened.as_ref().map(|o| o.entering()).unwrap_or_default();
     parts.extend(opened.map(|opened| ("open-boundary", opened.boxed())));
-    let mut free = state(scene, &*formulation, &parts, placed.positions.len())?;
     open_faces::check_values(scene, &entering, &parts)?;
-    let outlets = Outlets::of(scene, &placed, &mut free).map_err(SolverError::Scene)?;
-    give_places(scene, &mut free, &placed)?;
+    let (free, outlets) = filled_columns(scene, &*formulation, &parts, &placed)?;
     let mut world = World { free, ..room };
     let about = About {
         scene,
@@ -165,8 +159,8 @@ pub(crate) fn assemble_share<const D: usize>(
     };
     warnings.extend(remarks(scene, &ground, &placed, &mut flow)?);
     let relaxation = start(&beginning, &share, &mut flow)?;
-    let integrator = &*choices.integrator;
-    accounts::open(scene, &choices.probes, integrator, &*formulation, &mut flow)?;
+    let (probes, integrator) = (&choices.probes, &*choices.integrator);
+    accounts::open(scene, probes, integrator, &*formulation, &mut flow)?;
     flow.nursery = nursery(scene, formulation, columns().collect(), &flow);
     Ok(Assembled {
         flow,
@@ -321,6 +315,19 @@ fn state<const D: usize>(
         free.add_any(column.field, Role::State);
     }
     Ok(free)
+}
+
+/// The columns that carry history, with places, identities and phases in them, and where particles leave.
+fn filled_columns<const D: usize>(
+    scene: &Scene,
+    formulation: &dyn Formulation<D>,
+    parts: &[Part<D>],
+    placed: &Placed<D>,
+) -> Result<(Store<D>, Outlets), SolverError> {
+    let mut free = state(scene, formulation, parts, placed.positions.len())?;
+    let outlets = Outlets::of(scene, placed, &mut free).map_err(SolverError::Scene)?;
+    give_places(scene, &mut free, placed)?;
+    Ok((free, outlets))
 }
 
 /// Gives particles their places, identities and phases.
