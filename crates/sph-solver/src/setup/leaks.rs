@@ -122,14 +122,16 @@ impl<const D: usize> About<'_, D> {
 
     fn gap(&self, rim: &Rim<D>) -> String {
         let walls = rim.skins.map(|s| self.name(self.skins.all[s].wall));
-        let whose = match walls[0] == walls[1] {
-            true => String::new(),
-            false => format!(" between it and wall `{}`", walls[1]),
+        let (whose, remedy) = match walls[0] == walls[1] {
+            true => (String::new(), format!("close it{}", closing::<D>())),
+            false => {
+                let whose = format!(" between it and wall `{}`", walls[1]);
+                (whose, "give both ends the same place".to_string())
+            }
         };
+        let ends = self.ends(rim);
         format!(
-            "there is a gap{whose} at {}, narrower than the kernel is wide: forces are wrong there; close it{}",
-            self.ends(rim),
-            closing::<D>()
+            "there is a gap{whose} at {ends}, narrower than the kernel is wide: forces are wrong there; {remedy}"
         )
     }
 
