@@ -17,8 +17,8 @@ const FROM_ZERO: f64 = 0.5;
 /// let mut ranges = sph_io::ColourRanges::default();
 /// let values: Vec<f64> = (0..100).map(|k| 0.09 * f64::from(k)).collect();
 /// assert!(ranges.of("speed", &[0.0, 0.0]).is_none());
-/// assert_eq!(ranges.of("speed", &values), Some(([0.0, 10.0], false)));
-/// assert_eq!(ranges.of("speed", &[5.0, 9.0]), Some(([0.0, 10.0], false)));
+/// assert_eq!(ranges.of("speed", &values), Some(([0.0, 9.0], false)));
+/// assert_eq!(ranges.of("speed", &[5.0, 9.0]), Some(([0.0, 9.0], false)));
 /// assert_eq!(ranges.of("speed", &[5.0, 12.0]), Some(([0.0, 20.0], true)));
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -115,7 +115,7 @@ fn cited(source: &str) -> Option<String> {
         return (!what.is_empty()).then(|| what.to_string());
     };
     let authors = source[..open].trim();
-    let year = &source[open..open + 6.min(source.len() - open)];
+    let year = format!("({})", &source[open + 1..open + 5]);
     Some(match authors.chars().count() > LONGEST {
         true => format!(
             "{} et al. {year}",
