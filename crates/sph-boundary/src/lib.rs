@@ -59,6 +59,12 @@
 //! # Ok::<(), sph_boundary::BoundaryError>(())
 //! ```
 
+// Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
+#![cfg_attr(
+    test,
+    allow(unused_imports, reason = "plugins are not registered in unit tests")
+)]
+
 mod error;
 mod geometry;
 mod integrals;

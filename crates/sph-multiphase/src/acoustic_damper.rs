@@ -91,6 +91,7 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
     }
 }
 
+#[cfg(not(test))]
 register!(
     DampingEntry [2, 3],
     AcousticDamper,

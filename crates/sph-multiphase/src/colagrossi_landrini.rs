@@ -46,6 +46,7 @@ impl<const D: usize> Formulation<D> for ColagrossiLandrini {
     }
 }
 
+#[cfg(not(test))]
 register!(
     FormulationEntry [2, 3],
     ColagrossiLandrini,

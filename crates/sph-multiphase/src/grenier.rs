@@ -70,6 +70,7 @@ impl<const D: usize> Formulation<D> for Grenier {
     }
 }
 
+#[cfg(not(test))]
 register!(
     FormulationEntry [2, 3],
     Grenier,

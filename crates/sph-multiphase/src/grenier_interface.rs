@@ -56,6 +56,7 @@ impl<const D: usize> InterfaceModel<D> for GrenierInterface {
     }
 }
 
+#[cfg(not(test))]
 register!(
     InterfaceEntry [2, 3],
     GrenierInterface,

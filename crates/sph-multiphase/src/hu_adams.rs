@@ -64,6 +64,7 @@ impl<const D: usize> Formulation<D> for HuAdams {
     }
 }
 
+#[cfg(not(test))]
 register!(
     FormulationEntry [2, 3],
     HuAdams,

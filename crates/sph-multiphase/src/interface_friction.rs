@@ -80,6 +80,7 @@ impl<const D: usize> InterfaceModel<D> for InterfaceFriction {
     }
 }
 
+#[cfg(not(test))]
 register!(
     InterfaceEntry [2, 3],
     InterfaceFriction,

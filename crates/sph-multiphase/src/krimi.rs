@@ -73,6 +73,7 @@ impl<const D: usize> Formulation<D> for Krimi {
     }
 }
 
+#[cfg(not(test))]
 register!(
     FormulationEntry [2, 3],
     Krimi,

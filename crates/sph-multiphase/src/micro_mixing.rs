@@ -57,6 +57,7 @@ impl<const D: usize> InterfaceModel<D> for MicroMixing {
     }
 }
 
+#[cfg(not(test))]
 register!(
     InterfaceEntry [2, 3],
     MicroMixing,

@@ -96,6 +96,7 @@ impl<const D: usize> InterfaceModel<D> for SurfaceTension {
     }
 }
 
+#[cfg(not(test))]
 register!(
     InterfaceEntry [2, 3],
     SurfaceTension,

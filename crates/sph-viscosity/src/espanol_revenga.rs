@@ -65,6 +65,7 @@ impl<const D: usize> ViscousOperator<D> for EspanolRevenga {
     }
 }
 
+#[cfg(not(test))]
 register!(
     ViscousOperatorEntry [2, 3],
     EspanolRevenga,

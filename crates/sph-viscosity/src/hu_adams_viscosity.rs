@@ -63,6 +63,7 @@ impl<const D: usize> ViscousOperator<D> for HuAdamsViscosity {
     }
 }
 
+#[cfg(not(test))]
 register!(
     ViscousOperatorEntry [2, 3],
     HuAdamsViscosity,

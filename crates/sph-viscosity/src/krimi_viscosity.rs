@@ -79,6 +79,7 @@ impl<const D: usize> ViscousOperator<D> for KrimiViscosity {
     }
 }
 
+#[cfg(not(test))]
 register!(
     ViscousOperatorEntry [2, 3],
     KrimiViscosity,

@@ -5,6 +5,11 @@
 //! * [`ImplicitViscosity`] takes friction from the end of the step, [`ViscousLimit`] bounds the step where it does not.
 //! * [`EddyViscosity`] is a kind of plugin, added to the viscosity of the laws; none is in this crate.
 #![doc = include_str!("../README.md")]
+// Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
+#![cfg_attr(
+    test,
+    allow(unused_imports, reason = "plugins are not registered in unit tests")
+)]
 
 mod contract;
 mod coupling;

@@ -67,6 +67,7 @@ impl<const D: usize> ViscousOperator<D> for MonaghanGingold {
     }
 }
 
+#[cfg(not(test))]
 register!(
     ViscousOperatorEntry [2, 3],
     MonaghanGingold,

@@ -75,6 +75,7 @@ impl<const D: usize> ViscousOperator<D> for Morris {
     }
 }
 
+#[cfg(not(test))]
 register!(
     ViscousOperatorEntry [2, 3],
     Morris,

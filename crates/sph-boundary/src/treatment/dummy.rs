@@ -51,6 +51,7 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     means: Vec<(f64, Vect<D>)>,
 }
 
+#[cfg(not(test))]
 register!(
     WallEntry [2 => DummyParticles<2, PlanarWalls>, 3 => DummyParticles<3, SpatialWalls>],
     "dummy-particles",

@@ -74,6 +74,7 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     around: Vec<u32>,
 }
 
+#[cfg(not(test))]
 register!(
     WallEntry [2 => Usaw<2, PlanarWalls>, 3 => Usaw<3, SpatialWalls>],
     "usaw",

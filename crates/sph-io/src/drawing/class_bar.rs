@@ -2,7 +2,7 @@
 
 use crate::drawing::canvas::Canvas;
 use crate::drawing::colour::{Colour, SERIES};
-use crate::drawing::draw_target::{Anchor, Lettering, Pen, Rect, DrawTarget};
+use crate::drawing::draw_target::{Anchor, DrawTarget, Lettering, Pen, Rect};
 use crate::drawing::text;
 
 /// A list of names, one below the other, to the right of the frame.

@@ -3,9 +3,9 @@
 use crate::drawing::axes::Axes;
 use crate::drawing::canvas::Canvas;
 use crate::drawing::colour::{Colour, SERIES};
+use crate::drawing::draw_target::Fill;
 use crate::drawing::picture::{Picture, View};
 use crate::drawing::relief::{Relief, seen};
-use crate::drawing::draw_target::Fill;
 
 impl Picture<'_> {
     pub(crate) fn draw_particles(&self, canvas: &mut Canvas, axes: &Axes, [lo, hi]: [f64; 2]) {

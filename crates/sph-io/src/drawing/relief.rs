@@ -6,7 +6,7 @@
 use crate::drawing::axes::Axes;
 use crate::drawing::canvas::Canvas;
 use crate::drawing::colour::Colour;
-use crate::drawing::draw_target::{Anchor, Lettering, Pen, Spot, DrawTarget};
+use crate::drawing::draw_target::{Anchor, DrawTarget, Lettering, Pen, Spot};
 
 /// Angle of the x axis on the screen, and of the view above the horizontal: cosine and sine of 25° and 30°.
 const TURN: [f64; 2] = [0.906_307_787, 0.422_618_262];

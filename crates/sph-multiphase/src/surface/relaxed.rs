@@ -95,6 +95,7 @@ impl<const D: usize> Contribution<D> for ConeTest {
     }
 }
 
+#[cfg(not(test))]
 register!(
     SurfaceEntry [2, 3],
     ConeTest,
