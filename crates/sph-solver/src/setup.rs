@@ -3,6 +3,7 @@
 pub(crate) mod assemble;
 pub(crate) mod builder;
 pub(crate) mod choices;
+pub(crate) mod dimensions;
 pub(crate) mod domain;
 pub(crate) mod estimate;
 pub(crate) mod examination;

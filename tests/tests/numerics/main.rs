@@ -1,8 +1,9 @@
-//! What the equations keep, closures, implicit solves, and the same bits on threads and ranks.
+//! What the equations keep, closures, soils, implicit solves, and the same bits on threads and ranks.
 
 mod implicit;
 mod invariants;
 mod phases;
 mod ranks;
+mod soils;
 mod threads;
 mod turbulence;

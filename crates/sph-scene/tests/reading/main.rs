@@ -7,5 +7,4 @@ mod motion;
 mod overrides;
 mod robust;
 mod scenes;
-mod schema;
 mod stl;

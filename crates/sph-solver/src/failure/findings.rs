@@ -193,6 +193,7 @@ mod tests {
     use sph_core::System;
 
     use super::*;
+    use crate::setup::dimensions::in_plane;
 
     const SCENE: &str = "title = \"t\"\ndimension = 2\nrun.end = 1\n\
          numerics = { spacing = 0.02, gravity = [0, -9.81], disorder = 0.2, velocity_noise = 0.1 }\n\
@@ -203,9 +204,7 @@ mod tests {
 
     #[test]
     fn the_shares_of_the_terms_add_up_to_the_acceleration() {
-        let scene = sph_scene::parse(SCENE, "t.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-        let parts = crate::assemble::<2>(&scene.scene).unwrap_or_else(|e| panic!("{e}"));
-        let mut flow = parts.flow;
+        let mut flow = in_plane(SCENE);
         flow.evaluate().unwrap();
         let acceleration = flow.world.free.get(fields::ACCELERATION).unwrap();
         let (mut worst, mut walls) = (0.0_f64, 0);

@@ -9,7 +9,8 @@ use toml::{Table, Value};
 
 use crate::running::drawn_flow::{drawn_walls, padded};
 use crate::running::pieces::points;
-use crate::setup::assemble::{Assembled, assemble};
+use crate::setup::assemble::Assembled;
+use crate::setup::dimensions::assemble;
 use crate::{Flow, SolverError};
 
 const NORMAL: Colour = Colour([0x7a, 0x7a, 0x7a]);

@@ -58,7 +58,7 @@ mod tests {
     fn scene(more: &str) -> Scene {
         let text = format!(
             "title = \"t\"\ndimension = 2\nrun.end = 1\nnumerics = {{ spacing = 0.1{more} }}\n\
-             phase.a = {{ density = 1, velocity_scale = 1, rheology.newtonian = {{}} }}\n\
+             phase.a = {{ density = 1, velocity_scale = 1, rheology.newtonian = {{ viscosity = 1 }} }}\n\
              body.a = {{ phase = \"a\", box = [[0, 0], [1, 1]] }}\n"
         );
         let loaded = sph_scene::parse(&text, "t.toml", &[]);

@@ -10,7 +10,8 @@ use crate::running::checkpoint;
 use crate::running::next_step::next_step;
 use crate::running::run::RECOVERY;
 use crate::running::series::rehearse;
-use crate::setup::assemble::{Assembled, assemble};
+use crate::setup::assemble::Assembled;
+use crate::setup::dimensions::assemble;
 use crate::step::guard;
 use crate::step::snapshot::Snapshot;
 

@@ -1,6 +1,5 @@
 //! From a scene to a flow that can be evaluated.
 
-use std::any::Any;
 use std::sync::Arc;
 
 use sph_contribution::{ForceLimit, MotionLimit, OwnColumn, Setting};
@@ -71,32 +70,10 @@ pub struct Assembled<const D: usize> {
     pub body_of: Vec<u32>,
 }
 
-/// Builds the plugins, the particles and the plan.
+/// Builds the plugins, the particles and the plan of what a process begins with. Where this is a part of the flow, all ranks assemble together.
 ///
 /// # Errors
-/// Every problem of the scene, with its path; nothing is written.
-pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverError> {
-    const { assert!(D == 2 || D == 3, "flows have two or three dimensions") };
-    let made = if D == 2 { plane(scene) } else { space(scene) };
-    match made?.downcast() {
-        Ok(made) => Ok(*made),
-        Err(_) => unreachable!("it was made with {D} dimensions"),
-    }
-}
-
-/// Both dimensions are compiled here, so that a crate which assembles a scene does not compile the solver again.
-fn plane(scene: &Scene) -> Result<Box<dyn Any>, SolverError> {
-    Ok(Box::new(assemble_share::<2>(scene, Share::Whole)?))
-}
-
-fn space(scene: &Scene) -> Result<Box<dyn Any>, SolverError> {
-    Ok(Box::new(assemble_share::<3>(scene, Share::Whole)?))
-}
-
-/// The same of what a process begins with. Where this is a part of the flow, all ranks assemble together.
-///
-/// # Errors
-/// Besides, what cannot be divided; another rank that has failed.
+/// Every problem of the scene, with its path, and nothing is written; a flow that cannot be divided; another rank that failed.
 pub(crate) fn assemble_share<const D: usize>(
     scene: &Scene,
     mut share: Share<D>,

@@ -9,7 +9,8 @@ use sph_scene::Scene;
 
 use crate::results::summary::PluginInForce;
 use crate::running::trial::{Trial, trial};
-use crate::setup::assemble::{Assembled, assemble};
+use crate::setup::assemble::Assembled;
+use crate::setup::dimensions::assemble;
 use crate::setup::estimate::short_steps;
 use crate::{Estimate, Flow, Memory, Relaxation, SolverError};
 

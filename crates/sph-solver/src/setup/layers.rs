@@ -113,9 +113,9 @@ mod tests {
         let text = format!(
             "title = \"t\"\ndimension = 2\nrun.end = 1\n\
              numerics = {{ spacing = 0.1, gravity = [0, -10] }}\n\
-             phase.air = {{ density = 1, rheology.newtonian = {{}} }}\n\
-             phase.oil = {{ density = 800, rheology.newtonian = {{}} }}\n\
-             phase.water = {{ density = 1000, rheology.newtonian = {{}} }}\n{bodies}"
+             phase.air = {{ density = 1, rheology.newtonian = {{ viscosity = 1 }} }}\n\
+             phase.oil = {{ density = 800, rheology.newtonian = {{ viscosity = 1 }} }}\n\
+             phase.water = {{ density = 1000, rheology.newtonian = {{ viscosity = 1 }} }}\n{bodies}"
         );
         sph_scene::parse(&text, "t.toml", &[])
             .unwrap_or_else(|e| panic!("{e}"))

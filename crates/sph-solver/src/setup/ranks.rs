@@ -5,7 +5,7 @@ use sph_core::{System, fields};
 use sph_decomposition::{Halo, bisect, exchanges};
 use sph_scene::Scene;
 
-use crate::setup::assemble::assemble;
+use crate::setup::dimensions::assemble;
 use crate::step::cost::costs;
 use crate::{Flow, SolverError};
 

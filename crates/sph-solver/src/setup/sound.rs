@@ -77,8 +77,8 @@ mod tests {
     fn speeds(numerics: &str, water: &str, oil: &str) -> Result<Vec<f64>, String> {
         let text = format!(
             "title = \"t\"\ndimension = 2\nrun.end = 1\nnumerics = {{ spacing = 0.1{numerics} }}\n\
-             phase.oil = {{ density = 2000, rheology.newtonian = {{}}{oil} }}\n\
-             phase.water = {{ density = 1000, rheology.newtonian = {{}}{water} }}\n\
+             phase.oil = {{ density = 2000, rheology.newtonian = {{ viscosity = 1 }}{oil} }}\n\
+             phase.water = {{ density = 1000, rheology.newtonian = {{ viscosity = 1 }}{water} }}\n\
              body.a = {{ phase = \"water\", box = [[0, 0], [1, 1]] }}\n"
         );
         let scene = sph_scene::parse(&text, "t.toml", &[]);

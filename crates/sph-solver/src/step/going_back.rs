@@ -25,6 +25,7 @@ impl<const D: usize> Snapshot<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::setup::dimensions::in_plane;
     use sph_core::{Access, Declares, Field, Role, Scalar, Stage, StepError, System, fields};
     use sph_neighbours::World;
 
@@ -58,9 +59,7 @@ mod tests {
     /// Two evaluations, the second of which is rolled back and done again: one and one are two, and never three.
     #[test]
     fn a_state_column_that_the_solver_does_not_know_is_rolled_back_and_not_advanced_twice() {
-        let scene = sph_scene::parse(SCENE, "t.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-        let parts = crate::assemble::<2>(&scene.scene).unwrap_or_else(|e| panic!("{e}"));
-        let mut flow = parts.flow;
+        let mut flow = in_plane(SCENE);
         flow.stages.push(Box::new(Counting));
         flow.ask_all();
         flow.reset_timings();

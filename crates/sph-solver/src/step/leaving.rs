@@ -192,6 +192,7 @@ impl<const D: usize> Flow<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::setup::dimensions::in_plane;
     use crate::step::snapshot::Snapshot;
 
     const SCENE: &str = "title = \"t\"\ndimension = 2\nrun.end = 1\nnumerics.spacing = 0.1\n\
@@ -204,9 +205,7 @@ mod tests {
 
     #[test]
     fn a_step_that_fails_brings_back_who_left_by_it() {
-        let scene = sph_scene::parse(SCENE, "t.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-        let parts = crate::assemble::<2>(&scene.scene).unwrap_or_else(|e| panic!("{e}"));
-        let mut flow = parts.flow;
+        let mut flow = in_plane(SCENE);
         let state = |flow: &Flow<2>| {
             let free = &flow.world.free;
             let identity = free.get(fields::IDENTITY).unwrap().to_vec();

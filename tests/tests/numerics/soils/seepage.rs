@@ -12,7 +12,7 @@ const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 /// The scene without its references, which are files beside it.
 fn scene() -> String {
-    let mut text = include_str!("../../../scenes/permeameter.toml").to_string();
+    let mut text = include_str!("../../../../scenes/permeameter.toml").to_string();
     let references = text.find("# Levels by").unwrap()..text.find("[output]").unwrap();
     text.replace_range(references, "");
     text

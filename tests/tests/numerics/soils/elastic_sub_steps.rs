@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use sph_core::{System, Vect, fields};
 use sph_solver::Assembled;
 
-use crate::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, step, top_at};
-use crate::tried;
+use crate::soils::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, step, top_at};
+use crate::soils::tried;
 
 const SUB_STEPS: &str = "elastic-force.divergence.sub_steps=true";
 

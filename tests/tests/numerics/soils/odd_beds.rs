@@ -3,7 +3,7 @@
 use sph_tests::Bench;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
-const BED: &str = include_str!("../../../scenes/saturated-bed-at-rest.toml");
+const BED: &str = include_str!("../../../../scenes/saturated-bed-at-rest.toml");
 
 /// Replaces parts of the bed; they must be there.
 fn with(changes: &[[&str; 2]]) -> String {

@@ -2,7 +2,7 @@
 
 use sph_core::{System, Vect, fields};
 
-use crate::tried;
+use crate::soils::tried;
 
 /// The first phase of the scene.
 const SLIDE: u32 = 0;

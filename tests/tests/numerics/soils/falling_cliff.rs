@@ -4,8 +4,8 @@ use sph_scene::{Override, parse};
 use sph_solver::{RunOptions, SolverError, Start, Summary, run};
 
 /// 0.3 m wide, 0.8 m high, friction angle 30°, E = 1 GPa, grains of 10 mm, 0.2 s.
-const CLIFF: &str = include_str!("../../scenes/cliff.toml");
-const SLOPE: &str = include_str!("../../../scenes/resting-slope.toml");
+const CLIFF: &str = include_str!("../../../scenes/cliff.toml");
+const SLOPE: &str = include_str!("../../../../scenes/resting-slope.toml");
 const SUB_STEPS: &str = "elastic-force.divergence.sub_steps=true";
 const IMPLICIT: [&str; 3] = [
     "elastic-force.divergence.implicit=true",

@@ -9,7 +9,7 @@ use sph_solver::{Assembled, SolverError, assemble};
 use sph_stress::{Blended, Rheologies};
 use sph_viscosity::{Viscosity, ViscousOperatorEntry};
 
-use crate::tried;
+use crate::soils::tried;
 
 /// ρ and 𝒢 of `elastic-shear-wave`, kg/m³ and Pa.
 const DENSITY: f64 = 1000.0;
