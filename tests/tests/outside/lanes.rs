@@ -40,7 +40,11 @@ register!(
 #[test]
 fn the_parameters_of_wrapped_terms_are_listed() {
     let kind = sph_core::contracts().into_iter().find(|c| c.kind == "term");
-    for plugin in (kind.expect("terms").plugins)() {
+    let all = (kind.expect("terms").plugins)();
+    let wrapped = all
+        .iter()
+        .filter(|p| p.name.starts_with("artificial-viscosity"));
+    for plugin in wrapped {
         let schema = (plugin.schema)();
         let listed = sph_core::parameters(&schema);
         assert_eq!(listed.len(), 1, "{}: {schema}", plugin.name);

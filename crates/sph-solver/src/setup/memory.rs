@@ -16,6 +16,9 @@ const GROWN: f64 = 1.5;
 const TABLES_PER_ELEMENT: f64 = 550.0;
 /// Pixels of a picture, a little more than those of a plot, 1200 · 800.
 const PIXELS: f64 = 1200.0 * 850.0;
+/// Bytes of a pixel for a surface in space: depth and value, twice while they are made smooth, within the frame, which has
+/// some three quarters of the pixels.
+const BYTES_OF_RELIEF: f64 = 0.75 * 32.0;
 /// Bytes of a pixel while a picture is drawn and encoded: once each.
 const BYTES_PER_PIXEL: f64 = 8.0;
 /// What solves keep over the matrix.
@@ -149,7 +152,9 @@ fn walls<const D: usize>(world: &World<D>) -> f64 {
 
 fn output(scene: &Scene, particles: f64) -> f64 {
     let draws = !scene.output.picture.is_empty() || !scene.reference.is_empty();
-    let pictures = if draws { BYTES_PER_PIXEL * PIXELS } else { 0.0 };
+    let relief = scene.dimension == 3 && !scene.output.picture.is_empty();
+    let per_pixel = BYTES_PER_PIXEL + if relief { BYTES_OF_RELIEF } else { 0.0 };
+    let pictures = if draws { per_pixel * PIXELS } else { 0.0 };
     let fields = scene.output.vtk || !scene.output.picture.is_empty();
     pictures
         + if fields {
