@@ -170,21 +170,29 @@ fn shipped() -> Vec<std::path::PathBuf> {
         .collect()
 }
 
+/// As a file, with a trial of its first steps, and from the program, where its data have to be found.
 #[test]
-fn every_shipped_scene_passes_check_as_a_file_and_from_the_program() {
+fn every_shipped_scene_passes_check_as_a_file_and_explains_itself_from_the_program() {
     let bench = Bench::new(PROGRAM);
-    assert!(!shipped().is_empty());
-    for file in shipped() {
-        bench.done(&format!("check {}", file.display()));
-        let name = file.file_stem().and_then(|s| s.to_str()).expect("a name");
-        bench.done(&format!("check {name}"));
-    }
-    assert_eq!(
-        std::fs::read_dir(bench.folder())
-            .expect("the folder")
-            .count(),
-        0
-    );
+    let files = shipped();
+    let good = |files: &[std::path::PathBuf]| {
+        for file in files {
+            bench.done(&format!("check {} --threads 1", file.display()));
+            let name = file.file_stem().and_then(|s| s.to_str()).expect("a name");
+            bench.done(&format!("explain {name}"));
+        }
+    };
+    // Every other scene: large ones are neighbours by their names.
+    let (even, odd): (Vec<_>, Vec<_>) = files.iter().enumerate().partition(|(k, _)| k % 2 == 0);
+    let [even, odd] =
+        [even, odd].map(|half| half.into_iter().map(|(_, f)| f.clone()).collect::<Vec<_>>());
+    assert!(!even.is_empty() && !odd.is_empty());
+    std::thread::scope(|scope| {
+        scope.spawn(|| good(&even));
+        good(&odd);
+    });
+    let entries = std::fs::read_dir(bench.folder()).expect("the folder");
+    assert_eq!(entries.count(), 0);
 }
 
 #[test]
