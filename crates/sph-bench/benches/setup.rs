@@ -19,7 +19,7 @@ use sph_neighbours::{
 use sph_scene::SplitMix;
 use sph_state::{EquationOfState, Laws, Linear, Reference};
 use sph_viscosity::{
-    Choice, FirstDifferences, Uniform, Viscosity, ViscousOperatorEntry, ViscousTerm,
+    Choice, FirstDifferences, Viscosity, ViscositySource, ViscousOperatorEntry, ViscousTerm,
 };
 
 /// Viscosity of the terms, Pa s.
@@ -176,7 +176,11 @@ impl Sums {
         let smoother = BrezziPitkaranta::with(STRENGTH).of(&laws());
         let terms = (
             PressureGradient(SquaredVolumes),
-            ViscousTerm(FirstDifferences, Uniform(VISCOSITY), Choice::default()),
+            ViscousTerm(
+                FirstDifferences,
+                ViscositySource::Uniform(VISCOSITY),
+                Choice::default(),
+            ),
             smoother,
         );
         let term = Lanewise(terms);
