@@ -35,7 +35,7 @@ impl Source {
             let mut all: Vec<_> = told.map(syntax).collect();
             all.sort_by_key(|d| (d.span.start, d.span.end));
             all.dedup_by_key(|d| d.line);
-            return Err(all);
+            return Err(without_echoes(all));
         }
         let mut table: Table = toml::from_str(text).map_err(|e| vec![syntax(&e)])?;
         let apply = |o: &Override| o.apply(&mut table).err();
@@ -45,6 +45,27 @@ impl Source {
             false => Err(self.diagnose(&problems)),
         }
     }
+}
+
+/// Takes an array that is not closed for one mistake: each line after it is a value without a comma to the reader of TOML.
+fn without_echoes(mut all: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    const ECHO: &str = "missing comma between array elements";
+    let is_echo = |d: &Diagnostic| d.message.starts_with(ECHO);
+    let Some(first) = all.iter().position(is_echo) else {
+        return all;
+    };
+    let before = all.len();
+    let (head, rest) = all.split_at(first + 1);
+    all = head
+        .iter()
+        .chain(rest.iter().filter(|d| !is_echo(d)))
+        .cloned()
+        .collect();
+    if all.len() < before {
+        all[first].message =
+            "an array is not closed: a `]` is missing here or before, or a comma".into();
+    }
+    all
 }
 
 /// Deepest nesting that the reader of TOML takes.
@@ -72,4 +93,30 @@ fn too_deep(text: &str, message: &str) -> std::ops::Range<usize> {
         }
     }
     0..0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_array_that_is_not_closed_is_one_mistake_and_a_missing_comma_stays_one() {
+        let told = |text: &str| {
+            let all = Source::new(text, "t.toml", &[])
+                .table()
+                .expect_err("a mistake");
+            all.into_iter()
+                .map(|d| (d.line, d.message))
+                .collect::<Vec<_>>()
+        };
+        let open = told("a = [[0, 1], [2, 3, [4, 5]]\nb = true\nc = \"x\"\n[d]\ne = 1\n");
+        assert_eq!(open.len(), 1, "{open:?}");
+        assert!(
+            open[0].0 <= 2 && open[0].1.starts_with("an array is not closed"),
+            "{open:?}"
+        );
+        let comma = told("a = [[1] [2]]\nb = 3\n");
+        assert_eq!(comma.len(), 1, "{comma:?}");
+        assert!(comma[0].1.starts_with("missing comma"), "{comma:?}");
+    }
 }
