@@ -51,18 +51,13 @@ impl Source {
 fn without_echoes(mut all: Vec<Diagnostic>) -> Vec<Diagnostic> {
     const ECHO: &str = "missing comma between array elements";
     let is_echo = |d: &Diagnostic| d.message.starts_with(ECHO);
-    let Some(first) = all.iter().position(is_echo) else {
-        return all;
-    };
-    let before = all.len();
-    let (head, rest) = all.split_at(first + 1);
-    all = head
-        .iter()
-        .chain(rest.iter().filter(|d| !is_echo(d)))
-        .cloned()
-        .collect();
-    if all.len() < before {
-        all[first].message =
+    let echoes = all.iter().filter(|d| is_echo(d)).count();
+    let mut told = false;
+    all.retain(|d| !is_echo(d) || !std::mem::replace(&mut told, true));
+    if echoes > 1
+        && let Some(first) = all.iter_mut().find(|d| is_echo(d))
+    {
+        first.message =
             "an array is not closed: a `]` is missing here or before, or a comma".into();
     }
     all

@@ -1,5 +1,4 @@
-//! What is told of the shipped scenes: theme, what each shows, its error, how long it takes. The source is
-//! docs/gallery.toml.
+//! Descriptions of the shipped scenes from docs/gallery.toml: theme, subject, error and run time of each.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -12,11 +11,11 @@ static GALLERY: LazyLock<Gallery> = LazyLock::new(|| {
     toml::from_str(text).expect("docs/gallery.toml is read by every test of `sph scenes`")
 });
 
-/// All that is told of the shipped scenes.
+/// Descriptions of all shipped scenes.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gallery {
-    /// What the times are.
+    /// Machine and method of the run times.
     pub times: String,
     /// The scenes to begin with, and why.
     pub start: Vec<[String; 2]>,
@@ -42,9 +41,9 @@ pub struct Theme {
 pub struct Entry {
     /// Run time by name.
     pub scenes: BTreeMap<String, String>,
-    /// What is seen, in a few words.
+    /// Subject in a few words.
     pub shows: String,
-    /// What it is measured against, and the errors: Markdown.
+    /// References and errors, Markdown.
     pub measured: Option<String>,
     /// The moment of the picture, and what differs from the shipped scene in it.
     pub picture: String,

@@ -27,7 +27,7 @@ pub(crate) fn seen([x, y, z]: [f64; 3]) -> ([f64; 2], f64) {
     ([ct * x + st * y, se * away + ce * z], ce * away - se * z)
 }
 
-/// What is seen at every pixel of a frame: distance (m), infinite where there is nothing, and value.
+/// Distance (m) of the nearest surface behind each pixel of a frame, infinite if there is none, and its value.
 pub(crate) struct Relief {
     width: usize,
     height: usize,

@@ -56,7 +56,7 @@ pub fn draw<const D: usize>(
     let mut points: Vec<[f64; 3]> = position.iter().map(padded).collect();
     let walls = drawn_walls(world);
     let ring = place.as_ref().map(padded);
-    // What is drawn last covers its neighbours.
+    // The last point drawn covers its neighbours.
     if let Some(k) = points.iter().position(|x| Some(*x) == ring) {
         let last = points.len() - 1;
         points.swap(k, last);

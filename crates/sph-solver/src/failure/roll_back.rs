@@ -174,7 +174,7 @@ impl<const D: usize> Running<'_, D> {
         let flow = &self.shown().flow;
         let now = flow.world.free.get(fields::POSITION).ok()?[flow.place_of(number)?];
         let before = snapshot.and_then(|s| s.position_of(number));
-        // What is not a number is nowhere.
+        // Places that are not finite are left out.
         let shown = [Some(now), before].into_iter().flatten();
         let mut shown = shown.filter(|x| x.iter().all(|x| x.is_finite()));
         let within = |x: &Vect<D>| flow.world.domain.contains(x);

@@ -7,7 +7,7 @@ use sph_core::node_of;
 pub struct Choice {
     /// As a scene writes it: `"standard"`, or the table `{ regular = … }`.
     pub value: String,
-    /// What it means; empty where nothing is said.
+    /// Meaning; empty if the schema has none.
     pub meaning: String,
 }
 
