@@ -128,23 +128,36 @@ pub fn write_atomic(
     file.commit(durability)
 }
 
-/// Removes temporaries that a killed process left in `folder`; returns how many.
+/// Removes temporaries that a killed process left in `folder` and in the folders directly below it; returns how many.
 ///
 /// Call it when a run takes possession of its folder, not while another
 /// process writes there.
 pub fn sweep_temporaries(folder: impl AsRef<Path>) -> Result<usize> {
     let folder = folder.as_ref();
-    let mut removed = 0;
+    let (mut removed, below) = swept(folder)?;
+    for folder in below {
+        removed += swept(&folder)?.0;
+    }
+    Ok(removed)
+}
+
+/// Removes the temporaries of one folder; their number, and the folders in it.
+fn swept(folder: &Path) -> Result<(usize, Vec<PathBuf>)> {
+    let (mut removed, mut below) = (0, Vec::new());
     for entry in fs::read_dir(folder).map_err(|e| IoError::read(folder, e))? {
         let entry = entry.map_err(|e| IoError::read(folder, e))?;
-        let plain = entry.file_type().is_ok_and(|t| t.is_file());
-        if plain && entry.file_name().to_str().is_some_and(is_temporary) {
+        let Ok(kind) = entry.file_type() else {
+            continue;
+        };
+        if kind.is_dir() {
+            below.push(entry.path());
+        } else if kind.is_file() && entry.file_name().to_str().is_some_and(is_temporary) {
             let path = entry.path();
             fs::remove_file(&path).map_err(|e| IoError::write(&path, e))?;
             removed += 1;
         }
     }
-    Ok(removed)
+    Ok((removed, below))
 }
 
 /// Whether `name` has the form `.NAME.PID-SERIAL.tmp`, or `.writable-PID` as earlier versions tried folders with.
@@ -210,18 +223,23 @@ mod tests {
     }
 
     #[test]
-    fn only_temporaries_are_swept() {
+    fn only_temporaries_are_swept_and_those_of_folders_below() {
         let folder = tempfile::tempdir().unwrap();
+        fs::create_dir_all(folder.path().join("animations/old")).unwrap();
         for name in [
             ".a.vtu.12-3.tmp",
             ".writable-77",
             ".hidden",
             "b.tmp",
             ".c.x-1.tmp",
+            "animations/.phase.gif.1058-8.tmp",
+            "animations/old/.phase.gif.1058-8.tmp",
         ] {
             fs::write(folder.path().join(name), b"").unwrap();
         }
-        assert_eq!(sweep_temporaries(folder.path()).unwrap(), 2);
-        assert_eq!(names(folder.path()).len(), 3);
+        assert_eq!(sweep_temporaries(folder.path()).unwrap(), 3);
+        assert_eq!(names(folder.path()).len(), 4);
+        assert_eq!(names(&folder.path().join("animations")), ["old"]);
+        assert_eq!(names(&folder.path().join("animations/old")).len(), 1);
     }
 }

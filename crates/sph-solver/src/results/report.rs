@@ -49,7 +49,8 @@ impl<const D: usize> Running<'_, D> {
         let mut advice = self.advise(wall_seconds, [&dt_limiters, &dt_limits], &stage_seconds)?;
         let escaped = flow.escaped()?;
         let mach = self.say_what_is_odd(escaped, &mut warnings, &mut advice);
-        let held: usize = self.parts.flow.works.iter().map(|w| w.most_bytes()).sum();
+        let works = self.parts.flow.works.iter().map(|w| w.most_bytes());
+        let solves: usize = works.chain(self.counters.stage_bytes.iter().copied()).sum();
         let summary = Summary {
             schema_version: SCHEMA_VERSION,
             scene: self.scene.title.clone(),
@@ -71,7 +72,7 @@ impl<const D: usize> Running<'_, D> {
             particle_steps_per_second: over(work, working),
             nanoseconds_per_pair: over(1e9 * working * (threads * ranks) as f64, work * neighbours),
             bytes_per_particle: world.free.bytes_per_particle(),
-            memory: Memory::of(self.scene, &self.parts.flow, held as f64)?,
+            memory: Memory::of(self.scene, &self.parts.flow, solves as f64)?,
             list_builds: world.lists.builds,
             dt_limiters,
             dt_limits,

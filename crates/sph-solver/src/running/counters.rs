@@ -55,6 +55,9 @@ pub(crate) struct Counters {
     /// What probes have gathered so far, bit by bit, by their names.
     #[serde(default)]
     pub(crate) probes: BTreeMap<String, Vec<u64>>,
+    /// Most bytes of the system that each stage has solved so far.
+    #[serde(default)]
+    pub(crate) stage_bytes: Vec<usize>,
     /// Ranges of the colours of pictures so far.
     #[serde(default)]
     pub(crate) colours: ColourRanges,

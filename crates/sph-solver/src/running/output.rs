@@ -60,12 +60,6 @@ impl Outputs {
         for name in [BAD_STATE, bad_pictures::WHOLE, bad_pictures::NEAR] {
             let _ = std::fs::remove_file(folder.join(name));
         }
-        // What a killed run was about to write.
-        for below in FOLDERS.map(|name| folder.join(name)) {
-            if below.is_dir() {
-                sph_io::sweep_temporaries(below)?;
-            }
-        }
         let path = folder.join("fields.pvd");
         let series = match (scene.output.vtk, written, changed_at) {
             (false, ..) => None,

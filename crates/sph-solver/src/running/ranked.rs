@@ -157,6 +157,7 @@ impl<const D: usize> Running<'_, D> {
             return Ok(());
         };
         let near = self.around;
+        let solved: usize = self.counters.stage_bytes.iter().sum();
         let (divided, traffic) = (parts.divided(&flow.world.free), parts.traffic());
         let own = [
             divided.own as f64,
@@ -164,7 +165,7 @@ impl<const D: usize> Running<'_, D> {
             traffic.messages as f64 / steps,
             traffic.bytes as f64 / steps,
             traffic.moved as f64,
-            Memory::of(self.scene, flow, 0.0)?.total(),
+            Memory::of(self.scene, flow, solved as f64)?.total(),
             near.particles as f64,
             near.neighbours as f64,
             near.accompanied as f64,

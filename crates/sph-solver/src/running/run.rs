@@ -242,6 +242,11 @@ impl<const D: usize> Running<'_, D> {
         let bounds = self.scene.numerics.density_bounds;
         let done = flow.evaluate();
         let done = done.and_then(|()| guard::rates(&flow.world, &flow.laws, bounds));
+        let most = &mut self.counters.stage_bytes;
+        most.resize(flow.stages.len(), 0);
+        for (most, stage) in most.iter_mut().zip(&flow.stages) {
+            *most = stage.bytes().max(*most);
+        }
         // No rank goes on to what is done with an evaluated state if another has none.
         match self.agreed(done.err()) {
             None => Ok(()),

@@ -213,6 +213,7 @@ fn memory<const D: usize>(
     for work in flow.works.iter().filter(|_| evaluated) {
         system += work.bytes(&mut flow.world, dt)?;
     }
+    system += flow.stages.iter().map(|stage| stage.bytes()).sum::<usize>();
     Ok(Memory::of(scene, flow, system as f64)?)
 }
 

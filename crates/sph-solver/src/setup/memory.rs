@@ -62,7 +62,7 @@ impl Memory {
         ]
     }
 
-    /// Of a flow whose implicit solves take `system` bytes for a matrix with its vectors.
+    /// Of a flow whose implicit solves take `system` bytes for their matrices with their vectors.
     ///
     /// # Errors
     /// If there is no position column.
@@ -73,7 +73,6 @@ impl Memory {
     ) -> Result<Self, FieldError> {
         let world = &flow.world;
         let particles = world.free.len() as f64;
-        let stages: usize = flow.stages.iter().map(|stage| stage.bytes()).sum();
         Ok(Memory {
             columns: particles * world.free.bytes_per_particle() as f64,
             lists: lists(world),
@@ -81,7 +80,7 @@ impl Memory {
             walls: walls(world),
             // Rows as they are put together, the matrix that they are joined to, its halves and incomplete factors, which
             // are kept in both precisions: these take two thirds of it each.
-            solves: SHARES * (system + stages as f64),
+            solves: SHARES * system,
             output: output(scene, particles),
         })
     }
