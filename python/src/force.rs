@@ -1,14 +1,12 @@
 //! A body force by functions of Python: `[body-force.python]`.
 
-use std::any::Any;
-
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_contribution::{Contribution, Refusal, Setting, Stages, contribution_kind};
 use sph_core::{
     Access, AnyField, Declares, Field, Stage, StepError, Vect, Vector, register, suggestion,
 };
-use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, Terms, World};
+use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, Terms, WithTerm, World};
 
 use crate::columns::field_of;
 use crate::functions::{call, known};
@@ -130,14 +128,8 @@ impl<const D: usize> Interaction<D> for Push {
     fn access(&self) -> Access {
         Access::none().here(PUSH)
     }
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
-        Ok(Box::new(BoundPush(world.free.get(PUSH)?)))
-    }
-    fn as_any_ref(&self) -> &dyn Any {
-        self
-    }
-    fn into_any(self: Box<Self>) -> Box<dyn Any> {
-        self
+    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+        with(&BoundPush(world.free.get(PUSH)?))
     }
 }
 

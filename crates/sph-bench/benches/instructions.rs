@@ -11,7 +11,7 @@
 mod setup;
 
 use gungraun::{library_benchmark, library_benchmark_group, main};
-use setup::{Sums, WendlandC2, fused_terms_by_name, terms_by_name, world};
+use setup::{Sums, WendlandC2, terms_by_name, world};
 use sph_neighbours::{Terms, World};
 
 /// 2,025 particles.
@@ -47,8 +47,7 @@ fn sweep_types((world, kernel, mut sums): (World<2>, WendlandC2, Sums)) -> (Worl
 }
 
 #[library_benchmark]
-#[bench::fused(args = (fused_terms_by_name), setup = named)]
-#[bench::unfused(args = (terms_by_name), setup = named)]
+#[bench::plugins(args = (terms_by_name), setup = named)]
 fn sweep_plugins((world, terms, mut sums): (World<2>, Terms<2>, Sums)) -> (World<2>, Sums) {
     sums.by_name(&world, &terms);
     (world, sums)

@@ -13,8 +13,8 @@ use sph_diffusion::{BrezziPitkaranta, SmootherEntry};
 use sph_kernels::Sampler;
 use sph_multiphase::{FormulationEntry, PressureGradient, SquaredVolumes};
 use sph_neighbours::{
-    Domain, FusedLanes, KernelEntry, LanePairTerm, Lanewise, Terms, There, World, fuse_all,
-    interactions, interactions_with, kernel_sums, pack,
+    BoundTerm, ByPairs, Domain, KernelEntry, Lane, LanePair, Neighbourhood, PairSum, PairTerm,
+    Particles, Rates, Terms, World, interactions, interactions_with, kernel_sums, pack,
 };
 use sph_scene::SplitMix;
 use sph_state::{EquationOfState, Laws, Linear, Reference};
@@ -137,17 +137,9 @@ pub fn terms_by_name() -> Terms<2> {
     ]
 }
 
-/// The same, fused as the solver fuses them.
-pub fn fused_terms_by_name() -> Terms<2> {
-    let terms = fuse_all(terms_by_name());
-    assert_eq!(terms.len(), 1, "the three terms are one loop");
-    terms
-}
-
 /// Buffers of a sweep.
 #[derive(Default)]
 pub struct Sums {
-    states: Vec<There<2>>,
     /// Accelerations, m/s².
     pub acceleration: Vec<Vect<2>>,
     /// Rates of the density constant, kg/m³/s.
@@ -158,7 +150,6 @@ impl Sums {
     /// Buffers for a world.
     pub fn of(world: &World<2>) -> Self {
         Sums {
-            states: Vec::new(),
             acceleration: vec![Vect::zeros(); world.free.len()],
             scalar: vec![0.0; world.free.len()],
         }
@@ -167,32 +158,69 @@ impl Sums {
     /// One sweep with kernel and terms behind their traits.
     pub fn by_name(&mut self, world: &World<2>, terms: &Terms<2>) {
         let (acceleration, scalar) = (&mut self.acceleration, &mut self.scalar);
-        interactions(world, &mut self.states, terms, acceleration, Some(scalar))
-            .expect("all columns are there");
+        interactions(world, terms, acceleration, Some(scalar)).expect("all columns are there");
     }
 
     /// One sweep with kernel and terms as types.
     pub fn by_type(&mut self, world: &World<2>, kernel: &WendlandC2) {
         let smoother = BrezziPitkaranta::with(STRENGTH).of(&laws());
-        let terms = (
-            PressureGradient(SquaredVolumes),
-            ViscousTerm(
-                FirstDifferences,
-                ViscositySource::Uniform(VISCOSITY),
-                Choice::default(),
-            ),
-            smoother,
+        let friction = ViscousTerm(
+            FirstDifferences,
+            ViscositySource::Uniform(VISCOSITY),
+            Choice::default(),
         );
-        let term = Lanewise(terms);
-        let bound = FusedLanes(column(LanePairTerm::<2>::bind(&term.0, world)));
-        let packed = sph_neighbours::Packed::of([&term as &dyn sph_neighbours::Interaction<2>]);
-        pack(world, &mut self.states, packed).expect("all columns are there");
+        let bound = ByPairs(OneLoop(
+            column(PairTerm::<2>::bind(
+                &PressureGradient(SquaredVolumes),
+                world,
+            )),
+            column(PairTerm::<2>::bind(&friction, world)),
+            column(PairTerm::<2>::bind(&smoother, world)),
+        ));
         let sums = sph_neighbours::Sums {
             acceleration: &mut self.acceleration,
             scalar: Some(&mut self.scalar),
             more: &mut [],
         };
-        interactions_with(world, &self.states, kernel, &bound, sums).expect("there are positions");
+        interactions_with(world, kernel, &bound, sums).expect("there are positions");
+    }
+}
+
+/// Three terms as one: each pair is looked at once.
+struct OneLoop<A, B, C>(A, B, C);
+
+impl<const D: usize, A: PairSum<D>, B: PairSum<D>, C: PairSum<D>> PairSum<D> for OneLoop<A, B, C> {
+    type Own<L: Lane> = (A::Own<L>, B::Own<L>, C::Own<L>);
+    type Sum<L: Lane> = (A::Sum<L>, B::Sum<L>, C::Sum<L>);
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+        (self.0.own(all), self.1.own(all), self.2.own(all))
+    }
+    #[inline(always)]
+    fn pair<L: Lane>(
+        &self,
+        own: &Self::Own<L>,
+        j: usize,
+        pair: &LanePair<D, L>,
+        sum: &mut Self::Sum<L>,
+    ) {
+        self.0.pair(&own.0, j, pair, &mut sum.0);
+        self.1.pair(&own.1, j, pair, &mut sum.1);
+        self.2.pair(&own.2, j, pair, &mut sum.2);
+    }
+}
+
+impl<const D: usize, A, B, C> BoundTerm<D> for OneLoop<A, B, C>
+where
+    A: BoundTerm<D>,
+    B: BoundTerm<D>,
+    C: BoundTerm<D>,
+{
+    #[inline(always)]
+    fn finish(&self, sum: Self::Sum<f64>, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        self.0.finish(sum.0, at, rates);
+        self.1.finish(sum.1, at, rates);
+        self.2.finish(sum.2, at, rates);
     }
 }
 

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There,
-    World, dot, set, splat,
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
+    World, dot, splat,
 };
 
 use crate::diffusion_limit::{DiffusionLimit, fastest};
@@ -52,7 +52,7 @@ impl Default for BrezziPitkaranta {
 
 impl<const D: usize> Smoother<D> for BrezziPitkaranta {
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Lanewise(self.of(laws)))
+        Box::new(self.of(laws))
     }
     fn carried(&mut self) {
         self.accelerations.get_or_insert(true);
@@ -103,7 +103,7 @@ pub struct PressureDiffusion {
     accelerated: bool,
 }
 
-impl<const D: usize> LanePairTerm<D> for PressureDiffusion {
+impl<const D: usize> PairTerm<D> for PressureDiffusion {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -125,6 +125,7 @@ impl<const D: usize> LanePairTerm<D> for PressureDiffusion {
         Ok(Bound {
             pressure: world.free.get(fields::PRESSURE)?,
             density: world.free.get(fields::DENSITY)?,
+            volume: world.free.get(fields::VOLUME)?,
             acceleration: match self.accelerated {
                 true => Some(world.free.get(fields::MEAN_ACCELERATION)?),
                 false => None,
@@ -139,91 +140,49 @@ impl<const D: usize> LanePairTerm<D> for PressureDiffusion {
 pub struct Bound<'a, const D: usize> {
     pressure: &'a [f64],
     density: &'a [f64],
+    volume: &'a [f64],
     acceleration: Option<&'a [Vect<D>]>,
     gravity: Vect<D>,
     weight: f64,
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
     /// Pressure, density, ρA.
-    type Here = (f64, f64, Vect<D>);
-    type Sum = f64;
+    type Own<L: Lane> = (L, L, [L; D]);
+    type Sum<L: Lane> = L;
 
     #[inline(always)]
-    fn here(&self, i: usize) -> Self::Here {
-        let density = self.density[i];
-        let inertia = self.acceleration.map(|a| a[i] * density);
-        (
-            self.pressure[i],
-            density,
-            inertia.unwrap_or_else(Vect::zeros),
-        )
+    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+        let inertia = match self.acceleration {
+            Some(a) => all.each(|i| (a[i] * self.density[i]).into()),
+            None => [L::splat(0.0); D],
+        };
+        let density = all.numbers(self.density);
+        (all.numbers(self.pressure), density, inertia)
     }
 
     #[inline(always)]
-    fn zero(&self) -> f64 {
-        0.0
-    }
-
-    #[inline(always)]
-    fn free(&self, here: &Self::Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
-        self.add_one(here, j, there, pair, sum);
-    }
-
-    #[inline(always)]
-    fn finish(&self, here: &Self::Here, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.scalar += self.weight * here.1 * sum * inverse_gamma;
-    }
-}
-
-impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
-    type Side<L: Lane> = (L, L, [L; D]);
-    type Sums<L: Lane> = L;
-
-    #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L> {
-        let zero = L::splat(0.0);
-        let mut side = (zero, zero, [zero; D]);
-        for (lane, own) in here.iter().enumerate() {
-            side.0.set(lane, own.0);
-            side.1.set(lane, own.1);
-            set(&mut side.2, lane, &own.2);
-        }
-        side
-    }
-
-    #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &f64) -> L {
-        L::splat(*sum)
-    }
-
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &L, lane: usize) -> f64 {
-        sums.at(lane)
-    }
-
-    #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        here: &Self::Side<L>,
-        j: usize,
-        there: &There<D>,
-        pair: &LanePair<D, L>,
-        sum: &mut L,
-    ) {
-        let (pressure, density) = (L::splat(there.pressure), L::splat(there.density));
-        let volume = L::splat(there.volume);
+    fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
+        let (pressure, density) = (L::splat(self.pressure[j]), L::splat(self.density[j]));
         let gravity = splat::<D, L>(&self.gravity);
-        let both = here.1 + density;
+        let both = own.1 + density;
         let mut bracket =
-            L::splat(2.0) * (here.0 - pressure) / both - dot(&gravity, &pair.separation);
+            L::splat(2.0) * (own.0 - pressure) / both - dot(&gravity, &pair.separation);
         if let Some(acceleration) = self.acceleration {
-            let mut inertia = here.2;
+            let mut inertia = own.2;
             for (own, other) in inertia.iter_mut().zip(&acceleration[j]) {
                 *own += density * L::splat(*other);
             }
             bracket += dot(&inertia, &pair.separation) / both;
         }
-        *sum += volume * bracket * pair.factor;
+        *sum += L::splat(self.volume[j]) * bracket * pair.factor;
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    #[inline(always)]
+    fn finish(&self, sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let density = self.density[at.particle];
+        rates.scalar += self.weight * density * sum * at.inverse_renormalisation;
     }
 }

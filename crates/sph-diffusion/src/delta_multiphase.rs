@@ -3,7 +3,10 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
-use sph_neighbours::{BoundTerm, Contact, Interaction, Pair, PairTerm, Rates, Term, There, World};
+use sph_neighbours::{
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
+    World, dot, splat,
+};
 
 use crate::diffusion_limit::DiffusionLimit;
 use crate::per_phase::PerPhase;
@@ -80,12 +83,12 @@ impl Default for DeltaMultiphase {
 
 impl<const D: usize> Smoother<D> for DeltaMultiphase {
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Term(DeltaTerm {
+        Box::new(DeltaTerm {
             smoother: *self,
             density: PerPhase::of(laws, |law| law.reference().density),
             sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
             laws: laws.clone(),
-        }))
+        })
     }
     fn carried(&mut self) {
         self.accelerations.get_or_insert(true);
@@ -198,75 +201,73 @@ impl<const D: usize> Bound<'_, D> {
     }
 }
 
-/// What is read once per particle.
+/// The own values of a particle.
 #[derive(Clone, Copy)]
-pub struct Own<const D: usize> {
-    compression: f64,
+pub struct Own<const D: usize, L> {
+    compression: L,
     /// ∇p at rest, Pa/m.
-    at_rest: Vect<D>,
-    volume: f64,
-    phase: u32,
+    at_rest: [L; D],
     /// 1/(ρ₀c²).
-    compressibility: f64,
+    compressibility: L,
+}
+
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    type Own<L: Lane> = Own<D, L>;
+    type Sum<L: Lane> = L;
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
+        let [compression, compressibility] = all.each(|i| {
+            let phase = self.phase.map_or(0, |p| p[i]);
+            let (rest, c) = (self.term.density.at(phase), self.term.sound_speed.at(phase));
+            [self.density[i] / rest, 1.0 / (rest * c * c)]
+        });
+        Own {
+            compression,
+            at_rest: all.each(|i| self.at_rest(i, self.density[i]).into()),
+            compressibility,
+        }
+    }
+
+    #[inline(always)]
+    fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
+        let phase = self.phase.map_or(0, |p| p[j]);
+        let compression = L::splat(self.density[j] / self.term.density.at(phase));
+        let mut mean = splat::<D, L>(&self.at_rest(j, self.density[j]));
+        for (mean, own) in mean.iter_mut().zip(own.at_rest) {
+            *mean = (own + *mean) * L::splat(0.5);
+        }
+        let at_rest = dot(&mean, &pair.separation) * own.compressibility;
+        *sum += L::splat(self.volume[j]) * (own.compression - compression - at_rest) * pair.factor;
+    }
 }
 
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    type Here = Own<D>;
-    type Sum = f64;
-
     #[inline(always)]
-    fn here(&self, i: usize) -> Own<D> {
+    fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        let own = self.own::<f64>(Particles::one(i));
+        let own_at_rest = Vect::from(own.at_rest);
         let phase = self.phase.map_or(0, |p| p[i]);
-        let (rest, c) = (self.term.density.at(phase), self.term.sound_speed.at(phase));
-        Own {
-            compression: self.density[i] / rest,
-            at_rest: self.at_rest(i, self.density[i]),
-            volume: self.volume[i],
-            phase,
-            compressibility: 1.0 / (rest * c * c),
-        }
-    }
-
-    #[inline(always)]
-    fn zero(&self) -> f64 {
-        0.0
-    }
-
-    #[inline(always)]
-    fn free(&self, own: &Own<D>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
-        let phase = self.phase.map_or(0, |p| p[j]);
-        let compression = there.density / self.term.density.at(phase);
-        let mean = (own.at_rest + self.at_rest(j, there.density)) * 0.5;
-        let at_rest = mean.dot(&pair.separation) * own.compressibility;
-        *sum += there.volume * (own.compression - compression - at_rest) * pair.factor;
-    }
-
-    #[inline(always)]
-    fn wall(&self, own: &Own<D>, v: usize, pair: &Pair<D>, sum: &mut f64) {
         if !self.at_points.is_empty() {
-            let there = self.at_points[own.phase as usize * self.wall_share.len() + v];
-            let weight = self.wall_share[v] * own.volume;
-            let at_rest = own.at_rest.dot(&pair.separation) * own.compressibility;
-            *sum += weight * (own.compression - there - at_rest) * pair.factor;
+            for (v, pair) in at.wall.pairs() {
+                let there = self.at_points[phase as usize * self.wall_share.len() + v];
+                let weight = self.wall_share[v] * self.volume[i];
+                let at_rest = own_at_rest.dot(&pair.separation) * own.compressibility;
+                sum += weight * (own.compression - there - at_rest) * pair.factor;
+            }
         }
-    }
-
-    #[inline(always)]
-    fn element(&self, own: &Own<D>, contact: &Contact<D>, sum: &mut f64) {
         if !self.at_elements.is_empty() {
-            let s = contact.element as usize;
-            let there = self.at_elements[own.phase as usize * self.normals.len() + s];
-            let apart = contact.distance.max(self.nearest);
-            let slope = (own.compression - there) / apart;
-            let at_rest = own.at_rest.dot(&self.normals[s]) * own.compressibility;
-            *sum -= (slope - at_rest) * contact.gradient.norm();
+            for contact in at.contacts {
+                let s = contact.element as usize;
+                let there = self.at_elements[phase as usize * self.normals.len() + s];
+                let apart = contact.distance.max(self.nearest);
+                let slope = (own.compression - there) / apart;
+                let at_rest = own_at_rest.dot(&self.normals[s]) * own.compressibility;
+                sum -= (slope - at_rest) * contact.gradient.norm();
+            }
         }
-    }
-
-    #[inline(always)]
-    fn finish(&self, own: &Own<D>, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
-        let term = self.term;
-        let scale = term.density.at(own.phase) * term.sound_speed.at(own.phase);
-        rates.scalar += self.weight * scale * sum * inverse_gamma;
+        let scale = self.term.density.at(phase) * self.term.sound_speed.at(phase);
+        rates.scalar += self.weight * scale * sum * at.inverse_renormalisation;
     }
 }

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
 use sph_neighbours::{
-    Around, BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates,
-    There, Values, World, dot, set, unlike, walk_into,
+    Around, BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+    Rates, Values, World, dot, unlike, walk_into,
 };
 
 use crate::diffusion_limit::DiffusionLimit;
@@ -74,10 +74,10 @@ impl<const D: usize> Smoother<D> for DeltaSph {
         }
     }
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Lanewise(DeltaTerm {
+        Box::new(DeltaTerm {
             smoother: *self,
             sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
-        }))
+        })
     }
     fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         DiffusionLimit::of(self.strength, laws)
@@ -141,7 +141,7 @@ pub struct DeltaTerm {
     sound_speed: PerPhase,
 }
 
-impl<const D: usize> LanePairTerm<D> for DeltaTerm {
+impl<const D: usize> PairTerm<D> for DeltaTerm {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -162,6 +162,7 @@ impl<const D: usize> LanePairTerm<D> for DeltaTerm {
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
         Ok(Bound {
             density: world.free.get(fields::DENSITY)?,
+            volume: world.free.get(fields::VOLUME)?,
             gradient: match self.smoother.form {
                 DeltaForm::Plain => None,
                 DeltaForm::Renormalised => Some(world.free.get(DENSITY_GRADIENT)?),
@@ -176,83 +177,33 @@ impl<const D: usize> LanePairTerm<D> for DeltaTerm {
 /// [`DeltaTerm`] with its columns.
 pub struct Bound<'a, const D: usize> {
     density: &'a [f64],
+    volume: &'a [f64],
     gradient: Option<&'a [Vect<D>]>,
     phase: Option<&'a [u32]>,
     sound_speed: &'a PerPhase,
     weight: f64,
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
     /// Density, its gradient, phase.
-    type Here = (f64, Vect<D>, u32);
-    type Sum = f64;
+    type Own<L: Lane> = (L, [L; D], L);
+    type Sum<L: Lane> = L;
 
     #[inline(always)]
-    fn here(&self, i: usize) -> Self::Here {
-        (
-            self.density[i],
-            self.gradient.map_or_else(Vect::zeros, |g| g[i]),
-            self.phase.map_or(0, |p| p[i]),
-        )
+    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+        let gradient = match self.gradient {
+            Some(gradient) => all.vectors(gradient),
+            None => [L::splat(0.0); D],
+        };
+        (all.numbers(self.density), gradient, all.phases(self.phase))
     }
 
     #[inline(always)]
-    fn zero(&self) -> f64 {
-        0.0
-    }
-
-    #[inline(always)]
-    fn free(&self, here: &Self::Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
-        self.add_one(here, j, there, pair, sum);
-    }
-
-    #[inline(always)]
-    fn finish(&self, here: &Self::Here, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
-        let c = self.sound_speed.at(here.2);
-        rates.scalar += self.weight * c * sum * inverse_gamma;
-    }
-}
-
-impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
-    /// Density, its gradient, phase, which is a small whole number.
-    type Side<L: Lane> = (L, [L; D], L);
-    type Sums<L: Lane> = L;
-
-    #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L> {
-        let zero = L::splat(0.0);
-        let mut side = (zero, [zero; D], zero);
-        for (lane, own) in here.iter().enumerate() {
-            side.0.set(lane, own.0);
-            set(&mut side.1, lane, &own.1);
-            side.2.set(lane, f64::from(own.2));
-        }
-        side
-    }
-
-    #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &f64) -> L {
-        L::splat(*sum)
-    }
-
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &L, lane: usize) -> f64 {
-        sums.at(lane)
-    }
-
-    #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        here: &Self::Side<L>,
-        j: usize,
-        there: &There<D>,
-        pair: &LanePair<D, L>,
-        sum: &mut L,
-    ) {
+    fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
         let zero = L::splat(0.0);
         let linear = match self.gradient {
             Some(g) => {
-                let mut both = here.1;
+                let mut both = own.1;
                 for k in 0..D {
                     both[k] = L::splat(0.5) * (both[k] + L::splat(g[j][k]));
                 }
@@ -260,11 +211,21 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
             }
             None => zero,
         };
-        let rise = here.0 - L::splat(there.density) - linear;
-        let mut more = L::splat(there.volume) * rise * pair.factor;
+        let rise = own.0 - L::splat(self.density[j]) - linear;
+        let mut more = L::splat(self.volume[j]) * rise * pair.factor;
         if let Some(phase) = self.phase {
-            more = unlike(here.2, phase[j]).where_positive(zero, more);
+            more = unlike(own.2, phase[j]).where_positive(zero, more);
         }
         *sum += more;
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    #[inline(always)]
+    fn finish(&self, sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let c = self
+            .sound_speed
+            .at(self.phase.map_or(0, |p| p[at.particle]));
+        rates.scalar += self.weight * c * sum * at.inverse_renormalisation;
     }
 }

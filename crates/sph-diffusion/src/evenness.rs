@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{
-    Around, Contact, ContactRow, Lane, LanePair, LaneSum, Values, World, add_scaled, lattice_sum,
-    unlike, vector, walk_in_lanes, walk_some,
+    Around, Contact, ContactRow, Lane, LanePair, PairSum, Particles, Values, World, add_scaled,
+    lattice_sum, unlike, walk_in_lanes, walk_some,
 };
 
 /// What the neighbourhood of a particle says of its arrangement.
@@ -68,10 +68,10 @@ pub(crate) fn evenness<const D: usize>(
         &sum,
         |_| true,
         all,
-        |free, rows| {
+        |(filling, gradient, push, colour), rows| {
             let i = rows.particle;
-            let mut filling = volume[i] * own + free.filling;
-            let (mut gradient, mut push) = (free.gradient, free.push);
+            let mut filling = volume[i] * own + filling;
+            let (mut gradient, mut push) = (Vect::from(gradient), Vect::from(push));
             for (k, &v) in rows.wall.index.iter().enumerate() {
                 let w = kernel.at(rows.wall.distance2[k].sqrt()).0;
                 let part = points.share[v as usize] * points.volume[v as usize];
@@ -96,7 +96,7 @@ pub(crate) fn evenness<const D: usize>(
                 filling: concentration,
                 gradient: gradient * inverse,
                 push: (gradient + push) * inverse,
-                interface: free.colour.try_normalize(least),
+                interface: Vect::from(colour).try_normalize(least),
             }
         },
     )
@@ -122,70 +122,35 @@ struct FreeSums<'a> {
     between: f64,
 }
 
-/// Sums over free neighbours, of one particle or side by side.
-#[derive(Clone, Copy)]
-struct Free<V, N> {
-    filling: N,
-    gradient: V,
-    push: V,
-    /// ΣV∇w over other phases.
-    colour: V,
-}
-
-impl<const D: usize> LaneSum<D> for FreeSums<'_> {
+impl<const D: usize> PairSum<D> for FreeSums<'_> {
     const VALUES: bool = true;
     /// The phase.
-    type Here = f64;
-    type Sum = Free<Vect<D>, f64>;
-    type Side<L: Lane> = L;
-    type Sums<L: Lane> = Free<[L; D], L>;
+    type Own<L: Lane> = L;
+    /// The filling, its gradient, the push, and ΣV∇w over other phases.
+    type Sum<L: Lane> = (L, [L; D], [L; D], [L; D]);
 
     #[inline(always)]
-    fn here(&self, particle: usize) -> f64 {
-        self.phase.map_or(0.0, |phase| f64::from(phase[particle]))
+    fn own<L: Lane>(&self, all: Particles) -> L {
+        all.phases(self.phase)
     }
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[f64]) -> L {
-        L::load(here)
-    }
-    #[inline(always)]
-    fn zero<L: Lane>(&self) -> Self::Sums<L> {
-        let zero = L::splat(0.0);
-        Free {
-            filling: zero,
-            gradient: [zero; D],
-            push: [zero; D],
-            colour: [zero; D],
-        }
-    }
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Self::Sum {
-        Free {
-            filling: sums.filling.at(lane),
-            gradient: vector(&sums.gradient, lane),
-            push: vector(&sums.push, lane),
-            colour: vector(&sums.colour, lane),
-        }
-    }
-    #[inline(always)]
-    fn add<L: Lane>(
+    fn pair<L: Lane>(
         &self,
         phase: &L,
         j: usize,
         pair: &LanePair<D, L>,
-        value: L,
-        sums: &mut Self::Sums<L>,
+        (filling, gradient, push, colour): &mut Self::Sum<L>,
     ) {
         let volume = L::splat(self.volume[j]);
         let weight = volume * pair.factor;
-        let near = power(value * L::splat(self.between), self.exponent);
+        let near = power(pair.value * L::splat(self.between), self.exponent);
         let pairing = weight * (L::splat(self.tensile) * near);
-        sums.filling += volume * value;
-        add_scaled(&mut sums.gradient, &pair.separation, weight);
-        add_scaled(&mut sums.push, &pair.separation, pairing);
+        *filling += volume * pair.value;
+        add_scaled(gradient, &pair.separation, weight);
+        add_scaled(push, &pair.separation, pairing);
         if let Some(phases) = self.phase {
             let other = unlike(*phase, phases[j]).where_positive(weight, L::splat(0.0));
-            add_scaled(&mut sums.colour, &pair.separation, other);
+            add_scaled(colour, &pair.separation, other);
         }
     }
 }

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, register};
-use sph_neighbours::{Interaction, Lanewise, World};
+use sph_neighbours::{Interaction, World};
 
 use crate::evenness::{Evenness, Held, evenness, held_normals};
 use crate::shift_transport::ShiftTransport;
@@ -138,7 +138,7 @@ impl<const D: usize> Shifting<D> for Fickian {
             relaxation: self.relaxation,
             summed: flow.summed,
         };
-        (self.transport != Transport::Nothing).then(|| Box::new(Lanewise(term)) as _)
+        (self.transport != Transport::Nothing).then(|| Box::new(term) as _)
     }
 }
 

@@ -2,8 +2,8 @@
 
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates, There,
-    World, add_scaled, dot, set, splat, unlike, vector,
+    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World,
+    add_scaled, dot, splat, unlike,
 };
 
 /// du/dt += (s·∇)u and dρ/dt += s·∇ρ with the shift velocity s, the gradients from differences:
@@ -31,7 +31,7 @@ pub struct ShiftTransport {
     pub summed: bool,
 }
 
-impl<const D: usize> LanePairTerm<D> for ShiftTransport {
+impl<const D: usize> PairTerm<D> for ShiftTransport {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -57,6 +57,7 @@ impl<const D: usize> LanePairTerm<D> for ShiftTransport {
             velocity: world.free.get(fields::VELOCITY)?,
             density: world.free.get(fields::DENSITY)?,
             emptiness: world.free.get(fields::EMPTINESS)?,
+            volume: world.free.get(fields::VOLUME)?,
             mass: world.free.get(fields::MASS)?,
             phase: world.free.get(fields::PHASE).ok(),
             wall_velocity: &points.velocity,
@@ -75,6 +76,7 @@ pub struct Bound<'a, const D: usize> {
     velocity: &'a [Vect<D>],
     density: &'a [f64],
     emptiness: &'a [f64],
+    volume: &'a [f64],
     mass: &'a [f64],
     phase: Option<&'a [u32]>,
     wall_velocity: &'a [Vect<D>],
@@ -84,137 +86,49 @@ pub struct Bound<'a, const D: usize> {
     elements: &'a Elements<D>,
 }
 
-/// What is read once per particle.
+/// The own values of a particle.
 #[derive(Clone, Copy)]
-pub struct Own<const D: usize> {
-    shift: Vect<D>,
-    velocity: Vect<D>,
-    density: f64,
-    /// 1 − C.
-    emptiness: f64,
-    /// m where the density is a sum, 0 otherwise.
-    summed: f64,
-    phase: u32,
-}
-
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    type Here = Own<D>;
-    /// (s·∇)u, dρ/dt and ΣV|u·r||F|.
-    type Sum = (Vect<D>, f64, f64);
-
-    #[inline(always)]
-    fn here(&self, i: usize) -> Own<D> {
-        Own {
-            shift: self.shift[i],
-            velocity: self.velocity[i],
-            density: self.density[i],
-            emptiness: self.emptiness[i],
-            summed: if self.which.summed { self.mass[i] } else { 0.0 },
-            phase: self.phase.map_or(0, |p| p[i]),
-        }
-    }
-
-    #[inline(always)]
-    fn zero(&self) -> Self::Sum {
-        (Vect::zeros(), 0.0, 0.0)
-    }
-
-    #[inline(always)]
-    fn free(&self, own: &Own<D>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Self::Sum) {
-        self.add_one(own, j, there, pair, sum);
-    }
-
-    #[inline(always)]
-    fn wall(&self, own: &Own<D>, v: usize, pair: &Pair<D>, sum: &mut Self::Sum) {
-        let along = own.shift.dot(&pair.separation) * self.wall_share[v] * pair.factor;
-        let apart = self.wall_velocity[v] - own.velocity;
-        sum.0 += apart * (self.wall_volume[v] * self.wall_grip[v] * along);
-        sum.1 -= own.summed * along;
-    }
-
-    #[inline(always)]
-    fn element(&self, own: &Own<D>, contact: &Contact<D>, sum: &mut Self::Sum) {
-        let s = contact.element as usize;
-        let along = own.shift.dot(&contact.gradient);
-        sum.0 -= (self.elements.velocity[s] - own.velocity) * (self.elements.grip[s] * along);
-        if self.which.summed {
-            sum.1 += own.density * along;
-        }
-    }
-
-    #[inline(always)]
-    fn finish(&self, own: &Own<D>, sum: &Self::Sum, inverse_gamma: f64, rates: &mut Rates<D>) {
-        if own.emptiness == 0.0 {
-            return;
-        }
-        if self.which.velocity {
-            rates.acceleration += sum.0 * inverse_gamma;
-        }
-        {
-            let back = self.which.relaxation * own.density * own.emptiness * sum.2;
-            rates.scalar += (sum.1 - back) * inverse_gamma;
-        }
-    }
-}
-
-/// [`Own`] of several particles; phases are small whole numbers, exact as any.
-#[derive(Clone, Copy)]
-pub struct Side<const D: usize, L> {
+pub struct Own<const D: usize, L> {
     shift: [L; D],
     velocity: [L; D],
     density: L,
+    /// m where the density is a sum, 0 otherwise.
     summed: L,
     phase: L,
 }
 
-impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
-    type Side<L: Lane> = Side<D, L>;
-    type Sums<L: Lane> = ([L; D], L, L);
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    type Own<L: Lane> = Own<D, L>;
+    /// (s·∇)u, dρ/dt and ΣV|u·r||F|.
+    type Sum<L: Lane> = ([L; D], L, L);
 
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Own<D>]) -> Side<D, L> {
-        let zero = L::splat(0.0);
-        let mut side = Side {
-            shift: [zero; D],
-            velocity: [zero; D],
-            density: zero,
-            summed: zero,
-            phase: zero,
-        };
-        for (lane, own) in here.iter().enumerate() {
-            set(&mut side.shift, lane, &own.shift);
-            set(&mut side.velocity, lane, &own.velocity);
-            side.density.set(lane, own.density);
-            side.summed.set(lane, own.summed);
-            side.phase.set(lane, f64::from(own.phase));
+    fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
+        Own {
+            shift: all.vectors(self.shift),
+            velocity: all.vectors(self.velocity),
+            density: all.numbers(self.density),
+            summed: match self.which.summed {
+                true => all.numbers(self.mass),
+                false => L::splat(0.0),
+            },
+            phase: all.phases(self.phase),
         }
-        side
     }
 
     #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &Self::Sum) -> Self::Sums<L> {
-        (splat(&sum.0), L::splat(sum.1), L::splat(sum.2))
-    }
-
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Self::Sum {
-        (vector(&sums.0, lane), sums.1.at(lane), sums.2.at(lane))
-    }
-
-    #[inline(always)]
-    fn add<L: Lane>(
+    fn pair<L: Lane>(
         &self,
-        own: &Side<D, L>,
+        own: &Own<D, L>,
         j: usize,
-        there: &There<D>,
         pair: &LanePair<D, L>,
-        sums: &mut Self::Sums<L>,
+        sums: &mut Self::Sum<L>,
     ) {
-        let volume = L::splat(there.volume);
+        let volume = L::splat(self.volume[j]);
         let along = dot(&own.shift, &pair.separation);
         let mut weight = volume * along * pair.factor;
         let mut relative = own.velocity;
-        for (relative, other) in relative.iter_mut().zip(there.velocity.iter()) {
+        for (relative, other) in relative.iter_mut().zip(self.velocity[j].iter()) {
             *relative = L::splat(*other) - *relative;
         }
         sums.2 += volume * dot(&relative, &pair.separation).abs() * pair.factor.abs();
@@ -222,8 +136,46 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
             weight = unlike(own.phase, phase[j]).where_positive(L::splat(0.0), weight);
         }
         add_scaled(&mut sums.0, &relative, weight);
-        sums.1 += (L::splat(there.density) - own.density) * weight;
+        sums.1 += (L::splat(self.density[j]) - own.density) * weight;
         let nearer = along - dot(&splat(&self.shift[j]), &pair.separation);
         sums.1 -= own.summed * nearer * pair.factor;
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    #[inline(always)]
+    fn finish(
+        &self,
+        (taken_up, mut rate, rearranged): ([f64; D], f64, f64),
+        at: &Neighbourhood<'_, D>,
+        rates: &mut Rates<D>,
+    ) {
+        let i = at.particle;
+        let emptiness = self.emptiness[i];
+        if emptiness == 0.0 {
+            return;
+        }
+        let mut taken_up = Vect::from(taken_up);
+        let (shift, velocity, density) = (self.shift[i], self.velocity[i], self.density[i]);
+        let summed = if self.which.summed { self.mass[i] } else { 0.0 };
+        for (v, pair) in at.wall.pairs() {
+            let along = shift.dot(&pair.separation) * self.wall_share[v] * pair.factor;
+            let apart = self.wall_velocity[v] - velocity;
+            taken_up += apart * (self.wall_volume[v] * self.wall_grip[v] * along);
+            rate -= summed * along;
+        }
+        for contact in at.contacts {
+            let s = contact.element as usize;
+            let along = shift.dot(&contact.gradient);
+            taken_up -= (self.elements.velocity[s] - velocity) * (self.elements.grip[s] * along);
+            if self.which.summed {
+                rate += density * along;
+            }
+        }
+        if self.which.velocity {
+            rates.acceleration += taken_up * at.inverse_renormalisation;
+        }
+        let back = self.which.relaxation * density * emptiness * rearranged;
+        rates.scalar += (rate - back) * at.inverse_renormalisation;
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! * [`Lane`] is what a formula sees: `f64` is one, [`Lanes`] are several. No operation mixes lanes and none is fused,
 //!   so that every lane has the bits that `f64` has, whatever the width.
+//! * [`InLanes`]: numbers, vectors and tuples of them, of several particles.
 //! * [`dispatch`] runs a [`Body`] with the widest lanes that the processor has: 8 with AVX-512, 4 with AVX2, 2 elsewhere.
 //! * [`atan2`] and [`ln`] have the same bits on every processor, which those of the C library have not.
 //!
@@ -10,10 +11,12 @@
 
 mod dispatch;
 mod elementary;
+mod in_lanes;
 mod lane;
 mod lanes;
 
 pub use dispatch::{Body, Width, dispatch, dispatch_at, force_width, width};
 pub use elementary::{atan2, ln};
+pub use in_lanes::InLanes;
 pub use lane::{Lane, add_scaled, dot, scaled};
 pub use lanes::{Lanes, MOST};

@@ -10,9 +10,8 @@ use sph_core::{
 };
 use sph_damping::DampingEntry;
 use sph_neighbours::{
-    BoundTerm, Contact, Declared, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm,
-    Lanewise, Pair, Rates, Sums, Terms, There, Values, World, add_scaled, all_sums, splat, vector,
-    walk_some,
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+    Rates, Sums, Terms, Values, World, add_scaled, all_sums, declared, walk_some,
 };
 
 use crate::divergence::{Divergence, OwnVolume};
@@ -58,21 +57,20 @@ impl Default for AcousticDamper {
 impl<const D: usize> Contribution<D> for AcousticDamper {
     fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
         let laws = setting.laws.iter().map(|law| law.reference());
-        let term: Box<dyn Interaction<D>> = Divergence::boxed(OwnVolume);
+        let term = [Divergence::boxed(OwnVolume)];
         vec![Box::new(Resistance {
             impedance: laws
                 .clone()
                 .map(|r| self.strength * r.density * r.sound_speed)
                 .collect(),
             densities: laws.map(|r| r.density).collect(),
-            declared: Declared::of([&*term]),
-            term: [term],
-            states: Vec::new(),
+            declared: declared(&term),
+            term,
             unused: Vec::new(),
         })]
     }
     fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
-        vec![Box::new(Lanewise(DampingForce))]
+        vec![Box::new(DampingForce)]
     }
     fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
         let speeds = setting.laws.iter().map(|law| law.reference().sound_speed);
@@ -115,8 +113,7 @@ struct Resistance<const D: usize> {
     densities: Vec<f64>,
     term: [Box<dyn Interaction<D>>; 1],
     /// What the term declares: no step asks for memory to find it out.
-    declared: Declared,
-    states: Vec<There<D>>,
+    declared: Vec<Access>,
     /// The sweep sums accelerations, too; nobody reads them.
     unused: Vec<Vect<D>>,
 }
@@ -170,7 +167,7 @@ impl<const D: usize> Stage<World<D>> for Resistance<D> {
             scalar: Some(&mut pressure),
             more: &mut [],
         };
-        all_sums(world, &mut self.states, &self.declared, &self.term, sums)?;
+        all_sums(world, &self.declared, &self.term, sums)?;
         let lightest = self.lightest(world)?;
         let h = world.kernel.smoothing_length();
         let phase = world.free.get(fields::PHASE).ok();
@@ -210,7 +207,7 @@ impl<const D: usize> Limiter<D> for DamperLimit {
 /// The force of [`AcousticDamper`].
 struct DampingForce;
 
-impl<const D: usize> LanePairTerm<D> for DampingForce {
+impl<const D: usize> PairTerm<D> for DampingForce {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -245,88 +242,39 @@ struct Bound<'a, const D: usize> {
     elements: &'a Elements<D>,
 }
 
-/// What is read once per particle.
-#[derive(Clone, Copy)]
-struct Own {
-    pressure: f64,
-    volume: f64,
-    inverse_mass: f64,
-}
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    /// q V².
+    type Own<L: Lane> = L;
+    type Sum<L: Lane> = [L; D];
 
-impl Own {
-    /// What it has against a wall of this volume: the wall resists as the particle does.
-    fn against(&self, volume: f64) -> f64 {
-        self.pressure * (self.volume * self.volume + volume * volume)
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> L {
+        let volume = all.numbers::<L>(self.volume);
+        all.numbers::<L>(self.pressure) * volume * volume
+    }
+    #[inline(always)]
+    fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        let other = L::splat(self.pressure[j] * self.volume[j] * self.volume[j]);
+        add_scaled(sum, &pair.separation, (*own + other) * pair.factor);
     }
 }
 
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    type Here = Own;
-    type Sum = Vect<D>;
-
     #[inline(always)]
-    fn here(&self, i: usize) -> Own {
-        Own {
-            pressure: self.pressure[i],
-            volume: self.volume[i],
-            inverse_mass: 1.0 / self.mass[i],
+    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        // The wall resists as the particle does.
+        let (pressure, own) = (self.pressure[i], self.volume[i]);
+        let against = |volume: f64| pressure * (own * own + volume * volume);
+        let mut sum = Vect::from(sum);
+        for (v, pair) in at.wall.pairs() {
+            let weight = self.wall_share[v] * against(self.wall_volume[v]);
+            sum += pair.separation * (weight * pair.factor);
         }
-    }
-    #[inline(always)]
-    fn zero(&self) -> Vect<D> {
-        Vect::zeros()
-    }
-    #[inline(always)]
-    fn free(&self, here: &Own, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Vect<D>) {
-        self.add_one(here, j, there, pair, sum);
-    }
-    #[inline(always)]
-    fn wall(&self, here: &Own, v: usize, pair: &Pair<D>, sum: &mut Vect<D>) {
-        let weight = self.wall_share[v] * here.against(self.wall_volume[v]);
-        *sum += pair.separation * (weight * pair.factor);
-    }
-    #[inline(always)]
-    fn element(&self, here: &Own, contact: &Contact<D>, sum: &mut Vect<D>) {
-        let volume = self.elements.volume[contact.element as usize];
-        *sum -= contact.gradient * (here.against(volume) / volume);
-    }
-    #[inline(always)]
-    fn finish(&self, here: &Own, sum: &Vect<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.acceleration -= sum * (here.inverse_mass * inverse_gamma);
-    }
-}
-
-impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
-    /// q V².
-    type Side<L: Lane> = L;
-    type Sums<L: Lane> = [L; D];
-
-    #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Own]) -> L {
-        let mut side = L::splat(0.0);
-        for (lane, own) in here.iter().enumerate() {
-            side.set(lane, own.pressure * own.volume * own.volume);
+        for contact in at.contacts {
+            let volume = self.elements.volume[contact.element as usize];
+            sum -= contact.gradient * (against(volume) / volume);
         }
-        side
-    }
-    #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &Vect<D>) -> [L; D] {
-        splat(sum)
-    }
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &[L; D], lane: usize) -> Vect<D> {
-        vector(sums, lane)
-    }
-    #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        here: &L,
-        j: usize,
-        there: &There<D>,
-        pair: &LanePair<D, L>,
-        sums: &mut [L; D],
-    ) {
-        let other = L::splat(self.pressure[j] * there.volume * there.volume);
-        add_scaled(sums, &pair.separation, (*here + other) * pair.factor);
+        rates.acceleration -= sum * (1.0 / self.mass[i] * at.inverse_renormalisation);
     }
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_contribution::StepWork;
 use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
-use sph_neighbours::{Interaction, There, World, interactions};
+use sph_neighbours::{Interaction, World, interactions};
 
 use crate::Compressed;
 
@@ -11,7 +11,6 @@ use crate::Compressed;
 pub struct Dilatation<const D: usize> {
     compressed: Compressed,
     term: [Box<dyn Interaction<D>>; 1],
-    states: Vec<There<D>>,
     /// The sweep sums accelerations, too; nobody reads them.
     unused: Vec<Vect<D>>,
     divergence: Vec<f64>,
@@ -23,7 +22,6 @@ impl<const D: usize> Dilatation<D> {
         Dilatation {
             compressed,
             term: [term],
-            states: Vec::new(),
             unused: Vec::new(),
             divergence: Vec::new(),
         }
@@ -54,7 +52,6 @@ impl<const D: usize> StepWork<D> for Dilatation<D> {
         self.divergence.resize(world.free.len(), 0.0);
         interactions(
             world,
-            &mut self.states,
             &self.term,
             &mut self.unused,
             Some(&mut self.divergence),

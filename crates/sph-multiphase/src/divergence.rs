@@ -2,8 +2,8 @@
 
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
-    Pair, Rates, There, World, dot, minus, set,
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+    Rates, World, dot, minus,
 };
 
 /// Which weight a pair has in D_a{u} = −1/γ_a [Σ_b θ_b W_ab u_ab·∇w_ab − Σ_s W_as/V_s u_as·∇γ_as].
@@ -80,11 +80,11 @@ pub struct Divergence<W>(pub W);
 impl<W: DivergenceWeight> Divergence<W> {
     /// As a term of a sweep.
     pub fn boxed<const D: usize>(weight: W) -> Box<dyn Interaction<D>> {
-        Box::new(Lanewise(Divergence(weight)))
+        Box::new(Divergence(weight))
     }
 }
 
-impl<const D: usize, W: DivergenceWeight> LanePairTerm<D> for Divergence<W> {
+impl<const D: usize, W: DivergenceWeight> PairTerm<D> for Divergence<W> {
     type Bound<'a> = Bound<'a, D, W>;
 
     fn name(&self) -> String {
@@ -125,88 +125,43 @@ pub struct Bound<'a, const D: usize, W> {
     elements: &'a Elements<D>,
 }
 
-impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for Bound<'_, D, W> {
+impl<const D: usize, W: DivergenceWeight> PairSum<D> for Bound<'_, D, W> {
     /// Velocity, volume, density.
-    type Here = (Vect<D>, f64, f64);
-    type Sum = f64;
+    type Own<L: Lane> = ([L; D], L, L);
+    type Sum<L: Lane> = L;
 
     #[inline(always)]
-    fn here(&self, i: usize) -> Self::Here {
-        (self.velocity[i], self.volume[i], self.density[i])
+    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+        let (volume, density) = (all.numbers(self.volume), all.numbers(self.density));
+        (all.vectors(self.velocity), volume, density)
     }
 
     #[inline(always)]
-    fn zero(&self) -> f64 {
-        0.0
-    }
-
-    #[inline(always)]
-    fn free(&self, here: &Self::Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
-        self.add_one(here, j, there, pair, sum);
-    }
-
-    #[inline(always)]
-    fn wall(&self, here: &Self::Here, v: usize, pair: &Pair<D>, sum: &mut f64) {
-        let weight = self
-            .weight
-            .weight(here.1, here.2, self.wall_volume[v], here.2);
-        let apart = (here.0 - self.wall_velocity[v]).dot(&pair.separation);
-        *sum -= self.wall_share[v] * weight * apart * pair.factor;
-    }
-
-    #[inline(always)]
-    fn element(&self, here: &Self::Here, contact: &Contact<D>, sum: &mut f64) {
-        let s = contact.element as usize;
-        let weight = self
-            .weight
-            .at_element(here.1, here.2, self.elements.volume[s]);
-        *sum += weight * (here.0 - self.elements.velocity[s]).dot(&contact.gradient);
-    }
-
-    #[inline(always)]
-    fn finish(&self, _: &Self::Here, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.scalar += sum * inverse_gamma;
+    fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
+        let (volume, density) = (L::splat(self.volume[j]), L::splat(self.density[j]));
+        let weight = self.weight.weight(own.1, own.2, volume, density);
+        let apart = dot(&minus(&own.0, &self.velocity[j]), &pair.separation);
+        *sum -= weight * apart * pair.factor;
     }
 }
 
-impl<const D: usize, W: DivergenceWeight> LaneTerm<D> for Bound<'_, D, W> {
-    type Side<L: Lane> = ([L; D], L, L);
-    type Sums<L: Lane> = L;
-
+impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for Bound<'_, D, W> {
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L> {
-        let zero = L::splat(0.0);
-        let mut side = ([zero; D], zero, zero);
-        for (lane, own) in here.iter().enumerate() {
-            set(&mut side.0, lane, &own.0);
-            side.1.set(lane, own.1);
-            side.2.set(lane, own.2);
+    fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        let (velocity, volume, density) = (self.velocity[i], self.volume[i], self.density[i]);
+        for (v, pair) in at.wall.pairs() {
+            let there = self.wall_volume[v];
+            let weight = self.weight.weight(volume, density, there, density);
+            let apart = (velocity - self.wall_velocity[v]).dot(&pair.separation);
+            sum -= self.wall_share[v] * weight * apart * pair.factor;
         }
-        side
-    }
-
-    #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &f64) -> L {
-        L::splat(*sum)
-    }
-
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &L, lane: usize) -> f64 {
-        sums.at(lane)
-    }
-
-    #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        here: &Self::Side<L>,
-        _j: usize,
-        there: &There<D>,
-        pair: &LanePair<D, L>,
-        sum: &mut L,
-    ) {
-        let (volume, density) = (L::splat(there.volume), L::splat(there.density));
-        let weight = self.weight.weight(here.1, here.2, volume, density);
-        let apart = dot(&minus(&here.0, &there.velocity), &pair.separation);
-        *sum -= weight * apart * pair.factor;
+        for contact in at.contacts {
+            let s = contact.element as usize;
+            let there = self.elements.volume[s];
+            let weight = self.weight.at_element(volume, density, there);
+            sum += weight * (velocity - self.elements.velocity[s]).dot(&contact.gradient);
+        }
+        rates.scalar += sum * at.inverse_renormalisation;
     }
 }

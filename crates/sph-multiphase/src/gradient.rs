@@ -2,8 +2,8 @@
 
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
-    Pair, Rates, There, World, add_scaled, splat, vector,
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+    Rates, World, add_scaled,
 };
 
 /// Pressure, volume and density of one side of a pair.
@@ -75,11 +75,11 @@ pub struct PressureGradient<P>(pub P);
 impl<P: PairPressure> PressureGradient<P> {
     /// As a term of a sweep.
     pub fn boxed<const D: usize>(weight: P) -> Box<dyn Interaction<D>> {
-        Box::new(Lanewise(PressureGradient(weight)))
+        Box::new(PressureGradient(weight))
     }
 }
 
-impl<const D: usize, P: PairPressure> LanePairTerm<D> for PressureGradient<P> {
+impl<const D: usize, P: PairPressure> PairTerm<D> for PressureGradient<P> {
     type Bound<'a> = Bound<'a, D, P>;
 
     fn name(&self) -> String {
@@ -129,112 +129,60 @@ pub struct Bound<'a, const D: usize, P> {
     elements: &'a Elements<D>,
 }
 
-impl<const D: usize, P: PairPressure> BoundTerm<D> for Bound<'_, D, P> {
-    /// The particle's side and 1/m.
-    type Here = (Side, f64);
-    type Sum = Vect<D>;
+impl<const D: usize, P: PairPressure> PairSum<D> for Bound<'_, D, P> {
+    type Own<L: Lane> = Side<L>;
+    type Sum<L: Lane> = [L; D];
 
     #[inline(always)]
-    fn here(&self, i: usize) -> Self::Here {
-        let side = Side {
-            pressure: self.pressure[i],
-            volume: self.volume[i],
-            density: if P::DENSITY { self.density[i] } else { 0.0 },
-        };
-        (side, 1.0 / self.mass[i])
+    fn own<L: Lane>(&self, all: Particles) -> Side<L> {
+        Side {
+            pressure: all.numbers(self.pressure),
+            volume: all.numbers(self.volume),
+            density: match P::DENSITY {
+                true => all.numbers(self.density),
+                false => L::splat(0.0),
+            },
+        }
     }
 
     #[inline(always)]
-    fn zero(&self) -> Vect<D> {
-        Vect::zeros()
-    }
-
-    #[inline(always)]
-    fn free(
-        &self,
-        here: &Self::Here,
-        j: usize,
-        there: &There<D>,
-        pair: &Pair<D>,
-        sum: &mut Vect<D>,
-    ) {
-        self.add_one(here, j, there, pair, sum);
-    }
-
-    #[inline(always)]
-    fn wall(&self, here: &Self::Here, v: usize, pair: &Pair<D>, sum: &mut Vect<D>) {
-        // A wall has no density of its own: it is that of whoever looks at it.
+    fn pair<L: Lane>(&self, own: &Side<L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        let density = if P::DENSITY { self.density[j] } else { 0.0 };
         let there = Side {
-            pressure: self.wall_pressure[v],
-            volume: self.wall_volume[v],
-            density: here.0.density,
+            pressure: L::splat(self.pressure[j]),
+            volume: L::splat(self.volume[j]),
+            density: L::splat(density),
         };
-        let weight = self.wall_share[v] * self.weight.pair(here.0, there);
-        *sum += pair.separation * (weight * pair.factor);
-    }
-
-    #[inline(always)]
-    fn element(&self, here: &Self::Here, contact: &Contact<D>, sum: &mut Vect<D>) {
-        let s = contact.element as usize;
-        let there = Side {
-            pressure: self.elements.pressure[s],
-            volume: self.elements.volume[s],
-            density: here.0.density,
-        };
-        *sum -= contact.gradient * (self.weight.pair(here.0, there) / there.volume);
-    }
-
-    #[inline(always)]
-    fn finish(&self, here: &Self::Here, sum: &Vect<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.acceleration -= sum * (here.1 * inverse_gamma);
+        let weight = self.weight.pair(*own, there) * pair.factor;
+        add_scaled(sum, &pair.separation, weight);
     }
 }
 
-impl<const D: usize, P: PairPressure> LaneTerm<D> for Bound<'_, D, P> {
-    type Side<L: Lane> = Side<L>;
-    type Sums<L: Lane> = [L; D];
-
+impl<const D: usize, P: PairPressure> BoundTerm<D> for Bound<'_, D, P> {
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Self::Here]) -> Side<L> {
-        let zero = L::splat(0.0);
-        let mut side = Side {
-            pressure: zero,
-            volume: zero,
-            density: zero,
-        };
-        for (lane, (own, _)) in here.iter().enumerate() {
-            side.pressure.set(lane, own.pressure);
-            side.volume.set(lane, own.volume);
-            side.density.set(lane, own.density);
+    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let own = self.own::<f64>(Particles::one(at.particle));
+        let mut sum = Vect::from(sum);
+        // A wall has no density of its own: it is that of the particle.
+        for (v, pair) in at.wall.pairs() {
+            let there = Side {
+                pressure: self.wall_pressure[v],
+                volume: self.wall_volume[v],
+                density: own.density,
+            };
+            let weight = self.wall_share[v] * self.weight.pair(own, there);
+            sum += pair.separation * (weight * pair.factor);
         }
-        side
-    }
-
-    #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &Vect<D>) -> [L; D] {
-        splat(sum)
-    }
-
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &[L; D], lane: usize) -> Vect<D> {
-        vector(sums, lane)
-    }
-
-    #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        here: &Side<L>,
-        _j: usize,
-        there: &There<D>,
-        pair: &LanePair<D, L>,
-        sums: &mut [L; D],
-    ) {
-        let there = Side {
-            pressure: L::splat(there.pressure),
-            volume: L::splat(there.volume),
-            density: L::splat(there.density),
-        };
-        let weight = self.weight.pair(*here, there) * pair.factor;
-        add_scaled(sums, &pair.separation, weight);
+        for contact in at.contacts {
+            let s = contact.element as usize;
+            let there = Side {
+                pressure: self.elements.pressure[s],
+                volume: self.elements.volume[s],
+                density: own.density,
+            };
+            sum -= contact.gradient * (self.weight.pair(own, there) / there.volume);
+        }
+        let inverse_mass = 1.0 / self.mass[at.particle];
+        rates.acceleration -= sum * (inverse_mass * at.inverse_renormalisation);
     }
 }

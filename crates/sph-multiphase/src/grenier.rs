@@ -7,7 +7,8 @@ use sph_core::{
     Access, Declares, Evolved, Field, Scalar, Stage, StepError, Vect, fields, register,
 };
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+    Rates, World, add_scaled, dot, minus,
 };
 
 use crate::{Compressed, Diffused, Formulation, FormulationEntry};
@@ -52,10 +53,10 @@ impl<const D: usize> Formulation<D> for Grenier {
         vec![Box::new(PhaseDensity::default())]
     }
     fn pressure_term(&self) -> Box<dyn Interaction<D>> {
-        Box::new(Term(FilledPressure))
+        Box::new(FilledPressure)
     }
     fn divergence(&self) -> Box<dyn Interaction<D>> {
-        Box::new(Term(FilledDivergence))
+        Box::new(FilledDivergence)
     }
     fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {
         let mut volume = world.free.take(fields::VOLUME)?;
@@ -200,78 +201,70 @@ pub struct FilledDivergence;
 pub struct BoundDivergence<'a, const D: usize>(Columns<'a, D>);
 columns!(FilledDivergence, BoundDivergence, "Grenier divergence");
 
-impl<const D: usize> BoundTerm<D> for BoundPressure<'_, D> {
-    /// p/d, p, 1/d and 1/ρ.
-    type Here = [f64; 4];
-    type Sum = Vect<D>;
+impl<const D: usize> PairSum<D> for BoundPressure<'_, D> {
+    /// p/d.
+    type Own<L: Lane> = L;
+    type Sum<L: Lane> = [L; D];
 
     #[inline(always)]
-    fn here(&self, i: usize) -> Self::Here {
-        let (c, d) = (&self.0, self.0.filling[i]);
-        [
-            c.pressure[i] / d,
-            c.pressure[i],
-            1.0 / d,
-            c.volume[i] / c.mass[i],
-        ]
+    fn own<L: Lane>(&self, all: Particles) -> L {
+        all.numbers::<L>(self.0.pressure) / all.numbers(self.0.filling)
     }
     #[inline(always)]
-    fn zero(&self) -> Vect<D> {
-        Vect::zeros()
-    }
-    #[inline(always)]
-    fn free(&self, here: &[f64; 4], j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Vect<D>) {
-        let weight = there.volume * (here[0] + there.pressure / self.0.filling[j]);
-        *sum += pair.separation * (weight * pair.factor);
-    }
-    #[inline(always)]
-    fn wall(&self, here: &[f64; 4], v: usize, pair: &Pair<D>, sum: &mut Vect<D>) {
+    fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let c = &self.0;
-        let pressure = (here[1] + c.wall_pressure[v]) * here[2];
-        *sum += pair.separation * (c.wall_share[v] * c.wall_volume[v] * pressure * pair.factor);
+        let both = *own + L::splat(c.pressure[j] / c.filling[j]);
+        let weight = L::splat(c.volume[j]) * both * pair.factor;
+        add_scaled(sum, &pair.separation, weight);
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for BoundPressure<'_, D> {
+    #[inline(always)]
+    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let (c, i) = (&self.0, at.particle);
+        let (own, inverse) = (c.pressure[i], 1.0 / c.filling[i]);
+        let mut sum = Vect::from(sum);
+        for (v, pair) in at.wall.pairs() {
+            let pressure = (own + c.wall_pressure[v]) * inverse;
+            sum += pair.separation * (c.wall_share[v] * c.wall_volume[v] * pressure * pair.factor);
+        }
+        for contact in at.contacts {
+            let there = c.elements.pressure[contact.element as usize];
+            sum -= contact.gradient * ((own + there) * inverse);
+        }
+        rates.acceleration -= sum * (c.volume[i] / c.mass[i] * at.inverse_renormalisation);
+    }
+}
+
+impl<const D: usize> PairSum<D> for BoundDivergence<'_, D> {
+    type Own<L: Lane> = [L; D];
+    type Sum<L: Lane> = L;
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> [L; D] {
+        all.vectors(self.0.velocity)
     }
     #[inline(always)]
-    fn element(&self, here: &[f64; 4], contact: &Contact<D>, sum: &mut Vect<D>) {
-        let there = self.0.elements.pressure[contact.element as usize];
-        *sum -= contact.gradient * ((here[1] + there) * here[2]);
-    }
-    #[inline(always)]
-    fn finish(&self, here: &[f64; 4], sum: &Vect<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.acceleration -= sum * (here[3] * inverse_gamma);
+    fn pair<L: Lane>(&self, own: &[L; D], j: usize, pair: &LanePair<D, L>, sum: &mut L) {
+        let apart = dot(&minus(own, &self.0.velocity[j]), &pair.separation);
+        *sum -= L::splat(self.0.volume[j]) * apart * pair.factor;
     }
 }
 
 impl<const D: usize> BoundTerm<D> for BoundDivergence<'_, D> {
-    /// Velocity and 1/d.
-    type Here = (Vect<D>, f64);
-    type Sum = f64;
-
     #[inline(always)]
-    fn here(&self, i: usize) -> Self::Here {
-        (self.0.velocity[i], 1.0 / self.0.filling[i])
-    }
-    #[inline(always)]
-    fn zero(&self) -> f64 {
-        0.0
-    }
-    #[inline(always)]
-    fn free(&self, here: &Self::Here, _j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
-        let apart = (here.0 - there.velocity).dot(&pair.separation);
-        *sum -= there.volume * apart * pair.factor;
-    }
-    #[inline(always)]
-    fn wall(&self, here: &Self::Here, v: usize, pair: &Pair<D>, sum: &mut f64) {
-        let c = &self.0;
-        let apart = (here.0 - c.wall_velocity[v]).dot(&pair.separation);
-        *sum -= c.wall_share[v] * c.wall_volume[v] * apart * pair.factor;
-    }
-    #[inline(always)]
-    fn element(&self, here: &Self::Here, contact: &Contact<D>, sum: &mut f64) {
-        let wall = self.0.elements.velocity[contact.element as usize];
-        *sum += (here.0 - wall).dot(&contact.gradient);
-    }
-    #[inline(always)]
-    fn finish(&self, here: &Self::Here, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.scalar += sum * here.1 * inverse_gamma;
+    fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let (c, i) = (&self.0, at.particle);
+        let velocity = c.velocity[i];
+        for (v, pair) in at.wall.pairs() {
+            let apart = (velocity - c.wall_velocity[v]).dot(&pair.separation);
+            sum -= c.wall_share[v] * c.wall_volume[v] * apart * pair.factor;
+        }
+        for contact in at.contacts {
+            let wall = c.elements.velocity[contact.element as usize];
+            sum += (velocity - wall).dot(&contact.gradient);
+        }
+        rates.scalar += sum * (1.0 / c.filling[i]) * at.inverse_renormalisation;
     }
 }

@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, StepLimit, Vect, fields, register};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
-    Pair, Rates, There, WallPoints, World, add_scaled, dot, minus, set, splat, unlike, vector,
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+    Rates, WallPoints, World, add_scaled, dot, minus, unlike,
 };
 
 use crate::scattered::{SCATTERED, Scattered};
@@ -72,7 +72,7 @@ impl<const D: usize> InterfaceModel<D> for InterfaceFriction {
     }
 
     fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Lanewise(Damping::of(self, laws)))
+        Box::new(Damping::of(self, laws))
     }
 
     fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
@@ -133,7 +133,7 @@ impl<const D: usize> Limiter<D> for DampingLimit {
     }
 }
 
-impl<const D: usize> LanePairTerm<D> for Damping {
+impl<const D: usize> PairTerm<D> for Damping {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -184,90 +184,9 @@ struct Bound<'a, const D: usize> {
     velocity: &'a [Vect<D>],
 }
 
-/// What is read once per particle.
+/// The own values of a particle.
 #[derive(Clone, Copy)]
-struct Own<const D: usize> {
-    phase: u32,
-    density: f64,
-    scattered: f64,
-    sound: f64,
-    wall_density: f64,
-    velocity: Vect<D>,
-}
-
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    type Here = Own<D>;
-    type Sum = Vect<D>;
-
-    #[inline(always)]
-    fn here(&self, i: usize) -> Own<D> {
-        let phase = self.phase[i];
-        Own {
-            phase,
-            density: self.density[i],
-            scattered: self.scattered[i],
-            sound: self.sound[phase as usize],
-            wall_density: self.wall_density[phase as usize],
-            velocity: self.velocity[i],
-        }
-    }
-
-    #[inline(always)]
-    fn zero(&self) -> Vect<D> {
-        Vect::zeros()
-    }
-
-    #[inline(always)]
-    fn free(&self, own: &Own<D>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Vect<D>) {
-        self.add_one(own, j, there, pair, sum);
-    }
-
-    #[inline(always)]
-    fn wall(&self, own: &Own<D>, v: usize, pair: &Pair<D>, sum: &mut Vect<D>) {
-        let behind = own.wall_density * self.points.share[v] * self.points.volume[v];
-        let relative = own.velocity - self.points.velocity[v];
-        let mass = behind / (own.density + own.wall_density);
-        *sum += self.along(own, &relative, pair) * mass;
-    }
-
-    #[inline(always)]
-    fn element(&self, own: &Own<D>, contact: &Contact<D>, sum: &mut Vect<D>) {
-        let s = contact.element as usize;
-        let normal = self.elements.normal[s];
-        let leaving = (own.velocity - self.elements.velocity[s]).dot(&normal);
-        let density = own.wall_density / (own.density + own.wall_density);
-        let distance = contact.distance.max(0.5 * self.length);
-        let rate = self.signal(own, leaving) * contact.gradient.norm() / distance;
-        *sum -= normal * (density * rate * leaving);
-    }
-
-    /// Without 1/γ: what one particle gets, another loses.
-    #[inline(always)]
-    fn finish(&self, _own: &Own<D>, sum: &Vect<D>, _inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.acceleration += sum * (2.0 * self.length);
-    }
-}
-
-impl<const D: usize> Bound<'_, D> {
-    /// v, for a particle and a wall that part at a speed.
-    #[inline(always)]
-    fn signal(&self, own: &Own<D>, parting: f64) -> f64 {
-        let steady = self.strength * own.scattered * own.sound;
-        steady + self.shocks * (-parting).clamp(0.0, own.sound)
-    }
-
-    /// v (u·r)/r² ∇w of a wall point; nothing for two in one place.
-    #[inline(always)]
-    fn along(&self, own: &Own<D>, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
-        let rate = relative.dot(&pair.separation) / pair.distance2.max(f64::MIN_POSITIVE);
-        let signal = self.signal(own, rate * self.length);
-        pair.separation * (signal * rate * pair.factor)
-    }
-}
-
-/// [`Own`] of several particles; phases are small whole numbers, exact as any.
-#[derive(Clone, Copy)]
-struct Side<const D: usize, L> {
+struct Own<const D: usize, L> {
     phase: L,
     density: L,
     scattered: L,
@@ -276,51 +195,28 @@ struct Side<const D: usize, L> {
     velocity: [L; D],
 }
 
-impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
-    type Side<L: Lane> = Side<D, L>;
-    type Sums<L: Lane> = [L; D];
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    type Own<L: Lane> = Own<D, L>;
+    type Sum<L: Lane> = [L; D];
 
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Own<D>]) -> Side<D, L> {
-        let zero = L::splat(0.0);
-        let mut side = Side {
-            phase: zero,
-            density: zero,
-            scattered: zero,
-            sound: zero,
-            wall_density: zero,
-            velocity: [zero; D],
-        };
-        for (lane, own) in here.iter().enumerate() {
-            side.phase.set(lane, f64::from(own.phase));
-            side.density.set(lane, own.density);
-            side.scattered.set(lane, own.scattered);
-            side.sound.set(lane, own.sound);
-            side.wall_density.set(lane, own.wall_density);
-            set(&mut side.velocity, lane, &own.velocity);
+    fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
+        let [sound, wall_density] = all.each(|i| {
+            let phase = self.phase[i] as usize;
+            [self.sound[phase], self.wall_density[phase]]
+        });
+        Own {
+            phase: all.phases(Some(self.phase)),
+            density: all.numbers(self.density),
+            scattered: all.numbers(self.scattered),
+            sound,
+            wall_density,
+            velocity: all.vectors(self.velocity),
         }
-        side
     }
 
     #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &Vect<D>) -> [L; D] {
-        splat(sum)
-    }
-
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &[L; D], lane: usize) -> Vect<D> {
-        vector(sums, lane)
-    }
-
-    #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        own: &Side<D, L>,
-        j: usize,
-        there: &There<D>,
-        pair: &LanePair<D, L>,
-        sums: &mut [L; D],
-    ) {
+    fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let zero = L::splat(0.0);
         let phase = self.phase[j];
         let unlike = unlike(own.phase, phase);
@@ -330,8 +226,8 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
             return;
         }
         let sound = L::splat(0.5) * (own.sound + L::splat(self.sound[phase as usize]));
-        let mass = L::splat(self.mass[j]) / (own.density + L::splat(there.density));
-        let relative = dot(&minus(&own.velocity, &there.velocity), &pair.separation);
+        let mass = L::splat(self.mass[j]) / (own.density + L::splat(self.density[j]));
+        let relative = dot(&minus(&own.velocity, &self.velocity[j]), &pair.separation);
         let rate = relative / pair.distance2.max(L::splat(f64::MIN_POSITIVE));
         let other = L::splat(self.scattered[j]);
         let scattered = (own.scattered - other).where_positive(own.scattered, other);
@@ -342,6 +238,44 @@ impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
         let closing = (closing - sound).where_positive(sound, closing);
         let signal = steady + L::splat(self.shocks) * closing;
         let weight = counts.where_positive(signal * rate * pair.factor, zero);
-        add_scaled(sums, &pair.separation.map(|r| r * weight), mass);
+        add_scaled(sum, &pair.separation.map(|r| r * weight), mass);
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    /// Without 1/γ: what one particle gets, another loses.
+    #[inline(always)]
+    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let own = self.own::<f64>(Particles::one(at.particle));
+        let velocity = self.velocity[at.particle];
+        let mut sum = Vect::from(sum);
+        for (v, pair) in at.wall.pairs() {
+            let behind = own.wall_density * self.points.share[v] * self.points.volume[v];
+            let relative = velocity - self.points.velocity[v];
+            let mass = behind / (own.density + own.wall_density);
+            // Nothing for two in one place.
+            let rate = relative.dot(&pair.separation) / pair.distance2.max(f64::MIN_POSITIVE);
+            let signal = self.signal(&own, rate * self.length);
+            sum += pair.separation * (signal * rate * pair.factor) * mass;
+        }
+        for contact in at.contacts {
+            let s = contact.element as usize;
+            let normal = self.elements.normal[s];
+            let leaving = (velocity - self.elements.velocity[s]).dot(&normal);
+            let density = own.wall_density / (own.density + own.wall_density);
+            let distance = contact.distance.max(0.5 * self.length);
+            let rate = self.signal(&own, leaving) * contact.gradient.norm() / distance;
+            sum -= normal * (density * rate * leaving);
+        }
+        rates.acceleration += sum * (2.0 * self.length);
+    }
+}
+
+impl<const D: usize> Bound<'_, D> {
+    /// v, for a particle and a wall that part at a speed.
+    #[inline(always)]
+    fn signal(&self, own: &Own<D, f64>, parting: f64) -> f64 {
+        let steady = self.strength * own.scattered * own.sound;
+        steady + self.shocks * (-parting).clamp(0.0, own.sound)
     }
 }

@@ -23,7 +23,6 @@ mod contribution;
 mod dilatation;
 mod divergence;
 #[cfg(not(test))]
-mod fusion;
 mod gradient;
 mod grenier;
 mod grenier_interface;

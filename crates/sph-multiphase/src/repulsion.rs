@@ -2,8 +2,8 @@
 
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, There,
-    World, add_scaled, splat, unlike, vector,
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
+    World, add_scaled, unlike,
 };
 
 /// The weight P_ab of m_a a = −ε Σ_{b of other phases} P_ab ∇w_ab.
@@ -24,14 +24,14 @@ pub struct Repelling<R> {
 impl<R: Repulsion> Repelling<R> {
     /// As a term of a sweep.
     pub fn boxed<const D: usize>(strength: f64) -> Box<dyn Interaction<D>> {
-        Box::new(Lanewise(Repelling::<R> {
+        Box::new(Repelling::<R> {
             strength,
             weight: std::marker::PhantomData,
-        }))
+        })
     }
 }
 
-impl<const D: usize, R: Repulsion> LanePairTerm<D> for Repelling<R> {
+impl<const D: usize, R: Repulsion> PairTerm<D> for Repelling<R> {
     type Bound<'a> = Bound<'a, R>;
 
     fn name(&self) -> String {
@@ -66,101 +66,42 @@ pub struct Bound<'a, R> {
     phase: &'a [u32],
 }
 
-/// What is read once per particle.
-#[derive(Clone, Copy)]
-pub struct Own {
-    pressure: f64,
-    volume: f64,
-    inverse_mass: f64,
-    phase: u32,
-}
-
-impl<const D: usize, R: Repulsion> BoundTerm<D> for Bound<'_, R> {
-    type Here = Own;
-    type Sum = Vect<D>;
+impl<const D: usize, R: Repulsion> PairSum<D> for Bound<'_, R> {
+    /// Pressure, volume, phase.
+    type Own<L: Lane> = [L; 3];
+    type Sum<L: Lane> = [L; D];
 
     #[inline(always)]
-    fn here(&self, i: usize) -> Own {
-        Own {
-            pressure: self.pressure[i],
-            volume: self.volume[i],
-            inverse_mass: 1.0 / self.mass[i],
-            phase: self.phase[i],
-        }
+    fn own<L: Lane>(&self, all: Particles) -> [L; 3] {
+        let (pressure, volume) = (all.numbers(self.pressure), all.numbers(self.volume));
+        [pressure, volume, all.phases(Some(self.phase))]
     }
 
     #[inline(always)]
-    fn zero(&self) -> Vect<D> {
-        Vect::zeros()
-    }
-
-    #[inline(always)]
-    fn free(&self, own: &Own, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Vect<D>) {
-        self.add_one(own, j, there, pair, sum);
-    }
-
-    /// Without 1/γ: what one particle gets, another loses.
-    #[inline(always)]
-    fn finish(&self, own: &Own, sum: &Vect<D>, _inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.acceleration -= sum * (self.term.strength * own.inverse_mass);
-    }
-}
-
-/// [`Own`] of several particles; phases are small whole numbers, exact as any.
-#[derive(Clone, Copy)]
-pub struct Side<L> {
-    pressure: L,
-    volume: L,
-    phase: L,
-}
-
-impl<const D: usize, R: Repulsion> LaneTerm<D> for Bound<'_, R> {
-    type Side<L: Lane> = Side<L>;
-    type Sums<L: Lane> = [L; D];
-
-    #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Own]) -> Side<L> {
-        let zero = L::splat(0.0);
-        let mut side = Side {
-            pressure: zero,
-            volume: zero,
-            phase: zero,
-        };
-        for (lane, own) in here.iter().enumerate() {
-            side.pressure.set(lane, own.pressure);
-            side.volume.set(lane, own.volume);
-            side.phase.set(lane, f64::from(own.phase));
-        }
-        side
-    }
-
-    #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &Vect<D>) -> [L; D] {
-        splat(sum)
-    }
-
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &[L; D], lane: usize) -> Vect<D> {
-        vector(sums, lane)
-    }
-
-    #[inline(always)]
-    fn add<L: Lane>(
+    fn pair<L: Lane>(
         &self,
-        own: &Side<L>,
+        [pressure, volume, phase]: &[L; 3],
         j: usize,
-        there: &There<D>,
         pair: &LanePair<D, L>,
-        sums: &mut [L; D],
+        sum: &mut [L; D],
     ) {
-        let unlike = unlike(own.phase, self.phase[j]);
+        let unlike = unlike(*phase, self.phase[j]);
         let zero = L::splat(0.0);
         // Most pairs are of one phase.
         if !zero.any_less(unlike) {
             return;
         }
-        let (pressure, volume) = (L::splat(there.pressure), L::splat(there.volume));
-        let weight = R::weight(own.pressure, own.volume, pressure, volume) * pair.factor;
-        add_scaled(sums, &pair.separation, unlike.where_positive(weight, zero));
+        let there = (L::splat(self.pressure[j]), L::splat(self.volume[j]));
+        let weight = R::weight(*pressure, *volume, there.0, there.1) * pair.factor;
+        add_scaled(sum, &pair.separation, unlike.where_positive(weight, zero));
+    }
+}
+
+impl<const D: usize, R: Repulsion> BoundTerm<D> for Bound<'_, R> {
+    /// Without 1/γ: what one particle gets, another loses.
+    #[inline(always)]
+    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let inverse_mass = 1.0 / self.mass[at.particle];
+        rates.acceleration -= Vect::from(sum) * (self.term.strength * inverse_mass);
     }
 }

@@ -5,7 +5,10 @@ use serde::{Deserialize, Serialize};
 use sph_core::{
     Access, Declares, Field, Stage, StepError, StepLimit, Vect, Vector, fields, register,
 };
-use sph_neighbours::{BoundTerm, Interaction, Pair, PairTerm, Rates, Term, There, World};
+use sph_neighbours::{
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
+    World, dot, splat,
+};
 
 use crate::contact_angle::{ContactAngle, FILM};
 use crate::{InterfaceEntry, InterfaceModel};
@@ -89,7 +92,7 @@ impl<const D: usize> InterfaceModel<D> for SurfaceTension {
             .map_or(Ok(()), |angle| angle.check(setting))
     }
     fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Term(self.clone()))
+        Box::new(self.clone())
     }
     fn limiter(&self, _laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         (self.tension > 0.0).then(|| Box::new(CapillaryLimit(self.tension)) as _)
@@ -197,78 +200,119 @@ pub struct Bound<'a, const D: usize> {
 }
 
 impl<const D: usize> Bound<'_, D> {
-    /// Stress of the film at a particle, which is compressed.
+    /// That of the interface at a particle.
     #[inline(always)]
-    fn film(&self, i: usize, volume: f64) -> Option<Stress<D>> {
-        let film = self.film.get(i)?;
-        Some(Stress::of(*film, -self.tension * volume * volume, 1.0))
+    fn stress(&self, i: usize) -> Stress<D, f64> {
+        let volume = self.volume[i];
+        Stress::of(
+            self.colour[i],
+            self.tension * volume * volume,
+            self.isotropic,
+        )
+    }
+
+    /// That of the film at a particle, which is compressed; nothing where the scene has no contact angle.
+    #[inline(always)]
+    fn film(&self, i: usize) -> Stress<D, f64> {
+        let volume = self.volume[i];
+        let film = self.film.get(i).copied().unwrap_or_else(Vect::zeros);
+        Stress::of(film, -self.tension * volume * volume, 1.0)
     }
 }
 
-/// σV² (|∇c| ι I − ∇c∇c/|∇c|) of one particle.
+/// σV² (|∇c| ι I − ∇c∇c/|∇c|).
 #[derive(Clone, Copy)]
-pub struct Stress<const D: usize> {
-    isotropic: f64,
+pub struct Stress<const D: usize, L> {
+    isotropic: L,
     /// σV²/|∇c|.
-    along: f64,
-    colour: Vect<D>,
+    along: L,
+    colour: [L; D],
 }
 
-impl<const D: usize> Stress<D> {
+impl<const D: usize> Stress<D, f64> {
     #[inline(always)]
     fn of(colour: Vect<D>, scale: f64, isotropic: f64) -> Self {
         let size = colour.norm();
         Stress {
             isotropic: scale * size * isotropic,
             along: if size > 0.0 { scale / size } else { 0.0 },
-            colour,
+            colour: colour.into(),
         }
     }
+
+    /// Of several particles.
     #[inline(always)]
-    fn dot(&self, r: &Vect<D>) -> Vect<D> {
-        r * self.isotropic - self.colour * (self.along * self.colour.dot(r))
+    fn each<L: Lane>(all: Particles, of: impl Fn(usize) -> Self) -> Stress<D, L> {
+        let [isotropic, along] = all.each(|i| [of(i).isotropic, of(i).along]);
+        Stress {
+            isotropic,
+            along,
+            colour: all.each(|i| of(i).colour),
+        }
+    }
+
+    #[inline(always)]
+    fn splat<L: Lane>(self) -> Stress<D, L> {
+        Stress {
+            isotropic: L::splat(self.isotropic),
+            along: L::splat(self.along),
+            colour: splat(&Vect::from(self.colour)),
+        }
+    }
+}
+
+impl<const D: usize, L: Lane> Stress<D, L> {
+    #[inline(always)]
+    fn dot(&self, r: &[L; D]) -> [L; D] {
+        let along = self.along * dot(&self.colour, r);
+        let mut force = *r;
+        for (force, colour) in force.iter_mut().zip(self.colour) {
+            *force = *force * self.isotropic - colour * along;
+        }
+        force
+    }
+
+    /// (own + other)·r F.
+    #[inline(always)]
+    fn add_to(&self, sum: &mut [L; D], other: &Self, pair: &LanePair<D, L>) {
+        let (own, other) = (self.dot(&pair.separation), other.dot(&pair.separation));
+        for (sum, (own, other)) in sum.iter_mut().zip(own.into_iter().zip(other)) {
+            *sum += (own + other) * pair.factor;
+        }
+    }
+}
+
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    /// Stresses of the interface and of the film.
+    type Own<L: Lane> = [Stress<D, L>; 2];
+    type Sum<L: Lane> = [L; D];
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+        let stress = Stress::each(all, |i| self.stress(i));
+        [stress, Stress::each(all, |i| self.film(i))]
+    }
+
+    #[inline(always)]
+    fn pair<L: Lane>(
+        &self,
+        [stress, film]: &Self::Own<L>,
+        j: usize,
+        pair: &LanePair<D, L>,
+        sum: &mut [L; D],
+    ) {
+        stress.add_to(sum, &self.stress(j).splat(), pair);
+        if !self.film.is_empty() {
+            film.add_to(sum, &self.film(j).splat(), pair);
+        }
     }
 }
 
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    /// Stress, 1/m and the stress of the film.
-    type Here = (Stress<D>, f64, Option<Stress<D>>);
-    type Sum = Vect<D>;
-
-    #[inline(always)]
-    fn here(&self, i: usize) -> Self::Here {
-        let v = self.volume[i];
-        let stress = Stress::of(self.colour[i], self.tension * v * v, self.isotropic);
-        (stress, 1.0 / self.mass[i], self.film(i, v))
-    }
-
-    #[inline(always)]
-    fn zero(&self) -> Vect<D> {
-        Vect::zeros()
-    }
-
-    #[inline(always)]
-    fn free(
-        &self,
-        here: &Self::Here,
-        j: usize,
-        there: &There<D>,
-        pair: &Pair<D>,
-        sum: &mut Vect<D>,
-    ) {
-        let volume = there.volume;
-        let scale = self.tension * volume * volume;
-        let there = Stress::of(self.colour[j], scale, self.isotropic);
-        *sum += (here.0.dot(&pair.separation) + there.dot(&pair.separation)) * pair.factor;
-        if let (Some(here), Some(there)) = (&here.2, self.film(j, volume)) {
-            *sum += (here.dot(&pair.separation) + there.dot(&pair.separation)) * pair.factor;
-        }
-    }
-
     /// Without 1/γ: what one particle gets, another loses.
     #[inline(always)]
-    fn finish(&self, here: &Self::Here, sum: &Vect<D>, _inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.acceleration += sum * here.1;
+    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        rates.acceleration += Vect::from(sum) * (1.0 / self.mass[at.particle]);
     }
 }
 

@@ -1,10 +1,9 @@
-//! What terms do to all particles, fused ones taken apart, gathered by classes.
+//! Rates by classes of terms.
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect};
 
-use crate::packed::{Packed, pack};
-use crate::{Interaction, Neighbourhood, Part, Rates, Rows, Surroundings, World};
+use crate::{Interaction, Rates, Rows, Surroundings, World};
 
 /// What one class of terms does to a particle.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +16,7 @@ pub struct ClassRate<const D: usize> {
 
 /// The sums of `N` classes of terms at the state of the last sweep, one entry per particle; terms of no class are left out.
 ///
-/// Every part of a fused term is one virtual call per particle: for those who account for a step, not for the step.
+/// Every term goes over the neighbours on its own: for those who account for a step, not for the step.
 ///
 /// # Errors
 /// If a term misses a column.
@@ -26,37 +25,26 @@ pub fn class_rates<const D: usize, const N: usize>(
     terms: &[&dyn Interaction<D>],
     class: impl Fn(&str) -> Option<usize>,
 ) -> Result<Vec<[ClassRate<D>; N]>, StepError> {
-    let mut parts: Vec<Part<'_, D>> = Vec::new();
-    for term in terms {
-        parts.extend(term.parts(world)?);
-    }
-    let parts: Vec<_> = parts
-        .into_iter()
-        .filter_map(|(name, term)| Some((class(&name)?, term)))
-        .collect();
     let none = ClassRate {
         acceleration: Vect::zeros(),
         scalar: 0.0,
     };
     let surroundings = Surroundings::new(world)?;
     let mut all = vec![[none; N]; surroundings.particles()];
-    if parts.is_empty() {
-        return Ok(all);
-    }
-    let mut states = Vec::new();
-    pack(world, &mut states, Packed::of(terms.iter().copied()))?;
-    let particles = all.par_iter_mut().enumerate().with_min_len(256);
-    particles.for_each_init(Rows::default, |rows, (i, sums)| {
-        let neighbourhood = Neighbourhood {
-            states: &states,
-            ..surroundings.of(i, rows)
+    for interaction in terms {
+        let Some(class) = class(&interaction.name()) else {
+            continue;
         };
-        for (class, term) in &parts {
-            let mut rates = Rates::of(Vect::zeros());
-            term.row(&neighbourhood, &mut rates);
-            sums[*class].acceleration += rates.acceleration;
-            sums[*class].scalar += rates.scalar;
-        }
-    });
+        interaction.lend(world, &mut |term| {
+            let particles = all.par_iter_mut().enumerate().with_min_len(256);
+            particles.for_each_init(Rows::default, |rows, (i, sums)| {
+                let mut rates = Rates::of(Vect::zeros());
+                term.row(&surroundings.of(i, rows), &mut rates);
+                sums[class].acceleration += rates.acceleration;
+                sums[class].scalar += rates.scalar;
+            });
+            Ok(())
+        })?;
+    }
     Ok(all)
 }

@@ -7,23 +7,20 @@ use sph_kernels::Sampler;
 use sph_lanes::{Lane, MOST, Width, dispatch_at};
 
 use crate::lane_pair::LanePair;
-use crate::lane_vector::minus;
 use crate::members::Members;
-use crate::separation::Distances;
-use crate::{Blocked, Contacts, Domain, Neighbourhood, Row, Scratch, There};
+use crate::separation::{Distances, grow};
+use crate::{Blocked, Contacts, Domain, Neighbourhood, Row, Scratch};
 
 /// A few particles that follow each other, with distances and kernel gradients for all whom they may have as neighbours.
 pub struct Cluster<'a, const D: usize> {
     pub(crate) width: Width,
     pub(crate) members: Members<'a>,
-    pub(crate) positions: &'a [Vect<D>],
-    pub(crate) states: &'a [There<D>],
     pub(crate) contacts: &'a Contacts<D>,
     pub(crate) renormalisation: Option<&'a [f64]>,
     /// Square of the support radius, m².
     pub(crate) limit: f64,
-    /// Where images across periodic faces may be nearer.
-    pub(crate) domain: Option<&'a Domain<D>>,
+    /// Whether images across periodic faces may be nearer.
+    pub(crate) wraps: bool,
     pub(crate) buffers: &'a mut Buffers<D>,
 }
 
@@ -31,7 +28,9 @@ pub struct Cluster<'a, const D: usize> {
 pub(crate) struct Buffers<const D: usize> {
     /// Squared distances, one number per lane for each candidate; infinite for a particle and itself.
     pub distance2: Vec<f64>,
-    /// F in the same order.
+    /// r_i − r_j, component by component for each candidate.
+    pub separation: Vec<f64>,
+    /// F in the order of the distances.
     pub factor: Vec<f64>,
     /// w in the same order, where somebody asked for it.
     pub value: Vec<f64>,
@@ -39,6 +38,8 @@ pub(crate) struct Buffers<const D: usize> {
     pub walls: [Scratch<D>; MOST],
     /// Rows of free neighbours, one per member, where somebody asked for rows.
     free: [Scratch<D>; MOST],
+    /// Sums of the members.
+    pub sums: crate::pair_sum::Rows,
     /// Whether `free` is of the cluster at hand.
     rows: bool,
 }
@@ -47,10 +48,12 @@ impl<const D: usize> Default for Buffers<D> {
     fn default() -> Self {
         Buffers {
             distance2: Vec::new(),
+            separation: Vec::new(),
             factor: Vec::new(),
             value: Vec::new(),
             walls: std::array::from_fn(|_| Scratch::new()),
             free: std::array::from_fn(|_| Scratch::new()),
+            sums: Vec::new(),
             rows: false,
         }
     }
@@ -67,21 +70,19 @@ impl<const D: usize> Buffers<D> {
         hidden: &Blocked,
         kernel: &K,
     ) {
-        let out = &mut self.distance2;
         dispatch_at(
             width,
-            Distances {
+            Distances::<D, true> {
                 members,
                 positions,
                 domain,
-                out,
+                out: &mut self.distance2,
+                separations: &mut self.separation,
             },
         );
         hidden.part(members, width.lanes(), &mut self.distance2);
         let needed = members.candidates.len() * width.lanes();
-        if self.factor.len() < needed {
-            self.factor.resize(needed.next_power_of_two(), 0.0);
-        }
+        grow(&mut self.factor, needed);
         kernel.gradient_factor(&self.distance2[..needed], &mut self.factor[..needed]);
         self.rows = false;
     }
@@ -124,20 +125,8 @@ impl<const D: usize> Cluster<'_, D> {
         let Buffers {
             distance2, value, ..
         } = &mut *self.buffers;
-        if value.len() < needed {
-            value.resize(needed.next_power_of_two(), 0.0);
-        }
+        grow(value, needed);
         kernel.value(&distance2[..needed], &mut value[..needed]);
-    }
-
-    /// r_i − r_j, m.
-    #[inline(always)]
-    pub fn separation(&self, particle: usize, neighbour: usize) -> Vect<D> {
-        let apart = self.positions[particle] - self.positions[neighbour];
-        match self.domain {
-            Some(domain) => domain.nearest_image(apart),
-            None => apart,
-        }
     }
 
     /// Calls `visit` with the number and the neighbourhood of every member, one after the other.
@@ -150,7 +139,6 @@ impl<const D: usize> Cluster<'_, D> {
             let neighbourhood = Neighbourhood {
                 particle,
                 free: self.buffers.free[k].row(),
-                states: self.states,
                 wall: self.buffers.walls[k].row(),
                 contacts: self.contacts.of(particle),
                 inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
@@ -159,23 +147,24 @@ impl<const D: usize> Cluster<'_, D> {
         }
     }
 
-    /// One neighbour of all members, who stand at `x`; `distance2` and `factor` are the neighbour's in the buffers.
+    /// A candidate by its place as all members see it; with `values`, which must have been [weighed](Self::weigh), or without.
     #[inline(always)]
-    pub(crate) fn pair<L: Lane>(
-        &self,
-        x: &[L; D],
-        neighbour: usize,
-        distance2: &[f64],
-        factor: &[f64],
-    ) -> LanePair<D, L> {
-        let mut separation = minus(x, &self.positions[neighbour]);
-        if let Some(domain) = self.domain {
-            separation = domain.nearest_images(separation);
+    pub(crate) fn pair<L: Lane>(&self, candidate: usize, values: bool) -> LanePair<D, L> {
+        let buffers = &*self.buffers;
+        let from = candidate * L::N;
+        let apart = &buffers.separation[D * from..D * (from + L::N)];
+        let mut separation = [L::splat(0.0); D];
+        for k in 0..D {
+            separation[k] = L::load(&apart[k * L::N..]);
         }
         LanePair {
             separation,
-            distance2: L::load(distance2),
-            factor: L::load(factor),
+            distance2: L::load(&buffers.distance2[from..from + L::N]),
+            factor: L::load(&buffers.factor[from..from + L::N]),
+            value: match values {
+                true => L::load(&buffers.value[from..from + L::N]),
+                false => L::splat(0.0),
+            },
         }
     }
 
@@ -185,7 +174,6 @@ impl<const D: usize> Cluster<'_, D> {
         Neighbourhood {
             particle,
             free: Row::empty(),
-            states: self.states,
             wall: self.buffers.walls[member].row(),
             contacts: self.contacts.of(particle),
             inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
@@ -194,25 +182,12 @@ impl<const D: usize> Cluster<'_, D> {
 
     fn fill_rows(&mut self) {
         let lanes = self.width.lanes();
-        let Buffers {
-            distance2,
-            factor,
-            free,
-            rows,
-            ..
-        } = &mut *self.buffers;
-        for (k, row) in free.iter_mut().enumerate().take(self.members.count) {
-            let x = &self.positions[self.members.from + k];
-            row.pick(
-                x,
-                self.positions,
-                self.members.candidates,
-                [distance2, factor],
-                [k, lanes],
-                self.limit,
-                self.domain,
-            );
+        let candidates = self.members.candidates;
+        let buffers = &mut *self.buffers;
+        let measures = [&buffers.separation[..], &buffers.distance2, &buffers.factor];
+        for (k, row) in buffers.free.iter_mut().enumerate().take(self.members.count) {
+            row.pick(candidates, measures, [k, lanes], self.limit);
         }
-        *rows = true;
+        buffers.rows = true;
     }
 }

@@ -4,12 +4,13 @@ use std::ops::Range;
 
 use sph_core::{Shelf, StepError};
 use sph_kernels::Sampler;
-use sph_lanes::{Body, Lane, MOST, dispatch_at};
+use sph_lanes::{Body, Lane, dispatch_at};
 
 use crate::cluster::Cluster;
 use crate::lane_pair::LanePair;
-use crate::members::{Members, groups};
-use crate::separation::places;
+use crate::members::groups;
+use crate::pair_sum::Particles;
+use crate::separation::grow;
 use crate::sweep::{Room, Sweep};
 use crate::{CHUNK, World};
 
@@ -27,7 +28,7 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
     /// If the world has no positions.
     pub fn new(world: &'w World<D>) -> Result<Self, StepError> {
         Ok(ClusterWalk {
-            sweep: Sweep::new(world, &[], &*world.kernel)?,
+            sweep: Sweep::new(world, &*world.kernel)?,
             shelf: &world.lists.shelf,
             lanes: sph_lanes::width().lanes(),
         })
@@ -43,7 +44,7 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
         self.particles().div_ceil(CHUNK)
     }
 
-    /// Calls `visit` with the clusters of a block in the order of their particles, without packed states.
+    /// Calls `visit` with the clusters of a block in the order of their particles.
     pub fn each(&self, block: usize, mut visit: impl FnMut(&mut Cluster<'_, D>)) {
         self.each_wanted(block, &mut visit, |_| true, |visit, c| visit(c), |_, _| ());
     }
@@ -71,19 +72,15 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
 }
 
 /// Numbers that a pair has, for several particles at once; exactly zero for a neighbour beyond the support, where F = 0.
-pub trait LanePairs<const D: usize, const M: usize>: Sync {
-    /// What is read once per particle.
-    type Here: Copy;
-    /// What is read, of several particles.
-    type Side<L: Lane>: Copy;
-    /// Reads a particle's own values.
-    fn here(&self, particle: usize) -> Self::Here;
-    /// Puts the own values of `L::N` particles side by side.
-    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L>;
+pub trait PairNumbers<const D: usize, const M: usize>: Sync {
+    /// Own values of `L::N` particles.
+    type Own<L: Lane>: Copy;
+    /// Reads the own values.
+    fn own<L: Lane>(&self, particles: Particles) -> Self::Own<L>;
     /// The numbers.
     fn numbers<L: Lane>(
         &self,
-        here: &Self::Side<L>,
+        own: &Self::Own<L>,
         neighbour: usize,
         pair: &LanePair<D, L>,
     ) -> [L; M];
@@ -96,11 +93,9 @@ impl<const D: usize> Cluster<'_, D> {
     }
 
     /// The numbers of all pairs: for each candidate, for each of the `M` numbers, one per lane.
-    pub fn numbers<const M: usize, P: LanePairs<D, M>>(&self, pairs: &P, out: &mut Vec<f64>) {
+    pub fn numbers<const M: usize, P: PairNumbers<D, M>>(&self, pairs: &P, out: &mut Vec<f64>) {
         let needed = self.candidates().len() * M * self.lanes();
-        if out.len() < needed {
-            out.resize(needed.next_power_of_two(), 0.0);
-        }
+        grow(out, needed);
         let body = SideBySide {
             pairs,
             cluster: self,
@@ -116,7 +111,7 @@ struct SideBySide<'a, 'c, const D: usize, const M: usize, P> {
     out: &'a mut [f64],
 }
 
-impl<const D: usize, const M: usize, P: LanePairs<D, M>> Body for SideBySide<'_, '_, D, M, P> {
+impl<const D: usize, const M: usize, P: PairNumbers<D, M>> Body for SideBySide<'_, '_, D, M, P> {
     type Output = ();
 
     #[inline(always)]
@@ -126,24 +121,11 @@ impl<const D: usize, const M: usize, P: LanePairs<D, M>> Body for SideBySide<'_,
             cluster,
             out,
         } = self;
-        let Members {
-            from,
-            count,
-            candidates,
-        } = cluster.members;
-        let mut heres = [pairs.here(from); MOST];
-        for (k, here) in heres.iter_mut().enumerate().take(L::N).skip(1) {
-            *here = pairs.here(from + k.min(count - 1));
-        }
-        let side = pairs.side::<L>(&heres[..L::N]);
-        let x = places::<D, L>(&cluster.positions[from..from + count]);
-        let distances = cluster.distance2().chunks_exact(L::N);
-        let factors = cluster.factor().chunks_exact(L::N);
-        let all = distances.zip(factors).zip(out.chunks_exact_mut(M * L::N));
-        for (&j, ((distance2, factor), out)) in candidates.iter().zip(all) {
-            let j = j as usize;
-            let pair = cluster.pair(&x, j, distance2, factor);
-            let numbers = pairs.numbers(&side, j, &pair);
+        let members = cluster.members;
+        let own = pairs.own::<L>(members.into());
+        let all = members.candidates.iter().enumerate();
+        for ((k, &j), out) in all.zip(out.chunks_exact_mut(M * L::N)) {
+            let numbers = pairs.numbers(&own, j as usize, &cluster.pair(k, false));
             for (number, out) in numbers.into_iter().zip(out.chunks_exact_mut(L::N)) {
                 number.store(out);
             }

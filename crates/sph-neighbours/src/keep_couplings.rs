@@ -107,7 +107,7 @@ impl Keeper<'_> {
             from: own.start as u32,
             count: own.len() as u32,
             to: self.kept.columns.len() as u32,
-            wraps: cluster.domain.is_some(),
+            wraps: cluster.wraps,
         });
         tallies
     }
@@ -137,7 +137,6 @@ impl<const D: usize> Body for Split<'_, '_, D> {
         } = self;
         let own = cluster.members();
         let zero = L::splat(0.0);
-        let x = places::<D, L>(&cluster.positions[own.clone()]);
         // Lanes without a particle repeat the last one, which is near itself: their numbers are of nobody.
         let mut real = zero;
         (0..own.len()).for_each(|lane| real.set(lane, 1.0));
@@ -152,7 +151,7 @@ impl<const D: usize> Body for Split<'_, '_, D> {
         let each = kinds.count() * L::N;
         let mut place = [0.0; 2 * MOST];
         let numbers = numbers.chunks_exact(3 * L::N);
-        for (&column, numbers) in cluster.candidates().iter().zip(numbers) {
+        for (k, (&column, numbers)) in cluster.candidates().iter().zip(numbers).enumerate() {
             let norm = real.where_positive(L::load(&numbers[2 * L::N..]), zero);
             // Half of a cluster's candidates are beyond the support of any one member.
             if !norm.any_nonzero() {
@@ -162,10 +161,7 @@ impl<const D: usize> Body for Split<'_, '_, D> {
             // Without `map`, which is a call in some builds, and then for the least processor.
             let even = real.where_positive(L::load(numbers), zero);
             let along = real.where_positive(L::load(&numbers[L::N..]), zero);
-            let mut apart = minus(&x, &cluster.positions[j]);
-            if let Some(domain) = cluster.domain {
-                apart = domain.nearest_images(apart);
-            }
+            let apart = cluster.pair::<L>(k, false).separation;
             let mut softness = zero;
             if let Some(weak) = weak {
                 let there = L::splat(weak.limit[j]);

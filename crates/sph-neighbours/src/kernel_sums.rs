@@ -1,15 +1,15 @@
 //! Sums of kernel values alone: the density sum, which prunes the lists, and Shepard means.
 
-use std::ops::Range;
-
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
-use sph_lanes::{Body, Lane, MOST, dispatch_at, dot, width};
+use sph_lanes::{Body, InLanes, Lane, MOST, dispatch_at, dot, width};
 
 use crate::blocks::each_block;
+use crate::lane_pair::LanePair;
 use crate::lane_vector::minus;
 use crate::list::{CHUNK, make_room};
 use crate::members::{Members, groups};
+use crate::pair_sum::{self, PairSum, Particles, Rows};
 use crate::separation::Distances;
 use crate::sweep::wrapping;
 use crate::{Blocked, Clusters, Domain, World};
@@ -41,14 +41,14 @@ pub fn kernel_sums<const D: usize>(
         for members in groups(all, width.lanes()) {
             let first = members.from - all.from;
             let near = (members.from..members.from + members.count).find_map(domain);
-            let out = &mut room.lanes.distance2;
             dispatch_at(
                 width,
-                Distances {
+                Distances::<D, false> {
                     members,
                     positions,
                     domain: near,
-                    out,
+                    out: &mut room.lanes.distance2,
+                    separations: &mut Vec::new(),
                 },
             );
             let values = &mut room.lanes;
@@ -139,59 +139,36 @@ impl Body for Total<'_> {
     }
 }
 
-/// `K` sums over the free particles around targets, several of which stand side by side: those behind Shepard means at walls.
-pub trait TargetMean<const D: usize, const K: usize>: Sync {
-    /// What becomes of the sums.
-    type Mean: Send;
-    /// What the targets bring along, number by number in memory: from there it is loaded into lanes as a whole.
-    type Here;
-    /// The same in lanes.
-    type Side<L: Lane>: Copy;
-
-    /// What these targets have, at most [`MOST`].
-    fn here(&self, targets: Range<usize>) -> Self::Here;
-    /// Puts it side by side.
-    fn side<L: Lane>(&self, here: &Self::Here) -> Self::Side<L>;
-    /// Adds a particle: its index, the separations of the targets from it, m, and w, 1/m^d, exactly 0 beyond the support.
-    fn add<L: Lane>(
-        &self,
-        side: &Self::Side<L>,
-        particle: usize,
-        apart: &[L; D],
-        w: L,
-        sums: &mut [L; K],
-    );
-    /// The mean at a target from its sums.
-    fn mean(&self, target: usize, sums: [f64; K]) -> Self::Mean;
-}
-
-/// Leaves in `out` what a mean is at every target.
+/// Leaves in `out` what `of` makes of the sums over the free particles around every target: those behind Shepard means at
+/// walls. The particles of the sum's own values are the targets; pairs carry kernel values and no gradients.
 ///
 /// Each sums its particles in the order of their indices, whatever the number of lanes; `hidden` tells whom it does not see.
 ///
 /// # Errors
 /// If the world has no positions.
-pub fn shepard<const D: usize, const K: usize, M: TargetMean<D, K>>(
+pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
     world: &World<D>,
     targets: &[Vect<D>],
     (list, hidden): (&Clusters, &Blocked),
-    mean: &M,
-    out: &mut Vec<M::Mean>,
+    sum: &S,
+    out: &mut Vec<R>,
+    of: impl Fn(usize, S::Sum<f64>) -> R + Sync,
 ) -> Result<(), StepError> {
     let positions = world.free.get(fields::POSITION)?;
     let kernel = &*world.kernel;
     let width = width();
-    out.resize_with(targets.len(), || mean.mean(0, [0.0; K]));
+    let none = vec![[0.0; MOST]; S::Sum::<f64>::NUMBERS];
+    out.resize_with(targets.len(), || of(0, S::Sum::<f64>::one(&none, 0)));
     let limit = kernel.support_radius().powi(2);
     each_block(out, CHUNK, &|b, out| {
-        let mut room = world.lists.shelf.lend::<(Values, Vec<u32>)>();
-        let (values, inside) = &mut *room;
+        let mut room = world.lists.shelf.lend::<(Values, Vec<u32>, Rows)>();
+        let (values, inside, rows) = &mut *room;
         for all in list.of_block(b) {
             for members in groups(all, width.lanes()) {
                 let own = members.from..members.from + members.count;
                 let mut near = targets[own.clone()].iter();
                 let around = Around {
-                    targets: in_memory(&targets[own.clone()]),
+                    targets,
                     positions,
                     domain: near.find_map(|x| wrapping(&world.domain, x, world.reach())),
                 };
@@ -200,7 +177,7 @@ pub fn shepard<const D: usize, const K: usize, M: TargetMean<D, K>>(
                 make_room(inside, n);
                 let body = DistancesAround {
                     around: &around,
-                    candidates: members.candidates,
+                    members,
                     limit,
                     inside: &mut inside[..n],
                     out: &mut values.distance2,
@@ -211,19 +188,18 @@ pub fn shepard<const D: usize, const K: usize, M: TargetMean<D, K>>(
                 let needed = inside.len() * width.lanes();
                 let value = &mut values.value[..needed];
                 kernel.value(&values.distance2[..needed], value);
-                let mut sums = [[0.0; MOST]; K];
+                pair_sum::make_room(rows, S::Sum::<f64>::NUMBERS);
                 let body = SumAround {
                     around: &around,
-                    here: &mean.here(own.clone()),
+                    members,
                     inside,
                     values: value,
-                    mean,
-                    sums: &mut sums,
+                    sum,
+                    rows: &mut *rows,
                 };
                 dispatch_at(width, body);
                 for (lane, target) in own.enumerate() {
-                    let sums = std::array::from_fn(|k| sums[k][lane]);
-                    out[target - b * CHUNK] = mean.mean(target, sums);
+                    out[target - b * CHUNK] = of(target, S::Sum::<f64>::one(rows, lane));
                 }
             }
         }
@@ -231,34 +207,10 @@ pub fn shepard<const D: usize, const K: usize, M: TargetMean<D, K>>(
     Ok(())
 }
 
-/// Vectors of at most [`MOST`] targets, component by component; the last one fills what is left over.
-///
-/// Lanes that are put together number by number are taken apart by the compiler, and each goes its own way.
-pub type InMemory<const D: usize> = [[f64; MOST]; D];
-
-/// Some vectors in memory.
-///
-/// # Panics
-/// If there are none.
-pub fn in_memory<const D: usize>(vectors: &[Vect<D>]) -> InMemory<D> {
-    let last = vectors.len() - 1;
-    std::array::from_fn(|k| std::array::from_fn(|lane| vectors[lane.min(last)][k]))
-}
-
-/// The vectors in lanes.
-#[inline(always)]
-pub fn loaded<const D: usize, L: Lane>(vectors: &InMemory<D>) -> [L; D] {
-    let mut lanes = [L::splat(0.0); D];
-    for k in 0..D {
-        lanes[k] = L::load(&vectors[k]);
-    }
-    lanes
-}
-
 /// Some targets and the particles around them.
 struct Around<'a, const D: usize> {
-    /// Places of the targets, m.
-    targets: InMemory<D>,
+    /// Places of all targets, m.
+    targets: &'a [Vect<D>],
     positions: &'a [Vect<D>],
     /// Where images across periodic faces may be nearer.
     domain: Option<&'a Domain<D>>,
@@ -279,7 +231,7 @@ impl<const D: usize> Around<'_, D> {
 /// Who is within the support of a target, and the squared distances of all targets, `N` numbers for each particle.
 struct DistancesAround<'a, const D: usize> {
     around: &'a Around<'a, D>,
-    candidates: &'a [u32],
+    members: Members<'a>,
     limit: f64,
     inside: &'a mut [u32],
     out: &'a mut [f64],
@@ -302,10 +254,10 @@ impl<const D: usize> DistancesAround<'_, D> {
     #[inline(always)]
     fn find<L: Lane, const WRAPS: bool>(self) -> usize {
         let around = self.around;
-        let x = loaded::<D, L>(&around.targets);
+        let x = Particles::from(self.members).vectors::<D, L>(around.targets);
         let limit = L::splat(self.limit);
         let mut n = 0;
-        for &j in self.candidates {
+        for &j in self.members.candidates {
             let apart = around.apart::<L, WRAPS>(&x, j);
             let distance2 = dot(&apart, &apart);
             self.inside[n] = j;
@@ -316,42 +268,48 @@ impl<const D: usize> DistancesAround<'_, D> {
     }
 }
 
-/// The sums over all particles.
-struct SumAround<'a, const D: usize, const K: usize, M: TargetMean<D, K>> {
+/// The sums over all particles around some targets.
+struct SumAround<'a, const D: usize, S> {
     around: &'a Around<'a, D>,
-    here: &'a M::Here,
+    members: Members<'a>,
     inside: &'a [u32],
     values: &'a [f64],
-    mean: &'a M,
-    sums: &'a mut [[f64; MOST]; K],
+    sum: &'a S,
+    rows: &'a mut Rows,
 }
 
-impl<const D: usize, const K: usize, M: TargetMean<D, K>> Body for SumAround<'_, D, K, M> {
+impl<const D: usize, S: PairSum<D>> Body for SumAround<'_, D, S> {
     type Output = ();
 
     #[inline(always)]
     fn call<L: Lane>(self) {
         match self.around.domain {
-            Some(_) => self.sum::<L, true>(),
-            None => self.sum::<L, false>(),
+            Some(_) => self.add_up::<L, true>(),
+            None => self.add_up::<L, false>(),
         }
     }
 }
 
-impl<const D: usize, const K: usize, M: TargetMean<D, K>> SumAround<'_, D, K, M> {
+impl<const D: usize, S: PairSum<D>> SumAround<'_, D, S> {
     #[inline(always)]
-    fn sum<L: Lane, const WRAPS: bool>(self) {
-        let (around, mean) = (self.around, self.mean);
-        let x = loaded::<D, L>(&around.targets);
-        let side = mean.side::<L>(self.here);
-        let mut sums = [L::splat(0.0); K];
+    fn add_up<L: Lane, const WRAPS: bool>(self) {
+        let targets = Particles::from(self.members);
+        let x = targets.vectors::<D, L>(self.around.targets);
+        let own = self.sum.own::<L>(targets);
+        let mut sums = S::Sum::<L>::zero();
+        let zero = L::splat(0.0);
         let values = self.values.chunks_exact(L::N);
         for (&j, w) in self.inside.iter().zip(values) {
-            let apart = around.apart::<L, WRAPS>(&x, j);
-            mean.add(&side, j as usize, &apart, L::load(w), &mut sums);
+            let separation = self.around.apart::<L, WRAPS>(&x, j);
+            let pair = LanePair {
+                separation,
+                distance2: dot(&separation, &separation),
+                factor: zero,
+                value: L::load(w),
+            };
+            self.sum.pair(&own, j as usize, &pair, &mut sums);
         }
-        let all = sums.into_iter().zip(self.sums);
-        all.for_each(|(sum, to)| sum.store(to));
+        sums.store(self.rows);
     }
 }
 

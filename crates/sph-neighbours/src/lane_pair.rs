@@ -1,5 +1,7 @@
 //! One neighbour of several particles.
 
+use crate::Pair;
+
 /// One neighbour as the particles of a cluster see it, a particle in each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct LanePair<const D: usize, L> {
@@ -9,4 +11,18 @@ pub struct LanePair<const D: usize, L> {
     pub distance2: L,
     /// F = w'(r)/r ≤ 0, 1/m^(d+2); 0 for whom the neighbour is beyond the support, and for itself.
     pub factor: L,
+    /// w, 1/m^d, where a sum asks for it ([`PairSum::VALUES`](crate::PairSum::VALUES)), else 0; 0 beyond the support.
+    pub value: L,
+}
+
+impl<const D: usize> From<&Pair<D>> for LanePair<D, f64> {
+    #[inline(always)]
+    fn from(pair: &Pair<D>) -> Self {
+        LanePair {
+            separation: pair.separation.data.0[0],
+            distance2: pair.distance2,
+            factor: pair.factor,
+            value: 0.0,
+        }
+    }
 }

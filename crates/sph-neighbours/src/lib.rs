@@ -24,7 +24,6 @@ mod cross;
 mod domain;
 mod facing;
 mod free_body;
-mod fuse;
 mod grid;
 mod half;
 mod hidden;
@@ -32,7 +31,6 @@ mod keep_couplings;
 mod kernel_sums;
 mod kernels;
 mod lane_pair;
-mod lane_term;
 mod lane_vector;
 mod lane_walk;
 mod lattice;
@@ -41,7 +39,7 @@ mod list;
 mod members;
 mod moment;
 mod nearby;
-mod packed;
+mod pair_sum;
 mod reaction;
 mod row;
 mod separation;
@@ -62,7 +60,7 @@ pub use batches::by_phase;
 pub use blocks::{each_block, joined};
 pub use class_rates::{ClassRate, class_rates};
 pub use cluster::Cluster;
-pub use cluster_walk::{ClusterWalk, LanePairs};
+pub use cluster_walk::{ClusterWalk, PairNumbers};
 pub use clusters::Clusters;
 pub use contacts::{Contact, ContactBlock, ContactIter, ContactRow, Contacts};
 pub use couplings::{Couplings, CouplingsAt, Kinds, Visitor};
@@ -70,36 +68,32 @@ pub use cross::cross;
 pub use domain::Domain;
 pub use facing::facing_forces;
 pub use free_body::FreeBody;
-pub use fuse::{
-    FusionEntry, Terms, fuse_all, fuse_three, fuse_three_lanes, fuse_two, fuse_two_lanes,
-};
 pub use grid::{CellGrid, Extent};
 pub use half::{Half, is_wanted};
 pub use hidden::{Blocked, Hidden};
 pub use keep_couplings::{Keeper, Rows as CouplingRows, Tally, Weak};
-pub use kernel_sums::{InMemory, TargetMean, in_memory, kernel_sums, loaded, shepard};
+pub use kernel_sums::{kernel_sums, shepard};
 pub use kernels::KernelEntry;
 pub use lane_pair::LanePair;
-pub use lane_term::{FusedLanes, LanePairTerm, LaneTerm, Lanewise};
 pub use lane_vector::{minus, set, splat, unlike, vector};
-pub use lane_walk::{LaneSum, walk_in_lanes};
+pub use lane_walk::walk_in_lanes;
 pub use lattice::{lattice_sum, rows_sum};
 pub use lightness::lightness;
 pub use list::{CHUNK, NeighbourList};
 pub use moment::trusted_inverse;
 pub use nearby::Nearby;
-pub use packed::{Declared, Packed, pack};
+pub use pair_sum::{PairSum, Particles};
 pub use reaction::{reactions, wall_forces};
-pub use row::{NOBODY, Neighbourhood, Row, Scratch, There};
+pub use row::{NOBODY, Neighbourhood, Row, Scratch};
 pub use shared_rows::{SharedElements, SharedRows, inner};
 pub use shares::{TermShare, shares_at};
 pub use sight::Sight;
-pub use sph_lanes::{Body, Lane, MOST, add_scaled, dot, scaled};
-pub use sweep::{Sums, accelerations_of, all_sums, interactions, interactions_with};
+pub use sph_lanes::{Body, InLanes, Lane, MOST, add_scaled, dot, scaled};
+pub use sweep::{Sums, accelerations_of, all_sums, declared, interactions, interactions_with};
 pub use team::Team;
 pub use term::{
-    BoundTerm, Fused, Interaction, Pair, PairTerm, Part, Rates, RowTerm, TRANSPORTED, Term,
-    TermEntry, WithTerm,
+    BoundTerm, ByPairs, Interaction, Pair, PairTerm, Rates, RowTerm, TRANSPORTED, TermEntry, Terms,
+    WithTerm,
 };
 pub use walk::{Around, Rows, Surroundings, Values, walk, walk_into, walk_some};
 pub use wall_force::WallForce;

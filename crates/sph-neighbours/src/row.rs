@@ -18,21 +18,6 @@ pub struct Row<'a, const D: usize> {
     pub factor: &'a [f64],
 }
 
-/// What most terms read of a neighbour, packed so that one load serves all of them.
-///
-/// What no term of the sweep declares to read at neighbours is not a number here.
-#[derive(Clone, Copy, Debug)]
-pub struct There<const D: usize> {
-    /// Velocity, m/s.
-    pub velocity: Vect<D>,
-    /// Volume, m^d.
-    pub volume: f64,
-    /// Pressure, Pa.
-    pub pressure: f64,
-    /// Density, kg/m³.
-    pub density: f64,
-}
-
 impl<const D: usize> Row<'_, D> {
     /// Without anybody.
     pub(crate) fn empty() -> Self {
@@ -52,8 +37,6 @@ pub struct Neighbourhood<'a, const D: usize> {
     pub particle: usize,
     /// Its free neighbours.
     pub free: Row<'a, D>,
-    /// Packed states of all free particles, by index.
-    pub states: &'a [There<D>],
     /// Its wall points.
     pub wall: Row<'a, D>,
     /// Its wall elements with their share of ∇γ.
@@ -139,17 +122,13 @@ impl<const D: usize> Scratch<D> {
         n
     }
 
-    /// Keeps the candidates of one lane that are nearer than √`limit`; `[r², F]` of all of them stand in lanes.
-    #[allow(clippy::too_many_arguments, reason = "what a row is made of")]
+    /// Keeps the candidates of one lane that are nearer than √`limit`; `[r, r², F]` of all of them stand in lanes.
     pub(crate) fn pick(
         &mut self,
-        x: &Vect<D>,
-        sources: &[Vect<D>],
         candidates: &[u32],
-        [distances, factors]: [&[f64]; 2],
+        [separations, distances, factors]: [&[f64]; 3],
         [lane, lanes]: [usize; 2],
         limit: f64,
-        domain: Option<&Domain<D>>,
     ) {
         self.make_room(candidates.len());
         let m = candidates.len();
@@ -160,11 +139,11 @@ impl<const D: usize> Scratch<D> {
         let mut n = 0;
         let in_lanes = distances
             .chunks_exact(lanes)
-            .zip(factors.chunks_exact(lanes));
-        for (&j, (r2, f)) in candidates.iter().zip(in_lanes) {
-            let d = x - sources[j as usize];
+            .zip(factors.chunks_exact(lanes))
+            .zip(separations.chunks_exact(D * lanes));
+        for (&j, ((r2, f), d)) in candidates.iter().zip(in_lanes) {
             index[n] = j;
-            separation[n] = domain.map_or(d, |domain| domain.nearest_image(d));
+            separation[n] = Vect::from_fn(|k, _| d[k * lanes + lane]);
             distance2[n] = r2[lane];
             factor[n] = f[lane];
             n += usize::from(r2[lane] < limit);

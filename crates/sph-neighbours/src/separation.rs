@@ -6,19 +6,12 @@ use sph_lanes::{Body, Lane, dot};
 use crate::Domain;
 use crate::lane_vector::minus;
 use crate::members::Members;
+use crate::pair_sum::Particles;
 
 /// The places of some points, one in each lane; the last one fills what is left over.
 #[inline(always)]
 pub(crate) fn places<const D: usize, L: Lane>(points: &[Vect<D>]) -> [L; D] {
-    let mut x = [L::splat(0.0); D];
-    let last = points.len() - 1;
-    for lane in 0..L::N {
-        let point = &points[if lane < last { lane } else { last }];
-        for k in 0..D {
-            x[k].set(lane, point[k]);
-        }
-    }
-    x
+    Particles::first(points.len()).vectors(points)
 }
 
 /// |r_i − r_j|² in all lanes.
@@ -28,18 +21,20 @@ pub(crate) fn distance2_at<const D: usize, L: Lane>(x: &[L; D], there: &Vect<D>)
     dot(&d, &d)
 }
 
-/// Squared distances of the members of a cluster from all candidates, `N` numbers for each candidate.
+/// Squared distances of the members of a cluster from all candidates, `N` numbers for each candidate; and separations, as
+/// many for each component, where they are `KEPT`.
 ///
 /// A member is infinitely far from itself, so that the kernel leaves it out.
-pub(crate) struct Distances<'a, const D: usize> {
+pub(crate) struct Distances<'a, const D: usize, const KEPT: bool> {
     pub members: Members<'a>,
     pub positions: &'a [Vect<D>],
     /// Where images across periodic faces may be nearer.
     pub domain: Option<&'a Domain<D>>,
     pub out: &'a mut Vec<f64>,
+    pub separations: &'a mut Vec<f64>,
 }
 
-impl<const D: usize> Body for Distances<'_, D> {
+impl<const D: usize, const KEPT: bool> Body for Distances<'_, D, KEPT> {
     type Output = ();
 
     #[inline(always)]
@@ -50,16 +45,22 @@ impl<const D: usize> Body for Distances<'_, D> {
             candidates,
         } = self.members;
         let needed = candidates.len() * L::N;
-        if self.out.len() < needed {
-            self.out.resize(needed.next_power_of_two(), 0.0);
-        }
+        grow(self.out, needed);
         let out = &mut self.out[..needed];
-        let own = &self.positions[from..from + count];
-        let x = places::<D, L>(own);
+        if KEPT {
+            grow(self.separations, D * needed);
+        }
+        let mut kept = self.separations.chunks_exact_mut(D * L::N);
+        let x = Particles::from(self.members).vectors::<D, L>(self.positions);
         for (&j, out) in candidates.iter().zip(out.chunks_exact_mut(L::N)) {
             let mut apart = minus(&x, &self.positions[j as usize]);
             if let Some(domain) = self.domain {
                 apart = domain.nearest_images(apart);
+            }
+            if KEPT && let Some(kept) = kept.next() {
+                for k in 0..D {
+                    apart[k].store(&mut kept[k * L::N..]);
+                }
             }
             dot(&apart, &apart).store(out);
             let lane = (j as usize).wrapping_sub(from);
@@ -67,5 +68,12 @@ impl<const D: usize> Body for Distances<'_, D> {
                 out[lane] = f64::INFINITY;
             }
         }
+    }
+}
+
+/// Makes room for as many numbers.
+pub(crate) fn grow(buffer: &mut Vec<f64>, needed: usize) {
+    if buffer.len() < needed {
+        buffer.resize(needed.next_power_of_two(), 0.0);
     }
 }

@@ -2,10 +2,7 @@
 
 use sph_core::{StepError, Vect};
 
-use crate::packed::{Packed, pack};
-use crate::{
-    ContactRow, Interaction, Neighbourhood, Part, Rates, Rows, Scratch, Surroundings, World,
-};
+use crate::{ContactRow, Interaction, Neighbourhood, Rates, Rows, Scratch, Surroundings, World};
 
 /// What one term does to a particle.
 #[derive(Clone, Debug)]
@@ -18,7 +15,7 @@ pub struct TermShare<const D: usize> {
     pub of_walls: Rates<D>,
 }
 
-/// What every term does to a particle at the state of the last sweep, fused terms one by one.
+/// What every term does to a particle at the state of the last sweep.
 ///
 /// # Errors
 /// If a term misses a column.
@@ -27,18 +24,9 @@ pub fn shares_at<const D: usize>(
     terms: &[&dyn Interaction<D>],
     particle: usize,
 ) -> Result<Vec<TermShare<D>>, StepError> {
-    let mut parts: Vec<Part<'_, D>> = Vec::new();
-    for term in terms {
-        parts.extend(term.parts(world)?);
-    }
-    let mut states = Vec::new();
-    pack(world, &mut states, Packed::of(terms.iter().copied()))?;
     let surroundings = Surroundings::new(world)?;
     let mut rows = Rows::default();
-    let whole = Neighbourhood {
-        states: &states,
-        ..surroundings.of(particle, &mut rows)
-    };
+    let whole = surroundings.of(particle, &mut rows);
     let none = Scratch::<D>::new();
     let fluid = Neighbourhood {
         wall: none.row(),
@@ -46,22 +34,26 @@ pub fn shares_at<const D: usize>(
         inverse_renormalisation: 1.0,
         ..whole
     };
-    let shares = parts.iter().map(|(name, term)| {
-        let of = |neighbourhood: &Neighbourhood<'_, D>| {
-            let mut rates = Rates::of(Vect::zeros());
-            term.row(neighbourhood, &mut rates);
-            rates
-        };
-        let (rates, fluid) = (of(&whole), of(&fluid));
-        TermShare {
-            name: name.clone(),
-            rates,
-            of_walls: Rates {
-                acceleration: rates.acceleration - fluid.acceleration,
-                scalar: rates.scalar - fluid.scalar,
-                more: std::array::from_fn(|k| rates.more[k] - fluid.more[k]),
-            },
-        }
-    });
-    Ok(shares.collect())
+    let mut shares = Vec::new();
+    for interaction in terms {
+        interaction.lend(world, &mut |term| {
+            let of = |neighbourhood: &Neighbourhood<'_, D>| {
+                let mut rates = Rates::of(Vect::zeros());
+                term.row(neighbourhood, &mut rates);
+                rates
+            };
+            let (rates, fluid) = (of(&whole), of(&fluid));
+            shares.push(TermShare {
+                name: interaction.name(),
+                rates,
+                of_walls: Rates {
+                    acceleration: rates.acceleration - fluid.acceleration,
+                    scalar: rates.scalar - fluid.scalar,
+                    more: std::array::from_fn(|k| rates.more[k] - fluid.more[k]),
+                },
+            });
+            Ok(())
+        })?;
+    }
+    Ok(shares)
 }

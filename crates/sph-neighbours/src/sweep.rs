@@ -1,41 +1,43 @@
 //! The sweep: one walk over the neighbours of every particle sums all terms.
 
+use std::borrow::Borrow;
+
 use rayon::prelude::*;
-use sph_core::{StepError, Vect, fields};
+use sph_core::{Access, StepError, Vect, fields};
 use sph_kernels::Sampler;
 use sph_lanes::{Width, width};
 
 use crate::cluster::{Buffers, Cluster};
-use crate::half::{Half, is_wanted};
+use crate::half::is_wanted;
 use crate::list::CHUNK;
 use crate::members::{Members, groups};
-use crate::packed::{Declared, pack};
 use crate::term::{Interaction, Rates, RowTerm, TRANSPORTED, WithTerm};
-use crate::{Clusters, Domain, NOBODY, Neighbourhood, There, World};
+use crate::{Clusters, Domain, NOBODY, Neighbourhood, World};
 
 /// Sums all terms of all particles.
 ///
 /// `rates` receives accelerations, starting from gravity and driving; `scalar`, where the
-/// formulation evolves one, its rate. One virtual call per particle and unfused term.
-///
-/// `states` is a buffer for the packed states.
+/// formulation evolves one, its rate. One virtual call per cluster and term.
 ///
 /// # Errors
 /// If a term misses a column.
 pub fn interactions<const D: usize>(
     world: &World<D>,
-    states: &mut Vec<There<D>>,
     terms: &[Box<dyn Interaction<D>>],
     acceleration: &mut [Vect<D>],
     scalar: Option<&mut [f64]>,
 ) -> Result<(), StepError> {
-    let declared = Declared::of(terms.iter().map(|t| &**t));
     let sums = Sums {
         acceleration,
         scalar,
         more: &mut [],
     };
-    all_sums(world, states, &declared, terms, sums)
+    all_sums(world, &declared(terms), terms, sums)
+}
+
+/// What terms declare: asked once and not in every step.
+pub fn declared<const D: usize>(terms: &[Box<dyn Interaction<D>>]) -> Vec<Access> {
+    terms.iter().map(|term| term.access()).collect()
 }
 
 /// Where a sweep leaves what it sums, one entry per particle.
@@ -48,20 +50,16 @@ pub struct Sums<'a, const D: usize> {
     pub more: &'a mut [[f64; TRANSPORTED]],
 }
 
-/// As [`interactions`], with further scalars, for terms of which it is known what they have `declared`.
+/// As [`interactions`], with further scalars, for terms of which it is known what they have [`declared`].
 ///
 /// # Errors
 /// If a term misses a column.
 pub fn all_sums<const D: usize>(
     world: &World<D>,
-    states: &mut Vec<There<D>>,
-    declared: &Declared,
+    declared: &[Access],
     terms: &[Box<dyn Interaction<D>>],
     sums: Sums<'_, D>,
 ) -> Result<(), StepError> {
-    if !world.lists.half.as_ref().is_some_and(Half::is_second) {
-        pack(world, states, declared.packed)?;
-    }
     let mut sums = Some(sums);
     with_all(
         world,
@@ -69,7 +67,7 @@ pub fn all_sums<const D: usize>(
         terms,
         None,
         &mut |term| match sums.take() {
-            Some(sums) => interactions_with(world, states, &*world.kernel, term, sums),
+            Some(sums) => interactions_with(world, &*world.kernel, term, sums),
             None => Ok(()),
         },
     )
@@ -78,25 +76,27 @@ pub fn all_sums<const D: usize>(
 /// Lends all terms as one to `with`, each held to what it declares while it looks its columns up.
 ///
 /// Every term is on the stack of the one before it, so that no step asks for memory.
-fn with_all<const D: usize>(
+pub(crate) fn with_all<'t, const D: usize, T: Borrow<dyn Interaction<D> + 't>>(
     world: &World<D>,
-    declared: &Declared,
-    terms: &[Box<dyn Interaction<D>>],
+    declared: &[Access],
+    terms: &[T],
     before: Option<&dyn RowTerm<D>>,
     with: &mut WithTerm<'_, D>,
 ) -> Result<(), StepError> {
     let Some((term, rest)) = terms.split_first() else {
         return with(before.unwrap_or(&Nothing));
     };
-    let place = declared.accesses.len().checked_sub(terms.len());
-    world.free.watch(place.map(|k| &declared.accesses[k]));
+    let term = term.borrow();
+    let (own, others) = declared.split_first().unzip();
+    world.free.watch(own);
+    let others = others.unwrap_or_default();
     let mut looked_up = false;
     let done = term.lend(world, &mut |bound| {
         looked_up = true;
         world.free.unwatch(|| term.name())?;
         match before {
-            None => with_all(world, declared, rest, Some(bound), with),
-            Some(before) => with_all(world, declared, rest, Some(&Both(before, bound)), with),
+            None => with_all(world, others, rest, Some(bound), with),
+            Some(before) => with_all(world, others, rest, Some(&Both(before, bound)), with),
         }
     });
     match looked_up {
@@ -133,7 +133,6 @@ impl<const D: usize> RowTerm<D> for Both<'_, D> {
 /// If the world has no positions.
 pub fn interactions_with<const D: usize, K, T>(
     world: &World<D>,
-    states: &[There<D>],
     kernel: &K,
     term: &T,
     sums: Sums<'_, D>,
@@ -142,7 +141,7 @@ where
     K: Sampler + ?Sized,
     T: RowTerm<D> + ?Sized,
 {
-    let sweep = Sweep::new(world, states, kernel)?;
+    let sweep = Sweep::new(world, kernel)?;
     let start = Rates::of(world.gravity + world.driving);
     let shelf = || world.lists.shelf.lend::<Room<D>>();
     let half = world.lists.half.as_ref();
@@ -209,12 +208,11 @@ where
 /// If the term misses a column.
 pub fn accelerations_of<const D: usize>(
     world: &World<D>,
-    states: &[There<D>],
     term: &dyn Interaction<D>,
     wanted: impl Fn(usize) -> bool + Sync,
     acceleration: &mut [Vect<D>],
 ) -> Result<(), StepError> {
-    let sweep = Sweep::new(world, states, &*world.kernel)?;
+    let sweep = Sweep::new(world, &*world.kernel)?;
     let start = Rates::of(Vect::zeros());
     term.lend(world, &mut |bound| {
         let all = acceleration.par_chunks_mut(CHUNK).enumerate();
@@ -243,7 +241,6 @@ pub(crate) type Room<const D: usize> = (Buffers<D>, Vec<Rates<D>>);
 /// What a walk over neighbourhoods looks at.
 pub(crate) struct Sweep<'a, const D: usize, K: ?Sized> {
     world: &'a World<D>,
-    states: &'a [There<D>],
     kernel: &'a K,
     positions: &'a [Vect<D>],
     points: &'a [Vect<D>],
@@ -253,14 +250,9 @@ pub(crate) struct Sweep<'a, const D: usize, K: ?Sized> {
 }
 
 impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
-    pub fn new(
-        world: &'a World<D>,
-        states: &'a [There<D>],
-        kernel: &'a K,
-    ) -> Result<Self, StepError> {
+    pub fn new(world: &'a World<D>, kernel: &'a K) -> Result<Self, StepError> {
         Ok(Sweep {
             world,
-            states,
             kernel,
             positions: world.free.get(fields::POSITION)?,
             points: match world.walls.points.in_sums() {
@@ -345,12 +337,10 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         Cluster {
             width: self.width,
             members,
-            positions: self.positions,
-            states: self.states,
             contacts: &world.walls.contacts,
             renormalisation: self.renormalisation,
             limit: self.kernel.support_radius().powi(2),
-            domain,
+            wraps: domain.is_some(),
             buffers,
         }
     }

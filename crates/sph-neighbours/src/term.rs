@@ -1,12 +1,10 @@
-//! Pair terms: a scalar formula, written once, for free neighbours, wall points and elements.
+//! Pair terms: what they sum over free neighbours is written once, for lanes; walls are added one by one.
 
-use std::any::Any;
-
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, contract};
+use sph_lanes::InLanes;
 
-use crate::{Cluster, Contact, Neighbourhood, Row, There, World};
+use crate::pair_sum::{PairSum, Particles, sum_cluster};
+use crate::{Cluster, Neighbourhood, Row, World};
 
 /// What the interaction sweep sums per particle.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +32,7 @@ impl<const D: usize> Rates<D> {
     }
 }
 
-/// One pair as a term sees it.
+/// One pair of a particle.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<const D: usize> {
     /// r_i − r_j, m.
@@ -45,40 +43,34 @@ pub struct Pair<const D: usize> {
     pub factor: f64,
 }
 
-/// A term with its columns at hand.
-pub trait BoundTerm<const D: usize>: Sync {
-    /// What is read once per particle.
-    type Here: Copy;
-    /// What is summed.
-    type Sum: Copy;
-    /// Reads the particle's own values.
-    fn here(&self, particle: usize) -> Self::Here;
-    /// The empty sum.
-    fn zero(&self) -> Self::Sum;
-    /// Adds a free neighbour; `there` is its packed state.
-    fn free(
-        &self,
-        here: &Self::Here,
-        neighbour: usize,
-        there: &There<D>,
-        pair: &Pair<D>,
-        sum: &mut Self::Sum,
-    );
-    /// Adds a wall point.
-    fn wall(&self, _here: &Self::Here, _point: usize, _pair: &Pair<D>, _sum: &mut Self::Sum) {}
-    /// Adds a wall element.
-    fn element(&self, _here: &Self::Here, _contact: &Contact<D>, _sum: &mut Self::Sum) {}
-    /// Turns the sum into rates; `inverse_renormalisation` is 1/γ.
-    fn finish(
-        &self,
-        here: &Self::Here,
-        sum: &Self::Sum,
-        inverse_renormalisation: f64,
-        rates: &mut Rates<D>,
-    );
+impl<'a, const D: usize> Row<'a, D> {
+    /// Its pairs, each with the index of the other.
+    #[inline(always)]
+    pub fn pairs(self) -> impl Iterator<Item = (usize, Pair<D>)> + 'a {
+        let pairs = self.index.iter().zip(self.separation);
+        let measures = self.distance2.iter().zip(self.factor);
+        pairs
+            .zip(measures)
+            .map(|((&other, &separation), (&distance2, &factor))| {
+                let pair = Pair {
+                    separation,
+                    distance2,
+                    factor,
+                };
+                (other as usize, pair)
+            })
+    }
 }
 
-/// A term that finds its columns in the world.
+/// A pair term with its columns at hand.
+pub trait BoundTerm<const D: usize>: PairSum<D> {
+    /// Adds the walls near a particle to its sum over free neighbours, and turns it into rates.
+    ///
+    /// The free row of the neighbourhood may be empty.
+    fn finish(&self, sum: Self::Sum<f64>, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>);
+}
+
+/// A pair term, which finds its columns in the world. Every one is an [`Interaction`].
 pub trait PairTerm<const D: usize>: Send + Sync + 'static {
     /// The term with its columns.
     type Bound<'a>: BoundTerm<D> + 'a;
@@ -91,14 +83,6 @@ pub trait PairTerm<const D: usize>: Send + Sync + 'static {
     /// # Errors
     /// If a column is missing.
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError>;
-    /// The terms that this one is fused of, each on its own; for those who ask what a term does, not for the sweep.
-    ///
-    /// # Errors
-    /// If a column is missing.
-    fn parts<'a>(&'a self, world: &'a World<D>) -> Result<Vec<Part<'a, D>>, StepError> {
-        let row: Box<dyn RowTerm<D> + 'a> = Box::new(Fused(self.bind(world)?));
-        Ok(vec![(self.name(), row)])
-    }
 }
 
 /// A term called once per particle with its whole neighbourhood.
@@ -111,61 +95,23 @@ pub trait RowTerm<const D: usize>: Sync {
     }
 }
 
-impl<const D: usize, T: RowTerm<D> + ?Sized> RowTerm<D> for &T {
-    fn row(&self, neighbourhood: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
-        (**self).row(neighbourhood, rates);
-    }
-    fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
-        (**self).cluster(cluster, rates);
-    }
-}
-
-impl<const D: usize, T: RowTerm<D> + ?Sized> RowTerm<D> for Box<T> {
-    fn row(&self, neighbourhood: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
-        (**self).row(neighbourhood, rates);
-    }
-    fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
-        (**self).cluster(cluster, rates);
-    }
-}
-
-/// What is done with a term that has its columns.
+/// The use of a term that has its columns.
 pub type WithTerm<'w, const D: usize> = dyn FnMut(&dyn RowTerm<D>) -> Result<(), StepError> + 'w;
 
-/// A term on its own: its name, and the term with its columns.
-pub type Part<'a, const D: usize> = (String, Box<dyn RowTerm<D> + 'a>);
+/// Terms of a sweep.
+pub type Terms<const D: usize> = Vec<Box<dyn Interaction<D>>>;
 
-/// A term as the assembler holds it. Implement [`PairTerm`] and wrap it in [`Term`], or
-/// implement this to work on whole rows.
+/// A term as the sweep holds it. Implement [`PairTerm`], or this to work on whole rows.
 pub trait Interaction<const D: usize>: Send + Sync {
     /// Name in plans.
     fn name(&self) -> String;
     /// Columns read, and written rates of scalars of its own ([`Rates::more`]); accelerations are the sweep's.
     fn access(&self) -> Access;
-    /// Looks the columns up, once per sweep.
-    ///
-    /// # Errors
-    /// If a column is missing.
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError>;
-    /// Lends the term with its columns to `with`, once. The sweep asks for it in this way: [`Term`] and
-    /// [`Lanewise`](crate::Lanewise) have it on the stack, and no step asks for memory.
+    /// Looks the columns up and calls `with`, once. The term with its columns is on the stack: no step asks for memory.
     ///
     /// # Errors
     /// If a column is missing, and those of `with`.
-    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
-        with(&*self.bind(world)?)
-    }
-    /// The terms that this one is fused of, each on its own.
-    ///
-    /// # Errors
-    /// If a column is missing.
-    fn parts<'a>(&'a self, world: &'a World<D>) -> Result<Vec<Part<'a, D>>, StepError> {
-        Ok(vec![(self.name(), self.bind(world)?)])
-    }
-    /// The concrete term, so that known terms can be fused.
-    fn as_any_ref(&self) -> &dyn Any;
-    /// The concrete term, to be taken apart.
-    fn into_any(self: Box<Self>) -> Box<dyn Any>;
+    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError>;
 }
 
 contract!(
@@ -173,130 +119,37 @@ contract!(
     pub TermEntry, "term", "an additional term of the interaction sweep", Interaction<D>
 );
 
-/// Makes a [`PairTerm`] an [`Interaction`], with its parameters.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(transparent)]
-pub struct Term<T>(pub T);
-
-impl<const D: usize, T: PairTerm<D>> Interaction<D> for Term<T> {
+impl<const D: usize, T: PairTerm<D>> Interaction<D> for T {
     fn name(&self) -> String {
-        self.0.name()
+        PairTerm::name(self)
     }
     fn access(&self) -> Access {
-        self.0.access()
-    }
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
-        Ok(Box::new(Fused(self.0.bind(world)?)))
+        PairTerm::access(self)
     }
     fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
-        with(&Fused(self.0.bind(world)?))
-    }
-    fn parts<'a>(&'a self, world: &'a World<D>) -> Result<Vec<Part<'a, D>>, StepError> {
-        self.0.parts(world)
-    }
-    fn as_any_ref(&self) -> &dyn Any {
-        self
-    }
-    fn into_any(self: Box<Self>) -> Box<dyn Any> {
-        self
+        with(&ByPairs(self.bind(world)?))
     }
 }
 
-/// The one loop over a neighbourhood, compiled for the term (or tuple of terms) inside.
-pub struct Fused<B>(pub B);
+/// The loops over a neighbourhood and over a cluster, compiled for a term.
+pub struct ByPairs<B>(pub B);
 
-impl<const D: usize, B: BoundTerm<D>> RowTerm<D> for Fused<B> {
-    #[inline]
-    fn row(&self, n: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
-        free_then_walls(&self.0, n, rates);
-    }
-}
-
-/// What a term sums over a whole neighbourhood: the free neighbours, then wall points, then elements.
-#[inline(always)]
-pub(crate) fn free_then_walls<const D: usize, B: BoundTerm<D>>(
-    term: &B,
-    n: &Neighbourhood<'_, D>,
-    rates: &mut Rates<D>,
-) {
-    let here = term.here(n.particle);
-    let mut sum = term.zero();
-    each(&n.free, |j, pair| {
-        term.free(&here, j, &n.states[j], pair, &mut sum)
-    });
-    if !n.wall.index.is_empty() {
-        each(&n.wall, |v, pair| term.wall(&here, v, pair, &mut sum));
-    }
-    for contact in n.contacts {
-        term.element(&here, &contact, &mut sum);
-    }
-    term.finish(&here, &sum, n.inverse_renormalisation, rates);
-}
-
-#[inline(always)]
-pub(crate) fn each<const D: usize>(row: &Row<'_, D>, mut visit: impl FnMut(usize, &Pair<D>)) {
-    let pairs = row.index.iter().zip(row.separation);
-    for ((&j, &separation), (&factor, &distance2)) in
-        pairs.zip(row.factor.iter().zip(row.distance2))
-    {
-        let pair = Pair {
-            separation,
-            distance2,
-            factor,
-        };
-        visit(j as usize, &pair);
-    }
-}
-
-macro_rules! fused_tuple {
-    ($($t:ident $k:tt),+) => {
-        impl<const D: usize, $($t: BoundTerm<D>),+> BoundTerm<D> for ($($t,)+) {
-            type Here = ($($t::Here,)+);
-            type Sum = ($($t::Sum,)+);
-            #[inline(always)]
-            fn here(&self, particle: usize) -> Self::Here {
-                ($(self.$k.here(particle),)+)
-            }
-            #[inline(always)]
-            fn zero(&self) -> Self::Sum {
-                ($(self.$k.zero(),)+)
-            }
-            #[inline(always)]
-            fn free(&self, here: &Self::Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Self::Sum) {
-                $(self.$k.free(&here.$k, j, there, pair, &mut sum.$k);)+
-            }
-            #[inline(always)]
-            fn wall(&self, here: &Self::Here, v: usize, pair: &Pair<D>, sum: &mut Self::Sum) {
-                $(self.$k.wall(&here.$k, v, pair, &mut sum.$k);)+
-            }
-            #[inline(always)]
-            fn element(&self, here: &Self::Here, contact: &Contact<D>, sum: &mut Self::Sum) {
-                $(self.$k.element(&here.$k, contact, &mut sum.$k);)+
-            }
-            #[inline(always)]
-            fn finish(&self, here: &Self::Here, sum: &Self::Sum, inverse: f64, rates: &mut Rates<D>) {
-                $(self.$k.finish(&here.$k, &sum.$k, inverse, rates);)+
-            }
+impl<const D: usize, B: BoundTerm<D>> RowTerm<D> for ByPairs<B> {
+    fn row(&self, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let own = self.0.own::<f64>(Particles::one(at.particle));
+        let mut sum = B::Sum::<f64>::zero();
+        for (j, pair) in at.free.pairs() {
+            self.0.pair(&own, j, &(&pair).into(), &mut sum);
         }
-        impl<const D: usize, $($t: PairTerm<D>),+> PairTerm<D> for ($($t,)+) {
-            type Bound<'a> = ($($t::Bound<'a>,)+);
-            fn name(&self) -> String {
-                [$(self.$k.name()),+].join(" + ")
-            }
-            fn access(&self) -> Access {
-                Access::none()$(.and(self.$k.access()))+
-            }
-            fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError> {
-                Ok(($(self.$k.bind(world)?,)+))
-            }
-            fn parts<'a>(&'a self, world: &'a World<D>) -> Result<Vec<Part<'a, D>>, StepError> {
-                let mut parts = Vec::new();
-                $(parts.extend(self.$k.parts(world)?);)+
-                Ok(parts)
-            }
+        self.0.finish(sum, at, rates);
+    }
+    fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
+        let mut rows = std::mem::take(&mut cluster.buffers.sums);
+        sum_cluster(&self.0, cluster, &mut rows);
+        for (k, rates) in rates.iter_mut().enumerate() {
+            let sum = B::Sum::<f64>::one(&rows, k);
+            self.0.finish(sum, &cluster.walls(k), rates);
         }
-    };
+        cluster.buffers.sums = rows;
+    }
 }
-fused_tuple!(A 0, B 1);
-fused_tuple!(A 0, B 1, C 2);
-fused_tuple!(A 0, B 1, C 2, E 3);

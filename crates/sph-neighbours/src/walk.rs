@@ -47,7 +47,7 @@ impl<'w, const D: usize> Surroundings<'w, D> {
         self.position.len()
     }
 
-    /// The neighbourhood of a particle, without packed states.
+    /// The neighbourhood of a particle.
     pub fn of<'a>(&'a self, particle: usize, rows: &'a mut Rows<D>) -> Neighbourhood<'a, D> {
         let world = self.world;
         let kernel = &*world.kernel;
@@ -72,7 +72,6 @@ impl<'w, const D: usize> Surroundings<'w, D> {
         Neighbourhood {
             particle,
             free: rows.free.row(),
-            states: &[],
             wall: rows.wall.row(),
             contacts: world.walls.contacts.of(particle),
             inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
@@ -82,7 +81,7 @@ impl<'w, const D: usize> Surroundings<'w, D> {
 
 /// The neighbourhood of one particle, and kernel values where they were asked for.
 pub struct Around<'a, const D: usize> {
-    /// Rows, contacts and 1/γ; there are no packed states.
+    /// Rows, contacts and 1/γ.
     pub rows: Neighbourhood<'a, D>,
     /// w of the free row, 1/m^d; empty unless asked for.
     pub free: &'a [f64],

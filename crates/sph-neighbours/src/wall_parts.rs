@@ -7,12 +7,11 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_lanes::MOST;
 
-use crate::packed::{Packed, pack};
-use crate::sweep::{Room, Sweep};
+use crate::sweep::{Room, Sweep, with_all};
 use crate::term::Rates;
 use crate::{
     CHUNK, Cluster, ContactBlock, ContactRow, Contacts, Interaction, Neighbourhood, RowTerm,
-    Scratch, There, World,
+    Scratch, World,
 };
 
 /// What a particle exerts on a wall.
@@ -42,11 +41,7 @@ pub fn wall_parts<const D: usize>(
     terms: &[&dyn Interaction<D>],
     wanted: impl Fn(usize) -> bool + Sync,
 ) -> Result<Vec<WallPart<D>>, StepError> {
-    let bound = terms.iter().map(|t| t.bind(world));
-    let bound = bound.collect::<Result<Vec<_>, _>>()?;
-    let mut states: Vec<There<D>> = Vec::new();
-    pack(world, &mut states, Packed::of(terms.iter().copied()))?;
-    let sweep = Sweep::new(world, &states, &*world.kernel)?;
+    let sweep = Sweep::new(world, &*world.kernel)?;
     let mass = world.free.get(fields::MASS)?;
     let contacts = &world.walls.contacts;
     // Asked once for everybody: clusters ask again and again.
@@ -59,22 +54,28 @@ pub fn wall_parts<const D: usize>(
         false => contacts.particles.iter().for_each(|i| ask(*i as usize)),
     }
     let none = Contacts::default();
-    let blocks = asked.par_chunks(CHUNK).enumerate();
-    let room = || (world.lists.shelf.lend::<Room<D>>(), Apart::default());
-    let parts = blocks.map_init(room, |(room, apart), (block, asked)| {
-        let mut parts = Vec::new();
-        if !asked.contains(&true) {
-            return parts;
-        }
-        let wanted = |i: usize| asked[i - block * CHUNK];
-        sweep.each_wanted(block, wanted, &mut room.0, |cluster| {
-            apart.take(world, cluster, wanted);
-            apart.sum(cluster, &bound, &none);
-            apart.leave(mass, &mut parts);
+    let mut parts = Vec::new();
+    let declared: Vec<_> = terms.iter().map(|term| term.access()).collect();
+    with_all(world, &declared, terms, None, &mut |term| {
+        let blocks = asked.par_chunks(CHUNK).enumerate();
+        let room = || (world.lists.shelf.lend::<Room<D>>(), Apart::default());
+        let all = blocks.map_init(room, |(room, apart), (block, asked)| {
+            let mut parts = Vec::new();
+            if !asked.contains(&true) {
+                return parts;
+            }
+            let wanted = |i: usize| asked[i - block * CHUNK];
+            sweep.each_wanted(block, wanted, &mut room.0, |cluster| {
+                apart.take(world, cluster, wanted);
+                apart.sum(cluster, term, &none);
+                apart.leave(mass, &mut parts);
+            });
+            parts
         });
-        parts
-    });
-    Ok(parts.collect::<Vec<_>>().concat())
+        parts = all.collect::<Vec<_>>().concat();
+        Ok(())
+    })?;
+    Ok(parts)
 }
 
 /// The walls before the members of a cluster, one by one.
@@ -128,12 +129,12 @@ fn all<const D: usize>(contacts: &ContactBlock<D>) -> ContactRow<'_, D> {
 /// Sums all terms for a cluster.
 fn sum<const D: usize>(
     cluster: &mut Cluster<'_, D>,
-    terms: &[Box<dyn RowTerm<D> + '_>],
+    term: &dyn RowTerm<D>,
     rates: &mut Vec<Rates<D>>,
 ) {
     rates.clear();
     rates.resize(cluster.members().len(), Rates::of(Vect::zeros()));
-    terms.iter().for_each(|t| t.cluster(cluster, rates));
+    term.cluster(cluster, rates);
 }
 
 impl<const D: usize> Apart<D> {
@@ -173,19 +174,14 @@ impl<const D: usize> Apart<D> {
     }
 
     /// Sums all terms with all walls and without any, and those of members with several walls with each of them alone.
-    fn sum(
-        &mut self,
-        cluster: &mut Cluster<'_, D>,
-        terms: &[Box<dyn RowTerm<D> + '_>],
-        none: &Contacts<D>,
-    ) {
-        sum(cluster, terms, &mut self.whole);
+    fn sum(&mut self, cluster: &mut Cluster<'_, D>, term: &dyn RowTerm<D>, none: &Contacts<D>) {
+        sum(cluster, term, &mut self.whole);
         if !self.pieces.is_empty() {
             let (near, pieces) = (&self.near, &mut self.pieces);
             cluster.rows(|k, own| {
                 let near = near.iter().filter(|near| near.member == k);
                 let own_pieces = near.flat_map(|near| near.pieces.clone());
-                own_pieces.for_each(|p| pieces[p].sum(own, terms));
+                own_pieces.for_each(|p| pieces[p].sum(own, term));
             });
         }
         let points = cluster
@@ -202,7 +198,7 @@ impl<const D: usize> Apart<D> {
             buffers: &mut *cluster.buffers,
             ..*cluster
         };
-        sum(&mut without, terms, &mut self.bare);
+        sum(&mut without, term, &mut self.bare);
     }
 
     /// Each wall has what its own points and elements add. (1 − γ) a is shared as the walls' own 1 − γ are.
@@ -258,7 +254,7 @@ impl<const D: usize> Piece<D> {
     }
 
     /// Sums all terms of a member with this wall in the place of all of its own.
-    fn sum(&mut self, own: &Neighbourhood<'_, D>, terms: &[Box<dyn RowTerm<D> + '_>]) {
+    fn sum(&mut self, own: &Neighbourhood<'_, D>, term: &dyn RowTerm<D>) {
         let alone = Neighbourhood {
             wall: self.points.row(),
             contacts: all(&self.contacts),
@@ -266,7 +262,7 @@ impl<const D: usize> Piece<D> {
             ..*own
         };
         let mut rates = Rates::of(Vect::zeros());
-        terms.iter().for_each(|t| t.row(&alone, &mut rates));
+        term.row(&alone, &mut rates);
         self.acceleration = rates.acceleration;
     }
 }

@@ -5,7 +5,7 @@ use sph_implicit::{
     Assembly, Automatic, DividedMatrix, Entries, LinearSolver, LowRank, Matrix, Operator,
 };
 use sph_multiphase::{Acting, FREE_SURFACE, Place};
-use sph_neighbours::{Interaction, SharedRows, There, World, interactions, lattice_sum};
+use sph_neighbours::{Interaction, SharedRows, World, interactions, lattice_sum};
 use sph_state::{BoundState, PressureStage};
 
 use crate::bodies::give_way;
@@ -34,7 +34,6 @@ const OPEN: f64 = 0.15;
 
 /// What a solve fills anew, kept for its memory.
 struct Room<const D: usize> {
-    states: Vec<There<D>>,
     rate: Vec<f64>,
     /// The sweep sums accelerations, too; nobody reads them.
     unused: Vec<Vect<D>>,
@@ -57,7 +56,6 @@ impl<const D: usize> SolvePressure<D> {
             surfaces: acting.surfaces,
             solver,
             room: Room {
-                states: Vec::new(),
                 rate: Vec::new(),
                 unused: Vec::new(),
                 parts: Vec::new(),
@@ -184,17 +182,12 @@ impl<const D: usize> SolvePressure<D> {
 
     /// D{u} of all particles.
     fn diverge(&mut self, world: &World<D>) -> Result<(), StepError> {
-        let Room {
-            states,
-            rate,
-            unused,
-            ..
-        } = &mut self.room;
+        let Room { rate, unused, .. } = &mut self.room;
         let n = world.free.len();
         rate.clear();
         rate.resize(n, 0.0);
         unused.resize(n, Vect::zeros());
-        interactions(world, states, &self.dilatation, unused, Some(rate))
+        interactions(world, &self.dilatation, unused, Some(rate))
     }
 
     /// What every row has of its own.

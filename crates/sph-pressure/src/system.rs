@@ -2,7 +2,7 @@
 
 use sph_core::{Shelf, Vect};
 use sph_implicit::Rows;
-use sph_neighbours::{Body, Cluster, Lane, LanePair, LanePairs, MOST, dot, splat};
+use sph_neighbours::{Body, Cluster, Lane, LanePair, MOST, PairNumbers, Particles, dot, splat};
 
 /// What couples the pressures of two particles.
 pub(crate) struct Couplings<'a, const D: usize> {
@@ -103,27 +103,17 @@ impl<const D: usize> Couplings<'_, D> {
     }
 }
 
-impl<const D: usize> LanePairs<D, 2> for Couplings<'_, D> {
+impl<const D: usize> PairNumbers<D, 2> for Couplings<'_, D> {
     /// Δt² V, s² m^d, 1/γ, and 1/(γρ), m³/kg.
-    type Here = [f64; 3];
-    type Side<L: Lane> = [L; 3];
+    type Own<L: Lane> = [L; 3];
 
     #[inline(always)]
-    fn here(&self, i: usize) -> [f64; 3] {
-        let growth = self.growth(i);
-        let size = self.squared_step * self.volume[i];
-        [size, growth, growth / self.density[i]]
-    }
-
-    #[inline(always)]
-    fn side<L: Lane>(&self, here: &[[f64; 3]]) -> [L; 3] {
-        let mut side = [L::splat(0.0); 3];
-        for (lane, own) in here.iter().enumerate() {
-            side.iter_mut()
-                .zip(own)
-                .for_each(|(s, own)| s.set(lane, *own));
-        }
-        side
+    fn own<L: Lane>(&self, all: Particles) -> [L; 3] {
+        all.each(|i| {
+            let growth = self.growth(i);
+            let size = self.squared_step * self.volume[i];
+            [size, growth, growth / self.density[i]]
+        })
     }
 
     /// c = −Δt² V_a V_b F_ab [1/(γ_aρ_a) + 1/(γ_bρ_b)], and −Δt² V_a V_b F_ab (1/γ_a + 1/γ_b) g·(r_a − r_b).

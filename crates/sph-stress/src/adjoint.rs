@@ -5,8 +5,8 @@ use std::sync::Arc;
 use nalgebra::SMatrix;
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Contact, Interaction, Lane, LanePair, LanePairTerm, LaneSum, LaneTerm, Lanewise,
-    Neighbourhood, Pair, Rates, There, World, dot, scaled, splat, vector, walk_in_lanes,
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
+    World, dot, scaled, walk_in_lanes,
 };
 
 use crate::strain_rate::in_space;
@@ -33,7 +33,8 @@ impl<const D: usize> Stage<World<D>> for StressCorrection<D> {
         let volume = world.free.get(fields::VOLUME)?;
         let points = &world.walls.points;
         let elements = &world.walls.elements;
-        let correction = |mut position: SMatrix<f64, D, D>, rows: &Neighbourhood<'_, D>| {
+        let correction = |free: [[f64; D]; D], rows: &Neighbourhood<'_, D>| {
+            let mut position = SMatrix::<f64, D, D>::from_fn(|i, k| free[i][k]);
             for (k, &v) in rows.wall.index.iter().enumerate() {
                 let v = v as usize;
                 let apart = &rows.wall.separation[k];
@@ -61,39 +62,14 @@ struct FreePositions<'a> {
     volume: &'a [f64],
 }
 
-impl<const D: usize> LaneSum<D> for FreePositions<'_> {
-    type Here = ();
-    type Sum = SMatrix<f64, D, D>;
-    type Side<L: Lane> = ();
-    type Sums<L: Lane> = [[L; D]; D];
+impl<const D: usize> PairSum<D> for FreePositions<'_> {
+    type Own<L: Lane> = ();
+    type Sum<L: Lane> = [[L; D]; D];
 
     #[inline(always)]
-    fn here(&self, _: usize) {}
+    fn own<L: Lane>(&self, _: Particles) {}
     #[inline(always)]
-    fn side<L: Lane>(&self, _: &[()]) {}
-    #[inline(always)]
-    fn zero<L: Lane>(&self) -> [[L; D]; D] {
-        [[L::splat(0.0); D]; D]
-    }
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &[[L; D]; D], lane: usize) -> SMatrix<f64, D, D> {
-        let mut sum = SMatrix::zeros();
-        for i in 0..D {
-            for k in 0..D {
-                sum[(i, k)] = sums[i][k].at(lane);
-            }
-        }
-        sum
-    }
-    #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        _: &(),
-        j: usize,
-        pair: &LanePair<D, L>,
-        _value: L,
-        sums: &mut [[L; D]; D],
-    ) {
+    fn pair<L: Lane>(&self, _: &(), j: usize, pair: &LanePair<D, L>, sums: &mut [[L; D]; D]) {
         let weight = scaled(pair.separation, L::splat(self.volume[j]) * pair.factor);
         for (row, along) in sums.iter_mut().zip(pair.separation) {
             for (sum, weight) in row.iter_mut().zip(weight) {
@@ -116,11 +92,11 @@ pub struct AdjointDivergence;
 impl AdjointDivergence {
     /// As a term of a sweep.
     pub fn boxed<const D: usize>() -> Box<dyn Interaction<D>> {
-        Box::new(Lanewise(AdjointDivergence))
+        Box::new(AdjointDivergence)
     }
 }
 
-impl<const D: usize> LanePairTerm<D> for AdjointDivergence {
+impl<const D: usize> PairTerm<D> for AdjointDivergence {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -166,96 +142,47 @@ pub struct Bound<'a, const D: usize> {
     wall_share: &'a [f64],
 }
 
-/// The particle's own values.
-#[derive(Clone, Copy)]
-pub struct Here<const D: usize> {
-    stress: SMatrix<f64, D, D>,
-    per_mass: f64,
-}
-
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    type Here = Here<D>;
-    type Sum = Vect<D>;
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    /// τCᵀ, row by row.
+    type Own<L: Lane> = [[L; D]; D];
+    type Sum<L: Lane> = [L; D];
 
     #[inline(always)]
-    fn here(&self, i: usize) -> Here<D> {
-        Here {
-            stress: self.stress[i],
-            per_mass: self.volume[i] / self.mass[i],
+    fn own<L: Lane>(&self, all: Particles) -> [[L; D]; D] {
+        let mut own = [[L::splat(0.0); D]; D];
+        for (k, row) in own.iter_mut().enumerate() {
+            *row = all.each(|i| self.stress[i].row(k).transpose().data.0[0]);
         }
+        own
     }
 
     #[inline(always)]
-    fn zero(&self) -> Vect<D> {
-        Vect::zeros()
-    }
-
-    #[inline(always)]
-    fn free(&self, here: &Here<D>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Vect<D>) {
-        self.add_one(here, j, there, pair, sum);
-    }
-
-    #[inline(always)]
-    fn wall(&self, here: &Here<D>, v: usize, pair: &Pair<D>, sum: &mut Vect<D>) {
-        let weight = 2.0 * self.wall_share[v] * self.wall_volume[v] * pair.factor;
-        *sum += here.stress * pair.separation * weight;
-    }
-
-    #[inline(always)]
-    fn element(&self, here: &Here<D>, contact: &Contact<D>, sum: &mut Vect<D>) {
-        *sum -= here.stress * contact.gradient * 2.0;
-    }
-
-    #[inline(always)]
-    fn finish(&self, here: &Here<D>, sum: &Vect<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.acceleration += sum * (here.per_mass * inverse_gamma);
-    }
-}
-
-impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
-    /// τCᵀ.
-    type Side<L: Lane> = [[L; D]; D];
-    type Sums<L: Lane> = [L; D];
-
-    #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Here<D>]) -> [[L; D]; D] {
-        let mut side = [[L::splat(0.0); D]; D];
-        for (lane, own) in here.iter().enumerate() {
-            for (i, row) in side.iter_mut().enumerate() {
-                for (k, stress) in row.iter_mut().enumerate() {
-                    stress.set(lane, own.stress[(i, k)]);
-                }
-            }
-        }
-        side
-    }
-
-    #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &Vect<D>) -> [L; D] {
-        splat(sum)
-    }
-
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &[L; D], lane: usize) -> Vect<D> {
-        vector(sums, lane)
-    }
-
-    #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        here: &[[L; D]; D],
-        j: usize,
-        there: &There<D>,
-        pair: &LanePair<D, L>,
-        sums: &mut [L; D],
-    ) {
-        let weight = L::splat(there.volume) * pair.factor;
-        for (i, (sum, own)) in sums.iter_mut().zip(here).enumerate() {
+    fn pair<L: Lane>(&self, own: &[[L; D]; D], j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        let weight = L::splat(self.volume[j]) * pair.factor;
+        for (i, (sum, own)) in sum.iter_mut().zip(own).enumerate() {
             let mut row = *own;
             for (k, stress) in row.iter_mut().enumerate() {
                 *stress += L::splat(self.stress[j][(i, k)]);
             }
             *sum += dot(&row, &pair.separation) * weight;
         }
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    #[inline(always)]
+    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        let stress = &self.stress[i];
+        let mut sum = Vect::from(sum);
+        for (v, pair) in at.wall.pairs() {
+            let weight = 2.0 * self.wall_share[v] * self.wall_volume[v] * pair.factor;
+            sum += stress * pair.separation * weight;
+        }
+        for contact in at.contacts {
+            sum -= stress * contact.gradient * 2.0;
+        }
+        let per_mass = self.volume[i] / self.mass[i];
+        rates.acceleration += sum * (per_mass * at.inverse_renormalisation);
     }
 }

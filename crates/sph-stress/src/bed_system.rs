@@ -2,7 +2,7 @@
 
 use sph_core::{Shelf, Vect};
 use sph_implicit::Rows;
-use sph_neighbours::{Body, Cluster, Lane, LanePair, LanePairs, MOST, dot, splat};
+use sph_neighbours::{Body, Cluster, Lane, LanePair, MOST, PairNumbers, Particles, dot, splat};
 
 /// What a particle is to the problem.
 #[derive(Clone, Copy, PartialEq)]
@@ -102,24 +102,13 @@ impl<const D: usize> Couplings<'_, D> {
     }
 }
 
-impl<const D: usize> LanePairs<D, 2> for Couplings<'_, D> {
+impl<const D: usize> PairNumbers<D, 2> for Couplings<'_, D> {
     /// V, m^d, and Δρ, kg/m³.
-    type Here = [f64; 2];
-    type Side<L: Lane> = [L; 2];
+    type Own<L: Lane> = [L; 2];
 
     #[inline(always)]
-    fn here(&self, i: usize) -> [f64; 2] {
-        [self.volume[i], self.parts[i].inside().unwrap_or(0.0)]
-    }
-
-    #[inline(always)]
-    fn side<L: Lane>(&self, here: &[[f64; 2]]) -> [L; 2] {
-        let mut side = [L::splat(0.0); 2];
-        for (lane, own) in here.iter().enumerate() {
-            side[0].set(lane, own[0]);
-            side[1].set(lane, own[1]);
-        }
-        side
+    fn own<L: Lane>(&self, all: Particles) -> [L; 2] {
+        all.each(|i| [self.volume[i], self.parts[i].inside().unwrap_or(0.0)])
     }
 
     /// c = −V_a V_b F_ab, and c Δρ g·(r_a − r_b).

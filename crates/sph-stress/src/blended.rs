@@ -1,7 +1,5 @@
 //! Forces of which a share acts.
 
-use std::any::Any;
-
 use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
 use sph_neighbours::{
     ContactRow, Interaction, Neighbourhood, Rates, Row, RowTerm, WithTerm, World,
@@ -72,38 +70,22 @@ impl<const D: usize> Interaction<D> for Blended<D> {
         }
     }
 
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
-        Ok(Box::new(Bound {
-            term: self.term.bind(world)?,
-            share: world.free.get(self.share)?,
-            apart: self.apart(world)?,
-        }))
-    }
-
     fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
         let share = world.free.get(self.share)?;
         let apart = self.apart(world)?;
         self.term
             .lend(world, &mut |term| with(&Bound { term, share, apart }))
     }
-
-    fn as_any_ref(&self) -> &dyn Any {
-        self
-    }
-
-    fn into_any(self: Box<Self>) -> Box<dyn Any> {
-        self
-    }
 }
 
 /// [`Blended`] with its columns.
-struct Bound<'a, T> {
-    term: T,
+struct Bound<'a, const D: usize> {
+    term: &'a dyn RowTerm<D>,
     share: &'a [f64],
     apart: Option<Apart<'a>>,
 }
 
-impl<const D: usize, T: RowTerm<D>> RowTerm<D> for Bound<'_, T> {
+impl<const D: usize> RowTerm<D> for Bound<'_, D> {
     fn row(&self, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let share = self.share[at.particle];
         if share == 1.0 {
@@ -125,12 +107,9 @@ fn nothing<const D: usize>() -> Rates<D> {
     Rates::of(Vect::zeros())
 }
 
-impl<T> Bound<'_, T> {
+impl<const D: usize> Bound<'_, D> {
     /// The part of neighbours that act wholly.
-    fn of_others<const D: usize>(&self, at: &Neighbourhood<'_, D>) -> Rates<D>
-    where
-        T: RowTerm<D>,
-    {
+    fn of_others(&self, at: &Neighbourhood<'_, D>) -> Rates<D> {
         let mut rates = nothing();
         let Some((phase, apart)) = self.apart else {
             return rates;

@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Symmetric, Vect, fields, register};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Pair, PairTerm, Rates, Term, There, World,
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+    Rates, World, dot, minus,
 };
 use sph_viscosity::{OnLattice, PairFriction, WithTransposed};
 
@@ -46,10 +47,10 @@ impl<const D: usize> ElasticForce<D> for Displacement {
     fn term(&self, felt: &Felt) -> Box<dyn Interaction<D>> {
         let moduli = felt.laws.iter();
         let moduli = moduli.map(|law| law.elastic().map_or(0.0, |e| e.shear_modulus()));
-        Box::new(Term(DisplacementForce {
+        Box::new(DisplacementForce {
             moduli: moduli.collect(),
             choice: *self,
-        }))
+        })
     }
     fn blend(&self) -> Blend {
         self.blend
@@ -144,15 +145,6 @@ impl Solid {
     fn stiffness(self) -> f64 {
         self.modulus * self.share
     }
-
-    /// 𝒢̄, Pa.
-    fn mean(self, other: Solid) -> f64 {
-        let (a, b) = (self.stiffness(), other.stiffness());
-        match a > 0.0 && b > 0.0 {
-            true => 2.0 * a * b / (a + b),
-            false => 0.0,
-        }
-    }
 }
 
 /// [`DisplacementForce`] with its columns.
@@ -172,72 +164,87 @@ pub struct Bound<'a, const D: usize> {
     spacing: f64,
 }
 
-/// The particle's own values.
+/// The own values of a particle.
 #[derive(Clone, Copy)]
-pub struct Here<const D: usize> {
-    solid: Solid,
-    displacement: Vect<D>,
-    turn: Symmetric,
-    volume: f64,
-    /// Force density to acceleration.
-    factor: f64,
+pub struct Own<const D: usize, L> {
+    modulus: L,
+    stiffness: L,
+    displacement: [L; D],
+    turn: [L; 6],
+    volume: L,
+}
+
+/// Where the components of a symmetric tensor stand.
+const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    type Own<L: Lane> = Own<D, L>;
+    type Sum<L: Lane> = [L; D];
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
+        let solid = |i: usize| self.solids[i];
+        let [modulus, stiffness] = all.each(|i| [solid(i).modulus, solid(i).stiffness()]);
+        Own {
+            modulus,
+            stiffness,
+            displacement: all.vectors(self.displacement),
+            turn: all.each(|i| (self.turn[i] * solid(i).share).0),
+            volume: all.numbers(self.volume),
+        }
+    }
+
+    #[inline(always)]
+    fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        let solid = self.solids[j];
+        let zero = L::splat(0.0);
+        if solid.modulus == 0.0 || !zero.any_less(own.modulus) {
+            return;
+        }
+        let there = L::splat(solid.stiffness());
+        // The harmonic mean, 0 if either is.
+        let mean = L::splat(2.0) * own.stiffness * there / (own.stiffness + there);
+        let mean = own
+            .stiffness
+            .where_positive(there.where_positive(mean, zero), zero);
+        let apart = minus(&own.displacement, &self.displacement[j]);
+        let volume = L::splat(self.volume[j]);
+        let force = WithTransposed.forces(own.volume, volume, &apart, pair);
+        let turn = self.turn[j] * solid.share;
+        for (k, (sum, force)) in sum.iter_mut().zip(force).enumerate() {
+            let mut turned = [zero; D];
+            for (turned, place) in turned.iter_mut().zip(PLACE[k]) {
+                *turned = own.turn[place] - L::splat(turn.0[place]);
+            }
+            let turned = dot(&turned, &pair.separation) * (own.volume * pair.factor);
+            let force = force * (L::splat(self.scale) * mean) - turned;
+            *sum += own.modulus.where_positive(force, zero);
+        }
+    }
 }
 
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    type Here = Here<D>;
-    type Sum = Sum<D>;
-
     #[inline(always)]
-    fn here(&self, i: usize) -> Here<D> {
-        let solid = self.solids[i];
-        Here {
-            solid,
-            displacement: self.displacement[i],
-            turn: self.turn[i] * solid.share,
-            volume: self.volume[i],
-            factor: self.held[i] * self.volume[i] / self.mass[i],
+    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        let (displacement, volume) = (self.displacement[i], self.volume[i]);
+        let stiffness = self.solids[i].stiffness();
+        let mut sum = Sum::of(sum);
+        for (v, pair) in at.wall.pairs() {
+            let force = WithTransposed.force(volume, self.wall_volume[v], &displacement, &pair);
+            let rubbing = self.wall_share[v] * self.wall_grip[v];
+            sum.force += force * (rubbing * self.scale * stiffness);
         }
-    }
-
-    #[inline(always)]
-    fn zero(&self) -> Sum<D> {
-        Sum::zero()
-    }
-
-    #[inline(always)]
-    fn free(&self, here: &Here<D>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Sum<D>) {
-        let solid = self.solids[j];
-        if here.solid.modulus == 0.0 || solid.modulus == 0.0 {
-            return;
+        for contact in at.contacts {
+            let grip = self.elements.grip[contact.element as usize];
+            let gradient = contact.gradient.norm();
+            let stiffness = self.scale * stiffness * grip;
+            let distance = contact.distance.max(self.spacing);
+            sum.force -= displacement * (2.0 * stiffness * gradient / distance);
+            sum.normal += contact.gradient * (1.0 - grip);
+            sum.rubbing += gradient * grip;
         }
-        let apart = here.displacement - self.displacement[j];
-        let force = WithTransposed.force(here.volume, there.volume, &apart, pair);
-        let turned = here.turn - self.turn[j] * solid.share;
-        sum.force += force * (self.scale * here.solid.mean(solid))
-            - turned.apply(&pair.separation) * (here.volume * pair.factor);
-    }
-
-    #[inline(always)]
-    fn wall(&self, here: &Here<D>, v: usize, pair: &Pair<D>, sum: &mut Sum<D>) {
-        let apart = &here.displacement;
-        let force = WithTransposed.force(here.volume, self.wall_volume[v], apart, pair);
-        let rubbing = self.wall_share[v] * self.wall_grip[v];
-        sum.force += force * (rubbing * self.scale * here.solid.stiffness());
-    }
-
-    #[inline(always)]
-    fn element(&self, here: &Here<D>, contact: &Contact<D>, sum: &mut Sum<D>) {
-        let grip = self.elements.grip[contact.element as usize];
-        let gradient = contact.gradient.norm();
-        let stiffness = self.scale * here.solid.stiffness() * grip;
-        let distance = contact.distance.max(self.spacing);
-        sum.force -= here.displacement * (2.0 * stiffness * gradient / distance);
-        sum.normal += contact.gradient * (1.0 - grip);
-        sum.rubbing += gradient * grip;
-    }
-
-    #[inline(always)]
-    fn finish(&self, here: &Here<D>, sum: &Sum<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.acceleration += sum.completed(inverse_gamma) * here.factor;
+        let factor = self.held[i] * volume / self.mass[i];
+        rates.acceleration += sum.completed(at.inverse_renormalisation) * factor;
     }
 }

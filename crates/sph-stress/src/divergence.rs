@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, Field, StepError, Symmetric, SymmetricTensor, Vect, fields, register};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
-    Pair, Rates, There, World, dot, splat, vector,
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+    Rates, World, dot,
 };
 
 use crate::{Blend, ElasticForce, ElasticForceEntry, Felt};
@@ -81,11 +81,11 @@ impl StressDivergence {
     pub fn boxed<const D: usize>() -> Box<dyn Interaction<D>> {
         let stress = fields::CARRIED_STRESS;
         let name = "stress divergence";
-        Box::new(Lanewise(StressDivergence { name, stress }))
+        Box::new(StressDivergence { name, stress })
     }
 }
 
-impl<const D: usize> LanePairTerm<D> for StressDivergence {
+impl<const D: usize> PairTerm<D> for StressDivergence {
     type Bound<'a> = Bound<'a, D>;
 
     fn name(&self) -> String {
@@ -124,14 +124,6 @@ pub struct Bound<'a, const D: usize> {
     elements: &'a Elements<D>,
 }
 
-/// The particle's own values.
-#[derive(Clone, Copy)]
-pub struct Here {
-    stress: Symmetric,
-    volume: f64,
-    mass: f64,
-}
-
 /// Sums of one particle.
 #[derive(Clone, Copy)]
 pub struct Sum<const D: usize> {
@@ -146,9 +138,11 @@ pub struct Sum<const D: usize> {
 }
 
 impl<const D: usize> Sum<D> {
-    pub(crate) fn zero() -> Self {
+    /// Of free neighbours.
+    #[inline(always)]
+    pub(crate) fn of(force: [f64; D]) -> Self {
         Sum {
-            force: Vect::zeros(),
+            force: force.into(),
             slipping: Vect::zeros(),
             normal: Vect::zeros(),
             rubbing: 0.0,
@@ -172,109 +166,65 @@ impl<const D: usize> Sum<D> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    type Here = Here;
-    type Sum = Sum<D>;
-
-    #[inline(always)]
-    fn here(&self, i: usize) -> Here {
-        let volume = self.volume[i];
-        Here {
-            stress: self.stress[i],
-            volume,
-            mass: self.mass[i],
-        }
-    }
-
-    #[inline(always)]
-    fn zero(&self) -> Sum<D> {
-        Sum::zero()
-    }
-
-    #[inline(always)]
-    fn free(&self, here: &Here, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut Sum<D>) {
-        self.add_one(here, j, there, pair, sum);
-    }
-
-    #[inline(always)]
-    fn wall(&self, here: &Here, v: usize, pair: &Pair<D>, sum: &mut Sum<D>) {
-        let squares = here.volume * here.volume + self.wall_volume[v] * self.wall_volume[v];
-        let weight = self.wall_share[v] * squares * pair.factor;
-        let force = here.stress.apply(&pair.separation) * weight;
-        let grip = self.wall_grip[v];
-        sum.force += force * grip;
-        sum.slipping += force * (1.0 - grip);
-    }
-
-    #[inline(always)]
-    fn element(&self, here: &Here, contact: &Contact<D>, sum: &mut Sum<D>) {
-        let s = contact.element as usize;
-        let there = self.elements.volume[s];
-        let squares = here.volume * here.volume + there * there;
-        let force = here.stress.apply(&contact.gradient) * (squares / there);
-        let grip = self.elements.grip[s];
-        sum.force -= force * grip;
-        sum.slipping -= force * (1.0 - grip);
-        sum.normal += contact.gradient * (1.0 - grip);
-        sum.rubbing += contact.gradient.norm() * grip;
-    }
-
-    #[inline(always)]
-    fn finish(&self, here: &Here, sum: &Sum<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.acceleration += sum.completed(inverse_gamma) / here.mass;
-    }
-}
-
 /// Where the components of a symmetric tensor stand.
 const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
-impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
+impl<const D: usize> Bound<'_, D> {
     /// τ V².
-    type Side<L: Lane> = [L; 6];
-    /// Forces, and what they started from.
-    type Sums<L: Lane> = ([L; D], Sum<D>);
+    #[inline(always)]
+    fn weighted(&self, i: usize) -> [f64; 6] {
+        (self.stress[i] * (self.volume[i] * self.volume[i])).0
+    }
+}
+
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    /// τ V².
+    type Own<L: Lane> = [L; 6];
+    type Sum<L: Lane> = [L; D];
 
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Here]) -> [L; 6] {
-        let mut side = [L::splat(0.0); 6];
-        for (lane, own) in here.iter().enumerate() {
-            let weighted = own.stress * (own.volume * own.volume);
-            for (c, side) in side.iter_mut().enumerate() {
-                side.set(lane, weighted.0[c]);
-            }
-        }
-        side
+    fn own<L: Lane>(&self, all: Particles) -> [L; 6] {
+        all.each(|i| self.weighted(i))
     }
 
     #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &Sum<D>) -> Self::Sums<L> {
-        (splat(&sum.force), *sum)
-    }
-
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Sum<D> {
-        Sum {
-            force: vector(&sums.0, lane),
-            ..sums.1
-        }
-    }
-
-    #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        here: &[L; 6],
-        j: usize,
-        there: &There<D>,
-        pair: &LanePair<D, L>,
-        sums: &mut Self::Sums<L>,
-    ) {
-        let other = self.stress[j] * (there.volume * there.volume);
-        for (force, places) in sums.0.iter_mut().zip(PLACE) {
+    fn pair<L: Lane>(&self, own: &[L; 6], j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        let other = self.weighted(j);
+        for (force, places) in sum.iter_mut().zip(PLACE) {
             let mut row = [L::splat(0.0); D];
             for (entry, place) in row.iter_mut().zip(places) {
-                *entry = here[place] + L::splat(other.0[place]);
+                *entry = own[place] + L::splat(other[place]);
             }
             *force += dot(&row, &pair.separation) * pair.factor;
         }
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    #[inline(always)]
+    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        let (stress, volume) = (self.stress[i], self.volume[i]);
+        let mut sum = Sum::of(sum);
+        for (v, pair) in at.wall.pairs() {
+            let squares = volume * volume + self.wall_volume[v] * self.wall_volume[v];
+            let weight = self.wall_share[v] * squares * pair.factor;
+            let force = stress.apply(&pair.separation) * weight;
+            let grip = self.wall_grip[v];
+            sum.force += force * grip;
+            sum.slipping += force * (1.0 - grip);
+        }
+        for contact in at.contacts {
+            let s = contact.element as usize;
+            let there = self.elements.volume[s];
+            let squares = volume * volume + there * there;
+            let force = stress.apply(&contact.gradient) * (squares / there);
+            let grip = self.elements.grip[s];
+            sum.force -= force * grip;
+            sum.slipping -= force * (1.0 - grip);
+            sum.normal += contact.gradient * (1.0 - grip);
+            sum.rubbing += contact.gradient.norm() * grip;
+        }
+        rates.acceleration += sum.completed(at.inverse_renormalisation) / self.mass[i];
     }
 }

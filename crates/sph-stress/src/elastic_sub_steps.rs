@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_contribution::OutsideForce;
 use sph_core::{Stage, StepError, Vect, fields};
-use sph_neighbours::{Packed, There, World, accelerations_of, pack};
+use sph_neighbours::{World, accelerations_of};
 
 use crate::{CarriedStress, ElasticMotion, Felt};
 
@@ -27,10 +27,8 @@ use crate::{CarriedStress, ElasticMotion, Felt};
 pub struct ElasticSubSteps<const D: usize> {
     /// The force.
     pub term: OutsideForce<D>,
-    packed: Packed,
     felt: Felt,
     longest: f64,
-    states: Vec<There<D>>,
     touched: Vec<bool>,
     acceleration: Vec<Vect<D>>,
     /// What the velocity of the drift has more than the last.
@@ -41,11 +39,9 @@ impl<const D: usize> ElasticSubSteps<D> {
     /// For a force that reads no velocity, the laws of the scene, and the longest sub-step, s.
     pub fn new(term: OutsideForce<D>, felt: Felt, longest: f64) -> Self {
         ElasticSubSteps {
-            packed: Packed::of([&*term]),
             term,
             felt,
             longest,
-            states: Vec::new(),
             touched: Vec::new(),
             acceleration: Vec::new(),
             mean: Vec::new(),
@@ -85,7 +81,6 @@ impl<const D: usize> ElasticSubSteps<D> {
             let all = self.touched.iter_mut().zip(&told);
             all.for_each(|(touched, told)| *touched = told[0] > 0.0);
         }
-        pack(world, &mut self.states, self.packed)?;
         let particles = world.free.len();
         self.acceleration.resize(particles, Vect::zeros());
         let more = 0.5 * (1.0 - 1.0 / count as f64);
@@ -97,13 +92,7 @@ impl<const D: usize> ElasticSubSteps<D> {
                 CarriedStress(self.felt.clone()).run(world)?;
             }
             let touched = &self.touched;
-            accelerations_of(
-                world,
-                &self.states,
-                &*self.term,
-                |i| touched[i],
-                &mut self.acceleration,
-            )?;
+            accelerations_of(world, &*self.term, |i| touched[i], &mut self.acceleration)?;
             if let Some(team) = &team {
                 team.mirror(&mut self.acceleration);
             }

@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use sph_core::Vect;
-use sph_neighbours::{Contact, Elements, Lane, LanePair, WallPoints, set};
+use sph_neighbours::{Contact, Elements, Lane, LanePair, Neighbourhood, WallPoints, WallSet};
 
 use crate::{NeighbourSums, VelocityGradient};
 
@@ -48,15 +48,33 @@ impl<const D: usize> Default for Gathered<D> {
 impl<const D: usize> Gathered<D> {
     /// With sums of further free neighbours.
     #[inline(always)]
-    pub(crate) fn with(mut self, [velocity, position]: [SMatrix<f64, D, D>; 2]) -> Self {
-        self.sums[0] += velocity;
-        self.sums[1] += position;
+    pub(crate) fn with(mut self, free: LaneSums<f64, D>) -> Self {
+        for (sum, free) in self.sums.iter_mut().zip(&free) {
+            *sum += SMatrix::from_fn(|i, k| free[i][k]);
+        }
+        self
+    }
+
+    /// With the walls near a particle.
+    #[inline(always)]
+    pub(crate) fn with_walls(
+        mut self,
+        own: &Vect<D>,
+        walls: &WallSet<D>,
+        at: &Neighbourhood<'_, D>,
+    ) -> Self {
+        for (v, pair) in at.wall.pairs() {
+            self.point(own, &walls.points, v, &pair.separation, pair.factor);
+        }
+        for contact in at.contacts {
+            self.element(own, &walls.elements, &contact);
+        }
         self
     }
 
     /// Adds a wall point at r_a − r_v with its F.
     #[inline(always)]
-    pub(crate) fn point(
+    fn point(
         &mut self,
         own: &Vect<D>,
         points: &WallPoints<D>,
@@ -73,7 +91,7 @@ impl<const D: usize> Gathered<D> {
 
     /// Adds a wall element.
     #[inline(always)]
-    pub(crate) fn element(&mut self, own: &Vect<D>, elements: &Elements<D>, contact: &Contact<D>) {
+    fn element(&mut self, own: &Vect<D>, elements: &Elements<D>, contact: &Contact<D>) {
         let s = contact.element as usize;
         let weight = -contact.gradient.transpose();
         let foot = elements.normal[s] * contact.distance;
@@ -166,30 +184,4 @@ pub(crate) fn add_free<const D: usize, L: Lane>(
             of_positions[i][k] -= pair.separation[i] * weight[k];
         }
     }
-}
-
-/// Velocities of particles side by side.
-#[inline(always)]
-pub(crate) fn side_by_side<L: Lane, const D: usize>(here: &[Vect<D>]) -> [L; D] {
-    let mut side = [L::splat(0.0); D];
-    for (lane, own) in here.iter().enumerate() {
-        set(&mut side, lane, own);
-    }
-    side
-}
-
-/// The sums of one lane. Plain loops: what is handed to a closure leaves the registers, in the walk as well.
-#[inline(always)]
-pub(crate) fn one_lane<const D: usize, L: Lane>(
-    [of_velocities, of_positions]: &LaneSums<L, D>,
-    lane: usize,
-) -> [SMatrix<f64, D, D>; 2] {
-    let mut sums = [SMatrix::zeros(); 2];
-    for i in 0..D {
-        for k in 0..D {
-            sums[0][(i, k)] = of_velocities[i][k].at(lane);
-            sums[1][(i, k)] = of_positions[i][k].at(lane);
-        }
-    }
-    sums
 }

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use nalgebra::SMatrix;
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
-use sph_neighbours::{Lane, LanePair, LaneSum, World, walk_in_lanes};
+use sph_neighbours::{Lane, LanePair, PairSum, Particles, World, walk_in_lanes};
 
 use crate::VelocityGradient;
-use crate::gathered::{Gathered, LaneSums, add_free, one_lane, side_by_side};
+use crate::gathered::{Gathered, LaneSums, add_free};
 
 /// [`VELOCITY_GRADIENT`](fields::VELOCITY_GRADIENT) by a formula.
 ///
@@ -62,14 +62,7 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
         let walls = &world.walls;
         walk_in_lanes(world, &free, wanted, &mut gradients, |sums, rows| {
             let own = &velocity[rows.particle];
-            let mut gathered = Gathered::default().with(sums);
-            let points = rows.wall.index.iter().zip(rows.wall.separation);
-            for ((&v, apart), factor) in points.zip(rows.wall.factor) {
-                gathered.point(own, &walls.points, v as usize, apart, *factor);
-            }
-            for contact in rows.contacts {
-                gathered.element(own, &walls.elements, &contact);
-            }
+            let gathered = Gathered::default().with(sums).with_walls(own, walls, rows);
             gathered.gradient(&*self.formula, rows.inverse_renormalisation)
         })?;
         Ok(world.free.put(fields::VELOCITY_GRADIENT, gradients)?)
@@ -82,37 +75,22 @@ struct FreeSums<'a, const D: usize> {
     volume: &'a [f64],
 }
 
-impl<const D: usize> LaneSum<D> for FreeSums<'_, D> {
-    type Here = Vect<D>;
-    type Sum = [SMatrix<f64, D, D>; 2];
-    type Side<L: Lane> = [L; D];
-    type Sums<L: Lane> = LaneSums<L, D>;
+impl<const D: usize> PairSum<D> for FreeSums<'_, D> {
+    type Own<L: Lane> = [L; D];
+    type Sum<L: Lane> = LaneSums<L, D>;
 
     #[inline(always)]
-    fn here(&self, particle: usize) -> Vect<D> {
-        self.velocity[particle]
+    fn own<L: Lane>(&self, all: Particles) -> [L; D] {
+        all.vectors(self.velocity)
     }
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Vect<D>]) -> [L; D] {
-        side_by_side(here)
-    }
-    #[inline(always)]
-    fn zero<L: Lane>(&self) -> Self::Sums<L> {
-        [[[L::splat(0.0); D]; D]; 2]
-    }
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Self::Sum {
-        one_lane(sums, lane)
-    }
-    #[inline(always)]
-    fn add<L: Lane>(
+    fn pair<L: Lane>(
         &self,
         own: &[L; D],
         j: usize,
         pair: &LanePair<D, L>,
-        _value: L,
-        sums: &mut Self::Sums<L>,
+        sum: &mut LaneSums<L, D>,
     ) {
-        add_free(own, &self.velocity[j], self.volume[j], pair, sums);
+        add_free(own, &self.velocity[j], self.volume[j], pair, sum);
     }
 }

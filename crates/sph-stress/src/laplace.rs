@@ -340,8 +340,8 @@ impl<const D: usize> Solve<D> {
         let grains = Grains { volume, soil };
         parts.clear();
         parts.resize(volume.len(), Part::Outside);
-        walk_in_lanes(world, &grains, soil, parts, |normal, rows| {
-            let surface = grains.at_surface(world, positions, normal, rows);
+        walk_in_lanes(world, &grains, soil, parts, |sums, rows| {
+            let surface = grains.at_surface(world, positions, sums, rows);
             Part::of(buoyant(rows.particle), surface, top)
         })
     }

@@ -1,7 +1,7 @@
 //! Which particles of a soil lie at its surface.
 
 use sph_core::Vect;
-use sph_neighbours::{Lane, LanePair, LaneSum, Neighbourhood, World, vector};
+use sph_neighbours::{Lane, LanePair, Neighbourhood, PairSum, Particles, World};
 
 /// Half angle of the empty cone above a surface particle: cos 45° in the plane, cos 30° in space.
 fn cosine<const D: usize>() -> f64 {
@@ -22,44 +22,24 @@ pub(crate) struct Grains<'a, S> {
     pub soil: S,
 }
 
-impl<const D: usize, S: Fn(usize) -> bool + Sync> LaneSum<D> for Grains<'_, S> {
-    type Here = ();
-    /// The outward normal N = −Σ V ∇w, 1/m; none without grains.
-    type Sum = Option<Vect<D>>;
-    type Side<L: Lane> = ();
-    /// N and −Σ F.
-    type Sums<L: Lane> = ([L; D], L);
+impl<const D: usize, S: Fn(usize) -> bool + Sync> PairSum<D> for Grains<'_, S> {
+    type Own<L: Lane> = ();
+    /// The outward normal N = −Σ V ∇w, 1/m, and −Σ F, positive where there are grains.
+    type Sum<L: Lane> = ([L; D], L);
 
     #[inline(always)]
-    fn here(&self, _: usize) {}
+    fn own<L: Lane>(&self, _: Particles) {}
     #[inline(always)]
-    fn side<L: Lane>(&self, _: &[()]) {}
-    #[inline(always)]
-    fn zero<L: Lane>(&self) -> Self::Sums<L> {
-        ([L::splat(0.0); D], L::splat(0.0))
-    }
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &Self::Sums<L>, lane: usize) -> Option<Vect<D>> {
-        (sums.1.at(lane) > 0.0).then(|| vector(&sums.0, lane))
-    }
-    #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        _: &(),
-        j: usize,
-        pair: &LanePair<D, L>,
-        _value: L,
-        sums: &mut Self::Sums<L>,
-    ) {
+    fn pair<L: Lane>(&self, _: &(), j: usize, pair: &LanePair<D, L>, sum: &mut ([L; D], L)) {
         if !(self.soil)(j) {
             return;
         }
         // ∇w points to the neighbour: against it is away from the grains.
         let weight = L::splat(self.volume[j]) * pair.factor;
         for k in 0..D {
-            sums.0[k] -= pair.separation[k] * weight;
+            sum.0[k] -= pair.separation[k] * weight;
         }
-        sums.1 -= pair.factor;
+        sum.1 -= pair.factor;
     }
 }
 
@@ -72,12 +52,13 @@ impl<S: Fn(usize) -> bool> Grains<'_, S> {
         &self,
         world: &World<D>,
         positions: &[Vect<D>],
-        normal: Option<Vect<D>>,
+        (normal, grains): ([f64; D], f64),
         rows: &Neighbourhood<'_, D>,
     ) -> bool {
-        let Some(mut normal) = normal else {
+        if grains <= 0.0 {
             return true;
-        };
+        }
+        let mut normal = Vect::from(normal);
         let points = &world.walls.points;
         // What is behind a wall counts as filled: the sum over a full neighbourhood is ∇γ.
         for (k, &v) in rows.wall.index.iter().enumerate() {

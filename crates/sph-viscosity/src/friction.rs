@@ -2,15 +2,14 @@
 
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Contact, Contacts, Elements, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates,
-    There, World, add_scaled, dot, scaled, splat, vector,
+    BoundTerm, Contact, Contacts, Elements, Lane, LanePair, Neighbourhood, Pair, PairSum, PairTerm,
+    Particles, Rates, World, add_scaled, dot, minus, scaled, splat, vector,
 };
 
 use crate::{BoundViscosity, OwnViscosity, ViscositySource};
 
 mod choice;
 mod coupling;
-mod side_by_side;
 
 pub use choice::{Across, Choice, OnLattice, WallTerm};
 
@@ -84,7 +83,7 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
 #[derive(Clone, Copy, Debug)]
 pub struct ViscousTerm<F>(pub F, pub ViscositySource, pub Choice);
 
-impl<const D: usize, F: PairFriction<D>> LanePairTerm<D> for ViscousTerm<F> {
+impl<const D: usize, F: PairFriction<D>> PairTerm<D> for ViscousTerm<F> {
     type Bound<'a> = Bound<'a, D, F>;
 
     fn name(&self) -> String {
@@ -176,7 +175,6 @@ pub struct Here<const D: usize> {
     velocity: Vect<D>,
     viscosity: OwnViscosity<f64>,
     volume: f64,
-    density: f64,
     /// V/m, which a formulation may keep apart from 1/ρ.
     specific_volume: f64,
     /// Shear stress of a wall function over the speed along the wall.
@@ -185,6 +183,18 @@ pub struct Here<const D: usize> {
     along: Vect<D>,
     /// Normal and distance of the nearest element, where the wall term is to be corrected.
     nearest: Option<(Vect<D>, f64)>,
+}
+
+/// The own values of particles in lanes.
+#[derive(Clone, Copy)]
+pub struct Own<const D: usize, L> {
+    velocity: [L; D],
+    viscosity: OwnViscosity<L>,
+    volume: L,
+    density: L,
+    along: [L; D],
+    /// Whether any has an element at which the wall term is to be corrected.
+    near: bool,
 }
 
 /// Sums of one particle.
@@ -198,6 +208,19 @@ pub struct Sum<const D: usize> {
     flux: Vect<D>,
     /// Σ ∇γ_as.
     gradient: Vect<D>,
+}
+
+impl<const D: usize> Sum<D> {
+    /// Of free neighbours.
+    #[inline(always)]
+    fn of([force, discrete]: [[f64; D]; 2]) -> Self {
+        Sum {
+            force: force.into(),
+            discrete: discrete.into(),
+            flux: Vect::zeros(),
+            gradient: Vect::zeros(),
+        }
+    }
 }
 
 /// κ is left at 1 where |∇γ| δr is below this: opposite walls, or the edge of the support.
@@ -306,83 +329,107 @@ impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
     }
 }
 
-impl<const D: usize, F: PairFriction<D>> BoundTerm<D> for Bound<'_, D, F> {
-    type Here = Here<D>;
-    type Sum = Sum<D>;
+impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
+    /// The unit vector along the slip past the nearest wall, where it is looked at.
+    #[inline(always)]
+    fn slip(&self, i: usize, nearest: Option<&Contact<D>>) -> Vect<D> {
+        match (F::DIRECTIONAL, nearest) {
+            (true, Some(nearest)) => self.along(i, nearest),
+            _ => Vect::zeros(),
+        }
+    }
 
     #[inline(always)]
-    fn here(&self, i: usize) -> Self::Here {
+    fn here(&self, i: usize) -> Here<D> {
         let nearest = self.nearest(i);
-        let along = match (F::DIRECTIONAL, nearest) {
-            (true, Some(nearest)) => self.along(i, &nearest),
-            _ => Vect::zeros(),
-        };
         Here {
             velocity: self.velocity[i],
-            viscosity: self.viscosity.here(i),
+            viscosity: self.viscosity.own(Particles::one(i)),
             volume: self.volume[i],
-            density: self.density[i],
             specific_volume: self.volume[i] / self.mass[i],
             wall_friction: self.wall_friction.get(i).copied().unwrap_or(0.0),
-            along,
+            along: self.slip(i, nearest.as_ref()),
             nearest: nearest.map(|c| (self.elements.normal[c.element as usize], c.distance)),
         }
     }
+}
+
+impl<const D: usize, F: PairFriction<D>> PairSum<D> for Bound<'_, D, F> {
+    type Own<L: Lane> = Own<D, L>;
+    /// Σ θ η̄ f and Σ θ ½ t·f(t) r_ab of free neighbours.
+    type Sum<L: Lane> = [[L; D]; 2];
 
     #[inline(always)]
-    fn zero(&self) -> Sum<D> {
-        Sum {
-            force: Vect::zeros(),
-            discrete: Vect::zeros(),
-            flux: Vect::zeros(),
-            gradient: Vect::zeros(),
+    fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
+        let (mut along, mut near) = ([L::splat(0.0); D], false);
+        if self.rubs && self.corrected {
+            along = all.each(|i| {
+                let nearest = self.nearest(i);
+                near |= nearest.is_some();
+                self.slip(i, nearest.as_ref()).into()
+            });
+        }
+        Own {
+            velocity: all.vectors(self.velocity),
+            viscosity: self.viscosity.own(all),
+            volume: all.numbers(self.volume),
+            density: all.numbers(self.density),
+            along,
+            near,
         }
     }
 
     #[inline(always)]
-    fn free(
+    fn pair<L: Lane>(
         &self,
-        here: &Self::Here,
+        own: &Own<D, L>,
         j: usize,
-        there: &There<D>,
-        pair: &Pair<D>,
-        sum: &mut Sum<D>,
+        pair: &LanePair<D, L>,
+        [force, discrete]: &mut [[L; D]; 2],
     ) {
-        self.add_one(here, j, there, pair, sum);
-    }
-
-    #[inline(always)]
-    fn wall(&self, here: &Self::Here, v: usize, pair: &Pair<D>, sum: &mut Sum<D>) {
-        if !self.rubs {
-            return;
-        }
-        let (share, volume) = (self.wall_share[v], self.wall_volume[v]);
-        let rubbing = self.rubbing(v, pair);
-        let relative = here.velocity - self.wall_velocity[v];
-        let force = self.friction.force(here.volume, volume, &relative, pair);
-        sum.force += force * (rubbing * here.viscosity.eta);
-        let shear = self.friction.shear(here.volume, volume, &here.along, pair);
-        sum.discrete += pair.separation * (share * shear);
-    }
-
-    #[inline(always)]
-    fn element(&self, here: &Self::Here, contact: &Contact<D>, sum: &mut Sum<D>) {
-        if !self.rubs {
-            return;
-        }
-        let s = contact.element as usize;
-        let normal = &self.elements.normal[s];
-        let relative = here.velocity - self.elements.velocity[s];
-        let tangential = relative - normal * relative.dot(normal);
-        sum.flux += tangential * self.weight(here, contact);
-        if !self.is_open(contact.element) {
-            sum.gradient += contact.gradient;
+        let (volume, density) = (L::splat(self.volume[j]), L::splat(self.density[j]));
+        let densities = [own.density, density];
+        let mean = self
+            .friction
+            .means(&self.viscosity, &own.viscosity, j, densities);
+        let relative = minus(&own.velocity, &self.velocity[j]);
+        let of_pair = self.friction.forces(own.volume, volume, &relative, pair);
+        add_scaled(force, &of_pair, mean);
+        if own.near {
+            let shear = self.friction.shears(own.volume, volume, &own.along, pair);
+            add_scaled(discrete, &pair.separation, shear);
         }
     }
+}
 
+impl<const D: usize, F: PairFriction<D>> BoundTerm<D> for Bound<'_, D, F> {
     #[inline(always)]
-    fn finish(&self, here: &Self::Here, sum: &Sum<D>, inverse_gamma: f64, rates: &mut Rates<D>) {
-        let total = sum.force - sum.flux * self.correction(here, sum);
-        rates.acceleration += total * (self.scale * inverse_gamma * here.specific_volume);
+    fn finish(&self, sum: [[f64; D]; 2], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let here = self.here(at.particle);
+        let mut sum = Sum::of(sum);
+        if self.rubs {
+            for (v, pair) in at.wall.pairs() {
+                let (share, volume) = (self.wall_share[v], self.wall_volume[v]);
+                let rubbing = self.rubbing(v, &pair);
+                let relative = here.velocity - self.wall_velocity[v];
+                let force = self.friction.force(here.volume, volume, &relative, &pair);
+                sum.force += force * (rubbing * here.viscosity.eta);
+                let shear = self.friction.shear(here.volume, volume, &here.along, &pair);
+                sum.discrete += pair.separation * (share * shear);
+            }
+            for contact in at.contacts {
+                let s = contact.element as usize;
+                let normal = &self.elements.normal[s];
+                let relative = here.velocity - self.elements.velocity[s];
+                let tangential = relative - normal * relative.dot(normal);
+                sum.flux += tangential * self.weight(&here, &contact);
+                if !self.is_open(contact.element) {
+                    sum.gradient += contact.gradient;
+                }
+            }
+        }
+        let total = sum.force - sum.flux * self.correction(&here, &sum);
+        let scale = self.scale * at.inverse_renormalisation * here.specific_volume;
+        rates.acceleration += total * scale;
     }
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, fields};
-use sph_neighbours::{Lane, World, unlike};
+use sph_neighbours::{Lane, Particles, World, unlike};
 
 use crate::interface_distance::INTERFACE_DISTANCE;
 
@@ -93,39 +93,23 @@ pub struct OwnViscosity<L> {
 }
 
 impl BoundViscosity<'_> {
-    /// Reads the particle's own values.
+    /// Reads the own values.
     #[inline(always)]
-    pub fn here(&self, i: usize) -> OwnViscosity<f64> {
+    pub fn own<L: Lane>(&self, all: Particles) -> OwnViscosity<L> {
+        let zero = L::splat(0.0);
         let (eta, layers) = match self {
-            Self::Uniform(eta) => (*eta, &None),
-            Self::Column(column, _, layers) => (column[i], layers),
+            Self::Uniform(eta) => (L::splat(*eta), &None),
+            Self::Column(column, _, layers) => (all.numbers(column), layers),
         };
-        let layers = layers.map(|l| (f64::from(l.phase[i]), l.distance[i]));
-        let (phase, distance) = layers.unwrap_or_default();
+        let (phase, distance) = match layers {
+            Some(layers) => (all.phases(Some(layers.phase)), all.numbers(layers.distance)),
+            None => (zero, zero),
+        };
         OwnViscosity {
             eta,
             phase,
             distance,
         }
-    }
-
-    /// Puts what was read of several particles side by side.
-    #[inline(always)]
-    pub fn side<L: Lane>(&self, here: &[OwnViscosity<f64>]) -> OwnViscosity<L> {
-        let mut side = OwnViscosity {
-            eta: L::splat(here[0].eta),
-            phase: L::splat(0.0),
-            distance: L::splat(0.0),
-        };
-        if matches!(self, Self::Uniform(_)) {
-            return side;
-        }
-        for (lane, own) in here.iter().enumerate() {
-            side.eta.set(lane, own.eta);
-            side.phase.set(lane, own.phase);
-            side.distance.set(lane, own.distance);
-        }
-        side
     }
 
     /// η of a neighbour, Pa s.

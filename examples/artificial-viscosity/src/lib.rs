@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, Vect, fields, register};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates, TermEntry, There,
-    World, add_scaled, dot, minus, set, splat, vector,
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, TermEntry,
+    World, add_scaled, dot, minus,
 };
 
 /// a = α c h Σ_b m_b µ_ab/ρ̄ ∇w_ab where particles approach, µ_ab = u_ab·r_ab/(r² + h²/100); nothing at walls.
@@ -21,11 +21,12 @@ pub struct ArtificialViscosity {
 pub struct Bound<'a, const D: usize> {
     velocity: &'a [Vect<D>],
     density: &'a [f64],
+    volume: &'a [f64],
     strength: f64,
     softening: f64,
 }
 
-impl<const D: usize> LanePairTerm<D> for ArtificialViscosity {
+impl<const D: usize> PairTerm<D> for ArtificialViscosity {
     type Bound<'a> = Bound<'a, D>;
     fn name(&self) -> String {
         "artificial viscosity".into()
@@ -39,84 +40,43 @@ impl<const D: usize> LanePairTerm<D> for ArtificialViscosity {
         Ok(Bound {
             velocity: world.free.get(fields::VELOCITY)?,
             density: world.free.get(fields::DENSITY)?,
+            volume: world.free.get(fields::VOLUME)?,
             strength: 2.0 * self.speed * h,
             softening: 0.01 * h * h,
         })
     }
 }
 
-impl<const D: usize> LaneTerm<D> for Bound<'_, D> {
-    type Side<L: Lane> = ([L; D], L);
-    type Sums<L: Lane> = [L; D];
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    /// Velocity and density.
+    type Own<L: Lane> = ([L; D], L);
+    type Sum<L: Lane> = [L; D];
 
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[(Vect<D>, f64)]) -> Self::Side<L> {
-        let (mut velocity, mut density) = ([L::splat(0.0); D], L::splat(0.0));
-        for (lane, own) in here.iter().enumerate() {
-            set(&mut velocity, lane, &own.0);
-            density.set(lane, own.1);
-        }
-        (velocity, density)
+    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+        (all.vectors(self.velocity), all.numbers(self.density))
     }
     #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &Vect<D>) -> [L; D] {
-        splat(sum)
-    }
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &[L; D], lane: usize) -> Vect<D> {
-        vector(sums, lane)
-    }
-    #[inline(always)]
-    fn add<L: Lane>(
-        &self,
-        here: &Self::Side<L>,
-        _neighbour: usize,
-        there: &There<D>,
-        pair: &LanePair<D, L>,
-        sums: &mut [L; D],
-    ) {
-        let parting = dot(&minus(&here.0, &there.velocity), &pair.separation);
-        let zero = L::splat(0.0);
-        let approach = (-parting).where_positive(parting, zero);
+    fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        let parting = dot(&minus(&own.0, &self.velocity[j]), &pair.separation);
+        let approach = (-parting).where_positive(parting, L::splat(0.0));
         let rate = approach / (pair.distance2 + L::splat(self.softening));
-        let mass = L::splat(self.strength * there.density * there.volume);
-        let weight = mass / (here.1 + L::splat(there.density));
-        add_scaled(sums, &pair.separation, weight * rate * pair.factor);
+        let mass = L::splat(self.strength * self.density[j] * self.volume[j]);
+        let weight = mass / (own.1 + L::splat(self.density[j]));
+        add_scaled(sum, &pair.separation, weight * rate * pair.factor);
     }
 }
 
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    /// Velocity and density.
-    type Here = (Vect<D>, f64);
-    type Sum = Vect<D>;
     #[inline(always)]
-    fn here(&self, i: usize) -> Self::Here {
-        (self.velocity[i], self.density[i])
-    }
-    #[inline(always)]
-    fn zero(&self) -> Vect<D> {
-        Vect::zeros()
-    }
-    #[inline(always)]
-    fn free(
-        &self,
-        here: &Self::Here,
-        j: usize,
-        there: &There<D>,
-        pair: &Pair<D>,
-        sum: &mut Vect<D>,
-    ) {
-        self.add_one(here, j, there, pair, sum);
-    }
-    #[inline(always)]
-    fn finish(&self, _: &Self::Here, sum: &Vect<D>, _: f64, rates: &mut Rates<D>) {
-        rates.acceleration += sum;
+    fn finish(&self, sum: [f64; D], _: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        rates.acceleration += Vect::from(sum);
     }
 }
 
 register!(
     TermEntry [2, 3],
-    Lanewise<ArtificialViscosity>,
+    ArtificialViscosity,
     "artificial-viscosity",
     "friction of particles that approach each other",
     "Monaghan 1992, Eq. 4.1 with β = 0"

@@ -5,10 +5,10 @@ use serde::Deserialize;
 use sph_contribution::{
     Contribution, Limiter, OwnColumn, Refusal, Setting, StepWork, contribution_kind,
 };
-use sph_core::reexport::inventory;
 use sph_core::{Access, AnyField, Evolved, Field, Scalar, StepError, StepLimit, fields, register};
 use sph_neighbours::{
-    BoundTerm, FusionEntry, Interaction, Pair, PairTerm, Rates, Term, There, World, fuse_two,
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
+    World,
 };
 
 contribution_kind!(
@@ -34,6 +34,7 @@ struct Diffusion<const K: usize>(f64);
 
 struct BoundDiffusion<'a> {
     value: &'a [f64],
+    volume: &'a [f64],
     twice: f64,
     slot: usize,
 }
@@ -50,35 +51,29 @@ impl<const D: usize, const K: usize> PairTerm<D> for Diffusion<K> {
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError> {
         Ok(BoundDiffusion {
             value: world.free.get(VALUE[K])?,
+            volume: world.free.get(fields::VOLUME)?,
             twice: 2.0 * self.0,
             slot: world.slot(RATE[K])?,
         })
     }
 }
 
-impl<const D: usize> BoundTerm<D> for BoundDiffusion<'_> {
-    type Here = f64;
-    type Sum = f64;
-    fn here(&self, i: usize) -> f64 {
-        self.value[i]
-    }
-    fn zero(&self) -> f64 {
-        0.0
+impl<const D: usize> PairSum<D> for BoundDiffusion<'_> {
+    type Own<L: Lane> = L;
+    type Sum<L: Lane> = L;
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> L {
+        all.numbers(self.value)
     }
     #[inline(always)]
-    fn free(&self, here: &f64, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut f64) {
-        *sum += there.volume * (here - self.value[j]) * pair.factor;
-    }
-    fn finish(&self, _: &f64, sum: &f64, inverse_gamma: f64, rates: &mut Rates<D>) {
-        rates.more[self.slot] += self.twice * sum * inverse_gamma;
+    fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
+        *sum += L::splat(self.volume[j]) * (*own - L::splat(self.value[j])) * pair.factor;
     }
 }
 
-inventory::submit! {
-    FusionEntry {
-        terms: 2,
-        fuse_2d: fuse_two::<2, Diffusion<0>, Diffusion<1>>,
-        fuse_3d: fuse_two::<3, Diffusion<0>, Diffusion<1>>,
+impl<const D: usize> BoundTerm<D> for BoundDiffusion<'_> {
+    fn finish(&self, sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        rates.more[self.slot] += self.twice * sum * at.inverse_renormalisation;
     }
 }
 
@@ -115,8 +110,8 @@ impl<const D: usize> Contribution<D> for HeatAndSalt {
     }
     fn terms(&self, _: &Setting<'_, D>) -> Vec<Box<dyn Interaction<D>>> {
         vec![
-            Box::new(Term(Diffusion::<0>(self.heat))),
-            Box::new(Term(Diffusion::<1>(self.salt))),
+            Box::new(Diffusion::<0>(self.heat)),
+            Box::new(Diffusion::<1>(self.salt)),
         ]
     }
     fn limiters(&self, _: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {

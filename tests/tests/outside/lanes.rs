@@ -1,11 +1,11 @@
 //! The pair term in lanes of `examples/artificial-viscosity`, and the bits of all widths of lanes.
 
-use artificial_viscosity::{ArtificialViscosity, Bound};
+use artificial_viscosity::ArtificialViscosity;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, register};
 use sph_lanes::{Width, force_width};
-use sph_neighbours::{LanePairTerm, PairTerm, Term, TermEntry, World};
+use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World};
 use sph_scene::{Override, parse};
 use sph_solver::{RunOptions, Start, run};
 use sph_tests::{DAM_BREAK, FinalState, PERIODIC, SOAK, STIRRER};
@@ -15,28 +15,36 @@ use sph_tests::{DAM_BREAK, FinalState, PERIODIC, SOAK, STIRRER};
 #[serde(transparent)]
 struct OneByOne(ArtificialViscosity);
 
-impl<const D: usize> PairTerm<D> for OneByOne {
-    type Bound<'a> = Bound<'a, D>;
+/// A term without its loop over clusters.
+struct ByRows<'a, const D: usize>(&'a dyn RowTerm<D>);
+
+impl<const D: usize> RowTerm<D> for ByRows<'_, D> {
+    fn row(&self, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        self.0.row(at, rates);
+    }
+}
+
+impl<const D: usize> Interaction<D> for OneByOne {
     fn name(&self) -> String {
-        LanePairTerm::<D>::name(&self.0)
+        Interaction::<D>::name(&self.0)
     }
     fn access(&self) -> Access {
-        LanePairTerm::<D>::access(&self.0)
+        Interaction::<D>::access(&self.0)
     }
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
-        LanePairTerm::bind(&self.0, world)
+    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+        self.0.lend(world, &mut |term| with(&ByRows(term)))
     }
 }
 
 register!(
     TermEntry [2, 3],
-    Term<OneByOne>,
+    OneByOne,
     "artificial-viscosity-one-by-one",
     "the same for one particle at a time",
     "Monaghan 1992, Eq. 4.1 with β = 0"
 );
 
-/// `Lanewise` and `Term` show the parameters of the term within, in listings and in the schema for editors.
+/// A transparent wrapper shows the parameters of the term within, in listings and in the schema for editors.
 #[test]
 fn the_parameters_of_wrapped_terms_are_listed() {
     let kind = sph_core::contracts().into_iter().find(|c| c.kind == "term");

@@ -4,13 +4,13 @@
 //! Everything between the two lines could be a crate of its own. A binary that mentions it,
 //! `use my_plugins as _;`, and calls `sph_cli::main()` has the plugins in all its commands.
 
-use std::any::Any;
-
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, Declares, Stage, StepError, fields, register};
 use sph_kernels::{Kernel, Sampler, ScalarSampler};
-use sph_neighbours::{Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, World};
+use sph_neighbours::{
+    Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World,
+};
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
 // ------------------------------------------------------------------------------------------------
@@ -77,17 +77,11 @@ impl<const D: usize> Interaction<D> for LinearDrag {
     fn access(&self) -> Access {
         Access::none().here(fields::VELOCITY)
     }
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Box<dyn RowTerm<D> + 'a>, StepError> {
-        Ok(Box::new(BoundDrag {
+    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+        with(&BoundDrag {
             velocity: world.free.get(fields::VELOCITY)?,
             rate: 1.0 / self.time,
-        }))
-    }
-    fn as_any_ref(&self) -> &dyn Any {
-        self
-    }
-    fn into_any(self: Box<Self>) -> Box<dyn Any> {
-        self
+        })
     }
 }
 

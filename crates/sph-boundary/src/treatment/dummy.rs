@@ -1,13 +1,12 @@
 //! Walls of dummy particles after Adami, Hu & Adams (2012).
 
-use std::ops::Range;
-
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{StepError, Vect, fields, register};
 use sph_lanes::{Lane, dot};
 use sph_neighbours::{
-    Contacts, Frame, InMemory, TargetMean, WallPoints, WallSet, World, loaded, shepard,
+    Contacts, Frame, LanePair, PairSum, Particles, WallPoints, WallSet, World, add_scaled, shepard,
+    splat,
 };
 
 use crate::geometry::wall_mesh::WallMesh;
@@ -198,11 +197,23 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
                 gravity: world.gravity,
                 accelerations: &points.acceleration,
             },
-            walls: &points.velocity,
-            slip: &set_up.slip,
+        };
+        let (walls, slip) = (&points.velocity, &set_up.slip);
+        let image = |v: usize, (w, p, u): (f64, f64, [f64; D])| {
+            let wall = walls[v];
+            if w <= 0.0 {
+                return (0.0, wall);
+            }
+            let mean = Vect::from(u) / w;
+            let surface = match slip.get(v) {
+                Some(share) => wall + (mean - wall) * *share,
+                None => wall,
+            };
+            (p / w, surface * 2.0 - mean)
         };
         let list = (&world.lists.of_points, &world.lists.hidden.at_points);
-        shepard(world, &points.position, list, &mean, &mut set_up.means)?;
+        let means = &mut set_up.means;
+        shepard(world, &points.position, list, &mean, means, image)?;
         let points = &mut world.walls.points;
         for (v, &(pressure, velocity)) in set_up.means.iter().enumerate() {
             points.pressure[v] = pressure;
@@ -212,52 +223,36 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
     }
 }
 
-/// Sums of w, p w and u w (three components or two): pressure and velocity at a dummy particle.
+/// Sums of w, p w and u w.
 struct Means<'a, const D: usize> {
     velocity: &'a [Vect<D>],
     pressure: &'a [f64],
     density: &'a [f64],
     felt: Felt<'a, D>,
-    /// Velocities of the walls, m/s.
-    walls: &'a [Vect<D>],
-    slip: &'a [f64],
 }
 
-impl<const D: usize> TargetMean<D, 5> for Means<'_, D> {
-    type Mean = (f64, Vect<D>);
-    type Here = InMemory<D>;
-    type Side<L: Lane> = [L; D];
+impl<const D: usize> PairSum<D> for Means<'_, D> {
+    const VALUES: bool = true;
+    type Own<L: Lane> = [L; D];
+    type Sum<L: Lane> = (L, L, [L; D]);
 
-    fn here(&self, targets: Range<usize>) -> InMemory<D> {
-        self.felt.of(targets)
+    #[inline(always)]
+    fn own<L: Lane>(&self, targets: Particles) -> [L; D] {
+        self.felt.own(targets)
     }
 
     #[inline(always)]
-    fn side<L: Lane>(&self, felt: &InMemory<D>) -> [L; D] {
-        loaded(felt)
-    }
-
-    #[inline(always)]
-    fn add<L: Lane>(&self, felt: &[L; D], j: usize, apart: &[L; D], w: L, sums: &mut [L; 5]) {
-        let hydrostatic = L::splat(self.density[j]) * dot(felt, apart);
-        sums[0] += w;
-        sums[1] += w * (L::splat(self.pressure[j]) + hydrostatic);
-        for k in 0..D {
-            sums[2 + k] += L::splat(self.velocity[j][k]) * w;
-        }
-    }
-
-    fn mean(&self, v: usize, sums: [f64; 5]) -> (f64, Vect<D>) {
-        let [w, p, ..] = sums;
-        let wall = self.walls[v];
-        if w <= 0.0 {
-            return (0.0, wall);
-        }
-        let mean = Vect::from_fn(|k, _| sums[2 + k]) / w;
-        let surface = match self.slip.get(v) {
-            Some(share) => wall + (mean - wall) * *share,
-            None => wall,
-        };
-        (p / w, surface * 2.0 - mean)
+    fn pair<L: Lane>(
+        &self,
+        felt: &[L; D],
+        j: usize,
+        pair: &LanePair<D, L>,
+        (weight, pressure, velocity): &mut Self::Sum<L>,
+    ) {
+        let w = pair.value;
+        let hydrostatic = L::splat(self.density[j]) * dot(felt, &pair.separation);
+        *weight += w;
+        *pressure += w * (L::splat(self.pressure[j]) + hydrostatic);
+        add_scaled(velocity, &splat(&self.velocity[j]), w);
     }
 }

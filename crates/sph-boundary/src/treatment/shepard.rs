@@ -1,10 +1,8 @@
 //! Means of the fluid's state at the wall.
 
-use std::ops::Range;
-
 use sph_core::{StepError, Vect, fields};
-use sph_lanes::{Lane, MOST, dot};
-use sph_neighbours::{Blocked, Clusters, InMemory, TargetMean, World, in_memory, loaded, shepard};
+use sph_lanes::{Lane, dot};
+use sph_neighbours::{Blocked, Clusters, LanePair, PairSum, Particles, World, shepard};
 
 /// What the fluid looks like from a place on the wall.
 #[derive(Clone, Copy, Debug)]
@@ -33,9 +31,19 @@ pub(crate) fn wall_means<const D: usize>(
             gravity: world.gravity,
             accelerations,
         },
-        whole,
     };
-    shepard(world, targets, list, &mean, out)
+    shepard(world, targets, list, &mean, out, |_, [w, vw, p]| {
+        match vw > 0.0 {
+            true => WallMean {
+                pressure: p / vw,
+                volume: vw / w,
+            },
+            false => WallMean {
+                pressure: 0.0,
+                volume: whole,
+            },
+        }
+    })
 }
 
 /// g − a_w, m/s².
@@ -46,14 +54,15 @@ pub(crate) struct Felt<'a, const D: usize> {
 }
 
 impl<const D: usize> Felt<'_, D> {
-    pub fn of(&self, targets: Range<usize>) -> InMemory<D> {
-        let mut felt = [self.gravity; MOST];
-        for (felt, t) in felt.iter_mut().zip(targets) {
-            if let Some(acceleration) = self.accelerations.get(t) {
-                *felt -= acceleration;
-            }
-        }
-        in_memory(&felt)
+    #[inline(always)]
+    pub fn own<L: Lane>(&self, targets: Particles) -> [L; D] {
+        targets.each(|t| {
+            let felt = match self.accelerations.get(t) {
+                Some(acceleration) => self.gravity - acceleration,
+                None => self.gravity,
+            };
+            felt.into()
+        })
     }
 }
 
@@ -63,43 +72,24 @@ struct Means<'a, const D: usize> {
     density: &'a [f64],
     volume: &'a [f64],
     felt: Felt<'a, D>,
-    whole: f64,
 }
 
-impl<const D: usize> TargetMean<D, 3> for Means<'_, D> {
-    type Mean = WallMean;
-    type Here = InMemory<D>;
-    type Side<L: Lane> = [L; D];
+impl<const D: usize> PairSum<D> for Means<'_, D> {
+    const VALUES: bool = true;
+    type Own<L: Lane> = [L; D];
+    type Sum<L: Lane> = [L; 3];
 
-    fn here(&self, targets: Range<usize>) -> InMemory<D> {
-        self.felt.of(targets)
+    #[inline(always)]
+    fn own<L: Lane>(&self, targets: Particles) -> [L; D] {
+        self.felt.own(targets)
     }
 
     #[inline(always)]
-    fn side<L: Lane>(&self, felt: &InMemory<D>) -> [L; D] {
-        loaded(felt)
-    }
-
-    #[inline(always)]
-    fn add<L: Lane>(&self, felt: &[L; D], j: usize, apart: &[L; D], w: L, sums: &mut [L; 3]) {
-        let vw = L::splat(self.volume[j]) * w;
-        let hydrostatic = L::splat(self.density[j]) * dot(felt, apart);
-        sums[0] += w;
+    fn pair<L: Lane>(&self, felt: &[L; D], j: usize, pair: &LanePair<D, L>, sums: &mut [L; 3]) {
+        let vw = L::splat(self.volume[j]) * pair.value;
+        let hydrostatic = L::splat(self.density[j]) * dot(felt, &pair.separation);
+        sums[0] += pair.value;
         sums[1] += vw;
         sums[2] += vw * (L::splat(self.pressure[j]) + hydrostatic);
-    }
-
-    fn mean(&self, _: usize, [w, vw, p]: [f64; 3]) -> WallMean {
-        if vw > 0.0 {
-            WallMean {
-                pressure: p / vw,
-                volume: vw / w,
-            }
-        } else {
-            WallMean {
-                pressure: 0.0,
-                volume: self.whole,
-            }
-        }
     }
 }

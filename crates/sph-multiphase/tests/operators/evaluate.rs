@@ -11,13 +11,7 @@ use sph_viscosity::{Morris, OnLattice, Viscosity, ViscousOperator, WallTerm};
 pub fn rates<const D: usize>(world: &World<D>, terms: &Terms<D>) -> (Vec<Vect<D>>, Vec<f64>) {
     let n = world.free.len();
     let (mut acceleration, mut scalar) = (vec![Vect::zeros(); n], vec![0.0; n]);
-    let swept = interactions(
-        world,
-        &mut Vec::new(),
-        terms,
-        &mut acceleration,
-        Some(&mut scalar),
-    );
+    let swept = interactions(world, terms, &mut acceleration, Some(&mut scalar));
     swept.expect("all columns");
     (acceleration, scalar)
 }

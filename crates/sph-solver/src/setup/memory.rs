@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use sph_core::{FieldError, Role};
-use sph_neighbours::{Clusters, Contact, NeighbourList, There, World};
+use sph_neighbours::{Clusters, Contact, NeighbourList, World};
 use sph_scene::Scene;
 
 use crate::Flow;
@@ -123,7 +123,7 @@ fn copies<const D: usize>(scene: &Scene, world: &World<D>) -> f64 {
         })
         .sum();
     let kept = if scene.run.retries > 0 { state } else { 0 };
-    (kept + size_of::<There<D>>()) as f64
+    kept as f64
 }
 
 fn walls<const D: usize>(world: &World<D>) -> f64 {

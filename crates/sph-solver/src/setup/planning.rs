@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sph_contribution::{Limiter, Refusal, Setting, Stages, StepWork};
 use sph_core::{AnyField, Declares, fields, plan};
 use sph_multiphase::Diffused;
-use sph_neighbours::{Interaction, Terms, fuse_all};
+use sph_neighbours::{Interaction, Terms};
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
@@ -105,7 +105,7 @@ impl<const D: usize> Planning<'_, D> {
             offered.take(kind, part.riding(setting, &read, &later));
         }
         let transported = transported_by(&offered.terms)?;
-        let terms: SharedTerms<D> = fuse_all(offered.terms).into();
+        let terms: SharedTerms<D> = offered.terms.into();
         let changed = offered.change_density.then_some(self.diffused);
         let sweep = InteractionSweep::new(terms.clone(), changed, self.walls.is_some());
         stages.push(Box::new(sweep));

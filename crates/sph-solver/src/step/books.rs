@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_core::{Access, Field, FieldError, Role, Scalar, StepError, Vect, fields};
 use sph_multiphase::{Diffused, Formulation};
-use sph_neighbours::{ClassRate, Interaction, There, World, class_rates, interactions};
+use sph_neighbours::{ClassRate, Interaction, World, class_rates, interactions};
 use sph_probes::{BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyWork};
 use sph_state::Laws;
 
@@ -63,7 +63,6 @@ pub struct Books<const D: usize> {
     scalar: Vec<f64>,
     /// Densities as booked, kg/m³.
     density: Vec<f64>,
-    states: Vec<There<D>>,
     unused: Vec<Vect<D>>,
 }
 
@@ -122,7 +121,6 @@ impl<const D: usize> Books<D> {
             rates: Vec::new(),
             scalar: Vec::new(),
             density: Vec::new(),
-            states: Vec::new(),
             unused: Vec::new(),
         })
     }
@@ -354,8 +352,8 @@ impl<const D: usize> Books<D> {
         let kept = std::mem::replace(world.free.get_mut(fields::VELOCITY)?, velocity);
         self.unused.resize(n, Vect::zeros());
         let mut sum = vec![0.0; n];
-        let (states, term, unused) = (&mut self.states, &self.dilatation, &mut self.unused);
-        let done = interactions(world, states, term, unused, Some(&mut sum));
+        let (term, unused) = (&self.dilatation, &mut self.unused);
+        let done = interactions(world, term, unused, Some(&mut sum));
         *world.free.get_mut(fields::VELOCITY)? = kept;
         done.map(|()| sum)
     }

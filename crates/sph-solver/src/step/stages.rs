@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sph_boundary::Wall;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, Vect, fields};
 use sph_multiphase::Diffused;
-use sph_neighbours::{Declared, Interaction, Sums, TRANSPORTED, There, World, all_sums, is_wanted};
+use sph_neighbours::{Interaction, Sums, TRANSPORTED, World, all_sums, declared, is_wanted};
 
 /// Stands for all that walls carry; not a column of the free particles.
 pub const WALL_STATE: Field<Scalar> = Field::new(
@@ -79,9 +79,7 @@ pub struct InteractionSweep<const D: usize> {
     diffused: Option<Diffused>,
     /// Whether walls exist.
     walls: bool,
-    declared: Declared,
-    /// Buffer of the packed states.
-    states: Vec<There<D>>,
+    declared: Vec<Access>,
     /// Buffer of rates that terms sum besides.
     more: Vec<[f64; TRANSPORTED]>,
 }
@@ -94,11 +92,10 @@ impl<const D: usize> InteractionSweep<D> {
         walls: bool,
     ) -> Self {
         InteractionSweep {
-            declared: Declared::of(terms.iter().map(|t| &**t)),
+            declared: declared(&terms),
             terms,
             diffused,
             walls,
-            states: Vec::new(),
             more: Vec::new(),
         }
     }
@@ -119,7 +116,7 @@ impl<const D: usize> InteractionSweep<D> {
             scalar,
             more: &mut self.more,
         };
-        all_sums(world, &mut self.states, &self.declared, &self.terms, sums)
+        all_sums(world, &self.declared, &self.terms, sums)
     }
 
     /// Rates into their columns.

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use sph_contribution::{Contribution, Setting, Stages};
 use sph_core::{AnyField, fields};
-use sph_neighbours::{Lanewise, Terms};
+use sph_neighbours::Terms;
 
 use crate::{Materials, RidingStrain, StrainRate};
 
@@ -27,7 +27,7 @@ impl<const D: usize> Contribution<D> for Straining<D> {
         let wanted =
             later.contains(&fields::STRAIN_RATE.any()) && self.0.strain_rides(setting, read);
         let formula = self.0.gradient.clone().filter(|_| wanted);
-        let term = formula.map(|formula| Box::new(Lanewise(RidingStrain { formula })) as _);
+        let term = formula.map(|formula| Box::new(RidingStrain { formula }) as _);
         term.into_iter().collect()
     }
 }

@@ -3,7 +3,7 @@
 use sph_contribution::Limiter;
 use sph_core::{Access, Field, Scalar, StepError, StepLimit, fields};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Lane, LanePair, LanePairTerm, LaneTerm, Pair, Rates, There, World,
+    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World,
 };
 
 use crate::columns::{DISSIPATION, DISSIPATION_RATE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE};
@@ -32,6 +32,7 @@ pub(crate) struct BoundDiffusion<'a, const D: usize, const N: usize> {
     viscosity: &'a [f64],
     eddies: &'a [f64],
     density: &'a [f64],
+    volume: &'a [f64],
     /// 1 − 1/σ: what an eddy's viscosity does not move.
     held: [f64; N],
     slot: [usize; N],
@@ -55,15 +56,7 @@ impl<const D: usize, const N: usize> BoundDiffusion<'_, D, N> {
     }
 }
 
-/// A particle's own values.
-#[derive(Clone, Copy)]
-pub(crate) struct Here<const N: usize> {
-    value: [f64; N],
-    diffusivity: [f64; N],
-    specific_volume: f64,
-}
-
-impl<const D: usize, const N: usize> LanePairTerm<D> for Diffusion<N> {
+impl<const D: usize, const N: usize> PairTerm<D> for Diffusion<N> {
     type Bound<'a> = BoundDiffusion<'a, D, N>;
     fn name(&self) -> String {
         let names: Vec<_> = VALUE[..N].iter().map(|field| field.name).collect();
@@ -87,6 +80,7 @@ impl<const D: usize, const N: usize> LanePairTerm<D> for Diffusion<N> {
             viscosity: world.free.get(fields::VISCOSITY)?,
             eddies: world.free.get(fields::EDDY_VISCOSITY)?,
             density: world.free.get(fields::DENSITY)?,
+            volume: world.free.get(fields::VOLUME)?,
             held: self.sigma.map(|sigma| 1.0 - 1.0 / sigma),
             slot,
             wall_flux: self.wall_flux.map(|c_mu| 2.0 * c_mu / self.sigma[N - 1]),
@@ -96,83 +90,21 @@ impl<const D: usize, const N: usize> LanePairTerm<D> for Diffusion<N> {
     }
 }
 
-impl<const D: usize, const N: usize> BoundTerm<D> for BoundDiffusion<'_, D, N> {
-    type Here = Here<N>;
-    type Sum = [f64; N];
-    #[inline(always)]
-    fn here(&self, i: usize) -> Here<N> {
-        Here {
-            value: self.value.map(|value| value[i]),
-            diffusivity: self.diffusivity(i),
-            specific_volume: 1.0 / self.density[i],
-        }
-    }
-    #[inline(always)]
-    fn zero(&self) -> [f64; N] {
-        [0.0; N]
-    }
-    #[inline(always)]
-    fn free(&self, here: &Here<N>, j: usize, there: &There<D>, pair: &Pair<D>, sum: &mut [f64; N]) {
-        self.add_one(here, j, there, pair, sum);
-    }
-    #[inline(always)]
-    fn element(&self, here: &Here<N>, contact: &Contact<D>, sum: &mut [f64; N]) {
-        let Some(flux) = self.wall_flux else {
-            return;
-        };
-        let marked = self.elements.wall_function.get(contact.element as usize);
-        if marked == Some(&true) && here.diffusivity[0] > 0.0 {
-            let passing = flux * here.value[0].powi(2) / contact.distance.max(self.nearest);
-            sum[N - 1] += passing * contact.gradient.norm() / here.specific_volume;
-        }
-    }
-    #[inline(always)]
-    fn finish(&self, here: &Here<N>, sum: &[f64; N], inverse_gamma: f64, rates: &mut Rates<D>) {
-        for (slot, sum) in self.slot.iter().zip(sum) {
-            rates.more[*slot] += sum * inverse_gamma * here.specific_volume;
-        }
-    }
-}
-
-impl<const D: usize, const N: usize> LaneTerm<D> for BoundDiffusion<'_, D, N> {
+impl<const D: usize, const N: usize> PairSum<D> for BoundDiffusion<'_, D, N> {
     /// Values and diffusivities.
-    type Side<L: Lane> = [[L; N]; 2];
-    type Sums<L: Lane> = [L; N];
+    type Own<L: Lane> = [[L; N]; 2];
+    type Sum<L: Lane> = [L; N];
 
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Here<N>]) -> [[L; N]; 2] {
-        let mut side = [[L::splat(0.0); N]; 2];
-        for (lane, own) in here.iter().enumerate() {
-            for (side, own) in side.iter_mut().zip([own.value, own.diffusivity]) {
-                side.iter_mut()
-                    .zip(own)
-                    .for_each(|(side, own)| side.set(lane, own));
-            }
-        }
-        side
+    fn own<L: Lane>(&self, all: Particles) -> [[L; N]; 2] {
+        let value = all.each(|i| self.value.map(|value| value[i]));
+        [value, all.each(|i| self.diffusivity(i))]
     }
     #[inline(always)]
-    fn sums<L: Lane>(&self, sum: &[f64; N]) -> [L; N] {
-        let mut sums = [L::splat(0.0); N];
-        for n in 0..N {
-            sums[n] = L::splat(sum[n]);
-        }
-        sums
-    }
-    #[inline(always)]
-    fn lane<L: Lane>(&self, sums: &[L; N], lane: usize) -> [f64; N] {
-        let mut sum = [0.0; N];
-        for n in 0..N {
-            sum[n] = sums[n].at(lane);
-        }
-        sum
-    }
-    #[inline(always)]
-    fn add<L: Lane>(
+    fn pair<L: Lane>(
         &self,
         [value, diffusivity]: &[[L; N]; 2],
         j: usize,
-        there: &There<D>,
         pair: &LanePair<D, L>,
         sums: &mut [L; N],
     ) {
@@ -181,11 +113,32 @@ impl<const D: usize, const N: usize> LaneTerm<D> for BoundDiffusion<'_, D, N> {
         if there_too[0] <= 0.0 {
             return;
         }
-        let weight = L::splat(there.volume) * pair.factor;
+        let weight = L::splat(self.volume[j]) * pair.factor;
         let weight = diffusivity[0].where_positive(weight, L::splat(0.0));
         for n in 0..N {
             let both = diffusivity[n] + L::splat(there_too[n]);
             sums[n] += weight * both * (value[n] - L::splat(self.value[n][j]));
+        }
+    }
+}
+
+impl<const D: usize, const N: usize> BoundTerm<D> for BoundDiffusion<'_, D, N> {
+    #[inline(always)]
+    fn finish(&self, mut sum: [f64; N], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        let specific_volume = 1.0 / self.density[i];
+        if let Some(flux) = self.wall_flux.filter(|_| self.diffusivity(i)[0] > 0.0) {
+            for contact in at.contacts {
+                let marked = self.elements.wall_function.get(contact.element as usize);
+                if marked == Some(&true) {
+                    let passing = flux * self.value[0][i].powi(2);
+                    let passing = passing / contact.distance.max(self.nearest);
+                    sum[N - 1] += passing * contact.gradient.norm() / specific_volume;
+                }
+            }
+        }
+        for (slot, sum) in self.slot.iter().zip(sum) {
+            rates.more[*slot] += sum * at.inverse_renormalisation * specific_volume;
         }
     }
 }

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_contribution::{Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork};
 use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, register};
-use sph_neighbours::{Lanewise, Terms, World};
+use sph_neighbours::{Terms, World};
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
 use super::diffusion::{Diffusion, DiffusionLimit};
@@ -190,10 +190,10 @@ impl<const D: usize> Contribution<D> for OneEquation {
     }
     fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
         let sigma = KEpsilonModel::default().sigma_k;
-        vec![Box::new(Lanewise(Diffusion {
+        vec![Box::new(Diffusion {
             sigma: [sigma],
             wall_flux: None,
-        }))]
+        })]
     }
     fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
         vec![Box::new(DiffusionLimit(setting.viscous))]

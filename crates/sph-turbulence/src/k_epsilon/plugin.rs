@@ -7,7 +7,7 @@ use sph_contribution::{
     Birth, Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork,
 };
 use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, register};
-use sph_neighbours::{Lanewise, Terms, World};
+use sph_neighbours::{Terms, World};
 use sph_stress::StressDivergence;
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
@@ -233,15 +233,15 @@ impl<const D: usize> Contribution<D> for KEpsilon {
     }
     fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
         let through = self.at_wall == AtWall::BothFluxes;
-        let mut terms: Terms<D> = vec![Box::new(Lanewise(Diffusion {
+        let mut terms: Terms<D> = vec![Box::new(Diffusion {
             sigma: self.variant.sigmas(),
             wall_flux: through.then_some(KEpsilonModel::default().c_mu),
-        }))];
+        })];
         if self.variant == Variant::ExplicitAlgebraic {
-            terms.push(Box::new(Lanewise(StressDivergence {
+            terms.push(Box::new(StressDivergence {
                 name: "stress of eddies",
                 stress: EDDY_STRESS,
-            })));
+            }));
         }
         terms
     }

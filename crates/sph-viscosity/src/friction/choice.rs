@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::Vect;
-use sph_neighbours::{Interaction, Lanewise, Pair, World};
+use sph_neighbours::{Interaction, Pair, World};
 
 use super::{PairFriction, ViscousTerm};
 use crate::interface_distance::InterfaceDistance;
@@ -94,11 +94,7 @@ impl Choice {
         friction: F,
         viscosity: Viscosity,
     ) -> Box<dyn Interaction<D>> {
-        Box::new(Lanewise(ViscousTerm(
-            friction,
-            self.source(viscosity),
-            self,
-        )))
+        Box::new(ViscousTerm(friction, self.source(viscosity), self))
     }
 
     /// The same friction as rows of a matrix.

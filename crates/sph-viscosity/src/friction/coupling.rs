@@ -3,8 +3,7 @@
 use sph_core::{Access, StepError, Vect};
 use sph_implicit::{Block, Entry};
 use sph_neighbours::{
-    BoundTerm, Cluster, Kinds, Lane, LanePair, LanePairTerm, LanePairs, MOST, Neighbourhood, Pair,
-    Row, World,
+    Cluster, Kinds, Lane, LanePair, Neighbourhood, Pair, PairNumbers, PairTerm, Particles, World,
 };
 
 use super::{Bound, Here, PairFriction, Sum, ViscousTerm};
@@ -12,25 +11,14 @@ use crate::{BoundCoupling, Coupling, CouplingRow, OwnViscosity, WithCoupling};
 
 impl<const D: usize, F: PairFriction<D>> Coupling<D> for ViscousTerm<F> {
     fn access(&self) -> Access {
-        LanePairTerm::<D>::access(self)
+        PairTerm::<D>::access(self)
     }
     fn mixes_components(&self) -> bool {
         F::DIRECTIONAL
     }
     fn lend(&self, world: &World<D>, with: &mut WithCoupling<'_, D>) -> Result<(), StepError> {
-        with(&LanePairTerm::bind(self, world)?)
+        with(&PairTerm::bind(self, world)?)
     }
-}
-
-fn pairs<'a, const D: usize>(row: &'a Row<'_, D>) -> impl Iterator<Item = (usize, Pair<D>)> + 'a {
-    (0..row.index.len()).map(|k| {
-        let pair = Pair {
-            separation: row.separation[k],
-            distance2: row.distance2[k],
-            factor: row.factor[k],
-        };
-        (row.index[k] as usize, pair)
-    })
 }
 
 impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
@@ -49,14 +37,14 @@ impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
         if here.nearest.is_none() {
             return 1.0;
         }
-        let mut sum: Sum<D> = self.zero();
+        let mut sum = Sum::<D>::of([[0.0; D]; 2]);
         let volume = here.volume;
-        for (j, pair) in pairs(&rows.free) {
+        for (j, pair) in rows.free.pairs() {
             let there = self.volume[j];
             let shear = self.friction.shear(volume, there, &here.along, &pair);
             sum.discrete += pair.separation * shear;
         }
-        for (v, pair) in pairs(&rows.wall) {
+        for (v, pair) in rows.wall.pairs() {
             let there = self.wall_volume[v];
             let shear = self.friction.shear(volume, there, &here.along, &pair);
             sum.discrete += pair.separation * (self.wall_share[v] * shear);
@@ -81,39 +69,21 @@ struct Own<L> {
     viscosity: OwnViscosity<L>,
 }
 
-impl<const D: usize, F: PairFriction<D>> LanePairs<D, 3> for Strengths<'_, '_, D, F> {
-    type Here = Own<f64>;
-    type Side<L: Lane> = Own<L>;
+impl<const D: usize, F: PairFriction<D>> PairNumbers<D, 3> for Strengths<'_, '_, D, F> {
+    type Own<L: Lane> = Own<L>;
 
     #[inline(always)]
-    fn here(&self, i: usize) -> Self::Here {
+    fn own<L: Lane>(&self, all: Particles) -> Own<L> {
         let bound = self.0;
         Own {
-            volume: bound.volume[i],
-            density: bound.density[i],
-            viscosity: bound.viscosity.here(i),
+            volume: all.numbers(bound.volume),
+            density: all.numbers(bound.density),
+            viscosity: bound.viscosity.own(all),
         }
     }
 
     #[inline(always)]
-    fn side<L: Lane>(&self, here: &[Self::Here]) -> Self::Side<L> {
-        let zero = L::splat(0.0);
-        let viscosities: [OwnViscosity<f64>; MOST] =
-            std::array::from_fn(|lane| here[lane.min(here.len() - 1)].viscosity);
-        let mut side = Own {
-            volume: zero,
-            density: zero,
-            viscosity: self.0.viscosity.side::<L>(&viscosities[..L::N]),
-        };
-        for (lane, own) in here.iter().enumerate() {
-            side.volume.set(lane, own.volume);
-            side.density.set(lane, own.density);
-        }
-        side
-    }
-
-    #[inline(always)]
-    fn numbers<L: Lane>(&self, here: &Self::Side<L>, j: usize, pair: &LanePair<D, L>) -> [L; 3] {
+    fn numbers<L: Lane>(&self, here: &Own<L>, j: usize, pair: &LanePair<D, L>) -> [L; 3] {
         let bound = self.0;
         let densities = [here.density, L::splat(bound.density[j])];
         let friction = bound.friction;
@@ -149,7 +119,7 @@ impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for Bound<'_, D, F> {
         let here = self.here(rows.particle);
         let scale = self.scale * here.volume;
         let (mut wall, mut source) = (0.0, Vect::zeros());
-        for (v, pair) in pairs(&rows.wall) {
+        for (v, pair) in rows.wall.pairs() {
             let rubbing = self.rubbing(v, &pair) * here.viscosity.eta;
             let [friction, _] = self.at_point(&here, self.wall_volume[v], &pair, rubbing);
             wall += friction;
@@ -175,7 +145,7 @@ impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for Bound<'_, D, F> {
         let here = self.here(rows.particle);
         let scale = self.scale * here.volume;
         let (mut wall, mut source) = (Block::zeros(), Vect::zeros());
-        for (v, pair) in pairs(&rows.wall) {
+        for (v, pair) in rows.wall.pairs() {
             let rubbing = self.rubbing(v, &pair) * here.viscosity.eta;
             let [even, along] = self.at_point(&here, self.wall_volume[v], &pair, rubbing);
             let friction = Block::central(even, along, &pair.separation);

@@ -88,7 +88,7 @@ fn stresses_leave_no_force_along_a_smooth_floor() {
     }
     let terms = [StressDivergence::boxed()];
     let mut acceleration = vec![Vect::zeros(); world.free.len()];
-    interactions(world, &mut Vec::new(), &terms, &mut acceleration, None).unwrap();
+    interactions(world, &terms, &mut acceleration, None).unwrap();
     let mass = world.free.get(fields::MASS).unwrap();
     let forces = mass.iter().zip(&acceleration);
     let (along, scale) = forces.fold((0.0, 0.0), |(sum, scale), (m, a)| {

@@ -194,7 +194,7 @@ fn is_the_term<const D: usize>(world: &World<D>) {
     for (name, operator) in operators::<D>() {
         let mut explicit = vec![Vect::zeros(); mass.len()];
         let term = operator.term(Viscosity::Uniform(ETA));
-        interactions(world, &mut Vec::new(), &[term], &mut explicit, None).unwrap();
+        interactions(world, &[term], &mut explicit, None).unwrap();
         for (i, a) in explicit.iter_mut().enumerate() {
             *a *= mass[i] * gamma[i];
         }

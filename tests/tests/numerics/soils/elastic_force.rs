@@ -238,7 +238,7 @@ fn what_water_rubs_off_a_soil_stays_out_of_the_blend() {
     let operator = entry.build::<2>(&toml::Table::new()).unwrap();
     let left = |term: Box<dyn Interaction<2>>| {
         let mut acceleration = vec![Vect::<2>::zeros(); phase.len()];
-        interactions(world, &mut Vec::new(), &[term], &mut acceleration, None).unwrap();
+        interactions(world, &[term], &mut acceleration, None).unwrap();
         let mass = world.free.get(fields::MASS).unwrap();
         let all = acceleration.iter().zip(mass);
         let (mut sum, mut size) = (Vect::<2>::zeros(), 0.0);

@@ -81,7 +81,7 @@ fn displacement(x: &Vect<2>) -> Vect<2> {
 fn errors(world: &World<2>, term: &dyn Fn() -> Box<dyn Interaction<2>>) -> [f64; 2] {
     let mut force = vec![Vect::zeros(); world.free.len()];
     let terms = [term()];
-    interactions(world, &mut Vec::new(), &terms, &mut force, None).unwrap();
+    interactions(world, &terms, &mut force, None).unwrap();
     let positions = world.free.get(fields::POSITION).unwrap();
     let (mut largest, mut sum, mut exact_sum) = (0.0_f64, 0.0, 0.0);
     for (f, x) in force.iter().zip(positions) {

@@ -1,7 +1,11 @@
-//! The compiled combinations of terms against the same terms one by one: the same bits.
+//! Sums of several particles side by side against the same sums of one particle at a time: the same bits.
 
-use sph_core::{Role, Vect, fields};
-use sph_neighbours::{Interaction, Terms, World, fuse_all, kernel_sums};
+use sph_core::{Access, Role, StepError, Vect, fields};
+use sph_neighbours::{
+    Interaction, Neighbourhood, Rates, RowTerm, Terms, WithTerm, World, kernel_sums,
+};
+
+use sph_multiphase::{DensityWeighted, Divergence, Formulation, Krimi};
 
 use crate::channel::Channel;
 use crate::evaluate::{pressure, rates, smoother, viscosity, viscosity_column};
@@ -24,65 +28,80 @@ fn bits<const D: usize>(world: &World<D>, terms: Terms<D>) -> Vec<u64> {
     all.map(|x| x.to_bits()).collect()
 }
 
-type Choice<const D: usize> = fn() -> Vec<Box<dyn Interaction<D>>>;
+/// A term without its loop over clusters.
+struct OneByOne<const D: usize>(Box<dyn Interaction<D>>);
 
-/// Every registered combination, in the order in which a solver offers the terms.
-fn combinations<const D: usize>() -> [(&'static str, Choice<D>); 5] {
-    [
-        ("pressure, viscosity, smoother", || {
-            vec![pressure(), viscosity(0.1), smoother(1.0)]
-        }),
-        ("pressure, viscosities, smoother", || {
-            vec![pressure(), viscosity_column(), smoother(1.0)]
-        }),
-        ("pressure, viscosity", || vec![pressure(), viscosity(0.1)]),
-        ("pressure, viscosities", || {
-            vec![pressure(), viscosity_column()]
-        }),
-        ("pressure, smoother", || vec![pressure(), smoother(1.0)]),
+struct ByRows<'a, const D: usize>(&'a dyn RowTerm<D>);
+
+impl<const D: usize> RowTerm<D> for ByRows<'_, D> {
+    fn row(&self, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        self.0.row(at, rates);
+    }
+}
+
+impl<const D: usize> Interaction<D> for OneByOne<D> {
+    fn name(&self) -> String {
+        self.0.name()
+    }
+    fn access(&self) -> Access {
+        self.0.access()
+    }
+    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+        self.0.lend(world, &mut |term| with(&ByRows(term)))
+    }
+}
+
+fn terms<const D: usize>() -> Terms<D> {
+    vec![
+        pressure(),
+        viscosity(0.1),
+        viscosity_column(),
+        smoother(1.0),
+        Krimi::default().pressure_term(),
+        Divergence::boxed(DensityWeighted),
     ]
 }
 
-fn fused_is_separate<const D: usize>(world: &World<D>) {
-    for (what, terms) in combinations::<D>() {
-        let fused = fuse_all(terms());
-        assert_eq!(fused.len(), 1, "{what} is one loop: {}", fused[0].name());
-        // Every term keeps a sum of its own over the same neighbours in the same order, and
-        // the sums are finished in the same order: not a rounding differs.
-        assert!(bits(world, fused) == bits(world, terms()), "{what} in {D}D");
+fn lanes_are_one_by_one<const D: usize>(world: &World<D>) {
+    for (lanes, rows) in terms().into_iter().zip(terms()) {
+        let name = lanes.name();
+        let rows: Terms<D> = vec![Box::new(OneByOne(rows))];
+        assert!(
+            bits(world, vec![lanes]) == bits(world, rows),
+            "{name} in {D}D"
+        );
     }
 }
 
 #[test]
-fn fused_terms_give_the_bits_of_separate_terms() {
+fn lanes_give_the_bits_of_single_particles() {
     let mut flat = world(disorder::<2>(20, 0.3, 6), periodic(), 0.05, 2.0);
     shaken(&mut flat);
-    fused_is_separate(&flat);
+    lanes_are_one_by_one(&flat);
     let mut solid = world(disorder::<3>(9, 0.3, 6), periodic(), 1.0 / 9.0, 1.3);
     shaken(&mut solid);
-    fused_is_separate(&solid);
+    lanes_are_one_by_one(&solid);
 }
 
 #[test]
-fn fused_terms_give_the_bits_of_separate_terms_next_to_walls() {
+fn lanes_give_the_bits_of_single_particles_next_to_walls() {
     let mut channel = Channel::closed(7);
     shaken(&mut channel.world);
     channel.world.walls.points.pressure.fill(2.0);
     channel.world.walls.elements.pressure.fill(2.5);
-    fused_is_separate(&channel.world);
+    lanes_are_one_by_one(&channel.world);
 }
 
 #[test]
 fn a_list_without_its_skin_gives_the_same_bits() {
     let mut flat = world(disorder::<2>(20, 0.3, 6), periodic(), 0.05, 2.0);
     shaken(&mut flat);
-    let terms: Choice<2> = || vec![pressure(), viscosity(0.1), smoother(1.0)];
-    let with_skin = bits(&flat, fuse_all(terms()));
+    let with_skin = bits(&flat, terms());
     let mut sums = vec![0.0; flat.free.len()];
     kernel_sums(&mut flat, &mut sums).unwrap();
     let pruned = flat.lists.pruned.as_ref().expect("the sum prunes");
     assert!(pruned.entries() < flat.lists.free.entries());
-    assert!(with_skin == bits(&flat, fuse_all(terms())));
+    assert!(with_skin == bits(&flat, terms()));
 }
 
 #[test]
