@@ -14,7 +14,7 @@ use sph_kernels::Sampler;
 use sph_multiphase::{FormulationEntry, PressureGradient, SquaredVolumes};
 use sph_neighbours::{
     BoundTerm, ByPairs, Domain, KernelEntry, Lane, LanePair, Neighbourhood, PairSum, PairTerm,
-    Particles, Rates, Terms, World, interactions, interactions_with, kernel_sums, pack,
+    Particles, Rates, Terms, World, interactions, interactions_with, kernel_sums,
 };
 use sph_scene::SplitMix;
 use sph_state::{EquationOfState, Laws, Linear, Reference};

@@ -4,8 +4,8 @@
 //!   within the support plus a skin, and stays valid until somebody moved half the skin.
 //! * [`World`] is what a stage sees: the columns of the free particles, the wall points and
 //!   elements, the lists, the kernel.
-//! * A pair term is a scalar formula ([`BoundTerm`]); tuples of terms are one fused term, and
-//!   [`Interaction`] is the object-safe form, called once per particle and never per pair.
+//! * A [`PairTerm`] sums over pairs ([`PairSum`]), its formula written once for lanes; [`Interaction`] is the object-safe
+//!   form, called once per cluster of particles and never per pair.
 //! * [`interactions`] is the sweep that sums all terms, [`kernel_sums`] the density sum, [`lattice_sum`] what a sum
 //!   would be on a lattice.
 //!
