@@ -1,8 +1,6 @@
 //! The viscous operator of Español and Revenga.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 use sph_neighbours::{Interaction, Lane};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
@@ -23,19 +21,21 @@ use sph_contribution::Stages;
 /// [viscous-operator.espanol-revenga]
 /// wall_term = "corrected"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(ViscousOperatorEntry [2, 3], "espanol-revenga", "div(η(∇u + ∇uᵀ)) for constant η; stiffer than Morris",
+    source: "Ghaïtanellis 2017, Eq. 3.31; Español & Revenga 2003", cfg(not(test)))]
+#[derive(Copy)]
 pub struct EspanolRevenga {
     /// Friction at walls.
+    #[parameter(default)]
     pub wall_term: WallTerm,
     /// Scale of the operator on a lattice.
-    #[schemars(extend("source" = "ours; literal: as printed"))]
+    #[parameter(default, source: "ours; literal: as printed")]
     pub on_lattice: OnLattice,
     /// Viscosity of pairs of two phases.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
+    #[parameter(default, source: "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30")]
     pub across: Across,
     /// Viscosity of pairs of one phase.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
+    #[parameter(default, source: "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30")]
     pub within: Within,
 }
 
@@ -64,15 +64,6 @@ impl<const D: usize> ViscousOperator<D> for EspanolRevenga {
         1.75
     }
 }
-
-#[cfg(not(test))]
-register!(
-    ViscousOperatorEntry [2, 3],
-    EspanolRevenga,
-    "espanol-revenga",
-    "div(η(∇u + ∇uᵀ)) for constant η; stiffer than Morris",
-    "Ghaïtanellis 2017, Eq. 3.31; Español & Revenga 2003"
-);
 
 /// V_b F_ab [(d + 2)(u_ab·e)e + u_ab]: the pair formula of [`EspanolRevenga`].
 #[derive(Clone, Copy, Debug)]

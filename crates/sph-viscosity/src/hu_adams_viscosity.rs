@@ -1,8 +1,6 @@
 //! The viscous operator of Hu and Adams.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 use sph_neighbours::{Interaction, Lane};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
@@ -21,19 +19,21 @@ use sph_contribution::Stages;
 /// [viscous-operator.hu-adams]
 /// wall_term = "corrected"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(ViscousOperatorEntry [2, 3], "hu-adams", "div(η grad u) with the volumes of both particles",
+    source: "Ghaïtanellis 2017, Eq. 3.27; Hu & Adams 2006", cfg(not(test)))]
+#[derive(Copy)]
 pub struct HuAdamsViscosity {
     /// Friction at walls.
+    #[parameter(default)]
     pub wall_term: WallTerm,
     /// Scale of the operator on a lattice.
-    #[schemars(extend("source" = "ours; literal: as printed"))]
+    #[parameter(default, source: "ours; literal: as printed")]
     pub on_lattice: OnLattice,
     /// Viscosity of pairs of two phases.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
+    #[parameter(default, source: "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30")]
     pub across: Across,
     /// Viscosity of pairs of one phase.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
+    #[parameter(default, source: "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30")]
     pub within: Within,
 }
 
@@ -62,15 +62,6 @@ impl<const D: usize> ViscousOperator<D> for HuAdamsViscosity {
         1.0
     }
 }
-
-#[cfg(not(test))]
-register!(
-    ViscousOperatorEntry [2, 3],
-    HuAdamsViscosity,
-    "hu-adams",
-    "div(η grad u) with the volumes of both particles",
-    "Ghaïtanellis 2017, Eq. 3.27; Hu & Adams 2006"
-);
 
 /// (V_a² + V_b²)/V_a u_ab F_ab: the pair formula of [`HuAdamsViscosity`].
 #[derive(Clone, Copy, Debug)]

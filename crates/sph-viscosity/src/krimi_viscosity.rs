@@ -1,8 +1,6 @@
 //! The viscous operator of Krimi et al. (2018).
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::{parameters, plugin};
 use sph_neighbours::{Interaction, Lane};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
@@ -23,22 +21,23 @@ use sph_contribution::Stages;
 /// [viscous-operator.krimi]
 /// strength = "corrected"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(ViscousOperatorEntry [2, 3], "krimi", "averages stresses between particles by density; literal or corrected",
+    source: "Krimi et al. 2018, Eq. 41", cfg(not(test)))]
+#[derive(Copy)]
 pub struct KrimiViscosity {
     /// The factor c.
-    #[schemars(extend("source" = "Krimi et al. 2018, Eq. 41; the correction is ours"))]
+    #[parameter(default, source: "Krimi et al. 2018, Eq. 41; the correction is ours")]
     pub strength: Strength,
     /// Friction at walls.
+    #[parameter(default)]
     pub wall_term: WallTerm,
     /// Scale of the operator on a lattice.
-    #[schemars(extend("source" = "ours; literal: as printed"))]
+    #[parameter(default, source: "ours; literal: as printed")]
     pub on_lattice: OnLattice,
 }
 
 /// The factor of the operator.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Strength {
     /// Exact for constant viscosity and div u = 0.
     #[default]
@@ -78,15 +77,6 @@ impl<const D: usize> ViscousOperator<D> for KrimiViscosity {
         1.65
     }
 }
-
-#[cfg(not(test))]
-register!(
-    ViscousOperatorEntry [2, 3],
-    KrimiViscosity,
-    "krimi",
-    "averages stresses between particles by density; literal or corrected",
-    "Krimi et al. 2018, Eq. 41"
-);
 
 /// c (V_a² + V_b²)/V_a F_ab [u_ab + (u_ab·e)e]: the pair formula of [`KrimiViscosity`].
 #[derive(Clone, Copy, Debug)]

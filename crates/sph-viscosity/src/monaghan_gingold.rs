@@ -1,8 +1,6 @@
 //! The viscous operator of Monaghan and Gingold.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 use sph_neighbours::{Interaction, Lane};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
@@ -21,19 +19,21 @@ use sph_contribution::Stages;
 /// [viscous-operator.monaghan-gingold]
 /// wall_term = "corrected"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(ViscousOperatorEntry [2, 3], "monaghan-gingold", "central forces: conserves angular momentum; stiffest",
+    source: "Monaghan & Gingold 1983; Cleary 1998", cfg(not(test)))]
+#[derive(Copy)]
 pub struct MonaghanGingold {
     /// Friction at walls.
+    #[parameter(default)]
     pub wall_term: WallTerm,
     /// Scale of the operator on a lattice.
-    #[schemars(extend("source" = "ours; literal: as printed"))]
+    #[parameter(default, source: "ours; literal: as printed")]
     pub on_lattice: OnLattice,
     /// Viscosity of pairs of two phases.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
+    #[parameter(default, source: "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30")]
     pub across: Across,
     /// Viscosity of pairs of one phase.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
+    #[parameter(default, source: "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30")]
     pub within: Within,
 }
 
@@ -66,15 +66,6 @@ impl<const D: usize> ViscousOperator<D> for MonaghanGingold {
         true
     }
 }
-
-#[cfg(not(test))]
-register!(
-    ViscousOperatorEntry [2, 3],
-    MonaghanGingold,
-    "monaghan-gingold",
-    "central forces: conserves angular momentum; stiffest",
-    "Monaghan & Gingold 1983; Cleary 1998"
-);
 
 /// 2(d + 2) V_b F_ab (u_ab·e)e: the pair formula of [`MonaghanGingold`].
 #[derive(Clone, Copy, Debug)]

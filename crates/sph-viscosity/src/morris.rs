@@ -1,8 +1,6 @@
 //! Morris's viscous operator with the wall term of Ghaïtanellis (2017).
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 use sph_neighbours::{Interaction, Lane};
 
 use crate::friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm};
@@ -32,20 +30,21 @@ use sph_contribution::Stages;
 /// [viscous-operator.morris]
 /// wall_term = "corrected"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(ViscousOperatorEntry [2, 3], "morris", "div(η grad u) by first differences of velocity; cheap and robust",
+    source: "Ghaïtanellis 2017, Eq. 3.29; Morris et al. 1997", cfg(not(test)))]
+#[derive(Copy)]
 pub struct Morris {
     /// Friction at walls.
-    #[schemars(extend("source" = "Ghaïtanellis 2017, Eq. 2.83–2.89"))]
+    #[parameter(default, source: "Ghaïtanellis 2017, Eq. 2.83–2.89")]
     pub wall_term: WallTerm,
     /// Scale of the operator on a lattice.
-    #[schemars(extend("source" = "ours; literal: as printed"))]
+    #[parameter(default, source: "ours; literal: as printed")]
     pub on_lattice: OnLattice,
     /// Viscosity of pairs of two phases.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
+    #[parameter(default, source: "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30")]
     pub across: Across,
     /// Viscosity of pairs of one phase.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
+    #[parameter(default, source: "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30")]
     pub within: Within,
 }
 
@@ -74,15 +73,6 @@ impl<const D: usize> ViscousOperator<D> for Morris {
         1.0
     }
 }
-
-#[cfg(not(test))]
-register!(
-    ViscousOperatorEntry [2, 3],
-    Morris,
-    "morris",
-    "div(η grad u) by first differences of velocity; cheap and robust",
-    "Ghaïtanellis 2017, Eq. 3.29; Morris et al. 1997"
-);
 
 /// 2 V_b u_ab F_ab: the pair formula of [`Morris`].
 #[derive(Clone, Copy, Debug)]

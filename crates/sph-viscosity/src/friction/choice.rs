@@ -1,8 +1,6 @@
 //! What all operators that are sums over pairs let a scene choose.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::Vect;
+use sph_core::{Vect, parameters};
 use sph_neighbours::{Interaction, Lanewise, Pair, World};
 
 use super::{PairFriction, ViscousTerm};
@@ -12,8 +10,7 @@ use sph_contribution::Stages;
 use sph_neighbours::{lattice_sum, rows_sum};
 
 /// Friction at semi-analytical walls.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum WallTerm {
     /// Exact for linear velocities.
     #[default]
@@ -23,8 +20,7 @@ pub enum WallTerm {
 }
 
 /// Viscosity of pairs of two phases.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Across {
     /// Two layers in series, by the distances from the interface.
     #[default]
@@ -34,8 +30,7 @@ pub enum Across {
 }
 
 /// The response of an operator to a sheared layer along the axes of a lattice.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum OnLattice {
     /// Scaled to be exact, so that errors fall with the spacing.
     #[default]
