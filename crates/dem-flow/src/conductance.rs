@@ -1,5 +1,6 @@
 //! Conductances of throats.
 
+use sph_derive::parameters;
 use std::f64::consts::PI;
 
 use schemars::JsonSchema;
@@ -23,14 +24,15 @@ pub trait Conductance: Send + Sync {
 
 /// g = α A R² / µ with the fluid area A of the facet and the hydraulic radius R = φ/γ; α = ½ is that of
 /// a round tube of radius 2R. Source: Catalano 2012, Eqs. (3.4), (3.5).
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
-#[serde(deny_unknown_fields, default)]
+#[parameters(crate: crate::reexport)]
+#[derive(PartialEq)]
 pub struct HydraulicRadius {
     /// Shape factor α.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
+    #[parameter(default: 0.5, unit: "1", above: 0.0)]
     pub shape_factor: f64,
     /// Divides R by 2^¼ for each slip wall of a throat, as YADE 2023.02a does; not in the thesis, and it halves
     /// the conductance beside walls of symmetry. For comparison with YADE.
+    #[parameter(default)]
     pub reduced_at_slip_walls: bool,
 }
 
@@ -40,15 +42,6 @@ register_conductance!(
     "a tube with the throat's ratio of fluid volume to wetted surface",
     "Catalano 2012, Eqs. (3.4), (3.5)"
 );
-
-impl Default for HydraulicRadius {
-    fn default() -> Self {
-        Self {
-            shape_factor: 0.5,
-            reduced_at_slip_walls: false,
-        }
-    }
-}
 
 impl Conductance for HydraulicRadius {
     fn conductance(&self, throat: &Throat) -> f64 {
@@ -81,8 +74,7 @@ impl Conductance for HydraulicRadius {
 pub struct EffectiveRadius;
 
 /// It has no parameters.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters(crate: crate::reexport)]
 struct NoParameters {}
 
 impl From<NoParameters> for EffectiveRadius {
