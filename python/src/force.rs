@@ -2,11 +2,9 @@
 
 use std::any::Any;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Contribution, Refusal, Setting, Stages, contribution_kind};
 use sph_core::{
-    Access, AnyField, Declares, Field, Stage, StepError, Vect, Vector, register, suggestion,
+    Access, AnyField, Declares, Field, Stage, StepError, Vect, Vector, plugin, suggestion,
 };
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, Terms, World};
 
@@ -25,18 +23,13 @@ const PUSH: Field<Vector> = Field::new(
 );
 
 /// du/dt = … + Σ f(t, columns) with functions of Python on whole columns.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(BodyForceEntry [2, 3], "python", "functions of Python on whole columns", source: "given by the caller")]
 struct PythonForce {
     /// Names of the functions; each returns accelerations, one row per particle.
     functions: Vec<String>,
     /// Columns that they are given.
-    #[serde(default = "place_and_velocity")]
+    #[parameter(default: ["position", "velocity"].map(String::from).to_vec())]
     columns: Vec<String>,
-}
-
-fn place_and_velocity() -> Vec<String> {
-    ["position", "velocity"].map(String::from).to_vec()
 }
 
 impl PythonForce {
@@ -140,11 +133,3 @@ impl<const D: usize> Interaction<D> for Push {
         self
     }
 }
-
-register!(
-    BodyForceEntry [2, 3],
-    PythonForce,
-    "python",
-    "functions of Python on whole columns",
-    "given by the caller"
-);
