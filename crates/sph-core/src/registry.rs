@@ -204,9 +204,10 @@ fn one_problem(message: &str) -> RegistryError {
 /// The JSON schema of a parameter type; that of a transparent wrapper has the parameters of the type within and its own text.
 pub fn schema_of<P: JsonSchema>() -> Json {
     let mut schema = schemars::schema_for!(P).to_value();
-    while let Some(within) = schema.get("$ref").and_then(Json::as_str) {
-        let place = within.strip_prefix('#').and_then(|p| schema.pointer(p));
-        let Some(mut found) = place.cloned() else {
+    while let Some(Json::String(within)) = schema.get("$ref") {
+        let name = within.trim_start_matches("#/$defs/").to_string();
+        let of = schema.get_mut("$defs").and_then(Json::as_object_mut);
+        let Some(mut found) = of.and_then(|of| of.remove(&name)) else {
             break;
         };
         for key in ["$defs", "$schema", "title", "description"] {

@@ -12,7 +12,7 @@ mod choice;
 mod coupling;
 mod side_by_side;
 
-pub use choice::{Across, Choice, OnLattice, WallTerm};
+pub use choice::{Across, Choice, OnLattice, PairOperator, WallTerm};
 
 /// A viscous operator as a sum over pairs: the force on a per volume is
 /// 1/γ_a Σ_b θ_b η̄_ab f(V_a, V_b, u_ab, r_ab), plus the wall's.

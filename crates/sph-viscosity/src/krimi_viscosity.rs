@@ -1,12 +1,10 @@
 //! The viscous operator of Krimi et al. (2018).
 
 use sph_core::{parameters, plugin};
-use sph_neighbours::{Interaction, Lane};
+use sph_neighbours::Lane;
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
-use crate::{BoundViscosity, OwnViscosity};
-use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry, Within};
-use sph_contribution::Stages;
+use crate::friction::{Across, Choice, OnLattice, PairFriction, PairOperator, WallTerm};
+use crate::{BoundViscosity, OwnViscosity, ViscousOperatorEntry, Within};
 
 /// L_a = c/γ_a Σ_b θ_b (V_a² + V_b²)/V_a η̃_ab F_ab [u_ab + (u_ab·e)e] plus the wall's friction, as
 /// of [`Morris`](crate::Morris), with η̃_ab = (ρ_a η_b + ρ_b η_a)/(ρ_a + ρ_b).
@@ -46,7 +44,12 @@ pub enum Strength {
     Literal,
 }
 
-impl KrimiViscosity {
+impl<const D: usize> PairOperator<D> for KrimiViscosity {
+    type Formula = BetweenStresses;
+    const STIFFNESS: f64 = 1.65;
+    fn formula(&self) -> BetweenStresses {
+        BetweenStresses(self.strength)
+    }
     fn choice(&self) -> Choice {
         Choice {
             wall_term: self.wall_term,
@@ -58,23 +61,6 @@ impl KrimiViscosity {
             across: Across::Harmonic,
             within: Within::Harmonic,
         }
-    }
-}
-
-impl<const D: usize> ViscousOperator<D> for KrimiViscosity {
-    fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
-        self.choice()
-            .term(BetweenStresses(self.strength), viscosity)
-    }
-    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
-        self.choice()
-            .coupling(BetweenStresses(self.strength), viscosity)
-    }
-    fn stages(&self, viscosity: Viscosity) -> Stages<D> {
-        self.choice().stages(viscosity)
-    }
-    fn stiffness(&self) -> f64 {
-        1.65
     }
 }
 
