@@ -1,10 +1,8 @@
 //! Conductances of throats.
 
-use sph_derive::parameters;
 use std::f64::consts::PI;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_derive::parameters;
 
 use crate::{FlowError, Throat, register_conductance};
 
@@ -68,20 +66,9 @@ impl Conductance for HydraulicRadius {
 
 /// g = 2π R⁴ / µ with R = ¼ (√(A/π) + r), A the fluid area and r the radius of the inscribed circle.
 /// Source: Bryant & Blunt 1992; Catalano 2012, Eq. (3.6).
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
-#[serde(from = "NoParameters")]
-#[schemars(with = "NoParameters")]
-pub struct EffectiveRadius;
-
-/// It has no parameters.
 #[parameters(crate: crate::reexport)]
-struct NoParameters {}
-
-impl From<NoParameters> for EffectiveRadius {
-    fn from(_: NoParameters) -> Self {
-        Self
-    }
-}
+#[derive(PartialEq)]
+pub struct EffectiveRadius {}
 
 register_conductance!(
     EffectiveRadius,

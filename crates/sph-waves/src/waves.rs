@@ -1,7 +1,8 @@
 //! The waves that a maker is asked for.
 
-use sph_core::parameters;
 use std::f64::consts::{PI, TAU};
+
+use sph_core::parameters;
 
 use crate::dispersion::wavenumber_on;
 use crate::spectrum::{Jonswap, phases};

@@ -1,7 +1,8 @@
 //! A whole scene of grains.
 
-use sph_derive::parameters;
 use std::collections::BTreeMap;
+
+use sph_derive::parameters;
 
 use super::{AnyPlugins, Box, Fluid, Grains, Output, Plugins, Start, Wall};
 

@@ -1,7 +1,8 @@
 //! Level surfaces that are plane or waves along x, and the parts above and below them.
 
-use sph_core::parameters;
 use std::f64::consts::TAU;
+
+use sph_core::parameters;
 
 /// A level surface: y = level + amplitude · cos(2π x/wavelength + phase), with z for y in three
 /// dimensions.

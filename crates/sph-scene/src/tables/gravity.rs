@@ -1,7 +1,8 @@
 //! The table `[numerics.gravity_over_time]`: what gravity changes by.
 
-use sph_core::parameters;
 use std::path::PathBuf;
+
+use sph_core::parameters;
 
 /// What is added to `gravity` over time, m/s²; exactly one of `sine`, `table` and `file`.
 ///

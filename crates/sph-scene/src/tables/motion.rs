@@ -1,10 +1,9 @@
 //! The table `[wall.NAME.motion]`: rigid motion over time.
 
-use sph_core::parameters;
 use std::path::PathBuf;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer};
+use sph_core::parameters;
 
 /// Rigid motion of a wall: translations, added up, and a rotation about a centre that they carry.
 ///
@@ -199,7 +198,7 @@ impl Motion {
     }
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[parameters]
 #[serde(untagged)]
 enum OneOrMany {
     /// One translation.

@@ -1,7 +1,6 @@
 //! The tables `[run]` and `[numerics]`: how long, how fine, under which forces.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::Serialize;
 use sph_core::parameters;
 
 use crate::{GravityOverTime, Motion};
@@ -91,11 +90,12 @@ pub struct Numerics {
 
 /// The pressure ρ₀c₀² that all phases have in common: they are equally compressible, and ρ/ρ₀ has
 /// no jump where the pressure has none.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, serde::Serialize, JsonSchema)]
+#[parameters]
+#[derive(Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum ReferencePressure {
     /// Its value, Pa.
-    Value(#[schemars(extend("unit" = "Pa", "exclusiveMinimum" = 0.0))] f64),
+    Value(#[parameter(unit: "Pa", above: 0.0)] f64),
     /// That of one of the phases.
     Of(PressureOf),
 }
@@ -109,7 +109,7 @@ pub enum PressureOf {
 
 /// Settling of the first particles until their density is even.
 #[parameters]
-#[derive(PartialEq, serde::Serialize)]
+#[derive(PartialEq, Serialize)]
 pub struct Relax {
     /// Largest number of steps.
     #[parameter(default: 200, min: 1, max: 1_000_000)]
@@ -121,7 +121,7 @@ pub struct Relax {
 
 /// Lower and upper bound of every periodic direction, m.
 #[parameters]
-#[derive(serde::Serialize)]
+#[derive(Serialize)]
 pub struct Periodic {
     /// Lower and upper bound along x, m.
     #[parameter(unit: "m")]

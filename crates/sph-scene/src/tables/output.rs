@@ -1,7 +1,6 @@
 //! The table `[output]`: what a run writes and when.
 
 use scene_text::PictureRange;
-use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer};
 use sph_core::parameters;
 
@@ -71,7 +70,7 @@ impl Output {
     }
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[parameters]
 #[serde(untagged)]
 enum OneOrMany {
     /// One field.

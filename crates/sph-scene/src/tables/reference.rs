@@ -1,8 +1,8 @@
 //! The table `[reference.NAME]`: what a result is compared with, and by which norm.
 
-use sph_core::parameters;
 use std::path::PathBuf;
 
+use sph_core::parameters;
 use toml::Table;
 
 use crate::reading::plugins::AnyTable;

@@ -1,7 +1,8 @@
 //! The table `[wall.NAME]`: geometry, condition and motion of a wall.
 
-use sph_core::parameters;
 use std::path::PathBuf;
+
+use sph_core::parameters;
 
 use crate::Motion;
 use crate::reading::plugins::{AnyPlugins, Plugins};

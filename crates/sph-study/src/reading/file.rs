@@ -1,11 +1,9 @@
 //! What a study file says.
 
-use sph_core::parameters;
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use serde_json::Value as Json;
+use sph_core::parameters;
 use toml::{Table, Value};
 
 use crate::running::cost::Scaling;
@@ -157,7 +155,7 @@ pub enum Combine {
 }
 
 /// One name or several.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[parameters]
 #[serde(untagged)]
 pub enum OneOrMany {
     /// One.
