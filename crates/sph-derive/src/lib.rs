@@ -12,8 +12,9 @@
 //! ```
 //!
 //! Both attributes derive `Clone`, `Debug`, `Deserialize` and `JsonSchema`, deny unknown keys, and derive `Copy` for plain
-//! numbers. Where every field has a default or is an `Option`, the type has `Default`. What an author derives as well is
-//! not derived twice; further attributes of `serde` and `schemars` stay possible.
+//! numbers. Where every field has a default or is an `Option`, the type has `Default`. A plugin with a field that
+//! `#[serde(skip)]` keeps is neither cloned nor printed, unless it is plain numbers. What an author derives as well is not
+//! derived twice; further attributes of `serde` and `schemars` stay possible.
 
 mod defaults;
 mod number;
@@ -47,7 +48,8 @@ pub fn plugin(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// A table of parameters, or a choice between variants in kebab case, that is a part of a plugin or of a scene.
 ///
 /// A field says `#[parameter(…)]` with any of `default` (that of its type), `default: value`, `unit`, `min`, `max`, `above`
-/// and `below` (bounds that are not reached), `quantity`, `examples`, `source`. Its doc comment is its meaning.
+/// and `below` (bounds that are not reached), `min_items`, `max_items`, `quantity`, `examples`, `source`. Its doc comment
+/// is its meaning.
 ///
 /// `#[parameters(crate: path)]` names the module with `serde` and `schemars`, where that is not `sph_core`'s.
 #[proc_macro_attribute]

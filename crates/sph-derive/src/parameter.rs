@@ -9,12 +9,14 @@ use syn::{Attribute, Error, Token};
 use crate::defaults::Fallback;
 
 /// Words, and the keys of the schema that they become.
-const WORDS: [(&str, &str); 8] = [
+const WORDS: [(&str, &str); 10] = [
     ("unit", "unit"),
     ("min", "minimum"),
     ("max", "maximum"),
     ("above", "exclusiveMinimum"),
     ("below", "exclusiveMaximum"),
+    ("min_items", "minItems"),
+    ("max_items", "maxItems"),
     ("quantity", "quantity"),
     ("examples", "examples"),
     ("source", "source"),
@@ -148,9 +150,7 @@ mod tests {
     fn mistakes_name_what_is_valid() {
         let unknown = problem(r#"units: "m""#);
         assert!(unknown.contains("unknown word `units`"), "{unknown}");
-        for word in [
-            "default", "unit", "min", "max", "above", "below", "quantity", "examples", "source",
-        ] {
+        for word in WORDS.map(|(word, _)| word).into_iter().chain(["default"]) {
             assert!(unknown.contains(&format!("`{word}`")), "{word}: {unknown}");
         }
         assert!(problem(r#"unit = "m""#).contains("`unit: …`"));

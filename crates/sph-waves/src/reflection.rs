@@ -37,8 +37,7 @@ use crate::separation::{Separated, separated};
     source: "Mansard & Funke 1980")]
 pub struct ReflectionProbe {
     /// Places along the first axis: three or more, with unequal distances.
-    #[schemars(length(min = 2))]
-    #[parameter(unit: "m")]
+    #[parameter(unit: "m", min_items: 2)]
     pub at: Vec<f64>,
     /// Second coordinate of the gauges in three dimensions.
     #[parameter(default, unit: "m")]

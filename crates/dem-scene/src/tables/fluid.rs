@@ -1,7 +1,8 @@
 //! The table `[fluid]`.
 
-use super::{AnyPlugins, Plugins};
 use sph_derive::parameters;
+
+use super::{AnyPlugins, Plugins};
 
 /// The fluid that fills the pores of the box.
 #[parameters(crate: dem_grains::reexport)]

@@ -1,7 +1,8 @@
 //! The tables `[grains]` and `[start]`: which grains, and where they come from.
 
-use super::{AnyPlugins, Plugins, Triple};
 use sph_derive::parameters;
+
+use super::{AnyPlugins, Plugins, Triple};
 
 /// The grains and the law of their contacts.
 #[parameters(crate: dem_grains::reexport)]

@@ -1,7 +1,8 @@
 //! What a table `[probe.NAME]` says.
 
-use super::{Axis, Triple};
 use sph_derive::parameters;
+
+use super::{Axis, Triple};
 
 /// A measurement; the key `kind` says which.
 #[parameters(crate: dem_grains::reexport)]

@@ -1,7 +1,8 @@
 //! The tables `[box]` and `[wall.NAME]`.
 
-use super::{AnyPlugins, Axis, Plugins, Triple};
 use sph_derive::parameters;
+
+use super::{AnyPlugins, Axis, Plugins, Triple};
 
 /// A box of six walls, `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z).
 #[parameters(crate: dem_grains::reexport)]

@@ -1,11 +1,12 @@
 //! The table `[body.NAME]`: where a phase is at the start.
 
+use sph_core::parameters;
+
 use crate::geometry::polygon::Polygon;
 use crate::geometry::vector::array;
 use crate::reading::plugins::{AnyPlugins, Plugins};
 use crate::tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 use crate::{LevelSurface, Shape, Wave};
-use sph_core::parameters;
 
 /// A piece of a phase at the start: one shape, or what the walls enclose, less what is subtracted.
 #[parameters]
@@ -17,8 +18,7 @@ pub struct Body {
     #[parameter(unit: "m")]
     pub bounds: Option<[Vec<f64>; 2]>,
     /// Corners of a polygon in order, m; it closes itself. Two dimensions only.
-    #[schemars(length(min = 3))]
-    #[parameter(unit: "m")]
+    #[parameter(unit: "m", min_items: 3)]
     pub polygon: Option<Vec<Vec<f64>>>,
     /// Disc by centre and radius. Two dimensions only.
     pub disc: Option<Round>,
@@ -72,8 +72,7 @@ pub struct Cutout {
     #[parameter(unit: "m")]
     pub bounds: Option<[Vec<f64>; 2]>,
     /// Corners of a polygon in order, m; it closes itself. Two dimensions only.
-    #[schemars(length(min = 3))]
-    #[parameter(unit: "m")]
+    #[parameter(unit: "m", min_items: 3)]
     pub polygon: Option<Vec<Vec<f64>>>,
     /// Disc by centre and radius. Two dimensions only.
     pub disc: Option<Round>,

@@ -1,7 +1,8 @@
 //! The tables that give a shape of a body: `disc`, `ellipse`, `sphere`, `cylinder`, `cone`, `extrusion`.
 
-use crate::tables::wall_shapes::Axis;
 use sph_core::parameters;
+
+use crate::tables::wall_shapes::Axis;
 
 /// A disc or a sphere.
 #[parameters]
@@ -58,8 +59,7 @@ pub struct Cone {
 #[parameters]
 pub struct Extrusion {
     /// Corners of the polygon in order, m, as the two coordinates across the axis: (y, z), (x, z) or (x, y).
-    #[schemars(length(min = 3))]
-    #[parameter(unit: "m")]
+    #[parameter(unit: "m", min_items: 3)]
     pub polygon: Vec<Vec<f64>>,
     /// Axis along which it is drawn out.
     pub axis: Axis,

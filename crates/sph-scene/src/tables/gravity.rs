@@ -12,8 +12,7 @@ pub struct GravityOverTime {
     /// Oscillation.
     pub sine: Option<GravitySine>,
     /// Rows of time, s, and one entry per dimension, m/s²; times rise, entries are linear between rows and constant before the first and after the last.
-    #[schemars(length(min = 1))]
-    #[parameter(unit: "1")]
+    #[parameter(unit: "1", min_items: 1)]
     pub table: Option<Vec<Vec<f64>>>,
     /// CSV file of such rows, relative to the scene's folder; units may stand in its first line, `ax[mm/s²]`.
     pub file: Option<String>,

@@ -47,11 +47,10 @@ pub struct Levels {
     /// run, for example.
     pub file: String,
     /// Where the levels were taken, ascending along x, m.
-    #[schemars(length(min = 1))]
-    #[parameter(unit: "m")]
+    #[parameter(unit: "m", min_items: 1)]
     pub places: Vec<f64>,
     /// The columns of these places.
-    #[schemars(length(min = 1))]
+    #[parameter(min_items: 1)]
     pub columns: Vec<String>,
     /// Unit of the levels, such as "mm"; that in the head of each column, else metres, if left out.
     pub unit: Option<String>,
@@ -89,7 +88,7 @@ pub struct Translate {
     /// Unit of the times in the `file`; that in the head of the column, else seconds, if left out.
     pub time_unit: Option<String>,
     /// Names of the file's columns of time and displacement, or their numbers from 1; the only two if left out.
-    #[schemars(length(min = 2, max = 2))]
+    #[parameter(min_items: 2, max_items: 2)]
     pub columns: Option<Vec<String>>,
     /// The file with its folder, set when the scene is read.
     #[serde(skip)]
@@ -125,7 +124,7 @@ pub struct Rotation {
     /// Unit of the times in the `file`; that in the head of the column, else seconds, if left out.
     pub time_unit: Option<String>,
     /// Names of the file's columns of time and angle, or their numbers from 1; the only two if left out.
-    #[schemars(length(min = 2, max = 2))]
+    #[parameter(min_items: 2, max_items: 2)]
     pub columns: Option<Vec<String>>,
     /// The file with its folder, set when the scene is read.
     #[serde(skip)]

@@ -1,7 +1,8 @@
 //! The table `[outlet.NAME]`: where particles leave the flow.
 
-use crate::{Axis, Heading};
 use sph_core::parameters;
+
+use crate::{Axis, Heading};
 
 /// A place where particles leave the flow: a box, or all that is beyond a plane across an axis.
 ///

@@ -17,10 +17,7 @@ pub struct Output {
     #[parameter(default, unit: "s", above: 0.0)]
     pub series_every: Option<f64>,
     /// Names of the fields that are written.
-    #[parameter(
-        default: ["velocity", "pressure", "density"]
-                .map(String::from)
-                .to_vec())]
+    #[parameter(default: ["velocity", "pressure", "density"].map(String::from).to_vec())]
     pub fields: Vec<String>,
     /// Name of a field, or a list of names, of which pictures are drawn.
     #[serde(deserialize_with = "one_or_many")]

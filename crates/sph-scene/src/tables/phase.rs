@@ -1,7 +1,8 @@
 //! The table `[phase.NAME]`: one material.
 
-use crate::reading::plugins::{AnyPlugins, Plugins};
 use sph_core::parameters;
+
+use crate::reading::plugins::{AnyPlugins, Plugins};
 
 /// A material: its density, how it resists compression and how it flows.
 #[parameters]

@@ -23,7 +23,7 @@ pub struct Reference {
     #[schemars(with = "AnyTable")]
     pub parameters: Table,
     /// Names of the file's columns of time (or place) and value; the first two columns if left out.
-    #[schemars(length(min = 2, max = 2))]
+    #[parameter(min_items: 2, max_items: 2)]
     pub columns: Option<Vec<String>>,
     /// Column of the lower limit, for the norm `band`.
     pub lower: Option<String>,

@@ -16,8 +16,7 @@ use crate::tables::wall_shapes::{
 #[parameters]
 pub struct Wall {
     /// Corners of the wall in order, m; the fluid is on the left of travel. Two dimensions only.
-    #[schemars(length(min = 2))]
-    #[parameter(unit: "m")]
+    #[parameter(unit: "m", min_items: 2)]
     pub polyline: Option<Vec<Vec<f64>>>,
     /// Whether the last corner of the `polyline` is joined to the first.
     #[parameter(default)]
@@ -26,8 +25,7 @@ pub struct Wall {
     #[parameter(unit: "m", above: 0.0)]
     pub thickness: Option<f64>,
     /// Corners of a polygon in order, m, either way round; it closes itself. Two dimensions only.
-    #[schemars(length(min = 3))]
-    #[parameter(unit: "m")]
+    #[parameter(unit: "m", min_items: 3)]
     pub polygon: Option<Vec<Vec<f64>>>,
     /// Disc by centre and radius. Two dimensions only.
     pub disc: Option<DiscWall>,
@@ -58,7 +56,7 @@ pub struct Wall {
     /// Unit of the coordinates of the `file`, such as "mm"; that in the heads of its columns, else metres, if left out.
     pub unit: Option<String>,
     /// Names of the CSV file's columns of x and y, or their numbers from 1; the only two if left out.
-    #[schemars(length(min = 2, max = 2))]
+    #[parameter(min_items: 2, max_items: 2)]
     pub columns: Option<Vec<String>>,
     /// Shift of the geometry, m.
     #[parameter(unit: "m")]

@@ -147,8 +147,7 @@ pub struct Wedge {
 #[parameters]
 pub struct ExtrusionWall {
     /// Corners of the polygon in order, m, either way round, as the two coordinates across the axis: (y, z), (x, z) or (x, y).
-    #[schemars(length(min = 3))]
-    #[parameter(unit: "m")]
+    #[parameter(unit: "m", min_items: 3)]
     pub polygon: Vec<Vec<f64>>,
     /// Axis along which it is drawn out.
     pub axis: Axis,

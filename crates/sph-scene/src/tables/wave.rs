@@ -1,7 +1,8 @@
 //! Waves that a body carries at the start.
 
-use crate::geometry::level::nearest;
 use sph_core::parameters;
+
+use crate::geometry::level::nearest;
 
 /// A wave on still water, with its velocities.
 ///

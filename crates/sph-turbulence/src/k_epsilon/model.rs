@@ -1,7 +1,8 @@
 //! The equations of the k–ε model at one place.
 
-use super::realisable::RealisableModel;
 use sph_core::parameters;
+
+use super::realisable::RealisableModel;
 
 /// Which equations k and ε follow.
 #[parameters]

@@ -1,7 +1,8 @@
 //! k and ε at the start.
 
-use super::model::KEpsilonModel;
 use sph_core::parameters;
+
+use super::model::KEpsilonModel;
 
 /// k = u*²/√C_μ (1 − z/H) and ε = u*³/(κz) (1 − z/H): where production balances dissipation in a wide open channel.
 ///

@@ -39,7 +39,7 @@ const KIND: &str = "wall-function";
     source: "Reichardt 1951; Nikuradse 1933; Issa 2004, Eq. 6.32–6.36")]
 pub struct LogLaw {
     /// Names of the walls.
-    #[schemars(length(min = 1))]
+    #[parameter(min_items: 1)]
     pub walls: Vec<String>,
     /// Equivalent sand roughness k_s; 0 for smooth walls. At most the spacing.
     #[parameter(default, unit: "m", min: 0.0, source: "Nikuradse 1933")]
