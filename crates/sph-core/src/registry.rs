@@ -201,7 +201,8 @@ fn one_problem(message: &str) -> RegistryError {
     RegistryError::Parameters(vec![SceneProblem::new("", message)])
 }
 
-/// The JSON schema of a parameter type; that of a transparent wrapper has the parameters of the type within and its own text.
+/// The JSON schema of a parameter type; that of a transparent wrapper has the parameters of the type within and its own
+/// text.
 pub fn schema_of<P: JsonSchema>() -> Json {
     let mut schema = schemars::schema_for!(P).to_value();
     while let Some(Json::String(within)) = schema.get("$ref") {

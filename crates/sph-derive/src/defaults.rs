@@ -34,8 +34,8 @@ impl Defaults {
         }
     }
 
-    /// Puts the attributes of `schemars` and `serde` in the place of the words of a field. Returns the value that the field
-    /// has in the default of the type, if it has one; names of functions begin with the prefix.
+    /// Puts the attributes of `schemars` and `serde` in the place of the words of a field. Returns the value that the
+    /// field has in the default of the type, if it has one; names of functions begin with the prefix.
     ///
     /// # Errors
     /// Unknown words.

@@ -43,8 +43,8 @@ pub struct Registration {
     condition: Option<TokenStream>,
 }
 
-const FORM: &str = "expected `Entry [2, 3], \"name\", \"one sentence\", source: \"author year, Eq. n\"`, without brackets for kinds \
-     without a dimension of their own";
+const FORM: &str = "expected `Entry [2, 3], \"name\", \"one sentence\", source: \"author year, Eq. n\"`, without \
+     brackets for kinds without a dimension of their own";
 
 impl Parse for Registration {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {

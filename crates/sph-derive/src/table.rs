@@ -46,9 +46,7 @@ pub fn expand(
     let (mut derives, mut default) = (vec!["Deserialize", "JsonSchema"], None);
     let mut serde = Vec::new();
     match &mut item.data {
-        Data::Struct(data) => {
-            default = of_struct(data, &mut defaults, &mut serde)?;
-        }
+        Data::Struct(data) => default = of_struct(data, &mut defaults, &mut serde)?,
         Data::Enum(data) => of_choice(data, &mut defaults, &said, (&mut derives, &mut serde))?,
         Data::Union(_) => return Err(Error::new_spanned(&item, "expected a struct or an enum")),
     }
@@ -73,6 +71,18 @@ pub fn expand(
     })
 }
 
+/// Takes the words of parameters away.
+pub fn take_words(item: &mut DeriveInput) {
+    let fields: Vec<&mut Fields> = match &mut item.data {
+        Data::Struct(data) => vec![&mut data.fields],
+        Data::Enum(data) => data.variants.iter_mut().map(|v| &mut v.fields).collect(),
+        Data::Union(_) => Vec::new(),
+    };
+    for field in fields.into_iter().flatten() {
+        field.attrs.retain(|a| !a.path().is_ident("parameter"));
+    }
+}
+
 /// The path of a trait that is derived.
 fn path_of(name: &str, root: &TokenStream) -> TokenStream {
     match name {
@@ -88,8 +98,8 @@ fn path_of(name: &str, root: &TokenStream) -> TokenStream {
     }
 }
 
-/// Prepares the fields of a table; returns its `Default` if every field has one. What has one field without a name has the
-/// parameters of that.
+/// Prepares the fields of a table; returns its `Default` if every field has one. What has one field without a name has
+/// the parameters of that.
 fn of_struct(
     data: &mut DataStruct,
     defaults: &mut Defaults,
@@ -245,6 +255,19 @@ mod tests {
             "{code}"
         );
         assert!(!code.contains("cmp::Eq"), "{code}");
+    }
+
+    #[test]
+    fn words_are_taken_away_from_structs_and_variants() {
+        for item in [
+            "struct A { #[parameter(sauce: 1)] a: f64 }",
+            "enum A { B { #[parameter(sauce: 1)] a: f64 } }",
+        ] {
+            let mut item: DeriveInput = syn::parse_str(item).expect("an item");
+            assert!(expand(item.clone(), &quote!(::root), true).is_err());
+            take_words(&mut item);
+            assert!(expand(item, &quote!(::root), true).is_ok());
+        }
     }
 
     #[test]
