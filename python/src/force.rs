@@ -1,10 +1,8 @@
 //! A body force by functions of Python: `[body-force.python]`.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Contribution, Refusal, Setting, Stages, contribution_kind};
 use sph_core::{
-    Access, AnyField, Declares, Field, Stage, StepError, Vect, Vector, register, suggestion,
+    Access, AnyField, Declares, Field, Stage, StepError, Vect, Vector, plugin, suggestion,
 };
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, Terms, WithTerm, World};
 
@@ -23,18 +21,13 @@ const PUSH: Field<Vector> = Field::new(
 );
 
 /// du/dt = … + Σ f(t, columns) with functions of Python on whole columns.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(BodyForceEntry [2, 3], "python", "functions of Python on whole columns", source: "given by the caller")]
 struct PythonForce {
     /// Names of the functions; each returns accelerations, one row per particle.
     functions: Vec<String>,
     /// Columns that they are given.
-    #[serde(default = "place_and_velocity")]
+    #[parameter(default: ["position", "velocity"].map(String::from).to_vec())]
     columns: Vec<String>,
-}
-
-fn place_and_velocity() -> Vec<String> {
-    ["position", "velocity"].map(String::from).to_vec()
 }
 
 impl PythonForce {
@@ -132,11 +125,3 @@ impl<const D: usize> Interaction<D> for Push {
         with(&BoundPush(world.free.get(PUSH)?))
     }
 }
-
-register!(
-    BodyForceEntry [2, 3],
-    PythonForce,
-    "python",
-    "functions of Python on whole columns",
-    "given by the caller"
-);

@@ -3,9 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{AnyField, StepError, register};
+use sph_core::{AnyField, StepError, plugin};
 use sph_neighbours::World;
 use sph_probes::{Probe, ProbeColumn, ProbeEntry};
 
@@ -13,25 +11,16 @@ use crate::columns::field_of;
 use crate::functions::{call, known};
 
 /// f(t, columns) at every row of the series, one number.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "python", "a function of Python on whole columns", source: "given by the caller")]
 struct PythonProbe {
     /// Name of the function.
     function: String,
     /// Columns that it is given.
-    #[serde(default = "place_and_velocity")]
+    #[parameter(default: ["position", "velocity"].map(String::from).to_vec())]
     columns: Vec<String>,
     /// Unit of what it returns.
-    #[serde(default = "one")]
+    #[parameter(default: "1")]
     unit: String,
-}
-
-fn place_and_velocity() -> Vec<String> {
-    ["position", "velocity"].map(String::from).to_vec()
-}
-
-fn one() -> String {
-    "1".into()
 }
 
 /// Units are few, and columns keep theirs for good.
@@ -72,11 +61,3 @@ impl<const D: usize> Probe<D> for PythonProbe {
         call(name, world, &fields?, &[1], false)
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    PythonProbe,
-    "python",
-    "a function of Python on whole columns",
-    "given by the caller"
-);

@@ -2,8 +2,7 @@
 
 use std::f64::consts::PI;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_derive::parameters;
 
 use crate::{FlowError, Throat, register_conductance};
 
@@ -23,14 +22,15 @@ pub trait Conductance: Send + Sync {
 
 /// g = α A R² / µ with the fluid area A of the facet and the hydraulic radius R = φ/γ; α = ½ is that of
 /// a round tube of radius 2R. Source: Catalano 2012, Eqs. (3.4), (3.5).
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
-#[serde(deny_unknown_fields, default)]
+#[parameters(crate: crate::reexport)]
+#[derive(PartialEq)]
 pub struct HydraulicRadius {
     /// Shape factor α.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
+    #[parameter(default: 0.5, unit: "1", above: 0.0)]
     pub shape_factor: f64,
     /// Divides R by 2^¼ for each slip wall of a throat, as YADE 2023.02a does; not in the thesis, and it halves
     /// the conductance beside walls of symmetry. For comparison with YADE.
+    #[parameter(default)]
     pub reduced_at_slip_walls: bool,
 }
 
@@ -40,15 +40,6 @@ register_conductance!(
     "a tube with the throat's ratio of fluid volume to wetted surface",
     "Catalano 2012, Eqs. (3.4), (3.5)"
 );
-
-impl Default for HydraulicRadius {
-    fn default() -> Self {
-        Self {
-            shape_factor: 0.5,
-            reduced_at_slip_walls: false,
-        }
-    }
-}
 
 impl Conductance for HydraulicRadius {
     fn conductance(&self, throat: &Throat) -> f64 {
@@ -75,21 +66,9 @@ impl Conductance for HydraulicRadius {
 
 /// g = 2π R⁴ / µ with R = ¼ (√(A/π) + r), A the fluid area and r the radius of the inscribed circle.
 /// Source: Bryant & Blunt 1992; Catalano 2012, Eq. (3.6).
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
-#[serde(from = "NoParameters")]
-#[schemars(with = "NoParameters")]
-pub struct EffectiveRadius;
-
-/// It has no parameters.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct NoParameters {}
-
-impl From<NoParameters> for EffectiveRadius {
-    fn from(_: NoParameters) -> Self {
-        Self
-    }
-}
+#[parameters(crate: crate::reexport)]
+#[derive(PartialEq)]
+pub struct EffectiveRadius {}
 
 register_conductance!(
     EffectiveRadius,

@@ -1,7 +1,7 @@
 //! The law of Hertz and Mindlin.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use sph_derive::parameters;
 
 use crate::law::{reduced, require};
 use crate::{Contact, ContactLaw, GrainError, RollingResistance, Stiffness, register_law};
@@ -13,24 +13,23 @@ use crate::{Contact, ContactLaw, GrainError, RollingResistance, Stiffness, regis
 /// tangent stiffness alone would give back more than was put in (Elata & Berryman 1996; Thornton,
 /// Cummins & Cleary 2011). c_n = √5 ζ √(m* k_H) δ^¼ with k_H = (4/3) E* √R*, which rebounds at
 /// e = exp(−π ζ / √(1 − ζ²)) at any speed (Antypov & Elliott 2011).
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
+#[parameters(crate: crate::reexport)]
+#[derive(Copy, PartialEq, Serialize)]
 pub struct HertzMindlin {
     /// Shear modulus G of the grains.
-    #[schemars(extend("unit" = "Pa", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "Pa", above: 0.0)]
     pub shear_modulus: f64,
     /// Poisson's ratio ν of the grains.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = -1.0, "maximum" = 0.5))]
+    #[parameter(unit: "1", above: -1.0, max: 0.5)]
     pub poisson: f64,
     /// Coefficient of friction µ = tan φ_c.
-    #[schemars(range(min = 0.0), extend("unit" = "1"))]
+    #[parameter(unit: "1", min: 0.0)]
     pub friction: f64,
     /// ζ of the dashpots, normal and, while nothing slides, tangential.
-    #[schemars(range(min = 0.0), extend("unit" = "1", "exclusiveMaximum" = 1.0))]
-    #[serde(default)]
+    #[parameter(default, unit: "1", min: 0.0, below: 1.0)]
     pub damping: f64,
     /// Resistance to rolling.
-    #[serde(default)]
+    #[parameter(default)]
     pub rolling: Option<RollingResistance>,
 }
 

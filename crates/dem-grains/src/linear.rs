@@ -1,7 +1,7 @@
 //! The linear elastic–frictional law.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use sph_derive::parameters;
 
 use crate::law::require;
 use crate::{Contact, ContactLaw, GrainError, RollingResistance, Stiffness, register_law};
@@ -13,24 +13,23 @@ use crate::{Contact, ContactLaw, GrainError, RollingResistance, Stiffness, regis
 /// (m), c = 2 ζ √(m* k) (N s/m) with the reduced mass m*. A pair rebounds at e = exp(−π ζ / √(1 − ζ²)) times
 /// its speed; to hold this exactly the dashpot may pull just before the contact opens. Source: Catalano
 /// 2012, Eqs. (2.8), (2.9), (2.12), (4.1), (4.2).
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
+#[parameters(crate: crate::reexport)]
+#[derive(Copy, PartialEq, Serialize)]
 pub struct LinearElastic {
     /// Micro modulus E.
-    #[schemars(extend("unit" = "Pa", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "Pa", above: 0.0)]
     pub modulus: f64,
     /// a = k_t / k_n.
-    #[schemars(range(min = 0.0), extend("unit" = "1"))]
+    #[parameter(unit: "1", min: 0.0)]
     pub stiffness_ratio: f64,
     /// Coefficient of friction µ = tan φ_c.
-    #[schemars(range(min = 0.0), extend("unit" = "1"))]
+    #[parameter(unit: "1", min: 0.0)]
     pub friction: f64,
     /// Ratio ζ of the dashpots to critical damping, normal and, while nothing slides, tangential.
-    #[schemars(range(min = 0.0), extend("unit" = "1", "exclusiveMaximum" = 1.0))]
-    #[serde(default)]
+    #[parameter(default, unit: "1", min: 0.0, below: 1.0)]
     pub damping: f64,
     /// Resistance to rolling.
-    #[serde(default)]
+    #[parameter(default)]
     pub rolling: Option<RollingResistance>,
 }
 

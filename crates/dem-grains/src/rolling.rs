@@ -1,7 +1,7 @@
 //! Resistance to rolling, a part of the contact laws.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use sph_derive::parameters;
 
 use crate::law::require;
 use crate::{Contact, GrainError};
@@ -11,20 +11,15 @@ use crate::{Contact, GrainError};
 /// Δθ_t is the tangential part of the relative rotation, R* the reduced radius, F_n the normal force. A
 /// sphere stays on a slope up to tan θ = η. The moment turns with the contact; spin about the normal is free.
 /// Source: Iwashita & Oda 1998; Ai, Chen, Rotter & Ooi 2011, model C.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
+#[parameters(crate: crate::reexport)]
+#[derive(PartialEq, Serialize)]
 pub struct RollingResistance {
     /// η, the tangent of the angle of rolling resistance.
-    #[schemars(range(min = 0.0), extend("unit" = "1"))]
+    #[parameter(unit: "1", min: 0.0)]
     pub coefficient: f64,
     /// β, stiffness over k_t R*².
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
-    #[serde(default = "one")]
+    #[parameter(default: 1.0, unit: "1", above: 0.0)]
     pub stiffness: f64,
-}
-
-fn one() -> f64 {
-    1.0
 }
 
 impl RollingResistance {

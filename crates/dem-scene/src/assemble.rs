@@ -75,7 +75,7 @@ fn key_of(error: &CoupledError) -> &'static str {
 pub fn loads(scene: &Scene) -> Vec<Load> {
     let names = planes(scene);
     let all = names.iter().enumerate().filter_map(|(wall, name)| {
-        let piston = scene.wall.get(name)?.piston.clone()?;
+        let piston = scene.wall.get(name)?.piston?;
         Some(Load { wall, piston })
     });
     all.filter(Load::varies).collect()

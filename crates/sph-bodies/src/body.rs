@@ -1,12 +1,10 @@
 //! The mover `rigid-body`.
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_boundary::{
     Drawing, Load, Mover, MoverEntry, MoverRefusal, MoverSetting, RigidState, Touch,
 };
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::dynamics::Dynamics;
 use crate::freedom::{Freedom, Holds};
@@ -39,50 +37,48 @@ const FASTEST: f64 = 10.0;
 /// density = 500
 /// free = ["y", "rz"]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(MoverEntry [2, 3], "rigid-body", "a body that floats, sinks, turns and meets others",
+    source: "Newton's second law, Euler's equations; Canelas et al. 2015")]
+#[derive(Debug)]
 pub struct RigidBody {
     /// Density of the body, kg/m³, beside fluid a fiftieth of its density or more; it or the `mass` has to be given.
-    #[schemars(extend("unit" = "kg/m³", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "kg/m³", above: 0.0)]
     pub density: Option<f64>,
     /// Mass, kg (per metre of depth in two dimensions).
-    #[schemars(extend("unit" = "kg", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "kg", above: 0.0)]
     pub mass: Option<f64>,
     /// Centre of mass where the body is drawn, m; that of the shape if left out.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub centre: Option<Vec<f64>>,
     /// Inertia about the centre of mass, kg m²: one number in two dimensions; in three the principal ones about x, y and z
     /// as the body is drawn, or xx, yy, zz, xy, yz, zx of the tensor. That of a uniform body of this mass if left out.
-    #[schemars(extend("unit" = "kg m²", "examples" = [[1.0]]))]
+    #[parameter(unit: "kg m²", examples: [[1.0]])]
     pub inertia: Option<Vec<f64>>,
     /// What it is free to do; everything if left out. The rest is locked.
     pub free: Option<Vec<Freedom>>,
     /// Velocity of the centre at the start, m/s.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub velocity: Option<Vec<f64>>,
     /// Angular velocity at the start, rad/s: one number in two dimensions, three in three.
-    #[schemars(extend("unit" = "rad/s", "examples" = [[1.0]]))]
+    #[parameter(unit: "rad/s", examples: [[1.0]])]
     pub angular_velocity: Option<Vec<f64>>,
     /// The time until which it goes on with the velocity that it has at the start, s: at rest if none is given.
-    #[serde(default)]
-    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    #[parameter(default, unit: "s", min: 0.0)]
     pub start: f64,
     /// Times in which it moves as given, whatever pushes it: one after the other, from `start` on.
-    #[serde(default)]
+    #[parameter(default)]
     pub prescribed: Vec<Prescribed>,
     /// Springs and dampers on its degrees of freedom.
-    #[serde(default)]
+    #[parameter(default)]
     pub hold: Holds,
     /// Lines to places that stay: elastic ones, and chains that hang.
-    #[serde(default)]
+    #[parameter(default)]
     pub line: Vec<Line>,
     /// Share of the normal velocity that is left after it meets a wall or a body.
-    #[serde(default)]
-    #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1"))]
+    #[parameter(default, unit: "1", min: 0.0, max: 1.0)]
     pub restitution: f64,
     /// Coefficient of its friction on walls and bodies.
-    #[serde(default)]
-    #[schemars(extend("unit" = "1", "minimum" = 0.0))]
+    #[parameter(default, unit: "1", min: 0.0)]
     pub friction: f64,
     #[serde(skip)]
     settled: Option<(Dynamics, Touch)>,
@@ -389,11 +385,3 @@ impl<const D: usize> Mover<D> for RigidBody {
         }
     }
 }
-
-register!(
-    MoverEntry [2, 3],
-    RigidBody,
-    "rigid-body",
-    "a body that floats, sinks, turns and meets others",
-    "Newton's second law, Euler's equations; Canelas et al. 2015"
-);

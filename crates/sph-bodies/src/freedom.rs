@@ -1,10 +1,9 @@
 //! What a body is free to do, and what holds it there.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 
 /// A degree of freedom: along an axis, or about one through the centre.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[parameters]
 #[serde(rename_all = "lowercase")]
 pub enum Freedom {
     /// Along x.
@@ -49,44 +48,48 @@ impl Freedom {
 }
 
 /// A spring and a damper on a displacement from where the body is drawn.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[parameters]
 pub struct Hold {
     /// Stiffness, N/m (per metre of depth in two dimensions).
-    #[schemars(extend("unit" = "N/m", "minimum" = 0.0))]
+    #[parameter(default, unit: "N/m", min: 0.0)]
     pub stiffness: f64,
     /// Damping, N s/m (per metre of depth in two dimensions).
-    #[schemars(extend("unit" = "N s/m", "minimum" = 0.0))]
+    #[parameter(default, unit: "N s/m", min: 0.0)]
     pub damping: f64,
 }
 
 /// A spring and a damper on an angle from how the body is drawn.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[parameters]
 pub struct HoldTurn {
     /// Stiffness, N m/rad (per metre of depth in two dimensions).
-    #[schemars(extend("unit" = "N m", "minimum" = 0.0))]
+    #[parameter(default, unit: "N m", min: 0.0)]
     pub stiffness: f64,
     /// Damping, N m s/rad (per metre of depth in two dimensions).
-    #[schemars(extend("unit" = "N m s", "minimum" = 0.0))]
+    #[parameter(default, unit: "N m s", min: 0.0)]
     pub damping: f64,
 }
 
 /// Springs and dampers on degrees of freedom.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[parameters]
+#[derive(Copy)]
 pub struct Holds {
     /// Along x.
+    #[parameter(default)]
     pub x: Option<Hold>,
     /// Along y.
+    #[parameter(default)]
     pub y: Option<Hold>,
     /// Along z; three dimensions only.
+    #[parameter(default)]
     pub z: Option<Hold>,
     /// About x; three dimensions only.
+    #[parameter(default)]
     pub rx: Option<HoldTurn>,
     /// About y; three dimensions only.
+    #[parameter(default)]
     pub ry: Option<HoldTurn>,
     /// About z.
+    #[parameter(default)]
     pub rz: Option<HoldTurn>,
 }
 

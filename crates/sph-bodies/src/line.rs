@@ -1,9 +1,8 @@
 //! Lines between a body and a place that stays: moorings.
 
 use nalgebra::Vector3;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_boundary::Drawing;
+use sph_core::parameters;
 
 use crate::six::padded;
 
@@ -18,27 +17,25 @@ use crate::six::padded;
 /// to = [0.5, 0.35]
 /// stiffness = "2 kN/m"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Line {
     /// The place that stays, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub from: Vec<f64>,
     /// The place of the body, where it is drawn, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub to: Vec<f64>,
     /// Stiffness k of the whole line, N/m (per metre of depth in two dimensions); EA/l₀ of one with a weight.
-    #[schemars(extend("unit" = "N/m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "N/m", above: 0.0)]
     pub stiffness: f64,
     /// Damping c, N s/m (per metre of depth in two dimensions); none with a weight.
-    #[serde(default)]
-    #[schemars(extend("unit" = "N s/m", "minimum" = 0.0))]
+    #[parameter(default, unit: "N s/m", min: 0.0)]
     pub damping: f64,
     /// Length l₀ without tension, m; as drawn if left out. One with a weight needs it.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub length: Option<f64>,
     /// Weight in the fluid per length, N/m (and per metre of depth in two dimensions): the line hangs.
-    #[schemars(extend("unit" = "N/m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "N/m", above: 0.0)]
     pub weight: Option<f64>,
     /// Whether a line with a weight may lie on a bed at the height of its fixed end; yes if left out.
     pub bed: Option<bool>,

@@ -1,10 +1,8 @@
 //! Times in which a body is moved as the scene says, whatever pushes it.
 
 use nalgebra::{Vector3, Vector6};
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_boundary::{MoverRefusal, RigidState};
-use sph_core::Vect;
+use sph_core::{Vect, parameters};
 
 use crate::six::{parts, six};
 
@@ -18,19 +16,17 @@ use crate::six::{parts, six};
 /// to = "2 s"
 /// course = [[1.0, 0.0, 0.1, 0.0], [2.0, 0.0, -0.1, 0.0]]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Prescribed {
     /// When it begins, s.
-    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    #[parameter(unit: "s", min: 0.0)]
     pub from: f64,
     /// When the body is free again, s.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub to: f64,
     /// Times, s, each with the velocity of the centre, m/s, and the angular velocity then, rad/s: `[t, u_x, u_y, ω]` in two
     /// dimensions, `[t, u_x, u_y, u_z, ω_x, ω_y, ω_z]` in three; straight between them. Without it the body keeps what it has.
-    #[serde(default)]
-    #[schemars(extend("examples" = [[[0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.1, 0.0]]]))]
+    #[parameter(default, examples: [[[0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.1, 0.0]]])]
     pub course: Vec<Vec<f64>>,
 }
 

@@ -1,10 +1,9 @@
 //! An axis of space, as scenes name it.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use sph_derive::parameters;
 
 /// An axis of space.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[parameters(crate: crate::reexport)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// The first.

@@ -2,7 +2,7 @@
 //! There is no physics here.
 //!
 //! * [`Field`] and [`Store`]: one column per field, allocated only when somebody declared it.
-//! * [`contract!`] and [`register!`]: how a crate offers plugins of a kind, with typed
+//! * [`contract!`] and [`plugin`]: how a crate offers plugins of a kind, with typed
 //!   parameters whose unit, default, meaning and source travel with them.
 //! * [`Declares`], [`Stage`] and [`plan()`]: stages say what they read at the particle, what
 //!   they read at its neighbours and what they write; the planner prunes and orders them.
@@ -62,6 +62,7 @@ pub use scene_text::{
 };
 pub use shelf::{Lent, Shelf};
 pub use slots::Slots;
+pub use sph_derive::{parameters, plugin};
 pub use stage::{Access, Declares, Stage};
 pub use store::{Plain, Role, Store};
 pub use symmetric::Symmetric;

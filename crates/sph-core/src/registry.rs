@@ -201,18 +201,21 @@ fn one_problem(message: &str) -> RegistryError {
     RegistryError::Parameters(vec![SceneProblem::new("", message)])
 }
 
-/// The JSON schema of a parameter type; that of a transparent wrapper is that of the type within.
+/// The JSON schema of a parameter type; that of a transparent wrapper has the parameters of the type within and its own
+/// text.
 pub fn schema_of<P: JsonSchema>() -> Json {
     let mut schema = schemars::schema_for!(P).to_value();
-    while let Some(within) = schema.get("$ref").and_then(Json::as_str) {
-        let Some(mut found) = within
-            .strip_prefix('#')
-            .and_then(|p| schema.pointer(p))
-            .cloned()
-        else {
+    while let Some(Json::String(within)) = schema.get("$ref") {
+        let name = within.trim_start_matches("#/$defs/").to_string();
+        let of = schema.get_mut("$defs").and_then(Json::as_object_mut);
+        let Some(mut found) = of.and_then(|of| of.remove(&name)) else {
             break;
         };
-        found["$defs"] = schema["$defs"].take();
+        for key in ["$defs", "$schema", "title", "description"] {
+            if let Some(own) = schema.get_mut(key) {
+                found[key] = own.take();
+            }
+        }
         schema = found;
     }
     schema
@@ -311,67 +314,6 @@ macro_rules! contract {
                 all
             })
         }
-    };
-}
-
-/// An entry as a value: `entry!(WallEntry [2, 3], Usaw, "usaw", "summary", "source")`, or
-/// without dimensions for contracts that have none.
-#[macro_export]
-macro_rules! entry {
-    (@info $ty:ty, $name:literal, $summary:literal, $source:literal, $dims:expr) => {
-        $crate::PluginInfo {
-            name: $name,
-            summary: $summary,
-            source: $source,
-            provider: concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")),
-            dimensions: $dims,
-            schema: $crate::schema_of::<$ty>,
-        }
-    };
-    ($entry:ident [2], $ty:ty, $name:literal, $summary:literal, $source:literal) => {
-        $entry {
-            info: $crate::entry!(@info $ty, $name, $summary, $source, &[2]),
-            build_2d: Some(|t| Ok(Box::new($crate::typed::<$ty>(t)?))),
-            build_3d: None,
-        }
-    };
-    ($entry:ident [3], $ty:ty, $name:literal, $summary:literal, $source:literal) => {
-        $entry {
-            info: $crate::entry!(@info $ty, $name, $summary, $source, &[3]),
-            build_2d: None,
-            build_3d: Some(|t| Ok(Box::new($crate::typed::<$ty>(t)?))),
-        }
-    };
-    ($entry:ident [2 => $planar:ty], $name:literal, $summary:literal, $source:literal) => {
-        $crate::entry!($entry [2], $planar, $name, $summary, $source)
-    };
-    ($entry:ident [2 => $planar:ty, 3 => $spatial:ty], $name:literal, $summary:literal, $source:literal) => {
-        $entry {
-            info: $crate::entry!(@info $planar, $name, $summary, $source, &[2, 3]),
-            build_2d: Some(|t| Ok(Box::new($crate::typed::<$planar>(t)?))),
-            build_3d: Some(|t| Ok(Box::new($crate::typed::<$spatial>(t)?))),
-        }
-    };
-    ($entry:ident [2, 3], $ty:ty, $name:literal, $summary:literal, $source:literal) => {
-        $entry {
-            info: $crate::entry!(@info $ty, $name, $summary, $source, &[2, 3]),
-            build_2d: Some(|t| Ok(Box::new($crate::typed::<$ty>(t)?))),
-            build_3d: Some(|t| Ok(Box::new($crate::typed::<$ty>(t)?))),
-        }
-    };
-    ($entry:ident, $ty:ty, $name:literal, $summary:literal, $source:literal) => {
-        $entry {
-            info: $crate::entry!(@info $ty, $name, $summary, $source, &[2, 3]),
-            build: |t| Ok(Box::new($crate::typed::<$ty>(t)?)),
-        }
-    };
-}
-
-/// Registers a plugin for discovery; the arguments of [`entry!`].
-#[macro_export]
-macro_rules! register {
-    ($($arguments:tt)*) => {
-        $crate::reexport::inventory::submit! { $crate::entry!($($arguments)*) }
     };
 }
 

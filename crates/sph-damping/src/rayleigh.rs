@@ -1,10 +1,8 @@
 //! Damping in proportion to the velocity.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Contribution, Refusal, Setting, StepWork, contribution_kind};
-use sph_core::{Access, AnyField, StepError, Vect, fields, register};
+use sph_core::{Access, AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::zone::Zone;
@@ -27,21 +25,20 @@ contribution_kind!(
 /// rate = "20 1/s"
 /// zones = [{ axis = "x", from = 8.0, to = 10.0 }]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(DampingEntry [2, 3], "rayleigh", "in proportion to the velocity: everywhere, or in sponges",
+    source: "Issa 2004, Eq. 4.10; Israeli & Orszag 1981")]
 pub struct Rayleigh {
     /// Rate Γ.
-    #[schemars(range(min = 0.0), extend("unit" = "1/s"))]
+    #[parameter(unit: "1/s", min: 0.0)]
     pub rate: f64,
     /// Where; everywhere if left out.
-    #[serde(default)]
+    #[parameter(default)]
     pub zones: Vec<Zone>,
     /// Velocity U that is left, by component; rest if left out.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(default, unit: "m/s")]
     pub velocity: Vec<f64>,
     /// The time at which it ends; never if left out.
-    #[schemars(extend("unit" = "s"))]
+    #[parameter(unit: "s")]
     pub until: Option<f64>,
 }
 
@@ -122,14 +119,6 @@ impl<const D: usize> StepWork<D> for Rayleigh {
         Ok(world.free.put(fields::VELOCITY, velocity)?)
     }
 }
-
-register!(
-    DampingEntry [2, 3],
-    Rayleigh,
-    "rayleigh",
-    "in proportion to the velocity: everywhere, or in sponges",
-    "Issa 2004, Eq. 4.10; Israeli & Orszag 1981"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,24 +1,22 @@
 //! Where velocities are damped.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Axis, Vect};
+use sph_core::{Axis, Vect, parameters};
 
 /// A zone in which the damping grows with the square of the way into it, from nothing at `from` to all of it at `to` and beyond:
 /// a rate that jumped would send waves back.
 ///
 /// Source: Israeli & Orszag 1981, J. Comput. Phys. 41, 115–135 (smooth rates).
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
+#[derive(Copy, PartialEq)]
 pub struct Zone {
     /// The axis along which it grows.
-    #[serde(default)]
+    #[parameter(default)]
     pub axis: Axis,
     /// Where it begins.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub from: f64,
     /// Where it has grown; `to` may be less than `from`.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub to: f64,
 }
 

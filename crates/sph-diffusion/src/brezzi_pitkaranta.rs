@@ -1,8 +1,6 @@
 //! The Brezzi–Pitkäranta smoother.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Access, StepError, Vect, fields, register};
+use sph_core::{Access, StepError, Vect, fields, plugin};
 use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
     World, dot, splat,
@@ -29,25 +27,17 @@ use sph_state::Laws;
 /// on. [`DeltaSph`](crate::DeltaSph) is the same diffusion less whatever gradient there is: take it for soils.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 2.92–2.95 and 2.99, corrected; A, which is 0 there, is ours.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(SmootherEntry [2, 3], "brezzi-pitkaranta", "pressure diffusion with hydrostatic balance",
+    source: "Ghaïtanellis 2017, Eq. 2.92–2.99")]
 pub struct BrezziPitkaranta {
     /// Strength δ: the diffusivity of the density over h c. The source's 0.04 in most cases, 0.4 for tanks at rest and impacts.
-    #[schemars(
-        range(min = 0.0, max = 4.0),
-        extend("unit" = "1", "source" = "Antuono et al. 2010; Ghaïtanellis 2017, Eq. 2.100: 0.4 Λ")
-    )]
+    #[parameter(default: 0.1, unit: "1", min: 0.0, max: 4.0,
+        source: "Antuono et al. 2010; Ghaïtanellis 2017, Eq. 2.100: 0.4 Λ")]
     pub strength: f64,
     /// Whether the pressure that accelerates the fluid is left alone, as that of gravity is. Left out: where all walls move, and
     /// where the fluid falls without any.
-    #[schemars(extend("source" = "ours"))]
+    #[parameter(default, source: "ours")]
     pub accelerations: Option<bool>,
-}
-
-impl Default for BrezziPitkaranta {
-    fn default() -> Self {
-        Self::with(0.1)
-    }
 }
 
 impl<const D: usize> Smoother<D> for BrezziPitkaranta {
@@ -67,14 +57,6 @@ impl<const D: usize> Smoother<D> for BrezziPitkaranta {
         DiffusionLimit::of(self.strength, laws)
     }
 }
-
-register!(
-    SmootherEntry [2, 3],
-    BrezziPitkaranta,
-    "brezzi-pitkaranta",
-    "pressure diffusion with hydrostatic balance",
-    "Ghaïtanellis 2017, Eq. 2.92–2.99"
-);
 
 impl BrezziPitkaranta {
     /// Of this strength.

@@ -1,8 +1,6 @@
 //! The δ-SPH smoother for several phases.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Access, StepError, Vect, fields, register};
+use sph_core::{Access, StepError, Vect, fields, parameters, plugin};
 use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
     World, dot, splat,
@@ -38,47 +36,33 @@ use sph_state::Laws;
 /// strength = 0.1
 /// balance = "hydrostatic"
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(SmootherEntry [2, 3], "delta-msph", "diffusion of the relative density, across interfaces and at walls",
+    source: "Krimi et al. 2018, Eq. 30–31")]
+#[derive(Copy)]
 pub struct DeltaMultiphase {
     /// Strength δ.
-    #[schemars(
-        range(min = 0.0, max = 1.0),
-        extend("unit" = "1", "source" = "Krimi et al. 2018: 0.1")
-    )]
+    #[parameter(default: 0.1, unit: "1", min: 0.0, max: 1.0, source: "Krimi et al. 2018: 0.1")]
     pub strength: f64,
     /// Whether walls count.
-    #[schemars(extend("source" = "ours"))]
+    #[parameter(default: true, source: "ours")]
     pub walls: bool,
     /// What is not to be diffused.
-    #[schemars(extend("source" = "ours; literal: Krimi et al. 2018, Eq. 30"))]
+    #[parameter(default, source: "ours; literal: Krimi et al. 2018, Eq. 30")]
     pub balance: Balance,
     /// Whether the hydrostatic balance has the mean acceleration A. Left out: where all walls move, and where the fluid falls
     /// without any.
-    #[schemars(extend("source" = "ours"))]
+    #[parameter(default, source: "ours")]
     pub accelerations: Option<bool>,
 }
 
 /// What is not to be diffused.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Balance {
     /// The compression of a fluid at rest or in an accelerated frame.
     #[default]
     Hydrostatic,
     /// Nothing: as printed.
     Literal,
-}
-
-impl Default for DeltaMultiphase {
-    fn default() -> Self {
-        DeltaMultiphase {
-            strength: 0.1,
-            walls: true,
-            balance: Balance::default(),
-            accelerations: None,
-        }
-    }
 }
 
 impl<const D: usize> Smoother<D> for DeltaMultiphase {
@@ -101,14 +85,6 @@ impl<const D: usize> Smoother<D> for DeltaMultiphase {
         DiffusionLimit::of(self.strength, laws)
     }
 }
-
-register!(
-    SmootherEntry [2, 3],
-    DeltaMultiphase,
-    "delta-msph",
-    "diffusion of the relative density, across interfaces and at walls",
-    "Krimi et al. 2018, Eq. 30–31"
-);
 
 /// The term of [`DeltaMultiphase`].
 pub struct DeltaTerm {

@@ -1,8 +1,8 @@
 //! The δ-SPH smoother.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, register};
+use sph_core::{
+    Access, Declares, Field, Stage, StepError, Vect, Vector, fields, parameters, plugin,
+};
 use sph_neighbours::{
     Around, BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
     Rates, Values, World, dot, unlike, walk_into,
@@ -32,38 +32,26 @@ use sph_state::Laws;
 /// form = "renormalised"
 /// strength = 0.1
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(SmootherEntry [2, 3], "delta-sph", "density diffusion within each phase",
+    source: "Molteni & Colagrossi 2009; Antuono et al. 2010")]
+#[derive(Copy)]
 pub struct DeltaSph {
     /// Strength δ.
-    #[schemars(
-        range(min = 0.0, max = 1.0),
-        extend("unit" = "1", "source" = "Antuono et al. 2010: 0.1")
-    )]
+    #[parameter(default: 0.1, unit: "1", min: 0.0, max: 1.0, source: "Antuono et al. 2010: 0.1")]
     pub strength: f64,
     /// With or without the gradients of the density.
-    #[schemars(extend("source" = "Molteni & Colagrossi 2009; Antuono et al. 2010"))]
+    #[parameter(default: DeltaForm::Renormalised, source: "Molteni & Colagrossi 2009; Antuono et al. 2010")]
     pub form: DeltaForm,
 }
 
 /// The forms of [`DeltaSph`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum DeltaForm {
     /// Differences of density.
     Plain,
     /// Differences from the linear density.
     #[default]
     Renormalised,
-}
-
-impl Default for DeltaSph {
-    fn default() -> Self {
-        DeltaSph {
-            strength: 0.1,
-            form: DeltaForm::Renormalised,
-        }
-    }
 }
 
 impl<const D: usize> Smoother<D> for DeltaSph {
@@ -83,14 +71,6 @@ impl<const D: usize> Smoother<D> for DeltaSph {
         DiffusionLimit::of(self.strength, laws)
     }
 }
-
-register!(
-    SmootherEntry [2, 3],
-    DeltaSph,
-    "delta-sph",
-    "density diffusion within each phase",
-    "Molteni & Colagrossi 2009; Antuono et al. 2010"
-);
 
 /// Renormalised gradient of the density within the phase.
 pub const DENSITY_GRADIENT: Field<Vector> = Field::new(

@@ -1,9 +1,7 @@
 //! Shifting down the gradient of concentration.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use sph_core::{Access, Declares, Stage, StepError, Vect, fields, register};
+use sph_core::{Access, Declares, Stage, StepError, Vect, fields, parameters, plugin};
 use sph_neighbours::{Interaction, World};
 
 use crate::evenness::{Evenness, Held, evenness, held_normals};
@@ -46,59 +44,43 @@ use sph_state::Laws;
 /// [shifting.fickian]
 /// strength = 0.5
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(ShiftingEntry [2, 3], "fickian", "particles move down the gradient of their concentration",
+    source: "Lind et al. 2012; Sun et al. 2017")]
+#[derive(Copy)]
 pub struct Fickian {
     /// Strength B: the diffusivity of the arrangement over h c.
-    #[schemars(
-        range(min = 0.0, max = 2.0),
-        extend("unit" = "1", "source" = "after Adami et al. 2013, who have 0.5 at Δt = 0.25 h/c")
-    )]
+    #[parameter(default: 0.5, unit: "1", min: 0.0, max: 2.0,
+        source: "after Adami et al. 2013, who have 0.5 at Δt = 0.25 h/c")]
     pub strength: f64,
     /// Weight R of the term against clumping.
-    #[schemars(
-        range(min = 0.0, max = 1.0),
-        extend("unit" = "1", "source" = "Lind et al. 2012, after Monaghan 2000")
-    )]
+    #[parameter(default: 0.2, unit: "1", min: 0.0, max: 1.0, source: "Lind et al. 2012, after Monaghan 2000")]
     pub tensile: f64,
     /// Exponent n of the term against clumping.
-    #[schemars(
-        range(min = 1, max = 8),
-        extend("unit" = "1", "source" = "Lind et al. 2012, after Monaghan 2000")
-    )]
+    #[parameter(default: 4, unit: "1", min: 1, max: 8, source: "Lind et al. 2012, after Monaghan 2000")]
     pub exponent: i32,
     /// Largest |s| over U.
-    #[schemars(
-        range(min = 0.0, max = 1.0),
-        extend("unit" = "1", "source" = "Sun et al. 2017")
-    )]
+    #[parameter(default: 0.5, unit: "1", min: 0.0, max: 1.0, source: "Sun et al. 2017")]
     pub limit: f64,
     /// Share of a full support, ΣθVw/γ, below which a particle is at a free surface.
     ///
     /// The outer row of a lattice has 0.78, 0.69 and 0.62 at h/δr = 1.3, 2 and 3.
-    #[schemars(
-        range(min = 0.0, max = 1.0),
-        extend("unit" = "1", "source" = "measured on lattices")
-    )]
+    #[parameter(default: 0.85, unit: "1", min: 0.0, max: 1.0, source: "measured on lattices")]
     pub surface: f64,
     /// What a shifted particle takes up where it goes.
-    #[schemars(extend("source" = "Sun et al. 2019"))]
+    #[parameter(default: Transport::All, source: "Sun et al. 2019")]
     pub transport: Transport,
     /// How fast the density that is taken up comes back to that of the arrangement, over the rate at which
     /// this is rearranged.
-    #[schemars(
-        range(min = 0.0, max = 10.0),
-        extend("unit" = "1", "source" = "ours; 0.1 to 1 in channels and cavities at c = 10 to 40 U")
-    )]
+    #[parameter(default: 0.5, unit: "1", min: 0.0, max: 10.0,
+        source: "ours; 0.1 to 1 in channels and cavities at c = 10 to 40 U")]
     pub relaxation: f64,
     /// Whether shifts keep along walls at rest, too, as they do where a wall moves: for curved walls.
-    #[schemars(extend("source" = "ours"))]
+    #[parameter(default, source: "ours")]
     pub along_walls: bool,
 }
 
 /// What a shifted particle takes up where it goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Transport {
     /// Nothing: it keeps its velocity, and its density follows the formulation.
     Nothing,
@@ -106,21 +88,6 @@ pub enum Transport {
     Density,
     /// The density and the velocity.
     All,
-}
-
-impl Default for Fickian {
-    fn default() -> Self {
-        Fickian {
-            strength: 0.5,
-            tensile: 0.2,
-            exponent: 4,
-            limit: 0.5,
-            surface: 0.85,
-            transport: Transport::All,
-            relaxation: 0.5,
-            along_walls: false,
-        }
-    }
 }
 
 impl<const D: usize> Shifting<D> for Fickian {
@@ -141,14 +108,6 @@ impl<const D: usize> Shifting<D> for Fickian {
         (self.transport != Transport::Nothing).then(|| Box::new(term) as _)
     }
 }
-
-register!(
-    ShiftingEntry [2, 3],
-    Fickian,
-    "fickian",
-    "particles move down the gradient of their concentration",
-    "Lind et al. 2012; Sun et al. 2017"
-);
 
 /// The shift velocity.
 struct ShiftVelocity<const D: usize> {

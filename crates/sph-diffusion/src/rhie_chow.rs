@@ -1,8 +1,6 @@
 //! The Rhie–Chow smoother.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Access, Declares, Stage, StepError, fields, register};
+use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_neighbours::{Around, Interaction, Values, World, walk_into};
 
 use crate::balance::PRESSURE_SLOPE;
@@ -34,21 +32,13 @@ use sph_state::Laws;
 /// [smoother.rhie-chow]
 /// strength = 0.1
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(SmootherEntry [2, 3], "rhie-chow", "pressure diffusion less what the wide stencil resolves",
+    source: "Ghaïtanellis 2017, Eq. 2.96–2.98")]
 pub struct RhieChow {
     /// Strength δ: the diffusivity of the density over h c.
-    #[schemars(
-        range(min = 0.0, max = 4.0),
-        extend("unit" = "1", "source" = "Antuono et al. 2010; Ghaïtanellis 2017, Eq. 2.101: 0.4 Λ")
-    )]
+    #[parameter(default: 0.1, unit: "1", min: 0.0, max: 4.0,
+        source: "Antuono et al. 2010; Ghaïtanellis 2017, Eq. 2.101: 0.4 Λ")]
     pub strength: f64,
-}
-
-impl Default for RhieChow {
-    fn default() -> Self {
-        RhieChow { strength: 0.1 }
-    }
 }
 
 impl<const D: usize> Smoother<D> for RhieChow {
@@ -70,14 +60,6 @@ impl<const D: usize> Smoother<D> for RhieChow {
         DiffusionLimit::of(self.strength, laws)
     }
 }
-
-register!(
-    SmootherEntry [2, 3],
-    RhieChow,
-    "rhie-chow",
-    "pressure diffusion less what the wide stencil resolves",
-    "Ghaïtanellis 2017, Eq. 2.96–2.98"
-);
 
 /// [`PRESSURE_SLOPE`].
 struct PressureSlope;

@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Shelf, Vect, register};
+use sph_core::{Shelf, Vect, plugin};
 
 use crate::conjugate_gradient::ITERATIONS;
 use crate::{
@@ -27,20 +25,16 @@ use crate::{
 /// [linear-solver.automatic]
 /// tolerance = 1e-8
 /// ```
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(LinearSolverEntry [2, 3], "automatic",
+    "conjugate gradients, and in 2D Cholesky for the systems for which they take too long",
+    source: "docs/validation/implicit.md")]
 pub struct Automatic {
     /// Relative residual |b − A x| / |b| of the iterative solvers.
-    #[schemars(
-        range(max = 0.1),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours")
-    )]
+    #[parameter(default: 1e-8, unit: "1", above: 0.0, max: 0.1, source: "ours")]
     pub tolerance: f64,
     #[serde(skip)]
-    #[schemars(skip)]
     direct: Cholesky,
     #[serde(skip)]
-    #[schemars(skip)]
     shelf: Arc<Shelf>,
 }
 
@@ -50,16 +44,6 @@ impl Automatic {
         Automatic {
             tolerance,
             ..Automatic::default()
-        }
-    }
-}
-
-impl Default for Automatic {
-    fn default() -> Self {
-        Automatic {
-            tolerance: 1e-8,
-            direct: Cholesky::default(),
-            shelf: Arc::default(),
         }
     }
 }
@@ -161,11 +145,3 @@ impl<const D: usize> LinearSolver<D> for Automatic {
         })
     }
 }
-
-register!(
-    LinearSolverEntry [2, 3],
-    Automatic,
-    "automatic",
-    "conjugate gradients, and in 2D Cholesky for the systems for which they take too long",
-    "docs/validation/implicit.md"
-);

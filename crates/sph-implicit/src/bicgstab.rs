@@ -1,8 +1,6 @@
 //! Stabilised bi-conjugate gradients.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Shelf, Vect, register};
+use sph_core::{Shelf, Vect, plugin};
 
 use crate::krylov::{Tolerance, Watch};
 use crate::vector::add;
@@ -14,31 +12,19 @@ use crate::{LinearSolver, LinearSolverEntry, Operator, Preconditioner, Report, S
 /// ```toml
 /// [linear-solver.bicgstab]
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(LinearSolverEntry [2, 3], "bicgstab", "stabilised bi-conjugate gradients, for comparison with the thesis",
+    source: "van der Vorst 1992; Ghaïtanellis 2017, §5.1.1")]
+#[derive(Copy)]
 pub struct Bicgstab {
     /// What shortens the iteration.
-    #[schemars(extend("source" = "Ghaïtanellis 2017, §5.1.1: jacobi"))]
+    #[parameter(default: Preconditioner::Jacobi, source: "Ghaïtanellis 2017, §5.1.1: jacobi")]
     pub preconditioner: Preconditioner,
     /// Relative residual |b − A x| / |b| at which it ends.
-    #[schemars(
-        range(max = 0.1),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours")
-    )]
+    #[parameter(default: 1e-8, unit: "1", above: 0.0, max: 0.1, source: "ours")]
     pub tolerance: f64,
     /// Iterations after which it gives up; the step is then tried again with half its length.
-    #[schemars(range(min = 1), extend("unit" = "1", "source" = "ours"))]
+    #[parameter(default: 2000, unit: "1", min: 1, source: "ours")]
     pub iterations: usize,
-}
-
-impl Default for Bicgstab {
-    fn default() -> Self {
-        Bicgstab {
-            preconditioner: Preconditioner::Jacobi,
-            tolerance: 1e-8,
-            iterations: 2000,
-        }
-    }
 }
 
 const METHOD: &str = "BiCGSTAB";
@@ -105,11 +91,3 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
         }
     }
 }
-
-register!(
-    LinearSolverEntry [2, 3],
-    Bicgstab,
-    "bicgstab",
-    "stabilised bi-conjugate gradients, for comparison with the thesis",
-    "van der Vorst 1992; Ghaïtanellis 2017, §5.1.1"
-);

@@ -10,9 +10,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, Par, Side, Spec};
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::matrix::{Entries, Matrix, Values};
 use crate::vector::norm;
@@ -27,11 +25,11 @@ use crate::{Entry, LinearSolver, LinearSolverEntry, Operator, Pattern, Report, S
 /// ```toml
 /// [linear-solver.cholesky]
 /// ```
-#[derive(Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(LinearSolverEntry [2, 3], "cholesky",
+    "sparse factorisation by faer: any step and contrast, memory permitting; best in 2D",
+    source: "faer 0.24; Davis 2006")]
 pub struct Cholesky {
     #[serde(skip)]
-    #[schemars(skip)]
     kept: Option<Kept>,
 }
 
@@ -117,14 +115,6 @@ impl<const D: usize> LinearSolver<D> for Cholesky {
         }
     }
 }
-
-register!(
-    LinearSolverEntry [2, 3],
-    Cholesky,
-    "cholesky",
-    "sparse factorisation by faer: any step and contrast, memory permitting; best in 2D",
-    "faer 0.24; Davis 2006"
-);
 
 fn report(residual: f64, bytes: usize) -> Report {
     Report {

@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Shelf, Vect, register};
+use sph_core::{Shelf, Vect, plugin};
 
 use crate::krylov::{Tolerance, Watch};
 use crate::vector::{add, scale_and_add};
@@ -19,24 +17,22 @@ use crate::{LinearSolver, LinearSolverEntry, Operator, Preconditioner, Report, S
 /// [linear-solver.conjugate-gradient]
 /// preconditioner = "incomplete-diagonal"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(LinearSolverEntry [2, 3], "conjugate-gradient",
+    "preconditioned conjugate gradients: little memory, best where steps are moderate or in 3D",
+    source: "Hestenes & Stiefel 1952")]
+#[derive(Clone)]
 pub struct ConjugateGradient {
     /// What shortens the iteration.
-    #[schemars(extend("source" = "docs/validation/implicit.md: iterations against contrast"))]
+    #[parameter(default, source: "docs/validation/implicit.md: iterations against contrast")]
     pub preconditioner: Preconditioner,
     /// Relative residual |b − A x| / |b| at which it ends.
-    #[schemars(
-        range(max = 0.1),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours")
-    )]
+    #[parameter(default: 1e-8, unit: "1", above: 0.0, max: 0.1, source: "ours")]
     pub tolerance: f64,
     /// Iterations after which it gives up; the step is then tried again with half its length.
-    #[schemars(range(min = 1), extend("unit" = "1", "source" = "ours"))]
+    #[parameter(default: ITERATIONS, unit: "1", min: 1, source: "ours")]
     pub iterations: usize,
     /// Vectors and factors of solves before, kept for their memory; solvers may share them.
     #[serde(skip)]
-    #[schemars(skip)]
     pub shelf: Arc<Shelf>,
 }
 
@@ -47,17 +43,6 @@ struct Vectors<const D: usize> {
     z: Vec<Vect<D>>,
     direction: Vec<Vect<D>>,
     image: Vec<Vect<D>>,
-}
-
-impl Default for ConjugateGradient {
-    fn default() -> Self {
-        ConjugateGradient {
-            preconditioner: Preconditioner::default(),
-            tolerance: 1e-8,
-            iterations: ITERATIONS,
-            shelf: Arc::default(),
-        }
-    }
 }
 
 /// Iterations after which it gives up, unless a scene says otherwise.
@@ -142,11 +127,3 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
         }
     }
 }
-
-register!(
-    LinearSolverEntry [2, 3],
-    ConjugateGradient,
-    "conjugate-gradient",
-    "preconditioned conjugate gradients: little memory, best where steps are moderate or in 3D",
-    "Hestenes & Stiefel 1952"
-);

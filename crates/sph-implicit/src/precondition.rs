@@ -1,17 +1,14 @@
 //! Preconditioners of the iterative solvers.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use sph_core::{Lent, Shelf, Vect};
+use sph_core::{Lent, Shelf, Vect, parameters};
 
 use crate::incomplete::Incomplete;
 use crate::matrix::{Entries, ROWS, Values};
 use crate::{Block, Diagonal, Entry, Operator, Pattern, SolveError};
 
 /// z ≈ A⁻¹ r.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Preconditioner {
     /// z = r.
     None,

@@ -1,28 +1,16 @@
 //! How friction is taken over a step.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{contract, register};
+use sph_core::{contract, parameters, plugin};
 
 /// How often the viscosity follows the new velocity, where it depends on it.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[parameters]
 pub struct OuterIteration {
     /// Iterate until √(Σm|Δu|²/Σm(|u|² + Δt²|g|²)) is below this, with the driving acceleration g.
-    #[schemars(range(min = 0.0), extend("unit" = "1", "source" = "ours"))]
+    #[parameter(default: 1e-4, unit: "1", min: 0.0, source: "ours")]
     pub tolerance: f64,
     /// Largest number of solves per step; 1 takes the viscosity of the step before.
-    #[schemars(range(min = 1), extend("unit" = "1", "source" = "ours"))]
+    #[parameter(default: 30, unit: "1", min: 1, source: "ours")]
     pub iterations: usize,
-}
-
-impl Default for OuterIteration {
-    fn default() -> Self {
-        OuterIteration {
-            tolerance: 1e-4,
-            iterations: 30,
-        }
-    }
 }
 
 /// M (uⁿ⁺¹ − uⁿ)/Δt = F − θ K uⁿ⁺¹ − (1 − θ) K uⁿ, with the friction K and all other forces F.
@@ -47,10 +35,12 @@ contract!(
 /// ```toml
 /// [implicit-viscosity.backward-euler]
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(ImplicitViscosityEntry, "backward-euler", "first order, damps every mode however large the step",
+    source: "Ghaïtanellis 2017, §5.1.1")]
+#[derive(Copy)]
 pub struct BackwardEuler {
     /// Where the viscosity depends on the velocity: when it is good enough.
+    #[parameter(default)]
     pub picard: OuterIteration,
 }
 
@@ -63,14 +53,6 @@ impl TimeScheme for BackwardEuler {
     }
 }
 
-register!(
-    ImplicitViscosityEntry,
-    BackwardEuler,
-    "backward-euler",
-    "first order, damps every mode however large the step",
-    "Ghaïtanellis 2017, §5.1.1"
-);
-
 /// θ = 1/2: second order, where the integrator is and viscosities do not follow the velocity (then first); stable for any Δt, but modes that are much faster
 /// than the step change their sign instead of dying away.
 ///
@@ -80,10 +62,12 @@ register!(
 /// [integrator.leap-frog]
 /// [implicit-viscosity.crank-nicolson]
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(ImplicitViscosityEntry, "crank-nicolson", "second order with an integrator of second order",
+    source: "Crank & Nicolson 1947")]
+#[derive(Copy)]
 pub struct CrankNicolson {
     /// Where the viscosity depends on the velocity: when it is good enough.
+    #[parameter(default)]
     pub picard: OuterIteration,
 }
 
@@ -95,11 +79,3 @@ impl TimeScheme for CrankNicolson {
         self.picard
     }
 }
-
-register!(
-    ImplicitViscosityEntry,
-    CrankNicolson,
-    "crank-nicolson",
-    "second order with an integrator of second order",
-    "Crank & Nicolson 1947"
-);

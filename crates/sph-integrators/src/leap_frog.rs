@@ -1,8 +1,6 @@
 //! Leap-frog: kick, drift, kick.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Recall, StepError, System, register};
+use sph_core::{Recall, StepError, System, plugin};
 
 use crate::{Integrator, IntegratorEntry, LimitCoefficients};
 
@@ -18,37 +16,18 @@ use crate::{Integrator, IntegratorEntry, LimitCoefficients};
 /// [integrator.leap-frog]
 /// courant = 0.4
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(IntegratorEntry, "leap-frog", "kick, drift, kick: second order, two evaluations per step",
+    source: "Verlet 1967; Springel 2005")]
 pub struct LeapFrog {
     /// Share of the time sound takes over h: Δt ≤ courant · h / c.
-    #[schemars(
-        range(max = 1.7),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Springel 2005")
-    )]
+    #[parameter(default: 0.4, unit: "1", above: 0.0, max: 1.7, source: "Springel 2005")]
     pub courant: f64,
     /// Share of the viscous time over h: Δt ≤ viscous · ρ h² / η.
-    #[schemars(
-        range(max = 0.3),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Springel 2005")
-    )]
+    #[parameter(default: 0.125, unit: "1", above: 0.0, max: 0.3, source: "Springel 2005")]
     pub viscous: f64,
     /// Share of the time the largest acceleration takes over h: Δt ≤ force · √(h / |a|).
-    #[schemars(
-        range(max = 1.0),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Monaghan 1992")
-    )]
+    #[parameter(default: 0.25, unit: "1", above: 0.0, max: 1.0, source: "Monaghan 1992")]
     pub force: f64,
-}
-
-impl Default for LeapFrog {
-    fn default() -> Self {
-        LeapFrog {
-            courant: 0.4,
-            viscous: 0.125,
-            force: 0.25,
-        }
-    }
 }
 
 impl Integrator for LeapFrog {
@@ -70,14 +49,6 @@ impl Integrator for LeapFrog {
         system.kick(0.5 * dt)
     }
 }
-
-register!(
-    IntegratorEntry,
-    LeapFrog,
-    "leap-frog",
-    "kick, drift, kick: second order, two evaluations per step",
-    "Verlet 1967; Springel 2005"
-);
 
 #[cfg(test)]
 mod tests {

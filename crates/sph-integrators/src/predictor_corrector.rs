@@ -1,8 +1,6 @@
 //! The predictor–corrector of Krimi et al. (2018).
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Recall, StepError, System, register};
+use sph_core::{Recall, StepError, System, plugin};
 
 use crate::{Integrator, IntegratorEntry, LimitCoefficients};
 
@@ -20,37 +18,18 @@ use crate::{Integrator, IntegratorEntry, LimitCoefficients};
 /// [integrator.predictor-corrector]
 /// courant = 0.25
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(IntegratorEntry, "predictor-corrector",
+    "friction of second order, sound of first; two evaluations of the forces", source: "Krimi et al. 2018, Eq. 52–56")]
 pub struct PredictorCorrector {
     /// Share of the time sound takes over h: Δt ≤ courant · h / c.
-    #[schemars(
-        range(max = 1.7),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Krimi et al. 2018, Eq. 54–56")
-    )]
+    #[parameter(default: 0.25, unit: "1", above: 0.0, max: 1.7, source: "Krimi et al. 2018, Eq. 54–56")]
     pub courant: f64,
     /// Share of the viscous time over h: Δt ≤ viscous · ρ h² / η.
-    #[schemars(
-        range(max = 0.3),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Krimi et al. 2018, Eq. 54–56")
-    )]
+    #[parameter(default: 0.2, unit: "1", above: 0.0, max: 0.3, source: "Krimi et al. 2018, Eq. 54–56")]
     pub viscous: f64,
     /// Share of the time the largest acceleration takes over h: Δt ≤ force · √(h / |a|).
-    #[schemars(
-        range(max = 1.0),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Monaghan 1992")
-    )]
+    #[parameter(default: 0.25, unit: "1", above: 0.0, max: 1.0, source: "Monaghan 1992")]
     pub force: f64,
-}
-
-impl Default for PredictorCorrector {
-    fn default() -> Self {
-        PredictorCorrector {
-            courant: 0.25,
-            viscous: 0.2,
-            force: 0.25,
-        }
-    }
 }
 
 impl Integrator for PredictorCorrector {
@@ -74,14 +53,6 @@ impl Integrator for PredictorCorrector {
         system.drift(dt)
     }
 }
-
-register!(
-    IntegratorEntry,
-    PredictorCorrector,
-    "predictor-corrector",
-    "friction of second order, sound of first; two evaluations of the forces",
-    "Krimi et al. 2018, Eq. 52–56"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,6 @@
 //! The symplectic Euler scheme of Ghaïtanellis (2017).
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, System, register};
+use sph_core::{StepError, System, plugin};
 
 use crate::{Integrator, IntegratorEntry, LimitCoefficients};
 
@@ -17,37 +15,19 @@ use crate::{Integrator, IntegratorEntry, LimitCoefficients};
 /// [integrator.symplectic-euler]
 /// courant = 0.4
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(IntegratorEntry, "symplectic-euler",
+    "kick, then drift with the new velocity; first order, one evaluation per step",
+    source: "Ghaïtanellis 2017, Eq. 2.102")]
 pub struct SymplecticEuler {
     /// Share of the time sound takes over h: Δt ≤ courant · h / c.
-    #[schemars(
-        range(max = 1.7),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 2.104")
-    )]
+    #[parameter(default: 0.4, unit: "1", above: 0.0, max: 1.7, source: "Ghaïtanellis 2017, Eq. 2.104")]
     pub courant: f64,
     /// Share of the viscous time over h: Δt ≤ viscous · ρ h² / η.
-    #[schemars(
-        range(max = 0.3),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 2.106")
-    )]
+    #[parameter(default: 0.125, unit: "1", above: 0.0, max: 0.3, source: "Ghaïtanellis 2017, Eq. 2.106")]
     pub viscous: f64,
     /// Share of the time the largest acceleration takes over h: Δt ≤ force · √(h / |a|).
-    #[schemars(
-        range(max = 1.0),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Monaghan 1992")
-    )]
+    #[parameter(default: 0.25, unit: "1", above: 0.0, max: 1.0, source: "Monaghan 1992")]
     pub force: f64,
-}
-
-impl Default for SymplecticEuler {
-    fn default() -> Self {
-        SymplecticEuler {
-            courant: 0.4,
-            viscous: 0.125,
-            force: 0.25,
-        }
-    }
 }
 
 impl Integrator for SymplecticEuler {
@@ -68,14 +48,6 @@ impl Integrator for SymplecticEuler {
         system.drift(dt)
     }
 }
-
-register!(
-    IntegratorEntry,
-    SymplecticEuler,
-    "symplectic-euler",
-    "kick, then drift with the new velocity; first order, one evaluation per step",
-    "Ghaïtanellis 2017, Eq. 2.102"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,6 @@
 //! The Verlet scheme of Kajtar and Monaghan: drift, kick, drift.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Recall, StepError, System, register};
+use sph_core::{Recall, StepError, System, plugin};
 
 use crate::{Integrator, IntegratorEntry, LimitCoefficients};
 
@@ -20,37 +18,18 @@ use crate::{Integrator, IntegratorEntry, LimitCoefficients};
 /// [integrator.verlet]
 /// courant = 0.4
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(IntegratorEntry, "verlet", "drift, kick, drift: second order, two evaluations per step",
+    source: "Kajtar & Monaghan 2010; Monaghan 2005")]
 pub struct Verlet {
     /// Share of the time sound takes over h: Δt ≤ courant · h / c.
-    #[schemars(
-        range(max = 1.7),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Kajtar & Monaghan 2010")
-    )]
+    #[parameter(default: 0.4, unit: "1", above: 0.0, max: 1.7, source: "Kajtar & Monaghan 2010")]
     pub courant: f64,
     /// Share of the viscous time over h: Δt ≤ viscous · ρ h² / η.
-    #[schemars(
-        range(max = 0.3),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Kajtar & Monaghan 2010")
-    )]
+    #[parameter(default: 0.125, unit: "1", above: 0.0, max: 0.3, source: "Kajtar & Monaghan 2010")]
     pub viscous: f64,
     /// Share of the time the largest acceleration takes over h: Δt ≤ force · √(h / |a|).
-    #[schemars(
-        range(max = 1.0),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Monaghan 1992")
-    )]
+    #[parameter(default: 0.25, unit: "1", above: 0.0, max: 1.0, source: "Monaghan 1992")]
     pub force: f64,
-}
-
-impl Default for Verlet {
-    fn default() -> Self {
-        Verlet {
-            courant: 0.4,
-            viscous: 0.125,
-            force: 0.25,
-        }
-    }
 }
 
 impl Integrator for Verlet {
@@ -72,14 +51,6 @@ impl Integrator for Verlet {
         system.drift(0.5 * dt)
     }
 }
-
-register!(
-    IntegratorEntry,
-    Verlet,
-    "verlet",
-    "drift, kick, drift: second order, two evaluations per step",
-    "Kajtar & Monaghan 2010; Monaghan 2005"
-);
 
 #[cfg(test)]
 mod tests {

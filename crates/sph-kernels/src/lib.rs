@@ -55,15 +55,16 @@ mod scalar_sampler;
 mod spline;
 mod wendland;
 
-pub use builtin::{builtin, by_name};
+pub use builtin::{
+    builtin, by_name, cubic_spline, quartic_spline, quintic_spline, wendland_c2, wendland_c4,
+    wendland_c6,
+};
 pub use kernel::Kernel;
 pub use polynomial::PiecewisePolynomial;
 pub use polynomial_kernel::PolynomialKernel;
 pub use polynomial_sampler::polynomial_sampler;
 pub use sampler::Sampler;
 pub use scalar_sampler::ScalarSampler;
-pub use spline::{cubic_spline, quartic_spline, quintic_spline};
-pub use wendland::{wendland_c2, wendland_c4, wendland_c6};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

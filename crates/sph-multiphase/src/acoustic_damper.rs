@@ -2,11 +2,9 @@
 
 use std::sync::OnceLock;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Contribution, Limiter, Setting, Stages};
 use sph_core::{
-    Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, register,
+    Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, plugin,
 };
 use sph_damping::DampingEntry;
 use sph_neighbours::{
@@ -37,21 +35,13 @@ use crate::interface_limit::shortest_wave;
 /// [damping.acoustic]
 /// strength = 0.5
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(DampingEntry [2, 3], "acoustic", "a bulk viscosity against the sound of impacts",
+    source: "after Sun et al. 2023", cfg(not(test)))]
 pub struct AcousticDamper {
     /// Strength α: the bulk viscosity over ρ₀ c h.
-    #[schemars(
-        range(min = 0.0, max = 2.0),
-        extend("unit" = "1", "source" = "ours: a wave of 20 h loses 1 % in a period at 0.03, a fifth at 0.5")
-    )]
+    #[parameter(default: 0.5, unit: "1", min: 0.0, max: 2.0,
+        source: "ours: a wave of 20 h loses 1 % in a period at 0.03, a fifth at 0.5")]
     pub strength: f64,
-}
-
-impl Default for AcousticDamper {
-    fn default() -> Self {
-        AcousticDamper { strength: 0.5 }
-    }
 }
 
 impl<const D: usize> Contribution<D> for AcousticDamper {
@@ -88,15 +78,6 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
         Some(format!("lower the strength in {path}"))
     }
 }
-
-#[cfg(not(test))]
-register!(
-    DampingEntry [2, 3],
-    AcousticDamper,
-    "acoustic",
-    "a bulk viscosity against the sound of impacts",
-    "after Sun et al. 2023"
-);
 
 /// What the damper adds to the pressure.
 pub const DAMPING_PRESSURE: Field<Scalar> = Field::new(

@@ -1,8 +1,6 @@
 //! The formulation of Colagrossi and Landrini.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Evolved, StepError, fields, register};
+use sph_core::{Evolved, StepError, fields, plugin};
 use sph_neighbours::{Interaction, World};
 
 use crate::divergence::{Divergence, TheirVolume};
@@ -21,8 +19,9 @@ use sph_contribution::Stages;
 ///
 /// Source: Ghaïtanellis 2017, Eq. 3.2–3.5; Colagrossi & Landrini 2003; walls as in Eq. 2.75 with
 /// k = 0.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(FormulationEntry [2, 3], "colagrossi-landrini",
+    "integrated densities, volumes as weights; simple and robust at free surfaces",
+    source: "Ghaïtanellis 2017, Eq. 3.2–3.5; Colagrossi & Landrini 2003", cfg(not(test)))]
 pub struct ColagrossiLandrini {}
 
 impl<const D: usize> Formulation<D> for ColagrossiLandrini {
@@ -45,15 +44,6 @@ impl<const D: usize> Formulation<D> for ColagrossiLandrini {
         Ok(())
     }
 }
-
-#[cfg(not(test))]
-register!(
-    FormulationEntry [2, 3],
-    ColagrossiLandrini,
-    "colagrossi-landrini",
-    "integrated densities, volumes as weights; simple and robust at free surfaces",
-    "Ghaïtanellis 2017, Eq. 3.2–3.5; Colagrossi & Landrini 2003"
-);
 
 /// Density diffusion of a formulation that integrates the density itself.
 pub(crate) fn integrated_density() -> Diffused {

@@ -2,24 +2,22 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Refusal, Setting};
-use sph_core::{Access, Declares, Field, Stage, StepError, Vect, Vector, fields, suggestion};
+use sph_core::{
+    Access, Declares, Field, Stage, StepError, Vect, Vector, fields, parameters, suggestion,
+};
 use sph_neighbours::{Around, Values, World, walk_into};
 
 /// Angle at which an interface meets walls at rest, measured through one of its phases.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct ContactAngle {
     /// The phase through which angles are measured.
     pub phase: String,
     /// The angle: 0 where the phase wets walls, 180° where it shuns them.
-    #[schemars(range(min = 0.0, max = 3.15), extend("unit" = "rad"))]
+    #[parameter(unit: "rad", min: 0.0, max: 3.15)]
     pub angle: f64,
     /// Angles at walls of their own, by the names of the walls.
-    #[serde(default)]
-    #[schemars(extend("unit" = "rad"))]
+    #[parameter(default, unit: "rad")]
     pub walls: BTreeMap<String, f64>,
 }
 

@@ -1,11 +1,7 @@
 //! The formulation of Grenier et al. (2009).
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{
-    Access, Declares, Evolved, Field, Scalar, Stage, StepError, Vect, fields, register,
-};
+use sph_core::{Access, Declares, Evolved, Field, Scalar, Stage, StepError, Vect, fields, plugin};
 use sph_neighbours::{
     BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
     Rates, World, add_scaled, dot, minus,
@@ -29,8 +25,8 @@ pub const FILLING: Field<Scalar> = Field::new("filling", "1", "Σ θ V w / γ");
 /// mean density is the particle's m/V. Walls have the d of whoever looks at them.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 3.14–3.18; Grenier et al. 2009; the wall terms are ours.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(FormulationEntry [2, 3], "grenier", "integrated volumes, densities averaged within the phase",
+    source: "Ghaïtanellis 2017, Eq. 3.14–3.18; Grenier et al. 2009", cfg(not(test)))]
 pub struct Grenier {}
 
 impl<const D: usize> Formulation<D> for Grenier {
@@ -70,15 +66,6 @@ impl<const D: usize> Formulation<D> for Grenier {
         Ok(world.free.put(fields::VOLUME, volume)?)
     }
 }
-
-#[cfg(not(test))]
-register!(
-    FormulationEntry [2, 3],
-    Grenier,
-    "grenier",
-    "integrated volumes, densities averaged within the phase",
-    "Ghaïtanellis 2017, Eq. 3.14–3.18; Grenier et al. 2009"
-);
 
 /// Densities by phase, and how full the supports are.
 #[derive(Default)]

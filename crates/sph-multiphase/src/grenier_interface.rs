@@ -1,8 +1,6 @@
 //! The interface force of Grenier et al. (2009).
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 use sph_neighbours::{Interaction, Lane};
 
 use crate::repulsion::{Repelling, Repulsion};
@@ -21,21 +19,12 @@ use sph_state::Laws;
 /// [interface.grenier]
 /// strength = 0.08
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(InterfaceEntry [2, 3], "grenier", "repulsion between phases that keeps interfaces sharp",
+    source: "Grenier et al. 2009", cfg(not(test)))]
 pub struct GrenierInterface {
     /// Strength ε.
-    #[schemars(
-        range(min = 0.0, max = 1.0),
-        extend("unit" = "1", "source" = "Grenier et al. 2009: 0.01 to 0.1")
-    )]
+    #[parameter(default: 0.08, unit: "1", min: 0.0, max: 1.0, source: "Grenier et al. 2009: 0.01 to 0.1")]
     pub strength: f64,
-}
-
-impl Default for GrenierInterface {
-    fn default() -> Self {
-        GrenierInterface { strength: 0.08 }
-    }
 }
 
 /// V_a V_b (|p_a| + |p_b|).
@@ -55,12 +44,3 @@ impl<const D: usize> InterfaceModel<D> for GrenierInterface {
         Repelling::<BothVolumes>::boxed(self.strength)
     }
 }
-
-#[cfg(not(test))]
-register!(
-    InterfaceEntry [2, 3],
-    GrenierInterface,
-    "grenier",
-    "repulsion between phases that keeps interfaces sharp",
-    "Grenier et al. 2009"
-);

@@ -1,9 +1,7 @@
 //! The volume formulation of Hu and Adams with semi-analytical walls and free surfaces.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, register};
+use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, plugin};
 use sph_neighbours::{Interaction, World, kernel_sums};
 
 use crate::divergence::{Divergence, OfTheSum, OwnVolume};
@@ -20,8 +18,8 @@ use sph_contribution::Stages;
 /// `[surface.cone-test]` gives it ρ₀, and the guard stops a run with a density below its bounds.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 3.24–3.25 in the telescoped form.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(FormulationEntry [2, 3], "hu-adams", "volume-based densities, exact for several phases and with free surfaces",
+    source: "Ghaïtanellis 2017, Eq. 3.24–3.26; Hu & Adams 2006", cfg(not(test)))]
 pub struct HuAdams {}
 
 impl<const D: usize> Formulation<D> for HuAdams {
@@ -63,15 +61,6 @@ impl<const D: usize> Formulation<D> for HuAdams {
         Ok(world.free.put(fields::DENSITY_CONSTANT, constant)?)
     }
 }
-
-#[cfg(not(test))]
-register!(
-    FormulationEntry [2, 3],
-    HuAdams,
-    "hu-adams",
-    "volume-based densities, exact for several phases and with free surfaces",
-    "Ghaïtanellis 2017, Eq. 3.24–3.26; Hu & Adams 2006"
-);
 
 /// ρ = (K + m Σθw)/γ and V = m/ρ.
 struct DensitySum;

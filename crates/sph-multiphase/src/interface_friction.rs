@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Access, StepError, StepLimit, Vect, fields, register};
+use sph_core::{Access, StepError, StepLimit, Vect, fields, plugin};
 use sph_neighbours::{
     BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
     Rates, WallPoints, World, add_scaled, dot, minus, unlike,
@@ -37,30 +35,16 @@ use sph_state::Laws;
 /// strength = 2.0
 /// shocks = 2.0
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(InterfaceEntry [2, 3], "artificial-viscosity",
+    "dissipation between phases, for light particles in a heavy fluid", source: "Monaghan 1992, Eq. 4.1–4.2",
+    cfg(not(test)))]
 pub struct InterfaceFriction {
     /// Strength α.
-    #[schemars(
-        range(min = 0.0, max = 10.0),
-        extend("unit" = "1", "source" = "Monaghan 1992: 0.01 to 1")
-    )]
+    #[parameter(default: 2.0, unit: "1", min: 0.0, max: 10.0, source: "Monaghan 1992: 0.01 to 1")]
     pub strength: f64,
     /// Strength β.
-    #[schemars(
-        range(min = 0.0, max = 10.0),
-        extend("unit" = "1", "source" = "Monaghan 1992: 1 to 2")
-    )]
+    #[parameter(default: 2.0, unit: "1", min: 0.0, max: 10.0, source: "Monaghan 1992: 1 to 2")]
     pub shocks: f64,
-}
-
-impl Default for InterfaceFriction {
-    fn default() -> Self {
-        InterfaceFriction {
-            strength: 2.0,
-            shocks: 2.0,
-        }
-    }
 }
 
 impl<const D: usize> InterfaceModel<D> for InterfaceFriction {
@@ -79,15 +63,6 @@ impl<const D: usize> InterfaceModel<D> for InterfaceFriction {
         Some(Box::new(DampingLimit(Damping::of(self, laws))))
     }
 }
-
-#[cfg(not(test))]
-register!(
-    InterfaceEntry [2, 3],
-    InterfaceFriction,
-    "artificial-viscosity",
-    "dissipation between phases, for light particles in a heavy fluid",
-    "Monaghan 1992, Eq. 4.1–4.2"
-);
 
 /// The term of [`InterfaceFriction`] with the speeds of sound of the phases.
 #[derive(Clone, Debug)]

@@ -1,8 +1,6 @@
 //! The formulation of Krimi et al. (2018).
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, register};
+use sph_core::{StepError, parameters, plugin};
 use sph_neighbours::{Interaction, World};
 
 use crate::colagrossi_landrini::{compressed_density, integrated_density};
@@ -30,17 +28,17 @@ use sph_contribution::Stages;
 /// [formulation.krimi]
 /// divergence = "literal"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(FormulationEntry [2, 3], "krimi", "integrated densities, pressure averaged between particles by density",
+    source: "Krimi et al. 2018, Eq. 26, 32–33", cfg(not(test)))]
+#[derive(Copy)]
 pub struct Krimi {
     /// The divergence of the continuity equation.
-    #[schemars(extend("source" = "Krimi et al. 2018, Eq. 26"))]
+    #[parameter(default, source: "Krimi et al. 2018, Eq. 26")]
     pub divergence: Continuity,
 }
 
 /// The divergence of the continuity equation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Continuity {
     /// As printed: weighs with V_b.
     #[default]
@@ -72,12 +70,3 @@ impl<const D: usize> Formulation<D> for Krimi {
         Ok(())
     }
 }
-
-#[cfg(not(test))]
-register!(
-    FormulationEntry [2, 3],
-    Krimi,
-    "krimi",
-    "integrated densities, pressure averaged between particles by density",
-    "Krimi et al. 2018, Eq. 26, 32–33"
-);

@@ -1,8 +1,6 @@
 //! The force against micro-mixing.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 use sph_neighbours::{Interaction, Lane};
 
 use crate::repulsion::{Repelling, Repulsion};
@@ -22,21 +20,12 @@ use sph_state::Laws;
 /// [interface.micro-mixing]
 /// strength = 0.01
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(InterfaceEntry [2, 3], "micro-mixing", "repulsion between phases against micro-mixing",
+    source: "Ghaïtanellis 2017, Eq. 3.32", cfg(not(test)))]
 pub struct MicroMixing {
     /// Strength ε.
-    #[schemars(
-        range(min = 0.0, max = 1.0),
-        extend("unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 3.32: 0.005 to 0.015")
-    )]
+    #[parameter(default: 0.01, unit: "1", min: 0.0, max: 1.0, source: "Ghaïtanellis 2017, Eq. 3.32: 0.005 to 0.015")]
     pub strength: f64,
-}
-
-impl Default for MicroMixing {
-    fn default() -> Self {
-        MicroMixing { strength: 0.01 }
-    }
 }
 
 /// |p_a| V_a² + |p_b| V_b².
@@ -56,12 +45,3 @@ impl<const D: usize> InterfaceModel<D> for MicroMixing {
         Repelling::<OwnVolumes>::boxed(self.strength)
     }
 }
-
-#[cfg(not(test))]
-register!(
-    InterfaceEntry [2, 3],
-    MicroMixing,
-    "micro-mixing",
-    "repulsion between phases against micro-mixing",
-    "Ghaïtanellis 2017, Eq. 3.32"
-);

@@ -1,9 +1,7 @@
 //! Surface tension as a continuous surface stress.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use sph_core::{
-    Access, Declares, Field, Stage, StepError, StepLimit, Vect, Vector, fields, register,
+    Access, Declares, Field, Stage, StepError, StepLimit, Vect, Vector, fields, parameters, plugin,
 };
 use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
@@ -46,27 +44,22 @@ use sph_state::Laws;
 /// [interface.surface-tension]
 /// tension = 0.072
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(InterfaceEntry [2, 3], "surface-tension", "surface tension between phases as a surface stress",
+    source: "Hu & Adams 2006", cfg(not(test)))]
 pub struct SurfaceTension {
     /// Surface tension σ.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "N/m", "source" = "Hu & Adams 2006")
-    )]
+    #[parameter(unit: "N/m", min: 0.0, source: "Hu & Adams 2006")]
     pub tension: f64,
     /// Which isotropic part the stress has.
-    #[serde(default)]
-    #[schemars(extend("source" = "Lafaurie et al. 1994; Hu & Adams 2006"))]
+    #[parameter(default, source: "Lafaurie et al. 1994; Hu & Adams 2006")]
     pub stress: SurfaceStress,
     /// Angle at which interfaces meet walls; 90° if left out.
-    #[schemars(extend("source" = "Young 1805"))]
+    #[parameter(source: "Young 1805")]
     pub contact_angle: Option<ContactAngle>,
 }
 
 /// The isotropic part of the surface stress.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum SurfaceStress {
     /// σ|∇c| I: tension along the interface, nothing across it.
     #[default]
@@ -98,15 +91,6 @@ impl<const D: usize> InterfaceModel<D> for SurfaceTension {
         (self.tension > 0.0).then(|| Box::new(CapillaryLimit(self.tension)) as _)
     }
 }
-
-#[cfg(not(test))]
-register!(
-    InterfaceEntry [2, 3],
-    SurfaceTension,
-    "surface-tension",
-    "surface tension between phases as a surface stress",
-    "Hu & Adams 2006"
-);
 
 /// Gradient of the colour of all other phases.
 pub const COLOUR_GRADIENT: Field<Vector> = Field::new(

@@ -1,8 +1,6 @@
 //! Profiles along a face.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::rectangular_duct;
+use sph_core::{parameters, rectangular_duct};
 
 use crate::course::{between, check_table};
 use crate::{OpenRefusal, OpenSetting, Place};
@@ -11,8 +9,8 @@ use crate::{OpenRefusal, OpenSetting, Place};
 ///
 /// In two dimensions s goes from 0 to 1 from the first corner of the drawing. In three the face is a plane rectangle with its
 /// sides along axes of space: s goes from 0 to 1 along the first of them, x before y before z, and t along the second.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
+#[derive(PartialEq)]
 pub enum Profile {
     /// The same everywhere.
     #[default]

@@ -1,9 +1,7 @@
 //! The plugin: when pressure acts.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Limiter, Setting, SoundLimit};
-use sph_core::{Stage, register};
+use sph_core::{Stage, plugin};
 use sph_implicit::Automatic;
 use sph_multiphase::{Acting, PressureEntry, PressureScheme};
 use sph_neighbours::World;
@@ -33,30 +31,15 @@ use crate::stage::SolvePressure;
 /// [pressure.implicit]
 /// courant = 0.05
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(PressureEntry [2, 3], "implicit", "pressure of the end of the step: steps longer than those of sound",
+    source: "after Kwatra et al. 2009; Cummins & Rudman 1999")]
 pub struct ImplicitPressure {
     /// C of Δt ≤ C h/(|u| + √(|g|h)).
-    #[schemars(
-        range(max = 1.0),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours")
-    )]
+    #[parameter(default: 0.05, unit: "1", above: 0.0, max: 1.0, source: "ours")]
     pub courant: f64,
     /// Relative residual at which the solve ends.
-    #[schemars(
-        range(max = 0.1),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours")
-    )]
+    #[parameter(default: 1e-5, unit: "1", above: 0.0, max: 0.1, source: "ours")]
     pub tolerance: f64,
-}
-
-impl Default for ImplicitPressure {
-    fn default() -> Self {
-        ImplicitPressure {
-            courant: 0.05,
-            tolerance: 1e-5,
-        }
-    }
 }
 
 impl<const D: usize> PressureScheme<D> for ImplicitPressure {
@@ -74,11 +57,3 @@ impl<const D: usize> PressureScheme<D> for ImplicitPressure {
         })]
     }
 }
-
-register!(
-    PressureEntry [2, 3],
-    ImplicitPressure,
-    "implicit",
-    "pressure of the end of the step: steps longer than those of sound",
-    "after Kwatra et al. 2009; Cummins & Rudman 1999"
-);

@@ -1,8 +1,6 @@
 //! The Bingham fluid.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{Inputs, Needs, Regularisation, Rheology, RheologyEntry};
 
@@ -16,20 +14,14 @@ use crate::{Inputs, Needs, Regularisation, Rheology, RheologyEntry};
 /// yield_stress = "25 Pa"
 /// regularisation.papanastasiou = { stress_growth = "10 s" }
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "bingham", "yield stress and constant plastic viscosity", source: "Ghaïtanellis 2017, Eq. 4.5")]
+#[derive(Copy)]
 pub struct Bingham {
     /// Plastic viscosity η_∞.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "Pa s", "source" = "Ghaïtanellis 2017, Eq. 4.5")
-    )]
+    #[parameter(unit: "Pa s", min: 0.0, source: "Ghaïtanellis 2017, Eq. 4.5")]
     pub viscosity: f64,
     /// Yield stress τ_y.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "Pa", "source" = "Ghaïtanellis 2017, Eq. 4.5")
-    )]
+    #[parameter(unit: "Pa", min: 0.0, source: "Ghaïtanellis 2017, Eq. 4.5")]
     pub yield_stress: f64,
     /// How the viscosity stays finite at rest: a table `papanastasiou` (with `stress_growth`),
     /// `bi-viscosity` (`largest_viscosity`), `bercovier-engelman` (`strain_rate`) or `ratio`
@@ -63,14 +55,6 @@ impl Rheology for Bingham {
         self.viscosity + plastic
     }
 }
-
-register!(
-    RheologyEntry,
-    Bingham,
-    "bingham",
-    "yield stress and constant plastic viscosity",
-    "Ghaïtanellis 2017, Eq. 4.5"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,6 @@
 //! The Carreau fluid.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{Inputs, Needs, Rheology, RheologyEntry};
 
@@ -17,33 +15,24 @@ use crate::{Inputs, Needs, Rheology, RheologyEntry};
 /// relaxation_time = "3.313 s"
 /// exponent = 0.3568
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "carreau", "plateau at rest, then a power of the strain rate, then another plateau",
+    source: "Carreau 1972")]
 pub struct Carreau {
     /// Viscosity η_0 at rest.
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "Carreau 1972"))]
+    #[parameter(unit: "Pa s", min: 0.0, source: "Carreau 1972")]
     pub rest_viscosity: f64,
     /// Viscosity η_∞ at high strain rates.
-    #[serde(default)]
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "Carreau 1972"))]
+    #[parameter(default, unit: "Pa s", min: 0.0, source: "Carreau 1972")]
     pub infinite_viscosity: f64,
     /// Time λ: thinning starts at γ̇ = 1/λ.
-    #[schemars(range(min = 0.0), extend("unit" = "s", "source" = "Carreau 1972"))]
+    #[parameter(unit: "s", min: 0.0, source: "Carreau 1972")]
     pub relaxation_time: f64,
     /// Exponent n of the power law in between.
-    #[schemars(
-        range(max = 1.0),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Carreau 1972")
-    )]
+    #[parameter(unit: "1", above: 0.0, max: 1.0, source: "Carreau 1972")]
     pub exponent: f64,
     /// How sharply the plateau ends, a.
-    #[serde(default = "two")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Yasuda et al. 1981"))]
+    #[parameter(default: 2.0, unit: "1", above: 0.0, source: "Yasuda et al. 1981")]
     pub sharpness: f64,
-}
-
-fn two() -> f64 {
-    2.0
 }
 
 impl Carreau {
@@ -76,14 +65,6 @@ impl Rheology for Carreau {
         self.rest_viscosity.max(self.infinite_viscosity)
     }
 }
-
-register!(
-    RheologyEntry,
-    Carreau,
-    "carreau",
-    "plateau at rest, then a power of the strain rate, then another plateau",
-    "Carreau 1972"
-);
 
 #[cfg(test)]
 mod tests {

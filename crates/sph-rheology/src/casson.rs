@@ -1,8 +1,6 @@
 //! The Casson fluid.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{Inputs, Needs, Rheology, RheologyEntry};
 
@@ -19,17 +17,16 @@ use crate::{Inputs, Needs, Rheology, RheologyEntry};
 /// yield_stress = "4 mPa"
 /// stress_growth = "100 s"
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "casson", "roots of stresses add up: yield and viscous", source: "Casson 1959")]
 pub struct Casson {
     /// Viscosity η_∞ at high strain rates.
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "Casson 1959"))]
+    #[parameter(unit: "Pa s", min: 0.0, source: "Casson 1959")]
     pub viscosity: f64,
     /// Yield stress τ_y.
-    #[schemars(range(min = 0.0), extend("unit" = "Pa", "source" = "Casson 1959"))]
+    #[parameter(unit: "Pa", min: 0.0, source: "Casson 1959")]
     pub yield_stress: f64,
     /// Stress growth time m.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "s", "source" = "Papanastasiou 1987"))]
+    #[parameter(unit: "s", above: 0.0, source: "Papanastasiou 1987")]
     pub stress_growth: f64,
 }
 
@@ -61,14 +58,6 @@ impl Rheology for Casson {
         self.uniform_viscosity().unwrap_or_else(|| self.at(0.0))
     }
 }
-
-register!(
-    RheologyEntry,
-    Casson,
-    "casson",
-    "roots of stresses add up: yield and viscous",
-    "Casson 1959"
-);
 
 #[cfg(test)]
 mod tests {

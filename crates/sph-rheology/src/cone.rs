@@ -1,7 +1,6 @@
 //! Yield cones of frictional material.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use sph_core::parameters;
 
 /// The cone τ_y = M max(p, 0) + K that stands for a friction angle ψ and a cohesion c.
 ///
@@ -20,8 +19,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// Source: Ghaïtanellis 2017, Eq. 4.39–4.42 and 4.53–4.55, for the first; Drucker & Prager 1952 for
 /// `plane-strain`; the others follow from the pyramid.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Cone {
     /// Outside of the Mohr–Coulomb pyramid, as strong as it in triaxial compression.
     #[default]

@@ -1,8 +1,6 @@
 //! The Cross fluid.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{Inputs, Needs, Rheology, RheologyEntry};
 
@@ -17,21 +15,19 @@ use crate::{Inputs, Needs, Rheology, RheologyEntry};
 /// relaxation_time = "2 s"
 /// exponent = 0.8
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "cross", "from one viscosity at rest to another at high strain rates", source: "Cross 1965")]
 pub struct Cross {
     /// Viscosity η_0 at rest.
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "Cross 1965"))]
+    #[parameter(unit: "Pa s", min: 0.0, source: "Cross 1965")]
     pub rest_viscosity: f64,
     /// Viscosity η_∞ at high strain rates.
-    #[serde(default)]
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "Cross 1965"))]
+    #[parameter(default, unit: "Pa s", min: 0.0, source: "Cross 1965")]
     pub infinite_viscosity: f64,
     /// Time λ: half the way at γ̇ = 1/λ.
-    #[schemars(range(min = 0.0), extend("unit" = "s", "source" = "Cross 1965"))]
+    #[parameter(unit: "s", min: 0.0, source: "Cross 1965")]
     pub relaxation_time: f64,
     /// Exponent m.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Cross 1965"))]
+    #[parameter(unit: "1", above: 0.0, source: "Cross 1965")]
     pub exponent: f64,
 }
 
@@ -62,14 +58,6 @@ impl Rheology for Cross {
         self.rest_viscosity.max(self.infinite_viscosity)
     }
 }
-
-register!(
-    RheologyEntry,
-    Cross,
-    "cross",
-    "from one viscosity at rest to another at high strain rates",
-    "Cross 1965"
-);
 
 #[cfg(test)]
 mod tests {

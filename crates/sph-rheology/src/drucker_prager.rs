@@ -3,9 +3,7 @@
 use std::f64::consts::PI;
 
 use nalgebra::Matrix3;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Symmetric, register};
+use sph_core::{Symmetric, plugin};
 
 use crate::{Cone, Elastic, Inputs, Needs, Rheology, RheologyEntry, Yielding, jaumann};
 
@@ -43,78 +41,41 @@ use crate::{Cone, Elastic, Inputs, Needs, Rheology, RheologyEntry, Yielding, jau
 /// grain_diameter = "3.9 mm"
 /// grain_density = 2700
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "drucker-prager", "elastic soil that yields to a liquid of constant friction",
+    source: "Ghaïtanellis 2017, Eq. 4.69–4.84")]
+#[derive(Copy)]
 pub struct DruckerPrager {
     /// Young's modulus E.
-    #[schemars(extend(
-        "exclusiveMinimum" = 0.0,
-        "unit" = "Pa",
-        "quantity" = "modulus",
-        "source" = "Ghaïtanellis 2017, Eq. 1.21"
-    ))]
+    #[parameter(unit: "Pa", above: 0.0, quantity: "modulus", source: "Ghaïtanellis 2017, Eq. 1.21")]
     pub young_modulus: f64,
     /// Poisson's ratio ν.
-    #[schemars(
-        range(max = 0.5),
-        extend(
-            "exclusiveMinimum" = -1.0,
-            "unit" = "1",
-            "source" = "Ghaïtanellis 2017, Eq. 1.21"
-        )
-    )]
+    #[parameter(unit: "1", above: -1.0, max: 0.5, source: "Ghaïtanellis 2017, Eq. 1.21")]
     pub poisson_ratio: f64,
     /// Friction angle ψ, as in "30 deg".
-    #[schemars(
-        range(min = 0.0, max = 1.5),
-        extend("unit" = "rad", "source" = "Ghaïtanellis 2017, Eq. 4.39–4.42")
-    )]
+    #[parameter(unit: "rad", min: 0.0, max: 1.5, source: "Ghaïtanellis 2017, Eq. 4.39–4.42")]
     pub friction_angle: f64,
     /// Cohesion c.
-    #[serde(default)]
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "Pa", "source" = "Ghaïtanellis 2017, Eq. 4.39–4.42")
-    )]
+    #[parameter(default, unit: "Pa", min: 0.0, source: "Ghaïtanellis 2017, Eq. 4.39–4.42")]
     pub cohesion: f64,
     /// Grain diameter d.
-    #[schemars(extend(
-        "exclusiveMinimum" = 0.0,
-        "unit" = "m",
-        "source" = "Ghaïtanellis 2017, Eq. 4.82"
-    ))]
+    #[parameter(unit: "m", above: 0.0, source: "Ghaïtanellis 2017, Eq. 4.82")]
     pub grain_diameter: f64,
     /// Density ρ_g of the grains themselves.
-    #[schemars(extend(
-        "exclusiveMinimum" = 0.0,
-        "unit" = "kg/m³",
-        "source" = "Ghaïtanellis 2017, Eq. 4.82"
-    ))]
+    #[parameter(unit: "kg/m³", above: 0.0, source: "Ghaïtanellis 2017, Eq. 4.82")]
     pub grain_density: f64,
     /// Order q of the blend.
-    #[serde(default = "two")]
-    #[schemars(
-        range(min = 1.0, max = 100.0),
-        extend("unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 4.83")
-    )]
+    #[parameter(default: 2.0, unit: "1", min: 1.0, max: 100.0, source: "Ghaïtanellis 2017, Eq. 4.83")]
     pub blending_order: f64,
     /// The cone of the yield stress: `circumscribed`, `inscribed`, `plane-strain`, `tan` or `sin`.
-    #[serde(default)]
-    #[schemars(extend("source" = "Ghaïtanellis 2017, Eq. 4.39–4.42; the other cones are ours to choose"))]
+    #[parameter(default, source: "Ghaïtanellis 2017, Eq. 4.39–4.42; the other cones are ours to choose")]
     pub cone: Cone,
     /// Bound of the viscosity from below, for example that of the water between the grains.
-    #[serde(default)]
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "ours"))]
+    #[parameter(default, unit: "Pa s", min: 0.0, source: "ours")]
     pub smallest_viscosity: f64,
     /// Viscosity β of the solid over the yield viscosity η_y: lets its vibrations ring out; only with stresses
     /// that are blended, as they are by default.
-    #[serde(default)]
-    #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "ours"))]
+    #[parameter(default, unit: "1", min: 0.0, max: 1.0, source: "ours")]
     pub damping: f64,
-}
-
-fn two() -> f64 {
-    2.0
 }
 
 /// Below this share of the yield strain rate a liquid is solid again.
@@ -304,11 +265,3 @@ impl Elastic for DruckerPrager {
         }
     }
 }
-
-register!(
-    RheologyEntry,
-    DruckerPrager,
-    "drucker-prager",
-    "elastic soil that yields to a liquid of constant friction",
-    "Ghaïtanellis 2017, Eq. 4.69–4.84"
-);

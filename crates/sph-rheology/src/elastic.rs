@@ -1,9 +1,7 @@
 //! The elastic solid.
 
 use nalgebra::Matrix3;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Symmetric, register};
+use sph_core::{Symmetric, plugin};
 
 use crate::{Elastic, Inputs, Needs, Rheology, RheologyEntry, jaumann};
 
@@ -23,30 +21,17 @@ use crate::{Elastic, Inputs, Needs, Rheology, RheologyEntry, jaumann};
 /// young_modulus = "2 MPa"
 /// poisson_ratio = 0.4
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "elastic", "Hooke's law for the deviatoric stress, with the Jaumann rate",
+    source: "Ghaïtanellis 2017, Eq. 1.18–1.23, 4.69–4.73")]
 pub struct ElasticSolid {
     /// Young's modulus E.
-    #[schemars(extend(
-        "exclusiveMinimum" = 0.0,
-        "unit" = "Pa",
-        "quantity" = "modulus",
-        "source" = "Ghaïtanellis 2017, Eq. 1.21"
-    ))]
+    #[parameter(unit: "Pa", above: 0.0, quantity: "modulus", source: "Ghaïtanellis 2017, Eq. 1.21")]
     pub young_modulus: f64,
     /// Poisson's ratio ν.
-    #[schemars(
-        range(max = 0.5),
-        extend(
-            "exclusiveMinimum" = -1.0,
-            "unit" = "1",
-            "source" = "Ghaïtanellis 2017, Eq. 1.21"
-        )
-    )]
+    #[parameter(unit: "1", above: -1.0, max: 0.5, source: "Ghaïtanellis 2017, Eq. 1.21")]
     pub poisson_ratio: f64,
     /// Viscosity that damps the motion.
-    #[serde(default)]
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "ours"))]
+    #[parameter(default, unit: "Pa s", min: 0.0, source: "ours")]
     pub viscosity: f64,
 }
 
@@ -90,11 +75,3 @@ impl Elastic for ElasticSolid {
         }
     }
 }
-
-register!(
-    RheologyEntry,
-    ElasticSolid,
-    "elastic",
-    "Hooke's law for the deviatoric stress, with the Jaumann rate",
-    "Ghaïtanellis 2017, Eq. 1.18–1.23, 4.69–4.73"
-);

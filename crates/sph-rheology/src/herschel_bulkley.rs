@@ -1,8 +1,6 @@
 //! The Herschel–Bulkley fluid.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{Inputs, Needs, PowerLaw, Regularisation, Rheology, RheologyEntry};
 
@@ -22,38 +20,28 @@ use crate::{Inputs, Needs, PowerLaw, Regularisation, Rheology, RheologyEntry};
 /// regularisation.papanastasiou = { stress_growth = "10 s" }
 /// largest_viscosity = "400 Pa s"
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "herschel-bulkley", "yield stress and a power of the strain rate, bounded",
+    source: "Herschel & Bulkley 1926")]
+#[derive(Copy)]
 pub struct HerschelBulkley {
     /// Consistency K.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "Pa s^n", "source" = "Herschel & Bulkley 1926")
-    )]
+    #[parameter(unit: "Pa s^n", min: 0.0, source: "Herschel & Bulkley 1926")]
     pub consistency: f64,
     /// Exponent n; 1 is a Bingham fluid.
-    #[schemars(extend(
-        "exclusiveMinimum" = 0.0,
-        "unit" = "1",
-        "source" = "Herschel & Bulkley 1926"
-    ))]
+    #[parameter(unit: "1", above: 0.0, source: "Herschel & Bulkley 1926")]
     pub exponent: f64,
     /// Yield stress τ_y.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "Pa", "source" = "Herschel & Bulkley 1926")
-    )]
+    #[parameter(unit: "Pa", min: 0.0, source: "Herschel & Bulkley 1926")]
     pub yield_stress: f64,
     /// How the viscosity stays finite at rest: a table `papanastasiou` (with `stress_growth`),
     /// `bi-viscosity` (`largest_viscosity`), `bercovier-engelman` (`strain_rate`) or `ratio`
     /// (`ratio`).
     pub regularisation: Regularisation,
     /// Bound of the viscosity from below.
-    #[serde(default)]
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "ours"))]
+    #[parameter(default, unit: "Pa s", min: 0.0, source: "ours")]
     pub smallest_viscosity: f64,
     /// Bound of the viscosity from above.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa s", "source" = "ours"))]
+    #[parameter(unit: "Pa s", above: 0.0, source: "ours")]
     pub largest_viscosity: f64,
 }
 
@@ -108,14 +96,6 @@ impl Rheology for HerschelBulkley {
         }
     }
 }
-
-register!(
-    RheologyEntry,
-    HerschelBulkley,
-    "herschel-bulkley",
-    "yield stress and a power of the strain rate, bounded",
-    "Herschel & Bulkley 1926"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,6 @@
 //! The Mohr–Coulomb viscoplastic soil.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{Inputs, Needs, Regularisation, Rheology, RheologyEntry};
 
@@ -24,27 +22,18 @@ use crate::{Inputs, Needs, Regularisation, Rheology, RheologyEntry};
 /// friction_angle = "22 deg"
 /// regularisation.ratio = { ratio = 3000 }
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "mohr-coulomb", "viscoplastic soil with friction and cohesion",
+    source: "Krimi et al. 2018, Eq. 19–24")]
+#[derive(Copy)]
 pub struct MohrCoulomb {
     /// Plastic viscosity μ.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "Pa s", "source" = "Krimi et al. 2018, Eq. 24")
-    )]
+    #[parameter(unit: "Pa s", min: 0.0, source: "Krimi et al. 2018, Eq. 24")]
     pub viscosity: f64,
     /// Friction angle φ, as in "22 deg".
-    #[schemars(
-        range(min = 0.0, max = 1.5),
-        extend("unit" = "rad", "source" = "Krimi et al. 2018, Eq. 21")
-    )]
+    #[parameter(unit: "rad", min: 0.0, max: 1.5, source: "Krimi et al. 2018, Eq. 21")]
     pub friction_angle: f64,
     /// Cohesion c.
-    #[serde(default)]
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "Pa", "source" = "Krimi et al. 2018, Eq. 21")
-    )]
+    #[parameter(default, unit: "Pa", min: 0.0, source: "Krimi et al. 2018, Eq. 21")]
     pub cohesion: f64,
     /// How the viscosity stays finite at rest: a table `papanastasiou` (with `stress_growth`),
     /// `bi-viscosity` (`largest_viscosity`), `bercovier-engelman` (`strain_rate`) or `ratio`
@@ -97,14 +86,6 @@ impl Rheology for MohrCoulomb {
         self.viscosity + plastic
     }
 }
-
-register!(
-    RheologyEntry,
-    MohrCoulomb,
-    "mohr-coulomb",
-    "viscoplastic soil with friction and cohesion",
-    "Krimi et al. 2018, Eq. 19–24"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,7 @@
 //! The μ(I) rheology of dense granular flow.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use sph_core::register;
+use serde::Serialize;
+use sph_core::{parameters, plugin};
 
 use crate::regularisation::saturation;
 use crate::{Inputs, Needs, Rheology, RheologyEntry};
@@ -31,69 +30,38 @@ use crate::{Inputs, Needs, Rheology, RheologyEntry};
 /// grain_density = 2500
 /// regularisation.minatti-paris = { yield_stress = "190 Pa", stress_growth = "1 s" }
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "mu-i", "dense granular flow, friction by the inertial number", source: "Jop et al. 2006")]
+#[derive(Copy)]
 pub struct MuI {
     /// Friction coefficient μ_s of slow flow.
-    #[schemars(extend(
-        "exclusiveMinimum" = 0.0,
-        "unit" = "1",
-        "source" = "Minatti & Paris 2015, Eq. 7"
-    ))]
+    #[parameter(unit: "1", above: 0.0, source: "Minatti & Paris 2015, Eq. 7")]
     pub static_friction: f64,
     /// Friction coefficient μ_2 of fast flow; not below μ_s, or μ_s counts.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "1", "source" = "Minatti & Paris 2015, Eq. 7")
-    )]
+    #[parameter(unit: "1", min: 0.0, source: "Minatti & Paris 2015, Eq. 7")]
     pub limiting_friction: f64,
     /// Inertial number I_0 half way between the two.
-    #[schemars(extend(
-        "exclusiveMinimum" = 0.0,
-        "unit" = "1",
-        "source" = "Minatti & Paris 2015, Eq. 7"
-    ))]
+    #[parameter(unit: "1", above: 0.0, source: "Minatti & Paris 2015, Eq. 7")]
     pub reference_inertial_number: f64,
     /// Grain diameter d.
-    #[schemars(extend(
-        "exclusiveMinimum" = 0.0,
-        "unit" = "m",
-        "source" = "Minatti & Paris 2015, Eq. 6"
-    ))]
+    #[parameter(unit: "m", above: 0.0, source: "Minatti & Paris 2015, Eq. 6")]
     pub grain_diameter: f64,
     /// Density ρ_g of the grains themselves.
-    #[schemars(extend(
-        "exclusiveMinimum" = 0.0,
-        "unit" = "kg/m³",
-        "source" = "Minatti & Paris 2015, Eq. 6"
-    ))]
+    #[parameter(unit: "kg/m³", above: 0.0, source: "Minatti & Paris 2015, Eq. 6")]
     pub grain_density: f64,
     /// Viscosity η_w of the fluid between the grains.
-    #[serde(default)]
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "Pa s", "source" = "Ghaïtanellis 2017, Eq. 4.16–4.23")
-    )]
+    #[parameter(default, unit: "Pa s", min: 0.0, source: "Ghaïtanellis 2017, Eq. 4.16–4.23")]
     pub fluid_viscosity: f64,
     /// Density ρ_w of the fluid between the grains.
-    #[serde(default)]
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "kg/m³", "source" = "Ghaïtanellis 2017, Eq. 4.16–4.23")
-    )]
+    #[parameter(default, unit: "kg/m³", min: 0.0, source: "Ghaïtanellis 2017, Eq. 4.16–4.23")]
     pub fluid_density: f64,
     /// Drag coefficient C_D of a grain in that fluid.
-    #[serde(default)]
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 4.16–4.23")
-    )]
+    #[parameter(default, unit: "1", min: 0.0, source: "Ghaïtanellis 2017, Eq. 4.16–4.23")]
     pub drag_coefficient: f64,
     /// How the viscosity stays finite at rest: a table `chauchat-medale` (with `strain_rate`),
     /// `papanastasiou` (`stress_growth`) or `minatti-paris` (`yield_stress`, `stress_growth`).
     pub regularisation: MuIRegularisation,
     /// Bound of the viscosity from above; none if left out.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa s", "source" = "ours"))]
+    #[parameter(unit: "Pa s", above: 0.0, source: "ours")]
     pub largest_viscosity: Option<f64>,
 }
 
@@ -113,44 +81,28 @@ pub struct MuI {
 ///
 /// Sources: Chauchat & Médale 2014, in Ghaïtanellis 2017, Eq. 4.16–4.23; Minatti & Paris 2015,
 /// Eq. 45–55.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[parameters]
+#[derive(PartialEq, Serialize)]
 pub enum MuIRegularisation {
     /// A strain rate is added in the denominator.
     ChauchatMedale {
         /// Strain rate m.
-        #[schemars(extend(
-            "exclusiveMinimum" = 0.0,
-            "unit" = "1/s",
-            "source" = "Ghaïtanellis 2017, Eq. 4.16–4.23"
-        ))]
+        #[parameter(unit: "1/s", above: 0.0, source: "Ghaïtanellis 2017, Eq. 4.16–4.23")]
         strain_rate: f64,
     },
     /// The yield stress grows like 1 − e^(−mγ̇).
     Papanastasiou {
         /// Stress growth time m.
-        #[schemars(extend(
-            "exclusiveMinimum" = 0.0,
-            "unit" = "s",
-            "source" = "Minatti & Paris 2015, Eq. 48"
-        ))]
+        #[parameter(unit: "s", above: 0.0, source: "Minatti & Paris 2015, Eq. 48")]
         stress_growth: f64,
     },
     /// The same with a time that depends on the pressure.
     MinattiParis {
         /// Reference yield stress τ₀: the largest that is expected.
-        #[schemars(extend(
-            "exclusiveMinimum" = 0.0,
-            "unit" = "Pa",
-            "source" = "Minatti & Paris 2015, Eq. 52"
-        ))]
+        #[parameter(unit: "Pa", above: 0.0, source: "Minatti & Paris 2015, Eq. 52")]
         yield_stress: f64,
         /// Stress growth time m₀ at that yield stress.
-        #[schemars(extend(
-            "exclusiveMinimum" = 0.0,
-            "unit" = "s",
-            "source" = "Minatti & Paris 2015, Eq. 52"
-        ))]
+        #[parameter(unit: "s", above: 0.0, source: "Minatti & Paris 2015, Eq. 52")]
         stress_growth: f64,
     },
 }
@@ -233,11 +185,3 @@ impl Rheology for MuI {
         self.largest_viscosity.unwrap_or(f64::INFINITY)
     }
 }
-
-register!(
-    RheologyEntry,
-    MuI,
-    "mu-i",
-    "dense granular flow, friction by the inertial number",
-    "Jop et al. 2006"
-);

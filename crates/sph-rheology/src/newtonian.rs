@@ -1,8 +1,6 @@
 //! The Newtonian fluid.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{Inputs, Needs, Rheology, RheologyEntry};
 
@@ -14,14 +12,10 @@ use crate::{Inputs, Needs, Rheology, RheologyEntry};
 /// [phase.water.rheology.newtonian]
 /// viscosity = "1e-3 Pa s"
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "newtonian", "constant viscosity", source: "Ghaïtanellis 2017, Eq. 1.15–1.16")]
 pub struct Newtonian {
     /// Dynamic viscosity η.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "Pa s", "source" = "Ghaïtanellis 2017, Eq. 1.15")
-    )]
+    #[parameter(unit: "Pa s", min: 0.0, source: "Ghaïtanellis 2017, Eq. 1.15")]
     pub viscosity: f64,
 }
 
@@ -39,14 +33,6 @@ impl Rheology for Newtonian {
         self.viscosity
     }
 }
-
-register!(
-    RheologyEntry,
-    Newtonian,
-    "newtonian",
-    "constant viscosity",
-    "Ghaïtanellis 2017, Eq. 1.15–1.16"
-);
 
 #[cfg(test)]
 mod tests {

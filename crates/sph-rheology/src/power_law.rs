@@ -1,8 +1,6 @@
 //! The power-law fluid.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{Inputs, Needs, Rheology, RheologyEntry};
 
@@ -19,24 +17,19 @@ use crate::{Inputs, Needs, Rheology, RheologyEntry};
 /// exponent = 0.6
 /// largest_viscosity = "50 Pa s"
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "power-law", "viscosity as a power of the strain rate, bounded", source: "Ostwald 1925")]
 pub struct PowerLaw {
     /// Consistency K.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "Pa s^n", "source" = "Ostwald 1925")
-    )]
+    #[parameter(unit: "Pa s^n", min: 0.0, source: "Ostwald 1925")]
     pub consistency: f64,
     /// Exponent n; 1 is a Newtonian fluid.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Ostwald 1925"))]
+    #[parameter(unit: "1", above: 0.0, source: "Ostwald 1925")]
     pub exponent: f64,
     /// Bound of the viscosity from below.
-    #[serde(default)]
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "ours"))]
+    #[parameter(default, unit: "Pa s", min: 0.0, source: "ours")]
     pub smallest_viscosity: f64,
     /// Bound of the viscosity from above.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa s", "source" = "ours"))]
+    #[parameter(unit: "Pa s", above: 0.0, source: "ours")]
     pub largest_viscosity: f64,
 }
 
@@ -76,14 +69,6 @@ impl Rheology for PowerLaw {
         self.uniform_viscosity().unwrap_or(self.largest_viscosity)
     }
 }
-
-register!(
-    RheologyEntry,
-    PowerLaw,
-    "power-law",
-    "viscosity as a power of the strain rate, bounded",
-    "Ostwald 1925"
-);
 
 #[cfg(test)]
 mod tests {

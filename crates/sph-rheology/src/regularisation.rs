@@ -1,7 +1,7 @@
 //! How a yield stress is made finite at rest.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use sph_core::parameters;
 
 /// The plastic part τ_y/γ̇ of the viscosity, made finite at γ̇ = 0.
 ///
@@ -24,43 +24,31 @@ use serde::{Deserialize, Serialize};
 /// ```toml
 /// regularisation.papanastasiou = { stress_growth = "10 s" }
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[parameters]
+#[derive(PartialEq, Serialize)]
 pub enum Regularisation {
     /// The stress grows to the yield stress like 1 − e^(−mγ̇).
     Papanastasiou {
         /// Stress growth time m.
-        #[schemars(extend(
-            "exclusiveMinimum" = 0.0,
-            "unit" = "s",
-            "source" = "Ghaïtanellis 2017, Eq. 4.13–4.15"
-        ))]
+        #[parameter(unit: "s", above: 0.0, source: "Ghaïtanellis 2017, Eq. 4.13–4.15")]
         stress_growth: f64,
     },
     /// A very viscous fluid below yield.
     BiViscosity {
         /// Viscosity η_max below yield, the viscous part included.
-        #[schemars(extend(
-            "exclusiveMinimum" = 0.0,
-            "unit" = "Pa s",
-            "source" = "Ghaïtanellis 2017, Eq. 4.9–4.12"
-        ))]
+        #[parameter(unit: "Pa s", above: 0.0, source: "Ghaïtanellis 2017, Eq. 4.9–4.12")]
         largest_viscosity: f64,
     },
     /// The strain rate never counts less than ε.
     BercovierEngelman {
         /// Strain rate ε.
-        #[schemars(extend(
-            "exclusiveMinimum" = 0.0,
-            "unit" = "1/s",
-            "source" = "Bercovier & Engelman 1980"
-        ))]
+        #[parameter(unit: "1/s", above: 0.0, source: "Bercovier & Engelman 1980")]
         strain_rate: f64,
     },
     /// The viscosity at rest is a multiple of the viscous part, whatever the yield stress.
     Ratio {
         /// Largest viscosity over the viscous part, α.
-        #[schemars(range(min = 1.0), extend("unit" = "1", "source" = "Krimi et al. 2018, Eq. 10–13"))]
+        #[parameter(unit: "1", min: 1.0, source: "Krimi et al. 2018, Eq. 10–13")]
         ratio: f64,
     },
 }

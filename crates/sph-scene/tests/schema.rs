@@ -1,8 +1,6 @@
 //! The schema of scenes with plugins registered in this binary.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{contract, register};
+use sph_core::{contract, parameters, plugin};
 use sph_scene::{Norm, schema};
 
 /// Kernels of this test.
@@ -26,41 +24,34 @@ contract!(
     pub LawEntry, "rheology", "flows", Law
 );
 
-/// Parameters with a shared definition.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct Newtonian {
-    /// Dynamic viscosity.
-    #[schemars(extend("unit" = "Pa s"))]
-    #[allow(dead_code)]
-    viscosity: f64,
-    /// How it shears.
-    #[allow(dead_code)]
-    mode: Option<Mode>,
+macro_rules! plugin_of {
+    ($role:ident, $entry:ident, $name:literal, $type:ident) => {
+        /// Parameters with a shared definition.
+        #[plugin($entry, $name, "one of this test", source: "nobody 2000")]
+        struct $type {
+            /// Dynamic viscosity.
+            #[parameter(unit: "Pa s")]
+            #[allow(dead_code)]
+            viscosity: f64,
+            /// How it shears.
+            #[allow(dead_code)]
+            mode: Option<Mode>,
+        }
+        impl $role for $type {}
+    };
 }
+plugin_of!(Kernel, KernelEntry, "smooth", Smooth);
+plugin_of!(Probe, ProbeEntry, "front", Front);
+plugin_of!(Law, LawEntry, "newtonian", Newtonian);
 
 /// A definition that is shared.
-#[derive(Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 enum Mode {
     /// One.
     One,
     /// Two.
     Two,
 }
-
-impl Kernel for Newtonian {}
-impl Probe for Newtonian {}
-impl Law for Newtonian {}
-register!(
-    KernelEntry,
-    Newtonian,
-    "smooth",
-    "a smooth kernel",
-    "nobody 2000"
-);
-register!(ProbeEntry, Newtonian, "front", "a front", "nobody 2000");
-register!(LawEntry, Newtonian, "newtonian", "a law", "Newton 1687");
 
 #[test]
 fn plugins_stand_under_their_tables() {

@@ -1,9 +1,7 @@
 //! Seepage by the law of Darcy and Forchheimer.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::StepWork;
-use sph_core::{register, suggestion};
+use sph_core::{plugin, suggestion};
 use sph_implicit::{ConjugateGradient, Preconditioner};
 
 use crate::contract::{Seepage, SeepageEntry, SeepagePhases, SeepageProblem};
@@ -34,68 +32,44 @@ use crate::pore_water::{PoreWater, Seeps};
 /// porosity = 0.4
 /// grain_diameter = "2 mm"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SeepageEntry [2, 3], "darcy-forchheimer",
+    "water seeps through a soil of constant porosity, driven by its pressure, gravity and acceleration",
+    source: "Ergun 1952; van Gent 1995")]
 pub struct DarcyForchheimer {
     /// Name of the phase with the pores.
     pub soil: String,
     /// Name of the phase in the pores and around.
     pub water: String,
     /// Porosity n: share of the pores in the volume of the soil.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
+    #[parameter(unit: "1", above: 0.0, below: 1.0)]
     pub porosity: f64,
     /// Diameter d of the grains; may be left out where `permeability` and `forchheimer` are given.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub grain_diameter: Option<f64>,
     /// Permeability k; n³d²/(150 (1 − n)²) if left out.
-    #[schemars(extend("unit" = "m²", "exclusiveMinimum" = 0.0, "source" = "Ergun 1952"))]
+    #[parameter(unit: "m²", above: 0.0, source: "Ergun 1952")]
     pub permeability: Option<f64>,
     /// Coefficient b of |q| q; 1.75 ρ_w (1 − n)/(n³d) if left out, 0 for Darcy's law.
-    #[schemars(range(min = 0.0), extend("unit" = "kg/m⁴", "source" = "Ergun 1952"))]
+    #[parameter(unit: "kg/m⁴", min: 0.0, source: "Ergun 1952")]
     pub forchheimer: Option<f64>,
     /// Viscosity η of the water in the pores.
-    #[serde(default = "water")]
-    #[schemars(extend("unit" = "Pa s", "exclusiveMinimum" = 0.0, "source" = "water of 20 °C"))]
+    #[parameter(default: 1e-3, unit: "Pa s", above: 0.0, source: "water of 20 °C")]
     pub viscosity: f64,
     /// Share κ of the water that grains displace which moves with the water around them.
-    #[serde(default = "added")]
-    #[schemars(range(min = 0.0), extend("unit" = "1", "source" = "van Gent 1995"))]
+    #[parameter(default: 0.34, unit: "1", min: 0.0, source: "van Gent 1995")]
     pub added_mass: f64,
     /// Strength χ at which water particles of different size even out: they diffuse with χ c h. 0 for not at all.
-    #[serde(default = "evening")]
-    #[schemars(range(min = 0.0, max = 0.2), extend("unit" = "1", "source" = "ours"))]
+    #[parameter(default: 0.15, unit: "1", min: 0.0, max: 0.2, source: "ours")]
     pub evening: f64,
     /// Share of its size that a water particle may give or take before the run ends.
-    #[serde(default = "size_limit")]
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0, "source" = "ours"))]
+    #[parameter(default: 0.5, unit: "1", above: 0.0, below: 1.0, source: "ours")]
     pub size_limit: f64,
     /// Relative residual at which the iteration for the pressures ends.
-    #[serde(default = "tolerance")]
-    #[schemars(range(max = 0.1), extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours"))]
+    #[parameter(default: 1e-8, unit: "1", above: 0.0, max: 0.1, source: "ours")]
     pub tolerance: f64,
     /// Iterations after which it gives up; the step is then tried again with half its length.
-    #[serde(default = "iterations")]
-    #[schemars(range(min = 1), extend("unit" = "1", "source" = "ours"))]
+    #[parameter(default: 2000, unit: "1", min: 1, source: "ours")]
     pub iterations: usize,
-}
-
-fn water() -> f64 {
-    1e-3
-}
-fn added() -> f64 {
-    0.34
-}
-fn evening() -> f64 {
-    0.15
-}
-fn size_limit() -> f64 {
-    0.5
-}
-fn tolerance() -> f64 {
-    1e-8
-}
-fn iterations() -> usize {
-    2000
 }
 
 impl DarcyForchheimer {
@@ -163,11 +137,3 @@ impl<const D: usize> Seepage<D> for DarcyForchheimer {
         }))
     }
 }
-
-register!(
-    SeepageEntry [2, 3],
-    DarcyForchheimer,
-    "darcy-forchheimer",
-    "water seeps through a soil of constant porosity, driven by its pressure, gravity and acceleration",
-    "Ergun 1952; van Gent 1995"
-);

@@ -1,8 +1,6 @@
 //! The equation of state of slightly compressible grains that dilate in shear.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 
@@ -29,42 +27,19 @@ use crate::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 /// [phase.beads.equation-of-state.compressible-grains]
 /// grain_diameter = "5 mm"
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(EquationOfStateEntry, "compressible-grains", "grains that dilate in shear, p from density and strain rate",
+    source: "Minatti & Paris 2015, Eq. 8, 9, 41–44")]
 pub struct CompressibleGrains {
     /// Grain diameter d without pressure.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "m", "source" = "Minatti & Paris 2015, Eq. 6")
-    )]
+    #[parameter(unit: "m", min: 0.0, source: "Minatti & Paris 2015, Eq. 6")]
     pub grain_diameter: f64,
     /// Share of space φ_max that the grains fill at rest.
-    #[serde(default = "dense")]
-    #[schemars(
-        range(max = 1.0),
-        extend(
-            "exclusiveMinimum" = 0.0,
-            "unit" = "1",
-            "source" = "Minatti & Paris 2015, Eq. 8"
-        )
-    )]
+    #[parameter(default: 0.6, unit: "1", above: 0.0, max: 1.0, source: "Minatti & Paris 2015, Eq. 8")]
     pub largest_fraction: f64,
     /// Share of space φ_min that they fill at an inertial number of one; not above φ_max, or they
     /// do not dilate.
-    #[serde(default = "loose")]
-    #[schemars(
-        range(min = 0.0, max = 1.0),
-        extend("unit" = "1", "source" = "Minatti & Paris 2015, Eq. 8")
-    )]
+    #[parameter(default: 0.5, unit: "1", min: 0.0, max: 1.0, source: "Minatti & Paris 2015, Eq. 8")]
     pub smallest_fraction: f64,
-}
-
-fn dense() -> f64 {
-    0.6
-}
-
-fn loose() -> f64 {
-    0.5
 }
 
 impl EquationOfState for CompressibleGrains {
@@ -170,14 +145,6 @@ fn compression(b: f64, a: f64) -> (f64, u32) {
 
 /// More than halving a bracket of any two numbers down to neighbours would take in practice.
 const STEPS: u32 = 100;
-
-register!(
-    EquationOfStateEntry,
-    CompressibleGrains,
-    "compressible-grains",
-    "grains that dilate in shear, p from density and strain rate",
-    "Minatti & Paris 2015, Eq. 8, 9, 41–44"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,6 @@
 //! The linear equation of state.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 
@@ -13,14 +11,10 @@ use crate::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 /// ```toml
 /// [phase.water.equation-of-state.linear]
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(EquationOfStateEntry, "linear", "p = c₀² (ρ − ρ₀)", source: "Ghaïtanellis 2017, Eq. 1.25 with ξ = 1")]
 pub struct Linear {
     /// Background pressure P_bg, the same in all phases.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "Pa", "source" = "Ghaïtanellis 2017, §5.1.2")
-    )]
+    #[parameter(default, unit: "Pa", min: 0.0, source: "Ghaïtanellis 2017, §5.1.2")]
     pub background_pressure: f64,
 }
 
@@ -65,11 +59,3 @@ impl BoundState for Bound {
         self.reference
     }
 }
-
-register!(
-    EquationOfStateEntry,
-    Linear,
-    "linear",
-    "p = c₀² (ρ − ρ₀)",
-    "Ghaïtanellis 2017, Eq. 1.25 with ξ = 1"
-);

@@ -1,8 +1,6 @@
 //! The Tait equation of state.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 
@@ -18,35 +16,19 @@ use crate::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 /// [phase.water.equation-of-state.tait]
 /// exponent = 7
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(EquationOfStateEntry, "tait", "stiff power law, p = ρ₀c₀²/ξ [(ρ/ρ₀)^ξ − 1]",
+    source: "Ghaïtanellis 2017, Eq. 1.25")]
 pub struct Tait {
     /// Exponent ξ: 7 for water and soils, 1.4 for air.
-    #[schemars(
-        range(min = 1.0, max = 20.0),
-        extend("unit" = "1", "source" = "Ghaïtanellis 2017, Eq. 1.25")
-    )]
+    #[parameter(default: 7.0, unit: "1", min: 1.0, max: 20.0, source: "Ghaïtanellis 2017, Eq. 1.25")]
     pub exponent: f64,
     /// Background pressure P_bg, the same in all phases.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "Pa", "source" = "Ghaïtanellis 2017, §5.1.2")
-    )]
+    #[parameter(default, unit: "Pa", min: 0.0, source: "Ghaïtanellis 2017, §5.1.2")]
     pub background_pressure: f64,
     /// Largest tension the fluid carries: p ≥ −tension_limit. No limit if left out; 0 for
     /// splashing free surfaces.
-    #[schemars(range(min = 0.0), extend("unit" = "Pa", "source" = "ours"))]
+    #[parameter(default, unit: "Pa", min: 0.0, source: "ours")]
     pub tension_limit: Option<f64>,
-}
-
-impl Default for Tait {
-    fn default() -> Self {
-        Tait {
-            exponent: 7.0,
-            background_pressure: 0.0,
-            tension_limit: None,
-        }
-    }
 }
 
 impl EquationOfState for Tait {
@@ -128,14 +110,6 @@ impl BoundState for Bound {
         self.reference
     }
 }
-
-register!(
-    EquationOfStateEntry,
-    Tait,
-    "tait",
-    "stiff power law, p = ρ₀c₀²/ξ [(ρ/ρ₀)^ξ − 1]",
-    "Ghaïtanellis 2017, Eq. 1.25"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,11 +1,9 @@
 //! What is blended where a soil yields.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use sph_core::parameters;
 
 /// What is blended where a soil yields from a solid to a liquid.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Blend {
     /// div(ζτ_l + (1 − ζ)τ_s): a stress, so that action is reaction.
     #[default]

@@ -1,8 +1,6 @@
 //! The elastic force of a displacement.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Access, StepError, Symmetric, Vect, fields, register};
+use sph_core::{Access, StepError, Symmetric, Vect, fields, plugin};
 use sph_neighbours::{
     BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
     Rates, World, dot, minus,
@@ -32,14 +30,16 @@ use crate::{Blend, ElasticForce, ElasticForceEntry, Felt};
 /// [elastic-force.displacement]
 /// blend = "forces"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(ElasticForceEntry [2, 3], "displacement",
+    "second differences of the displacement since the material was last liquid",
+    source: "Ghaïtanellis 2017, Eq. 4.94–4.101")]
+#[derive(Copy)]
 pub struct Displacement {
     /// What is blended where a soil yields.
-    #[schemars(extend("source" = "Ghaïtanellis 2017, Eq. 4.104 (forces), 4.105 (stresses)"))]
+    #[parameter(default, source: "Ghaïtanellis 2017, Eq. 4.104 (forces), 4.105 (stresses)")]
     pub blend: Blend,
     /// Scale of the operator on a lattice.
-    #[schemars(extend("source" = "ours; literal: as printed"))]
+    #[parameter(default, source: "ours; literal: as printed")]
     pub on_lattice: OnLattice,
 }
 
@@ -63,14 +63,6 @@ impl<const D: usize> ElasticForce<D> for Displacement {
         4.0 / 3.0 * 12.0 / 2.7
     }
 }
-
-register!(
-    ElasticForceEntry [2, 3],
-    Displacement,
-    "displacement",
-    "second differences of the displacement since the material was last liquid",
-    "Ghaïtanellis 2017, Eq. 4.94–4.101"
-);
 
 /// [`Displacement`] as a term.
 #[derive(Clone, Debug)]

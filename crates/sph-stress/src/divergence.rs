@@ -1,8 +1,6 @@
 //! The force of a stress that particles carry.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Access, Field, StepError, Symmetric, SymmetricTensor, Vect, fields, register};
+use sph_core::{Access, Field, StepError, Symmetric, SymmetricTensor, Vect, fields, plugin};
 use sph_neighbours::{
     BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
     Rates, World, dot,
@@ -21,19 +19,20 @@ use crate::{Blend, ElasticForce, ElasticForceEntry, Felt};
 /// [elastic-force.divergence]
 /// blend = "stresses"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(ElasticForceEntry [2, 3], "divergence", "the divergence of the remembered stress",
+    source: "Ghaïtanellis 2017, Eq. 4.92–4.93; Gray et al. 2001")]
+#[derive(Copy)]
 pub struct Divergence {
     /// What is blended where a soil yields.
-    #[schemars(extend("source" = "Ghaïtanellis 2017, Eq. 4.104 (forces), 4.84 and 4.105 (stresses)"))]
+    #[parameter(default, source: "Ghaïtanellis 2017, Eq. 4.104 (forces), 4.84 and 4.105 (stresses)")]
     pub blend: Blend,
     /// Take the stress of the end of the step, so that elastic waves do not bound it: those that are faster than the step
     /// are damped. Needs an implicit viscosity with which it is solved for. A stiff soil that should fall may stand, and the run then fails at its end: take `sub_steps` for such.
-    #[schemars(extend("source" = "ours"))]
+    #[parameter(default, source: "ours")]
     pub implicit: bool,
     /// Take steps of its own within that of the flow, as long as elastic waves allow, while places, pressures and
     /// viscosities stay: for soils that are much stiffer than their water. With the integrator `symplectic-euler`.
-    #[schemars(extend("source" = "ours, after Tuckerman et al. 1992, J. Chem. Phys. 97, 1990"))]
+    #[parameter(default, source: "ours, after Tuckerman et al. 1992, J. Chem. Phys. 97, 1990")]
     pub sub_steps: bool,
 }
 
@@ -51,14 +50,6 @@ impl<const D: usize> ElasticForce<D> for Divergence {
         self.sub_steps
     }
 }
-
-register!(
-    ElasticForceEntry [2, 3],
-    Divergence,
-    "divergence",
-    "the divergence of the remembered stress",
-    "Ghaïtanellis 2017, Eq. 4.92–4.93; Gray et al. 2001"
-);
 
 /// m_a a = 1/γ_a [Σ_b θ_b (V_a²τ_a + V_b²τ_b)·∇w_ab − Σ_s (V_a²τ_a + V_s²τ_s)/V_s·∇γ_as].
 ///

@@ -1,9 +1,7 @@
 //! The gradient with one factor for all directions.
 
 use nalgebra::SMatrix;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{NeighbourSums, VelocityGradient, VelocityGradientEntry};
 
@@ -17,8 +15,8 @@ use crate::{NeighbourSums, VelocityGradient, VelocityGradientEntry};
 /// ```toml
 /// [velocity-gradient.isotropic]
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(VelocityGradientEntry [2, 3], "isotropic", "one factor for all directions",
+    source: "Krimi et al. 2018, Eq. 43–44")]
 pub struct Isotropic {}
 
 impl<const D: usize> VelocityGradient<D> for Isotropic {
@@ -38,11 +36,3 @@ impl<const D: usize> VelocityGradient<D> for Isotropic {
         }
     }
 }
-
-register!(
-    VelocityGradientEntry [2, 3],
-    Isotropic,
-    "isotropic",
-    "one factor for all directions",
-    "Krimi et al. 2018, Eq. 43–44"
-);

@@ -1,8 +1,6 @@
 //! The effective pressure as a harmonic function of place.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use sph_core::{Access, Declares, Stage, StepError, Vect, fields, register};
+use sph_core::{Access, Declares, Stage, StepError, Vect, fields, parameters, plugin};
 use sph_implicit::{
     Assembly, ConjugateGradient, DividedMatrix, Entries, Jacobi, LinearSolver, Matrix,
     Preconditioner, Report,
@@ -14,8 +12,7 @@ use crate::effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils
 use crate::soil_surface::Grains;
 
 /// What solves for the effective pressure.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum PressureSolver {
     /// With an incomplete factorisation; iterations grow with the rows of the bed.
     #[default]
@@ -43,56 +40,35 @@ pub enum PressureSolver {
 /// [effective-pressure.laplace]
 /// pore_density = 1000.0
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(EffectivePressureEntry [2, 3], "laplace",
+    "harmonic in the soil, from its buoyant weight at walls; blind to the water above",
+    source: "Ghaïtanellis 2017, Eq. 4.63–4.65")]
+#[derive(Copy)]
 pub struct Laplace {
     /// Density of the fluid in the pores; 0 for a dry soil.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "kg/m³", "source" = "Ghaïtanellis 2017, Eq. 4.60")
-    )]
+    #[parameter(default, unit: "kg/m³", min: 0.0, source: "Ghaïtanellis 2017, Eq. 4.60")]
     pub pore_density: f64,
     /// Depth β of surface particles over the spacing: ½ is that of their centres, 1 the source's.
-    #[schemars(
-        range(min = 0.0),
-        extend("unit" = "1", "source" = "ours; 1: Ghaïtanellis 2017, Eq. 4.87")
-    )]
+    #[parameter(default: 0.5, unit: "1", min: 0.0, source: "ours; 1: Ghaïtanellis 2017, Eq. 4.87")]
     pub surface_depth: f64,
     /// Diameter d of the grains: surface particles are then never less deep than d/2, so that spacings finer than the grains do not
     /// make lighter ones. Only the spacing counts if left out.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0, "source" = "ours"))]
+    #[parameter(default, unit: "m", above: 0.0, source: "ours")]
     pub grain_diameter: Option<f64>,
     /// Time between solves over √(δr/|g|); 0 for every evaluation. In between the pressure goes with
     /// its particle.
-    #[schemars(range(min = 0.0), extend("unit" = "1", "source" = "ours"))]
+    #[parameter(default: 0.01, unit: "1", min: 0.0, source: "ours")]
     pub interval: f64,
     /// Relative residual at which the iteration ends.
-    #[schemars(
-        range(max = 0.1),
-        extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "ours")
-    )]
+    #[parameter(default: 1e-5, unit: "1", above: 0.0, max: 0.1, source: "ours")]
     pub tolerance: f64,
     /// What iterates.
-    #[schemars(extend("source" = "ours; jacobi: Ghaïtanellis 2017, §4.6.1"))]
+    #[parameter(default, source: "ours; jacobi: Ghaïtanellis 2017, §4.6.1")]
     pub solver: PressureSolver,
     /// Iterations after which it gives up; the step is then tried again with half its length. 2000 of conjugate gradients and
     /// 100 000 sweeps of Jacobi if left out.
-    #[schemars(range(min = 1), extend("unit" = "1", "source" = "ours"))]
+    #[parameter(default, unit: "1", min: 1, source: "ours")]
     pub iterations: Option<usize>,
-}
-
-impl Default for Laplace {
-    fn default() -> Self {
-        Laplace {
-            pore_density: 0.0,
-            surface_depth: 0.5,
-            grain_diameter: None,
-            interval: 0.01,
-            tolerance: 1e-5,
-            solver: PressureSolver::default(),
-            iterations: None,
-        }
-    }
 }
 
 impl Laplace {
@@ -141,14 +117,6 @@ impl<const D: usize> EffectivePressure<D> for Laplace {
         self.pore_density > 0.0
     }
 }
-
-register!(
-    EffectivePressureEntry [2, 3],
-    Laplace,
-    "laplace",
-    "harmonic in the soil, from its buoyant weight at walls; blind to the water above",
-    "Ghaïtanellis 2017, Eq. 4.63–4.65"
-);
 
 /// The stage of [`Laplace`].
 struct Solve<const D: usize> {

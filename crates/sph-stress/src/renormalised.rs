@@ -1,9 +1,7 @@
 //! The gradient that is exact for linear velocities.
 
 use nalgebra::SMatrix;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 use sph_neighbours::trusted_inverse;
 
 use crate::{Isotropic, NeighbourSums, VelocityGradient, VelocityGradientEntry};
@@ -19,12 +17,12 @@ use crate::{Isotropic, NeighbourSums, VelocityGradient, VelocityGradientEntry};
 /// [velocity-gradient.renormalised]
 /// adjoint = true
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(VelocityGradientEntry [2, 3], "renormalised", "exact for linear velocities, at free surfaces as well",
+    source: "Randles & Libersky 1996")]
 pub struct Renormalised {
     /// Whether the force of an elastic stress does the work of this gradient: stiffer at free surfaces, and the
     /// energy is kept. Not for walls that slip.
-    #[schemars(extend("source" = "Bonet & Lok 1999, §4"))]
+    #[parameter(default, source: "Bonet & Lok 1999, §4")]
     pub adjoint: bool,
 }
 
@@ -48,14 +46,6 @@ impl<const D: usize> VelocityGradient<D> for Renormalised {
         }
     }
 }
-
-register!(
-    VelocityGradientEntry [2, 3],
-    Renormalised,
-    "renormalised",
-    "exact for linear velocities, at free surfaces as well",
-    "Randles & Libersky 1996"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,9 +1,7 @@
 //! The gradient of the semi-analytical walls, as printed.
 
 use nalgebra::SMatrix;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::{NeighbourSums, VelocityGradient, VelocityGradientEntry};
 
@@ -16,8 +14,8 @@ use crate::{NeighbourSums, VelocityGradient, VelocityGradientEntry};
 /// ```toml
 /// [velocity-gradient.symmetric-difference]
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(VelocityGradientEntry [2, 3], "symmetric-difference", "the plain sum over γ; too small at free surfaces",
+    source: "Ghaïtanellis 2017, Eq. 4.90")]
 pub struct SymmetricDifference {}
 
 impl<const D: usize> VelocityGradient<D> for SymmetricDifference {
@@ -25,11 +23,3 @@ impl<const D: usize> VelocityGradient<D> for SymmetricDifference {
         sums.velocity * sums.inverse_renormalisation
     }
 }
-
-register!(
-    VelocityGradientEntry [2, 3],
-    SymmetricDifference,
-    "symmetric-difference",
-    "the plain sum over γ; too small at free surfaces",
-    "Ghaïtanellis 2017, Eq. 4.90"
-);

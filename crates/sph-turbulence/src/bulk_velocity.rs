@@ -1,9 +1,7 @@
 //! A flow rate that is held.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Contribution, Refusal, Setting, StepWork, contribution_kind};
-use sph_core::{Access, AnyField, Axis, StepError, fields, register};
+use sph_core::{Access, AnyField, Axis, StepError, fields, plugin};
 use sph_neighbours::World;
 
 contribution_kind!(
@@ -23,14 +21,15 @@ contribution_kind!(
 /// [flow-control.bulk-velocity]
 /// velocity = "1.35 m/s"
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(FlowControlEntry [2, 3], "bulk-velocity", "holds the mean velocity over mass",
+    source: "Issa 2004, Eq. 3.14–3.16")]
+#[derive(Copy)]
 pub struct BulkVelocity {
     /// Mean velocity U₀ over mass.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub velocity: f64,
     /// Along which axis.
-    #[serde(default)]
+    #[parameter(default)]
     pub axis: Axis,
 }
 
@@ -78,11 +77,3 @@ impl<const D: usize> StepWork<D> for BulkVelocity {
         Ok(world.free.put(fields::VELOCITY, velocity)?)
     }
 }
-
-register!(
-    FlowControlEntry [2, 3],
-    BulkVelocity,
-    "bulk-velocity",
-    "holds the mean velocity over mass",
-    "Issa 2004, Eq. 3.14–3.16"
-);

@@ -1,8 +1,6 @@
 //! The energy of eddies that particles do not resolve.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, fields, register};
+use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 use sph_probes::{Probe, ProbeColumn, ProbeEntry};
 
@@ -15,8 +13,7 @@ use crate::columns::{DISSIPATION, TURBULENT_ENERGY};
 /// [probe.eddies]
 /// kind = "turbulent-energy"
 /// ```
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "turbulent-energy", "energy of the eddies that a closure transports", source: "Σ m k")]
 pub struct TurbulentEnergyProbe {}
 
 impl<const D: usize> Probe<D> for TurbulentEnergyProbe {
@@ -63,11 +60,3 @@ impl<const D: usize> Probe<D> for TurbulentEnergyProbe {
         })
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    TurbulentEnergyProbe,
-    "turbulent-energy",
-    "energy of the eddies that a closure transports",
-    "Σ m k"
-);

@@ -1,13 +1,10 @@
 //! The viscous operator of Español and Revenga.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
-use sph_neighbours::{Interaction, Lane};
+use sph_core::plugin;
+use sph_neighbours::Lane;
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
-use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry, Within};
-use sph_contribution::Stages;
+use crate::ViscousOperatorEntry;
+use crate::friction::{Choice, PairFriction, PairOperator};
 
 /// L_a = 1/γ_a Σ_b θ_b V_b η̄_ab F_ab [(d + 2)(u_ab·e)e + u_ab] plus the wall's friction, as of
 /// [`Morris`](crate::Morris): div(η(∇u + ∇uᵀ)) for constant η and div u = 0.
@@ -23,56 +20,21 @@ use sph_contribution::Stages;
 /// [viscous-operator.espanol-revenga]
 /// wall_term = "corrected"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct EspanolRevenga {
-    /// Friction at walls.
-    pub wall_term: WallTerm,
-    /// Scale of the operator on a lattice.
-    #[schemars(extend("source" = "ours; literal: as printed"))]
-    pub on_lattice: OnLattice,
-    /// Viscosity of pairs of two phases.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
-    pub across: Across,
-    /// Viscosity of pairs of one phase.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
-    pub within: Within,
-}
+#[plugin(ViscousOperatorEntry [2, 3], "espanol-revenga", "div(η(∇u + ∇uᵀ)) for constant η; stiffer than Morris",
+    source: "Ghaïtanellis 2017, Eq. 3.31; Español & Revenga 2003", cfg(not(test)))]
+#[derive(Copy, Default)]
+pub struct EspanolRevenga(pub Choice);
 
-impl EspanolRevenga {
+impl<const D: usize> PairOperator<D> for EspanolRevenga {
+    type Formula = WithTransposed;
+    const STIFFNESS: f64 = 1.75;
+    fn formula(&self) -> WithTransposed {
+        WithTransposed
+    }
     fn choice(&self) -> Choice {
-        Choice {
-            wall_term: self.wall_term,
-            on_lattice: self.on_lattice,
-            across: self.across,
-            within: self.within,
-        }
+        self.0
     }
 }
-
-impl<const D: usize> ViscousOperator<D> for EspanolRevenga {
-    fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
-        self.choice().term(WithTransposed, viscosity)
-    }
-    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
-        self.choice().coupling(WithTransposed, viscosity)
-    }
-    fn stages(&self, viscosity: Viscosity) -> Stages<D> {
-        self.choice().stages(viscosity)
-    }
-    fn stiffness(&self) -> f64 {
-        1.75
-    }
-}
-
-#[cfg(not(test))]
-register!(
-    ViscousOperatorEntry [2, 3],
-    EspanolRevenga,
-    "espanol-revenga",
-    "div(η(∇u + ∇uᵀ)) for constant η; stiffer than Morris",
-    "Ghaïtanellis 2017, Eq. 3.31; Español & Revenga 2003"
-);
 
 /// V_b F_ab [(d + 2)(u_ab·e)e + u_ab]: the pair formula of [`EspanolRevenga`].
 #[derive(Clone, Copy, Debug)]

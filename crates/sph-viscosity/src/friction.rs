@@ -11,7 +11,7 @@ use crate::{BoundViscosity, OwnViscosity, ViscositySource};
 mod choice;
 mod coupling;
 
-pub use choice::{Across, Choice, OnLattice, WallTerm};
+pub use choice::{Across, Choice, OnLattice, PairOperator, WallTerm};
 
 /// A viscous operator as a sum over pairs: the force on a per volume is
 /// 1/γ_a Σ_b θ_b η̄_ab f(V_a, V_b, u_ab, r_ab), plus the wall's.

@@ -1,13 +1,10 @@
 //! The viscous operator of Hu and Adams.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
-use sph_neighbours::{Interaction, Lane};
+use sph_core::plugin;
+use sph_neighbours::Lane;
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
-use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry, Within};
-use sph_contribution::Stages;
+use crate::ViscousOperatorEntry;
+use crate::friction::{Choice, PairFriction, PairOperator};
 
 /// L_a = 1/γ_a Σ_b θ_b (V_a² + V_b²)/V_a η̄_ab u_ab F_ab plus the wall's friction, as of
 /// [`Morris`](crate::Morris) times (V_a² + V_s²)/(2 V_a V_s).
@@ -21,56 +18,21 @@ use sph_contribution::Stages;
 /// [viscous-operator.hu-adams]
 /// wall_term = "corrected"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct HuAdamsViscosity {
-    /// Friction at walls.
-    pub wall_term: WallTerm,
-    /// Scale of the operator on a lattice.
-    #[schemars(extend("source" = "ours; literal: as printed"))]
-    pub on_lattice: OnLattice,
-    /// Viscosity of pairs of two phases.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
-    pub across: Across,
-    /// Viscosity of pairs of one phase.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
-    pub within: Within,
-}
+#[plugin(ViscousOperatorEntry [2, 3], "hu-adams", "div(η grad u) with the volumes of both particles",
+    source: "Ghaïtanellis 2017, Eq. 3.27; Hu & Adams 2006", cfg(not(test)))]
+#[derive(Copy, Default)]
+pub struct HuAdamsViscosity(pub Choice);
 
-impl HuAdamsViscosity {
+impl<const D: usize> PairOperator<D> for HuAdamsViscosity {
+    type Formula = BothVolumes;
+    const STIFFNESS: f64 = 1.0;
+    fn formula(&self) -> BothVolumes {
+        BothVolumes
+    }
     fn choice(&self) -> Choice {
-        Choice {
-            wall_term: self.wall_term,
-            on_lattice: self.on_lattice,
-            across: self.across,
-            within: self.within,
-        }
+        self.0
     }
 }
-
-impl<const D: usize> ViscousOperator<D> for HuAdamsViscosity {
-    fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
-        self.choice().term(BothVolumes, viscosity)
-    }
-    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
-        self.choice().coupling(BothVolumes, viscosity)
-    }
-    fn stages(&self, viscosity: Viscosity) -> Stages<D> {
-        self.choice().stages(viscosity)
-    }
-    fn stiffness(&self) -> f64 {
-        1.0
-    }
-}
-
-#[cfg(not(test))]
-register!(
-    ViscousOperatorEntry [2, 3],
-    HuAdamsViscosity,
-    "hu-adams",
-    "div(η grad u) with the volumes of both particles",
-    "Ghaïtanellis 2017, Eq. 3.27; Hu & Adams 2006"
-);
 
 /// (V_a² + V_b²)/V_a u_ab F_ab: the pair formula of [`HuAdamsViscosity`].
 #[derive(Clone, Copy, Debug)]

@@ -1,14 +1,10 @@
 //! The viscous operator of Krimi et al. (2018).
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
-use sph_neighbours::{Interaction, Lane};
+use sph_core::{parameters, plugin};
+use sph_neighbours::Lane;
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
-use crate::{BoundViscosity, OwnViscosity};
-use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry, Within};
-use sph_contribution::Stages;
+use crate::friction::{Across, Choice, OnLattice, PairFriction, PairOperator, WallTerm};
+use crate::{BoundViscosity, OwnViscosity, ViscousOperatorEntry, Within};
 
 /// L_a = c/γ_a Σ_b θ_b (V_a² + V_b²)/V_a η̃_ab F_ab [u_ab + (u_ab·e)e] plus the wall's friction, as
 /// of [`Morris`](crate::Morris), with η̃_ab = (ρ_a η_b + ρ_b η_a)/(ρ_a + ρ_b).
@@ -23,22 +19,23 @@ use sph_contribution::Stages;
 /// [viscous-operator.krimi]
 /// strength = "corrected"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(ViscousOperatorEntry [2, 3], "krimi", "averages stresses between particles by density; literal or corrected",
+    source: "Krimi et al. 2018, Eq. 41", cfg(not(test)))]
+#[derive(Copy)]
 pub struct KrimiViscosity {
     /// The factor c.
-    #[schemars(extend("source" = "Krimi et al. 2018, Eq. 41; the correction is ours"))]
+    #[parameter(default, source: "Krimi et al. 2018, Eq. 41; the correction is ours")]
     pub strength: Strength,
     /// Friction at walls.
+    #[parameter(default)]
     pub wall_term: WallTerm,
     /// Scale of the operator on a lattice.
-    #[schemars(extend("source" = "ours; literal: as printed"))]
+    #[parameter(default, source: "ours; literal: as printed")]
     pub on_lattice: OnLattice,
 }
 
 /// The factor of the operator.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Strength {
     /// Exact for constant viscosity and div u = 0.
     #[default]
@@ -47,7 +44,12 @@ pub enum Strength {
     Literal,
 }
 
-impl KrimiViscosity {
+impl<const D: usize> PairOperator<D> for KrimiViscosity {
+    type Formula = BetweenStresses;
+    const STIFFNESS: f64 = 1.65;
+    fn formula(&self) -> BetweenStresses {
+        BetweenStresses(self.strength)
+    }
     fn choice(&self) -> Choice {
         Choice {
             wall_term: self.wall_term,
@@ -61,32 +63,6 @@ impl KrimiViscosity {
         }
     }
 }
-
-impl<const D: usize> ViscousOperator<D> for KrimiViscosity {
-    fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
-        self.choice()
-            .term(BetweenStresses(self.strength), viscosity)
-    }
-    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
-        self.choice()
-            .coupling(BetweenStresses(self.strength), viscosity)
-    }
-    fn stages(&self, viscosity: Viscosity) -> Stages<D> {
-        self.choice().stages(viscosity)
-    }
-    fn stiffness(&self) -> f64 {
-        1.65
-    }
-}
-
-#[cfg(not(test))]
-register!(
-    ViscousOperatorEntry [2, 3],
-    KrimiViscosity,
-    "krimi",
-    "averages stresses between particles by density; literal or corrected",
-    "Krimi et al. 2018, Eq. 41"
-);
 
 /// c (V_a² + V_b²)/V_a F_ab [u_ab + (u_ab·e)e]: the pair formula of [`KrimiViscosity`].
 #[derive(Clone, Copy, Debug)]

@@ -35,7 +35,7 @@ pub use contract::{Viscosity, ViscousOperator, ViscousOperatorEntry};
 pub use coupling::{BoundCoupling, Coupling, CouplingRow, WithCoupling};
 pub use eddy_viscosity::{EddyViscosity, EddyViscosityEntry};
 pub use espanol_revenga::{EspanolRevenga, WithTransposed};
-pub use friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm};
+pub use friction::{Across, Choice, OnLattice, PairFriction, PairOperator, ViscousTerm, WallTerm};
 pub use friction_operator::{FrictionEntry, FrictionOperator};
 pub use friction_system::FrictionSystem;
 pub use held_back::HeldBack;

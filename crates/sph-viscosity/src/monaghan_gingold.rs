@@ -1,13 +1,10 @@
 //! The viscous operator of Monaghan and Gingold.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
-use sph_neighbours::{Interaction, Lane};
+use sph_core::plugin;
+use sph_neighbours::Lane;
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
-use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry, Within};
-use sph_contribution::Stages;
+use crate::ViscousOperatorEntry;
+use crate::friction::{Choice, PairFriction, PairOperator};
 
 /// L_a = 2(d + 2)/γ_a Σ_b θ_b V_b η̄_ab F_ab (u_ab·e)e plus the wall's friction, as of
 /// [`Morris`](crate::Morris): div(η(∇u + ∇uᵀ)) + ∇(η div u), also for variable η.
@@ -21,60 +18,23 @@ use sph_contribution::Stages;
 /// [viscous-operator.monaghan-gingold]
 /// wall_term = "corrected"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct MonaghanGingold {
-    /// Friction at walls.
-    pub wall_term: WallTerm,
-    /// Scale of the operator on a lattice.
-    #[schemars(extend("source" = "ours; literal: as printed"))]
-    pub on_lattice: OnLattice,
-    /// Viscosity of pairs of two phases.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
-    pub across: Across,
-    /// Viscosity of pairs of one phase.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
-    pub within: Within,
-}
+#[plugin(ViscousOperatorEntry [2, 3], "monaghan-gingold", "central forces: conserves angular momentum; stiffest",
+    source: "Monaghan & Gingold 1983; Cleary 1998", cfg(not(test)))]
+#[derive(Copy, Default)]
+pub struct MonaghanGingold(pub Choice);
 
-impl MonaghanGingold {
-    fn choice(&self) -> Choice {
-        Choice {
-            wall_term: self.wall_term,
-            on_lattice: self.on_lattice,
-            across: self.across,
-            within: self.within,
-        }
-    }
-}
-
-impl<const D: usize> ViscousOperator<D> for MonaghanGingold {
-    fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
-        self.choice().term(Central, viscosity)
-    }
-    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
-        self.choice().coupling(Central, viscosity)
-    }
-    fn stages(&self, viscosity: Viscosity) -> Stages<D> {
-        self.choice().stages(viscosity)
-    }
-    fn stiffness(&self) -> f64 {
-        2.7
-    }
+impl<const D: usize> PairOperator<D> for MonaghanGingold {
+    type Formula = Central;
+    const STIFFNESS: f64 = 2.7;
     /// Pairs act along their line.
-    fn leaves_rotations(&self) -> bool {
-        true
+    const LEAVES_ROTATIONS: bool = true;
+    fn formula(&self) -> Central {
+        Central
+    }
+    fn choice(&self) -> Choice {
+        self.0
     }
 }
-
-#[cfg(not(test))]
-register!(
-    ViscousOperatorEntry [2, 3],
-    MonaghanGingold,
-    "monaghan-gingold",
-    "central forces: conserves angular momentum; stiffest",
-    "Monaghan & Gingold 1983; Cleary 1998"
-);
 
 /// 2(d + 2) V_b F_ab (u_ab·e)e: the pair formula of [`MonaghanGingold`].
 #[derive(Clone, Copy, Debug)]

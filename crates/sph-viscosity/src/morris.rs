@@ -1,13 +1,10 @@
 //! Morris's viscous operator with the wall term of Ghaïtanellis (2017).
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
-use sph_neighbours::{Interaction, Lane};
+use sph_core::plugin;
+use sph_neighbours::Lane;
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm};
-use crate::{Coupling, Viscosity, ViscousOperator, ViscousOperatorEntry, Within};
-use sph_contribution::Stages;
+use crate::ViscousOperatorEntry;
+use crate::friction::{Choice, PairFriction, PairOperator, ViscousTerm};
 
 /// L_a = 2/γ_a Σ_b θ_b V_b η̄_ab u_ab F_ab − 2κ_a/γ_a Σ_s η_a u_t,as/δr_as |∇γ_as|.
 ///
@@ -32,57 +29,21 @@ use sph_contribution::Stages;
 /// [viscous-operator.morris]
 /// wall_term = "corrected"
 /// ```
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Morris {
-    /// Friction at walls.
-    #[schemars(extend("source" = "Ghaïtanellis 2017, Eq. 2.83–2.89"))]
-    pub wall_term: WallTerm,
-    /// Scale of the operator on a lattice.
-    #[schemars(extend("source" = "ours; literal: as printed"))]
-    pub on_lattice: OnLattice,
-    /// Viscosity of pairs of two phases.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
-    pub across: Across,
-    /// Viscosity of pairs of one phase.
-    #[schemars(extend("source" = "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30"))]
-    pub within: Within,
-}
+#[plugin(ViscousOperatorEntry [2, 3], "morris", "div(η grad u) by first differences of velocity; cheap and robust",
+    source: "Ghaïtanellis 2017, Eq. 3.29; Morris et al. 1997", cfg(not(test)))]
+#[derive(Copy, Default)]
+pub struct Morris(pub Choice);
 
-impl Morris {
+impl<const D: usize> PairOperator<D> for Morris {
+    type Formula = FirstDifferences;
+    const STIFFNESS: f64 = 1.0;
+    fn formula(&self) -> FirstDifferences {
+        FirstDifferences
+    }
     fn choice(&self) -> Choice {
-        Choice {
-            wall_term: self.wall_term,
-            on_lattice: self.on_lattice,
-            across: self.across,
-            within: self.within,
-        }
+        self.0
     }
 }
-
-impl<const D: usize> ViscousOperator<D> for Morris {
-    fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
-        self.choice().term(FirstDifferences, viscosity)
-    }
-    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
-        self.choice().coupling(FirstDifferences, viscosity)
-    }
-    fn stages(&self, viscosity: Viscosity) -> Stages<D> {
-        self.choice().stages(viscosity)
-    }
-    fn stiffness(&self) -> f64 {
-        1.0
-    }
-}
-
-#[cfg(not(test))]
-register!(
-    ViscousOperatorEntry [2, 3],
-    Morris,
-    "morris",
-    "div(η grad u) by first differences of velocity; cheap and robust",
-    "Ghaïtanellis 2017, Eq. 3.29; Morris et al. 1997"
-);
 
 /// 2 V_b u_ab F_ab: the pair formula of [`Morris`].
 #[derive(Clone, Copy, Debug)]

@@ -1,15 +1,12 @@
 //! Where pair terms read the viscosity: one number, or a column with means of pairs.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Access, StepError, fields};
+use sph_core::{Access, StepError, fields, parameters};
 use sph_neighbours::{Lane, Particles, World, unlike};
 
 use crate::interface_distance::INTERFACE_DISTANCE;
 
 /// Mean viscosity of pairs of one phase.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Within {
     /// 2 η_a η_b/(η_a + η_b): continuous shear stress; scatter of the viscosities lowers it.
     #[default]

@@ -2,13 +2,11 @@
 
 use std::sync::Arc;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_boundary::{
     Course, Load, Mover, MoverEntry, MoverRefusal, MoverSetting, RigidMotion, RigidState, Rotation,
     SinePart, Translation,
 };
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 use sph_neighbours::Sight;
 
 use crate::absorption::{Absorption, MEAN_WAY};
@@ -40,32 +38,34 @@ use crate::waves::{Component, Waves};
 /// level = "0.5 m"
 /// waves = { regular = { height = "8 cm", period = "1.2 s" } }
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, bound = "")]
+#[plugin(MoverEntry [2 => WaveMaker<2>, 3 => WaveMaker<3>], "wave-maker",
+    "a piston or a flap that makes waves: regular, irregular, focused; it may absorb what comes back",
+    source: "Biesel 1951; Madsen 1971; Schäffer & Jakobsen 2003")]
+#[derive(Debug)]
+#[serde(bound = "")]
 #[schemars(rename = "WaveMaker", bound = "")]
 pub struct WaveMaker<const D: usize> {
     /// Height of the still level, from the origin.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     level: f64,
     /// Height of the floor, from the origin.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     floor: f64,
     /// The waves.
     waves: Waves,
     /// 1, or 2 for regular waves of a piston; if left out, 2 where that is possible.
     order: Option<u8>,
     /// The point about which a flap turns; a piston if left out.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     hinge: Option<Vec<f64>>,
     /// Direction in which waves run, horizontal; +x if left out. Its length does not matter.
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(unit: "1")]
     along: Option<Vec<f64>>,
     /// Time in which the motion rises; two periods if left out.
-    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    #[parameter(unit: "s", min: 0.0)]
     ramp: Option<f64>,
     /// Whether waves that come back leave through the paddle.
-    #[serde(default)]
+    #[parameter(default)]
     absorb: bool,
     #[serde(skip)]
     motion: RigidMotion<D>,
@@ -286,13 +286,6 @@ impl<const D: usize> Mover<D> for WaveMaker<D> {
         face.moved(plan, next, (next[1] - besides[1]) / dt)
     }
 }
-
-register!(
-    MoverEntry [2 => WaveMaker<2>, 3 => WaveMaker<3>],
-    "wave-maker",
-    "a piston or a flap that makes waves: regular, irregular, focused; it may absorb what comes back",
-    "Biesel 1951; Madsen 1971; Schäffer & Jakobsen 2003"
-);
 
 #[cfg(test)]
 mod tests;

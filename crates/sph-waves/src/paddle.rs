@@ -1,11 +1,10 @@
 //! What moves the water: the shape of a paddle.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 
 /// The shape of a paddle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
+#[derive(PartialEq)]
 pub enum Paddle {
     /// It slides: the same way at all heights.
     #[default]

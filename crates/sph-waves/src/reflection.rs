@@ -3,9 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Mutex;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, register};
+use sph_core::{StepError, plugin};
 use sph_neighbours::World;
 use sph_probes::{Level, Probe, ProbeColumn, ProbeEntry};
 
@@ -35,37 +33,34 @@ use crate::separation::{Separated, separated};
 /// lowest = "0.6 Hz"
 /// highest = "1 Hz"
 /// ```
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "reflection", "waves that run down a flume and that come back, from three gauges",
+    source: "Mansard & Funke 1980")]
 pub struct ReflectionProbe {
     /// Places along the first axis: three or more, with unequal distances.
-    #[schemars(extend("unit" = "m"), length(min = 2))]
+    #[parameter(unit: "m", min_items: 2)]
     pub at: Vec<f64>,
     /// Second coordinate of the gauges in three dimensions.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub across: f64,
     /// Depth of the still water.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub depth: f64,
     /// Beginning of the window.
-    #[schemars(extend("unit" = "s"))]
+    #[parameter(unit: "s")]
     pub from: f64,
     /// End of the window.
-    #[schemars(extend("unit" = "s"))]
+    #[parameter(unit: "s")]
     pub to: f64,
     /// The lowest frequency.
-    #[schemars(extend("unit" = "Hz", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "Hz", above: 0.0)]
     pub lowest: f64,
     /// The highest frequency.
-    #[schemars(extend("unit" = "Hz", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "Hz", above: 0.0)]
     pub highest: f64,
     /// Velocity of the current along the first axis.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(default, unit: "m/s")]
     pub current: f64,
     #[serde(skip)]
-    #[schemars(skip)]
     sums: Mutex<Sums>,
 }
 
@@ -283,14 +278,6 @@ impl<const D: usize> Probe<D> for ReflectionProbe {
         Ok(summed(&self.found(world.gravity.norm())?))
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    ReflectionProbe,
-    "reflection",
-    "waves that run down a flume and that come back, from three gauges",
-    "Mansard & Funke 1980"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,6 @@
 //! A wave that swings between two walls.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 use sph_probes::{Solution, SolutionEntry};
 
 use crate::orbits::depths;
@@ -25,23 +23,22 @@ use crate::orbits::depths;
 /// gravity = 1.0
 /// density = 1000.0
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2, 3], "standing-wave", "a wave that swings between two walls", source: "Airy's linear theory")]
 pub struct StandingWave {
     /// Amplitude a of the surface at x = 0.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub amplitude: f64,
     /// Length L.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub wavelength: f64,
     /// Depth d.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub depth: f64,
     /// Size g of gravity.
-    #[schemars(extend("unit" = "m/s²", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m/s²", above: 0.0)]
     pub gravity: f64,
     /// Density ρ.
-    #[schemars(extend("unit" = "kg/m³", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "kg/m³", above: 0.0)]
     pub density: f64,
 }
 
@@ -78,14 +75,6 @@ impl<const D: usize> Solution<D> for StandingWave {
         Some(self.density * self.gravity * head)
     }
 }
-
-register!(
-    SolutionEntry[2, 3],
-    StandingWave,
-    "standing-wave",
-    "a wave that swings between two walls",
-    "Airy's linear theory"
-);
 
 #[cfg(test)]
 mod tests {

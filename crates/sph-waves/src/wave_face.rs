@@ -3,9 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 use sph_open::{
     Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
     Place,
@@ -38,37 +36,35 @@ use crate::waves::Waves;
 /// current = "0.2 m/s"
 /// waves = { regular = { height = "8 cm", period = "1.2 s" } }
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(OpenBoundaryEntry [2, 3], "waves", "waves come in on a current, and what comes to the face goes out",
+    source: "Stokes 1847; Verbrugghe et al. 2019")]
+#[derive(Debug)]
 pub struct WaveFace {
     /// Height of the still level, from the origin.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     level: f64,
     /// Height of the floor, from the origin.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     floor: f64,
     /// Velocity of the current into the fluid; below 0 it goes out. Give the water at the start the same velocity.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(default, unit: "m/s")]
     current: f64,
     /// The waves that come in; none if left out.
     waves: Option<Waves>,
     /// Period of the waves that go out, as somebody at rest counts it; that of `waves` if left out.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     period: Option<f64>,
     /// 1, or 2 for regular waves; if left out, 2 where that is possible.
     order: Option<u8>,
     /// Time in which the waves rise; two periods if left out.
-    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    #[parameter(unit: "s", min: 0.0)]
     ramp: Option<f64>,
     /// Whether the face yields; if left out, where a current goes out, or nothing comes in.
     yields: Option<bool>,
     /// Name of the phase that comes in; that of the fluid in front of the face if left out.
-    #[serde(default)]
+    #[parameter(default)]
     phase: Option<String>,
     #[serde(skip)]
-    #[schemars(skip)]
     settled: OnceLock<Settled>,
 }
 
@@ -236,14 +232,6 @@ impl<const D: usize> OpenBoundary<D> for WaveFace {
         places.iter().zip(inside).map(one).collect()
     }
 }
-
-register!(
-    OpenBoundaryEntry [2, 3],
-    WaveFace,
-    "waves",
-    "waves come in on a current, and what comes to the face goes out",
-    "Stokes 1847; Verbrugghe et al. 2019"
-);
 
 #[cfg(test)]
 mod tests {

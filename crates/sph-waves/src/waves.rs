@@ -2,8 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 
 use crate::dispersion::wavenumber_on;
 use crate::spectrum::{Jonswap, phases};
@@ -48,8 +47,8 @@ impl Component {
 }
 
 /// The waves that a maker is asked for.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
+#[derive(Copy)]
 pub enum Waves {
     /// One wave after the other, all of them the same.
     Regular(Regular),
@@ -60,74 +59,59 @@ pub enum Waves {
 }
 
 /// Regular waves.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Regular {
     /// Height from trough to crest.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub height: f64,
     /// Period.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub period: f64,
 }
 
 /// A sea with the spectrum of JONSWAP.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Irregular {
     /// Significant height H_m0.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub height: f64,
     /// Period of the peak.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub period: f64,
     /// Peak enhancement γ.
-    #[serde(default = "enhancement")]
-    #[schemars(extend("unit" = "1", "minimum" = 1.0))]
+    #[parameter(default: 3.3, unit: "1", min: 1.0)]
     pub enhancement: f64,
     /// Time after which the sea repeats itself: its waves have the multiples of one over it for frequencies.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub repeat: f64,
     /// Lowest and highest frequency over that of the peak.
-    #[serde(default = "band")]
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(default: [0.5, 2.0], unit: "1")]
     pub band: [f64; 2],
     /// The seed of the phases.
     pub seed: u64,
 }
 
 /// A group that focuses: amplitudes in proportion to the spectrum, crests at one place and time.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Focused {
     /// Height of the crest over the still level, the sum of all amplitudes.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub crest: f64,
     /// Period of the peak.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub period: f64,
     /// Peak enhancement γ.
-    #[serde(default = "enhancement")]
-    #[schemars(extend("unit" = "1", "minimum" = 1.0))]
+    #[parameter(default: 3.3, unit: "1", min: 1.0)]
     pub enhancement: f64,
     /// Lowest and highest frequency over that of the peak.
-    #[serde(default = "band")]
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(default: [0.5, 2.0], unit: "1")]
     pub band: [f64; 2],
     /// Where the crests meet, as a way from the paddle.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub at: f64,
     /// When they meet.
-    #[schemars(extend("unit" = "s"))]
+    #[parameter(unit: "s")]
     pub time: f64,
-}
-
-fn enhancement() -> f64 {
-    3.3
-}
-
-fn band() -> [f64; 2] {
-    [0.5, 2.0]
 }
 
 /// How many waves a focused group has.
@@ -272,7 +256,7 @@ mod tests {
             crest: 0.08,
             period: 1.2,
             enhancement: 3.3,
-            band: band(),
+            band: [0.5, 2.0],
             at: 3.0,
             time: 9.0,
         });
@@ -292,7 +276,7 @@ mod tests {
                 period: 1.2,
                 enhancement: 3.3,
                 repeat: 24.0,
-                band: band(),
+                band: [0.5, 2.0],
                 seed,
             })
             .components(0.5, 9.81)

@@ -1,19 +1,17 @@
 //! A pair force from outside, in lanes: `[term.artificial-viscosity]`.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Access, StepError, Vect, fields, register};
+use sph_core::{Access, StepError, Vect, fields, plugin};
 use sph_neighbours::{
     BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, TermEntry,
     World, add_scaled, dot, minus,
 };
 
 /// a = α c h Σ_b m_b µ_ab/ρ̄ ∇w_ab where particles approach, µ_ab = u_ab·r_ab/(r² + h²/100); nothing at walls.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(TermEntry [2, 3], "artificial-viscosity", "friction of particles that approach each other",
+    source: "Monaghan 1992, Eq. 4.1 with β = 0")]
 pub struct ArtificialViscosity {
     /// α c, a share of the speed of sound.
-    #[schemars(range(min = 0.0), extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s", min: 0.0)]
     pub speed: f64,
 }
 
@@ -73,11 +71,3 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         rates.acceleration += Vect::from(sum);
     }
 }
-
-register!(
-    TermEntry [2, 3],
-    ArtificialViscosity,
-    "artificial-viscosity",
-    "friction of particles that approach each other",
-    "Monaghan 1992, Eq. 4.1 with β = 0"
-);

@@ -3,17 +3,14 @@
 mod powell_eyring;
 
 pub use powell_eyring::PowellEyring;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 use sph_rheology::{Inputs, Needs, Rheology, RheologyEntry};
 
 /// τ = 2 η γ̇ with constant η, under another name.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "syrup", "constant viscosity", source: "breakfast")]
 struct Syrup {
     /// Dynamic viscosity.
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s"))]
+    #[parameter(unit: "Pa s", min: 0.0)]
     thickness: f64,
 }
 
@@ -31,11 +28,3 @@ impl Rheology for Syrup {
         self.thickness
     }
 }
-
-register!(
-    RheologyEntry,
-    Syrup,
-    "syrup",
-    "constant viscosity",
-    "breakfast"
-);

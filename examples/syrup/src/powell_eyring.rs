@@ -1,23 +1,19 @@
 //! A law that reads the strain rate: `[phase.NAME.rheology.powell-eyring]`.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 use sph_rheology::{Inputs, Needs, Rheology, RheologyEntry};
 
 /// η = η_∞ + (η_0 − η_∞) arsinh(λγ̇)/(λγ̇), from η_0 at rest towards η_∞ at high strain rates.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(RheologyEntry, "powell-eyring", "thins with the strain rate", source: "Powell & Eyring 1944")]
 pub struct PowellEyring {
     /// Viscosity η_0 at rest.
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s"))]
+    #[parameter(unit: "Pa s", min: 0.0)]
     pub rest_viscosity: f64,
     /// Viscosity η_∞ at high strain rates.
-    #[serde(default)]
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s"))]
+    #[parameter(default, unit: "Pa s", min: 0.0)]
     pub infinite_viscosity: f64,
     /// Time λ.
-    #[schemars(range(min = 0.0), extend("unit" = "s"))]
+    #[parameter(unit: "s", min: 0.0)]
     pub relaxation_time: f64,
 }
 
@@ -44,11 +40,3 @@ impl Rheology for PowellEyring {
         self.rest_viscosity.max(self.infinite_viscosity)
     }
 }
-
-register!(
-    RheologyEntry,
-    PowellEyring,
-    "powell-eyring",
-    "thins with the strain rate",
-    "Powell & Eyring 1944"
-);

@@ -1,11 +1,9 @@
 //! A kind of plugin from outside: heat and salt that diffuse through a fluid, `[tracer.heat-and-salt]`.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{
     Contribution, Limiter, OwnColumn, Refusal, Setting, StepWork, contribution_kind,
 };
-use sph_core::{Access, AnyField, Evolved, Field, Scalar, StepError, StepLimit, fields, register};
+use sph_core::{Access, AnyField, Evolved, Field, Scalar, StepError, StepLimit, fields, plugin};
 use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
     World,
@@ -78,22 +76,17 @@ impl<const D: usize> BoundTerm<D> for BoundDiffusion<'_> {
 }
 
 /// Heat and salt, waves at the start.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(TracerEntry [2, 3], "heat-and-salt", "heat and salt", source: "Fick 1855")]
 struct HeatAndSalt {
     /// Diffusivity of heat.
-    #[schemars(range(min = 0.0), extend("unit" = "m²/s"))]
+    #[parameter(unit: "m²/s", min: 0.0)]
     heat: f64,
     /// Diffusivity of salt.
-    #[schemars(range(min = 0.0), extend("unit" = "m²/s"))]
+    #[parameter(unit: "m²/s", min: 0.0)]
     salt: f64,
     /// Bound on the step: Δt ≤ limit · h²/κ.
-    #[serde(default = "quarter")]
+    #[parameter(default: 0.25)]
     limit: f64,
-}
-
-fn quarter() -> f64 {
-    0.25
 }
 
 impl<const D: usize> Contribution<D> for HeatAndSalt {
@@ -153,11 +146,3 @@ impl<const D: usize> Limiter<D> for HeatAndSalt {
         "tracer: limit · h²/κ".into()
     }
 }
-
-register!(
-    TracerEntry [2, 3],
-    HeatAndSalt,
-    "heat-and-salt",
-    "heat and salt",
-    "Fick 1855"
-);

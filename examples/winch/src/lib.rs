@@ -1,19 +1,16 @@
 //! A mover from outside: `[wall.NAME.mover.winch]`.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_boundary::{Load, Mover, MoverEntry, RigidState};
-use sph_core::register;
+use sph_core::plugin;
 
 /// A winch that lifts a wall with a force of its own, against weight and water: m v̇ = F + f − m g, upwards.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(MoverEntry [2, 3], "winch", "lifts a wall with a force", source: "Archimedes")]
 struct Winch {
     /// Mass of the wall.
-    #[schemars(extend("unit" = "kg", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "kg", above: 0.0)]
     mass: f64,
     /// Force of the winch, upwards.
-    #[schemars(extend("unit" = "N"))]
+    #[parameter(unit: "N")]
     pull: f64,
 }
 
@@ -30,5 +27,3 @@ impl<const D: usize> Mover<D> for Winch {
         state
     }
 }
-
-register!(MoverEntry [2, 3], Winch, "winch", "lifts a wall with a force", "Archimedes");

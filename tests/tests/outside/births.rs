@@ -1,11 +1,9 @@
 //! Particles that come in while a flow runs: a kind of plugin from outside, `[tap.drip]`.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{
     Contribution, Newborn, OwnColumn, Refusal, Setting, StepWork, contribution_kind,
 };
-use sph_core::{Access, AnyField, Field, Scalar, StepError, Vect, register};
+use sph_core::{Access, AnyField, Field, Scalar, StepError, Vect, plugin};
 use sph_neighbours::World;
 use sph_scene::parse;
 use sph_solver::{RunOptions, Start, Summary, run};
@@ -19,20 +17,19 @@ contribution_kind!(
 const WARMTH: Field<Scalar> = Field::new("warmth", "K", "what particles begin with");
 
 /// A drop at a place, once in a while.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(TapEntry [2], "drip", "a drop once in a while", source: "a kitchen")]
 struct Drip {
     /// Place of the drops.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     at: [f64; 2],
     /// Time between two drops.
-    #[schemars(extend("unit" = "s"))]
+    #[parameter(unit: "s")]
     every: f64,
     /// Mass of a drop.
-    #[schemars(extend("unit" = "kg"))]
+    #[parameter(unit: "kg")]
     mass: f64,
     /// Time at which a step fails, once.
-    #[schemars(extend("unit" = "s"))]
+    #[parameter(unit: "s")]
     fails_at: Option<f64>,
 }
 
@@ -48,7 +45,7 @@ impl Contribution<2> for Drip {
         _: &Setting<'_, 2>,
         _: &[AnyField],
     ) -> Result<Vec<Box<dyn StepWork<2>>>, Refusal> {
-        let drip = self.clone();
+        let drip = *self;
         Ok(vec![Box::new(Dripping { drip })])
     }
 }
@@ -94,14 +91,6 @@ impl StepWork<2> for Dripping {
         Ok(due.then_some(drop).into_iter().collect())
     }
 }
-
-register!(
-    TapEntry[2],
-    Drip,
-    "drip",
-    "a drop once in a while",
-    "a kitchen"
-);
 
 /// Particles of the tank: nine columns of five.
 const FIRST: u64 = 45;

@@ -1,9 +1,7 @@
 //! The pair term in lanes of `examples/artificial-viscosity`, and the bits of all widths of lanes.
 
-use artificial_viscosity::ArtificialViscosity;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Access, StepError, register};
+use artificial_viscosity::{ArtificialViscosity, Bound};
+use sph_core::{Access, StepError, plugin};
 use sph_lanes::{Width, force_width};
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World};
 use sph_scene::{Override, parse};
@@ -11,8 +9,8 @@ use sph_solver::{RunOptions, Start, run};
 use sph_tests::{DAM_BREAK, FinalState, PERIODIC, SOAK, STIRRER};
 
 /// The same term for one particle at a time.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(transparent)]
+#[plugin(TermEntry [2, 3], "artificial-viscosity-one-by-one", "the same for one particle at a time",
+    source: "Monaghan 1992, Eq. 4.1 with β = 0")]
 struct OneByOne(ArtificialViscosity);
 
 /// A term without its loop over clusters.
@@ -35,14 +33,6 @@ impl<const D: usize> Interaction<D> for OneByOne {
         self.0.lend(world, &mut |term| with(&ByRows(term)))
     }
 }
-
-register!(
-    TermEntry [2, 3],
-    OneByOne,
-    "artificial-viscosity-one-by-one",
-    "the same for one particle at a time",
-    "Monaghan 1992, Eq. 4.1 with β = 0"
-);
 
 /// A transparent wrapper shows the parameters of the term within, in listings and in the schema for editors.
 #[test]

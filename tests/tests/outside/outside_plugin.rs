@@ -4,9 +4,7 @@
 //! Everything between the two lines could be a crate of its own. A binary that mentions it,
 //! `use my_plugins as _;`, and calls `sph_cli::main()` has the plugins in all its commands.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Access, Declares, Stage, StepError, fields, register};
+use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_kernels::{Kernel, Sampler, ScalarSampler};
 use sph_neighbours::{
     Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World,
@@ -16,8 +14,7 @@ use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 // ------------------------------------------------------------------------------------------------
 
 /// f(q) = exp(−q²), cut at q = 3.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(KernelEntry, "gaussian", "a bell cut at 3h", source: "Gingold & Monaghan (1977)")]
 struct Gaussian {}
 
 impl Kernel for Gaussian {
@@ -37,24 +34,15 @@ impl Kernel for Gaussian {
         -2.0 * q * self.value(q)
     }
     fn sampler(&self, dimension: usize, h: f64) -> Box<dyn Sampler> {
-        Box::new(ScalarSampler::new(self.clone(), dimension, h))
+        Box::new(ScalarSampler::new(*self, dimension, h))
     }
 }
 
-register!(
-    KernelEntry,
-    Gaussian,
-    "gaussian",
-    "a bell cut at 3h",
-    "Gingold & Monaghan (1977)"
-);
-
 /// du/dt = −u/τ.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(TermEntry [2, 3], "linear-drag", "a force against the velocity", source: "Stokes")]
 struct LinearDrag {
     /// Time τ in which the velocity falls to 1/e.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     time: f64,
 }
 
@@ -85,14 +73,11 @@ impl<const D: usize> Interaction<D> for LinearDrag {
     }
 }
 
-register!(TermEntry [2, 3], LinearDrag, "linear-drag", "a force against the velocity", "Stokes");
-
 /// η_t = η₀ + ρ (C δr)² γ̇: Smagorinsky's, with a constant part.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(EddyViscosityEntry [2, 3], "eddies", "a constant and Smagorinsky's", source: "Smagorinsky 1963")]
 struct Eddies {
     /// η₀.
-    #[schemars(extend("unit" = "Pa s"))]
+    #[parameter(unit: "Pa s")]
     constant: f64,
     /// C.
     coefficient: f64,
@@ -128,22 +113,13 @@ impl<const D: usize> EddyViscosity<D> for Eddies {
     }
 }
 
-register!(
-    EddyViscosityEntry [2, 3],
-    Eddies,
-    "eddies",
-    "a constant and Smagorinsky's",
-    "Smagorinsky 1963"
-);
-
 use sph_core::{Field, Role, Scalar};
 
 /// No eddies, a column of its own that remembers, and a step that fails.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(EddyViscosityEntry [2, 3], "remembering", "none, with a memory", source: "nobody")]
 struct Remembering {
     /// The first evaluation after this time fails.
-    #[schemars(extend("unit" = "s"))]
+    #[parameter(unit: "s")]
     fails_after: f64,
     /// Whether it has.
     #[serde(skip)]
@@ -194,14 +170,6 @@ impl<const D: usize> EddyViscosity<D> for Remembering {
         Box::new(*self)
     }
 }
-
-register!(
-    EddyViscosityEntry [2, 3],
-    Remembering,
-    "remembering",
-    "none, with a memory",
-    "nobody"
-);
 
 // ------------------------------------------------------------------------------------------------
 

@@ -1,10 +1,9 @@
 //! Axes by name.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use sph_derive::parameters;
 
 /// An axis.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[parameters(crate: dem_grains::reexport)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// From left to right.

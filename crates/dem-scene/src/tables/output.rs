@@ -1,29 +1,29 @@
 //! The table `[output]`.
 
 use scene_text::PictureRange;
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_derive::parameters;
 
 /// What a run writes and when.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[parameters(crate: dem_grains::reexport)]
 pub struct Output {
     /// Simulated time between pictures and files for ParaView, s; a twentieth of the end if left out.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(default, unit: "s", above: 0.0)]
     pub every: Option<f64>,
     /// Simulated time between rows of the series, s; a five-hundredth of the end if left out.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(default, unit: "s", above: 0.0)]
     pub series_every: Option<f64>,
     /// Fields of which pictures are drawn; none if left out.
+    #[parameter(default)]
     pub picture: Vec<String>,
     /// Values at the ends of the pictures' colours, SI: `[low, high]` for all pictures, or a table of fields with such
     /// pairs. Where none is given, round numbers that hold 98 % of the values of the first picture in which they differ.
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(default, unit: "1")]
     pub picture_range: Option<PictureRange>,
     /// Pictures per second of the film of every field that has pictures, `animations/NAME.gif`; 10 if left out, 0 for no film.
-    #[schemars(extend("unit" = "1/s"), range(min = 0.0, max = 50.0))]
+    #[parameter(default, unit: "1/s", min: 0.0, max: 50.0)]
     pub animation: Option<f64>,
     /// Whether files for ParaView are left out.
+    #[parameter(default)]
     pub no_vtk: bool,
 }
 

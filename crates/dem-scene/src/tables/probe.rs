@@ -1,13 +1,12 @@
 //! What a table `[probe.NAME]` says.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_derive::parameters;
 
 use super::{Axis, Triple};
 
 /// A measurement; the key `kind` says which.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[parameters(crate: dem_grains::reexport)]
+#[serde(tag = "kind")]
 pub enum Probe {
     /// Total normal stress on a wall, Pa: that of the grains and that of the fluid.
     Stress {
@@ -26,13 +25,13 @@ pub enum Probe {
         /// Axis across the layer.
         axis: Axis,
         /// Its begin, m.
-        #[schemars(extend("unit" = "m"))]
+        #[parameter(unit: "m")]
         from: f64,
         /// Its end, m.
-        #[schemars(extend("unit" = "m"))]
+        #[parameter(unit: "m")]
         to: f64,
         /// Pressure by which it is divided, Pa.
-        #[schemars(extend("unit" = "Pa", "exclusiveMinimum" = 0.0))]
+        #[parameter(unit: "Pa", above: 0.0)]
         over: Option<f64>,
     },
     /// −dp/dx of a layer over the buoyant weight of the grains in it, per volume: 1 where nothing is left of the effective
@@ -41,13 +40,13 @@ pub enum Probe {
         /// Axis across the layer.
         axis: Axis,
         /// Its begin, m.
-        #[schemars(extend("unit" = "m"))]
+        #[parameter(unit: "m")]
         from: f64,
         /// Its end, m.
-        #[schemars(extend("unit" = "m"))]
+        #[parameter(unit: "m")]
         to: f64,
         /// Part of the box along x in which it is taken, m; all of it if left out.
-        #[schemars(extend("unit" = "m"))]
+        #[parameter(unit: "m")]
         between: Option<[f64; 2]>,
     },
     /// Normal contact force across a plane over its area, Pa: the effective stress.
@@ -55,7 +54,7 @@ pub enum Probe {
         /// Axis across the plane.
         axis: Axis,
         /// Where it is, m.
-        #[schemars(extend("unit" = "m"))]
+        #[parameter(unit: "m")]
         at: f64,
     },
     /// Logarithmic strain of the box along an axis since the start, positive in compression.
@@ -75,10 +74,10 @@ pub enum Probe {
         /// Axis across the layer.
         axis: Axis,
         /// Its begin, m.
-        #[schemars(extend("unit" = "m"))]
+        #[parameter(unit: "m")]
         from: f64,
         /// Its end, m.
-        #[schemars(extend("unit" = "m"))]
+        #[parameter(unit: "m")]
         to: f64,
     },
     /// Highest point of a grain, m.
@@ -87,13 +86,13 @@ pub enum Probe {
     /// of another scene follows it (`[wall.NAME.motion.levels]` there).
     Level {
         /// Axis along which the strip is cut out, x or y.
-        #[serde(default)]
+        #[parameter(default)]
         axis: Axis,
         /// Its begin, m.
-        #[schemars(extend("unit" = "m"))]
+        #[parameter(unit: "m")]
         from: f64,
         /// Its end, m.
-        #[schemars(extend("unit" = "m"))]
+        #[parameter(unit: "m")]
         to: f64,
     },
     /// How much lower the mean height of the grains is than at the start, m.
@@ -105,7 +104,7 @@ pub enum Probe {
         /// Axis along which it spreads.
         axis: Axis,
         /// L₀, m.
-        #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+        #[parameter(unit: "m", above: 0.0)]
         length: f64,
     },
     /// Mean displacement since the start of the grains that were in a part of the space, m.
@@ -113,10 +112,10 @@ pub enum Probe {
         /// Axis along which it is taken.
         axis: Axis,
         /// Lower corner of that part, m.
-        #[schemars(extend("unit" = "m"))]
+        #[parameter(unit: "m")]
         low: Triple,
         /// Upper corner, m.
-        #[schemars(extend("unit" = "m"))]
+        #[parameter(unit: "m")]
         high: Triple,
     },
     /// What flows into the pores through a wall, m³/s, negative if out of them, at the last step.

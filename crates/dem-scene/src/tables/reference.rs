@@ -1,11 +1,10 @@
 //! What a table `[reference.NAME]` says.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_derive::parameters;
 
 /// A comparison; the key `kind` says with what.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[parameters(crate: dem_grains::reexport)]
+#[serde(tag = "kind")]
 pub enum Reference {
     /// Consolidation in one dimension after Terzaghi, drained at top and bottom, with the C_v of `[oedometer]`: root mean
     /// square of the difference, in terms of the load.
@@ -13,16 +12,13 @@ pub enum Reference {
         /// Name of a probe of the kind `consolidation`, or of a pressure in the middle divided by the load.
         probe: String,
         /// Mean diameters by which the way to the drained walls is shorter than half the height.
-        #[serde(default)]
-        #[schemars(extend("unit" = "1", "minimum" = 0.0))]
+        #[parameter(default, unit: "1", min: 0.0)]
         shorter_by: f64,
         /// Time factor T_v at which it begins.
-        #[serde(default = "tenth")]
-        #[schemars(extend("unit" = "1", "minimum" = 0.0))]
+        #[parameter(default: 0.1, unit: "1", min: 0.0)]
         from: f64,
         /// Time factor at which it ends.
-        #[serde(default = "one")]
-        #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
+        #[parameter(default: 1.0, unit: "1", above: 0.0)]
         to: f64,
     },
     /// A number: |x / value − 1|, or |x| where the value is zero.
@@ -32,13 +28,13 @@ pub enum Reference {
         /// The number, in the unit of the probe.
         value: f64,
         /// What is taken of the rows.
-        #[serde(default)]
+        #[parameter(default)]
         of: Statistic,
         /// Time of the first row, s.
-        #[schemars(extend("unit" = "s"))]
+        #[parameter(unit: "s")]
         from: Option<f64>,
         /// Time of the last row, s.
-        #[schemars(extend("unit" = "s"))]
+        #[parameter(unit: "s")]
         to: Option<f64>,
     },
     /// A law C aⁿ of a = H₀/L₀ from a table with the columns geometry, quantity, range, C, n: |x / law − 1| of the last row.
@@ -59,10 +55,10 @@ pub enum Reference {
         /// Name of the probe that should be linear.
         probe: String,
         /// Time of the first row, s.
-        #[schemars(extend("unit" = "s"))]
+        #[parameter(unit: "s")]
         from: Option<f64>,
         /// Time of the last row, s.
-        #[schemars(extend("unit" = "s"))]
+        #[parameter(unit: "s")]
         to: Option<f64>,
     },
     /// A curve from a table: root mean square of the difference at its rows, over its range.
@@ -77,7 +73,7 @@ pub enum Reference {
 }
 
 /// What is taken of the rows of a probe.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
+#[parameters(crate: dem_grains::reexport)]
 #[serde(rename_all = "lowercase")]
 pub enum Statistic {
     /// Their mean, by time.
@@ -89,12 +85,4 @@ pub enum Statistic {
     Largest,
     /// The smallest.
     Smallest,
-}
-
-fn tenth() -> f64 {
-    0.1
-}
-
-fn one() -> f64 {
-    1.0
 }

@@ -2,14 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_derive::parameters;
 
 use super::{AnyPlugins, Box, Fluid, Grains, Output, Plugins, Start, Wall};
 
 /// Which grains, between which walls, in which fluid, for how long, and what is written.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters(crate: dem_grains::reexport)]
 pub struct Scene {
     /// One line that says what the scene is, with its publication.
     pub title: String,
@@ -24,65 +22,52 @@ pub struct Scene {
     /// A box of six walls, `left`, `right`, `front`, `back`, `bottom`, `top`.
     pub r#box: Option<Box>,
     /// Walls by name, `[wall.NAME]`: more about those of the box, further planes, and surfaces of triangles.
-    #[serde(default)]
+    #[parameter(default)]
     pub wall: BTreeMap<String, Wall>,
     /// The fluid in the pores; dry if left out.
     pub fluid: Option<Fluid>,
     /// Makes an oedometer test of it.
     pub oedometer: Option<Oedometer>,
     /// Measurements by name, `[probe.NAME]`; `kind` says of what, the other keys are its parameters.
-    #[serde(default)]
+    #[parameter(default)]
     #[schemars(with = "AnyPlugins")]
     pub probe: Plugins,
     /// Comparisons by name, `[reference.NAME]`; their errors are in the summary.
-    #[serde(default)]
+    #[parameter(default)]
     #[schemars(with = "AnyPlugins")]
     pub reference: Plugins,
     /// What is written and when.
-    #[serde(default)]
+    #[parameter(default)]
     pub output: Output,
 }
 
 /// How long the scene runs and how carefully.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters(crate: dem_grains::reexport)]
 pub struct Run {
     /// Simulated time at which the run ends, s, counted from the end of the preparation.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub end: f64,
     /// Share of the largest stable step.
-    #[serde(default = "safety")]
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0, "quantity" = "safety factor"))]
+    #[parameter(default: 0.8, unit: "1", above: 0.0, max: 1.0, quantity: "safety factor")]
     pub safety: f64,
     /// Coefficient of non-viscous damping D_a; leave it at zero where a fluid damps. Catalano 2012, Eq. (2.15).
-    #[serde(default)]
-    #[schemars(extend("unit" = "1", "minimum" = 0.0, "exclusiveMaximum" = 1.0))]
+    #[parameter(default, unit: "1", min: 0.0, below: 1.0)]
     pub damping: f64,
     /// Largest number of steps; no limit if left out.
-    #[schemars(range(min = 1))]
+    #[parameter(min: 1)]
     pub max_steps: Option<u64>,
     /// Simulated time between checkpoints, s; a tenth of `end` if left out.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub checkpoint_every: Option<f64>,
 }
 
 /// A sudden load on a piston, and what its answer is measured with: the strain under the same load when it comes
 /// slowly and dry, and the consolidation coefficient C_v = K Δσ / ε that follows with the mobility K of the packing.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters(crate: dem_grains::reexport)]
 pub struct Oedometer {
     /// Name of the wall that is the piston; its load is the step from `prepared` to `stress`.
     pub wall: String,
     /// Parts in which the dry load comes, each left to settle.
-    #[serde(default = "parts")]
-    #[schemars(range(min = 1, max = 1000))]
+    #[parameter(default: 40, min: 1, max: 1000)]
     pub parts: u32,
-}
-
-fn safety() -> f64 {
-    0.8
-}
-
-fn parts() -> u32 {
-    40
 }

@@ -1,8 +1,7 @@
 //! A wall on a spring and a damper.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, de::Error};
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::{Load, Mover, MoverEntry, RigidState};
 
@@ -20,24 +19,25 @@ use crate::{Load, Mover, MoverEntry, RigidState};
 /// stiffness = "4 kN/m"
 /// damping = 600
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, bound = "")]
+#[plugin(MoverEntry [2 => Spring<2>, 3 => Spring<3>], "spring",
+    "a wall that slides along a line on a spring and a damper",
+    source: "Newton's second law, spring and damper at the end of the step")]
+#[serde(bound = "")]
 #[schemars(rename = "Spring", bound = "")]
 pub struct Spring<const D: usize> {
     /// Direction e; its length does not matter.
     #[serde(deserialize_with = "direction")]
-    #[schemars(with = "Vec<f64>", extend("unit" = "1"))]
+    #[schemars(with = "Vec<f64>")]
+    #[parameter(unit: "1")]
     along: [f64; D],
     /// Mass m of the wall, kg (per metre of depth in two dimensions).
-    #[schemars(extend("unit" = "kg", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "kg", above: 0.0)]
     mass: f64,
     /// Stiffness k of the spring, N/m (per metre of depth in two dimensions).
-    #[serde(default)]
-    #[schemars(extend("unit" = "N/m", "minimum" = 0.0))]
+    #[parameter(default, unit: "N/m", min: 0.0)]
     stiffness: f64,
     /// Damping c, N s/m (per metre of depth in two dimensions).
-    #[serde(default)]
-    #[schemars(extend("unit" = "N s/m", "minimum" = 0.0))]
+    #[parameter(default, unit: "N s/m", min: 0.0)]
     damping: f64,
 }
 
@@ -75,13 +75,6 @@ impl<const D: usize> Mover<D> for Spring<D> {
         state
     }
 }
-
-register!(
-    MoverEntry [2 => Spring<2>, 3 => Spring<3>],
-    "spring",
-    "a wall that slides along a line on a spring and a damper",
-    "Newton's second law, spring and damper at the end of the step"
-);
 
 #[cfg(test)]
 mod tests {

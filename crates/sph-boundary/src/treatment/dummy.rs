@@ -1,8 +1,6 @@
 //! Walls of dummy particles after Adami, Hu & Adams (2012).
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, Vect, fields, register};
+use sph_core::{StepError, Vect, fields, plugin};
 use sph_lanes::{Lane, dot};
 use sph_neighbours::{
     Contacts, Frame, LanePair, PairSum, Particles, WallPoints, WallSet, World, add_scaled, shepard,
@@ -30,8 +28,9 @@ use crate::{
 /// ```toml
 /// [walls.dummy-particles]
 /// ```
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, bound = "")]
+#[plugin(WallEntry [2 => DummyParticles<2, PlanarWalls>, 3 => DummyParticles<3, SpatialWalls>], "dummy-particles",
+    "layers of fixed particles behind the wall", source: "Adami, Hu & Adams 2012", cfg(not(test)))]
+#[serde(bound = "")]
 #[schemars(rename = "DummyParticles", bound = "")]
 pub struct DummyParticles<const D: usize, M: WallMesh<D>> {
     #[serde(skip)]
@@ -49,14 +48,6 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     /// Pressures and velocities of the particles, kept for their memory.
     means: Vec<(f64, Vect<D>)>,
 }
-
-#[cfg(not(test))]
-register!(
-    WallEntry [2 => DummyParticles<2, PlanarWalls>, 3 => DummyParticles<3, SpatialWalls>],
-    "dummy-particles",
-    "layers of fixed particles behind the wall",
-    "Adami, Hu & Adams 2012"
-);
 
 impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     fn new(setup: &WallSetup<'_, D>) -> Result<Self, BoundaryError> {

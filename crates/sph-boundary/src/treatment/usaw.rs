@@ -1,9 +1,7 @@
 //! Unified semi-analytical walls.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, Vect, fields, register};
+use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::{ContactBlock, Contacts, WallSet, World};
 
 use crate::error::stage_error;
@@ -36,22 +34,20 @@ use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup
 /// [wall.tank]
 /// polyline = [[0, 0.6], [0, 0], [1, 0], [1, 0.6]]
 /// ```
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, bound = "")]
+#[plugin(WallEntry [2 => Usaw<2, PlanarWalls>, 3 => Usaw<3, SpatialWalls>], "usaw",
+    "semi-analytical walls with exact renormalisation", source: "Ghaïtanellis 2017, Eq. 2.63–2.91; Ferrand et al. 2013",
+    cfg(not(test)))]
+#[serde(bound = "")]
 #[schemars(rename = "Usaw", bound = "")]
 pub struct Usaw<const D: usize, M: WallMesh<D>> {
     /// Whether vertices carry the half row of fluid next to the wall, as in the source.
-    #[serde(default = "with_vertices")]
-    #[schemars(extend("source" = "Ghaïtanellis 2017, §2.5; without them: ours"))]
+    #[parameter(default: true, source: "Ghaïtanellis 2017, §2.5; without them: ours")]
     vertices: bool,
     #[serde(skip)]
     set_up: Option<SetUp<D, M>>,
 }
 
 /// As in the source.
-fn with_vertices() -> bool {
-    true
-}
 
 #[derive(Debug)]
 struct SetUp<const D: usize, M: WallMesh<D>> {
@@ -73,14 +69,6 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     /// Elements around each corner.
     around: Vec<u32>,
 }
-
-#[cfg(not(test))]
-register!(
-    WallEntry [2 => Usaw<2, PlanarWalls>, 3 => Usaw<3, SpatialWalls>],
-    "usaw",
-    "semi-analytical walls with exact renormalisation",
-    "Ghaïtanellis 2017, Eq. 2.63–2.91; Ferrand et al. 2013"
-);
 
 /// Particles that one task works through.
 const BATCH: usize = 64;

@@ -1,11 +1,9 @@
 //! Densities that forget a surface that is no more, and know one that is new.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use serde_json::{Value as Json, json};
 use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork, contribution_kind};
-use sph_core::{Access, AnyField, StepError, fields, register};
+use sph_core::{Access, AnyField, StepError, fields, plugin};
 use sph_neighbours::World;
 
 use super::cone::{FREE_SURFACE, FreeSurface, Place};
@@ -43,34 +41,20 @@ contribution_kind!(
 /// [surface.cone-test]
 /// time = 30.0
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(SurfaceEntry [2, 3], "cone-test", "densities forget surfaces that are no more; lone particles fly like stones",
+    source: "Marrone et al. 2010 for the test", cfg(not(test)))]
 pub struct ConeTest {
     /// n: the time τ over h/c.
-    #[schemars(
-        range(min = 1.0, max = 1e6),
-        extend("unit" = "1", "source" = "ours: 0.3/Mach², over 1, for a Mach number of 0.1")
-    )]
+    #[parameter(default: 30.0, unit: "1", min: 1.0, max: 1e6,
+        source: "ours: 0.3/Mach², over 1, for a Mach number of 0.1")]
     pub time: f64,
     /// ε: share of ρ₀ that the constant may have where no surface is near.
-    #[schemars(
-        range(min = 0.0, max = 1.0),
-        extend("unit" = "1", "source" = "ours: a third of the 3 % that are borne")
-    )]
+    #[parameter(default: 0.01, unit: "1", min: 0.0, max: 1.0, source: "ours: a third of the 3 % that are borne")]
     pub tolerance: f64,
     /// Whether particles at a surface have no pressure over that of the reference density: the condition p = 0 of a free
     /// surface, half a row too deep.
+    #[parameter(default)]
     pub no_pressure: bool,
-}
-
-impl Default for ConeTest {
-    fn default() -> Self {
-        ConeTest {
-            time: 30.0,
-            tolerance: 0.01,
-            no_pressure: false,
-        }
-    }
 }
 
 impl<const D: usize> Contribution<D> for ConeTest {
@@ -94,15 +78,6 @@ impl<const D: usize> Contribution<D> for ConeTest {
         })])
     }
 }
-
-#[cfg(not(test))]
-register!(
-    SurfaceEntry [2, 3],
-    ConeTest,
-    "cone-test",
-    "densities forget surfaces that are no more; lone particles fly like stones",
-    "Marrone et al. 2010 for the test"
-);
 
 /// Whether densities are K and a sum.
 fn are_sums<const D: usize>(setting: &Setting<'_, D>) -> bool {

@@ -5,7 +5,7 @@ use sph_diffusion::{BrezziPitkaranta, Smoother};
 use sph_multiphase::{Formulation, HuAdams};
 use sph_neighbours::{Interaction, Terms, World, interactions};
 use sph_state::{EquationOfState, Laws, Linear, Reference};
-use sph_viscosity::{Morris, OnLattice, Viscosity, ViscousOperator, WallTerm};
+use sph_viscosity::{Choice, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm};
 
 /// Accelerations and the rate of the density constant.
 pub fn rates<const D: usize>(world: &World<D>, terms: &Terms<D>) -> (Vec<Vect<D>>, Vec<f64>) {
@@ -30,20 +30,20 @@ pub fn pressure<const D: usize>() -> Box<dyn Interaction<D>> {
 
 /// Morris's operator, not scaled on the lattice: the numbers of the theory are of this one.
 pub fn viscosity<const D: usize>(eta: f64) -> Box<dyn Interaction<D>> {
-    let operator = Morris {
+    let operator = Morris(Choice {
         on_lattice: OnLattice::Literal,
-        ..Morris::default()
-    };
+        ..Choice::default()
+    });
     operator.term(Viscosity::Uniform(eta))
 }
 
 /// Morris's operator with the wall term as printed.
 pub fn literal_viscosity<const D: usize>(eta: f64) -> Box<dyn Interaction<D>> {
-    let operator = Morris {
+    let operator = Morris(Choice {
         wall_term: WallTerm::Literal,
         on_lattice: OnLattice::Literal,
-        ..Morris::default()
-    };
+        ..Choice::default()
+    });
     operator.term(Viscosity::Uniform(eta))
 }
 

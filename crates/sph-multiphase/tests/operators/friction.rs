@@ -3,8 +3,8 @@
 use sph_core::{Role, Vect, fields};
 use sph_neighbours::{Domain, World};
 use sph_viscosity::{
-    EspanolRevenga, HuAdamsViscosity, KrimiViscosity, MonaghanGingold, Morris, OnLattice, Strength,
-    Viscosity, ViscousOperator,
+    Choice, EspanolRevenga, HuAdamsViscosity, KrimiViscosity, MonaghanGingold, Morris, OnLattice,
+    Strength, Viscosity, ViscousOperator,
 };
 
 use crate::conservation::{cloud, imbalance};
@@ -32,31 +32,31 @@ fn scaled<const D: usize>(
     vec![
         (
             "morris",
-            Box::new(Morris {
+            Box::new(Morris(Choice {
                 on_lattice,
-                ..Morris::default()
-            }),
+                ..Choice::default()
+            })),
         ),
         (
             "hu-adams",
-            Box::new(HuAdamsViscosity {
+            Box::new(HuAdamsViscosity(Choice {
                 on_lattice,
-                ..HuAdamsViscosity::default()
-            }),
+                ..Choice::default()
+            })),
         ),
         (
             "espanol-revenga",
-            Box::new(EspanolRevenga {
+            Box::new(EspanolRevenga(Choice {
                 on_lattice,
-                ..EspanolRevenga::default()
-            }),
+                ..Choice::default()
+            })),
         ),
         (
             "monaghan-gingold",
-            Box::new(MonaghanGingold {
+            Box::new(MonaghanGingold(Choice {
                 on_lattice,
-                ..MonaghanGingold::default()
-            }),
+                ..Choice::default()
+            })),
         ),
         (
             "krimi",

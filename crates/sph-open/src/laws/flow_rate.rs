@@ -2,9 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::course::{Course, check_course, factor, range};
 use crate::laws::imposed_velocity;
@@ -21,22 +19,21 @@ use crate::{
 /// [wall.inlet.open-boundary.flow-rate]
 /// rate = 0.05                      # m³/s, here m²/s
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(OpenBoundaryEntry [2, 3], "flow-rate", "a volume per time passes", source: "Ferrand et al. 2017")]
 pub struct FlowRate {
     /// Volume into the fluid per time: m³/s, in two dimensions m²/s.
     pub rate: f64,
     /// How the velocity is shared out along the face.
-    #[serde(default)]
+    #[parameter(default)]
     pub profile: Profile,
     /// Times, s, and factors of the rate, straight between them; it must cover the run.
-    #[serde(default)]
+    #[parameter(default)]
     pub over_time: Course,
     /// Name of the phase that comes in; that of the fluid in front of the face if left out.
-    #[serde(default)]
+    #[parameter(default)]
     pub phase: Option<String>,
     /// Values with which columns of particles begin that come in, by their names, in SI units.
-    #[serde(default)]
+    #[parameter(default)]
     pub values: BTreeMap<String, f64>,
 }
 
@@ -85,11 +82,3 @@ impl<const D: usize> OpenBoundary<D> for FlowRate {
         each().map(one).collect()
     }
 }
-
-register!(
-    OpenBoundaryEntry [2, 3],
-    FlowRate,
-    "flow-rate",
-    "a volume per time passes",
-    "Ferrand et al. 2017"
-);

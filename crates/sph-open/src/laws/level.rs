@@ -1,8 +1,6 @@
 //! A water level that is imposed.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::course::{Course, check_course, factor};
 use crate::laws::imposed_pressure;
@@ -19,17 +17,16 @@ use crate::{
 /// [wall.tail.open-boundary.level]
 /// level = "0.2 m"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(OpenBoundaryEntry [2, 3], "level", "a still water level behind the face", source: "Ferrand et al. 2017")]
 pub struct Level {
     /// Height of the level against gravity, m, from the origin.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub level: f64,
     /// Times, s, and factors of the level, straight between them; it must cover the run.
-    #[serde(default)]
+    #[parameter(default)]
     pub over_time: Course,
     /// Name of the phase that comes in; that of the fluid in front of the face if left out.
-    #[serde(default)]
+    #[parameter(default)]
     pub phase: Option<String>,
 }
 
@@ -73,11 +70,3 @@ impl<const D: usize> OpenBoundary<D> for Level {
         places.iter().zip(inside).map(one).collect()
     }
 }
-
-register!(
-    OpenBoundaryEntry [2, 3],
-    Level,
-    "level",
-    "a still water level behind the face",
-    "Ferrand et al. 2017"
-);

@@ -1,8 +1,6 @@
 //! A characteristic that comes from far away.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::laws::imposed_pressure;
 use crate::{
@@ -23,24 +21,19 @@ use crate::{
 /// pressure = "0 Pa"
 /// memory = "0.1 s"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(OpenBoundaryEntry [2, 3], "outflow", "fluid and sound leave", source: "Ferrand et al. 2017")]
 pub struct Outflow {
     /// Pressure p₀ far away, over that of the reference density, Pa.
-    #[serde(default)]
-    #[schemars(extend("unit" = "Pa"))]
+    #[parameter(default, unit: "Pa")]
     pub pressure: f64,
     /// Velocity −u₀ out of the fluid far away, m/s.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(default, unit: "m/s")]
     pub velocity: Option<f64>,
     /// Time of the running means, s.
-    #[serde(default)]
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(default, unit: "s", above: 0.0)]
     pub memory: Option<f64>,
     /// Height of a level up to which p₀ grows with the depth below it, m; p₀ everywhere if left out.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub level: Option<f64>,
 }
 
@@ -107,11 +100,3 @@ fn of_the_face<const D: usize>(places: &[Place<D>], inside: &[Inside<D>]) -> [f6
         false => sums,
     }
 }
-
-register!(
-    OpenBoundaryEntry [2, 3],
-    Outflow,
-    "outflow",
-    "fluid and sound leave",
-    "Ferrand et al. 2017"
-);

@@ -1,8 +1,6 @@
 //! A pressure that is imposed.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::course::{Course, check_course, factor};
 use crate::laws::imposed_pressure;
@@ -19,17 +17,17 @@ use crate::{
 /// [wall.outlet.open-boundary.pressure]
 /// pressure = "0 Pa"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(OpenBoundaryEntry [2, 3], "pressure", "a given pressure; fluid passes as it likes",
+    source: "Ferrand et al. 2017; Leroy 2014")]
 pub struct Pressure {
     /// Pressure over that of the reference density, Pa.
-    #[schemars(extend("unit" = "Pa"))]
+    #[parameter(unit: "Pa")]
     pub pressure: f64,
     /// Times, s, and factors of the pressure, straight between them; it must cover the run.
-    #[serde(default)]
+    #[parameter(default)]
     pub over_time: Course,
     /// Name of the phase that comes in; that of the fluid in front of the face if left out.
-    #[serde(default)]
+    #[parameter(default)]
     pub phase: Option<String>,
 }
 
@@ -59,11 +57,3 @@ impl<const D: usize> OpenBoundary<D> for Pressure {
             .collect()
     }
 }
-
-register!(
-    OpenBoundaryEntry [2, 3],
-    Pressure,
-    "pressure",
-    "a given pressure; fluid passes as it likes",
-    "Ferrand et al. 2017; Leroy 2014"
-);

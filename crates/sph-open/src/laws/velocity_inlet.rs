@@ -2,9 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::register;
+use sph_core::plugin;
 
 use crate::course::{Course, check_course, factor, range};
 use crate::laws::imposed_velocity;
@@ -26,23 +24,23 @@ use crate::{
 /// velocity = "1 m/s"
 /// profile = "parabola"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(OpenBoundaryEntry [2, 3], "velocity-inlet", "fluid passes with a given velocity",
+    source: "Ferrand et al. 2017; Leroy 2014")]
 pub struct VelocityInlet {
     /// Velocity into the fluid, m/s; a `profile` and `over_time` are factors of it.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub velocity: f64,
     /// How it is shared out along the face.
-    #[serde(default)]
+    #[parameter(default)]
     pub profile: Profile,
     /// Times, s, and factors of the velocity, straight between them; it must cover the run.
-    #[serde(default)]
+    #[parameter(default)]
     pub over_time: Course,
     /// Name of the phase that comes in; that of the fluid in front of the face if left out.
-    #[serde(default)]
+    #[parameter(default)]
     pub phase: Option<String>,
     /// Values with which columns of particles begin that come in, by their names, in SI units: `turbulent_energy = 0.01`.
-    #[serde(default)]
+    #[parameter(default)]
     pub values: BTreeMap<String, f64>,
 }
 
@@ -78,11 +76,3 @@ impl<const D: usize> OpenBoundary<D> for VelocityInlet {
         places.iter().map(one).collect()
     }
 }
-
-register!(
-    OpenBoundaryEntry [2, 3],
-    VelocityInlet,
-    "velocity-inlet",
-    "fluid passes with a given velocity",
-    "Ferrand et al. 2017; Leroy 2014"
-);

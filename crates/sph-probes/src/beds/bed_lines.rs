@@ -1,8 +1,6 @@
 //! The lines of a movable bed: free surface, water–sediment interface, limit of motion.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, Vect, fields, register};
+use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::beds::columns::{Columns, End};
@@ -33,18 +31,13 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// kind = "bed-lines"
 /// phase = "sand"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2], "bed-lines", "free surface, interface and limit of motion over a movable bed, as curves",
+    source: "outermost particles; Ghaïtanellis 2017, Eq. 5.21")]
 pub struct BedLines {
     /// Name of the phase that makes the bed.
     pub phase: String,
     /// Speed above which a grain moves.
-    #[serde(default = "threshold")]
-    #[schemars(extend(
-        "unit" = "m/s",
-        "exclusiveMinimum" = 0.0,
-        "source" = "Ghaïtanellis 2017, Eq. 5.21"
-    ))]
+    #[parameter(default: 0.2, unit: "m/s", above: 0.0, source: "Ghaïtanellis 2017, Eq. 5.21")]
     pub threshold: f64,
     #[serde(skip)]
     number: Option<u32>,
@@ -133,11 +126,3 @@ impl Probe<2> for BedLines {
         Ok(drawn.surface.middles().map(row).collect())
     }
 }
-
-register!(
-    ProbeEntry[2],
-    BedLines,
-    "bed-lines",
-    "free surface, interface and limit of motion over a movable bed, as curves",
-    "outermost particles; Ghaïtanellis 2017, Eq. 5.21"
-);

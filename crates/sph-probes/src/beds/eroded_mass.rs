@@ -1,8 +1,6 @@
 //! How much of a bed the flow has taken away.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, fields, register};
+use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::front::Direction;
@@ -31,19 +29,19 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// level = 0.1
 /// beyond = 6.0
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "eroded-mass", "mass of a bed beyond an outlet and above its first level",
+    source: "Ghaïtanellis 2017, Eq. 5.17")]
 pub struct ErodedMass {
     /// Name of the phase that makes the bed.
     pub phase: String,
     /// Height of the bed's top at the start.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub level: f64,
     /// Place of the outlet along x; there is none if left out.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub beyond: Option<f64>,
     /// The way out: towards larger or smaller x.
-    #[serde(default)]
+    #[parameter(default)]
     pub direction: Direction,
     #[serde(skip)]
     number: Option<u32>,
@@ -82,11 +80,3 @@ impl<const D: usize> Probe<D> for ErodedMass {
         Ok(vec![out, risen, out + risen])
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    ErodedMass,
-    "eroded-mass",
-    "mass of a bed beyond an outlet and above its first level",
-    "Ghaïtanellis 2017, Eq. 5.17"
-);

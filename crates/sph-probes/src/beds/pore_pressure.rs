@@ -1,8 +1,6 @@
 //! The pressure of the water in the pores at a point.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, fields, register};
+use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::{carried, point};
@@ -23,22 +21,17 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// kind = "pore-pressure"
 /// at = [1.2, 0.05]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "pore-pressure", "pressure of the water in a soil's pores at a point",
+    source: "p − p'; Ghaïtanellis 2017, Eqs. 2.91, 5.26")]
 pub struct PorePressureProbe {
     /// Where.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub at: Vec<f64>,
     /// Density ρ_w of the fluid in the pores.
-    #[serde(default = "water")]
-    #[schemars(extend("unit" = "kg/m³", "exclusiveMinimum" = 0.0))]
+    #[parameter(default: 1000.0, unit: "kg/m³", above: 0.0)]
     pub density: f64,
     /// Name of the moving wall that carries the sensor; it stands still if left out.
     pub follows: Option<String>,
-}
-
-fn water() -> f64 {
-    1000.0
 }
 
 impl<const D: usize> Probe<D> for PorePressureProbe {
@@ -74,11 +67,3 @@ impl<const D: usize> Probe<D> for PorePressureProbe {
         Ok(vec![if filling > 0.0 { sum / filling } else { 0.0 }])
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    PorePressureProbe,
-    "pore-pressure",
-    "pressure of the water in a soil's pores at a point",
-    "p − p'; Ghaïtanellis 2017, Eqs. 2.91, 5.26"
-);

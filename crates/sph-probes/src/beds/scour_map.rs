@@ -1,8 +1,6 @@
 //! A bed from above: how deep it is scoured, and where.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, fields, register};
+use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
@@ -32,16 +30,16 @@ const GAP: f64 = 2.0;
 /// phase = "sand"
 /// level = 0.15
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [3], "scour-map", "depth of scour and deposits of a bed, as a map",
+    source: "Ghaïtanellis 2017, §5.4.3")]
 pub struct ScourMap {
     /// Name of the phase that makes the bed.
     pub phase: String,
     /// Height of the bed's top at the start.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub level: f64,
     /// Lower and upper corner, seen from above, of the part that counts; all of it if left out.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub within: Option<[[f64; 2]; 2]>,
     #[serde(skip)]
     number: Option<u32>,
@@ -164,11 +162,3 @@ impl Probe<3> for ScourMap {
         Some(3)
     }
 }
-
-register!(
-    ProbeEntry[3],
-    ScourMap,
-    "scour-map",
-    "depth of scour and deposits of a bed, as a map",
-    "Ghaïtanellis 2017, §5.4.3"
-);

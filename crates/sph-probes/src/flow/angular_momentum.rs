@@ -1,8 +1,6 @@
 //! Angular momentum of the fluid.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, fields, register};
+use sph_core::{StepError, fields, plugin};
 use sph_neighbours::{World, cross};
 
 use crate::flow::point::point;
@@ -15,21 +13,14 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// kind = "angular-momentum"
 /// about = [0.5, 0.5]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "angular-momentum", "angular momentum of the fluid about a point", source: "Σ m r × u")]
 pub struct AngularMomentum {
     /// Point c; the origin if left out.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub about: Vec<f64>,
     /// All columns are divided by this.
-    #[serde(default = "one")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "kg m²/s"))]
+    #[parameter(default: 1.0, unit: "kg m²/s", above: 0.0)]
     pub scale: f64,
-}
-
-fn one() -> f64 {
-    1.0
 }
 
 impl<const D: usize> Probe<D> for AngularMomentum {
@@ -62,11 +53,3 @@ impl<const D: usize> Probe<D> for AngularMomentum {
         Ok(sum[if D == 2 { 2 } else { 0 }..].to_vec())
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    AngularMomentum,
-    "angular-momentum",
-    "angular momentum of the fluid about a point",
-    "Σ m r × u"
-);

@@ -1,8 +1,6 @@
 //! How far a piece of material has moved.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, Vect, fields, register};
+use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::point;
@@ -15,11 +13,11 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// kind = "displacement"
 /// at = [0.2, 0.0]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "displacement", "how far the material of a place has moved",
+    source: "mean over the particles that started there")]
 pub struct DisplacementProbe {
     /// Where the material was at the start.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub at: Vec<f64>,
 }
 
@@ -54,11 +52,3 @@ impl<const D: usize> Probe<D> for DisplacementProbe {
         Ok((sum / count).iter().copied().collect())
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    DisplacementProbe,
-    "displacement",
-    "how far the material of a place has moved",
-    "mean over the particles that started there"
-);

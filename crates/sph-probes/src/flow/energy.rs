@@ -1,8 +1,6 @@
 //! Kinetic energy.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, fields, register};
+use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::{Probe, ProbeColumn, ProbeEntry};
@@ -13,8 +11,7 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// [probe.energy]
 /// kind = "kinetic-energy"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "kinetic-energy", "kinetic energy of all particles", source: "½ Σ m u²")]
 pub struct KineticEnergy {}
 
 impl<const D: usize> Probe<D> for KineticEnergy {
@@ -29,11 +26,3 @@ impl<const D: usize> Probe<D> for KineticEnergy {
         Ok(vec![all.map(|(m, u)| 0.5 * m * u.norm_squared()).sum()])
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    KineticEnergy,
-    "kinetic-energy",
-    "kinetic energy of all particles",
-    "½ Σ m u²"
-);

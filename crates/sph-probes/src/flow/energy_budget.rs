@@ -1,8 +1,6 @@
 //! Where the energy of a flow goes.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Field, Scalar, StepError, fields, register};
+use sph_core::{Field, Scalar, StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::{Probe, ProbeColumn, ProbeEntry};
@@ -106,8 +104,9 @@ pub const ENERGY_AT_START: Field<Scalar> = Field::new(
 /// [probe.budget]
 /// kind = "energy-budget"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "energy-budget",
+    "where the energy goes: energies, and the work of everybody who gives or takes some",
+    source: "ours: the first law, discrete")]
 pub struct EnergyBudget {}
 
 impl<const D: usize> Probe<D> for EnergyBudget {
@@ -146,11 +145,3 @@ impl<const D: usize> Probe<D> for EnergyBudget {
         Ok(all)
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    EnergyBudget,
-    "energy-budget",
-    "where the energy goes: energies, and the work of everybody who gives or takes some",
-    "ours: the first law, discrete"
-);

@@ -1,15 +1,13 @@
 //! The foremost particle.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use sph_core::{Axis, StepError, fields, register};
+use sph_core::{Axis, StepError, fields, parameters, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Which of the two ends of a phase along an axis.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, JsonSchema, PartialEq, Eq)]
+#[parameters]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
     /// Towards larger coordinates.
@@ -32,23 +30,20 @@ pub enum Direction {
 /// below = 0.1
 /// quantile = 0.995
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "front", "the foremost particle along an axis, either way",
+    source: "extreme coordinate or quantile, and half a spacing")]
 pub struct Front {
     /// Axis along which the front moves.
-    #[serde(default)]
+    #[parameter(default)]
     pub axis: Axis,
     /// Its direction along the axis.
-    #[serde(default)]
+    #[parameter(default)]
     pub direction: Direction,
     /// Share of the particles that the front is ahead of; all of them if left out.
-    #[schemars(
-        range(max = 1.0),
-        extend("unit" = "1", "exclusiveMinimum" = 0.0)
-    )]
+    #[parameter(unit: "1", above: 0.0, max: 1.0)]
     pub quantile: Option<f64>,
     /// Only particles whose last coordinate is below this height count.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub below: Option<f64>,
     /// Name of the phase whose front is measured; that of all particles if left out.
     pub phase: Option<String>,
@@ -90,11 +85,3 @@ impl<const D: usize> Probe<D> for Front {
         Ok(vec![sign * (*front + 0.5 * world.spacing)])
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    Front,
-    "front",
-    "the foremost particle along an axis, either way",
-    "extreme coordinate or quantile, and half a spacing"
-);

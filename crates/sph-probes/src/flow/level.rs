@@ -1,8 +1,6 @@
 //! The height of the free surface, or of the top of a phase, over a point.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, Vect, fields, register};
+use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::{carried, point};
@@ -21,11 +19,11 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// kind = "level"
 /// at = [0.3]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "level", "height of the free surface, or of a phase, over a point",
+    source: "half of the Shepard sum under water")]
 pub struct Level {
     /// Horizontal coordinates: one in 2D, two in 3D.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub at: Vec<f64>,
     /// Name of the moving wall that carries the gauge; it stands still if left out.
     pub follows: Option<String>,
@@ -33,7 +31,7 @@ pub struct Level {
     pub phase: Option<String>,
     /// Whether dry parts of the line below that place are taken off, as a wire does whose wet length is measured: a drop in the air
     /// then counts with its own height.
-    #[serde(default)]
+    #[parameter(default)]
     pub wetted: bool,
     #[serde(skip)]
     number: Option<u32>,
@@ -146,11 +144,3 @@ fn whole(filling: impl Fn(f64) -> f64, from: f64, to: f64, step: f64) -> f64 {
     let sums = (0..=count as usize).map(|k| filling(from + k as f64 * step));
     sums.fold(0.0, f64::max).min(1.0)
 }
-
-register!(
-    ProbeEntry [2, 3],
-    Level,
-    "level",
-    "height of the free surface, or of a phase, over a point",
-    "half of the Shepard sum under water"
-);

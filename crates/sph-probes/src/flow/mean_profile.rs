@@ -2,9 +2,7 @@
 
 use std::sync::Mutex;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Plain, StepError, Vect, fields, register};
+use sph_core::{Plain, StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::profile::Component;
@@ -30,46 +28,40 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// layers = 40
 /// after = "20 s"
 /// ```
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "mean-profile", "means and root mean squares over time and along homogeneous directions",
+    source: "Issa 2004, Eq. 6.46–6.50")]
 pub struct MeanProfile {
     /// The axis that layers are cut across.
     pub axis: Component,
     /// Where the first layer begins.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub from: f64,
     /// Where the last layer ends.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub to: f64,
     /// How many there are.
-    #[schemars(range(min = 1, max = 10000))]
+    #[parameter(min: 1, max: 10000)]
     pub layers: usize,
     /// The time from which rows of the series count.
-    #[serde(default)]
-    #[schemars(extend("unit" = "s"))]
+    #[parameter(default, unit: "s")]
     pub after: f64,
     /// Two corners of a box outside of which particles do not count.
     pub within: Option<[Vec<f64>; 2]>,
     /// A scalar field in the place of the velocity.
     pub field: Option<String>,
     /// Which component of the velocity is compared.
-    #[serde(default = "first")]
+    #[parameter(default: Component::X)]
     pub component: Component,
     /// CSV file of the reference, relative to the scene's folder: distance from `from` in m, value in SI.
     pub file: Option<String>,
     /// The distances from `from` between which it is compared; all if left out.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub compared: Option<[f64; 2]>,
     #[serde(skip)]
     reference: Vec<[f64; 2]>,
     /// Σ V, Σ V f and Σ V f² of every component, Σ V u w, and Σ V z of the distance, layer by layer.
     #[serde(skip)]
-    #[schemars(skip)]
     sums: Mutex<Vec<f64>>,
-}
-
-fn first() -> Component {
-    Component::X
 }
 
 /// Adds the values of a particle to a list.
@@ -344,11 +336,3 @@ impl<const D: usize> Probe<D> for MeanProfile {
         ])
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    MeanProfile,
-    "mean-profile",
-    "means and root mean squares over time and along homogeneous directions",
-    "Issa 2004, Eq. 6.46–6.50"
-);

@@ -1,8 +1,6 @@
 //! What a line does to its body.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, register, suggestion};
+use sph_core::{StepError, plugin, suggestion};
 use sph_neighbours::World;
 
 use crate::{Probe, ProbeColumn, ProbeEntry};
@@ -18,13 +16,12 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// wall = "float"
 /// line = 0
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "mooring", "force and tensions of a line of a body", source: "Hooke's law; Irvine 1981")]
 pub struct MooringProbe {
     /// Name of the body.
     pub wall: String,
     /// Which of its lines, in the order of the scene; 0 is the first.
-    #[serde(default)]
+    #[parameter(default)]
     pub line: u32,
 }
 
@@ -59,11 +56,3 @@ impl<const D: usize> Probe<D> for MooringProbe {
         Ok(values)
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    MooringProbe,
-    "mooring",
-    "force and tensions of a line of a body",
-    "Hooke's law; Irvine 1981"
-);

@@ -1,8 +1,6 @@
 //! What has passed an open face.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, register, suggestion};
+use sph_core::{StepError, plugin, suggestion};
 use sph_neighbours::World;
 
 use crate::{Probe, ProbeColumn, ProbeEntry};
@@ -17,11 +15,10 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// kind = "passed"
 /// wall = "inlet"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "passed", "mass that has passed an open face", source: "a balance")]
 pub struct PassedProbe {
     /// Name of the wall; all open ones if left out.
-    #[serde(default)]
+    #[parameter(default)]
     pub wall: Option<String>,
 }
 
@@ -56,11 +53,3 @@ impl<const D: usize> Probe<D> for PassedProbe {
         Ok(sums)
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    PassedProbe,
-    "passed",
-    "mass that has passed an open face",
-    "a balance"
-);

@@ -1,8 +1,6 @@
 //! Pressure and velocity at a point.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, Vect, register, suggestion};
+use sph_core::{StepError, Vect, plugin, suggestion};
 use sph_neighbours::World;
 
 use crate::{Probe, ProbeColumn, ProbeEntry, interpolate};
@@ -19,19 +17,17 @@ use crate::{Probe, ProbeColumn, ProbeEntry, interpolate};
 /// diameter = "4.2 mm"
 /// along = [0, 1]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "pressure", "pressure at a point or over a sensor's face",
+    source: "Ghaïtanellis 2017, Eq. 2.91")]
 pub struct PressureProbe {
     /// Where.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub at: Vec<f64>,
     /// Diameter of the sensor's face; 0 for a point.
-    #[serde(default)]
-    #[schemars(range(min = 0.0), extend("unit" = "m"))]
+    #[parameter(default, unit: "m", min: 0.0)]
     pub diameter: f64,
     /// Direction of the diameter (need not be a unit vector).
-    #[serde(default)]
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(default, unit: "1")]
     pub along: Vec<f64>,
     /// Name of the moving wall that carries the sensor; it stands still if left out.
     pub follows: Option<String>,
@@ -88,14 +84,6 @@ impl<const D: usize> Probe<D> for PressureProbe {
     }
 }
 
-register!(
-    ProbeEntry [2, 3],
-    PressureProbe,
-    "pressure",
-    "pressure at a point or over a sensor's face",
-    "Ghaïtanellis 2017, Eq. 2.91"
-);
-
 /// Velocity at a point; 0 where there is no fluid.
 ///
 /// ```toml
@@ -103,11 +91,10 @@ register!(
 /// kind = "velocity"
 /// at = [0.5, 0.5]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "velocity", "velocity at a point", source: "Shepard mean")]
 pub struct VelocityProbe {
     /// Where.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub at: Vec<f64>,
 }
 
@@ -125,11 +112,3 @@ impl<const D: usize> Probe<D> for VelocityProbe {
         Ok(found.velocity.iter().copied().collect())
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    VelocityProbe,
-    "velocity",
-    "velocity at a point",
-    "Shepard mean"
-);

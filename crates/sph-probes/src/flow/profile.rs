@@ -1,16 +1,14 @@
 //! A component of the velocity along a line, beside a reference.
 
 use nalgebra::{DMatrix, DVector};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use sph_core::{StepError, Vect, fields, register};
+use sph_core::{StepError, Vect, fields, parameters, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::point;
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// A component of a vector.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema, PartialEq, Eq)]
+#[parameters]
 #[serde(rename_all = "lowercase")]
 pub enum Component {
     /// The first.
@@ -39,16 +37,16 @@ pub enum Component {
 /// to = [0.5, 1.0]
 /// file = "data/ghia1982_u_re100.csv"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "profile", "a component of the velocity along a line, beside a reference",
+    source: "moving least squares of first order")]
 pub struct Profile {
     /// Which component of the velocity.
     pub component: Component,
     /// Where the line starts.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub from: Vec<f64>,
     /// Where it ends.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub to: Vec<f64>,
     /// CSV file of the reference, relative to the scene's folder: distance from the start in m, velocity in m/s.
     pub file: String,
@@ -165,11 +163,3 @@ impl<const D: usize> Probe<D> for Profile {
         Ok(vec![(squares / count as f64).sqrt(), largest])
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    Profile,
-    "profile",
-    "a component of the velocity along a line, beside a reference",
-    "moving least squares of first order"
-);

@@ -2,9 +2,7 @@
 
 use std::sync::OnceLock;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Plain, StepError, register};
+use sph_core::{Plain, StepError, plugin};
 use sph_neighbours::World;
 
 use crate::{Probe, ProbeColumn, ProbeEntry};
@@ -17,23 +15,16 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// field = "density_constant"
 /// scale = 1000
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "range", "smallest and largest value of a field", source: "plain extrema")]
 pub struct FieldRange {
     /// Name of the field.
     pub field: String,
     /// The values are divided by this, in the field's own unit; 1 leaves them as they are.
-    #[serde(default = "one")]
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[parameter(default: 1.0, above: 0.0)]
     pub scale: f64,
     /// Unit of the field, known from the first measurement on.
     #[serde(skip)]
-    #[schemars(skip)]
     unit: OnceLock<&'static str>,
-}
-
-fn one() -> f64 {
-    1.0
 }
 
 impl<const D: usize> Probe<D> for FieldRange {
@@ -81,11 +72,3 @@ impl<const D: usize> Probe<D> for FieldRange {
         }
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    FieldRange,
-    "range",
-    "smallest and largest value of a field",
-    "plain extrema"
-);

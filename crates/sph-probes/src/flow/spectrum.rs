@@ -2,9 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, Vect, fields, register};
+use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::{Probe, ProbeColumn, ProbeEntry};
@@ -22,11 +20,10 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// kind = "energy-spectrum"
 /// points = 32
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "energy-spectrum", "energy of waves in a periodic box", source: "Pope 2000, Eq. 6.189")]
 pub struct EnergySpectrum {
     /// Points of the grid along an axis.
-    #[schemars(range(min = 4, max = 128))]
+    #[parameter(min: 4, max: 128)]
     pub points: usize,
 }
 
@@ -185,14 +182,6 @@ impl<const D: usize> Probe<D> for EnergySpectrum {
         Ok(vec![total, peak.map_or(f64::NAN, |p| p[0])])
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    EnergySpectrum,
-    "energy-spectrum",
-    "energy of waves in a periodic box",
-    "Pope 2000, Eq. 6.189"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,7 @@
 //! The extreme of the stream function over a box.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer};
-use sph_core::{StepError, Vect, fields, register};
+use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::sampling::near::Near;
@@ -27,19 +26,18 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// kind = "stream-function"
 /// box = [[0.0, 0.0], [1.0, 1.0]]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2], "stream-function", "largest stream function in a box and its place: strength of a vortex",
+    source: "integral of Shepard means; Stolz & Adams 1999, Eq. 5")]
 pub struct StreamFunction {
     /// Two opposite corners of the box, the lower left one first.
     #[serde(rename = "box", deserialize_with = "ordered")]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub corners: [[f64; 2]; 2],
     /// Spacing of the grid; half of that of the particles if left out.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub grid: Option<f64>,
     /// How often the mean is corrected.
-    #[serde(default)]
-    #[schemars(range(max = 4))]
+    #[parameter(default, max: 4)]
     pub corrections: u32,
 }
 
@@ -163,11 +161,3 @@ impl Probe<2> for StreamFunction {
         Ok(vec![psi, low[0] + x, low[1] + y])
     }
 }
-
-register!(
-    ProbeEntry[2],
-    StreamFunction,
-    "stream-function",
-    "largest stream function in a box and its place: strength of a vortex",
-    "integral of Shepard means; Stolz & Adams 1999, Eq. 5"
-);

@@ -1,8 +1,6 @@
 //! Force and moment of the fluid on a wall.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, register, suggestion};
+use sph_core::{StepError, plugin, suggestion};
 use sph_neighbours::{WallForce, World, cross};
 
 use crate::flow::point::point;
@@ -25,14 +23,13 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// kind = "wall-force"
 /// wall = "square"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "wall-force", "force and moment of the fluid on a wall",
+    source: "reaction to the wall terms; Ghaïtanellis 2017, Eq. 2.75 and 2.83")]
 pub struct WallForceProbe {
     /// Name of the wall.
     pub wall: String,
     /// Point about which moments are taken; the origin if left out.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub about: Vec<f64>,
 }
 
@@ -94,11 +91,3 @@ fn moments<const D: usize>() -> &'static [&'static str] {
         _ => &[".x", ".y", ".z"],
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    WallForceProbe,
-    "wall-force",
-    "force and moment of the fluid on a wall",
-    "reaction to the wall terms; Ghaïtanellis 2017, Eq. 2.75 and 2.83"
-);

@@ -1,8 +1,6 @@
 //! Where a wall is.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, Vect, register, suggestion};
+use sph_core::{StepError, Vect, plugin, suggestion};
 use sph_neighbours::World;
 
 use crate::flow::point::point;
@@ -19,14 +17,12 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// wall = "float"
 /// at = [0.5, 0.4]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "wall-motion", "displacement and angle of a wall that moves", source: "rigid motion")]
 pub struct WallMotionProbe {
     /// Name of the wall.
     pub wall: String,
     /// The place, where it is drawn; the origin if left out.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub at: Vec<f64>,
 }
 
@@ -84,14 +80,6 @@ fn turned<const D: usize>(rotation: &[[f64; D]; D]) -> [f64; 3] {
         .scaled_axis()
         .into()
 }
-
-register!(
-    ProbeEntry [2, 3],
-    WallMotionProbe,
-    "wall-motion",
-    "displacement and angle of a wall that moves",
-    "rigid motion"
-);
 
 #[cfg(test)]
 mod tests {

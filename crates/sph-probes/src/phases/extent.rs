@@ -1,8 +1,6 @@
 //! How far a phase reaches along an axis.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Axis, StepError, fields, register};
+use sph_core::{Axis, StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
@@ -19,17 +17,16 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// phase = "light"
 /// axis = "y"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "extent", "lowest and highest coordinate of a phase",
+    source: "extrema or quantiles, and half a spacing")]
 pub struct Extent {
     /// Name of the phase; all particles if left out.
     pub phase: Option<String>,
     /// The axis.
-    #[serde(default)]
+    #[parameter(default)]
     pub axis: Axis,
     /// Share of the volume that is left out at either end.
-    #[serde(default)]
-    #[schemars(extend("unit" = "1", "minimum" = 0.0, "exclusiveMaximum" = 0.5))]
+    #[parameter(default, unit: "1", min: 0.0, below: 0.5)]
     pub quantile: f64,
     #[serde(skip)]
     number: Option<u32>,
@@ -91,11 +88,3 @@ fn beyond<'a>(mut pairs: impl Iterator<Item = &'a (f64, f64)>, left_out: f64) ->
     });
     found.map_or(f64::NAN, |p| p.0)
 }
-
-register!(
-    ProbeEntry [2, 3],
-    Extent,
-    "extent",
-    "lowest and highest coordinate of a phase",
-    "extrema or quantiles, and half a spacing"
-);

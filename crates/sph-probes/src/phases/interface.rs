@@ -1,8 +1,6 @@
 //! The height of the interface between phases over a point.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, register};
+use sph_core::{StepError, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::{carried, point};
@@ -22,11 +20,11 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// at = [0.125]
 /// phase = "heavy"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "interface", "height of the interface of a phase over a point",
+    source: "Shepard share of a phase crosses one half")]
 pub struct Interface {
     /// Horizontal coordinates: one in 2D, two in 3D.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub at: Vec<f64>,
     /// Name of the phase on one side of the interface.
     pub phase: String,
@@ -94,11 +92,3 @@ impl<const D: usize> Probe<D> for Interface {
         Ok(vec![f64::NAN])
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    Interface,
-    "interface",
-    "height of the interface of a phase over a point",
-    "Shepard share of a phase crosses one half"
-);

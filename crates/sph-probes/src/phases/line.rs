@@ -1,8 +1,6 @@
 //! The free surface, the failure line or the limit of motion of a phase against a drawn line.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use sph_core::{StepError, fields, register};
+use sph_core::{StepError, fields, parameters, plugin};
 use sph_neighbours::World;
 
 use crate::beds::bed_lines;
@@ -11,7 +9,7 @@ use crate::phases::phase::{self, Counted};
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Which line of a body of soil.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, JsonSchema, PartialEq, Eq)]
+#[parameters]
 #[serde(rename_all = "lowercase")]
 pub enum LineOf {
     /// Over all particles.
@@ -47,29 +45,19 @@ pub enum LineOf {
 /// moved = "1.5 mm"
 /// file = "data/bui2008_final_failure.csv"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2], "line", "free surface, failure line or limit of motion of a phase against a drawn line",
+    source: "highest particles; Ghaïtanellis 2017, §5.3.2, Eq. 5.21")]
 pub struct Line {
     /// Which line: `surface`, `failure` or `limit`.
-    #[serde(default)]
+    #[parameter(default)]
     pub of: LineOf,
     /// CSV file of the reference, relative to the scene's folder: x and y in m.
     pub file: String,
     /// Displacement from which on a particle has failed.
-    #[serde(default = "grain")]
-    #[schemars(extend(
-        "unit" = "m",
-        "exclusiveMinimum" = 0.0,
-        "source" = "Ghaïtanellis 2017, §5.3.2"
-    ))]
+    #[parameter(default: 1.5e-3, unit: "m", above: 0.0, source: "Ghaïtanellis 2017, §5.3.2")]
     pub moved: f64,
     /// Speed above which a particle moves, for `of = "limit"`.
-    #[serde(default = "bed_lines::threshold")]
-    #[schemars(extend(
-        "unit" = "m/s",
-        "exclusiveMinimum" = 0.0,
-        "source" = "Ghaïtanellis 2017, Eq. 5.21"
-    ))]
+    #[parameter(default: bed_lines::threshold(), unit: "m/s", above: 0.0, source: "Ghaïtanellis 2017, Eq. 5.21")]
     pub threshold: f64,
     /// Name of the phase; all particles if left out.
     pub phase: Option<String>,
@@ -77,10 +65,6 @@ pub struct Line {
     number: Option<u32>,
     #[serde(skip)]
     reference: Vec<[f64; 2]>,
-}
-
-fn grain() -> f64 {
-    1.5e-3
 }
 
 impl Line {
@@ -170,11 +154,3 @@ impl Probe<2> for Line {
         Ok(vec![rms(heights), share, rms(distances)])
     }
 }
-
-register!(
-    ProbeEntry[2],
-    Line,
-    "line",
-    "free surface, failure line or limit of motion of a phase against a drawn line",
-    "highest particles; Ghaïtanellis 2017, §5.3.2, Eq. 5.21"
-);

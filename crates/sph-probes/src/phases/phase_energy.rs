@@ -1,8 +1,6 @@
 //! The energy of a phase.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, fields, register};
+use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
@@ -17,8 +15,7 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// kind = "phase-energy"
 /// phase = "water"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "phase-energy", "kinetic and potential energy of a phase", source: "½ Σ m u², −Σ m g·r")]
 pub struct PhaseEnergy {
     /// Name of the phase; all particles if left out.
     pub phase: Option<String>,
@@ -55,11 +52,3 @@ impl<const D: usize> Probe<D> for PhaseEnergy {
         Ok(vec![kinetic, potential])
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    PhaseEnergy,
-    "phase-energy",
-    "kinetic and potential energy of a phase",
-    "½ Σ m u², −Σ m g·r"
-);

@@ -1,8 +1,6 @@
 //! The volume of a phase.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, fields, register};
+use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
@@ -18,21 +16,15 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// phase = "air"
 /// scale = 0.786
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "phase-volume", "volume of a phase", source: "Σ m/ρ")]
 pub struct PhaseVolume {
     /// Name of the phase; all particles if left out.
     pub phase: Option<String>,
     /// The volume is divided by this, m² or m³.
-    #[serde(default = "one")]
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[parameter(default: 1.0, above: 0.0)]
     pub scale: f64,
     #[serde(skip)]
     number: Option<u32>,
-}
-
-fn one() -> f64 {
-    1.0
 }
 
 impl<const D: usize> Probe<D> for PhaseVolume {
@@ -58,11 +50,3 @@ impl<const D: usize> Probe<D> for PhaseVolume {
         Ok(vec![of_phase.sum::<f64>() / self.scale])
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    PhaseVolume,
-    "phase-volume",
-    "volume of a phase",
-    "Σ m/ρ"
-);

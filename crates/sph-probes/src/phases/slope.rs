@@ -2,9 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, fields, register};
+use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
@@ -25,11 +23,11 @@ use crate::{Probe, ProbeColumn, ProbeEntry, norm};
 /// phase = "sand"
 /// between = [0.05, 0.15]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2], "slope", "angle of a phase's surface between two places: angle of repose",
+    source: "least squares through the highest particles")]
 pub struct SurfaceSlope {
     /// First and last x of the surface.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub between: [f64; 2],
     /// Name of the phase; all particles if left out.
     pub phase: Option<String>,
@@ -90,11 +88,3 @@ impl Probe<2> for SurfaceSlope {
         Ok(vec![slope.atan(), (squares / x.len() as f64).sqrt()])
     }
 }
-
-register!(
-    ProbeEntry[2],
-    SurfaceSlope,
-    "slope",
-    "angle of a phase's surface between two places: angle of repose",
-    "least squares through the highest particles"
-);

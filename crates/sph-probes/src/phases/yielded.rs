@@ -1,8 +1,6 @@
 //! How much of a phase has yielded.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, fields, register};
+use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
@@ -23,11 +21,10 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// phase = "sand"
 /// strain_rate = 1.0
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "yielded", "share of a phase that strains faster than a threshold", source: "a count")]
 pub struct Yielded {
     /// Threshold γ̇_y.
-    #[schemars(range(min = 0.0), extend("unit" = "1/s"))]
+    #[parameter(unit: "1/s", min: 0.0)]
     pub strain_rate: f64,
     /// Name of the phase; all particles if left out.
     pub phase: Option<String>,
@@ -73,11 +70,3 @@ impl<const D: usize> Probe<D> for Yielded {
         Ok(vec![over(yielded as f64, all), over(sum, yielded)])
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    Yielded,
-    "yielded",
-    "share of a phase that strains faster than a threshold",
-    "a count"
-);

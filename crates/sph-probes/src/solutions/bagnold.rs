@@ -1,8 +1,6 @@
 //! The steady flow of a layer of grains down a plane.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::{Solution, SolutionEntry};
 
@@ -34,62 +32,45 @@ use crate::{Solution, SolutionEntry};
 /// grain_diameter = "5 mm"
 /// grain_density = 800
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2, 3], "bagnold", "steady flow of grains down a plane, friction by the inertial number",
+    source: "Minatti & Paris 2015, Eq. 56")]
 pub struct Bagnold {
     /// Inclination θ of the plane.
-    #[schemars(extend("unit" = "rad", "exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.57))]
+    #[parameter(unit: "rad", above: 0.0, below: 1.57)]
     pub inclination: f64,
     /// Depth H_0 of the layer at rest.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub depth: f64,
     /// Friction coefficient μ_s of slow flow.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "1", above: 0.0)]
     pub static_friction: f64,
     /// Friction coefficient μ_2 of fast flow.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "1", above: 0.0)]
     pub limiting_friction: f64,
     /// Inertial number I_0 half way between the two.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "1", above: 0.0)]
     pub reference_inertial_number: f64,
     /// Grain diameter d.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub grain_diameter: f64,
     /// Density ρ_g of the grains themselves.
-    #[schemars(extend("unit" = "kg/m³", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "kg/m³", above: 0.0)]
     pub grain_density: f64,
     /// Share of space φ_max that the grains fill at rest.
-    #[serde(default = "dense")]
-    #[schemars(range(max = 1.0), extend("unit" = "1", "exclusiveMinimum" = 0.0))]
+    #[parameter(default: 0.6, unit: "1", above: 0.0, max: 1.0)]
     pub largest_fraction: f64,
     /// Share of space φ_min at an inertial number of one; φ_max where nothing dilates.
-    #[serde(default = "loose")]
-    #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1"))]
+    #[parameter(default: 0.5, unit: "1", min: 0.0, max: 1.0)]
     pub smallest_fraction: f64,
     /// Compressibility K of the grains; they are rigid if left out.
-    #[serde(default)]
-    #[schemars(range(min = 0.0), extend("unit" = "1/Pa"))]
+    #[parameter(default, unit: "1/Pa", min: 0.0)]
     pub compressibility: f64,
     /// Magnitude g of gravity.
-    #[serde(default = "earth")]
-    #[schemars(extend("unit" = "m/s²", "exclusiveMinimum" = 0.0))]
+    #[parameter(default: 9.81, unit: "m/s²", above: 0.0)]
     pub gravity: f64,
     /// Ordinate of the plane.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub bottom: f64,
-}
-
-fn dense() -> f64 {
-    0.6
-}
-
-fn loose() -> f64 {
-    0.5
-}
-
-fn earth() -> f64 {
-    9.81
 }
 
 /// What is the same at every height.
@@ -145,14 +126,6 @@ impl<const D: usize> Solution<D> for Bagnold {
         })
     }
 }
-
-register!(
-    SolutionEntry [2, 3],
-    Bagnold,
-    "bagnold",
-    "steady flow of grains down a plane, friction by the inertial number",
-    "Minatti & Paris 2015, Eq. 56"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,6 @@
 //! Plane Poiseuille flow of two layered fluids.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::{Solution, SolutionEntry};
 
@@ -27,27 +25,28 @@ use crate::{Solution, SolutionEntry};
 /// viscosities = [1.6, 0.1]
 /// acceleration = 4e-7
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2, 3], "bifluid-poiseuille", "steady channel flow of two layered fluids",
+    source: "Ghaïtanellis 2017, Eq. 5.1–5.5")]
 pub struct BifluidPoiseuille {
     /// Share α of the height that the lower fluid fills.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
+    #[parameter(unit: "1", above: 0.0, below: 1.0)]
     pub alpha: f64,
     /// Height L of the channel.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    #[parameter(unit: "m", above: 0.0)]
     pub length: f64,
     /// Densities ρ₁ below and ρ₂ above.
-    #[schemars(inner(range(min = 0.0)), extend("unit" = "kg/m³"))]
+    #[schemars(inner(range(min = 0.0)))]
+    #[parameter(unit: "kg/m³")]
     pub densities: [f64; 2],
     /// Dynamic viscosities η₁ below and η₂ above.
-    #[schemars(inner(range(min = 0.0)), extend("unit" = "Pa s"))]
+    #[schemars(inner(range(min = 0.0)))]
+    #[parameter(unit: "Pa s")]
     pub viscosities: [f64; 2],
     /// Driving acceleration g along x.
-    #[schemars(extend("unit" = "m/s²"))]
+    #[parameter(unit: "m/s²")]
     pub acceleration: f64,
     /// Ordinate of the interface.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub interface: f64,
 }
 
@@ -74,14 +73,6 @@ impl<const D: usize> Solution<D> for BifluidPoiseuille {
         Some(velocity)
     }
 }
-
-register!(
-    SolutionEntry [2, 3],
-    BifluidPoiseuille,
-    "bifluid-poiseuille",
-    "steady channel flow of two layered fluids",
-    "Ghaïtanellis 2017, Eq. 5.1–5.5"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,6 @@
 //! Plane Poiseuille flow of a fluid with a yield stress.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::{Solution, SolutionEntry};
 
@@ -30,39 +28,33 @@ use crate::{Solution, SolutionEntry};
 /// acceleration = 10.0
 /// height = 1.0
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2, 3], "bingham-poiseuille", "steady channel flow with a yield stress, ideal or regularised",
+    source: "Ghaïtanellis 2017, Eq. 5.9–5.10")]
 pub struct BinghamPoiseuille {
     /// Density ρ.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "kg/m³"))]
+    #[parameter(unit: "kg/m³", above: 0.0)]
     pub density: f64,
     /// Plastic viscosity K, or consistency where n is not 1.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa s"))]
+    #[parameter(unit: "Pa s", above: 0.0)]
     pub viscosity: f64,
     /// Exponent n of Herschel and Bulkley.
-    #[serde(default = "one")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1"))]
+    #[parameter(default: 1.0, unit: "1", above: 0.0)]
     pub exponent: f64,
     /// Yield stress τ_y.
-    #[schemars(range(min = 0.0), extend("unit" = "Pa"))]
+    #[parameter(unit: "Pa", min: 0.0)]
     pub yield_stress: f64,
     /// Stress growth time m of the regularised fluid; the ideal one if left out.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "s"))]
+    #[parameter(unit: "s", above: 0.0)]
     pub stress_growth: Option<f64>,
     /// Driving acceleration a along x.
-    #[schemars(extend("unit" = "m/s²"))]
+    #[parameter(unit: "m/s²")]
     pub acceleration: f64,
     /// Height 2b of the channel.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    #[parameter(unit: "m", above: 0.0)]
     pub height: f64,
     /// Ordinate of the lower wall.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub bottom: f64,
-}
-
-fn one() -> f64 {
-    1.0
 }
 
 impl BinghamPoiseuille {
@@ -129,14 +121,6 @@ impl<const D: usize> Solution<D> for BinghamPoiseuille {
         Some(velocity)
     }
 }
-
-register!(
-    SolutionEntry [2, 3],
-    BinghamPoiseuille,
-    "bingham-poiseuille",
-    "steady channel flow with a yield stress, ideal or regularised",
-    "Ghaïtanellis 2017, Eq. 5.9–5.10"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,6 @@
 //! The first bending mode of a plate that is clamped at one end.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::{Solution, SolutionEntry};
 
@@ -15,30 +13,29 @@ use crate::{Solution, SolutionEntry};
 /// that of the last coordinate; before `root` it is zero. For a thin plate, kH ≪ 1, and small deflections.
 ///
 /// Source: Landau & Lifshitz 1970, §25; Gray et al. 2001, §5.2.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2, 3], "cantilever", "first bending mode of a plate clamped at one end",
+    source: "Landau & Lifshitz 1970, §25")]
 pub struct Cantilever {
     /// Speed of the tip U.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub speed: f64,
     /// Where the plate leaves its clamp.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub root: f64,
     /// Length L beyond the clamp.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    #[parameter(unit: "m", above: 0.0)]
     pub length: f64,
     /// Thickness H.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    #[parameter(unit: "m", above: 0.0)]
     pub thickness: f64,
     /// Young's modulus E.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa", "quantity" = "modulus"))]
+    #[parameter(unit: "Pa", above: 0.0, quantity: "modulus")]
     pub young_modulus: f64,
     /// Poisson's ratio ν.
-    #[schemars(range(max = 0.5), extend("exclusiveMinimum" = -1.0, "unit" = "1"))]
+    #[parameter(unit: "1", above: -1.0, max: 0.5)]
     pub poisson_ratio: f64,
     /// Density ρ.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "kg/m³"))]
+    #[parameter(unit: "kg/m³", above: 0.0)]
     pub density: f64,
 }
 
@@ -73,14 +70,6 @@ impl<const D: usize> Solution<D> for Cantilever {
         Some(velocity)
     }
 }
-
-register!(
-    SolutionEntry [2, 3],
-    Cantilever,
-    "cantilever",
-    "first bending mode of a plate clamped at one end",
-    "Landau & Lifshitz 1970, §25"
-);
 
 #[cfg(test)]
 mod tests {

@@ -2,30 +2,27 @@
 
 use std::f64::consts::PI;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::{Solution, SolutionEntry};
 
 /// u = U η/H + Σ_n 2U/(nπ) (−1)ⁿ sin(nπη/H) exp(−n²π²νt/H²): the upper wall starts at t = 0.
 ///
 /// Source: Morris et al. 1997, Eq. 20.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2, 3], "couette", "channel flow dragged by its upper wall, started from rest",
+    source: "Morris et al. 1997, Eq. 20")]
 pub struct Couette {
     /// Velocity U of the upper wall along x.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub wall_velocity: f64,
     /// Kinematic viscosity ν.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m²/s"))]
+    #[parameter(unit: "m²/s", above: 0.0)]
     pub kinematic_viscosity: f64,
     /// Height H of the channel.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    #[parameter(unit: "m", above: 0.0)]
     pub height: f64,
     /// Ordinate of the lower wall.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub bottom: f64,
 }
 
@@ -48,11 +45,3 @@ impl<const D: usize> Solution<D> for Couette {
         Some(velocity)
     }
 }
-
-register!(
-    SolutionEntry [2, 3],
-    Couette,
-    "couette",
-    "channel flow dragged by its upper wall, started from rest",
-    "Morris et al. 1997, Eq. 20"
-);

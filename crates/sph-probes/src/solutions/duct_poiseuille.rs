@@ -1,8 +1,6 @@
 //! Developed flow in a rectangular duct.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Axis, Vect, rectangular_duct, register};
+use sph_core::{Axis, Vect, plugin, rectangular_duct};
 
 use crate::flow::point::point;
 use crate::{Solution, SolutionEntry};
@@ -24,24 +22,22 @@ use crate::{Solution, SolutionEntry};
 /// acceleration = 1.0
 /// kinematic_viscosity = 0.1
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [3], "duct-poiseuille", "developed flow in a rectangular duct", source: "White 2006, Eq. 3-48")]
 pub struct DuctPoiseuille {
     /// Direction of the duct.
-    #[serde(default)]
+    #[parameter(default)]
     pub axis: Axis,
     /// A point on its axis.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub centre: Vec<f64>,
     /// Lengths of its sides along the two other axes, in their order.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub sides: [f64; 2],
     /// Body acceleration a along the axis.
-    #[schemars(extend("unit" = "m/s²"))]
+    #[parameter(unit: "m/s²")]
     pub acceleration: f64,
     /// Kinematic viscosity ν.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m²/s"))]
+    #[parameter(unit: "m²/s", above: 0.0)]
     pub kinematic_viscosity: f64,
 }
 
@@ -57,14 +53,6 @@ impl Solution<3> for DuctPoiseuille {
         Some(velocity)
     }
 }
-
-register!(
-    SolutionEntry[3],
-    DuctPoiseuille,
-    "duct-poiseuille",
-    "developed flow in a rectangular duct",
-    "White 2006, Eq. 3-48"
-);
 
 #[cfg(test)]
 mod tests {

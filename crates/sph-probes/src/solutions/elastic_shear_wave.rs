@@ -2,9 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::{Solution, SolutionEntry};
 
@@ -14,20 +12,20 @@ use crate::{Solution, SolutionEntry};
 /// the last coordinate. The displacement is U/ω sin(ωt) sin(ky); it must stay far below 1/k.
 ///
 /// Source: Achenbach 1973, §1.5.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2, 3], "elastic-shear-wave", "standing shear wave in an elastic material",
+    source: "Achenbach 1973, §1.5")]
 pub struct ElasticShearWave {
     /// Largest velocity U.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub speed: f64,
     /// Wavelength λ.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    #[parameter(unit: "m", above: 0.0)]
     pub wavelength: f64,
     /// Shear modulus 𝒢.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "Pa", "quantity" = "modulus"))]
+    #[parameter(unit: "Pa", above: 0.0, quantity: "modulus")]
     pub shear_modulus: f64,
     /// Density ρ.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "kg/m³"))]
+    #[parameter(unit: "kg/m³", above: 0.0)]
     pub density: f64,
 }
 
@@ -40,14 +38,6 @@ impl<const D: usize> Solution<D> for ElasticShearWave {
         Some(velocity)
     }
 }
-
-register!(
-    SolutionEntry [2, 3],
-    ElasticShearWave,
-    "elastic-shear-wave",
-    "standing shear wave in an elastic material",
-    "Achenbach 1973, §1.5"
-);
 
 #[cfg(test)]
 mod tests {

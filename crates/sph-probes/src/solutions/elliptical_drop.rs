@@ -1,8 +1,6 @@
 //! A drop that is drawn out to an ellipse.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::{Solution, SolutionEntry};
 
@@ -20,17 +18,16 @@ use crate::{Solution, SolutionEntry};
 /// radius = 1.0
 /// density = 1000.0
 /// ```
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2], "elliptical-drop", "a drop that is drawn out to an ellipse", source: "Monaghan 1994, §5.1")]
 pub struct EllipticalDrop {
     /// Rate A₀ at which it is drawn out at the start.
-    #[schemars(extend("unit" = "1/s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "1/s", above: 0.0)]
     pub rate: f64,
     /// Radius R of the disc.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub radius: f64,
     /// Density ρ.
-    #[schemars(extend("unit" = "kg/m³", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "kg/m³", above: 0.0)]
     pub density: f64,
 }
 
@@ -80,14 +77,6 @@ impl<const D: usize> Solution<D> for EllipticalDrop {
         Some(0.0)
     }
 }
-
-register!(
-    SolutionEntry[2],
-    EllipticalDrop,
-    "elliptical-drop",
-    "a drop that is drawn out to an ellipse",
-    "Monaghan 1994, §5.1"
-);
 
 #[cfg(test)]
 mod tests {

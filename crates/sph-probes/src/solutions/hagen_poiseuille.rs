@@ -1,8 +1,6 @@
 //! Developed flow in a round pipe.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Axis, Vect, register};
+use sph_core::{Axis, Vect, plugin};
 
 use crate::flow::point::point;
 use crate::{Solution, SolutionEntry};
@@ -26,24 +24,23 @@ use crate::{Solution, SolutionEntry};
 /// acceleration = 1.0
 /// kinematic_viscosity = 0.1
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2, 3], "hagen-poiseuille", "developed flow in a round pipe",
+    source: "Batchelor 1967, Eq. 4.2.5")]
 pub struct HagenPoiseuille {
     /// Direction of the pipe.
-    #[serde(default)]
+    #[parameter(default)]
     pub axis: Axis,
     /// A point on its axis.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub centre: Vec<f64>,
     /// Radius R.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    #[parameter(unit: "m", above: 0.0)]
     pub radius: f64,
     /// Body acceleration a along the axis.
-    #[schemars(extend("unit" = "m/s²"))]
+    #[parameter(unit: "m/s²")]
     pub acceleration: f64,
     /// Kinematic viscosity ν.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m²/s"))]
+    #[parameter(unit: "m²/s", above: 0.0)]
     pub kinematic_viscosity: f64,
 }
 
@@ -59,14 +56,6 @@ impl<const D: usize> Solution<D> for HagenPoiseuille {
         Some(velocity)
     }
 }
-
-register!(
-    SolutionEntry [2, 3],
-    HagenPoiseuille,
-    "hagen-poiseuille",
-    "developed flow in a round pipe",
-    "Batchelor 1967, Eq. 4.2.5"
-);
 
 #[cfg(test)]
 mod tests {

@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::{Solution, SolutionEntry};
 
@@ -12,21 +10,20 @@ use crate::{Solution, SolutionEntry};
 /// distance from the lower wall.
 ///
 /// Source: Morris et al. 1997, Eq. 21.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2, 3], "poiseuille", "plane channel flow driven by a body force, started from rest",
+    source: "Morris et al. 1997, Eq. 21")]
 pub struct Poiseuille {
     /// Driving acceleration a along x.
-    #[schemars(extend("unit" = "m/s²"))]
+    #[parameter(unit: "m/s²")]
     pub acceleration: f64,
     /// Kinematic viscosity ν.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m²/s"))]
+    #[parameter(unit: "m²/s", above: 0.0)]
     pub kinematic_viscosity: f64,
     /// Height H of the channel.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    #[parameter(unit: "m", above: 0.0)]
     pub height: f64,
     /// Ordinate of the lower wall.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub bottom: f64,
 }
 
@@ -49,14 +46,6 @@ impl<const D: usize> Solution<D> for Poiseuille {
         Some(velocity)
     }
 }
-
-register!(
-    SolutionEntry [2, 3],
-    Poiseuille,
-    "poiseuille",
-    "plane channel flow driven by a body force, started from rest",
-    "Morris et al. 1997, Eq. 21"
-);
 
 #[cfg(test)]
 mod tests {

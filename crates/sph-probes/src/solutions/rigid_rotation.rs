@@ -1,8 +1,6 @@
 //! A fluid that turns like a solid.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::flow::point::point;
 use crate::{Solution, SolutionEntry};
@@ -18,23 +16,19 @@ use crate::{Solution, SolutionEntry};
 /// angular_velocity = 6.2832
 /// centre = [0.5, 0.5]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2, 3], "rigid-rotation", "a fluid that turns like a solid", source: "Batchelor 1967, §4.1")]
 pub struct RigidRotation {
     /// Angular velocity ω, counter-clockwise.
-    #[schemars(extend("unit" = "rad/s"))]
+    #[parameter(unit: "rad/s")]
     pub angular_velocity: f64,
     /// A point c on the axis; the origin if left out.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub centre: Vec<f64>,
     /// Density ρ, for the pressure.
-    #[serde(default)]
-    #[schemars(extend("unit" = "kg/m³"))]
+    #[parameter(default, unit: "kg/m³")]
     pub density: f64,
     /// Pressure p_c on the axis.
-    #[serde(default)]
-    #[schemars(extend("unit" = "Pa"))]
+    #[parameter(default, unit: "Pa")]
     pub central_pressure: f64,
 }
 
@@ -57,11 +51,3 @@ impl<const D: usize> Solution<D> for RigidRotation {
         Some(0.0)
     }
 }
-
-register!(
-    SolutionEntry [2, 3],
-    RigidRotation,
-    "rigid-rotation",
-    "a fluid that turns like a solid",
-    "Batchelor 1967, §4.1"
-);

@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::flow::point::point;
 use crate::{Solution, SolutionEntry};
@@ -26,21 +24,20 @@ use crate::{Solution, SolutionEntry};
 /// side = 1.0
 /// density = 1000.0
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2], "rotating-square", "the start of a turning square patch of fluid",
+    source: "Colagrossi 2005; Le Touzé et al. 2013")]
 pub struct RotatingSquare {
     /// Angular velocity ω, clockwise.
-    #[schemars(extend("unit" = "rad/s"))]
+    #[parameter(unit: "rad/s")]
     pub angular_velocity: f64,
     /// Side L of the square.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    #[parameter(unit: "m", above: 0.0)]
     pub side: f64,
     /// Centre of the square; the origin if left out.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub centre: Vec<f64>,
     /// Density ρ.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "kg/m³"))]
+    #[parameter(unit: "kg/m³", above: 0.0)]
     pub density: f64,
 }
 
@@ -72,14 +69,6 @@ impl Solution<2> for RotatingSquare {
         Some(scale * (8.0 * series - x * (1.0 - x)))
     }
 }
-
-register!(
-    SolutionEntry[2],
-    RotatingSquare,
-    "rotating-square",
-    "the start of a turning square patch of fluid",
-    "Colagrossi 2005; Le Touzé et al. 2013"
-);
 
 #[cfg(test)]
 mod tests {

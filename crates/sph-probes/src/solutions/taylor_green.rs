@@ -2,9 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::{Solution, SolutionEntry};
 
@@ -12,20 +10,19 @@ use crate::{Solution, SolutionEntry};
 /// p = −ρU²/4 (cos 2kx + cos 2ky) e^(2bt) with k = 2π/L, b = −2νk².
 ///
 /// Source: Taylor & Green 1937; the kinetic energy decays with 2b.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2], "taylor-green", "decaying periodic vortices", source: "Taylor & Green 1937")]
 pub struct TaylorGreen {
     /// Largest velocity U at the start.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub speed: f64,
     /// Period L of the vortices.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    #[parameter(unit: "m", above: 0.0)]
     pub length: f64,
     /// Kinematic viscosity ν.
-    #[schemars(range(min = 0.0), extend("unit" = "m²/s"))]
+    #[parameter(unit: "m²/s", min: 0.0)]
     pub kinematic_viscosity: f64,
     /// Density ρ.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "kg/m³"))]
+    #[parameter(unit: "kg/m³", above: 0.0)]
     pub density: f64,
 }
 
@@ -56,11 +53,3 @@ impl Solution<2> for TaylorGreen {
         Some(2.0 * self.rate())
     }
 }
-
-register!(
-    SolutionEntry[2],
-    TaylorGreen,
-    "taylor-green",
-    "decaying periodic vortices",
-    "Taylor & Green 1937"
-);

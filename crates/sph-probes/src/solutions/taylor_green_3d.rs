@@ -2,9 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 
 use crate::{Solution, SolutionEntry};
 
@@ -13,17 +11,17 @@ use crate::{Solution, SolutionEntry};
 /// turbulence. There is no closed form of later times.
 ///
 /// Sources: Taylor & Green 1937; Brachet et al. 1983, Eq. 1.1.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [3], "taylor-green-3d", "vortices in space that decay in turbulence: a start",
+    source: "Taylor & Green 1937; Brachet et al. 1983")]
 pub struct TaylorGreen3d {
     /// Largest velocity U.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub speed: f64,
     /// Period L of the vortices.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    #[parameter(unit: "m", above: 0.0)]
     pub length: f64,
     /// Density ρ.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "kg/m³"))]
+    #[parameter(unit: "kg/m³", above: 0.0)]
     pub density: f64,
 }
 
@@ -44,14 +42,6 @@ impl Solution<3> for TaylorGreen3d {
         (time == 0.0).then(|| scale * (x.cos() + y.cos()) * (z.cos() + 2.0))
     }
 }
-
-register!(
-    SolutionEntry[3],
-    TaylorGreen3d,
-    "taylor-green-3d",
-    "vortices in space that decay in turbulence: a start",
-    "Taylor & Green 1937; Brachet et al. 1983"
-);
 
 #[cfg(test)]
 mod tests {

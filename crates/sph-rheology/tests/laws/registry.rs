@@ -1,52 +1,42 @@
 //! A contract and its plugins as a stranger's crate would write them.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Contract, Registry, RegistryError, contract, entry, register};
+use sph_core::{Contract, PluginInfo, Registry, RegistryError, contract, parameters, plugin};
 
 /// A law that maps a rate to a stress.
 pub trait Law<const D: usize>: Send {
     /// Stress, Pa.
     fn stress(&self, rate: f64) -> f64;
 }
+
 contract!(
     /// Laws of this test.
     pub LawEntry, "law", "maps a rate to a stress", Law<D>
 );
 
 /// τ = η γ̇
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(LawEntry [2], "newtonian", "linear law", source: "Newton 1687")]
 struct Newtonian {
     /// Dynamic viscosity.
-    #[schemars(range(min = 0.0), extend("unit" = "Pa s", "source" = "Newton 1687"))]
+    #[parameter(unit: "Pa s", min: 0.0, source: "Newton 1687")]
     viscosity: f64,
 }
+
 impl<const D: usize> Law<D> for Newtonian {
     fn stress(&self, rate: f64) -> f64 {
         self.viscosity * rate
     }
 }
-register!(
-    LawEntry[2],
-    Newtonian,
-    "newtonian",
-    "linear law",
-    "Newton 1687"
-);
 
 /// Makes a law of another type.
-#[derive(Deserialize, JsonSchema)]
-#[serde(transparent)]
+#[parameters]
 struct Wrapped(#[expect(dead_code, reason = "only its schema is asked for")] Newtonian);
 
 /// A wrapper of a wrapper, with a choice beside it.
-#[derive(Deserialize, JsonSchema)]
-#[serde(transparent)]
+#[parameters]
 struct Twice(#[expect(dead_code, reason = "only its schema is asked for")] Wrapped);
 
 /// Parameters of all types.
-#[derive(Deserialize, JsonSchema)]
+#[parameters]
 #[expect(dead_code, reason = "only its schema is asked for")]
 struct Varied {
     form: Form,
@@ -56,8 +46,7 @@ struct Varied {
 }
 
 /// One of two.
-#[derive(Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 enum Form {
     Rough,
     Smooth,
@@ -97,8 +86,8 @@ fn mistakes_are_named() {
 
 #[test]
 fn the_same_name_twice_is_refused() {
-    static ONE: LawEntry = entry!(LawEntry [2, 3], Newtonian, "same", "one", "here");
-    static TWO: LawEntry = entry!(LawEntry [2, 3], Newtonian, "same", "two", "there");
+    static ONE: LawEntry = same("one");
+    static TWO: LawEntry = same("two");
     let twice = Registry::new()
         .with(&ONE)
         .unwrap()
@@ -111,14 +100,35 @@ fn the_same_name_twice_is_refused() {
     ));
 }
 
-/// `Lanewise` and `Term` are such wrappers of terms.
+/// The law `same` of a crate.
+const fn same(provider: &'static str) -> LawEntry {
+    LawEntry {
+        info: PluginInfo {
+            name: "same",
+            summary: "the same",
+            source: "nobody",
+            provider,
+            dimensions: &[],
+            schema: sph_core::schema_of::<Newtonian>,
+        },
+        build_2d: None,
+        build_3d: None,
+    }
+}
+
 #[test]
-fn a_transparent_wrapper_has_the_parameters_and_the_text_of_the_type_within() {
-    for schema in [
-        sph_core::schema_of::<Wrapped>(),
-        sph_core::schema_of::<Twice>(),
+fn a_wrapper_has_the_parameters_of_the_type_within_and_its_own_text() {
+    for (schema, text) in [
+        (
+            sph_core::schema_of::<Wrapped>(),
+            "Makes a law of another type.",
+        ),
+        (
+            sph_core::schema_of::<Twice>(),
+            "A wrapper of a wrapper, with a choice beside it.",
+        ),
     ] {
-        assert_eq!(schema["description"], "τ = η γ̇");
+        assert_eq!(schema["description"], text);
         let listed = sph_core::parameters(&schema);
         assert_eq!(
             (listed.len(), listed[0].name.as_str()),

@@ -2,27 +2,24 @@
 
 use std::f64::consts::TAU;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 
 /// A level surface: y = level + amplitude · cos(2π x/wavelength + phase), with z for y in three
 /// dimensions.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
+#[derive(PartialEq)]
 pub struct LevelSurface {
     /// Mean height along the last axis, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub level: f64,
     /// Amplitude of the wave, m; 0 for a plane.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub amplitude: f64,
     /// Wavelength along x, m; needed where there is an amplitude.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub wavelength: Option<f64>,
     /// Phase of the wave, rad: 0 has a crest at x = 0.
-    #[serde(default)]
-    #[schemars(extend("unit" = "rad"))]
+    #[parameter(default, unit: "rad")]
     pub phase: f64,
 }
 

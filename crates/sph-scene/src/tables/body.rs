@@ -1,7 +1,6 @@
 //! The table `[body.NAME]`: where a phase is at the start.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 
 use crate::geometry::polygon::Polygon;
 use crate::geometry::vector::array;
@@ -10,17 +9,16 @@ use crate::tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 use crate::{LevelSurface, Shape, Wave};
 
 /// A piece of a phase at the start: one shape, or what the walls enclose, less what is subtracted.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Body {
     /// Name of the phase it is made of.
     pub phase: String,
     /// Lower and upper corner of a box, m.
     #[serde(rename = "box")]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub bounds: Option<[Vec<f64>; 2]>,
     /// Corners of a polygon in order, m; it closes itself. Two dimensions only.
-    #[schemars(length(min = 3), extend("unit" = "m"))]
+    #[parameter(unit: "m", min_items: 3)]
     pub polygon: Option<Vec<Vec<f64>>>,
     /// Disc by centre and radius. Two dimensions only.
     pub disc: Option<Round>,
@@ -37,13 +35,13 @@ pub struct Body {
     /// Fills what the walls enclose, instead of a shape; a `box` bounds it.
     pub fill: Option<Filling>,
     /// Point, m, in that one of several regions between the walls which `fill` fills; all of them if left out.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub seed: Option<Vec<f64>>,
     /// Whether only what is on the fluid's side of all walls is filled.
-    #[serde(default)]
+    #[parameter(default)]
     pub clip: bool,
     /// Shapes that are cut out.
-    #[serde(default)]
+    #[parameter(default)]
     pub subtract: Vec<Cutout>,
     /// Only what is above this surface is filled: bodies of one `box` with the same surface in `below` and `above` share a lattice.
     pub above: Option<LevelSurface>,
@@ -52,30 +50,29 @@ pub struct Body {
     /// Wave that is on it at the start: what is above its surface is not filled.
     pub wave: Option<Wave>,
     /// Velocity at the start, m/s; at rest if left out.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub velocity: Option<Vec<f64>>,
     /// Field that gives the velocity at the start, `[body.NAME.initial.PLUGIN]`.
-    #[serde(default)]
+    #[parameter(default)]
     #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
     pub initial: Plugins,
     /// Pressure at the start.
-    #[serde(default)]
+    #[parameter(default)]
     pub pressure: Pressure,
     /// Level of the free surface against gravity, m, for a hydrostatic pressure. If left out, the top of the only body, or the weight of what stands over a place in all bodies.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub surface: Option<f64>,
 }
 
 /// A shape that is cut out of a body.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Cutout {
     /// Lower and upper corner of a box, m.
     #[serde(rename = "box")]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub bounds: Option<[Vec<f64>; 2]>,
     /// Corners of a polygon in order, m; it closes itself. Two dimensions only.
-    #[schemars(length(min = 3), extend("unit" = "m"))]
+    #[parameter(unit: "m", min_items: 3)]
     pub polygon: Option<Vec<Vec<f64>>>,
     /// Disc by centre and radius. Two dimensions only.
     pub disc: Option<Round>,
@@ -92,16 +89,14 @@ pub struct Cutout {
 }
 
 /// What a body without a shape fills.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Filling {
     /// Every place that the walls enclose.
     Walls,
 }
 
 /// Pressure of a body at the start.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Pressure {
     /// No pressure: the particles start at the reference density.
     #[default]

@@ -2,27 +2,24 @@
 
 use std::path::PathBuf;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 
 /// What is added to `gravity` over time, m/s²; exactly one of `sine`, `table` and `file`.
 ///
 /// In the frame of a tank that moves it is the acceleration of the tank with the other sign.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct GravityOverTime {
     /// Oscillation.
     pub sine: Option<GravitySine>,
     /// Rows of time, s, and one entry per dimension, m/s²; times rise, entries are linear between rows and constant before the first and after the last.
-    #[schemars(length(min = 1), extend("unit" = "1"))]
+    #[parameter(unit: "1", min_items: 1)]
     pub table: Option<Vec<Vec<f64>>>,
     /// CSV file of such rows, relative to the scene's folder; units may stand in its first line, `ax[mm/s²]`.
     pub file: Option<String>,
     /// Names of the file's columns of time and of the entries; the first ones if left out.
     pub columns: Option<Vec<String>>,
     /// Factor that turns the file's entries into m/s²: 9.81 where they are in g.
-    #[serde(default = "one")]
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(default: 1.0, unit: "1")]
     pub scale: f64,
     /// The file with its folder, set when the scene is read.
     #[serde(skip)]
@@ -30,25 +27,18 @@ pub struct GravityOverTime {
 }
 
 /// Oscillation: a·r(t)·sin(2πt/T + φ).
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct GravitySine {
     /// Amplitude a, m/s², one entry per dimension.
-    #[schemars(extend("unit" = "m/s²"))]
+    #[parameter(unit: "m/s²")]
     pub amplitude: Vec<f64>,
     /// Period T, s.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub period: f64,
     /// Phase φ, rad.
-    #[serde(default)]
-    #[schemars(extend("unit" = "rad"))]
+    #[parameter(default, unit: "rad")]
     pub phase: f64,
     /// Time, s, over which r rises smoothly from 0 to 1; at once if 0.
-    #[serde(default)]
-    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    #[parameter(default, unit: "s", min: 0.0)]
     pub ramp: f64,
-}
-
-fn one() -> f64 {
-    1.0
 }

@@ -2,30 +2,29 @@
 
 use std::path::PathBuf;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer};
+use sph_core::parameters;
 
 /// Rigid motion of a wall: translations, added up, and a rotation about a centre that they carry.
 ///
 /// Courses count their time from `start` and hold what they reached at `stop`.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Motion {
     /// Constant velocity, m/s; none if left out.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub velocity: Option<Vec<f64>>,
     /// Constant angular velocity, rad/s, anticlockwise; in 3D right-handed about `axis`.
-    #[serde(default)]
-    #[schemars(extend("unit" = "rad/s"))]
+    #[parameter(default, unit: "rad/s")]
     pub angular_velocity: f64,
     /// Centre of the rotation at the start, m; needed where there is an `angular_velocity`.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub centre: Option<Vec<f64>>,
     /// Axis of the `angular_velocity`; its length does not matter. Three dimensions only, and needed there.
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(unit: "1")]
     pub axis: Option<Vec<f64>>,
     /// Translation, or a list of translations that are added up.
-    #[serde(default, deserialize_with = "one_or_many")]
+    #[serde(deserialize_with = "one_or_many")]
+    #[parameter(default)]
     #[schemars(with = "OneOrMany")]
     pub translate: Vec<Translate>,
     /// Rotation.
@@ -33,33 +32,30 @@ pub struct Motion {
     /// Levels that the wall follows instead, place by place: a floor on a bed that settles. Two dimensions only.
     pub levels: Option<Levels>,
     /// Time at which the motion starts, s.
-    #[serde(default)]
-    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    #[parameter(default, unit: "s", min: 0.0)]
     pub start: f64,
     /// Time at which the motion stops, s; never if left out.
-    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    #[parameter(unit: "s", min: 0.0)]
     pub stop: Option<f64>,
 }
 
 /// Places of the wall are lifted by what a level has risen since the start, linear between places along x; courses of
 /// levels are smooth between the rows of the table, at rest before the first and after the last.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Levels {
     /// A table with a column `time` (s) and one of levels (m) for each place, relative to the scene's folder: `series.csv` of a
     /// run, for example.
     pub file: String,
     /// Where the levels were taken, ascending along x, m.
-    #[schemars(length(min = 1), extend("unit" = "m"))]
+    #[parameter(unit: "m", min_items: 1)]
     pub places: Vec<f64>,
     /// The columns of these places.
-    #[schemars(length(min = 1))]
+    #[parameter(min_items: 1)]
     pub columns: Vec<String>,
     /// Unit of the levels, such as "mm"; that in the head of each column, else metres, if left out.
     pub unit: Option<String>,
     /// Time of the table at which the run starts, s; the wall is drawn as it is then.
-    #[serde(default)]
-    #[schemars(extend("unit" = "s"))]
+    #[parameter(default, unit: "s")]
     pub start: f64,
     /// The file with its folder, set when the scene is read.
     #[serde(skip)]
@@ -67,33 +63,32 @@ pub struct Levels {
 }
 
 /// Translation along a direction; exactly one of `speed`, `ramp`, `sine`, `table` and `file`.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Translate {
     /// Direction; its length does not matter.
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(unit: "1")]
     pub along: Vec<f64>,
     /// Constant speed, m/s.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub speed: Option<f64>,
     /// From rest to a speed with constant acceleration.
     pub ramp: Option<Ramp>,
     /// Oscillation.
     pub sine: Option<Sine>,
     /// Pairs of time, s, and displacement, m; times rise, and the wall is where it is drawn until the first, from which displacements count.
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(unit: "1")]
     pub table: Option<Vec<[f64; 2]>>,
     /// CSV file of time and displacement, relative to the scene's folder.
     pub file: Option<String>,
     /// Unit of the displacements in the `file`, such as "mm"; that in the head of the column, else metres, if left out.
     pub unit: Option<String>,
     /// Factor that turns the file's displacements into metres, instead of a unit.
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(unit: "1")]
     pub scale: Option<f64>,
     /// Unit of the times in the `file`; that in the head of the column, else seconds, if left out.
     pub time_unit: Option<String>,
     /// Names of the file's columns of time and displacement, or their numbers from 1; the only two if left out.
-    #[schemars(length(min = 2, max = 2))]
+    #[parameter(min_items: 2, max_items: 2)]
     pub columns: Option<Vec<String>>,
     /// The file with its folder, set when the scene is read.
     #[serde(skip)]
@@ -101,36 +96,35 @@ pub struct Translate {
 }
 
 /// Rotation about a centre; exactly one of `speed`, `ramp`, `sine`, `table` and `file`.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Rotation {
     /// Centre at the start, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub centre: Vec<f64>,
     /// Axis, right-handed; its length does not matter. Three dimensions only, and needed there.
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(unit: "1")]
     pub axis: Option<Vec<f64>>,
     /// Constant angular speed, rad/s.
-    #[schemars(extend("unit" = "rad/s"))]
+    #[parameter(unit: "rad/s")]
     pub speed: Option<f64>,
     /// From rest to an angular speed with constant acceleration.
     pub ramp: Option<AngularRamp>,
     /// Oscillation.
     pub sine: Option<AngularSine>,
     /// Pairs of time, s, and angle, rad; times rise, and the wall is where it is drawn until the first, from which angles count.
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(unit: "1")]
     pub table: Option<Vec<[f64; 2]>>,
     /// CSV file of time and angle, relative to the scene's folder.
     pub file: Option<String>,
     /// Unit of the angles in the `file`, such as "deg"; that in the head of the column, else radians, if left out.
     pub unit: Option<String>,
     /// Factor that turns the file's angles into radians, instead of a unit.
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(unit: "1")]
     pub scale: Option<f64>,
     /// Unit of the times in the `file`; that in the head of the column, else seconds, if left out.
     pub time_unit: Option<String>,
     /// Names of the file's columns of time and angle, or their numbers from 1; the only two if left out.
-    #[schemars(length(min = 2, max = 2))]
+    #[parameter(min_items: 2, max_items: 2)]
     pub columns: Option<Vec<String>>,
     /// The file with its folder, set when the scene is read.
     #[serde(skip)]
@@ -138,66 +132,58 @@ pub struct Rotation {
 }
 
 /// From rest to a speed with constant acceleration.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Ramp {
     /// Speed that is reached, m/s.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub speed: f64,
     /// Time in which it is reached, s.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub over: f64,
 }
 
 /// From rest to an angular speed with constant acceleration.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct AngularRamp {
     /// Angular speed that is reached, rad/s.
-    #[schemars(extend("unit" = "rad/s"))]
+    #[parameter(unit: "rad/s")]
     pub speed: f64,
     /// Time in which it is reached, s.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub over: f64,
 }
 
 /// Oscillation: a·r(t)·sin(2πt/T + φ), less its value at t = 0.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Sine {
     /// Amplitude a of the displacement, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub amplitude: f64,
     /// Period T, s.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub period: f64,
     /// Phase φ, rad.
-    #[serde(default)]
-    #[schemars(extend("unit" = "rad"))]
+    #[parameter(default, unit: "rad")]
     pub phase: f64,
     /// Time, s, over which r rises smoothly from 0 to 1; at once if 0.
-    #[serde(default)]
-    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    #[parameter(default, unit: "s", min: 0.0)]
     pub ramp: f64,
 }
 
 /// Oscillation: a·r(t)·sin(2πt/T + φ), less its value at t = 0.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct AngularSine {
     /// Amplitude a of the angle, rad.
-    #[schemars(extend("unit" = "rad"))]
+    #[parameter(unit: "rad")]
     pub amplitude: f64,
     /// Period T, s.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub period: f64,
     /// Phase φ, rad.
-    #[serde(default)]
-    #[schemars(extend("unit" = "rad"))]
+    #[parameter(default, unit: "rad")]
     pub phase: f64,
     /// Time, s, over which r rises smoothly from 0 to 1; at once if 0.
-    #[serde(default)]
-    #[schemars(extend("unit" = "s", "minimum" = 0.0))]
+    #[parameter(default, unit: "s", min: 0.0)]
     pub ramp: f64,
 }
 
@@ -211,7 +197,7 @@ impl Motion {
     }
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[parameters]
 #[serde(untagged)]
 enum OneOrMany {
     /// One translation.

@@ -1,33 +1,30 @@
 //! The tables `[run]` and `[numerics]`: how long, how fine, under which forces.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::Serialize;
+use sph_core::parameters;
 
 use crate::{GravityOverTime, Motion};
 
 /// How long the scene runs and how carefully.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Run {
     /// Simulated time at which the run ends, s.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub end: f64,
     /// Factor on the largest stable time step of the plugins.
-    #[serde(default = "one")]
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0, "quantity" = "safety factor"))]
+    #[parameter(default: 1.0, unit: "1", above: 0.0, max: 1.0, quantity: "safety factor")]
     pub safety: f64,
     /// How often a failing step is retried with half the time step before the run stops.
-    #[serde(default = "eight")]
-    #[schemars(range(min = 0, max = 60))]
+    #[parameter(default: 8, min: 0, max: 60)]
     pub retries: u32,
     /// Largest number of steps; no limit if left out.
-    #[schemars(range(min = 1))]
+    #[parameter(min: 1)]
     pub max_steps: Option<u64>,
     /// Simulated time between checkpoints, s; a tenth of `end` if left out.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub checkpoint_every: Option<f64>,
     /// Wall-clock time after which the run stops with a checkpoint, s; no limit if left out.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub max_wall: Option<f64>,
 }
 
@@ -39,57 +36,53 @@ impl Run {
 }
 
 /// Resolution, forces, periodic directions and bounds.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Numerics {
     /// Distance of neighbouring particles at the start, m.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0, "quantity" = "spacing"))]
+    #[parameter(unit: "m", above: 0.0, quantity: "spacing")]
     pub spacing: f64,
     /// Smoothing length of the kernel over the spacing.
-    #[serde(default = "two")]
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 20.0, "quantity" = "smoothing ratio"))]
+    #[parameter(default: 2.0, unit: "1", above: 0.0, max: 20.0, quantity: "smoothing ratio")]
     pub smoothing_ratio: f64,
     /// Gravity, m/s², one entry per dimension; it is in balance with the pressure of walls. None if left out.
-    #[schemars(extend("unit" = "m/s²"))]
+    #[parameter(unit: "m/s²")]
     pub gravity: Option<Vec<f64>>,
     /// What is added to `gravity` over time.
     pub gravity_over_time: Option<GravityOverTime>,
     /// Motion of the frame that the scene is drawn in, as that of a wall but without rotation: its acceleration is taken from `gravity`, and walls, levels and velocities count in the frame.
     pub frame: Option<Motion>,
     /// Force per mass that drives a flow, m/s², one entry per dimension; unlike gravity it does not enter the pressure of walls.
-    #[schemars(extend("unit" = "m/s²"))]
+    #[parameter(unit: "m/s²")]
     pub driving: Option<Vec<f64>>,
     /// Lower and upper bound of every periodic direction.
-    #[serde(default)]
+    #[parameter(default)]
     pub periodic: Periodic,
     /// ρ₀c₀² of all phases, Pa, which gives each its speed of sound c₀ = √(p_r/ρ₀); or "equal": that of the lightest phase. Phases keep their own speeds if left out (Krimi et al. 2018, Eq. 5 and 6).
     pub reference_pressure: Option<ReferencePressure>,
     /// Skin of the neighbour lists as a fraction of the kernel's support; chosen by the solver if left out.
-    #[schemars(extend("unit" = "1", "minimum" = 0.0, "maximum" = 2.0))]
+    #[parameter(unit: "1", min: 0.0, max: 2.0)]
     pub skin: Option<f64>,
     /// Lower and upper corner of the space that particles may be in, m; a particle outside stops the run.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub domain: Option<[Vec<f64>; 2]>,
     /// Least and largest density over the reference density; a particle outside fails the step. A particle alone in a splash sums 0.14 of the reference density, one folded into the bulk up to 1.5.
-    #[serde(default = "loose_bounds")]
-    #[schemars(inner(range(min = 0.0)), extend("unit" = "1"))]
+    #[parameter(default: [0.01, 3.0], unit: "1")]
+    #[schemars(inner(range(min = 0.0)))]
     pub density_bounds: [f64; 2],
     /// Whether more than a tenth of the mass may be faster than its sound; the run ends if not.
-    #[serde(default)]
+    #[parameter(default)]
     pub supersonic: bool,
     /// Whether a solve for stresses of the end of the step may bear more than a twentieth of a soil's weight beyond its strength; the run fails at its end if not.
-    #[serde(default)]
+    #[parameter(default)]
     pub delayed_yield: bool,
     /// Largest random displacement of a particle at the start along each axis, as a fraction of the spacing; if left out 0, and 0.01 in a scene that shifts particles, which a perfect lattice keeps from doing so.
-    #[schemars(extend("unit" = "1", "minimum" = 0.0, "exclusiveMaximum" = 0.5))]
+    #[parameter(unit: "1", min: 0.0, below: 0.5)]
     pub disorder: Option<f64>,
     /// Largest random velocity of a particle at the start along each axis, m/s, on top of its own.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m/s", "minimum" = 0.0))]
+    #[parameter(default, unit: "m/s", min: 0.0)]
     pub velocity_noise: f64,
     /// Seed of the random displacement and velocity.
-    #[serde(default = "one_seed")]
-    #[schemars(range(min = 0))]
+    #[parameter(default: 1, min: 0)]
     pub seed: u64,
     /// Settling of the particles before the start; none if left out.
     pub relax: Option<Relax>,
@@ -97,58 +90,49 @@ pub struct Numerics {
 
 /// The pressure ρ₀c₀² that all phases have in common: they are equally compressible, and ρ/ρ₀ has
 /// no jump where the pressure has none.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, serde::Serialize, JsonSchema)]
+#[parameters]
+#[derive(Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum ReferencePressure {
     /// Its value, Pa.
-    Value(#[schemars(extend("unit" = "Pa", "exclusiveMinimum" = 0.0))] f64),
+    Value(#[parameter(unit: "Pa", above: 0.0)] f64),
     /// That of one of the phases.
     Of(PressureOf),
 }
 
 /// Whose reference pressure all phases have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum PressureOf {
     /// That of the phase with the least density.
     Equal,
 }
 
 /// Settling of the first particles until their density is even.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[parameters]
+#[derive(PartialEq, Serialize)]
 pub struct Relax {
     /// Largest number of steps.
-    #[schemars(range(min = 1, max = 1_000_000))]
+    #[parameter(default: 200, min: 1, max: 1_000_000)]
     pub steps: u32,
     /// Largest error of the density, relative to the reference density, at which it ends.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
+    #[parameter(default: 0.01, unit: "1", above: 0.0, below: 1.0)]
     pub tolerance: f64,
 }
 
-impl Default for Relax {
-    fn default() -> Self {
-        Relax {
-            steps: 200,
-            tolerance: 0.01,
-        }
-    }
-}
-
 /// Lower and upper bound of every periodic direction, m.
-#[derive(Clone, Copy, Debug, Default, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
+#[derive(Serialize)]
 pub struct Periodic {
     /// Lower and upper bound along x, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub x: Option<[f64; 2]>,
     /// Lower and upper bound along y, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y: Option<[f64; 2]>,
     /// Lower and upper bound along z, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z: Option<[f64; 2]>,
 }
@@ -164,24 +148,4 @@ impl Periodic {
         let all = self.axes();
         std::array::from_fn(|k| all.get(k).and_then(|a| a.1))
     }
-}
-
-fn one() -> f64 {
-    1.0
-}
-
-fn two() -> f64 {
-    2.0
-}
-
-fn eight() -> u32 {
-    8
-}
-
-fn one_seed() -> u64 {
-    1
-}
-
-fn loose_bounds() -> [f64; 2] {
-    [0.01, 3.0]
 }

@@ -1,7 +1,6 @@
 //! The table `[outlet.NAME]`: where particles leave the flow.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 
 use crate::{Axis, Heading};
 
@@ -10,15 +9,14 @@ use crate::{Axis, Heading};
 /// A particle that is there at the end of a step is taken out, and its mass counted. Nothing is
 /// there at the start. Neither the outlet nor what has left through it holds the flow back: what is upstream
 /// feels the empty place as a free surface, which suits falls and flows faster than their waves.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Outlet {
     /// Lower and upper corner of a box, m.
     #[serde(rename = "box")]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub bounds: Option<[Vec<f64>; 2]>,
     /// Place of a plane along `axis`, m: what is beyond it leaves.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub beyond: Option<f64>,
     /// Axis across which the plane stands; x if left out.
     pub axis: Option<Axis>,

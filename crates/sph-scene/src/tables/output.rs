@@ -1,55 +1,40 @@
 //! The table `[output]`: what a run writes and when.
 
 use scene_text::PictureRange;
-use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer};
+use sph_core::parameters;
 
 /// What a run writes and when.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[parameters]
 pub struct Output {
     /// Simulated time between outputs of fields, s; a hundredth of the end if neither this nor `times` is given.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(default, unit: "s", above: 0.0)]
     pub every: Option<f64>,
     /// Times of the outputs of fields, s, rising.
-    #[schemars(extend("unit" = "s"))]
+    #[parameter(default, unit: "s")]
     pub times: Option<Vec<f64>>,
     /// Simulated time between rows of the series, s; a thousandth of the end if left out.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(default, unit: "s", above: 0.0)]
     pub series_every: Option<f64>,
     /// Names of the fields that are written.
+    #[parameter(default: ["velocity", "pressure", "density"].map(String::from).to_vec())]
     pub fields: Vec<String>,
     /// Name of a field, or a list of names, of which pictures are drawn.
     #[serde(deserialize_with = "one_or_many")]
     #[schemars(with = "OneOrMany")]
+    #[parameter(default)]
     pub picture: Vec<String>,
     /// Values at the ends of the pictures' colours, SI: `[low, high]` for all pictures, or a table of fields with such
     /// pairs. Where none is given: pressure of the fluid at rest and `velocity_scale`, for other fields round numbers that hold
     /// 98 % of the values of the first picture in which they differ.
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(default, unit: "1")]
     pub picture_range: Option<PictureRange>,
     /// Pictures per second of the film of every field that has pictures, `animations/NAME.gif`; 10 if left out, 0 for no film.
-    #[schemars(extend("unit" = "1/s"), range(min = 0.0, max = 50.0))]
+    #[parameter(default, unit: "1/s", min: 0.0, max: 50.0)]
     pub animation: Option<f64>,
     /// Whether files for ParaView are written.
+    #[parameter(default: true)]
     pub vtk: bool,
-}
-
-impl Default for Output {
-    fn default() -> Self {
-        Output {
-            every: None,
-            times: None,
-            series_every: None,
-            fields: ["velocity", "pressure", "density"]
-                .map(String::from)
-                .to_vec(),
-            picture: Vec::new(),
-            picture_range: None,
-            animation: None,
-            vtk: true,
-        }
-    }
 }
 
 impl Output {
@@ -82,7 +67,7 @@ impl Output {
     }
 }
 
-#[derive(Deserialize, JsonSchema)]
+#[parameters]
 #[serde(untagged)]
 enum OneOrMany {
     /// One field.

@@ -2,15 +2,13 @@
 
 use std::path::PathBuf;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 use toml::Table;
 
 use crate::reading::plugins::AnyTable;
 
 /// A comparison of a probe or a field with data or with a closed form.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Reference {
     /// Name of the probe or gauge that is compared; with the suffix of the column where it has several, `drop.highest`.
     pub probe: Option<String>,
@@ -21,45 +19,41 @@ pub struct Reference {
     /// Name of a reference solution in closed form.
     pub solution: Option<String>,
     /// Parameters of the reference solution.
-    #[serde(default)]
+    #[parameter(default)]
     #[schemars(with = "AnyTable")]
     pub parameters: Table,
     /// Names of the file's columns of time (or place) and value; the first two columns if left out.
-    #[schemars(length(min = 2, max = 2))]
+    #[parameter(min_items: 2, max_items: 2)]
     pub columns: Option<Vec<String>>,
     /// Column of the lower limit, for the norm `band`.
     pub lower: Option<String>,
     /// Column of the upper limit, for the norm `band`.
     pub upper: Option<String>,
     /// Factor that turns the file's first column into SI.
-    #[serde(default = "one")]
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(default: 1.0, unit: "1")]
     pub scale_time: f64,
     /// Factor that turns the file's values into SI.
-    #[serde(default = "one")]
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(default: 1.0, unit: "1")]
     pub scale_value: f64,
     /// Added to the first column after scaling.
-    #[serde(default)]
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(default, unit: "1")]
     pub offset_time: f64,
     /// Added to the values after scaling.
-    #[serde(default)]
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(default, unit: "1")]
     pub offset_value: f64,
     /// Width of the centred moving mean taken of the probe before it is compared, s: it removes the sound that a weakly compressible fluid adds. None if left out.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub average: Option<f64>,
     /// First and last time that counts, s; all times if left out.
-    #[schemars(extend("unit" = "s"))]
+    #[parameter(unit: "s")]
     pub window: Option<[f64; 2]>,
     /// First and last time that does not count, s.
-    #[schemars(extend("unit" = "s"))]
+    #[parameter(unit: "s")]
     pub exclude: Option<[f64; 2]>,
     /// Value of the reference in SI, for the norm `mean`.
     pub value: Option<f64>,
     /// Period of the reference, s, for the norms `lag` and `period`.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub period: Option<f64>,
     /// How the difference becomes one number; `rms-over-range` for probes and `l2` for fields if left out.
     pub norm: Option<Norm>,
@@ -71,8 +65,7 @@ pub struct Reference {
 /// How a difference becomes one number.
 ///
 /// `u` is the result and `e` the reference; over particles the sums weigh with the volume V.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Norm {
     /// Root-mean-square of u − e at the reference's times over the range of e.
     RmsOverRange,
@@ -166,8 +159,4 @@ impl Reference {
         };
         self.norm.unwrap_or(default)
     }
-}
-
-fn one() -> f64 {
-    1.0
 }

@@ -3,9 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{SceneProblem, Vect};
+use sph_core::{SceneProblem, Vect, parameters};
 
 use crate::geometry::vector::array;
 use crate::reading::plugins::{PluginChoice, Plugins, Probe, in_table, probes, single};
@@ -19,15 +17,14 @@ use crate::{Body, Numerics, Outlet, Output, Phase, Reference, Region, Run, Wall}
 pub const OFF_LATTICE: f64 = 0.01;
 
 /// A scene: what flows where, under which laws, for how long, and what is written.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Scene {
     /// One line that says what the scene is, with its publication.
     pub title: String,
     /// What the scene shows and what to look at.
     pub description: Option<String>,
     /// Number of space dimensions.
-    #[schemars(range(min = 2, max = 3))]
+    #[parameter(min: 2, max: 3)]
     pub dimension: usize,
     /// How long the scene runs and how carefully.
     pub run: Run,
@@ -37,23 +34,23 @@ pub struct Scene {
     #[serde(skip)]
     pub(crate) plugins: BTreeMap<&'static str, Plugins>,
     /// Walls by name, `[wall.NAME]`.
-    #[serde(default)]
+    #[parameter(default)]
     pub wall: BTreeMap<String, Wall>,
     /// Materials by name, `[phase.NAME]`, at least one.
-    #[serde(default)]
+    #[parameter(default)]
     pub phase: BTreeMap<String, Phase>,
     /// Bodies by name, `[body.NAME]`, at least one.
-    #[serde(default)]
+    #[parameter(default)]
     pub body: BTreeMap<String, Body>,
     /// Places where particles leave, by name, `[outlet.NAME]`.
-    #[serde(default)]
+    #[parameter(default)]
     pub outlet: BTreeMap<String, Outlet>,
     /// Measurements by name, `[probe.NAME]`; `kind` is the plugin, the other keys its parameters.
-    #[serde(default)]
+    #[parameter(default)]
     #[schemars(with = "BTreeMap<String, Probe>")]
     pub probe: Plugins,
     /// Measurements at fixed places, `[gauge.NAME]`; the same as probes.
-    #[serde(default)]
+    #[parameter(default)]
     #[schemars(with = "BTreeMap<String, Probe>")]
     pub gauge: Plugins,
     /// Remarks on its numbers, each with its place in the text.
@@ -63,10 +60,10 @@ pub struct Scene {
     #[serde(skip)]
     pub probe_files: BTreeMap<String, PathBuf>,
     /// Comparisons by name, `[reference.NAME]`; their errors are in the summary.
-    #[serde(default)]
+    #[parameter(default)]
     pub reference: BTreeMap<String, Reference>,
     /// What is written and when.
-    #[serde(default)]
+    #[parameter(default)]
     pub output: Output,
 }
 

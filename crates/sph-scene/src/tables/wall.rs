@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 
 use crate::Motion;
 use crate::reading::plugins::{AnyPlugins, Plugins};
@@ -14,29 +13,28 @@ use crate::tables::wall_shapes::{
 /// A solid wall with a name: exactly one geometry, how the fluid meets it and how it moves.
 ///
 /// The geometry is scaled, then turned by `rotate`, then shifted by `translate`.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Wall {
     /// Corners of the wall in order, m; the fluid is on the left of travel. Two dimensions only.
-    #[schemars(length(min = 2), extend("unit" = "m"))]
+    #[parameter(unit: "m", min_items: 2)]
     pub polyline: Option<Vec<Vec<f64>>>,
     /// Whether the last corner of the `polyline` is joined to the first.
-    #[serde(default)]
+    #[parameter(default)]
     pub closed: bool,
     /// Thickness of a plate, m, half of it on either side of the `polyline`; a plate has two faces and wets on both.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub thickness: Option<f64>,
     /// Corners of a polygon in order, m, either way round; it closes itself. Two dimensions only.
-    #[schemars(length(min = 3), extend("unit" = "m"))]
+    #[parameter(unit: "m", min_items: 3)]
     pub polygon: Option<Vec<Vec<f64>>>,
     /// Disc by centre and radius. Two dimensions only.
     pub disc: Option<DiscWall>,
     /// Lower and upper corner of a box, m.
     #[serde(rename = "box")]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub bounds: Option<[Vec<f64>; 2]>,
     /// Faces of the `box` that are left out.
-    #[serde(default)]
+    #[parameter(default)]
     pub open: Vec<Face>,
     /// Sphere by centre and radius. Three dimensions only.
     pub sphere: Option<SphereWall>,
@@ -53,49 +51,50 @@ pub struct Wall {
     /// A CSV file has the columns x and y; a blank line or a line with `#` begins another line, and a line that ends where it began is closed.
     pub file: Option<String>,
     /// Factor on all coordinates, about the origin; 1 if left out.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "1", above: 0.0)]
     pub scale: Option<f64>,
     /// Unit of the coordinates of the `file`, such as "mm"; that in the heads of its columns, else metres, if left out.
     pub unit: Option<String>,
     /// Names of the CSV file's columns of x and y, or their numbers from 1; the only two if left out.
-    #[schemars(length(min = 2, max = 2))]
+    #[parameter(min_items: 2, max_items: 2)]
     pub columns: Option<Vec<String>>,
     /// Shift of the geometry, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub translate: Option<Vec<f64>>,
     /// Turn of the geometry, before it is shifted.
     pub rotate: Option<Rotate>,
     /// Side of a closed geometry on which the fluid is: `inside` if left out, `as-drawn` for a file. A `polyline` has the fluid on the left of travel.
     pub fluid: Option<Side>,
     /// Whether a `polyline`, or what a `file` has, is turned round: the fluid is on the other side.
-    #[serde(default)]
+    #[parameter(default)]
     pub flip: bool,
     /// Whether facets of an STL file that face the other way than most of those they hang together with are turned
     /// round.
-    #[serde(default)]
+    #[parameter(default)]
     pub align: bool,
     /// Whether the fluid sticks to the wall.
-    #[serde(default)]
+    #[parameter(default)]
     pub condition: Condition,
     /// Slip length, m, for `condition = "partial-slip"`: how deep in the wall the fluid's velocity, continued straight, is the wall's.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub slip_length: Option<f64>,
     /// Coefficient of friction μ, for `condition = "coulomb"`: soils that slide are pulled with μ times what they press on the wall.
-    #[schemars(extend("unit" = "1", "minimum" = 0.0))]
+    #[parameter(unit: "1", min: 0.0)]
     pub friction_coefficient: Option<f64>,
     /// How that friction is shared out, for `condition = "coulomb"`.
     pub friction_form: Option<FrictionForm>,
     /// Velocity of the wall's surface, m/s, while its geometry stays: a belt.
-    #[schemars(extend("unit" = "m/s"))]
+    #[parameter(unit: "m/s")]
     pub velocity: Option<Vec<f64>>,
     /// Rigid motion of the geometry, prescribed.
     pub motion: Option<Motion>,
     /// What moves the geometry instead, with the force of the fluid on it, `[wall.NAME.mover.PLUGIN]`; none if left out.
-    #[serde(default)]
+    #[parameter(default)]
     #[schemars(with = "AnyPlugins")]
     pub mover: Plugins,
     /// What the fluid meets where it passes the geometry, `[wall.NAME.open-boundary.PLUGIN]`; a solid wall if left out.
-    #[serde(default, rename = "open-boundary")]
+    #[serde(rename = "open-boundary")]
+    #[parameter(default)]
     #[schemars(with = "AnyPlugins")]
     pub open_boundary: Plugins,
     /// The file with its folder, set when the scene is read.
@@ -107,8 +106,7 @@ pub struct Wall {
 }
 
 /// What a wall does to the velocity along it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Condition {
     /// The fluid moves with the wall.
     #[default]
@@ -122,8 +120,7 @@ pub enum Condition {
 }
 
 /// How Coulomb's friction at a wall is shared out among the particles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum FrictionForm {
     /// All of it: the coefficient times the force on the wall.
     #[default]
@@ -133,8 +130,7 @@ pub enum FrictionForm {
 }
 
 /// On which side of a closed geometry the fluid is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Side {
     /// Inside: a tank, a pipe.
     Inside,

@@ -1,10 +1,9 @@
 //! Shapes of walls that a scene gives by a few numbers.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 
 /// A face of a box, or a direction along an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[parameters]
 pub enum Face {
     /// Towards less x.
     #[serde(rename = "x-")]
@@ -44,8 +43,7 @@ impl Face {
 }
 
 /// An axis of space.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Axis {
     /// The first.
     X,
@@ -56,138 +54,124 @@ pub enum Axis {
 }
 
 /// A disc as a regular polygon, its corners on the circle.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct DiscWall {
     /// Centre, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub centre: Vec<f64>,
     /// Radius of the circle through the corners, m.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub radius: f64,
     /// Number of sides; about one per spacing of the circumference if left out.
-    #[schemars(range(min = 3, max = 100_000))]
+    #[parameter(min: 3, max: 100_000)]
     pub sides: Option<usize>,
     /// Angle, rad, anticlockwise from +x, at which the first corner lies.
-    #[serde(default)]
-    #[schemars(extend("unit" = "rad"))]
+    #[parameter(default, unit: "rad")]
     pub turn: f64,
 }
 
 /// A sphere as an icosahedron of divided faces, its corners on the sphere.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct SphereWall {
     /// Centre, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub centre: Vec<f64>,
     /// Radius of the sphere through the corners, m.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub radius: f64,
     /// Number n of parts of every edge of the icosahedron, which gives 20 n² triangles; with edges of about one spacing if left out.
-    #[schemars(range(min = 1, max = 500))]
+    #[parameter(min: 1, max: 500)]
     pub subdivisions: Option<usize>,
 }
 
 /// A cylinder as a prism over a regular polygon, its corners on the circle.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct CylinderWall {
     /// Centre of one end, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub from: Vec<f64>,
     /// Centre of the other end, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub to: Vec<f64>,
     /// Radius of the circle through the corners, m.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub radius: f64,
     /// Number of sides; about one per spacing of the circumference if left out.
-    #[schemars(range(min = 3, max = 100_000))]
+    #[parameter(min: 3, max: 100_000)]
     pub sides: Option<usize>,
     /// Angle, rad, right-handed about the direction of travel, from +x for a cylinder along z (+y along x, +z along y) at which the first corner lies. A slanted cylinder counts as along the axis it is nearest to.
-    #[serde(default)]
-    #[schemars(extend("unit" = "rad"))]
+    #[parameter(default, unit: "rad")]
     pub turn: f64,
     /// Whether the two flat ends are left out: a pipe.
-    #[serde(default)]
+    #[parameter(default)]
     pub open_ends: bool,
 }
 
 /// A cone over a regular polygon, its corners on the circle.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct ConeWall {
     /// Centre of the base, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub base: Vec<f64>,
     /// Tip, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub apex: Vec<f64>,
     /// Radius of the circle through the corners of the base, m.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub radius: f64,
     /// Number of sides, 4 for a pyramid; about one per spacing of the base's circumference if left out.
-    #[schemars(range(min = 3, max = 100_000))]
+    #[parameter(min: 3, max: 100_000)]
     pub sides: Option<usize>,
     /// Angle, rad, right-handed about the direction from base to apex, from +x for a cone along z (+y along x, +z along y) at which the first corner lies; "45 deg" turns the faces of an upright pyramid to the axes.
-    #[serde(default)]
-    #[schemars(extend("unit" = "rad"))]
+    #[parameter(default, unit: "rad")]
     pub turn: f64,
 }
 
 /// A ramp: the half of a box below the diagonal plane that rises in one direction.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Wedge {
     /// Lower corner of the box, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub lo: Vec<f64>,
     /// Upper corner of the box, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub hi: Vec<f64>,
     /// Direction in which the ramp rises.
-    #[serde(default = "along_x")]
+    #[parameter(default: Face::XPlus)]
     pub rise: Face,
     /// Direction that is up; `y+` in 2D and `z+` in 3D if left out.
     pub up: Option<Face>,
 }
 
 /// A polygon drawn out along an axis.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct ExtrusionWall {
     /// Corners of the polygon in order, m, either way round, as the two coordinates across the axis: (y, z), (x, z) or (x, y).
-    #[schemars(length(min = 3), extend("unit" = "m"))]
+    #[parameter(unit: "m", min_items: 3)]
     pub polygon: Vec<Vec<f64>>,
     /// Axis along which it is drawn out.
     pub axis: Axis,
     /// Coordinate of one end along the axis, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub from: f64,
     /// Coordinate of the other end along the axis, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub to: f64,
     /// Whether the two flat ends are left out.
-    #[serde(default)]
+    #[parameter(default)]
     pub open_ends: bool,
 }
 
 /// A turn about a point, in space about an axis.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Rotate {
     /// Axis, right-handed; its length does not matter. Three dimensions only, and needed there.
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(unit: "1")]
     pub axis: Option<Vec<f64>>,
     /// Angle, rad, anticlockwise.
-    #[schemars(extend("unit" = "rad"))]
+    #[parameter(unit: "rad")]
     pub angle: f64,
     /// Point that stays, m; the origin if left out.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub centre: Option<Vec<f64>>,
-}
-
-fn along_x() -> Face {
-    Face::XPlus
 }

@@ -1,7 +1,6 @@
 //! Waves that a body carries at the start.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 
 use crate::geometry::level::nearest;
 
@@ -21,40 +20,37 @@ use crate::geometry::level::nearest;
 /// Symbols: H₀ height (m), h₀ depth (m), x₀ crest (m), c celerity (m/s), k (1/m).
 ///
 /// Source: Ghaïtanellis 2017, Eqs. 5.22–5.24.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
+#[derive(Copy, PartialEq)]
 pub struct Wave {
     /// Which wave: `solitary`.
     pub kind: WaveKind,
     /// Height H₀ of the crest over the still water, m.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub height: f64,
     /// Depth h₀ of the still water, m.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub depth: f64,
     /// Place x₀ of the crest along x, m.
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(unit: "m")]
     pub crest: f64,
     /// Height of the bed along the last axis, m.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub bottom: f64,
     /// Way of the wave along x.
-    #[serde(default)]
+    #[parameter(default)]
     pub direction: Heading,
 }
 
 /// Kinds of waves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum WaveKind {
     /// One crest, sech².
     Solitary,
 }
 
 /// One of the two ways along x.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Heading {
     /// Towards larger x.
     #[default]

@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use serde_json::Value as Json;
+use sph_core::parameters;
 use toml::{Table, Value};
 
 use crate::running::cost::Scaling;
@@ -13,8 +12,7 @@ use crate::running::cost::Scaling;
 type SceneValues = serde_json::Map<String, Json>;
 
 /// A study file as it stands.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct StudyFile {
     /// One line that says what is compared.
     pub title: String,
@@ -23,53 +21,51 @@ pub struct StudyFile {
     /// The scene: a path relative to the study file, or the name of a shipped scene. Every `axis` may have its own.
     pub scene: Option<String>,
     /// Name, or names, of the scene's references by which variants are judged; plots show the first.
-    #[serde(default)]
+    #[parameter(default)]
     pub error: OneOrMany,
     /// Scene values put on every variant.
-    #[serde(default)]
+    #[parameter(default)]
     #[schemars(with = "SceneValues")]
     pub set: Table,
     /// What is varied.
-    #[serde(default)]
+    #[parameter(default)]
     pub vary: Vec<Axis>,
     /// Instead of `vary`: axes that are gone along one by one, each from harmless to absurd, until it breaks.
-    #[serde(default)]
+    #[parameter(default)]
     pub axis: Vec<Ladder>,
     /// Combinations of plugins with which every `axis` is gone along; the scenes' own if left out.
-    #[serde(default)]
+    #[parameter(default)]
     pub combination: Vec<Combination>,
     /// Bounds of green and of yellow by quantity, for every `axis` that gives none of its own.
-    #[serde(default)]
+    #[parameter(default)]
     pub judge: Bounds,
     /// Whether axes are crossed or go side by side.
-    #[serde(default)]
+    #[parameter(default)]
     pub combine: Combine,
     /// Key of the scene over which the order of convergence is computed; `numerics.spacing` if left out and varied.
     pub refinement: Option<String>,
     /// Cost against the number of particles, told besides `error` or without one.
     pub scaling: Option<Scaling>,
     /// How often a variant is run; its time is the least.
-    #[serde(default = "one")]
-    #[schemars(range(min = 1, max = 1000))]
+    #[parameter(default: 1, min: 1, max: 1000)]
     pub repetitions: usize,
     /// Whether variants run one by one with all threads, or side by side with one thread each.
-    #[serde(default = "yes")]
+    #[parameter(default: true)]
     pub serial: bool,
     /// Wall-clock time after which a variant is given up, s; no limit if left out.
-    #[schemars(extend("unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "s", above: 0.0)]
     pub time_limit: Option<f64>,
     /// Whether variants write the pictures, fields and checkpoints that the scene asks for.
-    #[serde(default)]
+    #[parameter(default)]
     pub keep_output: bool,
     /// Combinations that are left out: names of axes, each with a label or a list of labels.
-    #[serde(default)]
+    #[parameter(default)]
     #[schemars(with = "Vec<BTreeMap<String, Json>>")]
     pub skip: Vec<BTreeMap<String, Value>>,
 }
 
 /// One direction in which variants differ.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Axis {
     /// Name in tables and plots; the last part of `key` if left out.
     pub name: Option<String>,
@@ -85,8 +81,7 @@ pub struct Axis {
 }
 
 /// An axis that is gone along until it breaks.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Ladder {
     /// Name in tables and folders.
     pub name: String,
@@ -95,10 +90,10 @@ pub struct Ladder {
     /// Scene of this axis; the study's if left out.
     pub scene: Option<String>,
     /// References of the scene that are told; the plot shows the first.
-    #[serde(default)]
+    #[parameter(default)]
     pub error: OneOrMany,
     /// Scene values put on every run of this axis.
-    #[serde(default)]
+    #[parameter(default)]
     #[schemars(with = "SceneValues")]
     pub set: Table,
     /// Key of the scene that takes the `values`.
@@ -114,24 +109,23 @@ pub struct Ladder {
     #[schemars(with = "Option<Json>")]
     pub must: Option<Value>,
     /// Bounds of green and of yellow by quantity: a reference, or what every run has.
-    #[serde(default)]
+    #[parameter(default)]
     pub judge: Bounds,
     /// Whether what comes after a red value is run all the same.
-    #[serde(default)]
+    #[parameter(default)]
     pub to_the_end: bool,
 }
 
 /// A combination of plugins with which axes are gone along.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Combination {
     /// Name in tables and folders.
     pub name: String,
     /// Names of the axes that it is for; all if left out.
-    #[serde(default)]
+    #[parameter(default)]
     pub axes: Vec<String>,
     /// Scene values that it sets, before those of the axis' values.
-    #[serde(default)]
+    #[parameter(default)]
     #[schemars(with = "SceneValues")]
     pub set: Table,
 }
@@ -140,20 +134,18 @@ pub struct Combination {
 pub type Bounds = BTreeMap<String, [f64; 2]>;
 
 /// A named place on an axis.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct Entry {
     /// Name in tables, plots and folders.
     pub name: String,
     /// Scene values that it sets; a plugin takes the place of the present one, `shifting = {}` removes it.
-    #[serde(default)]
+    #[parameter(default)]
     #[schemars(with = "SceneValues")]
     pub set: Table,
 }
 
 /// How axes make variants.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Combine {
     /// Every value with every other.
     #[default]
@@ -163,7 +155,7 @@ pub enum Combine {
 }
 
 /// One name or several.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[parameters]
 #[serde(untagged)]
 pub enum OneOrMany {
     /// One.
@@ -189,12 +181,4 @@ impl OneOrMany {
             }
         }
     }
-}
-
-fn one() -> usize {
-    1
-}
-
-fn yes() -> bool {
-    true
 }

@@ -1,21 +1,21 @@
 //! What a run costs: a step, or a solve.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use sph_core::parameters;
 
 /// A cost that is told against the number of particles.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[parameters]
 pub struct Scaling {
     /// Of what.
+    #[parameter(default)]
     pub cost: Cost,
     /// Name of the axis whose entries compete: for each size the fastest is told, and where another takes over.
+    #[parameter(default)]
     pub between: Option<String>,
 }
 
 /// What costs time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Cost {
     /// A step, everything included.
     #[default]

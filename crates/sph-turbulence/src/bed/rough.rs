@@ -1,9 +1,7 @@
 //! A bed as a rough wall: what a scene says of it.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Refusal, Setting};
-use sph_core::suggestion;
+use sph_core::{parameters, suggestion};
 
 use crate::kind::KIND;
 use crate::wall::WallLaw;
@@ -15,14 +13,12 @@ use crate::wall::WallLaw;
 /// would take the share of the kernel that this one does, not less than a quarter of the spacing.
 ///
 /// Sources: Nikuradse 1933 (law); the viscosity of the first row is that of wall functions on grids. The distance is ours.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct RoughBed {
     /// Name of the phase that the bed is of.
     pub phase: String,
     /// Equivalent sand roughness k_s: about 2.5 d50 of a flat bed. At most the spacing.
-    #[serde(default)]
-    #[schemars(range(min = 0.0), extend("unit" = "m", "source" = "Nikuradse 1933"))]
+    #[parameter(default, unit: "m", min: 0.0, source: "Nikuradse 1933")]
     pub roughness: f64,
 }
 

@@ -1,12 +1,10 @@
 //! How wide the filter of a large-eddy simulation is.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 use sph_neighbours::World;
 
 /// A length that particles have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum FilterLength {
     /// The smoothing length h.
     SmoothingLength,

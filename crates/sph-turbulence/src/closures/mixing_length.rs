@@ -1,9 +1,7 @@
 //! Prandtl's mixing length.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Contribution, Setting};
-use sph_core::{Access, Declares, Stage, StepError, fields, register};
+use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_neighbours::World;
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
@@ -27,41 +25,31 @@ use crate::columns::{FRICTION_VELOCITY, WALL_DISTANCE};
 /// depth = "0.4 m"
 /// walls = ["bed"]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(EddyViscosityEntry [2, 3], "mixing-length",
+    "a length by the distance from walls, squared, times the strain rate",
+    source: "Prandtl 1925; Issa 2004, Eq. 5.57, 6.14, 6.19")]
 pub struct MixingLength {
     /// Von Kármán's κ.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.14"))]
+    #[parameter(default: 0.41, unit: "1", above: 0.0, source: "Issa 2004, Eq. 6.14")]
     pub karman: f64,
     /// Depth H of an open channel.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.19"))]
+    #[parameter(default, unit: "m", above: 0.0, source: "Issa 2004, Eq. 6.19")]
     pub depth: Option<f64>,
     /// L is not larger; unbounded if left out.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(default, unit: "m", above: 0.0)]
     pub longest: Option<f64>,
     /// Names of the walls that z counts from; all if left out.
+    #[parameter(default)]
     pub walls: Vec<String>,
     /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
+    #[parameter(default)]
     pub phases: Vec<String>,
     /// The bed of another phase as a rough wall.
+    #[parameter(default)]
     pub bed: Option<RoughBed>,
     /// u* of the strain rate u*/(κz) that takes the place of the flow's.
-    #[schemars(extend("unit" = "m/s", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.39"))]
+    #[parameter(default, unit: "m/s", above: 0.0, source: "Issa 2004, Eq. 6.39")]
     pub imposed_friction_velocity: Option<f64>,
-}
-
-impl Default for MixingLength {
-    fn default() -> Self {
-        MixingLength {
-            karman: 0.41,
-            depth: None,
-            longest: None,
-            walls: Vec::new(),
-            phases: Vec::new(),
-            bed: None,
-            imposed_friction_velocity: None,
-        }
-    }
 }
 
 impl MixingLength {
@@ -144,14 +132,6 @@ impl<const D: usize> EddyViscosity<D> for MixingLength {
         Some(Box::new(self.behind()))
     }
 }
-
-register!(
-    EddyViscosityEntry [2, 3],
-    MixingLength,
-    "mixing-length",
-    "a length by the distance from walls, squared, times the strain rate",
-    "Prandtl 1925; Issa 2004, Eq. 5.57, 6.14, 6.19"
-);
 
 #[cfg(test)]
 mod tests {

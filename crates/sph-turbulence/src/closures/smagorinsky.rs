@@ -1,9 +1,9 @@
 //! Smagorinsky's closure of large-eddy simulations.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Contribution, OwnColumn, Refusal, Setting, Stages, StepWork};
-use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, StepError, fields, register};
+use sph_core::{
+    Access, AnyField, Declares, Field, Scalar, Stage, StepError, fields, parameters, plugin,
+};
 use sph_neighbours::World;
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
@@ -17,8 +17,7 @@ use crate::columns::{DAMPING_UNITS, LAST_STRAIN};
 use crate::kind::KIND;
 
 /// What lessens the eddies near walls.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Damping {
     /// Nothing.
     #[default]
@@ -41,46 +40,34 @@ pub enum Damping {
 /// coefficient = 0.1
 /// damping = "van-driest"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(EddyViscosityEntry [2, 3], "smagorinsky", "large eddies: the filter width squared times the strain rate",
+    source: "Smagorinsky 1963; Issa 2004, Eq. 5.53")]
 pub struct Smagorinsky {
     /// C_S.
-    #[schemars(range(min = 0.0), extend("unit" = "1", "source" = "Issa 2004, Eq. 5.53"))]
+    #[parameter(default: 0.1, unit: "1", min: 0.0, source: "Issa 2004, Eq. 5.53")]
     pub coefficient: f64,
     /// Δ over the length that `filter_length` names.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 5.53: 2h"))]
+    #[parameter(default: 2.0, unit: "1", above: 0.0, source: "Issa 2004, Eq. 5.53: 2h")]
     pub filter: f64,
     /// What Δ is a multiple of.
+    #[parameter(default: FilterLength::SmoothingLength)]
     pub filter_length: FilterLength,
     /// What lessens the eddies near walls.
-    #[schemars(extend("source" = "van Driest 1956"))]
+    #[parameter(default: Damping::None, source: "van Driest 1956")]
     pub damping: Damping,
     /// Of which step the strain rate is.
-    #[schemars(extend("source" = "ours"))]
+    #[parameter(default: StrainOf::ThisStep, source: "ours")]
     pub strain_of: StrainOf,
     /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
+    #[parameter(default)]
     pub phases: Vec<String>,
     /// The bed of another phase as a rough wall.
+    #[parameter(default)]
     pub bed: Option<RoughBed>,
 }
 
-impl Default for Smagorinsky {
-    fn default() -> Self {
-        Smagorinsky {
-            coefficient: 0.1,
-            filter: 2.0,
-            filter_length: FilterLength::SmoothingLength,
-            damping: Damping::None,
-            strain_of: StrainOf::ThisStep,
-            phases: Vec::new(),
-            bed: None,
-        }
-    }
-}
-
 /// Of which step the strain rate is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum StrainOf {
     /// Of this one, by a walk over the neighbours before the interactions.
     #[default]
@@ -215,14 +202,6 @@ impl<const D: usize> Contribution<D> for LargeEddies {
         Ok(works)
     }
 }
-
-register!(
-    EddyViscosityEntry [2, 3],
-    Smagorinsky,
-    "smagorinsky",
-    "large eddies: the filter width squared times the strain rate",
-    "Smagorinsky 1963; Issa 2004, Eq. 5.53"
-);
 
 #[cfg(test)]
 mod tests {

@@ -2,10 +2,8 @@
 
 use nalgebra::{Matrix3, SMatrix};
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Contribution, Setting};
-use sph_core::{Access, Declares, Stage, StepError, fields, register};
+use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_neighbours::World;
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
@@ -25,33 +23,25 @@ use crate::bed::RoughBed;
 /// ```toml
 /// [eddy-viscosity.wale]
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(EddyViscosityEntry [2, 3], "wale",
+    "large eddies without those of pure shear: falls with the third power of the distance from a wall",
+    source: "Nicoud and Ducros 1999, Eq. 13")]
 pub struct Wale {
     /// C_w.
-    #[schemars(range(min = 0.0), extend("unit" = "1", "source" = "Nicoud and Ducros 1999, §3"))]
+    #[parameter(default: 0.5, unit: "1", min: 0.0, source: "Nicoud and Ducros 1999, §3")]
     pub coefficient: f64,
     /// Δ over the length that `filter_length` names.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "source" = "Nicoud and Ducros 1999, §3"))]
+    #[parameter(default: 1.0, unit: "1", above: 0.0, source: "Nicoud and Ducros 1999, §3")]
     pub filter: f64,
     /// What Δ is a multiple of.
+    #[parameter(default: FilterLength::Spacing)]
     pub filter_length: FilterLength,
     /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
+    #[parameter(default)]
     pub phases: Vec<String>,
     /// The bed of another phase as a rough wall.
+    #[parameter(default)]
     pub bed: Option<RoughBed>,
-}
-
-impl Default for Wale {
-    fn default() -> Self {
-        Wale {
-            coefficient: 0.5,
-            filter: 1.0,
-            filter_length: FilterLength::Spacing,
-            phases: Vec::new(),
-            bed: None,
-        }
-    }
 }
 
 impl Wale {
@@ -120,14 +110,6 @@ impl<const D: usize> EddyViscosity<D> for Wale {
         Some(Box::new(self.behind()))
     }
 }
-
-register!(
-    EddyViscosityEntry [2, 3],
-    Wale,
-    "wale",
-    "large eddies without those of pure shear: falls with the third power of the distance from a wall",
-    "Nicoud and Ducros 1999, Eq. 13"
-);
 
 #[cfg(test)]
 mod tests {

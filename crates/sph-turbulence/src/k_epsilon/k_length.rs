@@ -1,10 +1,8 @@
 //! One transported scalar, and a length by the distance from walls.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork};
-use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, register};
+use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, plugin};
 use sph_neighbours::{Terms, World};
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
@@ -35,32 +33,32 @@ use crate::kind::KIND;
 /// energy = "1e-3 m²/s²"
 /// depth = "0.4 m"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(EddyViscosityEntry [2, 3], "k-length",
+    "one transported scalar, the energy of eddies, and a length by the distance from walls",
+    source: "Prandtl 1945; Issa 2004, Eq. 5.60–5.64")]
 pub struct KLength {
     /// k at the start.
-    #[schemars(extend("unit" = "m²/s²", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m²/s²", above: 0.0)]
     pub energy: f64,
     /// Von Kármán's κ.
-    #[serde(default = "crate::wall::karman")]
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.14"))]
+    #[parameter(default: crate::wall::karman(), unit: "1", above: 0.0, source: "Issa 2004, Eq. 6.14")]
     pub karman: f64,
     /// Depth H of an open channel.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.19"))]
+    #[parameter(unit: "m", above: 0.0, source: "Issa 2004, Eq. 6.19")]
     pub depth: Option<f64>,
     /// L is not larger; unbounded if left out.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[parameter(unit: "m", above: 0.0)]
     pub longest: Option<f64>,
     /// Names of the walls that z counts from; all if left out.
-    #[serde(default)]
+    #[parameter(default)]
     pub walls: Vec<String>,
     /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
-    #[serde(default)]
+    #[parameter(default)]
     pub phases: Vec<String>,
     /// The bed of another phase as a rough wall.
     pub bed: Option<RoughBed>,
     /// Whether production is damped where a free surface cuts the support: P (2C − 1), C = Σ V w/γ.
-    #[serde(default)]
+    #[parameter(default)]
     pub damped_at_surfaces: bool,
 }
 
@@ -285,14 +283,6 @@ impl<const D: usize> StepWork<D> for Sources {
         Ok(world.free.put(TURBULENT_ENERGY, energy)?)
     }
 }
-
-register!(
-    EddyViscosityEntry [2, 3],
-    KLength,
-    "k-length",
-    "one transported scalar, the energy of eddies, and a length by the distance from walls",
-    "Prandtl 1945; Issa 2004, Eq. 5.60–5.64"
-);
 
 #[cfg(test)]
 mod tests {

@@ -1,13 +1,11 @@
 //! The equations of the k–ε model at one place.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 
 use super::realisable::RealisableModel;
 
 /// Which equations k and ε follow.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Variant {
     /// Launder and Spalding 1974, with the production of Guimet and Laurence 2002: [`KEpsilonModel`].
     #[default]

@@ -1,12 +1,10 @@
 //! The k–ε closure as a plugin.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{
     Birth, Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork,
 };
-use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, register};
+use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, plugin};
 use sph_neighbours::{Terms, World};
 use sph_stress::StressDivergence;
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
@@ -45,52 +43,41 @@ use crate::kind::KIND;
 /// energy = "1e-3 m²/s²"
 /// dissipation = "1e-4 m²/s³"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[plugin(EddyViscosityEntry [2, 3], "k-epsilon", "two transported scalars: the energy of eddies and its dissipation",
+    source: "Launder and Spalding 1974; Issa 2004, Eq. 5.28–5.33")]
 pub struct KEpsilon {
     /// k at the start, everywhere; with `dissipation`.
-    #[schemars(extend("unit" = "m²/s²", "exclusiveMinimum" = 0.0))]
+    #[parameter(default, unit: "m²/s²", above: 0.0)]
     pub energy: Option<f64>,
     /// ε at the start, everywhere; with `energy`.
-    #[schemars(extend("unit" = "m²/s³", "exclusiveMinimum" = 0.0))]
+    #[parameter(default, unit: "m²/s³", above: 0.0)]
     pub dissipation: Option<f64>,
     /// The start of an open channel, in the place of `energy` and `dissipation`.
+    #[parameter(default)]
     pub channel: Option<ChannelStart>,
     /// κ of the wall values.
-    #[schemars(extend("unit" = "1", "exclusiveMinimum" = 0.0, "source" = "Issa 2004, Eq. 6.22"))]
+    #[parameter(default: 0.41, unit: "1", above: 0.0, source: "Issa 2004, Eq. 6.22")]
     pub karman: f64,
     /// Which equations.
+    #[parameter(default)]
     pub variant: Variant,
     /// What k and ε are next to walls with a wall function.
-    #[schemars(extend("source" = "Issa 2004, Eq. 5.33; Launder and Spalding 1974; Ferrand et al. 2013; the flux of ε is ours"))]
+    #[parameter(default,
+        source: "Issa 2004, Eq. 5.33; Launder and Spalding 1974; Ferrand et al. 2013; the flux of ε is ours")]
     pub at_wall: AtWall,
     /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.
+    #[parameter(default)]
     pub phases: Vec<String>,
     /// The bed of another phase as a rough wall.
+    #[parameter(default)]
     pub bed: Option<RoughBed>,
     /// Whether production is damped where a free surface cuts the support: P (2C − 1), C = Σ V w/γ.
+    #[parameter(default)]
     pub damped_at_surfaces: bool,
     /// Depth H of a channel at whose surface ε = k^{3/2}/(0.18 H), in the particles whose support the surface cuts by a quarter
     /// and more; nothing passes through the surface if left out.
-    #[schemars(extend("unit" = "m", "exclusiveMinimum" = 0.0, "source" = "Celik and Rodi 1984"))]
+    #[parameter(default, unit: "m", above: 0.0, source: "Celik and Rodi 1984")]
     pub surface_depth: Option<f64>,
-}
-
-impl Default for KEpsilon {
-    fn default() -> Self {
-        KEpsilon {
-            energy: None,
-            dissipation: None,
-            channel: None,
-            karman: 0.41,
-            variant: Variant::default(),
-            at_wall: AtWall::default(),
-            phases: Vec::new(),
-            bed: None,
-            damped_at_surfaces: false,
-            surface_depth: None,
-        }
-    }
 }
 
 impl KEpsilon {
@@ -267,11 +254,3 @@ impl<const D: usize> Contribution<D> for KEpsilon {
         Some("look at k and ε at the start: the eddy viscosity is 0.09 k²/ε".into())
     }
 }
-
-register!(
-    EddyViscosityEntry [2, 3],
-    KEpsilon,
-    "k-epsilon",
-    "two transported scalars: the energy of eddies and its dissipation",
-    "Launder and Spalding 1974; Issa 2004, Eq. 5.28–5.33"
-);

@@ -1,25 +1,22 @@
 //! k and ε at the start.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use sph_core::parameters;
 
 use super::model::KEpsilonModel;
 
 /// k = u*²/√C_μ (1 − z/H) and ε = u*³/(κz) (1 − z/H): where production balances dissipation in a wide open channel.
 ///
 /// Source: Issa 2004, Eq. 5.33 with 6.24.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[parameters]
 pub struct ChannelStart {
     /// u*.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m/s"))]
+    #[parameter(unit: "m/s", above: 0.0)]
     pub friction_velocity: f64,
     /// Depth H.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m"))]
+    #[parameter(unit: "m", above: 0.0)]
     pub depth: f64,
     /// Height of the bed.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub bottom: f64,
 }
 

@@ -1,10 +1,8 @@
 //! Production and dissipation within a step, and what walls set.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::StepWork;
-use sph_core::{Access, StepError, fields};
+use sph_core::{Access, StepError, fields, parameters};
 use sph_neighbours::World;
 
 use super::model::{KEpsilonModel, Variant};
@@ -14,8 +12,7 @@ use crate::closures::phases::Kinematic;
 use crate::columns::{DISSIPATION, FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, WALL_UNITS};
 
 /// What k and ε are within a spacing of walls with a wall function.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum AtWall {
     /// Both those of the logarithm: k = u*²/√C_μ, ε = u*³/(κz).
     #[default]

@@ -1,9 +1,7 @@
 //! Walls whose boundary layer is finer than the particles.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork, contribution_kind};
-use sph_core::{Access, AnyField, fields, register, suggestion};
+use sph_core::{Access, AnyField, fields, plugin, suggestion};
 use sph_neighbours::World;
 
 use super::law::WallLaw;
@@ -36,36 +34,35 @@ const KIND: &str = "wall-function";
 /// walls = ["bed"]
 /// roughness = "10 mm"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(WallFunctionEntry [2, 3], "log-law",
+    "the law of the wall, from the sublayer to the logarithm, smooth or rough",
+    source: "Reichardt 1951; Nikuradse 1933; Issa 2004, Eq. 6.32–6.36")]
 pub struct LogLaw {
     /// Names of the walls.
-    #[schemars(length(min = 1))]
+    #[parameter(min_items: 1)]
     pub walls: Vec<String>,
     /// Equivalent sand roughness k_s; 0 for smooth walls. At most the spacing.
-    #[serde(default)]
-    #[schemars(range(min = 0.0), extend("unit" = "m", "source" = "Nikuradse 1933"))]
+    #[parameter(default, unit: "m", min: 0.0, source: "Nikuradse 1933")]
     pub roughness: f64,
     /// Von Kármán's κ.
-    #[serde(default = "karman")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Issa 2004, Eq. 6.22"))]
+    #[parameter(default: WallLaw::default().karman, unit: "1", above: 0.0, source: "Issa 2004, Eq. 6.22")]
     pub karman: f64,
     /// B of smooth walls.
-    #[serde(default = "smooth")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Issa 2004, Eq. 6.23"))]
+    #[parameter(default: WallLaw::default().smooth, unit: "1", above: 0.0, source: "Issa 2004, Eq. 6.23")]
     pub smooth_constant: f64,
     /// D of fully rough walls.
-    #[serde(default = "rough")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1", "source" = "Issa 2004, Eq. 6.29"))]
+    #[parameter(default: WallLaw::default().rough, unit: "1", above: 0.0, source: "Issa 2004, Eq. 6.29")]
     pub rough_constant: f64,
 }
 
 pub(crate) fn karman() -> f64 {
     WallLaw::default().karman
 }
+
 pub(crate) fn smooth() -> f64 {
     WallLaw::default().smooth
 }
+
 pub(crate) fn rough() -> f64 {
     WallLaw::default().rough
 }
@@ -199,11 +196,3 @@ impl<const D: usize> StepWork<D> for Range {
         }
     }
 }
-
-register!(
-    WallFunctionEntry [2, 3],
-    LogLaw,
-    "log-law",
-    "the law of the wall, from the sublayer to the logarithm, smooth or rough",
-    "Reichardt 1951; Nikuradse 1933; Issa 2004, Eq. 6.32–6.36"
-);

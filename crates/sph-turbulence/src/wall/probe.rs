@@ -1,8 +1,6 @@
 //! The friction velocity of a wall.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{StepError, register, suggestion};
+use sph_core::{StepError, plugin, suggestion};
 use sph_neighbours::World;
 use sph_probes::{Probe, ProbeColumn, ProbeEntry};
 
@@ -16,8 +14,8 @@ use crate::columns::{FRICTION_VELOCITY, WALL_UNITS};
 /// kind = "friction-velocity"
 /// wall = "bed"
 /// ```
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ProbeEntry [2, 3], "friction-velocity", "friction velocity and z+ of a wall with a wall function",
+    source: "Issa 2004, Eq. 6.34–6.36")]
 pub struct FrictionVelocityProbe {
     /// Name of the wall.
     pub wall: String,
@@ -80,11 +78,3 @@ impl<const D: usize> Probe<D> for FrictionVelocityProbe {
         })
     }
 }
-
-register!(
-    ProbeEntry [2, 3],
-    FrictionVelocityProbe,
-    "friction-velocity",
-    "friction velocity and z+ of a wall with a wall function",
-    "Issa 2004, Eq. 6.34–6.36"
-);

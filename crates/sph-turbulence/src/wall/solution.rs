@@ -1,8 +1,6 @@
 //! The mean velocity over a wall as a solution.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::{Vect, register};
+use sph_core::{Vect, plugin};
 use sph_probes::{Solution, SolutionEntry};
 
 use super::function::{karman, rough, smooth};
@@ -12,34 +10,29 @@ use super::law::WallLaw;
 /// surface if the mixing length is κz√(1 − z/H).
 ///
 /// Sources: Issa 2004, Eq. 6.21–6.23 and 6.29; the blend of [`WallLaw`] near the wall.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(SolutionEntry [2, 3], "log-law", "the law of the wall over a flat bed, smooth or rough",
+    source: "Issa 2004, Eq. 6.21–6.29; Reichardt 1951")]
 pub struct LogLawFlow {
     /// Friction velocity u*.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m/s"))]
+    #[parameter(unit: "m/s", above: 0.0)]
     pub friction_velocity: f64,
     /// Kinematic viscosity ν.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "m²/s"))]
+    #[parameter(unit: "m²/s", above: 0.0)]
     pub kinematic_viscosity: f64,
     /// Equivalent sand roughness k_s of the bed; 0 if it is smooth.
-    #[serde(default)]
-    #[schemars(range(min = 0.0), extend("unit" = "m"))]
+    #[parameter(default, unit: "m", min: 0.0)]
     pub roughness: f64,
     /// Height of the bed.
-    #[serde(default)]
-    #[schemars(extend("unit" = "m"))]
+    #[parameter(default, unit: "m")]
     pub bottom: f64,
     /// Von Kármán's κ.
-    #[serde(default = "karman")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "unit" = "1"))]
+    #[parameter(default: karman(), unit: "1", above: 0.0)]
     pub karman: f64,
     /// B of a smooth bed.
-    #[serde(default = "smooth")]
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(default: smooth(), unit: "1")]
     pub smooth_constant: f64,
     /// D of a fully rough bed.
-    #[serde(default = "rough")]
-    #[schemars(extend("unit" = "1"))]
+    #[parameter(default: rough(), unit: "1")]
     pub rough_constant: f64,
 }
 
@@ -59,14 +52,6 @@ impl<const D: usize> Solution<D> for LogLawFlow {
         Some(velocity)
     }
 }
-
-register!(
-    SolutionEntry [2, 3],
-    LogLawFlow,
-    "log-law",
-    "the law of the wall over a flat bed, smooth or rough",
-    "Issa 2004, Eq. 6.21–6.29; Reichardt 1951"
-);
 
 #[cfg(test)]
 mod tests {

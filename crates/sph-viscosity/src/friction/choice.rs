@@ -1,19 +1,16 @@
 //! What all operators that are sums over pairs let a scene choose.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-use sph_core::Vect;
+use sph_core::{Vect, parameters};
 use sph_neighbours::{Interaction, Pair, World};
 
 use super::{PairFriction, ViscousTerm};
 use crate::interface_distance::InterfaceDistance;
-use crate::{Coupling, Viscosity, ViscositySource, Within};
+use crate::{Coupling, Viscosity, ViscositySource, ViscousOperator, Within};
 use sph_contribution::Stages;
 use sph_neighbours::{lattice_sum, rows_sum};
 
 /// Friction at semi-analytical walls.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum WallTerm {
     /// Exact for linear velocities.
     #[default]
@@ -23,8 +20,7 @@ pub enum WallTerm {
 }
 
 /// Viscosity of pairs of two phases.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum Across {
     /// Two layers in series, by the distances from the interface.
     #[default]
@@ -34,8 +30,7 @@ pub enum Across {
 }
 
 /// The response of an operator to a sheared layer along the axes of a lattice.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[parameters]
 pub enum OnLattice {
     /// Scaled to be exact, so that errors fall with the spacing.
     #[default]
@@ -75,16 +70,53 @@ fn sheared<const D: usize, F: PairFriction<D>>(
 }
 
 /// What all operators that are sums over pairs let a scene choose.
-#[derive(Clone, Copy, Debug, Default)]
+#[parameters]
+#[derive(Copy)]
 pub struct Choice {
-    /// Scale of the operator.
-    pub on_lattice: OnLattice,
     /// Friction at walls.
+    #[parameter(default, source: "Ghaïtanellis 2017, Eq. 2.83–2.89")]
     pub wall_term: WallTerm,
+    /// Scale of the operator on a lattice.
+    #[parameter(default, source: "ours; literal: as printed")]
+    pub on_lattice: OnLattice,
     /// Viscosity of pairs of two phases.
+    #[parameter(default, source: "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30")]
     pub across: Across,
     /// Viscosity of pairs of one phase.
+    #[parameter(default, source: "ours; harmonic: Ghaïtanellis 2017, Eq. 3.30")]
     pub within: Within,
+}
+
+/// An operator that is a sum of one formula over pairs.
+pub trait PairOperator<const D: usize>: Send {
+    /// The formula of a pair.
+    type Formula: PairFriction<D>;
+    /// Its [stiffness](ViscousOperator::stiffness).
+    const STIFFNESS: f64;
+    /// Whether it [leaves rotations](ViscousOperator::leaves_rotations) alone.
+    const LEAVES_ROTATIONS: bool = false;
+    /// The formula.
+    fn formula(&self) -> Self::Formula;
+    /// What the scene chose.
+    fn choice(&self) -> Choice;
+}
+
+impl<const D: usize, O: PairOperator<D>> ViscousOperator<D> for O {
+    fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
+        self.choice().term(self.formula(), viscosity)
+    }
+    fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
+        self.choice().coupling(self.formula(), viscosity)
+    }
+    fn stages(&self, viscosity: Viscosity) -> Stages<D> {
+        self.choice().stages(viscosity)
+    }
+    fn stiffness(&self) -> f64 {
+        O::STIFFNESS
+    }
+    fn leaves_rotations(&self) -> bool {
+        O::LEAVES_ROTATIONS
+    }
 }
 
 impl Choice {

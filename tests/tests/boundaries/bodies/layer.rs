@@ -1,15 +1,12 @@
 //! How the force on a wall answers the acceleration that its pressures feel.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use sph_boundary::{Load, Mover, MoverEntry, RigidState};
-use sph_core::{System, register};
+use sph_core::{System, plugin};
 use sph_scene::{Override, parse};
 use sph_solver::assemble;
 
 /// A wall that stays, whose pressures feel an acceleration along y all the same.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(MoverEntry [2], "still", "stays and feels an acceleration", source: "the tests")]
 struct Still {
     /// The acceleration.
     acceleration: f64,
@@ -25,14 +22,6 @@ impl Mover<2> for Still {
         *now
     }
 }
-
-register!(
-    MoverEntry[2],
-    Still,
-    "still",
-    "stays and feels an acceleration",
-    "the tests"
-);
 
 /// A block of 10 by 5 spacings under water.
 const BLOCK: &str = r#"

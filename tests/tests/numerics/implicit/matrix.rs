@@ -6,7 +6,7 @@ use sph_neighbours::{Weak, World, interactions};
 use sph_scene::parse;
 use sph_solver::assemble;
 use sph_viscosity::{
-    EspanolRevenga, FrictionOperator, FrictionSystem, HuAdamsViscosity, KrimiViscosity,
+    Choice, EspanolRevenga, FrictionOperator, FrictionSystem, HuAdamsViscosity, KrimiViscosity,
     MonaghanGingold, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm,
 };
 
@@ -118,11 +118,11 @@ fn layers() -> World<2> {
 }
 
 fn operators<const D: usize>() -> Vec<(&'static str, Box<dyn ViscousOperator<D>>)> {
-    let literal = Morris {
+    let literal = Morris(Choice {
         wall_term: WallTerm::Literal,
         on_lattice: OnLattice::Literal,
-        ..Morris::default()
-    };
+        ..Choice::default()
+    });
     vec![
         ("morris", Box::new(Morris::default())),
         ("morris, literal", Box::new(literal)),

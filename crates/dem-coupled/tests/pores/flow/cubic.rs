@@ -175,8 +175,8 @@ fn the_viscous_force_has_its_maximum_near_0_6() {
 #[test]
 fn effective_radii_underestimate() {
     let geometry = geometry(&cube(0.5), Grip::NoSlip, SolidAngles::Signed);
-    let ratio =
-        permeameter(&geometry, &EffectiveRadius).kappa / permeameter(&geometry, &hydraulic()).kappa;
+    let ratio = permeameter(&geometry, &EffectiveRadius {}).kappa
+        / permeameter(&geometry, &hydraulic()).kappa;
     println!("κ of effective over hydraulic radii {ratio:.3}");
     assert!(ratio < 0.7, "{ratio}");
 }

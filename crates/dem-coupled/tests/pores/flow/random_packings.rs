@@ -245,7 +245,7 @@ fn pressures_of_box200_follow_the_height() {
 fn effective_radii_give_half_the_permeability() {
     for (name, text) in [("box25", BOX25), ("box200", BOX200)] {
         let geometry = geometry(&spheres(text), Grip::NoSlip, SolidAngles::Signed);
-        let ratio = permeameter(&geometry, &EffectiveRadius).kappa
+        let ratio = permeameter(&geometry, &EffectiveRadius {}).kappa
             / permeameter(&geometry, &hydraulic()).kappa;
         let throats = geometry.throats().iter();
         let mut ratios: Vec<_> = throats

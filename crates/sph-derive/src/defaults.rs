@@ -1,0 +1,93 @@
+//! What parameters are if they are left out.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{ToTokens, format_ident, quote};
+use syn::ext::IdentExt;
+use syn::{DeriveInput, Field, Generics, parse_quote};
+
+use crate::number::optional;
+use crate::parameter::Parameter;
+use crate::table::is_skipped;
+
+/// What the word `default` says.
+pub enum Fallback {
+    /// The default of the type.
+    OfType,
+    /// The value of an expression.
+    Value(TokenStream),
+}
+
+/// The type whose parameters are read, with the functions that make their defaults.
+pub struct Defaults {
+    name: Ident,
+    generics: Generics,
+    functions: TokenStream,
+}
+
+impl Defaults {
+    /// None yet, of an item.
+    pub fn of(item: &DeriveInput) -> Self {
+        Self {
+            name: item.ident.clone(),
+            generics: item.generics.clone(),
+            functions: TokenStream::new(),
+        }
+    }
+
+    /// Puts the attributes of `schemars` and `serde` in the place of the words of a field. Returns the value that the
+    /// field has in the default of the type, if it has one; names of functions begin with the prefix.
+    ///
+    /// # Errors
+    /// Unknown words.
+    pub fn prepare(&mut self, field: &mut Field, prefix: &str) -> syn::Result<Option<TokenStream>> {
+        let parameter = Parameter::taken(&mut field.attrs)?;
+        if let Some(schema) = parameter.schema() {
+            field.attrs.push(parse_quote!(#schema));
+        }
+        let of_type = quote!(::core::default::Default::default());
+        match parameter.fallback {
+            None => Ok((optional(&field.ty).is_some() || is_skipped(field)).then_some(of_type)),
+            Some(Fallback::OfType) => {
+                field.attrs.push(parse_quote!(#[serde(default)]));
+                Ok(Some(of_type))
+            }
+            Some(Fallback::Value(value)) => {
+                let key = field.ident.as_ref().map(|key| key.unraw().to_string());
+                let function = format_ident!("default_{prefix}{}", key.unwrap_or_default());
+                let (name, (_, arguments, _)) = (&self.name, self.generics.split_for_impl());
+                let turbofish = arguments.as_turbofish();
+                let path = quote!(#name #turbofish::#function);
+                let text = path.to_string().replace(' ', "");
+                field.attrs.push(parse_quote!(#[serde(default = #text)]));
+                let of = &field.ty;
+                quote!(fn #function() -> #of { #value }).to_tokens(&mut self.functions);
+                Ok(Some(quote!(#path())))
+            }
+        }
+    }
+
+    /// `Default` of the type with a value for each of these keys.
+    pub fn of_all(&self, keys: &[Option<Ident>], values: &[TokenStream]) -> TokenStream {
+        let (generics, arguments, conditions) = self.generics.split_for_impl();
+        let name = &self.name;
+        quote! {
+            #[automatically_derived]
+            impl #generics ::core::default::Default for #name #arguments #conditions {
+                fn default() -> Self {
+                    Self { #(#keys: #values),* }
+                }
+            }
+        }
+    }
+}
+
+impl ToTokens for Defaults {
+    /// The functions that `prepare` named.
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        let (generics, arguments, conditions) = self.generics.split_for_impl();
+        let (name, functions) = (&self.name, &self.functions);
+        if !functions.is_empty() {
+            quote!(impl #generics #name #arguments #conditions { #functions }).to_tokens(tokens);
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Attributes that declare a plugin and its parameters in one place; use them as `sph_core::plugin` and
+//! `sph_core::parameters`.
+//!
+//! ```text
+//! /// τ = 2 η γ̇ with constant η.
+//! #[plugin(RheologyEntry, "newtonian", "constant viscosity", source: "Newton 1687")]
+//! pub struct Newtonian {
+//!     /// Dynamic viscosity η.
+//!     #[parameter(default: 1e-3, unit: "Pa s", min: 0.0, source: "Newton 1687")]
+//!     pub viscosity: f64,
+//! }
+//! ```
+//!
+//! Both attributes derive `Clone`, `Debug`, `Deserialize` and `JsonSchema`, deny unknown keys, and derive `Copy` for
+//! plain numbers. Where every field has a default or is an `Option`, the type has `Default`. A plugin with a field that
+//! `#[serde(skip)]` keeps is neither cloned nor printed, unless it is plain numbers. What an author derives as well is
+//! not derived twice; further attributes of `serde` and `schemars` stay possible.
+
+mod defaults;
+mod number;
+mod parameter;
+mod registration;
+mod table;
+
+use proc_macro::TokenStream;
+use proc_macro2::TokenStream as Tokens;
+use quote::quote;
+use syn::{DeriveInput, parse_macro_input};
+
+/// A plugin: the parameters of [`macro@parameters`], offered to scenes under a name.
+///
+/// `#[plugin(Entry [dimensions], "name", "one sentence", source: "author year, Eq. n")]`. The dimensions are `[2]`,
+/// `[3]`, `[2, 3]` or, with a type for each, `[2 => Planar, 3 => Spatial]`; kinds without a dimension of their own have
+/// no brackets. Two words may follow the source:
+///
+/// * `within: Wrapper`: an expression that is called with the parameters and makes the plugin from them;
+/// * `cfg(not(test))`: the condition under which it is registered.
+#[proc_macro_attribute]
+pub fn plugin(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    let registration = parse_macro_input!(arguments as registration::Registration);
+    let item = parse_macro_input!(item as DeriveInput);
+    let registered = registration.expand(&item.ident);
+    expanded(item, &quote!(::sph_core::reexport), Some(registered))
+}
+
+/// A table of parameters, or a choice between variants in kebab case, that is a part of a plugin or of a scene.
+///
+/// A field says `#[parameter(…)]` with any of `default` (that of its type), `default: value`, `unit`, `min`, `max`,
+/// `above` and `below` (bounds that are not reached), `min_items`, `max_items`, `quantity`, `examples`, `source`. Its doc
+/// comment is its meaning.
+///
+/// `#[parameters(crate: path)]` names the module with `serde` and `schemars`, where that is not `sph_core`'s.
+#[proc_macro_attribute]
+pub fn parameters(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    let root = parse_macro_input!(arguments as table::Root);
+    expanded(parse_macro_input!(item as DeriveInput), &root.0, None)
+}
+
+/// The table, and the registration of a plugin. After a mistake in the words of a parameter all goes on without them, so
+/// that the uses of the type are no further errors.
+fn expanded(mut item: DeriveInput, root: &Tokens, registered: Option<Tokens>) -> TokenStream {
+    let error = match table::expand(item.clone(), root, registered.is_some()) {
+        Ok(table) => return quote!(#table #registered).into(),
+        Err(error) => error.into_compile_error(),
+    };
+    table::take_words(&mut item);
+    let table = table::expand(item, root, registered.is_some()).ok();
+    let registered = table.is_some().then_some(registered);
+    quote!(#error #table #registered).into()
+}

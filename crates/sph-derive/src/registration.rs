@@ -1,0 +1,227 @@
+//! The arguments of `#[plugin(…)]`, and the entry that they register.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{ToTokens, quote};
+use syn::ext::IdentExt;
+use syn::parse::{Parse, ParseStream};
+use syn::{Error, LitInt, LitStr, Path, Token, Type, bracketed, parenthesized};
+
+use crate::parameter::value;
+
+/// A dimension, and the type of the plugin in it where that is not the one with the attribute.
+struct Form {
+    dimension: LitInt,
+    of: Option<Type>,
+}
+
+impl Parse for Form {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let dimension: LitInt = input.parse()?;
+        if !matches!(dimension.base10_digits(), "2" | "3") {
+            return Err(Error::new_spanned(
+                dimension,
+                "a plugin has 2 or 3 dimensions",
+            ));
+        }
+        let of = match input.parse::<Option<Token![=>]>>()? {
+            Some(_) => Some(input.parse()?),
+            None => None,
+        };
+        Ok(Self { dimension, of })
+    }
+}
+
+/// What a plugin is registered as.
+pub struct Registration {
+    entry: Path,
+    /// Nothing for a kind without a dimension of its own.
+    forms: Option<Vec<Form>>,
+    name: LitStr,
+    summary: LitStr,
+    source: TokenStream,
+    within: Option<TokenStream>,
+    condition: Option<TokenStream>,
+}
+
+const FORM: &str = "expected `Entry [2, 3], \"name\", \"one sentence\", source: \"author year, Eq. n\"`, without \
+     brackets for kinds without a dimension of their own";
+
+impl Parse for Registration {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let wrong = |e: Error| Error::new(e.span(), FORM);
+        let entry = input.call(Path::parse_mod_style).map_err(wrong)?;
+        let mut forms = None;
+        if input.peek(syn::token::Bracket) {
+            let inside;
+            bracketed!(inside in input);
+            let each = inside.parse_terminated(Form::parse, Token![,])?;
+            forms = Some(each.into_iter().collect());
+        }
+        input.parse::<Token![,]>().map_err(wrong)?;
+        let name = input.parse().map_err(wrong)?;
+        input.parse::<Token![,]>().map_err(wrong)?;
+        let summary = input.parse().map_err(wrong)?;
+        let (mut source, mut within, mut condition) = (None, None, None);
+        while !input.is_empty() {
+            input.parse::<Token![,]>().map_err(wrong)?;
+            if input.is_empty() {
+                break;
+            }
+            let word = input.call(Ident::parse_any).map_err(wrong)?;
+            match word.to_string().as_str() {
+                "source" => source = Some(value(&word, input)?),
+                "within" => within = Some(value(&word, input)?),
+                "cfg" => {
+                    let inside;
+                    parenthesized!(inside in input);
+                    let condition_of: TokenStream = inside.parse()?;
+                    condition = Some(quote!(#[cfg(#condition_of)]));
+                }
+                _ => {
+                    let message =
+                        format!("unknown word `{word}`: a plugin has `source`, `within` and `cfg`");
+                    return Err(Error::new_spanned(word, message));
+                }
+            }
+        }
+        let source = source.ok_or_else(|| Error::new(input.span(), FORM))?;
+        Ok(Self {
+            entry,
+            forms,
+            name,
+            summary,
+            source,
+            within,
+            condition,
+        })
+    }
+}
+
+impl Registration {
+    /// The entry of a type with these parameters.
+    pub fn expand(&self, parameters: &Ident) -> TokenStream {
+        let Self {
+            entry,
+            name,
+            summary,
+            source,
+            condition,
+            ..
+        } = self;
+        let own = parameters.to_token_stream();
+        let of = |form: &Form| {
+            form.of
+                .as_ref()
+                .map_or(own.clone(), ToTokens::to_token_stream)
+        };
+        let forms = self.forms.as_deref();
+        let dimensions = match forms {
+            Some(forms) => forms
+                .iter()
+                .map(|f| f.dimension.to_token_stream())
+                .collect(),
+            None => vec![quote!(2), quote!(3)],
+        };
+        let described = forms.and_then(<[Form]>::first).map_or(own.clone(), of);
+        let build = match forms {
+            None => {
+                let made = self.made(&own);
+                quote!(build: #made)
+            }
+            Some(forms) => {
+                let form =
+                    |digits| match forms.iter().find(|f| f.dimension.base10_digits() == digits) {
+                        Some(form) => {
+                            let made = self.made(&of(form));
+                            quote!(::core::option::Option::Some(#made))
+                        }
+                        None => quote!(::core::option::Option::None),
+                    };
+                let (planar, spatial) = (form("2"), form("3"));
+                quote!(build_2d: #planar, build_3d: #spatial)
+            }
+        };
+        quote! {
+            #condition
+            ::sph_core::reexport::inventory::submit! {
+                #entry {
+                    info: ::sph_core::PluginInfo {
+                        name: #name,
+                        summary: #summary,
+                        source: #source,
+                        provider: concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")),
+                        dimensions: &[#(#dimensions),*],
+                        schema: ::sph_core::schema_of::<#described>,
+                    },
+                    #build
+                }
+            }
+        }
+    }
+
+    /// A function from a table of parameters to the plugin.
+    fn made(&self, parameters: &TokenStream) -> TokenStream {
+        let read = quote!(::sph_core::typed::<#parameters>(table)?);
+        let made = match &self.within {
+            Some(within) => quote!((#within)(#read)),
+            None => read,
+        };
+        quote!(|table| Ok(Box::new(#made)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn expanded(arguments: &str) -> String {
+        let registration: Registration = syn::parse_str(arguments).expect("arguments");
+        let name = Ident::new("Mine", proc_macro2::Span::call_site());
+        registration.expand(&name).to_string().replace(' ', "")
+    }
+
+    fn problem(arguments: &str) -> String {
+        let read = syn::parse_str::<Registration>(arguments);
+        read.err().map(|e| e.to_string()).unwrap_or_default()
+    }
+
+    #[test]
+    fn every_dimension_is_built_from_its_own_type() {
+        let code = expanded(
+            r#"Entry [2 => Flat<2>, 3 => Deep], "n", "s", source: "p", within: Lanes, cfg(not(test))"#,
+        );
+        assert!(code.starts_with("#[cfg(not(test))]"), "{code}");
+        for part in [
+            "(Lanes)(::sph_core::typed::<Flat<2>>",
+            "typed::<Deep>",
+            "&[2,3]",
+            "schema_of::<Flat<2>>",
+        ] {
+            assert!(code.contains(part), "{part}: {code}");
+        }
+    }
+
+    #[test]
+    fn a_form_that_is_missing_is_not_built() {
+        let code = expanded(r#"Entry [3], "n", "s", source: "p""#);
+        assert!(
+            code.contains("build_2d:::core::option::Option::None"),
+            "{code}"
+        );
+        assert!(code.contains("typed::<Mine>"), "{code}");
+        let code = expanded(r#"Entry, "n", "s", source: "p""#);
+        assert!(code.contains("build:|table|"), "{code}");
+    }
+
+    #[test]
+    fn mistakes_name_what_is_valid() {
+        assert!(problem(r#"Entry [4], "n", "s", source: "p""#).contains("2 or 3 dimensions"));
+        assert!(problem(r#"Entry [2, 3], "n", "s""#).contains("source: "));
+        assert!(problem(r#"Entry [2, 3] "n""#).contains("expected `Entry [2, 3],"));
+        let unknown = problem(r#"Entry, "n", "s", sauce: "p""#);
+        assert!(
+            unknown.contains("unknown word `sauce`: a plugin has `source`, `within` and `cfg`"),
+            "{unknown}"
+        );
+    }
+}

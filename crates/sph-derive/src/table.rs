@@ -1,0 +1,279 @@
+//! The derives and attributes of a table of parameters, or of a choice between variants.
+
+use proc_macro2::{Ident, TokenStream, TokenTree};
+use quote::quote;
+use syn::ext::IdentExt;
+use syn::parse::{Parse, ParseStream};
+use syn::{Attribute, Data, DataEnum, DataStruct, DeriveInput, Error, Field, Fields};
+
+use crate::defaults::Defaults;
+use crate::number::is_number;
+use crate::parameter::value;
+
+/// The module with `serde` and `schemars`.
+pub struct Root(pub TokenStream);
+
+impl Parse for Root {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        if input.is_empty() {
+            return Ok(Self(quote!(::sph_core::reexport)));
+        }
+        let word = input.call(Ident::parse_any)?;
+        match word == "crate" {
+            true => value(&word, input).map(Self),
+            false => Err(Error::new_spanned(
+                word,
+                "expected `crate: path`, or nothing",
+            )),
+        }
+    }
+}
+
+/// The type with what its attribute says. A plugin that keeps more than its parameters is no value to copy or to print.
+///
+/// # Errors
+/// Unknown words; a union; fields without names.
+pub fn expand(
+    mut item: DeriveInput,
+    root: &TokenStream,
+    is_plugin: bool,
+) -> syn::Result<TokenStream> {
+    let derived = words(&item.attrs, "derive");
+    let said = words(&item.attrs, "serde");
+    let plain = item.generics.params.is_empty() && is_plain(&item.data);
+    let keeps = matches!(&item.data, Data::Struct(data) if data.fields.iter().any(is_skipped));
+    let mut defaults = Defaults::of(&item);
+    let (mut derives, mut default) = (vec!["Deserialize", "JsonSchema"], None);
+    let mut serde = Vec::new();
+    match &mut item.data {
+        Data::Struct(data) => default = of_struct(data, &mut defaults, &mut serde)?,
+        Data::Enum(data) => of_choice(data, &mut defaults, &said, (&mut derives, &mut serde))?,
+        Data::Union(_) => return Err(Error::new_spanned(&item, "expected a struct or an enum")),
+    }
+    if plain || !(is_plugin && keeps) {
+        derives.extend(["Clone", "Debug"]);
+    }
+    if plain {
+        derives.push("Copy");
+    }
+    derives.retain(|name| !derived.iter().any(|d| d == name));
+    let derives = derives.iter().map(|name| path_of(name, root));
+    let default = default.filter(|_| !derived.iter().any(|d| d == "Default"));
+    let place = root.to_string().replace(' ', "");
+    let [at_serde, at_schemars] = ["serde", "schemars"].map(|name| format!("{place}::{name}"));
+    Ok(quote! {
+        #[derive(#(#derives),*)]
+        #[serde(crate = #at_serde, #(#serde),*)]
+        #[schemars(crate = #at_schemars)]
+        #item
+        #defaults
+        #default
+    })
+}
+
+/// Takes the words of parameters away.
+pub fn take_words(item: &mut DeriveInput) {
+    let fields: Vec<&mut Fields> = match &mut item.data {
+        Data::Struct(data) => vec![&mut data.fields],
+        Data::Enum(data) => data.variants.iter_mut().map(|v| &mut v.fields).collect(),
+        Data::Union(_) => Vec::new(),
+    };
+    for field in fields.into_iter().flatten() {
+        field.attrs.retain(|a| !a.path().is_ident("parameter"));
+    }
+}
+
+/// The path of a trait that is derived.
+fn path_of(name: &str, root: &TokenStream) -> TokenStream {
+    match name {
+        "Clone" => quote!(::core::clone::Clone),
+        "Copy" => quote!(::core::marker::Copy),
+        "Debug" => quote!(::core::fmt::Debug),
+        "Default" => quote!(::core::default::Default),
+        "Deserialize" => quote!(#root::serde::Deserialize),
+        "Eq" => quote!(::core::cmp::Eq),
+        "JsonSchema" => quote!(#root::schemars::JsonSchema),
+        "PartialEq" => quote!(::core::cmp::PartialEq),
+        _ => quote!(#root::serde::Serialize),
+    }
+}
+
+/// Prepares the fields of a table; returns its `Default` if every field has one. What has one field without a name has
+/// the parameters of that.
+fn of_struct(
+    data: &mut DataStruct,
+    defaults: &mut Defaults,
+    serde: &mut Vec<TokenStream>,
+) -> syn::Result<Option<TokenStream>> {
+    let fields = match &mut data.fields {
+        Fields::Named(fields) => &mut fields.named,
+        Fields::Unnamed(fields) if fields.unnamed.len() == 1 => {
+            serde.push(quote!(transparent));
+            return Ok(None);
+        }
+        _ => {
+            return Err(Error::new(
+                data.struct_token.span,
+                "expected named fields, `{}` for none",
+            ));
+        }
+    };
+    serde.push(quote!(deny_unknown_fields));
+    let each = fields.iter_mut().map(|field| defaults.prepare(field, ""));
+    let values: Vec<Option<TokenStream>> = each.collect::<syn::Result<_>>()?;
+    let keys: Vec<_> = fields.iter().map(|field| field.ident.clone()).collect();
+    let all: Option<Vec<_>> = values.into_iter().collect();
+    Ok(all.map(|values| defaults.of_all(&keys, &values)))
+}
+
+/// Prepares the variants of a choice. They are called in kebab case, and those without fields are compared and written.
+fn of_choice(
+    data: &mut DataEnum,
+    defaults: &mut Defaults,
+    said: &[String],
+    (derives, serde): (&mut Vec<&'static str>, &mut Vec<TokenStream>),
+) -> syn::Result<()> {
+    let variants = &mut data.variants;
+    if variants.iter().all(|variant| variant.fields.is_empty()) {
+        derives.extend(["PartialEq", "Eq", "Serialize"]);
+    }
+    let is_default = |a: &Attribute| a.path().is_ident("default");
+    if variants
+        .iter()
+        .any(|variant| variant.attrs.iter().any(is_default))
+    {
+        derives.push("Default");
+    }
+    let is_said = |key: &str| said.iter().any(|s| s == key || s == "untagged");
+    if !is_said("rename_all") {
+        serde.push(quote!(rename_all = "kebab-case"));
+    }
+    let named = |fields: &Fields| matches!(fields, Fields::Named(_));
+    if !is_said("deny_unknown_fields") && variants.iter().any(|variant| named(&variant.fields)) {
+        serde.push(quote!(deny_unknown_fields));
+    }
+    for variant in variants {
+        let prefix = format!("{}_", variant.ident.to_string().to_lowercase());
+        for field in &mut variant.fields {
+            defaults.prepare(field, &prefix)?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether values are nothing but numbers.
+fn is_plain(data: &Data) -> bool {
+    let plain = |fields: &Fields| fields.iter().all(|field| is_number(&field.ty));
+    match data {
+        Data::Struct(data) => plain(&data.fields),
+        Data::Enum(data) => data.variants.iter().all(|variant| plain(&variant.fields)),
+        Data::Union(_) => false,
+    }
+}
+
+/// Whether a field is no parameter but what a plugin keeps.
+pub fn is_skipped(field: &Field) -> bool {
+    words(&field.attrs, "serde")
+        .iter()
+        .any(|word| word == "skip")
+}
+
+/// The words within the attributes of a name: what an author derives and says to `serde` besides.
+fn words(attributes: &[Attribute], name: &str) -> Vec<String> {
+    let named = attributes.iter().filter(|a| a.path().is_ident(name));
+    let lists = named.filter_map(|a| a.meta.require_list().ok());
+    let word = |token| match token {
+        TokenTree::Ident(word) => Some(word.to_string()),
+        _ => None,
+    };
+    lists
+        .flat_map(|list| list.tokens.clone())
+        .filter_map(word)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn expanded(item: &str, is_plugin: bool) -> String {
+        let item = syn::parse_str(item).expect("an item");
+        let code = expand(item, &quote!(::root), is_plugin);
+        code.unwrap_or_else(Error::into_compile_error)
+            .to_string()
+            .replace(' ', "")
+    }
+
+    #[test]
+    fn numbers_are_copied_and_what_is_kept_is_not_cloned() {
+        let numbers = "struct A { a: f64, b: Option<[u32; 2]> }";
+        assert!(expanded(numbers, true).contains("marker::Copy"));
+        let text = "struct A { a: String }";
+        let code = expanded(text, true);
+        assert!(
+            code.contains("clone::Clone") && !code.contains("marker::Copy"),
+            "{code}"
+        );
+        let keeps = "struct A { #[serde(skip)] a: Mutex<f64> }";
+        assert!(!expanded(keeps, true).contains("clone::Clone"));
+        assert!(expanded(keeps, false).contains("clone::Clone"));
+        let code = expanded("#[derive(Clone, Default)] struct A { a: f64 }", true);
+        assert_eq!(code.matches("Clone").count(), 1, "{code}");
+    }
+
+    #[test]
+    fn a_table_has_a_default_if_every_field_has_one() {
+        let all = "struct A { #[parameter(default: 0.5)] a: f64, b: Option<f64> }";
+        let code = expanded(all, false);
+        assert!(code.contains("default::DefaultforA"), "{code}");
+        assert!(
+            code.contains(r#"#[serde(default="A::default_a")]"#),
+            "{code}"
+        );
+        let some = "struct A { #[parameter(default)] a: f64, b: f64 }";
+        let code = expanded(some, false);
+        assert!(
+            !code.contains("DefaultforA") && code.contains("#[serde(default)]"),
+            "{code}"
+        );
+    }
+
+    #[test]
+    fn choices_are_in_kebab_case_unless_an_author_says_otherwise() {
+        let code = expanded("enum A { #[default] OneTwo, Three }", false);
+        assert!(
+            code.contains(r#"rename_all="kebab-case""#) && code.contains("cmp::Eq"),
+            "{code}"
+        );
+        assert!(code.contains("default::Default"), "{code}");
+        let code = expanded(
+            r#"#[serde(rename_all = "lowercase")] enum A { One { a: f64 } }"#,
+            false,
+        );
+        assert!(
+            !code.contains("kebab") && code.contains("deny_unknown_fields"),
+            "{code}"
+        );
+        assert!(!code.contains("cmp::Eq"), "{code}");
+    }
+
+    #[test]
+    fn words_are_taken_away_from_structs_and_variants() {
+        for item in [
+            "struct A { #[parameter(sauce: 1)] a: f64 }",
+            "enum A { B { #[parameter(sauce: 1)] a: f64 } }",
+        ] {
+            let mut item: DeriveInput = syn::parse_str(item).expect("an item");
+            assert!(expand(item.clone(), &quote!(::root), true).is_err());
+            take_words(&mut item);
+            assert!(expand(item, &quote!(::root), true).is_ok());
+        }
+    }
+
+    #[test]
+    fn one_field_without_a_name_is_the_table_itself() {
+        assert!(expanded("struct A(B);", true).contains("transparent"));
+        assert!(expanded("struct A(B, C);", true).contains("expectednamedfields"));
+        assert!(expanded("struct A;", true).contains("expectednamedfields"));
+    }
+}
