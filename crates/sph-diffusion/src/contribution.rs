@@ -1,8 +1,7 @@
 //! Smoothers and shifting in a scene.
 
-use sph_contribution::{Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork};
-use sph_core::{AnyField, fields};
-use sph_neighbours::Terms;
+use sph_contribution::{Contribution, Offer, OwnColumn, Refusal, Setting};
+use sph_core::fields;
 
 use crate::diffusion_limit::fastest;
 use crate::{MeanAcceleration, ShiftedFlow, Shifting, Smoother};
@@ -15,59 +14,34 @@ impl<const D: usize> Contribution<D> for Smoothed<D> {
         let column = |_| OwnColumn::zero(fields::MEAN_ACCELERATION.any());
         self.0.accelerated().map(column).into_iter().collect()
     }
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        self.0.stages(setting.laws)
-    }
-    fn terms(&self, setting: &Setting<'_, D>) -> Terms<D> {
-        vec![self.0.term(setting.laws)]
-    }
-    fn changes_density(&self, _: &Setting<'_, D>) -> bool {
-        true
-    }
-    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
-        match setting.pressure_ahead && self.0.of_pressures() {
-            true => Vec::new(),
-            false => self.0.limiter(setting.laws).into_iter().collect(),
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer.stages = self.0.stages(setting.laws);
+        offer.terms.push(self.0.term(setting.laws));
+        offer.changes_density = true;
+        if !(setting.pressure_ahead && self.0.of_pressures()) {
+            offer.limiters.extend(self.0.limiter(setting.laws));
         }
-    }
-    fn works(
-        &mut self,
-        setting: &Setting<'_, D>,
-        _read: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        let mean = |of| Box::new(MeanAcceleration::new(of, fastest(setting.laws))) as _;
-        Ok(self.0.accelerated().map(mean).into_iter().collect())
-    }
-    fn remedy(&self, path: &str) -> Option<String> {
-        Some(format!("lower the strength in {path}"))
+        if let Some(of) = self.0.accelerated() {
+            offer.hook(MeanAcceleration::new(of, fastest(setting.laws)));
+        }
+        offer.remedy = Some(format!("lower the strength in {}", offer.path));
+        Ok(())
     }
 }
 
 /// The shifting that a scene names.
 pub struct Shifted<const D: usize>(pub Box<dyn Shifting<D>>);
 
-impl<const D: usize> Shifted<D> {
-    fn flow(setting: &Setting<'_, D>) -> ShiftedFlow {
-        ShiftedFlow {
-            summed: setting.summed,
-        }
-    }
-}
-
 impl<const D: usize> Contribution<D> for Shifted<D> {
-    fn goals(&self) -> Vec<AnyField> {
-        vec![fields::SHIFT_VELOCITY.any()]
-    }
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        self.0.stages(setting.laws)
-    }
-    fn terms(&self, setting: &Setting<'_, D>) -> Terms<D> {
-        self.0.term(Self::flow(setting)).into_iter().collect()
-    }
-    fn changes_density(&self, setting: &Setting<'_, D>) -> bool {
-        self.0.term(Self::flow(setting)).is_some()
-    }
-    fn remedy(&self, path: &str) -> Option<String> {
-        Some(format!("weaken {path}"))
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer.goals.push(fields::SHIFT_VELOCITY.any());
+        offer.stages = self.0.stages(setting.laws);
+        let flow = ShiftedFlow {
+            summed: setting.summed,
+        };
+        offer.terms.extend(self.0.term(flow));
+        offer.changes_density = !offer.terms.is_empty();
+        offer.remedy = Some(format!("weaken {}", offer.path));
+        Ok(())
     }
 }

@@ -170,8 +170,11 @@ impl<const D: usize> Declares for ShiftVelocity<D> {
             .where_there(fields::PHASE)
             .here(fields::VELOCITY)
             .here(fields::MASS)
-            .writes(fields::SHIFT_VELOCITY)
+            // Drifts may sort particles between their halves: the shift must be sorted, too.
+            .remembers(fields::SHIFT_VELOCITY)
             .writes(fields::EMPTINESS)
+            // Normals are sums over what has been summed at neighbours.
+            .rings(2)
     }
 }
 
@@ -179,10 +182,6 @@ impl<const D: usize> Declares for ShiftVelocity<D> {
 const STABLE: f64 = 0.25;
 
 impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
-    /// Normals are sums over what has been summed at neighbours.
-    fn rings(&self) -> usize {
-        2
-    }
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let Fickian {
             strength,

@@ -4,14 +4,14 @@ use std::sync::OnceLock;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_contribution::{Contribution, Limiter, Setting, Stages};
+use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 use sph_core::{
     Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, register,
 };
 use sph_damping::DampingEntry;
 use sph_neighbours::{
     BoundTerm, Contact, Declared, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm,
-    Lanewise, Pair, Rates, Sums, Terms, There, Values, World, add_scaled, all_sums, splat, vector,
+    Lanewise, Pair, Rates, Sums, There, Values, World, add_scaled, all_sums, splat, vector,
     walk_some,
 };
 
@@ -56,38 +56,30 @@ impl Default for AcousticDamper {
 }
 
 impl<const D: usize> Contribution<D> for AcousticDamper {
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let laws = setting.laws.iter().map(|law| law.reference());
         let term: Box<dyn Interaction<D>> = Divergence::boxed(OwnVolume);
-        vec![Box::new(Resistance {
+        offer.stage(Resistance {
             impedance: laws
                 .clone()
                 .map(|r| self.strength * r.density * r.sound_speed)
                 .collect(),
-            densities: laws.map(|r| r.density).collect(),
+            densities: laws.clone().map(|r| r.density).collect(),
             declared: Declared::of([&*term]),
             term: [term],
             states: Vec::new(),
             unused: Vec::new(),
-        })]
-    }
-    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
-        vec![Box::new(Lanewise(DampingForce))]
-    }
-    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
-        let speeds = setting.laws.iter().map(|law| law.reference().sound_speed);
-        let limit = DamperLimit {
-            strength: self.strength,
-            fastest: speeds.fold(0.0, f64::max),
-            wave: OnceLock::new(),
-        };
-        match self.strength > 0.0 {
-            true => vec![Box::new(limit)],
-            false => Vec::new(),
+        });
+        offer.term(Lanewise(DampingForce));
+        if self.strength > 0.0 {
+            offer.limiter(DamperLimit {
+                strength: self.strength,
+                fastest: laws.map(|r| r.sound_speed).fold(0.0, f64::max),
+                wave: OnceLock::new(),
+            });
         }
-    }
-    fn remedy(&self, path: &str) -> Option<String> {
-        Some(format!("lower the strength in {path}"))
+        offer.remedy = Some(format!("lower the strength in {}", offer.path));
+        Ok(())
     }
 }
 

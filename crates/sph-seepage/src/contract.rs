@@ -1,6 +1,6 @@
 //! What lets water through the pores of soils.
 
-use sph_contribution::StepWork;
+use sph_contribution::StepHook;
 use sph_core::{Field, Scalar, Vector, contract};
 use sph_state::Laws;
 
@@ -33,11 +33,11 @@ pub type SeepageProblem = (&'static str, String);
 
 /// A law of the flow through pores.
 pub trait Seepage<const D: usize>: Send {
-    /// The flow between the phases that the scene names, as work after every kick.
+    /// The flow between the phases that the scene names, as a hook of every kick.
     ///
     /// # Errors
     /// The key whose value does not fit the scene.
-    fn flow(&self, phases: &SeepagePhases<'_>) -> Result<Box<dyn StepWork<D>>, SeepageProblem>;
+    fn flow(&self, phases: &SeepagePhases<'_>) -> Result<Box<dyn StepHook<D>>, SeepageProblem>;
 }
 
 contract!(

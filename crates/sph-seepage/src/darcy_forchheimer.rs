@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_contribution::StepWork;
+use sph_contribution::StepHook;
 use sph_core::{register, suggestion};
 use sph_implicit::{ConjugateGradient, Preconditioner};
 
@@ -123,7 +123,7 @@ impl DarcyForchheimer {
 }
 
 impl<const D: usize> Seepage<D> for DarcyForchheimer {
-    fn flow(&self, phases: &SeepagePhases<'_>) -> Result<Box<dyn StepWork<D>>, SeepageProblem> {
+    fn flow(&self, phases: &SeepagePhases<'_>) -> Result<Box<dyn StepHook<D>>, SeepageProblem> {
         let number = |key: &'static str, name: &str| {
             let found = phases.names.iter().position(|n| n == name);
             found.ok_or_else(|| {

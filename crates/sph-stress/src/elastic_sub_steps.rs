@@ -1,8 +1,8 @@
 //! Steps of the elastic force within that of the flow.
 
 use rayon::prelude::*;
-use sph_contribution::OutsideForce;
-use sph_core::{Stage, StepError, Vect, fields};
+use sph_contribution::{Kick, OutsideForce, StepHook, StepMoment, StepPhase};
+use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
 use sph_neighbours::{Packed, There, World, accelerations_of, pack};
 
 use crate::{CarriedStress, ElasticMotion, Felt};
@@ -25,8 +25,8 @@ use crate::{CarriedStress, ElasticMotion, Felt};
 ///
 /// Ours, after the multiple time steps of Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97, 1990.
 pub struct ElasticSubSteps<const D: usize> {
-    /// The force.
-    pub term: OutsideForce<D>,
+    term: OutsideForce<D>,
+    motion: ElasticMotion<D>,
     packed: Packed,
     felt: Felt,
     longest: f64,
@@ -35,26 +35,33 @@ pub struct ElasticSubSteps<const D: usize> {
     acceleration: Vec<Vect<D>>,
     /// What the velocity of the drift has more than the last.
     mean: Vec<Vect<D>>,
+    /// δ, by which τ is behind the velocity since the last kick, s.
+    behind: f64,
 }
 
 impl<const D: usize> ElasticSubSteps<D> {
-    /// For a force that reads no velocity, the laws of the scene, and the longest sub-step, s.
-    pub fn new(term: OutsideForce<D>, felt: Felt, longest: f64) -> Self {
+    /// For a force that reads no velocity, the motion of its stresses, the laws of the scene, and the longest sub-step, s.
+    pub fn new(term: OutsideForce<D>, motion: ElasticMotion<D>, felt: Felt, longest: f64) -> Self {
         ElasticSubSteps {
             packed: Packed::of([&*term]),
             term,
+            motion,
             felt,
             longest,
             states: Vec::new(),
             touched: Vec::new(),
             acceleration: Vec::new(),
             mean: Vec::new(),
+            behind: 0.0,
         }
     }
 
-    /// The longest sub-step, s.
-    pub fn longest(&self) -> f64 {
-        self.longest
+    /// The bound on sub-steps, for listings.
+    pub(crate) fn bound(&self) -> String {
+        format!(
+            "elastic sub-steps: {:.2e} s at most, as many within a step as it takes",
+            self.longest
+        )
     }
 
     /// N for a step Δt, s.
@@ -62,16 +69,8 @@ impl<const D: usize> ElasticSubSteps<D> {
         (dt / self.longest - 1e-9).ceil().max(1.0) as usize
     }
 
-    /// N sub-steps with the forces of the last evaluation; returns δ, by which τ is still behind.
-    ///
-    /// # Errors
-    /// If a column is missing.
-    pub fn kick(
-        &mut self,
-        world: &mut World<D>,
-        motion: &mut ElasticMotion<D>,
-        dt: f64,
-    ) -> Result<f64, StepError> {
+    /// N sub-steps with the forces of the last evaluation.
+    fn swing(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let count = self.count(dt);
         let part = dt / count as f64;
         let team = world.team.clone();
@@ -117,7 +116,7 @@ impl<const D: usize> ElasticSubSteps<D> {
             });
             world.free.put(fields::VELOCITY, velocity)?;
             if step < count {
-                motion.apply_within(world, part)?;
+                self.motion.apply_within(world, part)?;
             }
         }
         let velocity = world.free.get(fields::VELOCITY)?;
@@ -129,14 +128,12 @@ impl<const D: usize> ElasticSubSteps<D> {
                 false => Vect::zeros(),
             };
         });
-        Ok(part)
+        self.behind = part;
+        Ok(())
     }
 
     /// Adds `share` of what the velocity of the drift has more than that of the last sub-step.
-    ///
-    /// # Errors
-    /// If there is no velocity.
-    pub fn shift(&self, world: &mut World<D>, share: f64) -> Result<(), StepError> {
+    fn shift(&self, world: &mut World<D>, share: f64) -> Result<(), StepError> {
         let velocity = world.free.get_mut(fields::VELOCITY)?;
         let all = velocity.par_iter_mut().zip(&self.mean);
         all.with_min_len(2048)
@@ -173,5 +170,49 @@ impl<const D: usize> ElasticSubSteps<D> {
             *touched = carries(i) || others.filter(|&j| carries(j)).any(near);
         });
         Ok(())
+    }
+}
+
+impl<const D: usize> StepHook<D> for ElasticSubSteps<D> {
+    fn name(&self) -> String {
+        "elastic sub-steps".into()
+    }
+    fn access(&self) -> Access {
+        let access = StepHook::access(&self.motion).and(self.term.access());
+        access
+            .and(CarriedStress(self.felt.clone()).access())
+            .both(fields::POSITION)
+            .here(fields::ACCELERATION)
+            .where_there(fields::PHASE)
+            .writes(fields::VELOCITY)
+    }
+    fn phases(&self) -> &'static [StepPhase] {
+        &[
+            StepPhase::BeforeWalls,
+            StepPhase::BeforeDrift,
+            StepPhase::AfterDrift,
+        ]
+    }
+    /// Places go with the mean of sub-steps, what is left of the stress with the last.
+    fn run(&mut self, phase: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let world = &mut *moment.world;
+        match phase {
+            StepPhase::BeforeWalls => self.shift(world, 1.0),
+            StepPhase::BeforeDrift => {
+                self.shift(world, -1.0)?;
+                self.motion.apply(world, self.behind)?;
+                self.shift(world, 1.0)
+            }
+            _ => self.shift(world, -1.0),
+        }
+    }
+}
+
+impl<const D: usize> Kick<D> for ElasticSubSteps<D> {
+    fn kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        self.swing(world, dt)
+    }
+    fn force(&self) -> OutsideForce<D> {
+        self.term.clone()
     }
 }

@@ -184,7 +184,8 @@ impl<const D: usize> Declares for Solve<D> {
         let access = Access::none()
             .both(fields::POSITION)
             .both(fields::VOLUME)
-            .writes(fields::EFFECTIVE_PRESSURE);
+            // A solve starts from the last one.
+            .remembers(fields::EFFECTIVE_PRESSURE);
         match self.buoyant.len() {
             1 => access,
             _ => access.both(fields::PHASE),

@@ -1,6 +1,5 @@
 //! The other smoothers: blind to what is smooth, keen on noise, and a diffusion.
 
-use sph_contribution::StepWork;
 use sph_core::{Role, Vect, fields};
 use sph_diffusion::{
     Accelerated, BrezziPitkaranta, DENSITY_GRADIENT, DeltaForm, DeltaMultiphase, DeltaSph,
@@ -22,8 +21,8 @@ fn rate<const D: usize>(world: &mut World<D>, smoother: &dyn Smoother<D>, laws: 
     }
     if smoother.accelerated() == Some(Accelerated::Slope) {
         // A slope that has long been as it is.
-        let mut mean = MeanAcceleration::new(Accelerated::Slope, 20.0);
-        mean.before_drift(world, 1e9).unwrap();
+        let mean = MeanAcceleration::new(Accelerated::Slope, 20.0);
+        mean.follow(world, 1e9).unwrap();
     }
     rates(world, &vec![smoother.term(laws)]).1
 }

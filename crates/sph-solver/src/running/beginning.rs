@@ -25,9 +25,10 @@ pub fn begin<const D: usize>(
         let identity = same.then_some(&options.identity);
         counters = checkpoint::load(flow, scene, &file, identity)?;
         flow.recount(&counters.left);
-        for work in &mut flow.works {
-            if let Some(counts) = counters.works.remove(&work.name()) {
-                work.recount(counts);
+        for hooked in flow.hooks.iter_mut() {
+            let hook = hooked.get_mut();
+            if let Some(counts) = counters.works.remove(&hook.name()) {
+                hook.resume(counts);
             }
         }
         let time = flow.world.time;

@@ -18,7 +18,7 @@ use crate::setup::builder::Part;
 use crate::setup::choices::Choices;
 use crate::setup::domain::{extent, height, pressure_at_rest};
 use crate::setup::field_error;
-use crate::setup::joining::{Given, evolved, joined, remedies};
+use crate::setup::joining::{Given, joined};
 use crate::setup::leaks::Leak;
 use crate::setup::output_fields::check_output_fields;
 use crate::setup::parts::parts;
@@ -118,8 +118,7 @@ pub(crate) fn assemble_share<const D: usize>(
         kinematic_viscosities,
         swing,
         outlets,
-        remedies: remedies(scene, &parts),
-        evolved: evolved(&*formulation, &parts),
+        density: formulation.diffused().evolved,
     };
     let mut flow = joined(world, planned, given);
     show(scene, &shown, &choices.probes, &mut flow)?;
@@ -188,7 +187,7 @@ fn nursery<const D: usize>(
     columns: Vec<OwnColumn<D>>,
     flow: &Flow<D>,
 ) -> Option<Nursery<D>> {
-    let some = flow.works.iter().any(|w| w.gives_birth());
+    let some = !flow.gates.is_empty();
     some.then(|| Nursery::new(scene, formulation, columns))
 }
 

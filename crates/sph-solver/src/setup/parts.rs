@@ -1,9 +1,8 @@
 //! The pieces of physics of a scene, as contributions.
 
-use std::cell::RefCell;
 use std::rc::Rc;
 
-use sph_contribution::{Contribution, Setting, Stages};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_diffusion::{Shifted, Smoothed};
 use sph_multiphase::{Compressible, Meeting};
 use sph_neighbours::Terms;
@@ -14,24 +13,24 @@ use sph_stress::{Elasticity, Friction, GrainPressure, Materials, Straining, Wall
 use crate::setup::builder::Part;
 use crate::setup::choices::Physics;
 
-/// Pair terms that a scene names itself; taken once.
-struct Given<const D: usize>(RefCell<Terms<D>>);
+/// Pair terms that a scene names itself.
+struct Given<const D: usize>(Terms<D>);
 
 impl<const D: usize> Contribution<D> for Given<D> {
-    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
-        self.0.take()
-    }
-    fn remedy(&self, _: &str) -> Option<String> {
-        Some("look at its parameters".into())
+    fn offer(&mut self, _: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer.terms.append(&mut self.0);
+        offer.remedy = Some("look at its parameters".into());
+        Ok(())
     }
 }
 
-/// Fields that outputs and probes ask for by name; the stages are made when they are asked for.
+/// Fields that outputs and probes ask for by name.
 struct Shown(Vec<String>);
 
 impl<const D: usize> Contribution<D> for Shown {
-    fn stages(&self, _: &Setting<'_, D>) -> Stages<D> {
-        sph_probes::derived_stages(&self.0)
+    fn offer(&mut self, _: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer.stages = sph_probes::derived_stages(&self.0);
+        Ok(())
     }
 }
 
@@ -87,8 +86,7 @@ pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>, shown: &[String
     if let Some(shifting) = physics.shifting {
         all.push(("shifting", Box::new(Shifted(shifting))));
     }
-    let given = Given(RefCell::new(physics.terms));
-    all.push(("term", Box::new(given)));
+    all.push(("term", Box::new(Given(physics.terms))));
     all.push(("walls", Box::new(WallFriction(materials))));
     if let Some(seepage) = physics.seepage {
         all.push(("seepage", Box::new(Seeping(seepage))));

@@ -2,15 +2,18 @@
 
 use std::sync::Arc;
 
-use sph_contribution::{Limiter, Refusal, Setting, Stages, StepWork};
-use sph_core::{AnyField, Declares, fields, plan};
+use sph_contribution::{
+    Gate, Limiter, Offer, OutsideForce, Refusal, Setting, Stages, StoredEnergy,
+};
+use sph_core::{AnyField, Declares, Evolved, Field, Scalar, fields, plan};
 use sph_multiphase::Diffused;
-use sph_neighbours::{Interaction, Terms, fuse_all};
+use sph_neighbours::{Interaction, fuse_all};
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
 use crate::setup::builder::Part;
 use crate::setup::transported::transported_by;
+use crate::step::hooks::{Hooked, Hooks};
 use crate::step::stages::{InteractionSweep, SharedWall, WallGeometry, WallState};
 
 /// Pair terms shared by the sweep and whoever measures with them.
@@ -27,11 +30,23 @@ pub struct Planned<const D: usize> {
     /// What plugin every term comes from, by the term's name.
     pub kinds: Vec<(String, &'static str)>,
     /// Work within a step, in order.
-    pub works: Vec<Box<dyn StepWork<D>>>,
-    /// The kinds of plugins that it comes from, in the same order.
-    pub work_kinds: Vec<&'static str>,
+    pub hooks: Hooks<D>,
+    /// Forces outside of the sweep.
+    pub outside: Vec<OutsideForce<D>>,
+    /// Sources and sinks of particles.
+    pub gates: Vec<Box<dyn Gate<D>>>,
+    /// Energy that particles store.
+    pub stored: Vec<Box<dyn StoredEnergy<D>>>,
+    /// Scalars with rates, besides the formulation's.
+    pub evolved: Vec<Evolved>,
+    /// Scalars that hooks advance.
+    pub advanced: Vec<Field<Scalar>>,
     /// Bounds on the step.
     pub limiters: Vec<Box<dyn Limiter<D>>>,
+    /// Bounds on steps within a step, for listings.
+    pub inner_bounds: Vec<String>,
+    /// What to change where a term of a kind has thrown a particle about, or where a stage has failed.
+    pub remedies: Vec<(&'static str, String)>,
     /// Rates that the sweep sums besides those of the formulation, in the order of their slots.
     pub transported: Vec<AnyField>,
 }
@@ -50,21 +65,8 @@ pub struct Planning<'a, const D: usize> {
     pub shown: &'a [String],
 }
 
-/// Terms with the kinds of plugins that they come from.
-#[derive(Default)]
-struct Offered<const D: usize> {
-    terms: Terms<D>,
-    kinds: Vec<(String, &'static str)>,
-    change_density: bool,
-}
-
-impl<const D: usize> Offered<D> {
-    /// Takes terms of a kind of plugin.
-    fn take(&mut self, kind: &'static str, terms: Terms<D>) {
-        self.kinds.extend(terms.iter().map(|t| (t.name(), kind)));
-        self.terms.extend(terms);
-    }
-}
+/// The offers of all parts, each with its kind of plugin.
+type Offers<const D: usize> = Vec<(&'static str, Offer<D>)>;
 
 impl<const D: usize> Planning<'_, D> {
     /// Asks all parts for what they offer and keeps, in order, the stages that somebody needs.
@@ -72,58 +74,87 @@ impl<const D: usize> Planning<'_, D> {
     /// # Errors
     /// The key of the scene for which a part is not known, or a column that nobody writes.
     pub fn plan(&self, parts: &mut [Part<D>]) -> Result<Planned<D>, SolverError> {
-        let setting = self.setting;
-        for (_, part) in parts.iter() {
-            part.check(setting).map_err(|r| self.refused(r))?;
-        }
-        let mut offered = Offered::default();
-        for (kind, part) in parts.iter() {
-            offered.take(kind, part.terms(setting));
-            offered.change_density |= part.changes_density(setting);
-        }
-        let by_terms: Vec<AnyField> = (offered.terms.iter())
-            .flat_map(|t| t.access().reads())
-            .collect();
-
+        let mut offers = self.offers(parts)?;
         let mut stages: Stages<D> = Vec::new();
         if let Some(walls) = self.walls {
             stages.push(Box::new(WallGeometry(walls.clone())));
             stages.push(Box::new(WallState(walls.clone())));
         }
-        stages.extend(parts.iter().flat_map(|(_, part)| part.stages(setting)));
+        stages.extend(offers.iter_mut().flat_map(|(_, o)| o.stages.drain(..)));
+        let terms = offers.iter().flat_map(|(_, o)| &o.terms);
+        let by_terms: Vec<AnyField> = terms.flat_map(|t| t.access().reads()).collect();
         let read = self.read(&stages, by_terms);
-        stages.extend(parts.iter().flat_map(|(_, p)| p.stages_for(setting, &read)));
-        let mut works = Vec::new();
-        let mut work_kinds = Vec::new();
-        for (kind, part) in parts.iter_mut() {
-            let done = part.works(setting, &read);
-            works.extend(done.map_err(|r| self.refused(r))?);
-            work_kinds.resize(works.len(), *kind);
+        for ((_, part), (_, offer)) in parts.iter_mut().zip(&mut offers) {
+            let offered = part.offer_to_readers(self.setting, &read, offer);
+            offered.map_err(|r| self.refused(r))?;
         }
-        let later: Vec<AnyField> = works.iter().flat_map(|w| w.access().reads()).collect();
-        for (kind, part) in parts.iter() {
-            offered.take(kind, part.riding(setting, &read, &later));
+        stages.extend(offers.iter_mut().flat_map(|(_, o)| o.stages.drain(..)));
+        let later: Vec<AnyField> = offers.iter().flat_map(read_later).collect();
+        let mut kinds = Vec::new();
+        let mut terms = Vec::new();
+        for (kind, offer) in &mut offers {
+            kinds.extend(offer.terms.iter().map(|t| (t.name(), *kind)));
+            terms.append(&mut offer.terms);
         }
-        let transported = transported_by(&offered.terms)?;
-        let terms: SharedTerms<D> = fuse_all(offered.terms).into();
-        let changed = offered.change_density.then_some(self.diffused);
+        for (kind, offer) in &mut offers {
+            let riding = offer.riding.drain(..);
+            for (_, term) in riding.filter(|(field, _)| later.contains(field)) {
+                kinds.push((term.name(), *kind));
+                terms.push(term);
+            }
+        }
+        let transported = transported_by(&terms)?;
+        let terms: SharedTerms<D> = fuse_all(terms).into();
+        let changed = offers.iter().any(|(_, o)| o.changes_density);
+        let changed = changed.then_some(self.diffused);
         let sweep = InteractionSweep::new(terms.clone(), changed, self.walls.is_some());
         stages.push(Box::new(sweep));
-        let goals = self.goals(parts, &stages, &works);
-        let (stages, pruned) = self.ordered(stages, &goals, &works)?;
-        Ok(Planned {
-            stages,
-            pruned,
+        let goals = self.goals(&offers, &stages, later);
+        let remedies = remedies(&mut offers);
+        let hooks = offers.iter_mut();
+        let hooks = hooks.flat_map(|(kind, o)| o.hooks.drain(..).map(|h| Hooked::of(kind, h)));
+        let mut planned = Planned {
+            stages: Vec::new(),
+            pruned: Vec::new(),
             terms,
-            kinds: offered.kinds,
-            works,
-            work_kinds,
-            limiters: parts
-                .iter()
-                .flat_map(|(_, p)| p.limiters(setting))
-                .collect(),
+            kinds,
+            hooks: Hooks::of(hooks.collect()),
+            outside: Vec::new(),
+            gates: Vec::new(),
+            stored: Vec::new(),
+            evolved: Vec::new(),
+            advanced: Vec::new(),
+            limiters: Vec::new(),
+            inner_bounds: Vec::new(),
+            remedies,
             transported,
-        })
+        };
+        planned.hooks.fresh_state = offers.iter().any(|(_, o)| o.fresh_state);
+        planned.outside.extend(planned.hooks.forces());
+        for (_, offer) in offers {
+            planned.outside.extend(offer.outside);
+            planned.gates.extend(offer.gates);
+            planned.stored.extend(offer.stored);
+            planned.evolved.extend(offer.transported);
+            planned.advanced.extend(offer.advanced);
+            planned.limiters.extend(offer.limiters);
+            planned.inner_bounds.extend(offer.inner_bounds);
+        }
+        (planned.stages, planned.pruned) = self.ordered(stages, &goals, &planned.hooks)?;
+        Ok(planned)
+    }
+
+    /// Asks all parts in turn for what they offer.
+    fn offers(&self, parts: &mut [Part<D>]) -> Result<Offers<D>, SolverError> {
+        let one = |(kind, part): &mut Part<D>| {
+            let chosen = self.scene.choice(kind);
+            let path = chosen.map_or(format!("[{kind}]"), |c| format!("`{}`", c.path));
+            let mut offer = Offer::of(path);
+            let offered = part.offer(self.setting, &mut offer);
+            offered.map_err(|r| self.refused(r))?;
+            Ok((*kind, offer))
+        };
+        parts.iter_mut().map(one).collect()
     }
 
     /// The path of a refused key in the scene.
@@ -148,17 +179,12 @@ impl<const D: usize> Planning<'_, D> {
     }
 
     /// Columns that have to be computed.
-    fn goals(
-        &self,
-        parts: &[Part<D>],
-        stages: &Stages<D>,
-        works: &[Box<dyn StepWork<D>>],
-    ) -> Vec<AnyField> {
+    fn goals(&self, offers: &Offers<D>, stages: &Stages<D>, later: Vec<AnyField>) -> Vec<AnyField> {
         let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
-        goals.extend(works.iter().flat_map(|w| w.access().reads()));
-        for (_, part) in parts {
-            goals.extend(part.goals());
-            goals.extend(part.transported().iter().map(|e| e.rate.any()));
+        goals.extend(later);
+        for (_, offer) in offers {
+            goals.extend(&offer.goals);
+            goals.extend(offer.transported.iter().map(|e| e.rate.any()));
         }
         for stage in stages {
             let writes = stage.access().writes;
@@ -173,11 +199,11 @@ impl<const D: usize> Planning<'_, D> {
         &self,
         stages: Stages<D>,
         goals: &[AnyField],
-        works: &[Box<dyn StepWork<D>>],
+        hooks: &Hooks<D>,
     ) -> Result<(Stages<D>, Vec<String>), SolverError> {
         // All that is in the store before the first evaluation is state.
         let state = self.setting.world.free.fields();
-        let remembered = works.iter().flat_map(|w| w.remembered());
+        let remembered = hooks.iter().flat_map(|h| h.access.remembers.clone());
         let sources: Vec<AnyField> = state.chain(remembered).collect();
         let declared: Vec<&dyn Declares> =
             stages.iter().map(|s| s.as_ref() as &dyn Declares).collect();
@@ -192,4 +218,22 @@ impl<const D: usize> Planning<'_, D> {
         let order = planned.order.iter();
         Ok((order.filter_map(|&k| slots[k].take()).collect(), pruned))
     }
+}
+
+/// Columns that hooks and gates read.
+fn read_later<const D: usize>((_, offer): &(&'static str, Offer<D>)) -> Vec<AnyField> {
+    let hooks = offer.hooks.iter().map(|h| h.get().access());
+    let gates = offer.gates.iter().map(|g| g.access());
+    hooks.chain(gates).flat_map(|a| a.reads()).collect()
+}
+
+/// Remedies of terms, by their kinds, then those of failures, by the names of what fails.
+fn remedies<const D: usize>(offers: &mut Offers<D>) -> Vec<(&'static str, String)> {
+    let of_terms =
+        |(kind, offer): &mut (&'static str, Offer<D>)| Some((*kind, offer.remedy.take()?));
+    let mut all: Vec<_> = offers.iter_mut().filter_map(of_terms).collect();
+    for (_, offer) in offers {
+        all.append(&mut offer.remedies_of_failures);
+    }
+    all
 }

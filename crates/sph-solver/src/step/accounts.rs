@@ -25,7 +25,7 @@ pub(crate) fn open<const D: usize>(
     let Some((name, _)) = probes.iter().find(|(_, probe)| probe.needs_books()) else {
         return Ok(());
     };
-    let comes = flow.works.iter().any(|work| work.gives_birth());
+    let comes = !flow.gates.is_empty();
     let goes = !flow.outlets.labels().is_empty();
     let why = match (integrator.kicks_once(), comes || goes) {
         (false, _) => {
@@ -36,8 +36,8 @@ pub(crate) fn open<const D: usize>(
             "particles come in or leave, and their energy is not booked: take the probe out".into()
         }
         _ => {
-            let (laws, kinds) = (flow.laws.clone(), flow.work_kinds.clone());
-            flow.books = Some(Books::open(formulation, laws, kinds, &mut flow.world)?);
+            let books = Books::open(formulation, flow)?;
+            flow.observers.push(Box::new(books));
             return Ok(());
         }
     };

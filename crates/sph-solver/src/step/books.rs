@@ -1,11 +1,15 @@
 //! The books of energy: how much everybody has given to every particle. Only where a probe asks for them.
 
 use rayon::prelude::*;
-use sph_core::{Access, Field, FieldError, Role, Scalar, StepError, Vect, fields};
+use sph_contribution::StepPhase;
+use sph_core::{Field, FieldError, Role, Scalar, StepError, Vect, fields};
 use sph_multiphase::{Diffused, Formulation};
 use sph_neighbours::{ClassRate, Interaction, There, World, class_rates, interactions};
 use sph_probes::{BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyWork};
 use sph_state::Laws;
+
+use crate::step::flow::Flow;
+use crate::step::observer::{Boundary, Observer, Seen};
 
 /// Particles that one thread takes at least.
 const BATCH: usize = 1024;
@@ -31,8 +35,8 @@ fn of_terms(kind: &str) -> Option<EnergyWork> {
     }
 }
 
-/// Whose it is what a kind of plugin does within a step.
-fn of_works(kind: &str) -> EnergyWork {
+/// Whose work a hook of a kind of plugin does.
+fn of_hooks(kind: &str) -> EnergyWork {
     match kind {
         "damping" => EnergyWork::Damping,
         "surface" => EnergyWork::Surface,
@@ -48,8 +52,12 @@ pub struct Books<const D: usize> {
     /// −D lnρ/Dt by motion.
     dilatation: [Box<dyn Interaction<D>>; 1],
     laws: Laws,
-    /// Kinds of the plugins that work within a step, in their order.
-    works: Vec<&'static str>,
+    /// Whose work every term does, by its name; nobody's, the pressure.
+    terms: Vec<(String, Option<EnergyWork>)>,
+    /// Whose work every hook does, in their order.
+    hooks: Vec<EnergyWork>,
+    /// The number of the hook that kicks, if there is one.
+    kicker: Option<usize>,
     /// Velocities before the kick, m/s.
     before: Vec<Vect<D>>,
     /// Velocities as booked, m/s.
@@ -94,15 +102,32 @@ fn each(particles: usize, one: impl Fn(usize) -> f64 + Sync + Send) -> Vec<f64> 
     all.map(one).collect()
 }
 
+impl<const D: usize> Observer<D> for Books<D> {
+    fn observe(&mut self, at: Boundary, seen: &mut Seen<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *seen.world, seen.dt);
+        match at {
+            Boundary::Evaluated => Ok(self.evaluated(world)?),
+            Boundary::Kicks => self.before_kick(world, seen.terms),
+            Boundary::Kicked => Ok(self.kicked(world, dt)?),
+            Boundary::Hooked(StepPhase::AfterKick, k) => Ok(self.worked(world, k)?),
+            Boundary::KickEnds => self.settled(world, dt),
+            Boundary::Hooked(StepPhase::BeforeWalls | StepPhase::BeforeDrift, k) => {
+                Ok(self.turned(world, self.hooks[k])?)
+            }
+            Boundary::Hooked(..) => Ok(()),
+            Boundary::Constrained => Ok(self.turned(world, EnergyWork::Walls)?),
+            Boundary::Drifts => self.drifts(world, dt),
+        }
+    }
+}
+
 impl<const D: usize> Books<D> {
-    /// Empty books; `works` are the kinds of the plugins that work within a step, in their order. Adds their columns to the
-    /// particles.
+    /// Empty books of a flow. Adds their columns to the particles.
     pub(crate) fn open(
         formulation: &dyn Formulation<D>,
-        laws: Laws,
-        works: Vec<&'static str>,
-        world: &mut World<D>,
+        flow: &mut Flow<D>,
     ) -> Result<Self, FieldError> {
+        let world = &mut flow.world;
         let all = [ENERGY_AT_START, BOOKED_COMPRESSION];
         for field in ENERGY_WORKS.into_iter().chain(all) {
             world.free.add(field, Role::State);
@@ -113,8 +138,12 @@ impl<const D: usize> Books<D> {
             diffused: formulation.diffused(),
             summed: formulation.compressed().is_none(),
             dilatation: [formulation.dilatation()],
-            laws,
-            works,
+            laws: flow.laws.clone(),
+            terms: (flow.kinds.iter())
+                .map(|(name, kind)| (name.clone(), of_terms(kind)))
+                .collect(),
+            hooks: flow.hooks.iter().map(|hook| of_hooks(hook.kind)).collect(),
+            kicker: flow.hooks.kicking().first().copied(),
             before: Vec::new(),
             velocity: Vec::new(),
             turns: Vec::new(),
@@ -127,17 +156,8 @@ impl<const D: usize> Books<D> {
         })
     }
 
-    /// Columns that the books read while others work.
-    pub(crate) fn access(&self) -> Access {
-        Access::none()
-            .here(fields::VELOCITY)
-            .here(fields::VOLUME)
-            .here(self.diffused.evolved.value)
-            .where_there(fields::RENORMALISATION)
-    }
-
     /// After an evaluation: what the motion has made of the compression since that was booked.
-    pub(crate) fn evaluated(&self, world: &mut World<D>) -> Result<(), FieldError> {
+    fn evaluated(&self, world: &mut World<D>) -> Result<(), FieldError> {
         let density = world.free.get(fields::DENSITY)?;
         let now = self.compression(world, density)?;
         let booked = world.free.get(BOOKED_COMPRESSION)?;
@@ -159,15 +179,14 @@ impl<const D: usize> Books<D> {
     }
 
     /// Before a kick: what every class of terms is about to do.
-    pub(crate) fn before_kick(
+    fn before_kick(
         &mut self,
         world: &World<D>,
         terms: &[Box<dyn Interaction<D>>],
-        kinds: &[(String, &'static str)],
     ) -> Result<(), StepError> {
         let class = |name: &str| {
-            let kind = kinds.iter().find(|(n, _)| n == name);
-            let work = of_terms(kind.map_or("term", |(_, kind)| kind))?;
+            let known = self.terms.iter().find(|(n, _)| n == name);
+            let work = known.map_or(Some(EnergyWork::Others), |(_, work)| *work)?;
             CLASSES.iter().position(|c| *c == work)
         };
         let terms: Vec<_> = terms.iter().map(|t| &**t).collect();
@@ -181,20 +200,14 @@ impl<const D: usize> Books<D> {
         Ok(())
     }
 
-    /// After the kick proper over `dt` seconds, which the work number `kicker` did, if there is one.
-    pub(crate) fn kicked(
-        &mut self,
-        world: &World<D>,
-        dt: f64,
-        kicker: Option<usize>,
-    ) -> Result<(), FieldError> {
+    /// After the kick proper over `dt` seconds.
+    fn kicked(&mut self, world: &World<D>, dt: f64) -> Result<(), FieldError> {
         let now = world.free.get(fields::VELOCITY)?;
-        if let Some(kicker) = kicker {
+        if let Some(kicker) = self.kicker {
             let acceleration = world.free.get(fields::ACCELERATION)?.iter();
             let before = self.before.iter().zip(acceleration);
             let more = now.iter().zip(before).map(|(u, (v, a))| u - v - a * dt);
-            let of = of_works(self.works[kicker]);
-            self.turns.push((of, more.collect()));
+            self.turns.push((self.hooks[kicker], more.collect()));
         }
         now.clone_into(&mut self.velocity);
         let scalar = world.free.get(self.diffused.evolved.value)?;
@@ -202,9 +215,9 @@ impl<const D: usize> Books<D> {
         Ok(())
     }
 
-    /// After the work number `k` on velocities and scalars that have been advanced.
-    pub(crate) fn worked(&mut self, world: &World<D>, k: usize) -> Result<(), FieldError> {
-        let of = of_works(self.works[k]);
+    /// After the hook number `k` has worked on velocities and scalars that have been advanced.
+    fn worked(&mut self, world: &World<D>, k: usize) -> Result<(), FieldError> {
+        let of = self.hooks[k];
         let now = world.free.get(fields::VELOCITY)?;
         if now != self.velocity {
             let change = now.iter().zip(&self.velocity).map(|(u, v)| u - v);
@@ -228,7 +241,7 @@ impl<const D: usize> Books<D> {
 
     /// After a kick over `dt` seconds and all that followed: the work of everybody, with the mean of the velocities before
     /// and after.
-    pub(crate) fn settled(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    fn settled(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mean = self.before.iter().zip(&self.velocity);
         let mean: Vec<Vect<D>> = mean.map(|(a, b)| (a + b) * 0.5).collect();
         let n = mean.len();
@@ -269,7 +282,7 @@ impl<const D: usize> Books<D> {
         self.spread(world, dt)
     }
 
-    /// Changes of the density over `dt` seconds: diffusion, class by class, and works.
+    /// Changes of the density over `dt` seconds: diffusion, class by class, and hooks.
     fn spread(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let changes = std::mem::take(&mut self.changes);
         if world.free.has(self.diffused.evolved.rate.name) {
@@ -303,11 +316,7 @@ impl<const D: usize> Books<D> {
     }
 
     /// Books velocities that somebody has changed.
-    pub(crate) fn turned(
-        &mut self,
-        world: &mut World<D>,
-        of: EnergyWork,
-    ) -> Result<(), FieldError> {
+    fn turned(&mut self, world: &mut World<D>, of: EnergyWork) -> Result<(), FieldError> {
         let mass = world.free.get(fields::MASS)?;
         let now = world.free.get(fields::VELOCITY)?;
         let gain = each(now.len(), |i| {
@@ -319,7 +328,7 @@ impl<const D: usize> Books<D> {
     }
 
     /// Before a drift over `dt` seconds with the present velocities: weights and shifts.
-    pub(crate) fn drifts(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    fn drifts(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mass = world.free.get(fields::MASS)?;
         let height = |i: usize, way: &Vect<D>| -mass[i] * world.steady_gravity.dot(way) * dt;
         let n = mass.len();

@@ -1,6 +1,6 @@
 //! The pressure between the grains in a scene.
 
-use sph_contribution::{Contribution, Setting, Stages};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 use crate::{EffectivePressure, PorePressure, Rheologies};
 
@@ -13,18 +13,18 @@ pub struct GrainPressure<const D: usize> {
 }
 
 impl<const D: usize> Contribution<D> for GrainPressure<D> {
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let both = self.laws.iter().zip(setting.laws.iter());
         let soils = both.map(|(law, state)| {
             let soil = law.needs().pressure;
             soil.then(|| state.reference().density)
         });
-        let stage = self.effective.stage(soils.collect());
-        vec![stage, Box::new(PorePressure)]
-    }
-    fn remedies_of_failures(&self) -> Vec<(&'static str, String)> {
+        offer.stages.push(self.effective.stage(soils.collect()));
+        offer.stage(PorePressure);
         let why = "the pressure between the grains could not be solved for: raise \
                    `effective-pressure.laplace.iterations`, or loosen its `tolerance`";
-        vec![("effective pressure", why.into())]
+        let remedy = ("effective pressure", why.into());
+        offer.remedies_of_failures.push(remedy);
+        Ok(())
     }
 }

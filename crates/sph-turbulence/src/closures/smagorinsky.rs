@@ -2,8 +2,8 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_contribution::{Contribution, OwnColumn, Refusal, Setting, Stages, StepWork};
-use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, StepError, fields, register};
+use sph_contribution::{Contribution, Offer, OwnColumn, Refusal, Setting};
+use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields, register};
 use sph_neighbours::World;
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
@@ -173,46 +173,34 @@ impl<const D: usize> EddyViscosity<D> for Smagorinsky {
 struct LargeEddies(Smagorinsky);
 
 impl<const D: usize> Contribution<D> for LargeEddies {
-    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
-        self.0.behind().check(setting)?;
-        let grips = &setting.world.walls.elements.grip;
-        let damps = self.0.damping == Damping::VanDriest;
-        match damps && !grips.iter().any(|grip| *grip > 0.0) {
-            false => Ok(()),
-            true => Err(Refusal::of(
-                KIND,
-                "damping",
-                "van Driest's damping is of walls of segments or triangles that rub, and there are none: it needs \
-                 `[walls.usaw]` and a wall with `condition = \"no-slip\"`",
-            )),
-        }
-    }
     fn columns(&self) -> Vec<OwnColumn<D>> {
         match self.0.strain_of {
             StrainOf::ThisStep => Vec::new(),
             StrainOf::LastStep => vec![OwnColumn::scalar(LAST_STRAIN, |_| 0.0)],
         }
     }
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        let mut stages = self.0.behind().stages(setting);
-        if self.0.damping == Damping::VanDriest {
-            stages.push(Box::new(WallUnits {
-                viscosities: viscosities(&self.0.phases, setting),
-                tree: None,
-            }));
-        }
-        stages
-    }
-    fn works(
-        &mut self,
-        _: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        let mut works = self.0.behind().works();
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        self.0.behind().offer_to(setting, offer)?;
         if self.0.strain_of == StrainOf::LastStep {
-            works.push(Box::new(KeepStrain));
+            offer.hook(KeepStrain);
         }
-        Ok(works)
+        if self.0.damping != Damping::VanDriest {
+            return Ok(());
+        }
+        let grips = &setting.world.walls.elements.grip;
+        if !grips.iter().any(|grip| *grip > 0.0) {
+            return Err(Refusal::of(
+                KIND,
+                "damping",
+                "van Driest's damping is of walls of segments or triangles that rub, and there are none: it needs \
+                 `[walls.usaw]` and a wall with `condition = \"no-slip\"`",
+            ));
+        }
+        offer.stage(WallUnits {
+            viscosities: viscosities(&self.0.phases, setting),
+            tree: None,
+        });
+        Ok(())
     }
 }
 

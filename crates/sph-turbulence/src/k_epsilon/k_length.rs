@@ -3,9 +3,11 @@
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_contribution::{Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork};
-use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, register};
-use sph_neighbours::{Lanewise, Terms, World};
+use sph_contribution::{
+    Contribution, Offer, OwnColumn, Refusal, Setting, StepHook, StepMoment, StepPhase,
+};
+use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, register};
+use sph_neighbours::{Lanewise, World};
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
 
 use super::diffusion::{Diffusion, DiffusionLimit};
@@ -157,61 +159,42 @@ impl<const D: usize> EddyViscosity<D> for KLength {
 struct OneEquation(KLength);
 
 impl<const D: usize> Contribution<D> for OneEquation {
-    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
-        self.0.behind().check(setting)?;
-        let rubs = setting.world.walls.elements.grip.iter().any(|g| *g > 0.0);
-        match rubs && setting.phases.len() == 1 {
-            false => Ok(()),
-            true => Err(Refusal::of(
-                KIND,
-                "",
-                "k has no value at walls that rub without a wall function: write `condition = \"free-slip\"` there and name \
-                 the walls in `[wall-function.log-law]`",
-            )),
-        }
-    }
     fn columns(&self) -> Vec<OwnColumn<D>> {
         let (energy, phases) = (self.0.energy, self.0.phases.clone());
         let start = move |phase: &str| if acts_on(&phases, phase) { energy } else { 0.0 };
         vec![OwnColumn::scalar(TURBULENT_ENERGY, move |b| start(b.phase)).positive()]
     }
-    fn transported(&self) -> Vec<Evolved> {
-        vec![Evolved {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        self.0.behind().offer_to(setting, offer)?;
+        let rubs = setting.world.walls.elements.grip.iter().any(|g| *g > 0.0);
+        if rubs && setting.phases.len() == 1 {
+            return Err(Refusal::of(
+                KIND,
+                "",
+                "k has no value at walls that rub without a wall function: write `condition = \"free-slip\"` there and name \
+                 the walls in `[wall-function.log-law]`",
+            ));
+        }
+        offer.transported.push(Evolved {
             value: TURBULENT_ENERGY,
             rate: TURBULENT_ENERGY_RATE,
-        }]
-    }
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        let mut stages = self.0.behind().stages(setting);
+        });
         if self.0.damped_at_surfaces {
-            stages.push(Box::new(SurfaceShare));
+            offer.stage(SurfaceShare);
         }
-        stages
-    }
-    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
-        let sigma = KEpsilonModel::default().sigma_k;
-        vec![Box::new(Lanewise(Diffusion {
-            sigma: [sigma],
+        offer.term(Lanewise(Diffusion {
+            sigma: [KEpsilonModel::default().sigma_k],
             wall_flux: None,
-        }))]
-    }
-    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
-        vec![Box::new(DiffusionLimit(setting.viscous))]
-    }
-    fn works(
-        &mut self,
-        setting: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        Ok(vec![Box::new(Sources {
+        }));
+        offer.limiter(DiffusionLimit(setting.viscous));
+        offer.hook(Sources {
             length: self.0.length(),
             viscosities: viscosities(&self.0.phases, setting),
             damped: self.0.damped_at_surfaces,
             bed: self.0.bed.is_some(),
-        })])
-    }
-    fn remedy(&self, _: &str) -> Option<String> {
-        Some("look at k at the start: the eddy viscosity is 0.55 √k L".into())
+        });
+        offer.remedy = Some("look at k at the start: the eddy viscosity is 0.55 √k L".into());
+        Ok(())
     }
 }
 
@@ -226,7 +209,7 @@ struct Sources {
     bed: bool,
 }
 
-impl<const D: usize> StepWork<D> for Sources {
+impl<const D: usize> StepHook<D> for Sources {
     fn name(&self) -> String {
         "k-length".into()
     }
@@ -249,7 +232,11 @@ impl<const D: usize> StepWork<D> for Sources {
         };
         BedSide::access(self.bed, access)
     }
-    fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::AfterKick]
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *moment.world, moment.dt);
         let mut energy = world.free.take(TURBULENT_ENERGY)?;
         let viscosity = Kinematic::of(&self.viscosities, world)?;
         let acts = |i: usize| viscosity.at(i).is_some();
