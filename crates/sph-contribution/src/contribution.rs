@@ -26,6 +26,8 @@ pub struct Setting<'a, const D: usize> {
     pub viscous: f64,
     /// Whether a step has one kick and one drift, both over all of it.
     pub kicks_once: bool,
+    /// Whether no wall holds the fluid still: all of them move as prescribed, or there is none against gravity.
+    pub carried: bool,
     /// A wall that moves, if there is one.
     pub moving_wall: Option<&'a str>,
     /// Columns, walls and kernel before the first step.

@@ -66,7 +66,7 @@ impl<const D: usize> StepHook<D> for MeanAcceleration {
     fn access(&self) -> Access {
         Access::none()
             .here(self.source())
-            .writes(fields::MEAN_ACCELERATION)
+            .remembers(fields::MEAN_ACCELERATION)
     }
     fn phases(&self) -> &'static [StepPhase] {
         &[StepPhase::BeforeDrift]

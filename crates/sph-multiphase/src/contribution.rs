@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sph_contribution::{Contribution, LightBodyLimit, Offer, Refusal, Setting, SoundLimit};
 use sph_state::PressureStage;
 
-use crate::{Acting, Dilatation, Formulation, InterfaceLimit, InterfaceModel, PressureScheme};
+use crate::{Acting, Dilatation, Formulation, InterfaceLimit, PressureScheme};
 
 /// The formulation that a scene names, with its equations of state.
 pub struct Compressible<const D: usize> {
@@ -59,27 +59,6 @@ impl<const D: usize> Contribution<D> for Compressible<D> {
             offer.advanced.push(compressed.value);
             offer.hook(Dilatation::new(compressed, self.formulation.divergence()));
         }
-        Ok(())
-    }
-}
-
-/// An interface model that a scene names.
-pub struct Meeting<const D: usize>(pub Box<dyn InterfaceModel<D>>);
-
-impl<const D: usize> Contribution<D> for Meeting<D> {
-    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        if setting.phases.len() <= 1 {
-            return Err(Refusal::of(
-                "interface",
-                "",
-                "the scene has one phase, and interfaces are between two: take this table out, or add a phase",
-            ));
-        }
-        self.0.check(setting)?;
-        offer.stages = self.0.stages_within(setting);
-        offer.terms.push(self.0.term(setting.laws));
-        offer.limiters.extend(self.0.limiter(setting.laws));
-        offer.remedy = Some(format!("lower the coefficients of {}", offer.path));
         Ok(())
     }
 }

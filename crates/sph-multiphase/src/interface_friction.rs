@@ -6,13 +6,13 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{Access, StepError, StepLimit, Vect, fields, register};
 use sph_neighbours::{
-    BoundTerm, Contact, Elements, Interaction, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise,
-    Pair, Rates, There, WallPoints, World, add_scaled, dot, minus, set, splat, unlike, vector,
+    BoundTerm, Contact, Elements, Lane, LanePair, LanePairTerm, LaneTerm, Lanewise, Pair, Rates,
+    There, WallPoints, World, add_scaled, dot, minus, set, splat, unlike, vector,
 };
 
 use crate::scattered::{SCATTERED, Scattered};
-use crate::{InterfaceEntry, InterfaceModel};
-use sph_contribution::{Limiter, Stages};
+use crate::{InterfaceEntry, offer_interface};
+use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 use sph_neighbours::lattice_sum;
 use sph_state::Laws;
 
@@ -63,20 +63,15 @@ impl Default for InterfaceFriction {
     }
 }
 
-impl<const D: usize> InterfaceModel<D> for InterfaceFriction {
-    fn stages(&self, laws: &Laws) -> Stages<D> {
-        let light = Damping::of(self, laws).wall_density;
-        vec![Box::new(Scattered {
-            light: light.iter().map(|density| *density > 0.0).collect(),
-        })]
-    }
-
-    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Lanewise(Damping::of(self, laws)))
-    }
-
-    fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        Some(Box::new(DampingLimit(Damping::of(self, laws))))
+impl<const D: usize> Contribution<D> for InterfaceFriction {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        let damping = Damping::of(self, setting.laws);
+        let light = damping.wall_density.iter();
+        offer.stage(Scattered {
+            light: light.map(|density| *density > 0.0).collect(),
+        });
+        offer.limiter(DampingLimit(damping.clone()));
+        offer_interface(Box::new(Lanewise(damping)), setting, offer)
     }
 }
 

@@ -3,12 +3,11 @@
 use std::sync::{Arc, Mutex};
 
 use sph_boundary::Wall;
-use sph_contribution::{Contribution, Offer, OwnColumn, Refusal, Setting};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::Vect;
 use sph_state::{BoundState, Laws};
 
 use crate::faces::{Face, Faces, SharedFaces, lock};
-use crate::flux::OPEN_FLUX;
 use crate::memory::Memory;
 use crate::passing::Passing;
 use crate::walls::OpenWalls;
@@ -163,13 +162,6 @@ impl<const D: usize> OpenBoundaries<D> {
 }
 
 impl<const D: usize> Contribution<D> for OpenBoundaries<D> {
-    fn columns(&self) -> Vec<OwnColumn<D>> {
-        match self.summed {
-            true => vec![OwnColumn::zero(OPEN_FLUX.any())],
-            false => Vec::new(),
-        }
-    }
-
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         if !setting.kicks_once {
             return Err(Refusal::of(

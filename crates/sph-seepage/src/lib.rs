@@ -5,16 +5,12 @@
 #![doc = include_str!("../README.md")]
 
 mod contract;
-mod contribution;
 mod darcy_forchheimer;
 mod exchange;
 mod net;
 mod pore_resistance;
 mod pore_water;
 
-pub use contract::{
-    SEEPAGE_PRESSURE, SEEPAGE_VELOCITY, Seepage, SeepageEntry, SeepagePhases, SeepageProblem,
-};
-pub use contribution::Seeping;
+pub use contract::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY, SeepageEntry};
 pub use darcy_forchheimer::DarcyForchheimer;
 pub use pore_resistance::PoreResistance;

@@ -217,6 +217,15 @@ struct About<'a, const D: usize> {
     shown: &'a [String],
 }
 
+/// Whether no wall holds the fluid still: all of them move as prescribed, or there is none against gravity.
+fn carried(scene: &Scene) -> bool {
+    let mut walls = scene.wall.values();
+    match scene.wall.is_empty() {
+        true => scene.numerics.gravity.iter().flatten().any(|g| *g != 0.0),
+        false => walls.all(|wall| wall.motion.is_some()),
+    }
+}
+
 /// Whether a wall moves or slides.
 pub(crate) fn moves(wall: &sph_scene::Wall) -> bool {
     wall.motion.is_some() || wall.velocity.is_some() || !wall.mover.is_empty()
@@ -238,6 +247,7 @@ impl<const D: usize> About<'_, D> {
             courant: coefficients.courant,
             viscous: coefficients.viscous,
             kicks_once: self.integrator.kicks_once(),
+            carried: carried(self.scene),
             moving_wall: moving.map(|(name, _)| name.as_str()),
             world,
         };

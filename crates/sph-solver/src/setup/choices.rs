@@ -4,19 +4,15 @@ use std::sync::Arc;
 
 use sph_boundary::{Mover, MoverEntry, Wall, WallEntry};
 use sph_core::SceneProblem;
-use sph_diffusion::{Shifting, ShiftingEntry, Smoother, SmootherEntry};
 use sph_implicit::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
 use sph_integrators::{Integrator, IntegratorEntry};
 use sph_kernels::Kernel;
-use sph_multiphase::{
-    Formulation, FormulationEntry, InterfaceEntry, InterfaceModel, PressureEntry, PressureScheme,
-};
+use sph_multiphase::{Formulation, FormulationEntry, PressureEntry, PressureScheme};
 use sph_neighbours::{KernelEntry, TermEntry, Terms};
 use sph_open::{OpenBoundary, OpenBoundaryEntry};
 use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry};
 use sph_rheology::RheologyEntry;
 use sph_scene::{PluginChoice, Scene};
-use sph_seepage::{Seepage, SeepageEntry};
 use sph_state::{EquationOfState, EquationOfStateEntry};
 use sph_stress::{
     EffectivePressure, EffectivePressureEntry, ElasticForce, ElasticForceEntry, Rheologies,
@@ -65,11 +61,7 @@ pub struct Physics<const D: usize> {
     /// Only where a law is elastic.
     pub elastic_force: Option<Box<dyn ElasticForce<D>>>,
     pub effective_pressure: Option<Box<dyn EffectivePressure<D>>>,
-    pub seepage: Option<Box<dyn Seepage<D>>>,
     pub eddy_viscosity: Option<Box<dyn EddyViscosity<D>>>,
-    pub smoother: Option<Box<dyn Smoother<D>>>,
-    pub shifting: Option<Box<dyn Shifting<D>>>,
-    pub interfaces: Vec<Box<dyn InterfaceModel<D>>>,
     pub terms: Terms<D>,
     /// In the order of the phase numbers.
     pub rheologies: Rheologies,
@@ -162,10 +154,6 @@ impl Builder<'_> {
             pressed,
             "no law of this scene feels a pressure: take this table out",
         );
-        let seepage = self.one::<D, SeepageEntry>();
-        let smoother = self.one::<D, SmootherEntry>();
-        let shifting = self.one::<D, ShiftingEntry>();
-        let interfaces = self.each::<D, InterfaceEntry>(scene.interfaces());
         let terms = self.each::<D, TermEntry>(scene.terms());
         let contributions = self.contributions::<D>();
         Some(Physics {
@@ -176,11 +164,7 @@ impl Builder<'_> {
             velocity_gradient: velocity_gradient.map(Arc::from),
             elastic_force,
             effective_pressure,
-            seepage,
             eddy_viscosity,
-            smoother,
-            shifting,
-            interfaces,
             terms,
             rheologies,
             contributions,

@@ -3,11 +3,9 @@
 use std::rc::Rc;
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
-use sph_diffusion::{Shifted, Smoothed};
-use sph_multiphase::{Compressible, Meeting};
+use sph_multiphase::Compressible;
 use sph_neighbours::Terms;
 use sph_scene::Scene;
-use sph_seepage::Seeping;
 use sph_stress::{Elasticity, Friction, GrainPressure, Materials, Straining, WallFriction};
 
 use crate::setup::builder::Part;
@@ -34,14 +32,22 @@ impl<const D: usize> Contribution<D> for Shown {
     }
 }
 
-/// Whether no wall holds the fluid still: all of them move as prescribed, or there is none against gravity.
-fn carried(scene: &Scene) -> bool {
-    let mut walls = scene.wall.values();
-    match scene.wall.is_empty() {
-        true => scene.numerics.gravity.iter().flatten().any(|g| *g != 0.0),
-        false => walls.all(|wall| wall.motion.is_some()),
-    }
-}
+/// Kinds in the order in which their terms are summed; all others follow.
+const SUMMED: [&str; 13] = [
+    "formulation",
+    "effective-pressure",
+    "velocity-gradient",
+    "viscous-operator",
+    "eddy-viscosity",
+    "elastic-force",
+    "smoother",
+    "interface",
+    "shifting",
+    "term",
+    "walls",
+    "seepage",
+    "output",
+];
 
 /// All of them, in the order in which their terms are summed; `shown` are the names of what is written and measured.
 pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>, shown: &[String]) -> Vec<Part<D>> {
@@ -74,24 +80,11 @@ pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>, shown: &[String
     all.push(("viscous-operator", Box::new(friction)));
     all.extend(turbulence.map(|part| ("eddy-viscosity", part)));
     all.push(("elastic-force", Box::new(Elasticity(materials.clone()))));
-    if let Some(mut smoother) = physics.smoother {
-        if carried(scene) {
-            smoother.carried();
-        }
-        all.push(("smoother", Box::new(Smoothed(smoother))));
-    }
-    for interface in physics.interfaces {
-        all.push(("interface", Box::new(Meeting(interface))));
-    }
-    if let Some(shifting) = physics.shifting {
-        all.push(("shifting", Box::new(Shifted(shifting))));
-    }
     all.push(("term", Box::new(Given(physics.terms))));
     all.push(("walls", Box::new(WallFriction(materials))));
-    if let Some(seepage) = physics.seepage {
-        all.push(("seepage", Box::new(Seeping(seepage))));
-    }
     all.push(("output", Box::new(Shown(shown.to_vec()))));
     all.extend(physics.contributions);
+    let place = |(kind, _): &Part<D>| SUMMED.iter().position(|k| k == kind);
+    all.sort_by_key(|part| place(part).unwrap_or(SUMMED.len()));
     all
 }
