@@ -113,8 +113,10 @@ pub trait StepHook<const D: usize>: Send {
 /// Counts of a hook since the start, and its remarks at the end of a run.
 #[derive(Debug, Default)]
 pub struct Report {
-    /// Counts, for the summary and for checkpoints.
+    /// Counts, for checkpoints.
     pub counts: Option<Json>,
+    /// The key of the summary under which the counts stand; in no summary if there is none.
+    pub summary: Option<&'static str>,
     /// Why the run has no result.
     pub verdict: Option<StepError>,
     /// Why results should be doubted.

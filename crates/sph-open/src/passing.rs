@@ -7,8 +7,7 @@ use sph_neighbours::World;
 use crate::faces::{SharedFaces, lock};
 use crate::flux::OPEN_FLUX;
 
-/// Name of the work, under which the summary has the budget.
-pub const PASSING: &str = "open boundaries";
+const NAME: &str = "open boundaries";
 
 /// Lets mass through.
 #[derive(Clone)]
@@ -44,7 +43,7 @@ impl<const D: usize> Passing<D> {
 
 impl<const D: usize> StepHook<D> for Passing<D> {
     fn name(&self) -> String {
-        PASSING.into()
+        NAME.into()
     }
 
     fn access(&self) -> Access {
@@ -72,6 +71,7 @@ impl<const D: usize> StepHook<D> for Passing<D> {
         let faces = lock(&self.faces);
         Report {
             counts: Some(faces.budget(&self.phases)),
+            summary: Some("open_boundaries"),
             warnings: faces.differences(),
             ..Report::default()
         }
@@ -80,7 +80,7 @@ impl<const D: usize> StepHook<D> for Passing<D> {
 
 impl<const D: usize> Gate<D> for Passing<D> {
     fn name(&self) -> String {
-        PASSING.into()
+        NAME.into()
     }
 
     fn access(&self) -> Access {

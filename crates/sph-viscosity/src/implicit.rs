@@ -298,6 +298,7 @@ impl<const D: usize> StepHook<D> for ImplicitViscosity<D> {
         let gross = held.filter(|_| !self.lagged.may_hold);
         Report {
             counts: serde_json::to_value(&self.solves).ok(),
+            summary: Some("implicit_viscosity"),
             verdict: gross.and_then(|held| held.verdict()),
             warnings: warning.into_iter().collect(),
             most_bytes: self.solves.most_bytes,

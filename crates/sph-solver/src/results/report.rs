@@ -3,8 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use sph_viscosity::ImplicitViscosity;
-
 use crate::Left;
 use crate::failure::error::{Failure, SolverError};
 use crate::results::advice::{self, Costs};
@@ -88,8 +86,7 @@ impl<const D: usize> Running<'_, D> {
             escaped,
             left: self.left(),
             relaxation: self.parts.relaxation,
-            open_boundaries: self.parts.flow.counts_of(sph_open::PASSING),
-            implicit_viscosity: self.parts.flow.counts_of(ImplicitViscosity::<D>::NAME),
+            counts: self.parts.flow.counts_of_summary(),
             errors,
             warnings,
             files: listing(&self.options.out),

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use sph_contribution::{
     Forces, Gate, Limiter, OutsideForce, Report, StepMoment, StepPhase, StoredEnergy,
@@ -278,11 +277,10 @@ impl<const D: usize> Flow<D> {
             .collect()
     }
 
-    /// What the hook of a name has counted, if there is one.
-    pub(crate) fn counts_of<T: DeserializeOwned>(&self, name: &str) -> Option<T> {
-        let hook = self.hooks.iter().find(|h| h.get().name() == name)?;
-        let counts = hook.get().report(&self.world).counts?;
-        serde_json::from_value(counts).ok()
+    /// What hooks have counted, by the keys of the summary.
+    pub(crate) fn counts_of_summary(&self) -> BTreeMap<String, Json> {
+        let keyed = |report: Report| Some((report.summary?.into(), report.counts?));
+        self.reports().filter_map(keyed).collect()
     }
 
     /// Particles behind a wall.
