@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sph_core::{StepError, register};
 use sph_neighbours::World;
-use sph_probes::{Level, Probe, ProbeColumn, ProbeEntry};
+use sph_probes::{Curves, Gathers, Level, Probe, ProbeColumn, ProbeEntry};
 
 use crate::dispersion::wavenumber_on;
 use crate::separation::{Separated, separated};
@@ -232,6 +232,21 @@ impl<const D: usize> Probe<D> for ReflectionProbe {
         ]
     }
 
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        Some(self)
+    }
+
+    fn as_gathers(&self) -> Option<&dyn Gathers<D>> {
+        Some(self)
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        self.check(world.gravity.norm())?;
+        Ok(summed(&self.found(world.gravity.norm())?))
+    }
+}
+
+impl<const D: usize> Curves<D> for ReflectionProbe {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         vec![
             ProbeColumn::named("frequency", "Hz"),
@@ -245,7 +260,9 @@ impl<const D: usize> Probe<D> for ReflectionProbe {
         let row = |(f, w): &(f64, Separated)| vec![*f, size(w.incident), size(w.reflected)];
         Ok(found.iter().map(row).collect())
     }
+}
 
+impl<const D: usize> Gathers<D> for ReflectionProbe {
     fn gather(&self, world: &World<D>) -> Result<(), StepError> {
         let gauge = |x: &f64| {
             let level = Level::over(vec![*x, self.across]);
@@ -276,11 +293,6 @@ impl<const D: usize> Probe<D> for ReflectionProbe {
             sums.last = Some(all[..row].to_vec());
             sums.integrals = all[row..].to_vec();
         }
-    }
-
-    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        self.check(world.gravity.norm())?;
-        Ok(summed(&self.found(world.gravity.norm())?))
     }
 }
 

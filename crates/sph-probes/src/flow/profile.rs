@@ -7,7 +7,7 @@ use sph_core::{StepError, Vect, fields, register};
 use sph_neighbours::World;
 
 use crate::flow::point::point;
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
 
 /// A component of a vector.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema, PartialEq, Eq)]
@@ -128,19 +128,6 @@ impl<const D: usize> Probe<D> for Profile {
             .to_vec()
     }
 
-    fn curve_columns(&self) -> Vec<ProbeColumn> {
-        vec![
-            ProbeColumn::named("distance", "m"),
-            ProbeColumn::named("velocity", "m/s"),
-            ProbeColumn::named("reference", "m/s"),
-        ]
-    }
-
-    fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
-        let rows = self.sampled(world)?;
-        Ok(rows.into_iter().map(|row| row.to_vec()).collect())
-    }
-
     fn file(&self) -> Option<&str> {
         Some(&self.file)
     }
@@ -153,6 +140,10 @@ impl<const D: usize> Probe<D> for Profile {
         Ok(())
     }
 
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        Some(self)
+    }
+
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let rows = self.sampled(world)?;
         let off = || rows.iter().map(|[_, u, e]| u - e).filter(|d| !d.is_nan());
@@ -163,6 +154,21 @@ impl<const D: usize> Probe<D> for Profile {
         let squares: f64 = off().map(|d| d * d).sum();
         let largest = off().fold(0.0, |m: f64, d| m.max(d.abs()));
         Ok(vec![(squares / count as f64).sqrt(), largest])
+    }
+}
+
+impl<const D: usize> Curves<D> for Profile {
+    fn curve_columns(&self) -> Vec<ProbeColumn> {
+        vec![
+            ProbeColumn::named("distance", "m"),
+            ProbeColumn::named("velocity", "m/s"),
+            ProbeColumn::named("reference", "m/s"),
+        ]
+    }
+
+    fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
+        let rows = self.sampled(world)?;
+        Ok(rows.into_iter().map(|row| row.to_vec()).collect())
     }
 }
 

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use sph_core::{Plain, StepError, register};
 use sph_neighbours::World;
 
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 /// Smallest and largest value of a field, in its own unit; over `scale`, without one.
 ///
@@ -45,8 +45,11 @@ impl<const D: usize> Probe<D> for FieldRange {
             .into()
     }
 
-    fn fields(&self) -> Vec<&str> {
-        vec![&self.field]
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            fields: vec![&self.field],
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

@@ -344,7 +344,7 @@ fn show<const D: usize>(
     flow: &mut Flow<D>,
 ) -> Result<(), SolverError> {
     let moved = shown.iter().any(|f| f == fields::DISPLACEMENT.name);
-    if moved || probes.iter().any(|(_, p)| p.needs_displacement()) {
+    if moved || probes.iter().any(|(_, p)| p.needs().displacement) {
         flow.world.free.add(fields::DISPLACEMENT, Role::State);
     }
     check_output_fields(scene, flow)
@@ -353,7 +353,7 @@ fn show<const D: usize>(
 /// Names of the columns that outputs show and probes measure.
 fn shown<const D: usize>(scene: &Scene, probes: &[(String, Box<dyn Probe<D>>)]) -> Vec<String> {
     let shown = scene.output.fields.iter().chain(&scene.output.picture);
-    let measured = probes.iter().flat_map(|(_, p)| p.fields());
+    let measured = probes.iter().flat_map(|(_, p)| p.needs().fields);
     let measured = measured.map(|name| name.to_string());
     shown.cloned().chain(measured).collect()
 }

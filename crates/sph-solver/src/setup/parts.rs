@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_contribution::{Contribution, Offer, Refusal, Setting, open_kinds};
 use sph_multiphase::Compressible;
 use sph_neighbours::Terms;
 use sph_scene::Scene;
@@ -30,6 +30,25 @@ impl<const D: usize> Contribution<D> for Shown {
         offer.stages = sph_probes::derived_stages(&self.0);
         Ok(())
     }
+}
+
+/// Kinds of contributions of this project that are not among [`SUMMED`].
+const OTHERS: [&str; 5] = [
+    "damping",
+    "flow-control",
+    "open-boundary",
+    "surface",
+    "wall-function",
+];
+
+/// Kinds of plugins that no crate of this project has plugins of, of which a scene names some.
+pub fn strangers(scene: &Scene) -> Vec<&'static str> {
+    let kinds = open_kinds().into_iter().map(|k| k.kind);
+    let strange = kinds.filter(|k| !SUMMED.contains(k) && !OTHERS.contains(k));
+    let strange = strange.chain(["term"]);
+    strange
+        .filter(|kind| scene.choice(kind).is_some())
+        .collect()
 }
 
 /// Kinds in the order in which their terms are summed; all others follow.

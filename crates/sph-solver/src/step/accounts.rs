@@ -8,6 +8,7 @@ use sph_scene::Scene;
 
 use crate::defaults;
 use crate::failure::error::SolverError;
+use crate::setup::parts::strangers;
 use crate::step::books::Books;
 use crate::step::flow::Flow;
 
@@ -22,7 +23,7 @@ pub(crate) fn open<const D: usize>(
     formulation: &dyn Formulation<D>,
     flow: &mut Flow<D>,
 ) -> Result<(), SolverError> {
-    let Some((name, _)) = probes.iter().find(|(_, probe)| probe.needs_books()) else {
+    let Some((name, _)) = probes.iter().find(|(_, probe)| probe.needs().books) else {
         return Ok(());
     };
     let comes = !flow.gates.is_empty();
@@ -36,7 +37,7 @@ pub(crate) fn open<const D: usize>(
             "particles come in or leave, and their energy is not booked: take the probe out".into()
         }
         _ => {
-            let books = Books::open(formulation, flow)?;
+            let books = Books::open(formulation, flow, &strangers(scene))?;
             flow.observers.push(Box::new(books));
             return Ok(());
         }
