@@ -8,10 +8,11 @@ use std::any::Any;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{Access, Declares, Stage, StepError, fields, register};
 use sph_kernels::{Kernel, Sampler, ScalarSampler};
 use sph_neighbours::{Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, World};
-use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+use sph_viscosity::EddyViscosityEntry;
 
 // ------------------------------------------------------------------------------------------------
 
@@ -128,9 +129,10 @@ impl<const D: usize> Stage<World<D>> for Eddies {
     }
 }
 
-impl<const D: usize> EddyViscosity<D> for Eddies {
-    fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(*self)
+impl<const D: usize> Contribution<D> for Eddies {
+    fn offer(&mut self, _: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer.stage(*self);
+        Ok(())
     }
 }
 
@@ -195,9 +197,10 @@ impl<const D: usize> Stage<World<D>> for Remembering {
     }
 }
 
-impl<const D: usize> EddyViscosity<D> for Remembering {
-    fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(*self)
+impl<const D: usize> Contribution<D> for Remembering {
+    fn offer(&mut self, _: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer.stage(*self);
+        Ok(())
     }
 }
 

@@ -18,7 +18,7 @@ use sph_stress::{
     EffectivePressure, EffectivePressureEntry, ElasticForce, ElasticForceEntry, Rheologies,
     VelocityGradient, VelocityGradientEntry,
 };
-use sph_viscosity::{EddyViscosity, EddyViscosityEntry, ViscousOperator, ViscousOperatorEntry};
+use sph_viscosity::{ViscousOperator, ViscousOperatorEntry};
 
 use crate::defaults;
 use crate::results::summary::PluginInForce;
@@ -61,7 +61,6 @@ pub struct Physics<const D: usize> {
     /// Only where a law is elastic.
     pub elastic_force: Option<Box<dyn ElasticForce<D>>>,
     pub effective_pressure: Option<Box<dyn EffectivePressure<D>>>,
-    pub eddy_viscosity: Option<Box<dyn EddyViscosity<D>>>,
     pub terms: Terms<D>,
     /// In the order of the phase numbers.
     pub rheologies: Rheologies,
@@ -137,10 +136,10 @@ impl Builder<'_> {
         let pressure = self.one::<D, PressureEntry>();
         let viscous_operator = self.one::<D, ViscousOperatorEntry>();
         let implicit_viscosity = self.implicit_viscosity::<D>();
-        let eddy_viscosity = self.one::<D, EddyViscosityEntry>();
+        let eddies = scene.choice("eddy-viscosity").is_some();
         let elastic = rheologies.iter().any(|law| law.elastic().is_some());
         let felt = rheologies.iter().any(|law| law.needs().strain_rate);
-        let strained = eddy_viscosity.is_some() || felt || elastic || shows_gradients(scene);
+        let strained = eddies || felt || elastic || shows_gradients(scene);
         let pressed = rheologies.iter().any(|law| law.needs().pressure);
         let velocity_gradient = self.where_needed::<D, VelocityGradientEntry>(
             strained,
@@ -164,7 +163,6 @@ impl Builder<'_> {
             velocity_gradient: velocity_gradient.map(Arc::from),
             elastic_force,
             effective_pressure,
-            eddy_viscosity,
             terms,
             rheologies,
             contributions,

@@ -71,14 +71,12 @@ const SUMMED: [&str; 13] = [
 /// All of them, in the order in which their terms are summed; `shown` are the names of what is written and measured.
 pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>, shown: &[String]) -> Vec<Part<D>> {
     let share = |(scheme, _): &(Box<dyn sph_implicit::TimeScheme>, _)| scheme.implicit_share();
-    let eddies = physics.eddy_viscosity.as_ref();
-    let turbulence = eddies.and_then(|e| e.contribution());
     let materials = Rc::new(Materials {
         laws: physics.rheologies.clone(),
         gradient: physics.velocity_gradient,
         operator: physics.viscous_operator,
         force: physics.elastic_force,
-        eddies: physics.eddy_viscosity,
+        eddies: scene.choice("eddy-viscosity").is_some(),
         implicit_share: physics.implicit_viscosity.as_ref().map(share),
         grain_pressure: physics.effective_pressure.is_some(),
     });
@@ -97,7 +95,6 @@ pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>, shown: &[String
     let friction = Friction::new(materials.clone(), solve, scene.numerics.delayed_yield);
     all.push(("velocity-gradient", Box::new(Straining(materials.clone()))));
     all.push(("viscous-operator", Box::new(friction)));
-    all.extend(turbulence.map(|part| ("eddy-viscosity", part)));
     all.push(("elastic-force", Box::new(Elasticity(materials.clone()))));
     all.push(("term", Box::new(Given(physics.terms))));
     all.push(("walls", Box::new(WallFriction(materials))));

@@ -38,7 +38,7 @@ impl<const D: usize> Friction<D> {
     fn viscosity_stage(&self) -> ViscosityStage {
         ViscosityStage {
             felt: self.materials.felt(),
-            eddies: self.materials.eddies.is_some(),
+            eddies: self.materials.eddies,
         }
     }
 
@@ -48,8 +48,8 @@ impl<const D: usize> Friction<D> {
         let kinematic =
             both.map(|(state, law)| law.largest_viscosity() / state.reference().density);
         match self.materials.eddies {
-            Some(_) => f64::INFINITY,
-            None => kinematic.fold(0.0, f64::max),
+            true => f64::INFINITY,
+            false => kinematic.fold(0.0, f64::max),
         }
     }
 }
@@ -96,20 +96,17 @@ impl<const D: usize> Contribution<D> for Friction<D> {
             offer.limiter(ViscousLimit {
                 coefficient: setting.viscous / materials.operator.stiffness(),
                 largest,
-                constant: materials.eddies.is_none()
-                    && laws.all(|l| l.uniform_viscosity().is_some()),
+                constant: !materials.eddies && laws.all(|l| l.uniform_viscosity().is_some()),
             });
         }
         Ok(())
     }
     fn offer_to_readers(
         &mut self,
-        setting: &Setting<'_, D>,
+        _: &Setting<'_, D>,
         read: &[AnyField],
         offer: &mut Offer<D>,
     ) -> Result<(), Refusal> {
-        let eddies = self.materials.eddies.iter();
-        offer.stages.extend(eddies.map(|e| e.stage_in(setting)));
         offer.stage(self.viscosity_stage());
         let Some(solve) = self.implicit.take() else {
             return Ok(());

@@ -17,7 +17,7 @@ impl<const D: usize> Contribution<D> for Straining<D> {
     }
     fn offer_to_readers(
         &mut self,
-        setting: &Setting<'_, D>,
+        _: &Setting<'_, D>,
         read: &[AnyField],
         offer: &mut Offer<D>,
     ) -> Result<(), Refusal> {
@@ -28,7 +28,7 @@ impl<const D: usize> Contribution<D> for Straining<D> {
         let Some(formula) = self.0.gradient.clone() else {
             return Ok(());
         };
-        match self.0.strain_rides(setting, read) {
+        match self.0.strain_rides(read) {
             false => offer.stage(StrainRate),
             true => {
                 let term = Box::new(Lanewise(RidingStrain { formula }));

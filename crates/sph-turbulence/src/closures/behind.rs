@@ -1,6 +1,6 @@
 //! What all closures refuse, need and say.
 
-use sph_contribution::{Contribution, Offer, Refusal, Report, Setting, StepHook, StepPhase};
+use sph_contribution::{Offer, Refusal, Report, Setting, StepHook, StepPhase};
 use sph_core::{Access, Stage, suggestion};
 use sph_neighbours::World;
 
@@ -60,34 +60,28 @@ impl Behind {
         Ok(())
     }
 
-    /// The stage of the closure, where there are several phases only in its own.
-    pub fn stage<const D: usize>(
-        &self,
-        setting: &Setting<'_, D>,
-        stage: impl Stage<World<D>> + 'static,
-    ) -> Box<dyn Stage<World<D>>> {
-        match acting(&self.phases, setting) {
-            Some(acts) => {
-                let bed = self.bed.as_ref().map(|bed| BedEddies {
-                    law: bed.law(),
-                    viscosities: viscosities(&self.phases, setting),
-                });
-                Box::new(Only { stage, acts, bed })
-            }
-            None => Box::new(stage),
-        }
-    }
-
-    /// Offers the stages of distances and of the bed, if the closure reads them, and a word at the end, if it has one.
+    /// Offers the stage of a closure, where there are several phases only in its own; the stages of distances and of the
+    /// bed, if it reads them; and a word at the end, if it has one.
     ///
     /// # Errors
     /// The key of what no closure is for.
     pub fn offer_to<const D: usize>(
         &self,
         setting: &Setting<'_, D>,
+        stage: impl Stage<World<D>> + 'static,
         offer: &mut Offer<D>,
     ) -> Result<(), Refusal> {
         self.check(setting)?;
+        match acting(&self.phases, setting) {
+            None => offer.stage(stage),
+            Some(acts) => {
+                let bed = self.bed.as_ref().map(|bed| BedEddies {
+                    law: bed.law(),
+                    viscosities: viscosities(&self.phases, setting),
+                });
+                offer.stage(Only { stage, acts, bed });
+            }
+        }
         if let Some(d) = &self.distances {
             offer.stage(WallDistance::new(&d.walls, d.within));
         }
@@ -101,12 +95,6 @@ impl Behind {
             offer.hook(Flat(self.name));
         }
         Ok(())
-    }
-}
-
-impl<const D: usize> Contribution<D> for Behind {
-    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.offer_to(setting, offer)
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use sph_contribution::{Contribution, Offer, OwnColumn, Refusal, Setting};
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields, register};
 use sph_neighbours::World;
-use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+use sph_viscosity::EddyViscosityEntry;
 
 use super::behind::Behind;
 use super::filter::FilterLength;
@@ -157,34 +157,19 @@ impl<const D: usize> Stage<World<D>> for Smagorinsky {
     }
 }
 
-impl<const D: usize> EddyViscosity<D> for Smagorinsky {
-    fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(self.clone())
-    }
-    fn stage_in(&self, setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
-        self.behind().stage(setting, self.clone())
-    }
-    fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
-        Some(Box::new(LargeEddies(self.clone())))
-    }
-}
-
-/// What stands behind it.
-struct LargeEddies(Smagorinsky);
-
-impl<const D: usize> Contribution<D> for LargeEddies {
+impl<const D: usize> Contribution<D> for Smagorinsky {
     fn columns(&self) -> Vec<OwnColumn<D>> {
-        match self.0.strain_of {
+        match self.strain_of {
             StrainOf::ThisStep => Vec::new(),
             StrainOf::LastStep => vec![OwnColumn::scalar(LAST_STRAIN, |_| 0.0)],
         }
     }
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.0.behind().offer_to(setting, offer)?;
-        if self.0.strain_of == StrainOf::LastStep {
+        self.behind().offer_to(setting, self.clone(), offer)?;
+        if self.strain_of == StrainOf::LastStep {
             offer.hook(KeepStrain);
         }
-        if self.0.damping != Damping::VanDriest {
+        if self.damping != Damping::VanDriest {
             return Ok(());
         }
         let grips = &setting.world.walls.elements.grip;
@@ -197,7 +182,7 @@ impl<const D: usize> Contribution<D> for LargeEddies {
             ));
         }
         offer.stage(WallUnits {
-            viscosities: viscosities(&self.0.phases, setting),
+            viscosities: viscosities(&self.phases, setting),
             tree: None,
         });
         Ok(())

@@ -8,7 +8,7 @@ use sph_contribution::{
 };
 use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, register};
 use sph_neighbours::{Lanewise, World};
-use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+use sph_viscosity::EddyViscosityEntry;
 
 use super::diffusion::{Diffusion, DiffusionLimit};
 use super::model::KEpsilonModel;
@@ -143,29 +143,14 @@ impl<const D: usize> Stage<World<D>> for KLength {
     }
 }
 
-impl<const D: usize> EddyViscosity<D> for KLength {
-    fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(self.clone())
-    }
-    fn stage_in(&self, setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
-        self.behind().stage(setting, self.clone())
-    }
-    fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
-        Some(Box::new(OneEquation(self.clone())))
-    }
-}
-
-/// What stands behind it.
-struct OneEquation(KLength);
-
-impl<const D: usize> Contribution<D> for OneEquation {
+impl<const D: usize> Contribution<D> for KLength {
     fn columns(&self) -> Vec<OwnColumn<D>> {
-        let (energy, phases) = (self.0.energy, self.0.phases.clone());
+        let (energy, phases) = (self.energy, self.phases.clone());
         let start = move |phase: &str| if acts_on(&phases, phase) { energy } else { 0.0 };
         vec![OwnColumn::scalar(TURBULENT_ENERGY, move |b| start(b.phase)).positive()]
     }
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.0.behind().offer_to(setting, offer)?;
+        self.behind().offer_to(setting, self.clone(), offer)?;
         let rubs = setting.world.walls.elements.grip.iter().any(|g| *g > 0.0);
         if rubs && setting.phases.len() == 1 {
             return Err(Refusal::of(
@@ -179,7 +164,7 @@ impl<const D: usize> Contribution<D> for OneEquation {
             value: TURBULENT_ENERGY,
             rate: TURBULENT_ENERGY_RATE,
         });
-        if self.0.damped_at_surfaces {
+        if self.damped_at_surfaces {
             offer.stage(SurfaceShare);
         }
         offer.term(Lanewise(Diffusion {
@@ -188,10 +173,10 @@ impl<const D: usize> Contribution<D> for OneEquation {
         }));
         offer.limiter(DiffusionLimit(setting.viscous));
         offer.hook(Sources {
-            length: self.0.length(),
-            viscosities: viscosities(&self.0.phases, setting),
-            damped: self.0.damped_at_surfaces,
-            bed: self.0.bed.is_some(),
+            length: self.length(),
+            viscosities: viscosities(&self.phases, setting),
+            damped: self.damped_at_surfaces,
+            bed: self.bed.is_some(),
         });
         offer.remedy = Some("look at k at the start: the eddy viscosity is 0.55 √k L".into());
         Ok(())

@@ -7,7 +7,7 @@ use sph_contribution::{Birth, Contribution, Offer, OwnColumn, Refusal, Setting};
 use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, register};
 use sph_neighbours::{Lanewise, World};
 use sph_stress::StressDivergence;
-use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+use sph_viscosity::EddyViscosityEntry;
 
 use super::diffusion::{Diffusion, DiffusionLimit};
 use super::earsm::AlgebraicStress;
@@ -160,18 +160,6 @@ impl<const D: usize> Stage<World<D>> for EddyStage {
     }
 }
 
-impl<const D: usize> EddyViscosity<D> for KEpsilon {
-    fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(EddyStage(self.variant))
-    }
-    fn stage_in(&self, setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
-        self.behind().stage(setting, EddyStage(self.variant))
-    }
-    fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
-        Some(Box::new(self.clone()))
-    }
-}
-
 impl<const D: usize> Contribution<D> for KEpsilon {
     fn columns(&self) -> Vec<OwnColumn<D>> {
         let at = |own: KEpsilon, k: usize| {
@@ -188,7 +176,8 @@ impl<const D: usize> Contribution<D> for KEpsilon {
         ]
     }
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.behind().offer_to(setting, offer)?;
+        self.behind()
+            .offer_to(setting, EddyStage(self.variant), offer)?;
         if self.start(0.0).is_none() {
             return Err(Refusal::of(
                 KIND,
