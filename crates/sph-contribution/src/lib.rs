@@ -34,7 +34,7 @@ pub use kinds::{OpenKind, open_kinds};
 pub use limiter::Limiter;
 pub use limits::{ForceLimit, LightBodyLimit, MotionLimit, SoundLimit};
 pub use newborn::Newborn;
-pub use offer::{Hook, Offer, ParticleEnergy, StoredEnergy};
+pub use offer::{Offer, ParticleEnergy, StoredEnergy};
 pub use refusal::Refusal;
 pub use step_hook::{Forces, Kick, OutsideForce, Report, StepHook, StepMoment, StepPhase};
 

@@ -3,7 +3,7 @@
 use sph_core::{AnyField, Evolved, Field, Scalar, Stage};
 use sph_neighbours::{Interaction, Terms, World};
 
-use crate::{Gate, Kick, Limiter, OutsideForce, Stages, StepHook};
+use crate::{Gate, Limiter, OutsideForce, Stages, StepHook};
 
 /// An energy that single particles store, J, by their index.
 pub type ParticleEnergy<'a> = Box<dyn Fn(usize) -> f64 + Sync + 'a>;
@@ -14,36 +14,11 @@ pub trait StoredEnergy<const D: usize>: Send {
     fn energy<'a>(&'a self, world: &'a World<D>) -> Option<ParticleEnergy<'a>>;
 }
 
-/// A hook, or one that kicks.
-pub enum Hook<const D: usize> {
-    /// Velocities are advanced with the acceleration.
-    Plain(Box<dyn StepHook<D>>),
-    /// The hook advances the velocities.
-    Kick(Box<dyn Kick<D>>),
-}
-
-impl<const D: usize> Hook<D> {
-    /// The hook.
-    pub fn get(&self) -> &dyn StepHook<D> {
-        match self {
-            Hook::Plain(hook) => &**hook,
-            Hook::Kick(kick) => &**kick,
-        }
-    }
-
-    /// The hook, to run it.
-    pub fn get_mut(&mut self) -> &mut dyn StepHook<D> {
-        match self {
-            Hook::Plain(hook) => &mut **hook,
-            Hook::Kick(kick) => &mut **kick,
-        }
-    }
-}
-
 /// The pieces that a contribution offers a flow. All are optional; a piece that nobody offers costs nothing.
 ///
 /// An evaluation runs the stages, then the sweep, which sums the terms. A step kicks velocities and transported scalars
 /// (value ← value + Δt rate) and drifts particles; hooks run between these.
+#[derive(Default)]
 pub struct Offer<const D: usize> {
     /// The contribution's table in the scene, for messages.
     pub path: String,
@@ -67,7 +42,7 @@ pub struct Offer<const D: usize> {
     /// Bounds on steps within a step, for listings.
     pub inner_bounds: Vec<String>,
     /// Work within a step.
-    pub hooks: Vec<Hook<D>>,
+    pub hooks: Vec<Box<dyn StepHook<D>>>,
     /// Whether hooks before a drift read density, volume, pressure and γ of the present positions.
     pub fresh_state: bool,
     /// Forces that hooks take out of the sweep, for measurements of forces.
@@ -76,6 +51,8 @@ pub struct Offer<const D: usize> {
     pub gates: Vec<Box<dyn Gate<D>>>,
     /// Energy stored in particles.
     pub stored: Vec<Box<dyn StoredEnergy<D>>>,
+    /// Whether the pores of soils are full of a fluid that bears a part of their weight; for remarks.
+    pub saturated: bool,
     /// What to change where one of the terms has thrown a particle about.
     pub remedy: Option<String>,
     /// What to change where a stage or a hook has failed, by its name.
@@ -87,23 +64,28 @@ impl<const D: usize> Offer<D> {
     pub fn of(path: String) -> Self {
         Offer {
             path,
-            stages: Vec::new(),
-            terms: Vec::new(),
-            riding: Vec::new(),
-            changes_density: false,
-            goals: Vec::new(),
-            transported: Vec::new(),
-            advanced: Vec::new(),
-            limiters: Vec::new(),
-            inner_bounds: Vec::new(),
-            hooks: Vec::new(),
-            fresh_state: false,
-            outside: Vec::new(),
-            gates: Vec::new(),
-            stored: Vec::new(),
-            remedy: None,
-            remedies_of_failures: Vec::new(),
+            ..Offer::default()
         }
+    }
+
+    /// Takes the pieces of another contribution; the path and the remedy of its terms are left behind.
+    pub fn take(&mut self, other: Offer<D>) {
+        self.stages.extend(other.stages);
+        self.terms.extend(other.terms);
+        self.riding.extend(other.riding);
+        self.changes_density |= other.changes_density;
+        self.goals.extend(other.goals);
+        self.transported.extend(other.transported);
+        self.advanced.extend(other.advanced);
+        self.limiters.extend(other.limiters);
+        self.inner_bounds.extend(other.inner_bounds);
+        self.hooks.extend(other.hooks);
+        self.fresh_state |= other.fresh_state;
+        self.outside.extend(other.outside);
+        self.gates.extend(other.gates);
+        self.stored.extend(other.stored);
+        self.saturated |= other.saturated;
+        self.remedies_of_failures.extend(other.remedies_of_failures);
     }
 
     /// Adds a stage.
@@ -123,12 +105,7 @@ impl<const D: usize> Offer<D> {
 
     /// Adds a hook.
     pub fn hook(&mut self, hook: impl StepHook<D> + 'static) {
-        self.hooks.push(Hook::Plain(Box::new(hook)));
-    }
-
-    /// Adds a hook that kicks.
-    pub fn kick(&mut self, kick: impl Kick<D> + 'static) {
-        self.hooks.push(Hook::Kick(Box::new(kick)));
+        self.hooks.push(Box::new(hook));
     }
 
     /// Adds a gate.

@@ -95,6 +95,10 @@ pub trait StepHook<const D: usize>: Send {
     fn run(&mut self, _phase: StepPhase, _moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
         Ok(())
     }
+    /// The hook as one that advances the velocities itself, if it does.
+    fn as_kick(&mut self) -> Option<&mut dyn Kick<D>> {
+        None
+    }
     /// Most bytes that it holds beside columns, at the present state and for a step of `dt` seconds.
     ///
     /// # Errors
@@ -127,13 +131,11 @@ pub struct Report {
     pub most_bytes: usize,
 }
 
-/// A hook that advances the velocities itself.
-pub trait Kick<const D: usize>: StepHook<D> {
+/// A kick in the place of that with the acceleration alone.
+pub trait Kick<const D: usize> {
     /// Advances the velocities by `dt` seconds with the acceleration and its own force.
     ///
     /// # Errors
     /// As [`StepHook::run`].
     fn kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError>;
-    /// The force that it takes out of the sweep, for measurements of forces.
-    fn force(&self) -> OutsideForce<D>;
 }

@@ -69,69 +69,6 @@ impl<const D: usize> ElasticSubSteps<D> {
         (dt / self.longest - 1e-9).ceil().max(1.0) as usize
     }
 
-    /// N sub-steps with the forces of the last evaluation.
-    fn swing(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
-        let count = self.count(dt);
-        let part = dt / count as f64;
-        let team = world.team.clone();
-        self.find_touched(world)?;
-        if let Some(team) = &team {
-            // Whether copies of others' particles have soil around, their owners know.
-            team.begin_solve()?;
-            let told = self.touched.iter().map(|t| f64::from(u8::from(*t)));
-            let mut told: Vec<Vect<1>> = told.map(|t| Vect::from([t])).collect();
-            team.mirror_scalars(&mut told);
-            let all = self.touched.iter_mut().zip(&told);
-            all.for_each(|(touched, told)| *touched = told[0] > 0.0);
-        }
-        pack(world, &mut self.states, self.packed)?;
-        let particles = world.free.len();
-        self.acceleration.resize(particles, Vect::zeros());
-        let more = 0.5 * (1.0 - 1.0 / count as f64);
-        let before = world.free.get(fields::VELOCITY)?;
-        self.mean.clear();
-        self.mean.extend(before.iter().map(|u| -u * more));
-        for step in 1..=count {
-            if step > 1 {
-                CarriedStress(self.felt.clone()).run(world)?;
-            }
-            let touched = &self.touched;
-            accelerations_of(
-                world,
-                &self.states,
-                &*self.term,
-                |i| touched[i],
-                &mut self.acceleration,
-            )?;
-            if let Some(team) = &team {
-                team.mirror(&mut self.acceleration);
-            }
-            let mut velocity = world.free.take(fields::VELOCITY)?;
-            let others = world.free.get(fields::ACCELERATION)?;
-            let all = velocity.par_iter_mut().zip(&self.acceleration).zip(others);
-            let all = all.zip(&mut self.mean).with_min_len(2048);
-            all.for_each(|(((u, a), others), mean)| {
-                *u += (a + others) * part;
-                *mean += *u / count as f64;
-            });
-            world.free.put(fields::VELOCITY, velocity)?;
-            if step < count {
-                self.motion.apply_within(world, part)?;
-            }
-        }
-        let velocity = world.free.get(fields::VELOCITY)?;
-        let all = self.mean.par_iter_mut().zip(velocity);
-        let all = all.zip(&self.touched).with_min_len(2048);
-        all.for_each(|((mean, u), touched)| {
-            *mean = match touched {
-                true => *mean - u * (1.0 - more),
-                false => Vect::zeros(),
-            };
-        });
-        self.behind = part;
-        Ok(())
-    }
-
     /// Adds `share` of what the velocity of the drift has more than that of the last sub-step.
     fn shift(&self, world: &mut World<D>, share: f64) -> Result<(), StepError> {
         let velocity = world.free.get_mut(fields::VELOCITY)?;
@@ -206,13 +143,72 @@ impl<const D: usize> StepHook<D> for ElasticSubSteps<D> {
             _ => self.shift(world, -1.0),
         }
     }
+    fn as_kick(&mut self) -> Option<&mut dyn Kick<D>> {
+        Some(self)
+    }
 }
 
 impl<const D: usize> Kick<D> for ElasticSubSteps<D> {
+    /// N sub-steps with the forces of the last evaluation.
     fn kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
-        self.swing(world, dt)
-    }
-    fn force(&self) -> OutsideForce<D> {
-        self.term.clone()
+        let count = self.count(dt);
+        let part = dt / count as f64;
+        let team = world.team.clone();
+        self.find_touched(world)?;
+        if let Some(team) = &team {
+            // Whether copies of others' particles have soil around, their owners know.
+            team.begin_solve()?;
+            let told = self.touched.iter().map(|t| f64::from(u8::from(*t)));
+            let mut told: Vec<Vect<1>> = told.map(|t| Vect::from([t])).collect();
+            team.mirror_scalars(&mut told);
+            let all = self.touched.iter_mut().zip(&told);
+            all.for_each(|(touched, told)| *touched = told[0] > 0.0);
+        }
+        pack(world, &mut self.states, self.packed)?;
+        let particles = world.free.len();
+        self.acceleration.resize(particles, Vect::zeros());
+        let more = 0.5 * (1.0 - 1.0 / count as f64);
+        let before = world.free.get(fields::VELOCITY)?;
+        self.mean.clear();
+        self.mean.extend(before.iter().map(|u| -u * more));
+        for step in 1..=count {
+            if step > 1 {
+                CarriedStress(self.felt.clone()).run(world)?;
+            }
+            let touched = &self.touched;
+            accelerations_of(
+                world,
+                &self.states,
+                &*self.term,
+                |i| touched[i],
+                &mut self.acceleration,
+            )?;
+            if let Some(team) = &team {
+                team.mirror(&mut self.acceleration);
+            }
+            let mut velocity = world.free.take(fields::VELOCITY)?;
+            let others = world.free.get(fields::ACCELERATION)?;
+            let all = velocity.par_iter_mut().zip(&self.acceleration).zip(others);
+            let all = all.zip(&mut self.mean).with_min_len(2048);
+            all.for_each(|(((u, a), others), mean)| {
+                *u += (a + others) * part;
+                *mean += *u / count as f64;
+            });
+            world.free.put(fields::VELOCITY, velocity)?;
+            if step < count {
+                self.motion.apply_within(world, part)?;
+            }
+        }
+        let velocity = world.free.get(fields::VELOCITY)?;
+        let all = self.mean.par_iter_mut().zip(velocity);
+        let all = all.zip(&self.touched).with_min_len(2048);
+        all.for_each(|((mean, u), touched)| {
+            *mean = match touched {
+                true => *mean - u * (1.0 - more),
+                false => Vect::zeros(),
+            };
+        });
+        self.behind = part;
+        Ok(())
     }
 }

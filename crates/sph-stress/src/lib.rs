@@ -8,10 +8,10 @@
 //! * [`ElasticForce`] is a kind of plugin: [`Divergence`] takes [`StressDivergence`] or [`AdjointDivergence`] of the stress,
 //!   [`Displacement`] second differences of the way since the material was last liquid. [`Blended`] weighs forces,
 //!   and [`ElasticSubSteps`] gives a force steps of its own.
-//! * [`EffectivePressure`] is a kind of plugin: the pressure between the grains, where it is not that
-//!   of the equation of state. [`Laplace`] is one. [`PorePressure`] is what is left for the water.
+//! * [`Laplace`] is an effective pressure ([`EffectivePressureEntry`]): that between the grains, where it is not that
+//!   of the equation of state. [`PorePressure`] is what is left for the water.
 //! * [`CoulombFriction`] brakes soils on walls that have a coefficient of friction.
-//! * [`Friction`], [`Elasticity`], [`Straining`], [`GrainPressure`] and [`WallFriction`] bring all that into a scene; they
+//! * [`Friction`], [`Elasticity`], [`Straining`] and [`WallFriction`] bring all that into a scene; they
 //!   share its [`Materials`].
 //!
 //! Nothing here runs in a scene whose laws do not ask for it.
@@ -49,11 +49,11 @@ pub use adjoint::{AdjointDivergence, StressCorrection};
 pub use blend::Blend;
 pub use blended::Blended;
 pub use carried::{CarriedAhead, CarriedStress};
-pub use contribution::{Elasticity, Friction, GrainPressure, Materials, Straining, WallFriction};
+pub use contribution::{Elasticity, Friction, Materials, Straining, WallFriction};
 pub use coulomb::CoulombFriction;
 pub use displacement::{Displacement, DisplacementForce};
 pub use divergence::{Divergence, StressDivergence};
-pub use effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
+pub use effective_pressure::{EffectivePressureEntry, Soils};
 pub use elastic::ElasticMotion;
 pub use elastic_force::{ElasticForce, ElasticForceEntry};
 pub use elastic_sub_steps::ElasticSubSteps;

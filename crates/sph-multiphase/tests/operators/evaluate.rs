@@ -75,6 +75,7 @@ pub fn offered<const D: usize>(
         laws,
         phases: &phases,
         viscosities: &[None, None],
+        soils: &[false, false],
         density: Formulation::<D>::diffused(&HuAdams::default()).evolved,
         summed,
         pressure_ahead: false,

@@ -9,6 +9,7 @@ use crate::running::checkpoint;
 use crate::running::counters::Counters;
 use crate::running::driver::Observer;
 use crate::running::options::{RunOptions, Start};
+use crate::step::hooks::Hooked;
 
 /// Puts the flow where the run begins, and gives what has been counted until there. Who `writes` clears the folder.
 pub fn begin<const D: usize>(
@@ -25,8 +26,7 @@ pub fn begin<const D: usize>(
         let identity = same.then_some(&options.identity);
         counters = checkpoint::load(flow, scene, &file, identity)?;
         flow.recount(&counters.left);
-        for hooked in flow.hooks.iter_mut() {
-            let hook = hooked.get_mut();
+        for Hooked { hook, .. } in &mut flow.hooks.all {
             if let Some(counts) = counters.works.remove(&hook.name()) {
                 hook.resume(counts);
             }

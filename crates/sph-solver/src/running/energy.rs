@@ -47,7 +47,7 @@ impl EnergyWatch {
         let kinds = flow.kinds.iter().map(|(_, kind)| kind);
         let mut kinds = kinds
             .copied()
-            .chain(flow.hooks.iter().map(|hook| hook.kind));
+            .chain(flow.hooks.all.iter().map(|hook| hook.kind));
         let driven = scene.wall.values().any(moves)
             || scene.swings()
             || world.driving.norm() > 0.0

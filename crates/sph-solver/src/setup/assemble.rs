@@ -90,7 +90,7 @@ pub(crate) fn assemble_share<const D: usize>(
     let filled = (&room, placed.positions.as_slice(), &laws, &lift);
     let faces = open_faces::check(scene, &opened, &walls, filled)?;
     warnings.extend(speeds.into_iter().chain(faces));
-    let ground = Ground::of(&choices.physics);
+    let mut ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
     let constant = constant_viscosities(scene, &choices.physics.rheologies);
     let formulation = choices.physics.formulation.clone();
@@ -107,10 +107,12 @@ pub(crate) fn assemble_share<const D: usize>(
         integrator: &*choices.integrator,
         laws: &laws,
         viscosities: &constant,
+        soils: &ground.soil,
         walls: walls.as_ref(),
         shown: &shown,
     };
     let planned = about.plan(&world, &mut parts)?;
+    ground.saturated = planned.offer.saturated;
     world.transported = planned.transported.clone();
     let given = Given {
         walls,
@@ -213,6 +215,7 @@ struct About<'a, const D: usize> {
     integrator: &'a dyn Integrator,
     laws: &'a Laws,
     viscosities: &'a [Option<f64>],
+    soils: &'a [bool],
     walls: Option<&'a SharedWall<D>>,
     shown: &'a [String],
 }
@@ -241,6 +244,7 @@ impl<const D: usize> About<'_, D> {
             laws: self.laws,
             phases: &phases,
             viscosities: self.viscosities,
+            soils: self.soils,
             density: diffused.evolved,
             summed: self.formulation.compressed().is_none(),
             pressure_ahead: self.scene.choice("pressure").is_some(),
@@ -262,10 +266,13 @@ impl<const D: usize> About<'_, D> {
         let force = Box::new(ForceLimit {
             coefficient: coefficients.force,
         });
-        planned.limiters.push(force);
+        planned.offer.limiters.push(force);
         let mut walls = self.scene.wall.values();
         if walls.any(|w| w.motion.is_some() || !w.mover.is_empty()) {
-            planned.limiters.push(Box::new(MotionLimit { share: WAY }));
+            planned
+                .offer
+                .limiters
+                .push(Box::new(MotionLimit { share: WAY }));
         }
         Ok(planned)
     }

@@ -15,8 +15,7 @@ use sph_rheology::RheologyEntry;
 use sph_scene::{PluginChoice, Scene};
 use sph_state::{EquationOfState, EquationOfStateEntry};
 use sph_stress::{
-    EffectivePressure, EffectivePressureEntry, ElasticForce, ElasticForceEntry, Rheologies,
-    VelocityGradient, VelocityGradientEntry,
+    ElasticForce, ElasticForceEntry, Rheologies, VelocityGradient, VelocityGradientEntry,
 };
 use sph_viscosity::{ViscousOperator, ViscousOperatorEntry};
 
@@ -60,7 +59,6 @@ pub struct Physics<const D: usize> {
     pub velocity_gradient: Option<Arc<dyn VelocityGradient<D>>>,
     /// Only where a law is elastic.
     pub elastic_force: Option<Box<dyn ElasticForce<D>>>,
-    pub effective_pressure: Option<Box<dyn EffectivePressure<D>>>,
     pub terms: Terms<D>,
     /// In the order of the phase numbers.
     pub rheologies: Rheologies,
@@ -140,7 +138,6 @@ impl Builder<'_> {
         let elastic = rheologies.iter().any(|law| law.elastic().is_some());
         let felt = rheologies.iter().any(|law| law.needs().strain_rate);
         let strained = eddies || felt || elastic || shows_gradients(scene);
-        let pressed = rheologies.iter().any(|law| law.needs().pressure);
         let velocity_gradient = self.where_needed::<D, VelocityGradientEntry>(
             strained,
             "no law of this scene feels a strain rate, and no output shows one: take this table out",
@@ -148,10 +145,6 @@ impl Builder<'_> {
         let elastic_force = self.where_needed::<D, ElasticForceEntry>(
             elastic,
             "no law of this scene is elastic: take this table out",
-        );
-        let effective_pressure = self.where_needed::<D, EffectivePressureEntry>(
-            pressed,
-            "no law of this scene feels a pressure: take this table out",
         );
         let terms = self.each::<D, TermEntry>(scene.terms());
         let contributions = self.contributions::<D>();
@@ -162,7 +155,6 @@ impl Builder<'_> {
             implicit_viscosity,
             velocity_gradient: velocity_gradient.map(Arc::from),
             elastic_force,
-            effective_pressure,
             terms,
             rheologies,
             contributions,

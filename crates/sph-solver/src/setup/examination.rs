@@ -210,8 +210,8 @@ fn memory<const D: usize>(
     // Where the state is one that the run will refuse, what can be counted without it counts.
     let evaluated = flow.evaluate().is_ok();
     let mut system = 0;
-    for hooked in flow.hooks.iter().filter(|_| evaluated) {
-        system += hooked.get().bytes(&mut flow.world, dt)?;
+    for hooked in flow.hooks.all.iter().filter(|_| evaluated) {
+        system += hooked.hook.bytes(&mut flow.world, dt)?;
     }
     system += flow.stages.iter().map(|stage| stage.bytes()).sum::<usize>();
     Ok(Memory::of(scene, flow, system as f64)?)

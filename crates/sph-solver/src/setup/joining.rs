@@ -31,9 +31,10 @@ pub(crate) fn joined<const D: usize>(
     given: Given<D>,
 ) -> Flow<D> {
     let mut evolved = vec![given.density];
-    evolved.extend(planned.evolved);
+    let offer = planned.offer;
+    evolved.extend(offer.transported);
     let mut integrated: Vec<_> = evolved.iter().map(|e| e.value).collect();
-    for scalar in planned.advanced {
+    for scalar in offer.advanced {
         if !integrated.contains(&scalar) {
             integrated.push(scalar);
         }
@@ -45,17 +46,18 @@ pub(crate) fn joined<const D: usize>(
         terms: planned.terms,
         kinds: planned.kinds,
         remedies: planned.remedies,
-        limiters: planned.limiters,
-        inner_bounds: planned.inner_bounds,
+        limiters: offer.limiters,
+        inner_bounds: offer.inner_bounds,
         walls: given.walls,
         loads: Vec::new(),
         evolved,
         integrated,
-        outside: planned.outside,
+        outside: offer.outside,
         columns: Columns::default(),
         hooks: planned.hooks,
-        gates: planned.gates,
-        stored: planned.stored,
+        fresh_state: offer.fresh_state,
+        gates: offer.gates,
+        stored: offer.stored,
         on_walls: Vec::new(),
         moved: true,
         restored: false,
@@ -95,7 +97,11 @@ fn allocate<const D: usize>(flow: &mut Flow<D>) {
         };
         flow.world.free.add_any(field, role);
     }
-    let by_hooks = flow.hooks.iter().map(|hook| hook.access.remembers.clone());
+    let by_hooks = flow
+        .hooks
+        .all
+        .iter()
+        .map(|hook| hook.access.remembers.clone());
     let by_gates = flow.gates.iter().map(|gate| gate.access().remembers);
     for field in by_hooks.chain(by_gates).flatten() {
         flow.world.free.add_any(field, Role::State);

@@ -6,7 +6,7 @@ use sph_contribution::{Contribution, Offer, Refusal, Setting, open_kinds};
 use sph_multiphase::Compressible;
 use sph_neighbours::Terms;
 use sph_scene::Scene;
-use sph_stress::{Elasticity, Friction, GrainPressure, Materials, Straining, WallFriction};
+use sph_stress::{Elasticity, Friction, Materials, Straining, WallFriction};
 
 use crate::setup::builder::Part;
 use crate::setup::choices::Physics;
@@ -72,13 +72,13 @@ const SUMMED: [&str; 13] = [
 pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>, shown: &[String]) -> Vec<Part<D>> {
     let share = |(scheme, _): &(Box<dyn sph_implicit::TimeScheme>, _)| scheme.implicit_share();
     let materials = Rc::new(Materials {
-        laws: physics.rheologies.clone(),
+        laws: physics.rheologies,
         gradient: physics.velocity_gradient,
         operator: physics.viscous_operator,
         force: physics.elastic_force,
         eddies: scene.choice("eddy-viscosity").is_some(),
         implicit_share: physics.implicit_viscosity.as_ref().map(share),
-        grain_pressure: physics.effective_pressure.is_some(),
+        grain_pressure: scene.choice("effective-pressure").is_some(),
     });
     let compressible = Compressible {
         formulation: physics.formulation.clone(),
@@ -86,11 +86,6 @@ pub fn parts<const D: usize>(scene: &Scene, physics: Physics<D>, shown: &[String
         surfaces: scene.choice("surface").is_some(),
     };
     let mut all: Vec<Part<D>> = vec![("formulation", Box::new(compressible))];
-    if let Some(effective) = physics.effective_pressure {
-        let laws = physics.rheologies;
-        let part = GrainPressure { effective, laws };
-        all.push(("effective-pressure", Box::new(part)));
-    }
     let solve = physics.implicit_viscosity;
     let friction = Friction::new(materials.clone(), solve, scene.numerics.delayed_yield);
     all.push(("velocity-gradient", Box::new(Straining(materials.clone()))));

@@ -2,10 +2,8 @@
 
 use std::sync::Arc;
 
-use sph_contribution::{
-    Gate, Limiter, Offer, OutsideForce, Refusal, Setting, Stages, StoredEnergy,
-};
-use sph_core::{AnyField, Declares, Evolved, Field, Scalar, fields, plan};
+use sph_contribution::{Offer, Refusal, Setting, Stages};
+use sph_core::{AnyField, Declares, fields, plan};
 use sph_multiphase::Diffused;
 use sph_neighbours::{Interaction, fuse_all};
 use sph_scene::Scene;
@@ -13,7 +11,7 @@ use sph_scene::Scene;
 use crate::failure::error::SolverError;
 use crate::setup::builder::Part;
 use crate::setup::transported::transported_by;
-use crate::step::hooks::{Hooked, Hooks};
+use crate::step::hooks::Hooks;
 use crate::step::stages::{InteractionSweep, SharedWall, WallGeometry, WallState};
 
 /// Pair terms shared by the sweep and whoever measures with them.
@@ -31,20 +29,8 @@ pub struct Planned<const D: usize> {
     pub kinds: Vec<(String, &'static str)>,
     /// Work within a step, in order.
     pub hooks: Hooks<D>,
-    /// Forces outside of the sweep.
-    pub outside: Vec<OutsideForce<D>>,
-    /// Sources and sinks of particles.
-    pub gates: Vec<Box<dyn Gate<D>>>,
-    /// Energy that particles store.
-    pub stored: Vec<Box<dyn StoredEnergy<D>>>,
-    /// Scalars with rates, besides the formulation's.
-    pub evolved: Vec<Evolved>,
-    /// Scalars that hooks advance.
-    pub advanced: Vec<Field<Scalar>>,
-    /// Bounds on the step.
-    pub limiters: Vec<Box<dyn Limiter<D>>>,
-    /// Bounds on steps within a step, for listings.
-    pub inner_bounds: Vec<String>,
+    /// All other pieces.
+    pub offer: Offer<D>,
     /// What to change where a term of a kind has thrown a particle about, or where a stage has failed.
     pub remedies: Vec<(&'static str, String)>,
     /// Rates that the sweep sums besides those of the formulation, in the order of their slots.
@@ -90,58 +76,43 @@ impl<const D: usize> Planning<'_, D> {
         }
         stages.extend(offers.iter_mut().flat_map(|(_, o)| o.stages.drain(..)));
         let later: Vec<AnyField> = offers.iter().flat_map(read_later).collect();
-        let mut kinds = Vec::new();
-        let mut terms = Vec::new();
-        for (kind, offer) in &mut offers {
-            kinds.extend(offer.terms.iter().map(|t| (t.name(), *kind)));
-            terms.append(&mut offer.terms);
-        }
-        for (kind, offer) in &mut offers {
-            let riding = offer.riding.drain(..);
-            for (_, term) in riding.filter(|(field, _)| later.contains(field)) {
-                kinds.push((term.name(), *kind));
-                terms.push(term);
+        let (mut all, mut hooks, mut kinds) = (Offer::default(), Hooks::default(), Vec::new());
+        let (mut riding, mut remedies) = (Vec::new(), Vec::new());
+        for (kind, mut offer) in offers {
+            kinds.extend(offer.terms.iter().map(|t| (t.name(), kind)));
+            offer.riding.retain(|(field, _)| later.contains(field));
+            riding.extend(offer.riding.iter().map(|(_, t)| (t.name(), kind)));
+            remedies.extend(offer.remedy.take().map(|remedy| (kind, remedy)));
+            let kicking = hooks.kicking.len();
+            let own = offer.hooks.drain(..);
+            own.for_each(|hook| hooks.add(kind, hook));
+            if hooks.kicking.len() > kicking {
+                // Forces of kicks act before those that follow.
+                std::mem::swap(&mut all.outside, &mut offer.outside);
             }
+            all.take(offer);
         }
-        let transported = transported_by(&terms)?;
-        let terms: SharedTerms<D> = fuse_all(terms).into();
-        let changed = offers.iter().any(|(_, o)| o.changes_density);
-        let changed = changed.then_some(self.diffused);
+        remedies.append(&mut all.remedies_of_failures);
+        kinds.append(&mut riding);
+        let last = all.riding.drain(..).map(|(_, term)| term);
+        all.terms.extend(last);
+        let transported = transported_by(&all.terms)?;
+        let terms: SharedTerms<D> = fuse_all(std::mem::take(&mut all.terms)).into();
+        let changed = all.changes_density.then_some(self.diffused);
         let sweep = InteractionSweep::new(terms.clone(), changed, self.walls.is_some());
         stages.push(Box::new(sweep));
-        let goals = self.goals(&offers, &stages, later);
-        let remedies = remedies(&mut offers);
-        let hooks = offers.iter_mut();
-        let hooks = hooks.flat_map(|(kind, o)| o.hooks.drain(..).map(|h| Hooked::of(kind, h)));
-        let mut planned = Planned {
-            stages: Vec::new(),
-            pruned: Vec::new(),
+        let goals = self.goals(&all, &stages, later);
+        let (stages, pruned) = self.ordered(stages, &goals, &hooks)?;
+        Ok(Planned {
+            stages,
+            pruned,
             terms,
             kinds,
-            hooks: Hooks::of(hooks.collect()),
-            outside: Vec::new(),
-            gates: Vec::new(),
-            stored: Vec::new(),
-            evolved: Vec::new(),
-            advanced: Vec::new(),
-            limiters: Vec::new(),
-            inner_bounds: Vec::new(),
+            hooks,
+            offer: all,
             remedies,
             transported,
-        };
-        planned.hooks.fresh_state = offers.iter().any(|(_, o)| o.fresh_state);
-        planned.outside.extend(planned.hooks.forces());
-        for (_, offer) in offers {
-            planned.outside.extend(offer.outside);
-            planned.gates.extend(offer.gates);
-            planned.stored.extend(offer.stored);
-            planned.evolved.extend(offer.transported);
-            planned.advanced.extend(offer.advanced);
-            planned.limiters.extend(offer.limiters);
-            planned.inner_bounds.extend(offer.inner_bounds);
-        }
-        (planned.stages, planned.pruned) = self.ordered(stages, &goals, &planned.hooks)?;
-        Ok(planned)
+        })
     }
 
     /// Asks all parts in turn for what they offer.
@@ -179,13 +150,11 @@ impl<const D: usize> Planning<'_, D> {
     }
 
     /// Columns that have to be computed.
-    fn goals(&self, offers: &Offers<D>, stages: &Stages<D>, later: Vec<AnyField>) -> Vec<AnyField> {
+    fn goals(&self, offer: &Offer<D>, stages: &Stages<D>, later: Vec<AnyField>) -> Vec<AnyField> {
         let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
         goals.extend(later);
-        for (_, offer) in offers {
-            goals.extend(&offer.goals);
-            goals.extend(offer.transported.iter().map(|e| e.rate.any()));
-        }
+        goals.extend(&offer.goals);
+        goals.extend(offer.transported.iter().map(|e| e.rate.any()));
         for stage in stages {
             let writes = stage.access().writes;
             let shown = writes.into_iter();
@@ -203,7 +172,7 @@ impl<const D: usize> Planning<'_, D> {
     ) -> Result<(Stages<D>, Vec<String>), SolverError> {
         // All that is in the store before the first evaluation is state.
         let state = self.setting.world.free.fields();
-        let remembered = hooks.iter().flat_map(|h| h.access.remembers.clone());
+        let remembered = hooks.all.iter().flat_map(|h| h.access.remembers.clone());
         let sources: Vec<AnyField> = state.chain(remembered).collect();
         let declared: Vec<&dyn Declares> =
             stages.iter().map(|s| s.as_ref() as &dyn Declares).collect();
@@ -222,18 +191,7 @@ impl<const D: usize> Planning<'_, D> {
 
 /// Columns that hooks and gates read.
 fn read_later<const D: usize>((_, offer): &(&'static str, Offer<D>)) -> Vec<AnyField> {
-    let hooks = offer.hooks.iter().map(|h| h.get().access());
+    let hooks = offer.hooks.iter().map(|h| h.access());
     let gates = offer.gates.iter().map(|g| g.access());
     hooks.chain(gates).flat_map(|a| a.reads()).collect()
-}
-
-/// Remedies of terms, by their kinds, then those of failures, by the names of what fails.
-fn remedies<const D: usize>(offers: &mut Offers<D>) -> Vec<(&'static str, String)> {
-    let of_terms =
-        |(kind, offer): &mut (&'static str, Offer<D>)| Some((*kind, offer.remedy.take()?));
-    let mut all: Vec<_> = offers.iter_mut().filter_map(of_terms).collect();
-    for (_, offer) in offers {
-        all.append(&mut offer.remedies_of_failures);
-    }
-    all
 }

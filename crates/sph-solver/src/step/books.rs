@@ -153,10 +153,10 @@ impl<const D: usize> Books<D> {
                 .chain(strange())
                 .take(MOST)
                 .collect(),
-            hooks: (flow.hooks.iter())
+            hooks: (flow.hooks.all.iter())
                 .map(|hook| of_hooks(hook.kind, strangers))
                 .collect(),
-            kicker: flow.hooks.kicking().first().copied(),
+            kicker: flow.hooks.kicking.first().copied(),
             before: Vec::new(),
             velocity: Vec::new(),
             turns: Vec::new(),

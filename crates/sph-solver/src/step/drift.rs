@@ -36,7 +36,7 @@ impl<const D: usize> Flow<D> {
         }
         self.timings[MOTION].spent += start.elapsed();
         self.observe(Boundary::Constrained, dt)?;
-        if self.moved && self.hooks.fresh_state {
+        if self.moved && self.fresh_state {
             self.run_stages(|stage| writes_any(stage, &STATE))?;
         }
         self.run_hooks(StepPhase::BeforeDrift, dt)?;

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value as Json;
 use sph_contribution::{
-    Forces, Gate, Limiter, OutsideForce, Report, StepMoment, StepPhase, StoredEnergy,
+    Forces, Gate, Limiter, OutsideForce, Report, StepHook, StepMoment, StepPhase, StoredEnergy,
 };
 use sph_core::{
     Access, AnyField, Evolved, Field, Role, Scalar, Stage, StepError, StepLimit, fields,
@@ -19,7 +19,7 @@ use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::declared::Columns;
 use crate::step::guard;
 use crate::step::guests::{run_and_tell, tell_guests};
-use crate::step::hooks::Hooks;
+use crate::step::hooks::{Hooked, Hooks};
 use crate::step::kept_image::KeptImage;
 use crate::step::kept_rates::Kept;
 use crate::step::nursery::Nursery;
@@ -48,6 +48,8 @@ pub struct Flow<const D: usize> {
     pub(crate) inner_bounds: Vec<String>,
     /// Work within a step.
     pub(crate) hooks: Hooks<D>,
+    /// Whether hooks before a drift read density, volume, pressure and γ of the present positions.
+    pub(crate) fresh_state: bool,
     /// Forces on walls by hooks in the last kick, in the order of the walls; empty if there are none.
     pub(crate) on_walls: Vec<WallForce<D>>,
     /// Sources and sinks of particles.
@@ -139,32 +141,13 @@ impl<const D: usize> Flow<D> {
 }
 
 impl<const D: usize> Flow<D> {
-    /// Runs the hooks of a phase, in their order, and holds them to what they declared.
+    /// Runs the hooks of a phase, in their order.
     pub(crate) fn run_hooks(&mut self, phase: StepPhase, dt: f64) -> Result<(), StepError> {
         for n in 0..self.hooks.during(phase).len() {
             let k = self.hooks.during(phase)[n];
             // Before a kick a hook may bind all forces.
-            let more = match phase {
-                StepPhase::BeforeKick => &self.columns.forces[..],
-                _ => &[],
-            };
-            let start = Instant::now();
-            let hooked = self.hooks.number(k);
-            self.world.free.watch(more.iter().chain([&hooked.access]));
-            let mut moment = StepMoment {
-                world: &mut self.world,
-                dt,
-                forces: Forces {
-                    sweep: &self.terms,
-                    outside: &self.outside,
-                },
-                on_walls: &mut self.on_walls,
-            };
-            let done = hooked.get_mut().run(phase, &mut moment);
-            let ended = self.world.free.unwatch(|| hooked.get().name());
-            ended.and(done)?;
-            tell_guests(&mut self.parts, &mut self.world, &hooked.access)?;
-            self.timings[MOTION + 1 + self.stages.len() + k].spent += start.elapsed();
+            let binds = phase == StepPhase::BeforeKick;
+            self.run_hook(k, binds, dt, |hook, moment| hook.run(phase, moment))?;
             self.observe(Boundary::Hooked(phase, k), dt)?;
         }
         Ok(())
@@ -172,19 +155,45 @@ impl<const D: usize> Flow<D> {
 
     /// Lets the hooks that kick advance the velocities.
     pub(crate) fn run_kicks(&mut self, dt: f64) -> Result<(), StepError> {
-        for n in 0..self.hooks.kicking().len() {
-            let k = self.hooks.kicking()[n];
-            let Some((kick, access)) = self.hooks.number(k).kick() else {
-                continue;
-            };
-            let start = Instant::now();
-            self.world.free.watch([access]);
-            let done = kick.kick(&mut self.world, dt);
-            let ended = self.world.free.unwatch(|| kick.name());
-            ended.and(done)?;
-            tell_guests(&mut self.parts, &mut self.world, access)?;
-            self.timings[MOTION + 1 + self.stages.len() + k].spent += start.elapsed();
+        for n in 0..self.hooks.kicking.len() {
+            let k = self.hooks.kicking[n];
+            self.run_hook(k, false, dt, |hook, moment| match hook.as_kick() {
+                Some(kick) => kick.kick(moment.world, dt),
+                None => Ok(()),
+            })?;
         }
+        Ok(())
+    }
+
+    /// Lets a hook work, and holds it to the columns that it declared, and to those of all forces where it `binds` them.
+    fn run_hook(
+        &mut self,
+        number: usize,
+        binds: bool,
+        dt: f64,
+        work: impl FnOnce(&mut dyn StepHook<D>, &mut StepMoment<'_, D>) -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
+        let start = Instant::now();
+        let Hooked { hook, access, .. } = &mut self.hooks.all[number];
+        let more = match binds {
+            true => &self.columns.forces[..],
+            false => &[],
+        };
+        self.world.free.watch(more.iter().chain([&*access]));
+        let mut moment = StepMoment {
+            world: &mut self.world,
+            dt,
+            forces: Forces {
+                sweep: &self.terms,
+                outside: &self.outside,
+            },
+            on_walls: &mut self.on_walls,
+        };
+        let done = work(&mut **hook, &mut moment);
+        let ended = self.world.free.unwatch(|| hook.name());
+        ended.and(done)?;
+        tell_guests(&mut self.parts, &mut self.world, access)?;
+        self.timings[MOTION + 1 + self.stages.len() + number].spent += start.elapsed();
         Ok(())
     }
 
@@ -267,13 +276,13 @@ impl<const D: usize> Flow<D> {
 
     /// The reports of all hooks, in their order.
     pub(crate) fn reports(&self) -> impl Iterator<Item = Report> {
-        self.hooks.iter().map(|h| h.get().report(&self.world))
+        self.hooks.all.iter().map(|h| h.hook.report(&self.world))
     }
 
     /// What hooks have counted, by their names.
     pub(crate) fn counts(&self) -> BTreeMap<String, Json> {
-        let all = self.hooks.iter().zip(self.reports());
-        all.filter_map(|(h, report)| Some((h.get().name(), report.counts?)))
+        let all = self.hooks.all.iter().zip(self.reports());
+        all.filter_map(|(h, report)| Some((h.hook.name(), report.counts?)))
             .collect()
     }
 
@@ -336,7 +345,7 @@ impl<const D: usize> Flow<D> {
         let names = services
             .into_iter()
             .chain(self.stages.iter().map(|s| s.name()))
-            .chain(self.hooks.iter().map(|h| h.get().name()));
+            .chain(self.hooks.all.iter().map(|h| h.hook.name()));
         self.timings = names
             .map(|name| Timing {
                 name,

@@ -25,7 +25,7 @@ impl<const D: usize> Flow<D> {
         self.run_hooks(StepPhase::BeforeKick, dt)?;
         self.observe(Boundary::Kicks, dt)?;
         let start = Instant::now();
-        if self.hooks.kicking().is_empty() {
+        if self.hooks.kicking.is_empty() {
             let mut velocity = self.world.free.take(fields::VELOCITY)?;
             let acceleration = self.world.free.get(fields::ACCELERATION)?;
             let all = velocity.par_iter_mut().zip(acceleration);

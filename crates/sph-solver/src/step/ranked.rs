@@ -23,7 +23,7 @@ impl<const D: usize> Flow<D> {
 
     /// How often a stage goes from particles to their neighbours.
     pub(crate) fn rings(&self) -> usize {
-        let hooks = self.hooks.iter().map(|hook| &hook.access);
+        let hooks = self.hooks.all.iter().map(|hook| &hook.access);
         let all = self.columns.stages.iter().chain(hooks);
         let all = all.chain(&self.columns.gates).map(|access| access.rings);
         all.fold(1, usize::max)

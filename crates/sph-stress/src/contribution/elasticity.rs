@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_contribution::{Contribution, Offer, OutsideForce, Refusal, Setting};
 use sph_core::AnyField;
 use sph_neighbours::Interaction;
 use sph_rheology::Rheology;
@@ -95,10 +95,11 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             None => offer.hook(motion),
             Some(wave) => {
                 let longest = wave.longest_sub_step(setting.world);
-                let sub_steps =
-                    ElasticSubSteps::new(self.term(&**force).into(), motion, felt, longest);
+                let term: OutsideForce<D> = self.term(&**force).into();
+                let sub_steps = ElasticSubSteps::new(term.clone(), motion, felt, longest);
+                offer.outside.push(term);
                 offer.inner_bounds.push(sub_steps.bound());
-                offer.kick(sub_steps);
+                offer.hook(sub_steps);
             }
         }
         Ok(())
