@@ -1,7 +1,6 @@
 //! Water that moves through the pores of soils.
 //!
-//! [`Seepage`] is a kind of plugin; [`DarcyForchheimer`] is one, with the [`PoreResistance`] of grains of a size.
-//! [`Seeping`] brings it into a scene.
+//! [`DarcyForchheimer`] is a plugin of the kind `seepage`, with the [`PoreResistance`] of grains of a size.
 #![doc = include_str!("../README.md")]
 
 mod contract;

@@ -252,6 +252,25 @@ fn a_drag_of_ones_own_slows_a_uniform_flow_exponentially() {
     );
 }
 
+/// All of the energy that goes is the work of the drag, and none of it that of others.
+#[test]
+fn the_work_of_a_drag_of_ones_own_stands_under_its_kind() {
+    let plugins =
+        "[term.linear-drag]\ntime = \"50 ms\"\n[probe.budget]\nkind = \"energy-budget\"\n";
+    let (_, folder) = run_text(&format!("{PERIODIC}\n{plugins}")).unwrap();
+    let table = sph_io::read_table(folder.path().join("series.csv")).expect("a series");
+    let column = |name: &str| {
+        let found = table.columns.iter().find(|c| c.name == name);
+        found.unwrap_or_else(|| panic!("no column {name}"))
+    };
+    let last = |name: &str| *column(name).values.last().expect("a row");
+    let lost = column("budget.kinetic").values[0] - last("budget.kinetic");
+    assert!(lost > 100.0, "{lost} J");
+    let work = last("budget.term");
+    assert!((work / lost + 1.0).abs() < 1e-6, "{work} J of {lost} J");
+    assert_eq!(last("budget.others"), 0.0);
+}
+
 #[test]
 fn a_kernel_of_ones_own_runs_where_there_are_no_walls() {
     let (summary, _) = run_text(&format!("{PERIODIC}\n[kernel.gaussian]\n")).unwrap();

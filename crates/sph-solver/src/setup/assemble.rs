@@ -220,15 +220,6 @@ struct About<'a, const D: usize> {
     shown: &'a [String],
 }
 
-/// Whether no wall holds the fluid still: all of them move as prescribed, or there is none against gravity.
-fn carried(scene: &Scene) -> bool {
-    let mut walls = scene.wall.values();
-    match scene.wall.is_empty() {
-        true => scene.numerics.gravity.iter().flatten().any(|g| *g != 0.0),
-        false => walls.all(|wall| wall.motion.is_some()),
-    }
-}
-
 /// Whether a wall moves or slides.
 pub(crate) fn moves(wall: &sph_scene::Wall) -> bool {
     wall.motion.is_some() || wall.velocity.is_some() || !wall.mover.is_empty()
@@ -251,7 +242,7 @@ impl<const D: usize> About<'_, D> {
             courant: coefficients.courant,
             viscous: coefficients.viscous,
             kicks_once: self.integrator.kicks_once(),
-            carried: carried(self.scene),
+            carried: movers::carried(self.scene),
             moving_wall: moving.map(|(name, _)| name.as_str()),
             world,
         };
@@ -263,16 +254,12 @@ impl<const D: usize> About<'_, D> {
             shown: self.shown,
         };
         let mut planned = planning.plan(parts)?;
-        let force = Box::new(ForceLimit {
+        planned.offer.limiter(ForceLimit {
             coefficient: coefficients.force,
         });
-        planned.offer.limiters.push(force);
         let mut walls = self.scene.wall.values();
         if walls.any(|w| w.motion.is_some() || !w.mover.is_empty()) {
-            planned
-                .offer
-                .limiters
-                .push(Box::new(MotionLimit { share: WAY }));
+            planned.offer.limiter(MotionLimit { share: WAY });
         }
         Ok(planned)
     }
