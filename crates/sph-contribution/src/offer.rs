@@ -14,7 +14,7 @@ pub trait StoredEnergy<const D: usize>: Send {
     fn energy<'a>(&'a self, world: &'a World<D>) -> Option<ParticleEnergy<'a>>;
 }
 
-/// The pieces that a contribution offers a flow. All are optional; a piece that nobody offers costs nothing.
+/// The pieces that a contribution offers a flow. All are optional; a piece that is not offered costs nothing.
 ///
 /// An evaluation runs the stages, then the sweep, which sums the terms. A step kicks velocities and transported scalars
 /// (value ← value + Δt rate) and drifts particles; hooks run between these.
