@@ -1,6 +1,7 @@
 //! A body force by functions of Python: `[body-force.python]`.
 
-use sph_contribution::{Contribution, Refusal, Setting, Stages, contribution_kind};
+use sph_contribution::{Contribution, Refusal, Setting, Stages, contribution_kind, Offer};
+use std::any::{Any};
 use sph_core::{
     Access, AnyField, Declares, Field, Stage, StepError, Vect, Vector, plugin, suggestion,
 };
@@ -38,7 +39,7 @@ impl PythonForce {
 }
 
 impl<const D: usize> Contribution<D> for PythonForce {
-    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let refuse = |key: &str, why: String| {
             Err(Refusal {
                 kind: "body-force",
@@ -56,18 +57,12 @@ impl<const D: usize> Contribution<D> for PythonForce {
             let near = suggestion(name, store.fields().map(|f| f.name));
             return refuse("columns", format!("there is no column `{name}`{near}"));
         }
-        Ok(())
-    }
-
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        vec![Box::new(Pushing {
+        offer.stage(Pushing {
             functions: self.functions.clone(),
             fields: self.fields(setting.world),
-        })]
-    }
-
-    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
-        vec![Box::new(Push)]
+        });
+        offer.term(Push);
+        Ok(())
     }
 }
 

@@ -9,7 +9,7 @@
 use std::fmt::Debug;
 
 use sph_core::{Contract, Field, Registry, Role, Scalar, Vect, fields};
-use sph_diffusion::{BrezziPitkaranta, SmootherEntry};
+use sph_diffusion::BrezziPitkaranta;
 use sph_kernels::Sampler;
 use sph_multiphase::{FormulationEntry, PressureGradient, SquaredVolumes};
 use sph_neighbours::{
@@ -122,18 +122,15 @@ fn laws() -> Laws {
     vec![Linear::default().bind(reference)].into()
 }
 
-/// Pressure, viscosity and smoother, each from its registry.
+/// Pressure and viscosity, each from its registry, and the smoother.
 pub fn terms_by_name() -> Terms<2> {
     let table = Default::default();
     let formulation = found::<FormulationEntry>("hu-adams").build::<2>(&table);
     let viscous = found::<ViscousOperatorEntry>("morris").build::<2>(&table);
-    let mut strength = table.clone();
-    strength.insert("strength".into(), STRENGTH.into());
-    let smoother = found::<SmootherEntry>("brezzi-pitkaranta").build::<2>(&strength);
     vec![
         column(formulation).pressure_term(),
         column(viscous).term(Viscosity::Uniform(VISCOSITY)),
-        column(smoother).term(&laws()),
+        Box::new(Lanewise(BrezziPitkaranta::with(STRENGTH).of(&laws()))),
     ]
 }
 

@@ -99,7 +99,7 @@ pub use rigid::pose::Pose;
 pub use rigid::rigid_state::{Movement, RigidState};
 pub use rigid::spring::Spring;
 pub use treatment::contract::{
-    Condition, ThinWall, Wall, WallEntry, WallSetup, WallSpec, WallStates,
+    Condition, ThinWall, Wall, WallEntry, WallMotion, WallSetup, WallShape, WallSpec, WallStates,
 };
 pub use treatment::dummy::DummyParticles;
 pub use treatment::usaw::Usaw;

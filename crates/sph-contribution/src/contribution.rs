@@ -1,10 +1,10 @@
-//! What a piece of physics offers a flow.
+//! Pieces of physics, and the scene that they are in.
 
 use sph_core::{AnyField, Evolved};
-use sph_neighbours::{Terms, World};
+use sph_neighbours::World;
 use sph_state::Laws;
 
-use crate::{Limiter, OwnColumn, Refusal, Stages, StepWork};
+use crate::{Offer, OwnColumn, Refusal};
 
 /// What a contribution may know of the scene that it is in.
 pub struct Setting<'a, const D: usize> {
@@ -14,6 +14,8 @@ pub struct Setting<'a, const D: usize> {
     pub phases: &'a [String],
     /// η/ρ₀ of every phase whose law has one viscosity, m²/s; none of the others.
     pub viscosities: &'a [Option<f64>],
+    /// Which phases are soils: their laws feel a pressure.
+    pub soils: &'a [bool],
     /// The scalar that the formulation integrates for the density, with its rate.
     pub density: Evolved,
     /// Whether densities are sums over positions, which every motion of particles changes.
@@ -26,85 +28,35 @@ pub struct Setting<'a, const D: usize> {
     pub viscous: f64,
     /// Whether a step has one kick and one drift, both over all of it.
     pub kicks_once: bool,
+    /// Whether no wall holds the fluid still: all of them move as prescribed, or there is none against gravity.
+    pub carried: bool,
     /// A wall that moves, if there is one.
     pub moving_wall: Option<&'a str>,
     /// Columns, walls and kernel before the first step.
     pub world: &'a World<D>,
 }
 
-/// A piece of physics. All of it is optional; what nobody offers costs nothing.
-///
-/// A step asks for it in this order: stages (with the sweep, which sums the terms), kick (velocities and
-/// transported scalars, value ← value + Δt rate), drift; between them [`StepWork`] is done.
+/// A piece of physics.
 pub trait Contribution<const D: usize> {
-    /// Refuses scenes in which it is not known; asked before everything else.
-    ///
-    /// # Errors
-    /// The key that asks for it, and why not.
-    fn check(&self, _setting: &Setting<'_, D>) -> Result<(), Refusal> {
-        Ok(())
-    }
     /// Columns that carry history, with their values at the start.
     fn columns(&self) -> Vec<OwnColumn<D>> {
         Vec::new()
     }
-    /// Which of its columns are advanced in time, and the columns of their rates. A rate is written by a stage, or
-    /// by terms that declare to write it: they add to `rates.more[world.slot(rate)?]`, all in one sweep.
-    fn transported(&self) -> Vec<Evolved> {
-        Vec::new()
-    }
-    /// Columns that somebody has to compute, although no stage, term or work reads them.
-    fn goals(&self) -> Vec<AnyField> {
-        Vec::new()
-    }
-    /// What must be known of all particles, at every evaluation. A stage that nobody needs is left out.
-    fn stages(&self, _setting: &Setting<'_, D>) -> Stages<D> {
-        Vec::new()
-    }
-    /// Terms of the interaction sweep.
-    fn terms(&self, _setting: &Setting<'_, D>) -> Terms<D> {
-        Vec::new()
-    }
-    /// Whether its terms change the density, with [`Rates::scalar`](sph_neighbours::Rates).
-    fn changes_density(&self, _setting: &Setting<'_, D>) -> bool {
-        false
-    }
-    /// Stages that depend on what is read by the stages and terms of all, by probes and by outputs.
-    fn stages_for(&self, _setting: &Setting<'_, D>, _read: &[AnyField]) -> Stages<D> {
-        Vec::new()
-    }
-    /// Terms that leave in a column what works read after the sweep (`later`), where no stage or term of all, probe or
-    /// output has read it before (`read`).
-    fn riding(
-        &self,
-        _setting: &Setting<'_, D>,
-        _read: &[AnyField],
-        _later: &[AnyField],
-    ) -> Terms<D> {
-        Vec::new()
-    }
-    /// Bounds on the step.
-    fn limiters(&self, _setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
-        Vec::new()
-    }
-    /// Work within a step; asked once, after everything else. `read` are columns that are read by the stages and terms of
-    /// all, by probes and by outputs.
+    /// Offers its pieces; asked once, of all contributions in turn.
     ///
     /// # Errors
-    /// The key that does not fit the scene.
-    fn works(
+    /// The key that does not fit the scene, and why.
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal>;
+    /// Offers the pieces that depend on the columns that are `read`: by the stages and terms of all, by probes and by outputs.
+    ///
+    /// # Errors
+    /// As [`offer`](Self::offer).
+    fn offer_to_readers(
         &mut self,
         _setting: &Setting<'_, D>,
         _read: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        Ok(Vec::new())
-    }
-    /// What to change where one of its terms has thrown a particle about; `path` is its table in the scene.
-    fn remedy(&self, _path: &str) -> Option<String> {
-        None
-    }
-    /// What to change where one of its stages, or its work in a step, has failed; by their names.
-    fn remedies_of_failures(&self) -> Vec<(&'static str, String)> {
-        Vec::new()
+        _offer: &mut Offer<D>,
+    ) -> Result<(), Refusal> {
+        Ok(())
     }
 }

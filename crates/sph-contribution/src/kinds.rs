@@ -55,14 +55,19 @@ pub fn open_kinds() -> Vec<&'static OpenKind> {
 /// Declares a kind whose plugins are contributions:
 /// `contribution_kind!(/** doc */ pub TracerEntry, "tracer", Any, "what for", "none if left out")`. `One` instead of
 /// `Any` where a scene may have one plugin of it. [`Contribution`] has to be in scope.
+///
+/// Without place and absence for a kind that `sph_core::kinds` lists itself.
 #[macro_export]
 macro_rules! contribution_kind {
     ($(#[$doc:meta])* $vis:vis $entry:ident, $kind:literal, $place:ident, $purpose:literal, $absent:literal) => {
+        $crate::contribution_kind!($(#[$doc])* $vis $entry, $kind, $purpose);
+        $crate::reexport::sph_core::kind!($kind, $place, $absent);
+    };
+    ($(#[$doc:meta])* $vis:vis $entry:ident, $kind:literal, $purpose:literal) => {
         $crate::reexport::sph_core::contract!(
             $(#[$doc])*
             $vis $entry, $kind, $purpose, Contribution<D>
         );
-        $crate::reexport::sph_core::kind!($kind, $place, $absent);
         $crate::reexport::inventory::submit! {
             $crate::OpenKind {
                 kind: $kind,

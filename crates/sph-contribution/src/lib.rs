@@ -1,8 +1,10 @@
 //! What a piece of physics may offer a flow, and kinds of plugins for it that no crate of this project knows.
 //!
-//! * [`Contribution`]: columns with their values at the start, stages, pair terms, transported scalars and step
-//!   limits. The solver asks all of them for all of it and knows none by name.
-//! * [`StepWork`]: what it does with velocities, positions and columns of its own between the evaluations, and [`Newborn`] particles.
+//! * [`Contribution`]: columns with their values at the start, and an [`Offer`]: stages, pair terms, transported scalars,
+//!   step limits, hooks and gates. The solver asks every contribution once and knows none by name.
+//! * [`StepHook`]: work on velocities, positions and columns in some [`StepPhase`]s of a step; a [`Kick`] advances the
+//!   velocities itself.
+//! * [`Gate`]: particles that leave, and [`Newborn`] particles.
 //! * [`OwnColumn`]: a column that carries history. The store sorts, saves, keeps and rolls it back by its role.
 //! * [`Limiter`]: a bound on the step; [`SoundLimit`] and [`ForceLimit`] are in every scene, [`MotionLimit`] where
 //!   walls move.
@@ -15,22 +17,26 @@
 mod column;
 mod contribution;
 mod even_out;
+mod gate;
 mod kinds;
 mod limiter;
 mod limits;
 mod newborn;
+mod offer;
 mod refusal;
-mod step_work;
+mod step_hook;
 
 pub use column::{Birth, Initial, OwnColumn};
 pub use contribution::{Contribution, Setting};
 pub use even_out::even_out;
+pub use gate::Gate;
 pub use kinds::{OpenKind, open_kinds};
 pub use limiter::Limiter;
 pub use limits::{ForceLimit, LightBodyLimit, MotionLimit, SoundLimit};
 pub use newborn::Newborn;
+pub use offer::{Offer, ParticleEnergy, StoredEnergy};
 pub use refusal::Refusal;
-pub use step_work::{Forces, OutsideForce, StepWork, StoredEnergy};
+pub use step_hook::{Forces, Kick, OutsideForce, Report, StepHook, StepMoment, StepPhase};
 
 /// Stages of an evaluation.
 pub type Stages<const D: usize> = Vec<Box<dyn sph_core::Stage<sph_neighbours::World<D>>>>;

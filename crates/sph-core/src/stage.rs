@@ -17,8 +17,13 @@ pub struct Access {
     pub writes: Vec<AnyField>,
     /// Columns read, here and at neighbours, in scenes that have them (phases); nobody has to write them.
     pub where_there: Vec<AnyField>,
+    /// Columns that it writes and begins with the next time: they carry history.
+    pub remembers: Vec<AnyField>,
     /// Whether the stage walks over neighbours (a sweep).
     pub sweep: bool,
+    /// How often it goes from particles to their neighbours, if more than once: 2 if it takes sums over neighbours of
+    /// what it has summed itself.
+    pub rings: usize,
 }
 
 impl Access {
@@ -52,6 +57,17 @@ impl Access {
         self
     }
 
+    /// Adds a column written at the particle that carries history.
+    pub fn remembers<K: Kind>(mut self, field: Field<K>) -> Self {
+        push(&mut self.remembers, field.any());
+        self.writes(field)
+    }
+
+    /// The same columns, at neighbours of neighbours: `rings` times from a particle to its neighbours.
+    pub fn rings(self, rings: usize) -> Self {
+        Access { rings, ..self }
+    }
+
     /// Adds a column that is read where a scene has it.
     pub fn where_there<K: Kind>(mut self, field: Field<K>) -> Self {
         push(&mut self.where_there, field.any());
@@ -73,7 +89,12 @@ impl Access {
             .where_there
             .into_iter()
             .for_each(|f| push(&mut self.where_there, f));
+        other
+            .remembers
+            .into_iter()
+            .for_each(|f| push(&mut self.remembers, f));
         self.sweep |= other.sweep;
+        self.rings = self.rings.max(other.rings);
         self
     }
 
@@ -111,16 +132,8 @@ pub trait Stage<C>: Declares + Send {
     fn needs_all(&self) -> Option<&'static str> {
         None
     }
-    /// How often it goes from particles to their neighbours: 2 if it takes sums over neighbours of what it has summed itself.
-    fn rings(&self) -> usize {
-        1
-    }
     /// Whether it may run for some of the particles, and then for the others, as the context asks.
     fn halves(&self) -> bool {
-        false
-    }
-    /// Whether it begins with what it wrote the last time: its columns are then part of the state.
-    fn remembers(&self) -> bool {
         false
     }
     /// Memory of the system that it solved last, matrix and solution, bytes; 0 where it solves none.

@@ -1,9 +1,9 @@
 //! Damping in proportion to the velocity.
 
 use rayon::prelude::*;
-use sph_contribution::{Contribution, Refusal, Setting, StepWork, contribution_kind};
+use sph_contribution::{Contribution, Refusal, Setting, StepWork, contribution_kind, Offer, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, AnyField, StepError, Vect, fields, plugin};
-use sph_neighbours::World;
+use sph_neighbours::{World};
 
 use crate::zone::Zone;
 
@@ -54,7 +54,7 @@ impl Rayleigh {
 }
 
 impl<const D: usize> Contribution<D> for Rayleigh {
-    fn check(&self, _: &Setting<'_, D>) -> Result<(), Refusal> {
+    fn offer(&mut self, _: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let refuse = |key, text: String| Err(Refusal::of("damping", key, text));
         if !(self.rate >= 0.0 && self.rate.is_finite()) {
             return refuse(
@@ -81,18 +81,12 @@ impl<const D: usize> Contribution<D> for Rayleigh {
                 );
             }
         }
+        offer.hook(self.clone());
         Ok(())
-    }
-    fn works(
-        &mut self,
-        _: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        Ok(vec![Box::new(self.clone())])
     }
 }
 
-impl<const D: usize> StepWork<D> for Rayleigh {
+impl<const D: usize> StepHook<D> for Rayleigh {
     fn name(&self) -> String {
         "damping".into()
     }
@@ -102,7 +96,11 @@ impl<const D: usize> StepWork<D> for Rayleigh {
             .here(fields::VELOCITY)
             .writes(fields::VELOCITY)
     }
-    fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::AfterKick]
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let StepMoment { world, dt, .. } = moment;
         if self.until.is_some_and(|until| world.time >= until) {
             return Ok(());
         }
@@ -111,7 +109,7 @@ impl<const D: usize> StepWork<D> for Rayleigh {
         let position = world.free.get(fields::POSITION)?;
         let both = velocity.par_iter_mut().zip(position).with_min_len(4096);
         both.for_each(|(u, x)| {
-            let share = self.rate_at(x) * dt;
+            let share = self.rate_at(x) * *dt;
             if share > 0.0 {
                 *u = (*u + left * share) / (1.0 + share);
             }

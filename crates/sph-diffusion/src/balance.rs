@@ -1,7 +1,7 @@
 //! The acceleration that a pressure is in balance with.
 
 use rayon::prelude::*;
-use sph_contribution::StepWork;
+use sph_contribution::{StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Field, StepError, Vect, Vector, fields};
 use sph_neighbours::World;
 
@@ -59,16 +59,29 @@ impl MeanAcceleration {
     }
 }
 
-impl<const D: usize> StepWork<D> for MeanAcceleration {
+impl<const D: usize> StepHook<D> for MeanAcceleration {
     fn name(&self) -> String {
         "mean acceleration".into()
     }
     fn access(&self) -> Access {
         Access::none()
             .here(self.source())
-            .writes(fields::MEAN_ACCELERATION)
+            .remembers(fields::MEAN_ACCELERATION)
     }
-    fn before_drift(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::BeforeDrift]
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        self.follow(moment.world, moment.dt)
+    }
+}
+
+impl MeanAcceleration {
+    /// A of all particles follows over `dt` seconds.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn follow<const D: usize>(&self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let memory = MEMORY * world.kernel.smoothing_length() / self.sound;
         let part = -(-dt / memory).exp_m1();
         let most = SLOW * self.sound / memory;

@@ -2,13 +2,12 @@
 
 use sph_core::{Access, StepError, Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
-    World, dot, splat,
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot, splat, Pair,
 };
 
-use crate::diffusion_limit::{DiffusionLimit, fastest};
-use crate::{Accelerated, Smoother, SmootherEntry};
-use sph_contribution::Limiter;
+use crate::diffusion_limit::fastest;
+use crate::{Accelerated, SmootherEntry, Smoothing};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_state::Laws;
 
 /// dρ_a/dt += δ (h/c) 2ρ_a/γ_a Σ_b V_b {[2(p_a − p_b) + (ρ_aA_a + ρ_bA_b)·r_ab]/(ρ_a + ρ_b) − g·r_ab} F_ab, free neighbours
@@ -40,21 +39,17 @@ pub struct BrezziPitkaranta {
     pub accelerations: Option<bool>,
 }
 
-impl<const D: usize> Smoother<D> for BrezziPitkaranta {
-    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(self.of(laws))
-    }
-    fn carried(&mut self) {
-        self.accelerations.get_or_insert(true);
-    }
-    fn accelerated(&self) -> Option<Accelerated> {
-        (self.accelerations == Some(true)).then_some(Accelerated::Sweep)
-    }
-    fn of_pressures(&self) -> bool {
-        true
-    }
-    fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        DiffusionLimit::of(self.strength, laws)
+impl<const D: usize> Contribution<D> for BrezziPitkaranta {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        let accelerated = *self.accelerations.get_or_insert(setting.carried);
+        let smoothing = Smoothing {
+            term: Box::new(self.of(setting.laws)),
+            strength: self.strength,
+            accelerated: accelerated.then_some(Accelerated::Sweep),
+            of_pressures: true,
+        };
+        smoothing.offer(setting, offer);
+        Ok(())
     }
 }
 

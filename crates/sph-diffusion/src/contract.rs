@@ -1,61 +1,49 @@
-//! What smoothers and shifting are.
+//! Smoothers and shifting.
 
-use sph_contribution::{Limiter, Stages};
-use sph_core::contract;
+use sph_contribution::{Contribution, Offer, Setting, contribution_kind};
 use sph_neighbours::Interaction;
-use sph_state::Laws;
 
-use crate::Accelerated;
+use crate::diffusion_limit::{DiffusionLimit, fastest};
+use crate::{Accelerated, MeanAcceleration};
 
-/// A density diffusion that damps the chequerboard mode of pressure.
-pub trait Smoother<const D: usize>: Send {
-    /// What must be known of all particles before the sweep.
-    fn stages(&self, _laws: &Laws) -> Stages<D> {
-        Vec::new()
-    }
-    /// The term; it adds dρ/dt to [`Rates::scalar`](sph_neighbours::Rates). It may read the phase
-    /// column where there are several laws.
-    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>>;
-    /// Learns that no wall holds the fluid still: all walls of the scene move, or it falls.
-    fn carried(&mut self) {}
-    /// Which accelerations its term takes the mean of, [`MEAN_ACCELERATION`](sph_core::fields::MEAN_ACCELERATION), if it does.
-    fn accelerated(&self) -> Option<Accelerated> {
-        None
-    }
+contribution_kind!(
+    /// A smoother that a scene may name: a density diffusion that damps the chequerboard mode of pressure.
+    pub SmootherEntry, "smoother", "density diffusion against pressure noise"
+);
+
+contribution_kind!(
+    /// A shifting scheme that a scene may name. The last of its stages writes
+    /// [`SHIFT_VELOCITY`](sph_core::fields::SHIFT_VELOCITY).
+    pub ShiftingEntry, "shifting", "what keeps particles evenly spread"
+);
+
+/// A smoother by its term, which adds dρ/dt to [`Rates::scalar`](sph_neighbours::Rates).
+pub struct Smoothing<const D: usize> {
+    /// The term.
+    pub term: Box<dyn Interaction<D>>,
+    /// Strength δ: the diffusivity of the density over h c.
+    pub strength: f64,
+    /// Which accelerations the term takes the mean of, [`MEAN_ACCELERATION`](sph_core::fields::MEAN_ACCELERATION), if it does.
+    pub accelerated: Option<Accelerated>,
     /// Whether it evens out pressures, and not densities: there is no bound on it where the pressure is that of the end of the
     /// step.
-    fn of_pressures(&self) -> bool {
-        false
-    }
-    /// Up to which step it evens out instead of overshooting.
-    fn limiter(&self, _laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        None
-    }
+    pub of_pressures: bool,
 }
 
-contract!(
-    /// A smoother that a scene may name.
-    pub SmootherEntry, "smoother", "density diffusion against pressure noise", Smoother<D>
-);
-
-/// What keeps particles evenly spread.
-pub trait Shifting<const D: usize>: Send {
-    /// The stages; the last one writes [`SHIFT_VELOCITY`](sph_core::fields::SHIFT_VELOCITY).
-    fn stages(&self, laws: &Laws) -> Stages<D>;
-    /// What particles take up where they are shifted to, as rates of velocity and density.
-    fn term(&self, _flow: ShiftedFlow) -> Option<Box<dyn Interaction<D>>> {
-        None
+impl<const D: usize> Smoothing<D> {
+    /// Offers the term, the mean of accelerations, the bound up to which it evens out instead of overshooting, and a remedy.
+    pub fn offer(self, setting: &Setting<'_, D>, offer: &mut Offer<D>) {
+        let laws = setting.laws;
+        offer.terms.push(self.term);
+        offer.changes_density = true;
+        if !(setting.pressure_ahead && self.of_pressures) {
+            offer
+                .limiters
+                .extend(DiffusionLimit::of(self.strength, laws));
+        }
+        if let Some(of) = self.accelerated {
+            offer.hook(MeanAcceleration::new(of, fastest(laws)));
+        }
+        offer.remedy = Some(format!("lower the strength in {}", offer.path));
     }
 }
-
-/// What shifting may ask of a scene.
-#[derive(Clone, Copy, Debug)]
-pub struct ShiftedFlow {
-    /// Whether the density is a sum over positions, which the shifting changes.
-    pub summed: bool,
-}
-
-contract!(
-    /// A shifting scheme that a scene may name.
-    pub ShiftingEntry, "shifting", "what keeps particles evenly spread", Shifting<D>
-);

@@ -1,15 +1,11 @@
 //! The δ-SPH smoother for several phases.
 
 use sph_core::{Access, StepError, Vect, fields, parameters, plugin};
-use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
-    World, dot, splat,
-};
+use sph_neighbours::{BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot, splat, Pair};
 
-use crate::diffusion_limit::DiffusionLimit;
 use crate::per_phase::PerPhase;
-use crate::{Accelerated, Smoother, SmootherEntry};
-use sph_contribution::Limiter;
+use crate::{Accelerated, SmootherEntry, Smoothing};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_state::Laws;
 
 /// dρ_a/dt += 2 δ h c_a ρ₀_a/γ_a [Σ_b V_b (β_a − β_b) F_ab − Σ_s (β_a − β_s)/d_s |∇γ_as|], β = ρ/ρ₀,
@@ -65,24 +61,30 @@ pub enum Balance {
     Literal,
 }
 
-impl<const D: usize> Smoother<D> for DeltaMultiphase {
-    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(DeltaTerm {
-            smoother: *self,
-            density: PerPhase::of(laws, |law| law.reference().density),
-            sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
-            laws: laws.clone(),
-        })
-    }
-    fn carried(&mut self) {
-        self.accelerations.get_or_insert(true);
-    }
+impl DeltaMultiphase {
     fn accelerated(&self) -> Option<Accelerated> {
         let hydrostatic = self.balance == Balance::Hydrostatic;
         (hydrostatic && self.accelerations == Some(true)).then_some(Accelerated::Sweep)
     }
-    fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        DiffusionLimit::of(self.strength, laws)
+}
+
+impl<const D: usize> Contribution<D> for DeltaMultiphase {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        self.accelerations.get_or_insert(setting.carried);
+        let laws = setting.laws;
+        let smoothing = Smoothing {
+            term: Box::new(DeltaTerm {
+                smoother: *self,
+                density: PerPhase::of(laws, |law| law.reference().density),
+                sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
+                laws: laws.clone(),
+            }),
+            strength: self.strength,
+            accelerated: self.accelerated(),
+            of_pressures: false,
+        };
+        smoothing.offer(setting, offer);
+        Ok(())
     }
 }
 
@@ -117,7 +119,7 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
             .both(fields::DENSITY)
             .both(fields::VOLUME)
             .and(self.density.access())
-            .and(match Smoother::<D>::accelerated(&self.smoother) {
+            .and(match self.smoother.accelerated() {
                 Some(_) => Access::none().both(fields::MEAN_ACCELERATION),
                 None => Access::none(),
             })
@@ -143,7 +145,7 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
                 Balance::Hydrostatic => world.gravity,
                 Balance::Literal => Vect::zeros(),
             },
-            acceleration: match Smoother::<D>::accelerated(&self.smoother) {
+            acceleration: match self.smoother.accelerated() {
                 Some(_) => Some(world.free.get(fields::MEAN_ACCELERATION)?),
                 None => None,
             },

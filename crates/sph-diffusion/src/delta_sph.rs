@@ -4,16 +4,13 @@ use sph_core::{
     Access, Declares, Field, Stage, StepError, Vect, Vector, fields, parameters, plugin,
 };
 use sph_neighbours::{
-    Around, BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
-    Rates, Values, World, dot, unlike, walk_into,
+    Around, BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, Values, World, dot, unlike, walk_into, Pair,
 };
 
-use crate::diffusion_limit::DiffusionLimit;
 use crate::linear_exact::linear_exact;
 use crate::per_phase::PerPhase;
-use crate::{Smoother, SmootherEntry};
-use sph_contribution::{Limiter, Stages};
-use sph_state::Laws;
+use crate::{SmootherEntry, Smoothing};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 /// dρ_a/dt += 2 δ h c_a/γ_a Σ_b V_b [ρ_a − ρ_b − ½(∇ρ_a + ∇ρ_b)·r_ab] F_ab over free neighbours
 /// of the same phase.
@@ -54,21 +51,22 @@ pub enum DeltaForm {
     Renormalised,
 }
 
-impl<const D: usize> Smoother<D> for DeltaSph {
-    fn stages(&self, _laws: &Laws) -> Stages<D> {
-        match self.form {
-            DeltaForm::Plain => Vec::new(),
-            DeltaForm::Renormalised => vec![Box::new(DensityGradient)],
+impl<const D: usize> Contribution<D> for DeltaSph {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        if self.form == DeltaForm::Renormalised {
+            offer.stage(DensityGradient);
         }
-    }
-    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(DeltaTerm {
-            smoother: *self,
-            sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
-        })
-    }
-    fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        DiffusionLimit::of(self.strength, laws)
+        let smoothing = Smoothing {
+            term: Box::new(DeltaTerm {
+                smoother: *self,
+                sound_speed: PerPhase::of(setting.laws, |law| law.reference().sound_speed),
+            }),
+            strength: self.strength,
+            accelerated: None,
+            of_pressures: false,
+        };
+        smoothing.offer(setting, offer);
+        Ok(())
     }
 }
 

@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, parameters, plugin};
 use sph_neighbours::{Interaction, World};
+use serde::{Serialize};
 
+use crate::ShiftingEntry;
 use crate::evenness::{Evenness, Held, evenness, held_normals};
 use crate::shift_transport::ShiftTransport;
-use crate::{ShiftedFlow, Shifting, ShiftingEntry};
-use sph_contribution::Stages;
-use sph_state::Laws;
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 /// Particles move, besides their velocity, down the gradient of their concentration,
 /// s_a = −B h c 1/γ_a [Σ_b θ_b V_b (1 + R (w_ab/w(δr))ⁿ) ∇w_ab − Σ_s (C_a + R (w(2d_as)/w(δr))ⁿ) ∇γ_as],
@@ -90,22 +90,25 @@ pub enum Transport {
     All,
 }
 
-impl<const D: usize> Shifting<D> for Fickian {
-    fn stages(&self, laws: &Laws) -> Stages<D> {
-        let speeds = laws.iter().map(|l| l.reference().sound_speed).collect();
-        vec![Box::new(ShiftVelocity {
+impl<const D: usize> Contribution<D> for Fickian {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer.goals.push(fields::SHIFT_VELOCITY.any());
+        let laws = setting.laws.iter();
+        offer.stage(ShiftVelocity {
             parameters: *self,
-            speeds,
+            speeds: laws.map(|l| l.reference().sound_speed).collect(),
             all: Vec::new(),
-        })]
-    }
-    fn term(&self, flow: ShiftedFlow) -> Option<Box<dyn Interaction<D>>> {
-        let term = ShiftTransport {
-            velocity: self.transport == Transport::All,
-            relaxation: self.relaxation,
-            summed: flow.summed,
-        };
-        (self.transport != Transport::Nothing).then(|| Box::new(term) as _)
+        });
+        if self.transport != Transport::Nothing {
+            offer.changes_density = true;
+            offer.term(ShiftTransport {
+                velocity: self.transport == Transport::All,
+                relaxation: self.relaxation,
+                summed: setting.summed,
+            });
+        }
+        offer.remedy = Some(format!("weaken {}", offer.path));
+        Ok(())
     }
 }
 
@@ -129,8 +132,11 @@ impl<const D: usize> Declares for ShiftVelocity<D> {
             .where_there(fields::PHASE)
             .here(fields::VELOCITY)
             .here(fields::MASS)
-            .writes(fields::SHIFT_VELOCITY)
+            // Drifts may sort particles between their halves: the shift must be sorted, too.
+            .remembers(fields::SHIFT_VELOCITY)
             .writes(fields::EMPTINESS)
+            // Normals are sums over what has been summed at neighbours.
+            .rings(2)
     }
 }
 
@@ -138,10 +144,6 @@ impl<const D: usize> Declares for ShiftVelocity<D> {
 const STABLE: f64 = 0.25;
 
 impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
-    /// Normals are sums over what has been summed at neighbours.
-    fn rings(&self) -> usize {
-        2
-    }
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let Fickian {
             strength,

@@ -4,11 +4,9 @@ use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_neighbours::{Around, Interaction, Values, World, walk_into};
 
 use crate::balance::PRESSURE_SLOPE;
-use crate::diffusion_limit::DiffusionLimit;
 use crate::linear_exact::linear_exact;
-use crate::{Accelerated, BrezziPitkaranta, Smoother, SmootherEntry};
-use sph_contribution::{Limiter, Stages};
-use sph_state::Laws;
+use crate::{Accelerated, BrezziPitkaranta, SmootherEntry, Smoothing};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 /// The term of [`BrezziPitkaranta`] with the mean A of g − s, s the slope of the pressure where the particle is:
 /// s_a = [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b 2/(ρ_a + ρ_b) (p_b − p_a) ∇w_ab over free neighbours of all phases.
@@ -41,23 +39,19 @@ pub struct RhieChow {
     pub strength: f64,
 }
 
-impl<const D: usize> Smoother<D> for RhieChow {
-    fn stages(&self, _laws: &Laws) -> Stages<D> {
-        vec![Box::new(PressureSlope)]
-    }
-    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
+impl<const D: usize> Contribution<D> for RhieChow {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let mut narrow = BrezziPitkaranta::with(self.strength);
         narrow.accelerations = Some(true);
-        Smoother::<D>::term(&narrow, laws)
-    }
-    fn accelerated(&self) -> Option<Accelerated> {
-        Some(Accelerated::Slope)
-    }
-    fn of_pressures(&self) -> bool {
-        true
-    }
-    fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        DiffusionLimit::of(self.strength, laws)
+        offer.stage(PressureSlope);
+        let smoothing = Smoothing {
+            term: Box::new(narrow.of(setting.laws)),
+            strength: self.strength,
+            accelerated: Some(Accelerated::Slope),
+            of_pressures: true,
+        };
+        smoothing.offer(setting, offer);
+        Ok(())
     }
 }
 

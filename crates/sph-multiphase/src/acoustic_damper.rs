@@ -2,14 +2,13 @@
 
 use std::sync::OnceLock;
 
-use sph_contribution::{Contribution, Limiter, Setting, Stages};
+use sph_contribution::{Contribution, Limiter, Setting, Stages, Offer, Refusal};
 use sph_core::{
     Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, plugin,
 };
 use sph_damping::DampingEntry;
 use sph_neighbours::{
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
-    Rates, Sums, Terms, Values, World, add_scaled, all_sums, declared, walk_some,
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, Sums, Terms, Values, World, add_scaled, all_sums, declared, walk_some, Pair, splat,
 };
 
 use crate::divergence::{Divergence, OwnVolume};
@@ -45,37 +44,29 @@ pub struct AcousticDamper {
 }
 
 impl<const D: usize> Contribution<D> for AcousticDamper {
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let laws = setting.laws.iter().map(|law| law.reference());
         let term = [Divergence::boxed(OwnVolume)];
-        vec![Box::new(Resistance {
+        offer.stage(Resistance {
             impedance: laws
                 .clone()
                 .map(|r| self.strength * r.density * r.sound_speed)
                 .collect(),
-            densities: laws.map(|r| r.density).collect(),
+            densities: laws.clone().map(|r| r.density).collect(),
             declared: declared(&term),
             term,
             unused: Vec::new(),
-        })]
-    }
-    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
-        vec![Box::new(DampingForce)]
-    }
-    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
-        let speeds = setting.laws.iter().map(|law| law.reference().sound_speed);
-        let limit = DamperLimit {
-            strength: self.strength,
-            fastest: speeds.fold(0.0, f64::max),
-            wave: OnceLock::new(),
-        };
-        match self.strength > 0.0 {
-            true => vec![Box::new(limit)],
-            false => Vec::new(),
+        });
+        offer.term(DampingForce);
+        if self.strength > 0.0 {
+            offer.limiter(DamperLimit {
+                strength: self.strength,
+                fastest: laws.map(|r| r.sound_speed).fold(0.0, f64::max),
+                wave: OnceLock::new(),
+            });
         }
-    }
-    fn remedy(&self, path: &str) -> Option<String> {
-        Some(format!("lower the strength in {path}"))
+        offer.remedy = Some(format!("lower the strength in {}", offer.path));
+        Ok(())
     }
 }
 

@@ -1,9 +1,9 @@
 //! What formulations and interface models are.
 
-use sph_contribution::{Limiter, Refusal, Setting, Stages};
+use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, Stages, contribution_kind};
 use sph_core::{Evolved, Field, Scalar, Stage, StepError, contract};
 use sph_neighbours::{Interaction, World};
-use sph_state::{Laws, PressureStage};
+use sph_state::PressureStage;
 
 /// How density diffusion reaches what a formulation integrates.
 #[derive(Clone, Copy)]
@@ -80,32 +80,28 @@ contract!(
     pub PressureEntry, "pressure", "which pressure acts in a step", PressureScheme<D>
 );
 
-/// A force where phases meet.
-pub trait InterfaceModel<const D: usize>: Send {
-    /// What must be known of all particles before the sweep.
-    fn stages(&self, _laws: &Laws) -> Stages<D> {
-        Vec::new()
-    }
-    /// The same, with all that is known of the scene.
-    fn stages_within(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        self.stages(setting.laws)
-    }
-    /// Whether it can be part of a scene.
-    ///
-    /// # Errors
-    /// The key that does not fit.
-    fn check(&self, _: &Setting<'_, D>) -> Result<(), Refusal> {
-        Ok(())
-    }
-    /// The term of the interaction sweep; it may read the phase column.
-    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>>;
-    /// Its bound on the step, if it has one.
-    fn limiter(&self, _laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        None
-    }
-}
-
-contract!(
-    /// An interface model that a scene may name.
-    pub InterfaceEntry, "interface", "a force where phases meet", InterfaceModel<D>
+contribution_kind!(
+    /// An interface model that a scene may name: a force where phases meet.
+    pub InterfaceEntry, "interface", "a force where phases meet"
 );
+
+/// Offers the term of an interface model, which may read the phase column, and a remedy.
+///
+/// # Errors
+/// If the scene has one phase.
+pub fn offer_interface<const D: usize>(
+    term: Box<dyn Interaction<D>>,
+    setting: &Setting<'_, D>,
+    offer: &mut Offer<D>,
+) -> Result<(), Refusal> {
+    if setting.phases.len() <= 1 {
+        return Err(Refusal::of(
+            "interface",
+            "",
+            "the scene has one phase, and interfaces are between two: take this table out, or add a phase",
+        ));
+    }
+    offer.terms.push(term);
+    offer.remedy = Some(format!("lower the coefficients of {}", offer.path));
+    Ok(())
+}

@@ -1,7 +1,7 @@
 //! Scalars that the motion compresses: d ln(value)/dt = exponent · D{u}, down to a particle alone.
 
 use rayon::prelude::*;
-use sph_contribution::StepWork;
+use sph_contribution::{StepWork, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
 use sph_neighbours::{Interaction, World, interactions};
 
@@ -28,7 +28,7 @@ impl<const D: usize> Dilatation<D> {
     }
 }
 
-impl<const D: usize> StepWork<D> for Dilatation<D> {
+impl<const D: usize> StepHook<D> for Dilatation<D> {
     fn name(&self) -> String {
         "dilatation".into()
     }
@@ -36,18 +36,16 @@ impl<const D: usize> StepWork<D> for Dilatation<D> {
         let access = self.term[0].access().both(fields::POSITION);
         access.here(fields::MASS).writes(self.compressed.value)
     }
-    fn advanced(&self) -> Vec<Field<Scalar>> {
-        vec![self.compressed.value]
-    }
-    fn halves_drifts(&self) -> bool {
-        true
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::MidDrift]
     }
     /// value ← value · exp(exponent · D{u} · dt) at the present positions and velocities, the volume at most 1/w(0).
     ///
     /// That is what a particle alone has where densities are sums, ρ = m w(0). Spray flies apart within the supports of its
     /// particles, and would thin out to 2 % of the fluid; with 50 times their volume such particles throw the fluid about when
     /// they fall back into it.
-    fn amid_drift(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *moment.world, moment.dt);
         self.unused.resize(world.free.len(), Vect::zeros());
         self.divergence.resize(world.free.len(), 0.0);
         interactions(

@@ -1,11 +1,11 @@
 //! The interface force of Grenier et al. (2009).
 
-use sph_core::plugin;
+use sph_core::{plugin};
 use sph_neighbours::{Interaction, Lane};
 
 use crate::repulsion::{Repelling, Repulsion};
-use crate::{InterfaceEntry, InterfaceModel};
-use sph_state::Laws;
+use crate::{InterfaceEntry, offer_interface};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 /// ρ_a a = −ε Σ_{b of other phases} V_b (|p_a| + |p_b|) ∇w_ab.
 ///
@@ -39,8 +39,12 @@ impl Repulsion for BothVolumes {
     }
 }
 
-impl<const D: usize> InterfaceModel<D> for GrenierInterface {
-    fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
-        Repelling::<BothVolumes>::boxed(self.strength)
+impl<const D: usize> Contribution<D> for GrenierInterface {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer_interface(
+            Repelling::<BothVolumes>::boxed(self.strength),
+            setting,
+            offer,
+        )
     }
 }

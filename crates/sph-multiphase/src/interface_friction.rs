@@ -4,13 +4,12 @@ use std::sync::Arc;
 
 use sph_core::{Access, StepError, StepLimit, Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
-    Rates, WallPoints, World, add_scaled, dot, minus, unlike,
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, WallPoints, World, add_scaled, dot, minus, unlike, Pair, splat,
 };
 
 use crate::scattered::{SCATTERED, Scattered};
-use crate::{InterfaceEntry, InterfaceModel};
-use sph_contribution::{Limiter, Stages};
+use crate::{InterfaceEntry, offer_interface};
+use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 use sph_neighbours::lattice_sum;
 use sph_state::Laws;
 
@@ -47,20 +46,15 @@ pub struct InterfaceFriction {
     pub shocks: f64,
 }
 
-impl<const D: usize> InterfaceModel<D> for InterfaceFriction {
-    fn stages(&self, laws: &Laws) -> Stages<D> {
-        let light = Damping::of(self, laws).wall_density;
-        vec![Box::new(Scattered {
-            light: light.iter().map(|density| *density > 0.0).collect(),
-        })]
-    }
-
-    fn term(&self, laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(Damping::of(self, laws))
-    }
-
-    fn limiter(&self, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        Some(Box::new(DampingLimit(Damping::of(self, laws))))
+impl<const D: usize> Contribution<D> for InterfaceFriction {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        let damping = Damping::of(self, setting.laws);
+        let light = damping.wall_density.iter();
+        offer.stage(Scattered {
+            light: light.map(|density| *density > 0.0).collect(),
+        });
+        offer.limiter(DampingLimit(damping.clone()));
+        offer_interface(Box::new(damping), setting, offer)
     }
 }
 

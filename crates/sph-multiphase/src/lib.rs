@@ -41,10 +41,10 @@ pub use acoustic_damper::AcousticDamper;
 pub use colagrossi_landrini::ColagrossiLandrini;
 pub use contact_angle::{ContactAngle, FILM};
 pub use contract::{
-    Acting, Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, InterfaceModel,
-    PressureEntry, PressureScheme,
+    Acting, Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, PressureEntry,
+    PressureScheme, offer_interface,
 };
-pub use contribution::{Compressible, Meeting};
+pub use contribution::Compressible;
 pub use dilatation::Dilatation;
 pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, OwnVolume, TheirVolume};
 pub use gradient::{

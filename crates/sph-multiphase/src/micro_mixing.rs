@@ -1,11 +1,11 @@
 //! The force against micro-mixing.
 
-use sph_core::plugin;
+use sph_core::{plugin};
 use sph_neighbours::{Interaction, Lane};
 
 use crate::repulsion::{Repelling, Repulsion};
-use crate::{InterfaceEntry, InterfaceModel};
-use sph_state::Laws;
+use crate::{InterfaceEntry, offer_interface};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 /// m_a a = −ε Σ_{b of other phases} (|p_a| V_a² + |p_b| V_b²) ∇w_ab: a share ε of the pressure
 /// gradient between phases, always repulsive.
@@ -40,8 +40,12 @@ impl Repulsion for OwnVolumes {
     }
 }
 
-impl<const D: usize> InterfaceModel<D> for MicroMixing {
-    fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
-        Repelling::<OwnVolumes>::boxed(self.strength)
+impl<const D: usize> Contribution<D> for MicroMixing {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer_interface(
+            Repelling::<OwnVolumes>::boxed(self.strength),
+            setting,
+            offer,
+        )
     }
 }

@@ -7,14 +7,14 @@ use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
     World, dot, splat,
 };
+use sph_neighbours::{BoundTerm, Pair, PairTerm, Rates, World};
 
 use crate::contact_angle::{ContactAngle, FILM};
-use crate::{InterfaceEntry, InterfaceModel};
+use crate::{InterfaceEntry, offer_interface};
 
-use sph_contribution::{Limiter, Refusal, Setting, Stages};
+use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 
 use sph_neighbours::{Around, Values, walk_into};
-use sph_state::Laws;
 
 /// m_a a = Σ_b (V_a² Π_a + V_b² Π_b)·∇w_ab with the surface stress
 /// Π = σ/|∇c| (|∇c|² ι I − ∇c ∇c) and the gradient of the colour of all other phases,
@@ -68,27 +68,18 @@ pub enum SurfaceStress {
     TraceFree,
 }
 
-impl<const D: usize> InterfaceModel<D> for SurfaceTension {
-    fn stages(&self, _laws: &Laws) -> Stages<D> {
-        vec![Box::new(ColourGradient)]
-    }
-    fn stages_within(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        let mut stages = self.stages(setting.laws);
+impl<const D: usize> Contribution<D> for SurfaceTension {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer_interface(Box::new(self.clone()), setting, offer)?;
+        offer.stage(ColourGradient);
         if let Some(angle) = &self.contact_angle {
-            stages.push(Box::new(angle.films(setting)));
+            angle.check(setting)?;
+            offer.stage(angle.films(setting));
         }
-        stages
-    }
-    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
-        self.contact_angle
-            .as_ref()
-            .map_or(Ok(()), |angle| angle.check(setting))
-    }
-    fn term(&self, _laws: &Laws) -> Box<dyn Interaction<D>> {
-        Box::new(self.clone())
-    }
-    fn limiter(&self, _laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        (self.tension > 0.0).then(|| Box::new(CapillaryLimit(self.tension)) as _)
+        if self.tension > 0.0 {
+            offer.limiter(CapillaryLimit(self.tension));
+        }
+        Ok(())
     }
 }
 

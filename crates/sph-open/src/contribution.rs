@@ -3,12 +3,11 @@
 use std::sync::{Arc, Mutex};
 
 use sph_boundary::Wall;
-use sph_contribution::{Contribution, OwnColumn, Refusal, Setting, StepWork};
-use sph_core::{AnyField, Vect};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_core::Vect;
 use sph_state::{BoundState, Laws};
 
 use crate::faces::{Face, Faces, SharedFaces, lock};
-use crate::flux::OPEN_FLUX;
 use crate::memory::Memory;
 use crate::passing::Passing;
 use crate::walls::OpenWalls;
@@ -163,33 +162,21 @@ impl<const D: usize> OpenBoundaries<D> {
 }
 
 impl<const D: usize> Contribution<D> for OpenBoundaries<D> {
-    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
-        match setting.kicks_once {
-            true => Ok(()),
-            false => Err(Refusal::of(
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        if !setting.kicks_once {
+            return Err(Refusal::of(
                 "integrator",
                 "",
                 "open faces let mass through once per step: take `[integrator.symplectic-euler]`",
-            )),
+            ));
         }
-    }
-
-    fn columns(&self) -> Vec<OwnColumn<D>> {
-        match self.summed {
-            true => vec![OwnColumn::zero(OPEN_FLUX.any())],
-            false => Vec::new(),
-        }
-    }
-
-    fn works(
-        &mut self,
-        setting: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        Ok(vec![Box::new(Passing {
+        let passing = Passing {
             faces: self.faces.clone(),
             summed: self.summed,
             phases: setting.phases.to_vec(),
-        })])
+        };
+        offer.hook(passing.clone());
+        offer.gate(passing);
+        Ok(())
     }
 }

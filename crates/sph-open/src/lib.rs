@@ -32,5 +32,4 @@ pub use contract::{
 pub use contribution::{OpenBoundaries, open};
 pub use flux::OPEN_FLUX;
 pub use laws::{FlowRate, Level, Outflow, Pressure, VelocityInlet};
-pub use passing::PASSING;
 pub use profile::Profile;

@@ -1,17 +1,16 @@
 //! The work of open faces within a step.
 
-use serde_json::Value as Json;
-use sph_contribution::{Newborn, StepWork, even_out};
-use sph_core::{Access, AnyField, StepError, Vect, fields};
+use sph_contribution::{Gate, Newborn, Report, StepHook, StepMoment, StepPhase, even_out};
+use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::World;
 
 use crate::faces::{SharedFaces, lock};
 use crate::flux::OPEN_FLUX;
 
-/// Name of the work, under which the summary has the budget.
-pub const PASSING: &str = "open boundaries";
+const NAME: &str = "open boundaries";
 
 /// Lets mass through.
+#[derive(Clone)]
 pub(crate) struct Passing<const D: usize> {
     pub faces: SharedFaces<D>,
     /// Whether densities are sums, which feel who comes and goes.
@@ -19,12 +18,8 @@ pub(crate) struct Passing<const D: usize> {
     pub phases: Vec<String>,
 }
 
-impl<const D: usize> StepWork<D> for Passing<D> {
-    fn name(&self) -> String {
-        PASSING.into()
-    }
-
-    fn access(&self) -> Access {
+impl<const D: usize> Passing<D> {
+    fn columns(&self) -> Access {
         let access = Access::none()
             .both(fields::POSITION)
             .both(fields::VOLUME)
@@ -40,19 +35,27 @@ impl<const D: usize> StepWork<D> for Passing<D> {
             true => access
                 .here(OPEN_FLUX)
                 .here(fields::DENSITY_CONSTANT)
-                .writes(OPEN_FLUX)
+                .remembers(OPEN_FLUX)
                 .writes(fields::DENSITY_CONSTANT),
         }
     }
+}
 
-    fn remembered(&self) -> Vec<AnyField> {
-        match self.summed {
-            true => vec![OPEN_FLUX.any()],
-            false => Vec::new(),
-        }
+impl<const D: usize> StepHook<D> for Passing<D> {
+    fn name(&self) -> String {
+        NAME.into()
     }
 
-    fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    fn access(&self) -> Access {
+        self.columns()
+    }
+
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::AfterKick]
+    }
+
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *moment.world, moment.dt);
         let mut faces = lock(&self.faces);
         faces.balance(world, dt)?;
         if self.summed {
@@ -62,6 +65,26 @@ impl<const D: usize> StepWork<D> for Passing<D> {
         faces.ask(world.time, dt);
         faces.remember(dt);
         Ok(())
+    }
+
+    fn report(&self, _: &World<D>) -> Report {
+        let faces = lock(&self.faces);
+        Report {
+            counts: Some(faces.budget(&self.phases)),
+            summary: Some("open_boundaries"),
+            warnings: faces.differences(),
+            ..Report::default()
+        }
+    }
+}
+
+impl<const D: usize> Gate<D> for Passing<D> {
+    fn name(&self) -> String {
+        NAME.into()
+    }
+
+    fn access(&self) -> Access {
+        self.columns()
     }
 
     fn exits(&self) -> Vec<String> {
@@ -82,10 +105,6 @@ impl<const D: usize> StepWork<D> for Passing<D> {
         Ok(gone.here)
     }
 
-    fn gives_birth(&self) -> bool {
-        true
-    }
-
     fn births(&mut self, world: &mut World<D>, _dt: f64) -> Result<Vec<Newborn<D>>, StepError> {
         let mut faces = lock(&self.faces);
         let born = faces.ripe();
@@ -93,13 +112,5 @@ impl<const D: usize> StepWork<D> for Passing<D> {
         even_out(world, &places, -1.0)?;
         world.walls.passed = faces.passed(&world.walls);
         Ok(born)
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        lock(&self.faces).differences()
-    }
-
-    fn counts(&self) -> Option<Json> {
-        Some(lock(&self.faces).budget(&self.phases))
     }
 }

@@ -1,6 +1,6 @@
 //! A wall treatment with open faces in it.
 
-use sph_boundary::{BoundaryError, ThinWall, Wall, WallSetup, WallStates};
+use sph_boundary::{BoundaryError, ThinWall, Wall, WallMotion, WallSetup, WallShape, WallStates};
 use sph_core::{StepError, Vect};
 use sph_neighbours::{Sight, WallSet, World};
 
@@ -28,6 +28,24 @@ impl<const D: usize> Wall<D> for OpenWalls<D> {
         self.walls.renormalises()
     }
 
+    fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        self.walls.geometry(world)
+    }
+
+    fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        self.walls.state(world)?;
+        let mut faces = lock(&self.faces);
+        faces.look(world)?;
+        faces.tell(&mut world.walls);
+        Ok(())
+    }
+
+    fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        self.walls.constrain(world, dt)
+    }
+}
+
+impl<const D: usize> WallShape<D> for OpenWalls<D> {
     fn contains(&self, point: &Vect<D>) -> bool {
         self.walls.contains(point) || lock(&self.faces).waits(point)
     }
@@ -40,18 +58,28 @@ impl<const D: usize> Wall<D> for OpenWalls<D> {
         self.walls.clearance(point, within)
     }
 
-    fn ends_freely(&self) -> bool {
-        self.walls.ends_freely()
+    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
+        self.walls.bounds()
     }
 
-    fn thin_walls(&self, points: &[Vect<D>]) -> Vec<ThinWall<D>> {
-        self.walls.thin_walls(points)
+    fn ends_freely(&self) -> bool {
+        self.walls.ends_freely()
     }
 
     fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {
         self.walls.check_free_ends(points)
     }
 
+    fn thin_walls(&self, points: &[Vect<D>]) -> Vec<ThinWall<D>> {
+        self.walls.thin_walls(points)
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.walls.warnings()
+    }
+}
+
+impl<const D: usize> WallMotion<D> for OpenWalls<D> {
     fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError> {
         self.walls.move_to(walls, time)
     }
@@ -104,29 +132,5 @@ impl<const D: usize> Wall<D> for OpenWalls<D> {
             listed: states.listed.clone(),
         };
         self.walls.put_back(walls, &of_movers, time)
-    }
-
-    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
-        self.walls.bounds()
-    }
-
-    fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        self.walls.geometry(world)
-    }
-
-    fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        self.walls.state(world)?;
-        let mut faces = lock(&self.faces);
-        faces.look(world)?;
-        faces.tell(&mut world.walls);
-        Ok(())
-    }
-
-    fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
-        self.walls.constrain(world, dt)
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        self.walls.warnings()
     }
 }

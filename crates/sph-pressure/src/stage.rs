@@ -76,6 +76,8 @@ impl<const D: usize> Declares for SolvePressure<D> {
             .both(fields::POSITION)
             .both(fields::VOLUME)
             .both(fields::DENSITY)
+            // A solve starts from the pressure of the step before.
+            .remembers(fields::PRESSURE)
             .where_there(fields::DENSITY_CONSTANT)
             .where_there(fields::RENORMALISATION)
             .where_there(fields::PHASE);
@@ -106,9 +108,6 @@ impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
             true => self.solve(world),
             false => Ok(()),
         }
-    }
-    fn remembers(&self) -> bool {
-        true
     }
     fn bytes(&self) -> usize {
         let Assembly {

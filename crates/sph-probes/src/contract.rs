@@ -27,67 +27,82 @@ impl ProbeColumn {
     }
 }
 
-/// Something measured at every row of the time series.
-pub trait Probe<const D: usize>: Send {
-    /// The columns it adds.
-    fn columns(&self) -> Vec<ProbeColumn>;
-    /// Learns the scene's phases: their names in the order of their numbers.
-    ///
-    /// # Errors
-    /// If the probe names a phase that is not among them: what is wrong with its key `phase`.
-    fn name_phases(&mut self, _names: &[String]) -> Result<(), String> {
-        Ok(())
-    }
-    /// The wall whose force it reads; forces are measured on such walls only.
-    fn force_on(&self) -> Option<&str> {
-        None
-    }
-    /// Whether it reads neighbour lists, contacts, or what walls carry besides forces, and not columns alone: where several
-    /// ranks run a flow, the first computes these for such probes only.
-    fn looks_around(&self) -> bool {
-        false
-    }
-    /// Whether it reads the displacement of the particles, which is kept for such probes only.
-    fn needs_displacement(&self) -> bool {
-        false
-    }
-    /// Whether it reads the work of everybody on the particles, which is booked for such probes only.
-    fn needs_books(&self) -> bool {
-        false
-    }
-    /// Names of derived fields that are computed for such probes only.
-    fn fields(&self) -> Vec<&str> {
-        Vec::new()
-    }
-    /// The columns of its curves, none for a probe without: a table is written with every output of
-    /// fields, `curves/NAME_0003.csv`.
-    fn curve_columns(&self) -> Vec<ProbeColumn> {
-        Vec::new()
-    }
-    /// The rows of its curves now; NaN where there is nothing to measure.
+/// A scene as probes know it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ProbeScene<'a> {
+    /// Names of the phases, in the order of their numbers.
+    pub phases: &'a [String],
+    /// Kinds of plugins that no crate of this project declares, of which the scene names some.
+    pub strangers: &'a [&'static str],
+}
+
+/// Quantities that a probe reads and that are computed for such probes only.
+#[derive(Clone, Debug, Default)]
+pub struct Needs<'a> {
+    /// The wall whose force it reads.
+    pub force_on: Option<&'a str>,
+    /// Neighbour lists, contacts, or what walls carry besides forces, and not columns alone: where several ranks run a flow,
+    /// the first computes these.
+    pub around: bool,
+    /// The displacement of the particles.
+    pub displacement: bool,
+    /// The work of everybody on the particles.
+    pub books: bool,
+    /// Names of derived fields.
+    pub fields: Vec<&'a str>,
+}
+
+/// Curves of a probe: a table is written with every output of fields, `curves/NAME_0003.csv`.
+pub trait Curves<const D: usize> {
+    /// The columns of the table.
+    fn curve_columns(&self) -> Vec<ProbeColumn>;
+    /// The rows now; NaN where there is nothing to measure.
     ///
     /// # Errors
     /// If a column of the flow is missing.
-    fn curves(&self, _world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
-        Ok(Vec::new())
-    }
+    fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError>;
     /// Which of these columns is drawn, `pictures/NAME_0003.png`, as a map over the first two.
     fn drawn_column(&self) -> Option<usize> {
         None
     }
-    /// Takes the flow at a row of the series into what it gathers over time.
+}
+
+/// Sums of a probe over the rows of the series.
+pub trait Gathers<const D: usize> {
+    /// Takes the flow at a row into the sums.
     ///
     /// # Errors
     /// If a column of the flow is missing.
-    fn gather(&self, _world: &World<D>) -> Result<(), StepError> {
+    fn gather(&self, world: &World<D>) -> Result<(), StepError>;
+    /// The sums, bit by bit, for checkpoints.
+    fn gathered(&self) -> Vec<u64>;
+    /// Goes on with the sums of a run that is resumed.
+    fn recall(&self, gathered: &[u64]);
+}
+
+/// Something measured at every row of the time series.
+pub trait Probe<const D: usize>: Send {
+    /// The columns it adds.
+    fn columns(&self) -> Vec<ProbeColumn>;
+    /// Learns the scene.
+    ///
+    /// # Errors
+    /// If the probe names a phase that is not in the scene: what is wrong with its key `phase`.
+    fn settle(&mut self, _scene: &ProbeScene<'_>) -> Result<(), String> {
         Ok(())
     }
-    /// What it has gathered, bit by bit, for checkpoints; empty if it gathers nothing.
-    fn gathered(&self) -> Vec<u64> {
-        Vec::new()
+    /// Quantities that are computed for such probes only.
+    fn needs(&self) -> Needs<'_> {
+        Needs::default()
     }
-    /// Goes on with what a run that is resumed had gathered.
-    fn recall(&self, _gathered: &[u64]) {}
+    /// Its curves, if it has some.
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        None
+    }
+    /// Its sums over time, if it has some.
+    fn as_gathers(&self) -> Option<&dyn Gathers<D>> {
+        None
+    }
     /// The file that its key `file` names, if it compares with one.
     fn file(&self) -> Option<&str> {
         None

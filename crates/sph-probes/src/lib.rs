@@ -27,7 +27,9 @@ pub use beds::bed_lines::BedLines;
 pub use beds::eroded_mass::ErodedMass;
 pub use beds::pore_pressure::PorePressureProbe;
 pub use beds::scour_map::ScourMap;
-pub use contract::{Probe, ProbeColumn, ProbeEntry, Solution, SolutionEntry};
+pub use contract::{
+    Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene, Solution, SolutionEntry,
+};
 pub use derived::{
     Q_CRITERION, SHEAR_STRESS, SPEED, VORTICITY, VORTICITY_IN_SPACE, derived_fields,
     derived_stages, needs_gradient,
@@ -36,7 +38,7 @@ pub use flow::angular_momentum::AngularMomentum;
 pub use flow::displacement::DisplacementProbe;
 pub use flow::energy::KineticEnergy;
 pub use flow::energy_budget::{
-    BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyBudget, EnergyWork,
+    BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyBudget, EnergyWork, work_of_stranger,
 };
 pub use flow::front::Front;
 pub use flow::level::Level;

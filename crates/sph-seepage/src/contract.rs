@@ -1,8 +1,7 @@
 //! What lets water through the pores of soils.
 
-use sph_contribution::StepWork;
-use sph_core::{Field, Scalar, Vector, contract};
-use sph_state::Laws;
+use sph_contribution::{Contribution, contribution_kind};
+use sph_core::{Field, Scalar, Vector};
 
 /// Flux of the water through the pores, relative to the grains: volume per area and time. 0 outside of soils.
 pub const SEEPAGE_VELOCITY: Field<Vector> = Field::new(
@@ -18,29 +17,7 @@ pub const SEEPAGE_PRESSURE: Field<Scalar> = Field::new(
     "pressure of the water that seeps through a soil",
 );
 
-/// What a law of seepage learns of the phases.
-pub struct SeepagePhases<'a> {
-    /// Their names, in the order of their numbers.
-    pub names: &'a [String],
-    /// Their equations of state.
-    pub laws: &'a Laws,
-    /// The scalar that the formulation integrates for the density.
-    pub density: Field<Scalar>,
-}
-
-/// A key of the plugin's table, and what is wrong with it.
-pub type SeepageProblem = (&'static str, String);
-
-/// A law of the flow through pores.
-pub trait Seepage<const D: usize>: Send {
-    /// The flow between the phases that the scene names, as work after every kick.
-    ///
-    /// # Errors
-    /// The key whose value does not fit the scene.
-    fn flow(&self, phases: &SeepagePhases<'_>) -> Result<Box<dyn StepWork<D>>, SeepageProblem>;
-}
-
-contract!(
+contribution_kind!(
     /// A law of seepage that a scene may name.
-    pub SeepageEntry, "seepage", "the flow of water through the pores of a soil", Seepage<D>
+    pub SeepageEntry, "seepage", "the flow of water through the pores of a soil"
 );

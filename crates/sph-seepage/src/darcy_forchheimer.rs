@@ -1,10 +1,10 @@
 //! Seepage by the law of Darcy and Forchheimer.
 
-use sph_contribution::StepWork;
-use sph_core::{plugin, suggestion};
+use sph_contribution::{StepWork, Contribution, Offer, Refusal, Setting};
+use sph_core::{plugin, suggestion, fields};
 use sph_implicit::{ConjugateGradient, Preconditioner};
 
-use crate::contract::{Seepage, SeepageEntry, SeepagePhases, SeepageProblem};
+use crate::contract::SeepageEntry;
 use crate::exchange::Exchange;
 use crate::net::Phase;
 use crate::pore_resistance::PoreResistance;
@@ -77,13 +77,13 @@ impl DarcyForchheimer {
     ///
     /// # Errors
     /// If the diameter of the grains is needed and missing.
-    pub fn resistance(&self, density: f64) -> Result<PoreResistance, SeepageProblem> {
+    pub fn resistance(&self, density: f64) -> Result<PoreResistance, Refusal> {
         let of_grains = |given: Option<f64>, rule: &dyn Fn(f64) -> f64| {
             let rule = || self.grain_diameter.map(rule);
             given.or_else(rule).ok_or_else(|| {
                 let why = "the resistance follows from the diameter of the grains: give \
                            `grain_diameter`, or both `permeability` and `forchheimer`";
-                ("", why.to_string())
+                Refusal::of(KIND, "", why)
             })
         };
         let n = self.porosity;
@@ -96,21 +96,32 @@ impl DarcyForchheimer {
     }
 }
 
-impl<const D: usize> Seepage<D> for DarcyForchheimer {
-    fn flow(&self, phases: &SeepagePhases<'_>) -> Result<Box<dyn StepWork<D>>, SeepageProblem> {
+const KIND: &str = "seepage";
+
+impl<const D: usize> Contribution<D> for DarcyForchheimer {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        if setting.density.value != fields::DENSITY_CONSTANT {
+            return Err(Refusal::of(
+                KIND,
+                "",
+                "particles give and take mass, which is known with densities that are sums over positions: take \
+                 [formulation.hu-adams]",
+            ));
+        }
         let number = |key: &'static str, name: &str| {
-            let found = phases.names.iter().position(|n| n == name);
+            let found = setting.phases.iter().position(|n| n == name);
             found.ok_or_else(|| {
-                let near = suggestion(name, phases.names.iter().map(String::as_str));
-                (key, format!("there is no phase called `{name}`{near}"))
+                let near = suggestion(name, setting.phases.iter().map(String::as_str));
+                let why = format!("there is no phase called `{name}`{near}");
+                Refusal::of(KIND, key, why)
             })
         };
         let (soil, water) = (number("soil", &self.soil)?, number("water", &self.water)?);
         if soil == water {
             let why = format!("`{}` is the soil: name the phase in its pores", self.water);
-            return Err(("water", why));
+            return Err(Refusal::of(KIND, "water", why));
         }
-        let reference = phases.laws[water].reference();
+        let reference = setting.laws[water].reference();
         let water = PoreWater {
             resistance: self.resistance(reference.density)?,
             phase: Phase {
@@ -130,10 +141,11 @@ impl<const D: usize> Seepage<D> for DarcyForchheimer {
                 limit: self.size_limit,
             },
         };
-        Ok(Box::new(Seeps {
+        offer.hook(Seeps {
             water,
-            density: phases.density,
+            density: setting.density.value,
             earlier: Vec::new(),
-        }))
+        });
+        Ok(())
     }
 }

@@ -1,8 +1,8 @@
 //! The flow through the pores of a soil: its pressure, its flux, and what it carries across the surface.
 
 use nalgebra::SMatrix;
-use sph_contribution::{Forces, StepWork};
-use sph_core::{Access, AnyField, Field, Scalar, StepError, Vect, fields};
+use sph_contribution::{StepHook, StepMoment, StepPhase};
+use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
 use sph_implicit::{
     ConjugateGradient, DividedMatrix, Entries, LinearSolver, Matrix, Pattern, Values,
 };
@@ -43,11 +43,7 @@ pub(crate) struct Seeps<const D: usize> {
     pub earlier: Vec<Vect<D>>,
 }
 
-impl<const D: usize> StepWork<D> for Seeps<D> {
-    /// Links go by depths, which are sums over neighbours, and so do sizes that are evened out.
-    fn rings(&self) -> usize {
-        2
-    }
+impl<const D: usize> StepHook<D> for Seeps<D> {
     fn name(&self) -> String {
         "seepage".into()
     }
@@ -64,21 +60,23 @@ impl<const D: usize> StepWork<D> for Seeps<D> {
             .writes(fields::VELOCITY)
             .writes(fields::MASS)
             .writes(self.density)
-            .writes(SEEPAGE_VELOCITY)
-            .writes(SEEPAGE_PRESSURE)
+            .remembers(SEEPAGE_VELOCITY)
+            .remembers(SEEPAGE_PRESSURE)
+            // Links go by depths, which are sums over neighbours, and so do sizes that are evened out.
+            .rings(2)
     }
-    fn remembered(&self) -> Vec<AnyField> {
-        vec![SEEPAGE_VELOCITY.any(), SEEPAGE_PRESSURE.any()]
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::BeforeKick, StepPhase::AfterKick]
     }
-    fn before_kick(&mut self, world: &mut World<D>, _: Forces<'_, D>) -> Result<(), StepError> {
-        let velocity = world.free.get(fields::VELOCITY)?;
+    /// Lets the water flow for the time of a kick, and hands mass and momentum over.
+    fn run(&mut self, phase: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        if phase == StepPhase::AfterKick {
+            return self.water.advance(moment.world, &self.earlier, moment.dt);
+        }
+        let velocity = moment.world.free.get(fields::VELOCITY)?;
         self.earlier.clear();
         self.earlier.extend_from_slice(velocity);
         Ok(())
-    }
-    /// Lets the water flow for the time of a kick, and hands mass and momentum over.
-    fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
-        self.water.advance(world, &self.earlier, dt)
     }
 }
 

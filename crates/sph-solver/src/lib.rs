@@ -12,6 +12,10 @@
 //! * [`examine()`]: the numbers that follow from a scene, without running it.
 //! * [`rheometer`]: a law by its name, sheared alone; [`kernels`]: a kernel by its name.
 
+// Plugins of contributions alone, which the solver knows by their kinds.
+use sph_diffusion as _;
+use sph_seepage as _;
+
 pub mod defaults;
 mod failure;
 pub mod kernels;

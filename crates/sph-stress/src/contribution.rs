@@ -2,14 +2,12 @@
 
 mod elasticity;
 mod friction;
-mod grain_pressure;
 mod materials;
 mod straining;
 mod wall_friction;
 
 pub use elasticity::Elasticity;
 pub use friction::Friction;
-pub use grain_pressure::GrainPressure;
 pub use materials::Materials;
 pub use straining::Straining;
 pub use wall_friction::WallFriction;

@@ -1,7 +1,7 @@
 //! Grains that slide on a wall.
 
 use rayon::prelude::*;
-use sph_contribution::{Forces, StepWork};
+use sph_contribution::{StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Field, Scalar, StepError, Symmetric, Vect, fields};
 use sph_neighbours::{Contact, Interaction, WallForce, WallPart, World, cross, wall_parts};
 
@@ -21,25 +21,22 @@ use sph_neighbours::{Contact, Interaction, WallForce, WallPart, World, cross, wa
 /// elasticity (water) slip freely.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 4.115–4.123 (`literal`); the force of elements is ours.
-pub struct CoulombFriction<const D: usize> {
+pub struct CoulombFriction {
     /// Whether the phases rub, in the order of their numbers.
     rubs: Vec<bool>,
     /// The pressure that makes friction, Pa.
     pressure: Field<Scalar>,
     /// What the elements get, of the state before the last kick.
     pressed: Vec<f64>,
-    /// Force on every wall in the last kick, in the order of their numbers.
-    forces: Vec<WallForce<D>>,
 }
 
-impl<const D: usize> CoulombFriction<D> {
+impl CoulombFriction {
     /// Of phases that rub, in the order of their numbers, with the pressure that makes friction.
     pub fn new(rubs: Vec<bool>, pressure: Field<Scalar>) -> Self {
         CoulombFriction {
             rubs,
             pressure,
             pressed: Vec::new(),
-            forces: Vec::new(),
         }
     }
 
@@ -47,7 +44,7 @@ impl<const D: usize> CoulombFriction<D> {
     ///
     /// # Errors
     /// If a column is missing.
-    fn pressed(
+    fn pressed<const D: usize>(
         &self,
         world: &World<D>,
         terms: &[&dyn Interaction<D>],
@@ -67,11 +64,16 @@ impl<const D: usize> CoulombFriction<D> {
     }
 
     /// Brakes all particles at walls over a kick of `dt`, with what the elements get of
-    /// [`Self::pressed`]; called after the kick.
+    /// [`Self::pressed`]; called after the kick. Returns the forces on the walls.
     ///
     /// # Errors
     /// If a column is missing.
-    fn apply(&mut self, world: &mut World<D>, pressed: &[f64], dt: f64) -> Result<(), StepError> {
+    fn apply<const D: usize>(
+        &self,
+        world: &mut World<D>,
+        pressed: &[f64],
+        dt: f64,
+    ) -> Result<Vec<WallForce<D>>, StepError> {
         let soil = self.soil(world)?;
         let contacts = &world.walls.contacts;
         let particles = contacts.particles.par_iter().with_min_len(512);
@@ -82,11 +84,10 @@ impl<const D: usize> CoulombFriction<D> {
             velocity[particle as usize] += pull.change;
         }
         world.free.put(fields::VELOCITY, velocity)?;
-        self.forces = felt(world, &pulls, dt)?;
-        Ok(())
+        felt(world, &pulls, dt)
     }
 
-    fn soil<'a>(&'a self, world: &'a World<D>) -> Result<Soil<'a, D>, StepError> {
+    fn soil<'a, const D: usize>(&'a self, world: &'a World<D>) -> Result<Soil<'a, D>, StepError> {
         let effective = match self.pressure == fields::PRESSURE {
             true => None,
             false => Some(world.free.get(self.pressure)?),
@@ -106,11 +107,7 @@ impl<const D: usize> CoulombFriction<D> {
     }
 }
 
-impl<const D: usize> StepWork<D> for CoulombFriction<D> {
-    /// What a particle presses on a wall holds sums over its neighbours, and an element sums that up.
-    fn rings(&self) -> usize {
-        2
-    }
+impl<const D: usize> StepHook<D> for CoulombFriction {
     fn name(&self) -> String {
         "friction on walls".into()
     }
@@ -124,22 +121,22 @@ impl<const D: usize> StepWork<D> for CoulombFriction<D> {
             .where_there(fields::PHASE)
             .where_there(fields::CARRIED_STRESS)
             .writes(fields::VELOCITY)
+            // What a particle presses on a wall holds sums over its neighbours, and an element sums that up.
+            .rings(2)
     }
-    fn before_kick(
-        &mut self,
-        world: &mut World<D>,
-        forces: Forces<'_, D>,
-    ) -> Result<(), StepError> {
-        let forces: Vec<_> = forces.iter().collect();
-        self.pressed = self.pressed(world, &forces)?;
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::BeforeKick, StepPhase::AfterKick]
+    }
+    fn run(&mut self, phase: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        if phase == StepPhase::AfterKick {
+            let pressed = std::mem::take(&mut self.pressed);
+            let forces = self.apply(moment.world, &pressed, moment.dt)?;
+            moment.push_walls(forces);
+            return Ok(());
+        }
+        let forces: Vec<_> = moment.forces.iter().collect();
+        self.pressed = self.pressed(moment.world, &forces)?;
         Ok(())
-    }
-    fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
-        let pressed = std::mem::take(&mut self.pressed);
-        self.apply(world, &pressed, dt)
-    }
-    fn wall_forces(&self) -> &[WallForce<D>] {
-        &self.forces
     }
 }
 

@@ -1,7 +1,8 @@
 //! What an elastic material remembers follows the motion.
 
 use nalgebra::Matrix3;
-use sph_core::{Access, AnyField, Declares, Stage, StepError, Symmetric, Vect, fields};
+use sph_contribution::{StepHook, StepMoment, StepPhase};
+use sph_core::{Access, Declares, Stage, StepError, Symmetric, Vect, fields};
 use sph_neighbours::World;
 use sph_rheology::{Elastic, Yielding, jaumann};
 
@@ -26,37 +27,6 @@ pub struct ElasticMotion<const D: usize> {
 }
 
 impl<const D: usize> ElasticMotion<D> {
-    /// The columns that carry history.
-    pub fn remembered(&self) -> Vec<AnyField> {
-        let stress = [
-            fields::ELASTIC_STRESS.any(),
-            fields::VELOCITY_GRADIENT.any(),
-        ];
-        let displaced = [
-            fields::ELASTIC_DISPLACEMENT.any(),
-            fields::ELASTIC_TURN.any(),
-        ];
-        match self.displaced {
-            true => stress.into_iter().chain(displaced).collect(),
-            false => stress.into(),
-        }
-    }
-
-    /// What it reads and writes.
-    pub fn access(&self) -> Access {
-        let access = self.gradient.access().and(self.felt.access());
-        let access = access
-            .writes(fields::ELASTIC_STRESS)
-            .writes(fields::STRAIN_RATE);
-        match self.displaced {
-            false => access,
-            true => access
-                .here(fields::VELOCITY)
-                .writes(fields::ELASTIC_DISPLACEMENT)
-                .writes(fields::ELASTIC_TURN),
-        }
-    }
-
     /// Advances all stresses over `dt` at the present places and velocities.
     ///
     /// # Errors
@@ -139,6 +109,32 @@ impl<const D: usize> ElasticMotion<D> {
         free.put(fields::ELASTIC_STRESS, stress)?;
         free.put(fields::ELASTIC_TURN, turn)?;
         Ok(free.put(fields::ELASTIC_DISPLACEMENT, displacement)?)
+    }
+}
+
+impl<const D: usize> StepHook<D> for ElasticMotion<D> {
+    fn name(&self) -> String {
+        "elastic motion".into()
+    }
+    fn access(&self) -> Access {
+        let access = self.gradient.access().and(self.felt.access());
+        let access = access
+            .remembers(fields::ELASTIC_STRESS)
+            .remembers(fields::VELOCITY_GRADIENT)
+            .writes(fields::STRAIN_RATE);
+        match self.displaced {
+            false => access,
+            true => access
+                .here(fields::VELOCITY)
+                .remembers(fields::ELASTIC_DISPLACEMENT)
+                .remembers(fields::ELASTIC_TURN),
+        }
+    }
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::BeforeDrift]
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        self.apply(moment.world, moment.dt)
     }
 }
 

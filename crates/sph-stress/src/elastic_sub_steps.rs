@@ -1,8 +1,8 @@
 //! Steps of the elastic force within that of the flow.
 
 use rayon::prelude::*;
-use sph_contribution::OutsideForce;
-use sph_core::{Stage, StepError, Vect, fields};
+use sph_contribution::{OutsideForce, Kick, StepHook, StepMoment, StepPhase};
+use sph_core::{Stage, StepError, Vect, fields, Access, Declares};
 use sph_neighbours::{World, accelerations_of};
 
 use crate::{CarriedStress, ElasticMotion, Felt};
@@ -25,32 +25,39 @@ use crate::{CarriedStress, ElasticMotion, Felt};
 ///
 /// Ours, after the multiple time steps of Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97, 1990.
 pub struct ElasticSubSteps<const D: usize> {
-    /// The force.
-    pub term: OutsideForce<D>,
+    term: OutsideForce<D>,
+    motion: ElasticMotion<D>,
     felt: Felt,
     longest: f64,
     touched: Vec<bool>,
     acceleration: Vec<Vect<D>>,
     /// What the velocity of the drift has more than the last.
     mean: Vec<Vect<D>>,
+    /// δ, by which τ is behind the velocity since the last kick, s.
+    behind: f64,
 }
 
 impl<const D: usize> ElasticSubSteps<D> {
-    /// For a force that reads no velocity, the laws of the scene, and the longest sub-step, s.
-    pub fn new(term: OutsideForce<D>, felt: Felt, longest: f64) -> Self {
+    /// For a force that reads no velocity, the motion of its stresses, the laws of the scene, and the longest sub-step, s.
+    pub fn new(term: OutsideForce<D>, motion: ElasticMotion<D>, felt: Felt, longest: f64) -> Self {
         ElasticSubSteps {
             term,
+            motion,
             felt,
             longest,
             touched: Vec::new(),
             acceleration: Vec::new(),
             mean: Vec::new(),
+            behind: 0.0,
         }
     }
 
-    /// The longest sub-step, s.
-    pub fn longest(&self) -> f64 {
-        self.longest
+    /// The bound on sub-steps, for listings.
+    pub(crate) fn bound(&self) -> String {
+        format!(
+            "elastic sub-steps: {:.2e} s at most, as many within a step as it takes",
+            self.longest
+        )
     }
 
     /// N for a step Δt, s.
@@ -58,16 +65,88 @@ impl<const D: usize> ElasticSubSteps<D> {
         (dt / self.longest - 1e-9).ceil().max(1.0) as usize
     }
 
-    /// N sub-steps with the forces of the last evaluation; returns δ, by which τ is still behind.
-    ///
-    /// # Errors
-    /// If a column is missing.
-    pub fn kick(
-        &mut self,
-        world: &mut World<D>,
-        motion: &mut ElasticMotion<D>,
-        dt: f64,
-    ) -> Result<f64, StepError> {
+    /// Adds `share` of what the velocity of the drift has more than that of the last sub-step.
+    fn shift(&self, world: &mut World<D>, share: f64) -> Result<(), StepError> {
+        let velocity = world.free.get_mut(fields::VELOCITY)?;
+        let all = velocity.par_iter_mut().zip(&self.mean);
+        all.with_min_len(2048)
+            .for_each(|(u, more)| *u += more * share);
+        Ok(())
+    }
+
+    /// Who carries stress or has a neighbour that does.
+    fn find_touched(&mut self, world: &World<D>) -> Result<(), StepError> {
+        let carries: Vec<bool> = self
+            .felt
+            .laws
+            .iter()
+            .map(|l| l.elastic().is_some())
+            .collect();
+        let touched = &mut self.touched;
+        touched.clear();
+        touched.resize(world.free.len(), true);
+        if carries.iter().all(|c| *c) {
+            return Ok(());
+        }
+        let phase = world.free.get(fields::PHASE)?;
+        let position = world.free.get(fields::POSITION)?;
+        let limit = world.kernel.support_radius().powi(2);
+        let lists = world.lists.nearest();
+        let carries = |i: usize| carries[phase[i] as usize];
+        let all = touched.par_iter_mut().enumerate().with_min_len(2048);
+        all.for_each(|(i, touched)| {
+            let near = |j: usize| {
+                let apart = world.domain.nearest_image(position[i] - position[j]);
+                apart.norm_squared() < limit
+            };
+            let others = lists.candidates(i).iter().map(|&j| j as usize);
+            *touched = carries(i) || others.filter(|&j| carries(j)).any(near);
+        });
+        Ok(())
+    }
+}
+
+impl<const D: usize> StepHook<D> for ElasticSubSteps<D> {
+    fn name(&self) -> String {
+        "elastic sub-steps".into()
+    }
+    fn access(&self) -> Access {
+        let access = StepHook::access(&self.motion).and(self.term.access());
+        access
+            .and(CarriedStress(self.felt.clone()).access())
+            .both(fields::POSITION)
+            .here(fields::ACCELERATION)
+            .where_there(fields::PHASE)
+            .writes(fields::VELOCITY)
+    }
+    fn phases(&self) -> &'static [StepPhase] {
+        &[
+            StepPhase::BeforeWalls,
+            StepPhase::BeforeDrift,
+            StepPhase::AfterDrift,
+        ]
+    }
+    /// Places go with the mean of sub-steps, what is left of the stress with the last.
+    fn run(&mut self, phase: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let world = &mut *moment.world;
+        match phase {
+            StepPhase::BeforeWalls => self.shift(world, 1.0),
+            StepPhase::BeforeDrift => {
+                self.shift(world, -1.0)?;
+                self.motion.apply(world, self.behind)?;
+                self.shift(world, 1.0)
+            }
+            _ => self.shift(world, -1.0),
+        }
+    }
+    fn as_kick(&mut self) -> Option<&mut dyn Kick<D>> {
+        Some(self)
+    }
+}
+
+impl<const D: usize> Kick<D> for ElasticSubSteps<D> {
+    /// N sub-steps with the forces of the last evaluation.
+    fn kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let count = self.count(dt);
         let part = dt / count as f64;
         let team = world.team.clone();
@@ -106,7 +185,7 @@ impl<const D: usize> ElasticSubSteps<D> {
             });
             world.free.put(fields::VELOCITY, velocity)?;
             if step < count {
-                motion.apply_within(world, part)?;
+                self.motion.apply_within(world, part)?;
             }
         }
         let velocity = world.free.get(fields::VELOCITY)?;
@@ -118,49 +197,7 @@ impl<const D: usize> ElasticSubSteps<D> {
                 false => Vect::zeros(),
             };
         });
-        Ok(part)
-    }
-
-    /// Adds `share` of what the velocity of the drift has more than that of the last sub-step.
-    ///
-    /// # Errors
-    /// If there is no velocity.
-    pub fn shift(&self, world: &mut World<D>, share: f64) -> Result<(), StepError> {
-        let velocity = world.free.get_mut(fields::VELOCITY)?;
-        let all = velocity.par_iter_mut().zip(&self.mean);
-        all.with_min_len(2048)
-            .for_each(|(u, more)| *u += more * share);
-        Ok(())
-    }
-
-    /// Who carries stress or has a neighbour that does.
-    fn find_touched(&mut self, world: &World<D>) -> Result<(), StepError> {
-        let carries: Vec<bool> = self
-            .felt
-            .laws
-            .iter()
-            .map(|l| l.elastic().is_some())
-            .collect();
-        let touched = &mut self.touched;
-        touched.clear();
-        touched.resize(world.free.len(), true);
-        if carries.iter().all(|c| *c) {
-            return Ok(());
-        }
-        let phase = world.free.get(fields::PHASE)?;
-        let position = world.free.get(fields::POSITION)?;
-        let limit = world.kernel.support_radius().powi(2);
-        let lists = world.lists.nearest();
-        let carries = |i: usize| carries[phase[i] as usize];
-        let all = touched.par_iter_mut().enumerate().with_min_len(2048);
-        all.for_each(|(i, touched)| {
-            let near = |j: usize| {
-                let apart = world.domain.nearest_image(position[i] - position[j]);
-                apart.norm_squared() < limit
-            };
-            let others = lists.candidates(i).iter().map(|&j| j as usize);
-            *touched = carries(i) || others.filter(|&j| carries(j)).any(near);
-        });
+        self.behind = part;
         Ok(())
     }
 }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use sph_contribution::{ParticleEnergy, StoredEnergy};
 use sph_core::{Access, Field, Scalar, StepError, fields};
 use sph_neighbours::{World, by_phase};
 use sph_rheology::{Inputs, Rheology};
@@ -73,5 +74,22 @@ impl Felt {
             work(&*self.laws[law], &inputs, run, part);
         });
         Ok(())
+    }
+}
+
+impl<const D: usize> StoredEnergy<D> for Felt {
+    /// V τ:τ/4𝒢.
+    fn energy<'a>(&'a self, world: &'a World<D>) -> Option<ParticleEnergy<'a>> {
+        let free = &world.free;
+        let stress = free.get(fields::ELASTIC_STRESS).ok()?;
+        let mass = free.get(fields::MASS).ok()?;
+        let density = free.get(fields::DENSITY).ok()?;
+        let phase = free.get(fields::PHASE).ok();
+        Some(Box::new(move |i| {
+            let law = &self.laws[phase.map_or(0, |p| p[i] as usize)];
+            let modulus = law.elastic().map(|e| e.shear_modulus());
+            let volume = mass[i] / density[i];
+            modulus.map_or(0.0, |g| volume * stress[i].contract(&stress[i]) / (4.0 * g))
+        }))
     }
 }

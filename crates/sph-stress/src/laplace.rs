@@ -1,14 +1,17 @@
 //! The effective pressure as a harmonic function of place.
 
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, parameters, plugin};
+use serde::{Serialize};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_implicit::{
     Assembly, ConjugateGradient, DividedMatrix, Entries, Jacobi, LinearSolver, Matrix,
     Preconditioner, Report,
 };
 use sph_neighbours::{SharedRows, World, walk_in_lanes};
 
+use crate::PorePressure;
 use crate::bed_system::{Couplings, Part, start};
-use crate::effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
+use crate::effective_pressure::{EffectivePressureEntry, Soils};
 use crate::soil_surface::Grains;
 
 /// What solves for the effective pressure.
@@ -109,12 +112,22 @@ impl Laplace {
     }
 }
 
-impl<const D: usize> EffectivePressure<D> for Laplace {
-    fn stage(&self, soils: Soils) -> Box<dyn Stage<World<D>>> {
-        Box::new(self.on(soils))
-    }
-    fn saturated(&self) -> bool {
-        self.pore_density > 0.0
+impl<const D: usize> Contribution<D> for Laplace {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        if !setting.soils.contains(&true) {
+            let why = "no law of this scene feels a pressure: take this table out";
+            return Err(Refusal::of("effective-pressure", "", why));
+        }
+        let both = setting.soils.iter().zip(setting.laws.iter());
+        let soils = both.map(|(soil, law)| soil.then(|| law.reference().density));
+        offer.stage(self.on(soils.collect()));
+        offer.stage(PorePressure);
+        offer.saturated = self.pore_density > 0.0;
+        let why = "the pressure between the grains could not be solved for: raise \
+                   `effective-pressure.laplace.iterations`, or loosen its `tolerance`";
+        let remedy = ("effective pressure", why.into());
+        offer.remedies_of_failures.push(remedy);
+        Ok(())
     }
 }
 
@@ -152,7 +165,8 @@ impl<const D: usize> Declares for Solve<D> {
         let access = Access::none()
             .both(fields::POSITION)
             .both(fields::VOLUME)
-            .writes(fields::EFFECTIVE_PRESSURE);
+            // A solve starts from the last one.
+            .remembers(fields::EFFECTIVE_PRESSURE);
         match self.buoyant.len() {
             1 => access,
             _ => access.both(fields::PHASE),

@@ -8,10 +8,10 @@
 //! * [`ElasticForce`] is a kind of plugin: [`Divergence`] takes [`StressDivergence`] or [`AdjointDivergence`] of the stress,
 //!   [`Displacement`] second differences of the way since the material was last liquid. [`Blended`] weighs forces,
 //!   and [`ElasticSubSteps`] gives a force steps of its own.
-//! * [`EffectivePressure`] is a kind of plugin: the pressure between the grains, where it is not that
-//!   of the equation of state. [`Laplace`] is one. [`PorePressure`] is what is left for the water.
+//! * [`Laplace`] is an effective pressure ([`EffectivePressureEntry`]): that between the grains, where it is not that
+//!   of the equation of state. [`PorePressure`] is what is left for the water.
 //! * [`CoulombFriction`] brakes soils on walls that have a coefficient of friction.
-//! * [`Friction`], [`Elasticity`], [`Straining`], [`GrainPressure`] and [`WallFriction`] bring all that into a scene; they
+//! * [`Friction`], [`Elasticity`], [`Straining`] and [`WallFriction`] bring all that into a scene; they
 //!   share its [`Materials`].
 //!
 //! Nothing here runs in a scene whose laws do not ask for it.
@@ -29,7 +29,6 @@ mod effective_pressure;
 mod elastic;
 mod elastic_force;
 mod elastic_sub_steps;
-mod elastic_work;
 mod felt;
 mod gathered;
 mod gradient;
@@ -50,15 +49,14 @@ pub use adjoint::{AdjointDivergence, StressCorrection};
 pub use blend::Blend;
 pub use blended::Blended;
 pub use carried::{CarriedAhead, CarriedStress};
-pub use contribution::{Elasticity, Friction, GrainPressure, Materials, Straining, WallFriction};
+pub use contribution::{Elasticity, Friction, Materials, Straining, WallFriction};
 pub use coulomb::CoulombFriction;
 pub use displacement::{Displacement, DisplacementForce};
 pub use divergence::{Divergence, StressDivergence};
-pub use effective_pressure::{EffectivePressure, EffectivePressureEntry, Soils};
+pub use effective_pressure::{EffectivePressureEntry, Soils};
 pub use elastic::ElasticMotion;
 pub use elastic_force::{ElasticForce, ElasticForceEntry};
 pub use elastic_sub_steps::ElasticSubSteps;
-pub use elastic_work::ElasticWork;
 pub use felt::Felt;
 pub use gradient::{NeighbourSums, VelocityGradient, VelocityGradientEntry};
 pub use gradient_stage::GradientStage;

@@ -1,8 +1,8 @@
 //! A flow rate that is held.
 
-use sph_contribution::{Contribution, Refusal, Setting, StepWork, contribution_kind};
+use sph_contribution::{Contribution, Refusal, Setting, StepWork, contribution_kind, Offer, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, AnyField, Axis, StepError, fields, plugin};
-use sph_neighbours::World;
+use sph_neighbours::{World};
 
 contribution_kind!(
     /// A control of the flow rate that a scene may name.
@@ -34,10 +34,13 @@ pub struct BulkVelocity {
 }
 
 impl<const D: usize> Contribution<D> for BulkVelocity {
-    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let axis = self.axis as usize;
         match axis < D && setting.world.domain.periodic[axis] {
-            true => Ok(()),
+            true => {
+                offer.hook(*self);
+                Ok(())
+            }
             false => Err(Refusal::of(
                 "flow-control",
                 "axis",
@@ -46,16 +49,9 @@ impl<const D: usize> Contribution<D> for BulkVelocity {
             )),
         }
     }
-    fn works(
-        &mut self,
-        _: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        Ok(vec![Box::new(*self)])
-    }
 }
 
-impl<const D: usize> StepWork<D> for BulkVelocity {
+impl<const D: usize> StepHook<D> for BulkVelocity {
     fn name(&self) -> String {
         "bulk velocity".into()
     }
@@ -65,7 +61,11 @@ impl<const D: usize> StepWork<D> for BulkVelocity {
             .here(fields::VELOCITY)
             .writes(fields::VELOCITY)
     }
-    fn after_kick(&mut self, world: &mut World<D>, _: f64) -> Result<(), StepError> {
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::AfterKick]
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let world = &mut *moment.world;
         let axis = self.axis as usize;
         let velocity = world.free.get(fields::VELOCITY)?;
         let mass = world.free.get(fields::MASS)?;

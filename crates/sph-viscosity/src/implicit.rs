@@ -7,10 +7,10 @@
 use std::time::Instant;
 
 use serde_json::Value as Json;
-use sph_contribution::{Forces, OutsideForce, Stages, StepWork};
+use sph_contribution::{Report, Stages, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Stage, StepError, Vect, fields};
 use sph_implicit::{LinearSolver, LowRank, Operator, TimeScheme};
-use sph_neighbours::{Interaction, World};
+use sph_neighbours::World;
 
 use crate::giving_way::Bodies;
 use crate::start::{Start, put};
@@ -35,7 +35,6 @@ pub struct Lagged<const D: usize> {
 /// The viscous operator, a scheme and a solver.
 pub struct ImplicitViscosity<const D: usize> {
     coupling: Box<dyn Coupling<D>>,
-    force: OutsideForce<D>,
     scheme: Box<dyn TimeScheme>,
     solver: Box<dyn LinearSolver<D>>,
     lagged: Lagged<D>,
@@ -57,15 +56,14 @@ impl<const D: usize> ImplicitViscosity<D> {
     /// Its name among the work of a step.
     pub const NAME: &'static str = "implicit viscosity";
 
-    /// Of an operator as a matrix and as a term, for a scheme and a solver.
+    /// Of an operator as a matrix, for a scheme and a solver.
     pub fn new(
-        (coupling, force): (Box<dyn Coupling<D>>, Box<dyn Interaction<D>>),
+        coupling: Box<dyn Coupling<D>>,
         (scheme, solver): (Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>),
         lagged: Lagged<D>,
     ) -> Self {
         ImplicitViscosity {
             coupling,
-            force: force.into(),
             scheme,
             solver,
             lagged,
@@ -240,7 +238,7 @@ impl<const D: usize> ImplicitViscosity<D> {
     }
 }
 
-impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
+impl<const D: usize> StepHook<D> for ImplicitViscosity<D> {
     fn name(&self) -> String {
         Self::NAME.into()
     }
@@ -259,20 +257,20 @@ impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
                 .writes(fields::VISCOSITY),
         }
     }
-    fn force(&self) -> Option<OutsideForce<D>> {
-        Some(self.force.clone())
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::BeforeKick, StepPhase::AfterKick]
     }
-    fn before_kick(&mut self, world: &mut World<D>, _: Forces<'_, D>) -> Result<(), StepError> {
-        let velocity = world.free.get(fields::VELOCITY)?;
+    fn run(&mut self, phase: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        if phase == StepPhase::AfterKick {
+            let earlier = std::mem::take(&mut self.earlier);
+            let done = self.apply(moment.world, &earlier, moment.dt);
+            self.earlier = earlier;
+            return done;
+        }
+        let velocity = moment.world.free.get(fields::VELOCITY)?;
         self.earlier.clear();
         self.earlier.extend_from_slice(velocity);
         Ok(())
-    }
-    fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
-        let earlier = std::mem::take(&mut self.earlier);
-        let done = self.apply(world, &earlier, dt);
-        self.earlier = earlier;
-        done
     }
     fn bytes(&self, world: &mut World<D>, dt: f64) -> Result<usize, StepError> {
         let mut plain = Vec::new();
@@ -294,22 +292,21 @@ impl<const D: usize> StepWork<D> for ImplicitViscosity<D> {
         let vectors = VECTORS * world.free.len() * size_of::<Vect<D>>();
         Ok(operator.bytes() + vectors)
     }
-    fn counts(&self) -> Option<Json> {
-        serde_json::to_value(&self.solves).ok()
-    }
-    fn recount(&mut self, counts: Json) {
-        self.solves = serde_json::from_value(counts).unwrap_or_default();
-    }
-    fn verdict(&self) -> Option<StepError> {
-        let held = self.solves.held_back.filter(|_| !self.lagged.may_hold);
-        held.and_then(|held| held.verdict())
-    }
-    fn most_bytes(&self) -> usize {
-        self.solves.most_bytes
-    }
-    fn warnings(&self) -> Vec<String> {
+    fn report(&self, _: &World<D>) -> Report {
         let held = self.solves.held_back;
-        held.and_then(|held| held.warning()).into_iter().collect()
+        let warning = held.and_then(|held| held.warning());
+        let gross = held.filter(|_| !self.lagged.may_hold);
+        Report {
+            counts: serde_json::to_value(&self.solves).ok(),
+            summary: Some("implicit_viscosity"),
+            verdict: gross.and_then(|held| held.verdict()),
+            warnings: warning.into_iter().collect(),
+            most_bytes: self.solves.most_bytes,
+            ..Report::default()
+        }
+    }
+    fn resume(&mut self, counts: Json) {
+        self.solves = serde_json::from_value(counts).unwrap_or_default();
     }
 }
 

@@ -3,7 +3,7 @@
 //! * [`ViscousOperator`] is a kind of plugin: [`Morris`], [`MonaghanGingold`], [`EspanolRevenga`], [`HuAdamsViscosity`],
 //!   [`KrimiViscosity`]. [`PairFriction`] is what most of them are made of, [`Coupling`] the same as rows of a matrix.
 //! * [`ImplicitViscosity`] takes friction from the end of the step, [`ViscousLimit`] bounds the step where it does not.
-//! * [`EddyViscosity`] is a kind of plugin, added to the viscosity of the laws; none is in this crate.
+//! * Eddy viscosities ([`EddyViscosityEntry`]) are added to the viscosity of the laws; none is in this crate.
 #![doc = include_str!("../README.md")]
 // Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
 #![cfg_attr(
@@ -33,7 +33,7 @@ mod viscous_limit;
 
 pub use contract::{Viscosity, ViscousOperator, ViscousOperatorEntry};
 pub use coupling::{BoundCoupling, Coupling, CouplingRow, WithCoupling};
-pub use eddy_viscosity::{EddyViscosity, EddyViscosityEntry};
+pub use eddy_viscosity::EddyViscosityEntry;
 pub use espanol_revenga::{EspanolRevenga, WithTransposed};
 pub use friction::{Across, Choice, OnLattice, PairFriction, PairOperator, ViscousTerm, WallTerm};
 pub use friction_operator::{FrictionEntry, FrictionOperator};

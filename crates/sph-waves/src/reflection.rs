@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use sph_core::{StepError, plugin};
 use sph_neighbours::World;
-use sph_probes::{Level, Probe, ProbeColumn, ProbeEntry};
+use sph_probes::{Curves, Gathers, Level, Probe, ProbeColumn, ProbeEntry};
 
 use crate::dispersion::wavenumber_on;
 use crate::separation::{Separated, separated};
@@ -96,9 +96,8 @@ impl ReflectionProbe {
             return Err(refused("waves need gravity and a `depth` above 0"));
         }
         if self.at.len() < 2 || self.at.iter().any(|x| !x.is_finite()) {
-            return Err(refused(
-                "two or more places `at` were expected, better three",
-            ));
+            let why = "two or more places `at` were expected, better three";
+            return Err(refused(why));
         }
         if !(self.to > self.from && self.from >= 0.0 && self.to.is_finite()) {
             return Err(refused("`to` is to be later than `from`"));
@@ -123,10 +122,9 @@ impl ReflectionProbe {
     fn take(&self, time: f64, levels: Vec<f64>) -> Result<(), StepError> {
         let mut sums = self.sums.lock().map_err(|_| refused("a thread failed"))?;
         let numbers: Vec<usize> = self.numbers().collect();
-        sums.integrals
-            .resize(2 * numbers.len() * self.at.len(), 0.0);
-        let mut row = vec![time];
-        row.extend(levels);
+        let count = 2 * numbers.len() * self.at.len();
+        sums.integrals.resize(count, 0.0);
+        let row = [vec![time], levels].concat();
         if let Some(last) = sums.last.replace(row.clone()) {
             self.add(&mut sums.integrals, &numbers, &last, &row);
         }
@@ -162,10 +160,8 @@ impl ReflectionProbe {
     /// Frequencies, Hz, with the waves of each; nothing before the window ends.
     fn found(&self, gravity: f64) -> Result<Vec<(f64, Separated)>, StepError> {
         let sums = self.sums.lock().map_err(|_| refused("a thread failed"))?;
-        let ended = sums
-            .last
-            .as_ref()
-            .is_some_and(|row| row[0] >= self.to - 1e-9);
+        let last = sums.last.as_ref();
+        let ended = last.is_some_and(|row| row[0] >= self.to - 1e-9);
         if !ended || sums.integrals.is_empty() {
             return Ok(Vec::new());
         }
@@ -202,13 +198,10 @@ fn summed(found: &[(f64, Separated)]) -> Vec<f64> {
         found.iter().map(|(_, w)| 0.5 * size(of(w)).powi(2)).sum()
     };
     let (incident, reflected) = (energy(|w| w.incident), energy(|w| w.reflected));
-    let larger = |a: &&(f64, Separated), b: &&(f64, Separated)| {
-        size(a.1.incident).total_cmp(&size(b.1.incident))
-    };
-    let peak = found
-        .iter()
-        .max_by(larger)
-        .map_or(f64::NAN, |(f, _)| 1.0 / f);
+    let incident_of = |(_, w): &(f64, Separated)| size(w.incident);
+    let largest = found.iter();
+    let largest = largest.max_by(|a, b| incident_of(a).total_cmp(&incident_of(b)));
+    let peak = largest.map_or(f64::NAN, |(f, _)| 1.0 / f);
     vec![
         4.0 * incident.sqrt(),
         4.0 * reflected.sqrt(),
@@ -219,20 +212,31 @@ fn summed(found: &[(f64, Separated)]) -> Vec<f64> {
 
 impl<const D: usize> Probe<D> for ReflectionProbe {
     fn columns(&self) -> Vec<ProbeColumn> {
-        vec![
-            ProbeColumn::named(".incident", "m"),
-            ProbeColumn::named(".reflected", "m"),
-            ProbeColumn::named(".coefficient", "1"),
-            ProbeColumn::named(".period", "s"),
-        ]
+        let names = [".incident", ".reflected", ".coefficient", ".period"];
+        let all = names.into_iter().zip(["m", "m", "1", "s"]);
+        all.map(|(suffix, unit)| ProbeColumn::named(suffix, unit))
+            .collect()
     }
 
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        Some(self)
+    }
+
+    fn as_gathers(&self) -> Option<&dyn Gathers<D>> {
+        Some(self)
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        self.check(world.gravity.norm())?;
+        Ok(summed(&self.found(world.gravity.norm())?))
+    }
+}
+
+impl<const D: usize> Curves<D> for ReflectionProbe {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
-        vec![
-            ProbeColumn::named("frequency", "Hz"),
-            ProbeColumn::named("incident", "m"),
-            ProbeColumn::named("reflected", "m"),
-        ]
+        let all = [("frequency", "Hz"), ("incident", "m"), ("reflected", "m")];
+        all.map(|(name, unit)| ProbeColumn::named(name, unit))
+            .into()
     }
 
     fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
@@ -240,7 +244,9 @@ impl<const D: usize> Probe<D> for ReflectionProbe {
         let row = |(f, w): &(f64, Separated)| vec![*f, size(w.incident), size(w.reflected)];
         Ok(found.iter().map(row).collect())
     }
+}
 
+impl<const D: usize> Gathers<D> for ReflectionProbe {
     fn gather(&self, world: &World<D>) -> Result<(), StepError> {
         let gauge = |x: &f64| {
             let level = Level::over(vec![*x, self.across]);
@@ -271,11 +277,6 @@ impl<const D: usize> Probe<D> for ReflectionProbe {
             sums.last = Some(all[..row].to_vec());
             sums.integrals = all[row..].to_vec();
         }
-    }
-
-    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        self.check(world.gravity.norm())?;
-        Ok(summed(&self.found(world.gravity.norm())?))
     }
 }
 

@@ -1,13 +1,12 @@
 //! A kind of plugin from outside: heat and salt that diffuse through a fluid, `[tracer.heat-and-salt]`.
 
 use sph_contribution::{
-    Contribution, Limiter, OwnColumn, Refusal, Setting, StepWork, contribution_kind,
+    Contribution, Limiter, Offer, OwnColumn, Refusal, Report, Setting, StepHook, StepPhase,
+    contribution_kind,
 };
 use sph_core::{Access, AnyField, Evolved, Field, Scalar, StepError, StepLimit, fields, plugin};
-use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
-    World,
-};
+use sph_neighbours::{BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, Pair};
+use sph_core::reexport::{inventory};
 
 contribution_kind!(
     /// What diffuses through a fluid.
@@ -97,40 +96,36 @@ impl<const D: usize> Contribution<D> for HeatAndSalt {
             OwnColumn::scalar(VALUE[1], move |birth| 35.0 * wave(birth.position[1])),
         ]
     }
-    fn transported(&self) -> Vec<Evolved> {
+    fn offer(&mut self, _: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let both = VALUE.into_iter().zip(RATE);
-        both.map(|(value, rate)| Evolved { value, rate }).collect()
-    }
-    fn terms(&self, _: &Setting<'_, D>) -> Vec<Box<dyn Interaction<D>>> {
-        vec![
-            Box::new(Diffusion::<0>(self.heat)),
-            Box::new(Diffusion::<1>(self.salt)),
-        ]
-    }
-    fn limiters(&self, _: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
-        vec![Box::new(*self)]
-    }
-    fn works(
-        &mut self,
-        _: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        Ok(vec![Box::new(Stirring)])
+        let both = both.map(|(value, rate)| Evolved { value, rate });
+        offer.transported.extend(both);
+        offer.term(Diffusion::<0>(self.heat));
+        offer.term(Diffusion::<1>(self.salt));
+        offer.limiter(*self);
+        offer.hook(Stirring);
+        Ok(())
     }
 }
 
 /// No work at all, but something to say at the end.
 struct Stirring;
 
-impl<const D: usize> StepWork<D> for Stirring {
+impl<const D: usize> StepHook<D> for Stirring {
     fn name(&self) -> String {
         "stirring".into()
     }
     fn access(&self) -> Access {
         Access::none()
     }
-    fn advice(&self, _: &World<D>) -> Vec<String> {
-        vec!["stir it".into()]
+    fn phases(&self) -> &'static [StepPhase] {
+        &[]
+    }
+    fn report(&self, _: &World<D>) -> Report {
+        Report {
+            advice: vec!["stir it".into()],
+            ..Report::default()
+        }
     }
 }
 

@@ -70,7 +70,7 @@ fn folder() -> tempfile::TempDir {
 }
 
 fn passed(summary: &Summary) -> &Json {
-    let passed = summary.open_boundaries.as_ref().expect("a budget");
+    let passed = &summary.counts["open_boundaries"];
     let unbalanced = passed["unbalanced"].as_f64().expect("a number");
     assert!(
         unbalanced < 1e-12,

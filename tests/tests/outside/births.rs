@@ -1,7 +1,8 @@
 //! Particles that come in while a flow runs: a kind of plugin from outside, `[tap.drip]`.
 
 use sph_contribution::{
-    Contribution, Newborn, OwnColumn, Refusal, Setting, StepWork, contribution_kind,
+    Contribution, Gate, Newborn, Offer, OwnColumn, Refusal, Setting, StepHook, StepMoment,
+    StepPhase, contribution_kind,
 };
 use sph_core::{Access, AnyField, Field, Scalar, StepError, Vect, plugin};
 use sph_neighbours::World;
@@ -40,35 +41,30 @@ impl Contribution<2> for Drip {
             _ => 20.0,
         })]
     }
-    fn works(
-        &mut self,
-        _: &Setting<'_, 2>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<2>>>, Refusal> {
-        let drip = *self;
-        Ok(vec![Box::new(Dripping { drip })])
+    fn offer(&mut self, _: &Setting<'_, 2>, offer: &mut Offer<2>) -> Result<(), Refusal> {
+        offer.hook(Failing(self.fails_at));
+        offer.gate(self.clone());
+        Ok(())
     }
 }
 
-/// Which drop is due follows from the time alone.
-struct Dripping {
-    drip: Drip,
-}
+/// Fails once, after a time, s.
+struct Failing(Option<f64>);
 
-impl StepWork<2> for Dripping {
+impl StepHook<2> for Failing {
     fn name(&self) -> String {
         "dripping".into()
     }
     fn access(&self) -> Access {
         Access::none()
     }
-    fn gives_birth(&self) -> bool {
-        true
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::AfterDrift]
     }
-    fn after_drift(&mut self, world: &mut World<2>, _: f64) -> Result<(), StepError> {
-        let fails = self.drip.fails_at.is_some_and(|t| world.time > t);
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, 2>) -> Result<(), StepError> {
+        let fails = self.0.is_some_and(|t| moment.world.time > t);
         if fails {
-            self.drip.fails_at = None;
+            self.0 = None;
             return Err(StepError::Stage {
                 stage: "dripping".into(),
                 reason: "it fails once".into(),
@@ -76,14 +72,24 @@ impl StepWork<2> for Dripping {
         }
         Ok(())
     }
+}
+
+/// Which drop is due follows from the time alone.
+impl Gate<2> for Drip {
+    fn name(&self) -> String {
+        "drip".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+    }
     fn births(&mut self, world: &mut World<2>, dt: f64) -> Result<Vec<Newborn<2>>, StepError> {
-        let drops = |t: f64| (t / self.drip.every).floor();
+        let drops = |t: f64| (t / self.every).floor();
         let due = drops(world.time) > drops(world.time - dt);
         let drop = Newborn {
-            position: self.drip.at.into(),
+            position: self.at.into(),
             velocity: Vect::<2>::new(0.0, -1.0),
             density: 1000.0,
-            mass: self.drip.mass,
+            mass: self.mass,
             phase: 0,
             body: "tap".into(),
             values: [].into(),

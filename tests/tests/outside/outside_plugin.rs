@@ -6,10 +6,10 @@
 
 use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_kernels::{Kernel, Sampler, ScalarSampler};
-use sph_neighbours::{
-    Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World,
-};
+use sph_neighbours::{Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World};
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+use std::any::{Any};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 // ------------------------------------------------------------------------------------------------
 
@@ -107,9 +107,10 @@ impl<const D: usize> Stage<World<D>> for Eddies {
     }
 }
 
-impl<const D: usize> EddyViscosity<D> for Eddies {
-    fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(*self)
+impl<const D: usize> Contribution<D> for Eddies {
+    fn offer(&mut self, _: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer.stage(*self);
+        Ok(())
     }
 }
 
@@ -165,9 +166,10 @@ impl<const D: usize> Stage<World<D>> for Remembering {
     }
 }
 
-impl<const D: usize> EddyViscosity<D> for Remembering {
-    fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(*self)
+impl<const D: usize> Contribution<D> for Remembering {
+    fn offer(&mut self, _: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer.stage(*self);
+        Ok(())
     }
 }
 
@@ -209,6 +211,25 @@ fn a_drag_of_ones_own_slows_a_uniform_flow_exponentially() {
         error < 0.02,
         "t Δt/τ² = 0.016, first order in time: {error}"
     );
+}
+
+/// All of the energy that goes is the work of the drag, and none of it that of others.
+#[test]
+fn the_work_of_a_drag_of_ones_own_stands_under_its_kind() {
+    let plugins =
+        "[term.linear-drag]\ntime = \"50 ms\"\n[probe.budget]\nkind = \"energy-budget\"\n";
+    let (_, folder) = run_text(&format!("{PERIODIC}\n{plugins}")).unwrap();
+    let table = sph_io::read_table(folder.path().join("series.csv")).expect("a series");
+    let column = |name: &str| {
+        let found = table.columns.iter().find(|c| c.name == name);
+        found.unwrap_or_else(|| panic!("no column {name}"))
+    };
+    let last = |name: &str| *column(name).values.last().expect("a row");
+    let lost = column("budget.kinetic").values[0] - last("budget.kinetic");
+    assert!(lost > 100.0, "{lost} J");
+    let work = last("budget.term");
+    assert!((work / lost + 1.0).abs() < 1e-6, "{work} J of {lost} J");
+    assert_eq!(last("budget.others"), 0.0);
 }
 
 #[test]

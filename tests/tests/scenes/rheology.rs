@@ -1,6 +1,7 @@
 //! Laws with a yield stress, elastic soils and effective pressures.
 
 use crate::shipped::{Finished, finished};
+use sph_solver::Solves;
 
 /// Values of a column of the series.
 fn column(run: &Finished, name: &str) -> Vec<f64> {
@@ -38,7 +39,8 @@ fn a_bingham_channel_meets_its_profile_and_with_a_sharp_law_the_ideal_one() {
     let sharp = "phase.mud.rheology.bingham.regularisation.papanastasiou.stress_growth=1000";
     let sharp = finished(name, &[&COARSE[..], &[sharp]].concat());
     sharp.error("ideal", half_a_spacing, 4.09e-3);
-    let solves = sharp.summary.implicit_viscosity.and_then(|s| s.outer);
+    let solves = sharp.summary.counted::<Solves>("implicit_viscosity");
+    let solves = solves.and_then(|s| s.outer);
     let outer = solves.expect("the viscosity follows the velocity");
     assert_eq!(outer.unconverged, 0, "{outer:?}");
 }

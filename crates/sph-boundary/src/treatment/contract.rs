@@ -110,22 +110,9 @@ pub struct ThinWall<const D: usize> {
     pub wet: bool,
 }
 
-/// A treatment of all walls of a scene.
-pub trait Wall<const D: usize>: Send + Sync {
-    /// Where the first row of particles stands in front of a flat wall, in spacings beyond half
-    /// a spacing: 0 for rows at 1, 2, 3 δr (the wall itself carries points), 0.5 for ½, 1½, ….
-    fn lattice_offset(&self) -> f64;
-
-    /// Sets up the walls at time 0.
-    ///
-    /// # Errors
-    /// If a wall is refused; the message names it.
-    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError>;
-
-    /// Whether γ differs from 1 near walls, so that a column for it is needed.
-    fn renormalises(&self) -> bool;
-
-    /// Whether a point is on the fluid's side of all walls; for checks, not for inner loops.
+/// The shape of all walls of a scene; for checks and pictures, not for inner loops.
+pub trait WallShape<const D: usize> {
+    /// Whether a point is on the fluid's side of all walls.
     fn contains(&self, point: &Vect<D>) -> bool;
 
     /// How far walls with free ends enclose a point: their winding number, positive where they face it; none of closed
@@ -136,6 +123,9 @@ pub trait Wall<const D: usize>: Send + Sync {
 
     /// Distance of a point from the nearest wall, m, and that wall's name, if nearer than `within`.
     fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)>;
+
+    /// Lower and upper corner of the box around all walls, m.
+    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)>;
 
     /// Whether any wall ends freely: what goes over its end is outside.
     fn ends_freely(&self) -> bool {
@@ -153,6 +143,12 @@ pub trait Wall<const D: usize>: Send + Sync {
         Vec::new()
     }
 
+    /// Remarks on the walls.
+    fn warnings(&self) -> Vec<String>;
+}
+
+/// The motion of all walls of a scene.
+pub trait WallMotion<const D: usize> {
     /// Moves walls with a prescribed motion to a time; those with movers are placed where they are.
     ///
     /// # Errors
@@ -196,9 +192,22 @@ pub trait Wall<const D: usize>: Send + Sync {
         states: &WallStates,
         time: f64,
     ) -> Result<(), BoundaryError>;
+}
 
-    /// Lower and upper corner of the box around all walls, m.
-    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)>;
+/// A treatment of all walls of a scene.
+pub trait Wall<const D: usize>: WallShape<D> + WallMotion<D> + Send + Sync {
+    /// Where the first row of particles stands in front of a flat wall, in spacings beyond half
+    /// a spacing: 0 for rows at 1, 2, 3 δr (the wall itself carries points), 0.5 for ½, 1½, ….
+    fn lattice_offset(&self) -> f64;
+
+    /// Sets up the walls at time 0.
+    ///
+    /// # Errors
+    /// If a wall is refused; the message names it.
+    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError>;
+
+    /// Whether γ differs from 1 near walls, so that a column for it is needed.
+    fn renormalises(&self) -> bool;
 
     /// Contacts and γ at the present positions; called after the lists are fresh.
     ///
@@ -218,9 +227,6 @@ pub trait Wall<const D: usize>: Send + Sync {
     /// # Errors
     /// If a column is missing.
     fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError>;
-
-    /// Remarks on the walls.
-    fn warnings(&self) -> Vec<String>;
 }
 
 contract!(

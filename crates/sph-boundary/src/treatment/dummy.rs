@@ -9,7 +9,7 @@ use sph_neighbours::{
 
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
-use crate::treatment::outline::{Outline, checks_by_outline};
+use crate::treatment::outline::{Outline, shaped_by_outline};
 use crate::treatment::shepard::Felt;
 use crate::{
     BoundaryError, Condition, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallSpec,
@@ -112,6 +112,8 @@ impl<const D: usize, M: WallMesh<D>> DummyParticles<D, M> {
     }
 }
 
+shaped_by_outline!(DummyParticles);
+
 impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
     fn lattice_offset(&self) -> f64 {
         0.5
@@ -156,8 +158,6 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
             forces: Vec::new(),
         })
     }
-
-    checks_by_outline!();
 
     fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         match &mut self.set_up {

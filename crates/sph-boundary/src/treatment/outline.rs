@@ -289,94 +289,98 @@ fn of<const N: usize, const D: usize>(place: &[f64; N]) -> [f64; D] {
     std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0))
 }
 
-/// The methods of [`Wall`](crate::Wall) that ask nothing but the outline of the walls; the
-/// plugin keeps it in `self.set_up`.
-macro_rules! checks_by_outline {
-    () => {
-        fn contains(&self, point: &Vect<D>) -> bool {
-            let set_up = self.set_up.as_ref();
-            set_up.is_none_or(|s| s.outline.mesh.contains(point))
-        }
+/// Shape and motion of walls by their outline; the treatment
+/// keeps it in `self.set_up`.
+macro_rules! shaped_by_outline {
+    ($treatment:ident) => {
+        impl<const D: usize, M: WallMesh<D>> crate::WallShape<D> for $treatment<D, M> {
+            fn contains(&self, point: &Vect<D>) -> bool {
+                let set_up = self.set_up.as_ref();
+                set_up.is_none_or(|s| s.outline.mesh.contains(point))
+            }
 
-        fn enclosed(&self, point: &Vect<D>) -> Option<f64> {
-            self.set_up.as_ref()?.outline.mesh.enclosed(point)
-        }
+            fn enclosed(&self, point: &Vect<D>) -> Option<f64> {
+                self.set_up.as_ref()?.outline.mesh.enclosed(point)
+            }
 
-        fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {
-            self.set_up.as_ref()?.outline.clearance(point, within)
-        }
+            fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {
+                self.set_up.as_ref()?.outline.clearance(point, within)
+            }
 
-        fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
-            self.set_up.as_ref()?.outline.mesh.bounds()
-        }
+            fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
+                self.set_up.as_ref()?.outline.mesh.bounds()
+            }
 
-        fn ends_freely(&self) -> bool {
-            let set_up = self.set_up.as_ref();
-            set_up.is_some_and(|s| s.outline.mesh.shells().any())
-        }
+            fn ends_freely(&self) -> bool {
+                let set_up = self.set_up.as_ref();
+                set_up.is_some_and(|s| s.outline.mesh.shells().any())
+            }
 
-        fn thin_walls(&self, points: &[Vect<D>]) -> Vec<crate::ThinWall<D>> {
-            let set_up = self.set_up.as_ref();
-            set_up.map_or_else(Vec::new, |s| s.outline.thin_walls(points))
-        }
-
-        fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {
-            match &self.set_up {
-                Some(SetUp { outline, .. }) => {
-                    outline.mesh.check_free_ends(points, outline.support)
+            fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {
+                match &self.set_up {
+                    Some(SetUp { outline, .. }) => {
+                        outline.mesh.check_free_ends(points, outline.support)
+                    }
+                    None => Ok(()),
                 }
-                None => Ok(()),
+            }
+
+            fn thin_walls(&self, points: &[Vect<D>]) -> Vec<crate::ThinWall<D>> {
+                let set_up = self.set_up.as_ref();
+                set_up.map_or_else(Vec::new, |s| s.outline.thin_walls(points))
+            }
+
+            fn warnings(&self) -> Vec<String> {
+                let set_up = self.set_up.as_ref();
+                set_up.map_or(Vec::new(), |s| s.outline.mesh.warnings())
             }
         }
 
-        fn feels(&self, wall: usize) -> bool {
-            let set_up = self.set_up.as_ref();
-            set_up.is_some_and(|s| s.outline.feels(wall))
-        }
+        impl<const D: usize, M: WallMesh<D>> crate::WallMotion<D> for $treatment<D, M> {
+            fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError> {
+                self.moved(walls, |outline| outline.move_to(time))
+            }
 
-        fn sights(&self) -> Vec<(usize, sph_neighbours::Sight<D>)> {
-            let set_up = self.set_up.as_ref();
-            set_up.map_or_else(Vec::new, |s| s.outline.sights())
-        }
+            fn advance(
+                &mut self,
+                walls: &mut WallSet<D>,
+                gravity: Vect<D>,
+                time: f64,
+                dt: f64,
+            ) -> Result<(), BoundaryError> {
+                let forces = std::mem::take(&mut walls.forces);
+                let bodies = std::mem::take(&mut walls.bodies);
+                let moved = self.moved(walls, |outline| {
+                    outline.advance(&forces, &bodies, gravity, [time, dt])
+                });
+                walls.forces = forces;
+                moved
+            }
 
-        fn states(&self) -> WallStates {
-            let set_up = self.set_up.as_ref();
-            set_up.map_or(WallStates::default(), |s| s.outline.numbers())
-        }
+            fn feels(&self, wall: usize) -> bool {
+                let set_up = self.set_up.as_ref();
+                set_up.is_some_and(|s| s.outline.feels(wall))
+            }
 
-        fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError> {
-            self.moved(walls, |outline| outline.move_to(time))
-        }
+            fn sights(&self) -> Vec<(usize, sph_neighbours::Sight<D>)> {
+                let set_up = self.set_up.as_ref();
+                set_up.map_or_else(Vec::new, |s| s.outline.sights())
+            }
 
-        fn advance(
-            &mut self,
-            walls: &mut WallSet<D>,
-            gravity: Vect<D>,
-            time: f64,
-            dt: f64,
-        ) -> Result<(), BoundaryError> {
-            let forces = std::mem::take(&mut walls.forces);
-            let bodies = std::mem::take(&mut walls.bodies);
-            let moved = self.moved(walls, |outline| {
-                outline.advance(&forces, &bodies, gravity, [time, dt])
-            });
-            walls.forces = forces;
-            moved
-        }
+            fn states(&self) -> WallStates {
+                let set_up = self.set_up.as_ref();
+                set_up.map_or(WallStates::default(), |s| s.outline.numbers())
+            }
 
-        fn put_back(
-            &mut self,
-            walls: &mut WallSet<D>,
-            states: &WallStates,
-            time: f64,
-        ) -> Result<(), BoundaryError> {
-            self.moved(walls, |outline| outline.put_back(states, time))
-        }
-
-        fn warnings(&self) -> Vec<String> {
-            let set_up = self.set_up.as_ref();
-            set_up.map_or(Vec::new(), |s| s.outline.mesh.warnings())
+            fn put_back(
+                &mut self,
+                walls: &mut WallSet<D>,
+                states: &WallStates,
+                time: f64,
+            ) -> Result<(), BoundaryError> {
+                self.moved(walls, |outline| outline.put_back(states, time))
+            }
         }
     };
 }
-pub(crate) use checks_by_outline;
+pub(crate) use shaped_by_outline;

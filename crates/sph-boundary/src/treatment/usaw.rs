@@ -8,7 +8,7 @@ use crate::error::stage_error;
 use crate::geometry::shells::Gammas;
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
-use crate::treatment::outline::{Outline, checks_by_outline};
+use crate::treatment::outline::{Outline, shaped_by_outline};
 use crate::treatment::shepard::{WallMean, wall_means};
 use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallStates};
 
@@ -227,6 +227,8 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     }
 }
 
+shaped_by_outline!(Usaw);
+
 impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
     fn lattice_offset(&self) -> f64 {
         if self.vertices { 0.0 } else { 0.5 }
@@ -280,8 +282,6 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         self.set_up = Some(set_up);
         Ok(walls)
     }
-
-    checks_by_outline!();
 
     fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let set_up = self.set_up.as_mut().ok_or_else(not_built)?;

@@ -64,7 +64,9 @@ impl Declares for FreeSurface {
         "free surface".into()
     }
     fn access(&self) -> Access {
-        let access = Access::none().both(fields::POSITION).writes(FREE_SURFACE);
+        // Particles at the surface, then those near them.
+        let access = Access::none().rings(2);
+        let access = access.both(fields::POSITION).writes(FREE_SURFACE);
         match self.sums {
             true => access
                 .here(fields::MASS)
@@ -77,10 +79,6 @@ impl Declares for FreeSurface {
 }
 
 impl<const D: usize> Stage<World<D>> for FreeSurface {
-    /// Particles at the surface, then those near them.
-    fn rings(&self) -> usize {
-        2
-    }
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut surface = world.free.take(FREE_SURFACE)?;
         match self.sums {

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
-use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork, contribution_kind};
+use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork, contribution_kind, Offer, Report, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, AnyField, StepError, fields, plugin};
 use sph_neighbours::World;
 
@@ -58,24 +58,18 @@ pub struct ConeTest {
 }
 
 impl<const D: usize> Contribution<D> for ConeTest {
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let sums = are_sums(setting);
-        vec![Box::new(FreeSurface { sums })]
-    }
-    fn works(
-        &mut self,
-        setting: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        if !are_sums(setting) {
-            return Ok(Vec::new());
+        offer.stage(FreeSurface { sums });
+        if sums {
+            let laws = setting.laws.iter().map(|law| law.reference());
+            offer.hook(Relaxation {
+                plugin: *self,
+                phases: laws.map(|r| (r.density, r.sound_speed)).collect(),
+                energy: 0.0,
+            });
         }
-        let laws = setting.laws.iter().map(|law| law.reference());
-        Ok(vec![Box::new(Relaxation {
-            plugin: *self,
-            phases: laws.map(|r| (r.density, r.sound_speed)).collect(),
-            energy: 0.0,
-        })])
+        Ok(())
     }
 }
 
@@ -170,7 +164,7 @@ impl Relaxation {
     }
 }
 
-impl<const D: usize> StepWork<D> for Relaxation {
+impl<const D: usize> StepHook<D> for Relaxation {
     fn name(&self) -> String {
         "relaxation of the density constant".into()
     }
@@ -185,15 +179,22 @@ impl<const D: usize> StepWork<D> for Relaxation {
             .where_there(fields::RENORMALISATION)
             .writes(fields::DENSITY_CONSTANT)
     }
-    fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::AfterKick]
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *moment.world, moment.dt);
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
         self.energy += self.relax(world, &mut constant, dt)?;
         Ok(world.free.put(fields::DENSITY_CONSTANT, constant)?)
     }
-    fn counts(&self) -> Option<Json> {
-        Some(json!({ "energy": self.energy }))
+    fn report(&self, _: &World<D>) -> Report {
+        Report {
+            counts: Some(json!({ "energy": self.energy })),
+            ..Report::default()
+        }
     }
-    fn recount(&mut self, counts: Json) {
+    fn resume(&mut self, counts: Json) {
         self.energy = counts["energy"].as_f64().unwrap_or(0.0);
     }
 }

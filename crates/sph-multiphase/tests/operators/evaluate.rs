@@ -1,9 +1,10 @@
 //! One sweep over some terms.
 
+use sph_contribution::{Contribution, Offer, Setting};
 use sph_core::Vect;
-use sph_diffusion::{BrezziPitkaranta, Smoother};
+use sph_diffusion::BrezziPitkaranta;
 use sph_multiphase::{Formulation, HuAdams};
-use sph_neighbours::{Interaction, Terms, World, interactions};
+use sph_neighbours::{Interaction, Lanewise, Terms, World, interactions};
 use sph_state::{EquationOfState, Laws, Linear, Reference};
 use sph_viscosity::{Choice, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm};
 
@@ -52,7 +53,36 @@ pub fn viscosity_column<const D: usize>() -> Box<dyn Interaction<D>> {
 }
 
 pub fn smoother<const D: usize>(strength: f64) -> Box<dyn Interaction<D>> {
-    BrezziPitkaranta::with(strength).term(&laws(&[(1000.0, 20.0)]))
+    Box::new(Lanewise(
+        BrezziPitkaranta::with(strength).of(&laws(&[(1000.0, 20.0)])),
+    ))
+}
+
+/// The offer of a plugin to a scene of two phases with these laws, whose densities are sums or not.
+pub fn offered<const D: usize>(
+    plugin: &mut dyn Contribution<D>,
+    (laws, summed): (&Laws, bool),
+    world: &World<D>,
+) -> Offer<D> {
+    let phases = ["heavy", "light"].map(String::from);
+    let setting = Setting {
+        laws,
+        phases: &phases,
+        viscosities: &[None, None],
+        soils: &[false, false],
+        density: Formulation::<D>::diffused(&HuAdams::default()).evolved,
+        summed,
+        pressure_ahead: false,
+        courant: 0.4,
+        viscous: 0.125,
+        kicks_once: true,
+        carried: false,
+        moving_wall: None,
+        world,
+    };
+    let mut offer = Offer::of("`plugin`".into());
+    plugin.offer(&setting, &mut offer).expect("it fits");
+    offer
 }
 
 /// Linear laws with these reference densities and speeds of sound.

@@ -1,14 +1,15 @@
 //! Forces between phases: repulsion and surface tension.
 
+use sph_contribution::Contribution;
 use sph_core::{Role, Vect, fields};
 use sph_multiphase::{
-    COLOUR_GRADIENT, GrenierInterface, InterfaceFriction, InterfaceModel, MicroMixing, SCATTERED,
-    SurfaceStress, SurfaceTension,
+    COLOUR_GRADIENT, GrenierInterface, InterfaceFriction, MicroMixing, SCATTERED, SurfaceStress,
+    SurfaceTension,
 };
 use sph_neighbours::{Domain, World};
 use sph_state::{EquationOfState, Laws, Linear, Reference};
 
-use crate::evaluate::acceleration;
+use crate::evaluate::{offered, rates};
 use crate::world::{Random, disorder, lattice, periodic, set, set_velocity, world};
 
 const TENSION: f64 = 0.07;
@@ -32,7 +33,7 @@ fn laws() -> Laws {
     vec![law(1000.0), law(1.2)].into()
 }
 
-fn all<const D: usize>() -> [(&'static str, Box<dyn InterfaceModel<D>>); 4] {
+fn all<const D: usize>() -> [(&'static str, Box<dyn Contribution<D>>); 4] {
     [
         ("micro-mixing", Box::new(MicroMixing::default())),
         ("grenier", Box::new(GrenierInterface::default())),
@@ -44,11 +45,11 @@ fn all<const D: usize>() -> [(&'static str, Box<dyn InterfaceModel<D>>); 4] {
     ]
 }
 
-fn force<const D: usize>(world: &mut World<D>, model: &dyn InterfaceModel<D>) -> Vec<Vect<D>> {
+fn force<const D: usize>(world: &mut World<D>, model: &mut dyn Contribution<D>) -> Vec<Vect<D>> {
     world.free.add(COLOUR_GRADIENT, Role::Derived);
     scatter(world, model);
     let mass = world.free.get(fields::MASS).unwrap().to_vec();
-    let acceleration = acceleration(world, model.term(&laws()));
+    let acceleration = rates(world, &offered(model, (&laws(), true), world).terms).0;
     acceleration
         .iter()
         .zip(&mass)
@@ -57,9 +58,9 @@ fn force<const D: usize>(world: &mut World<D>, model: &dyn InterfaceModel<D>) ->
 }
 
 /// Runs what a model must know before the sweep.
-fn scatter<const D: usize>(world: &mut World<D>, model: &dyn InterfaceModel<D>) {
+fn scatter<const D: usize>(world: &mut World<D>, model: &mut dyn Contribution<D>) {
     world.free.add(SCATTERED, Role::Derived);
-    for mut stage in model.stages(&laws()) {
+    for mut stage in offered(model, (&laws(), true), world).stages {
         stage.run(world).unwrap();
     }
 }
@@ -88,8 +89,8 @@ fn momentum_is_kept<const D: usize>(n: usize, ratio: f64) {
     set_velocity(&mut cloud, |x| {
         Vect::from_fn(|k, _| (7.0 * x[k] + x[(k + 1) % D]).sin())
     });
-    for (name, model) in all::<D>() {
-        let forces = force(&mut cloud, &*model);
+    for (name, mut model) in all::<D>() {
+        let forces = force(&mut cloud, &mut *model);
         let scale: f64 = forces.iter().map(|f| f.norm()).sum();
         let sum = forces.iter().sum::<Vect<D>>().norm();
         // Pairs cancel to rounding.
@@ -111,8 +112,8 @@ fn one_phase_feels_nothing() {
     let mut cloud = world(disorder::<2>(20, 0.3, 1), periodic(), 0.05, 2.0);
     set(&mut cloud, fields::PRESSURE, |x| x[0] - 0.3);
     set_phase(&mut cloud, |_| 1);
-    for (name, model) in all::<2>() {
-        let largest = force(&mut cloud, &*model)
+    for (name, mut model) in all::<2>() {
+        let largest = force(&mut cloud, &mut *model)
             .iter()
             .map(|f| f.norm())
             .fold(0.0, f64::max);
@@ -129,8 +130,8 @@ fn repulsions_push_phases_apart_and_leave_a_phase_alone() {
         let mut pair = world(pair, open, 0.05, 2.0);
         set(&mut pair, fields::PRESSURE, |_| sign * 100.0);
         set_phase(&mut pair, |x| if x[0] > 0.01 { second } else { 0 });
-        for (name, model) in all::<2>().into_iter().take(2) {
-            let forces = force(&mut pair, &*model);
+        for (name, mut model) in all::<2>().into_iter().take(2) {
+            let forces = force(&mut pair, &mut *model);
             match second {
                 0 => assert_eq!(forces[0].norm(), 0.0, "{name}"),
                 _ => assert!(
@@ -146,7 +147,7 @@ fn repulsions_push_phases_apart_and_leave_a_phase_alone() {
 fn jump<const D: usize>(world: &mut World<D>, radius: f64) -> f64 {
     let middle = Vect::<D>::repeat(0.5);
     set_phase(world, |x| u32::from((x - middle).norm() < radius));
-    let forces = force(world, &tension(TENSION));
+    let forces = force(world, &mut tension(TENSION));
     let positions = world.free.get(fields::POSITION).unwrap();
     let surface = |r: f64| match D {
         2 => std::f64::consts::TAU * r,
@@ -184,14 +185,14 @@ fn a_flat_interface_is_at_rest_and_without_a_trace_has_a_pressure_of_its_own() {
     let n = 20;
     let mut layers = world(lattice::<2>(n), periodic(), 1.0 / n as f64, 2.0);
     set_phase(&mut layers, |x| u32::from(x[1] < 0.5));
-    let full = force(&mut layers, &tension(TENSION));
+    let full = force(&mut layers, &mut tension(TENSION));
     let full = full.iter().map(|f| f.norm()).fold(0.0, f64::max);
-    let trace_free = SurfaceTension {
+    let mut trace_free = SurfaceTension {
         tension: TENSION,
         stress: SurfaceStress::TraceFree,
         contact_angle: None,
     };
-    let forces = force(&mut layers, &trace_free);
+    let forces = force(&mut layers, &mut trace_free);
     let along = forces.iter().map(|f| f[0].abs()).fold(0.0, f64::max);
     let across = forces.iter().map(|f| f[1].abs()).fold(0.0, f64::max);
     // The isotropic part that is left out of the stress pushes across; nothing pushes along.
@@ -207,17 +208,18 @@ fn the_capillary_limit_has_the_least_density() {
     set(&mut drop, fields::DENSITY, |x| {
         if x[0] < 0.5 { 1000.0 } else { 4.0 }
     });
-    let model = tension(TENSION);
-    let limiter = InterfaceModel::<2>::limiter(&model, &laws()).expect("a limiter");
-    let limit = limiter.limit(&drop).unwrap();
+    let limiters = |tension: f64| {
+        let mut model = self::tension(tension);
+        offered(&mut model, (&laws(), true), &drop).limiters
+    };
+    let limit = limiters(TENSION)[0].limit(&drop).unwrap();
     let exact = 0.25 * (4.0 * 0.2_f64.powi(3) / (std::f64::consts::TAU * TENSION)).sqrt();
     assert!(
         (limit.dt / exact - 1.0).abs() < 1e-12,
         "{} {exact}",
         limit.dt
     );
-    let none = tension(0.0);
-    assert!(InterfaceModel::<2>::limiter(&none, &laws()).is_none());
+    assert!(limiters(0.0).is_empty());
 }
 
 /// A lone light particle moves at 1 m/s through heavy ones at rest: it is stopped at the rate whose inverse
@@ -234,12 +236,12 @@ fn artificial_viscosity_stops_a_light_particle_at_the_rate_of_its_limit() {
     set(&mut cloud, fields::VOLUME, |_| cell);
     set(&mut cloud, fields::MASS, |x| cell * density(x));
     set_phase(&mut cloud, |x| u32::from(*x == place));
-    let model = InterfaceFriction::default();
-    let limit = InterfaceModel::<2>::limiter(&model, &laws()).expect("it has a limit");
-    let inverse_limit = 1.0 / limit.limit(&cloud).unwrap().dt;
-    scatter(&mut cloud, &model);
+    let mut model = InterfaceFriction::default();
+    let offer = offered(&mut model, (&laws(), true), &cloud);
+    let inverse_limit = 1.0 / offer.limiters[0].limit(&cloud).unwrap().dt;
+    scatter(&mut cloud, &mut model);
     cloud.free.get_mut(fields::VELOCITY).unwrap()[middle][0] = 1.0;
-    let slowed = -acceleration(&cloud, InterfaceModel::<2>::term(&model, &laws()))[middle][0];
+    let slowed = -rates(&cloud, &offer.terms).0[middle][0];
     // α c̄ = 60 m/s, β at the closing half of the pairs less than 1 m/s; the limit has α + β.
     let alone = slowed * (model.strength + model.shocks) / model.strength;
     let ratio = alone / inverse_limit;
@@ -267,7 +269,7 @@ fn artificial_viscosity_only_takes_energy_and_leaves_the_heavy_phase_alone() {
         .collect();
     *cloud.free.get_mut(fields::VELOCITY).unwrap() = moving.clone();
     let place = cloud.free.get(fields::POSITION).unwrap().to_vec();
-    let forces = force(&mut cloud, &InterfaceFriction::default());
+    let forces = force(&mut cloud, &mut InterfaceFriction::default());
     let power: f64 = forces.iter().zip(&moving).map(|(f, u)| f.dot(u)).sum();
     assert!(power < 0.0, "{power} W");
     let far = place.iter().zip(&forces);
@@ -288,7 +290,7 @@ fn light_particles_at_a_closed_interface_are_not_scattered() {
     set(&mut cloud, fields::VOLUME, |_| cell);
     set(&mut cloud, fields::MASS, |x| cell * density(x));
     set_phase(&mut cloud, |x| u32::from(light(x)));
-    scatter(&mut cloud, &InterfaceFriction::default());
+    scatter(&mut cloud, &mut InterfaceFriction::default());
     let place = cloud.free.get(fields::POSITION).unwrap();
     let scattered = cloud.free.get(SCATTERED).unwrap();
     for (x, s) in place.iter().zip(scattered) {

@@ -1,26 +1,30 @@
 //! Shifting: nothing to do on a lattice, at rest and across surfaces; evens out the rest.
 
+use sph_contribution::Offer;
 use sph_core::{Role, Vect, fields};
-use sph_diffusion::{Fickian, ShiftedFlow, Shifting, Transport};
+use sph_diffusion::{Fickian, Transport};
 use sph_multiphase::{Formulation, HuAdams};
 use sph_neighbours::{Domain, World};
 
 use crate::channel::{Channel, SPACING};
-use crate::evaluate::{laws, rates};
+use crate::evaluate::{laws, offered, rates};
 use crate::world::{Random, disorder, lattice, periodic, set, set_velocity, world};
-
-/// Densities are sums.
-const SUMMED: ShiftedFlow = ShiftedFlow { summed: true };
 
 /// The speed of sound of every phase, m/s.
 const SOUND: f64 = 20.0;
+
+/// The offer of a shifting scheme where densities are sums or not.
+fn offer<const D: usize>(world: &World<D>, mut shifting: Fickian, summed: bool) -> Offer<D> {
+    let laws = laws(&[(1.0, SOUND), (1.0, SOUND)]);
+    offered(&mut shifting, (&laws, summed), world)
+}
 
 fn shift<const D: usize>(world: &mut World<D>, shifting: Fickian) -> Vec<Vect<D>> {
     world.free.add(fields::SHIFT_VELOCITY, Role::State);
     world.free.add(fields::EMPTINESS, Role::Derived);
     // So short that the bound of an explicit diffusion does not count.
     world.dt = 1e-4;
-    for mut stage in Shifting::<D>::stages(&shifting, &laws(&[(1.0, SOUND), (1.0, SOUND)])) {
+    for mut stage in offer(world, shifting, true).stages {
         stage.run(world).unwrap();
     }
     world.free.get(fields::SHIFT_VELOCITY).unwrap().to_vec()
@@ -195,8 +199,7 @@ fn a_phase_at_rest_is_not_stirred_by_another() {
     });
     let shifting = Fickian::default();
     let shifts = shift(&mut layers, shifting);
-    let term = Shifting::<2>::term(&shifting, SUMMED).expect("a term");
-    let (acceleration, _) = rates(&layers, &vec![term]);
+    let (acceleration, _) = rates(&layers, &offer(&layers, shifting, true).terms);
     let positions = layers.free.get(fields::POSITION).unwrap();
     let of = |below: bool, all: &[Vect<2>]| {
         let some = positions.iter().zip(all);
@@ -240,8 +243,7 @@ fn a_summed_density_does_not_notice_the_shift() {
             ..Fickian::default()
         };
         let shifts = shift(&mut cloud, shifting);
-        let term = Shifting::<2>::term(&shifting, SUMMED).expect("a term");
-        let rate = rates(&cloud, &vec![term]).1;
+        let rate = rates(&cloud, &offer(&cloud, shifting, true).terms).1;
         let constant = cloud.free.get_mut(fields::DENSITY_CONSTANT).unwrap();
         constant
             .iter_mut()
@@ -280,9 +282,7 @@ fn what_a_particle_carries_follows_the_fluid() {
     };
     let shifts = shift(&mut cloud, shifting);
     // Integrated densities: s·∇ρ alone.
-    let integrated = ShiftedFlow { summed: false };
-    let term = Shifting::<2>::term(&shifting, integrated).expect("a term");
-    let (acceleration, rate) = rates(&cloud, &vec![term]);
+    let (acceleration, rate) = rates(&cloud, &offer(&cloud, shifting, false).terms);
     let positions = cloud.free.get(fields::POSITION).unwrap();
     let inner =
         (0..positions.len()).filter(|i| (0..2).all(|k| (positions[*i][k] - 0.5).abs() < 0.25));
@@ -303,7 +303,7 @@ fn what_a_particle_carries_follows_the_fluid() {
             transport,
             ..shifting
         };
-        Shifting::<2>::term(&fickian, SUMMED).is_some()
+        !offer(&cloud, fickian, true).terms.is_empty()
     };
     assert!(!asked(Transport::Nothing) && asked(Transport::All));
 }
@@ -367,8 +367,7 @@ fn a_density_comes_back_where_particles_are_rearranged() {
         cloud.free.add(fields::SHIFT_VELOCITY, Role::State);
         cloud.free.add(fields::EMPTINESS, Role::Derived);
         set(&mut cloud, fields::EMPTINESS, |_| 0.01);
-        let term = Shifting::<2>::term(&Fickian::default(), SUMMED).expect("a term");
-        let rates = rates(&cloud, &vec![term]).1;
+        let rates = rates(&cloud, &offer(&cloud, Fickian::default(), true).terms).1;
         let positions = cloud.free.get(fields::POSITION).unwrap();
         let inner = |x: &Vect<2>| (0..2).all(|k| (x[k] - 0.5).abs() < 0.3);
         let inner = positions.iter().zip(rates).filter(|(x, _)| inner(x));

@@ -1,38 +1,43 @@
 //! The other smoothers: blind to what is smooth, keen on noise, and a diffusion.
 
-use sph_contribution::StepWork;
+use sph_contribution::Contribution;
 use sph_core::{Role, Vect, fields};
 use sph_diffusion::{
     Accelerated, BrezziPitkaranta, DENSITY_GRADIENT, DeltaForm, DeltaMultiphase, DeltaSph,
-    MeanAcceleration, PRESSURE_SLOPE, RhieChow, Smoother,
+    MeanAcceleration, PRESSURE_SLOPE, RhieChow,
 };
 use sph_kernels::{Kernel, quintic_spline};
 use sph_neighbours::{Domain, World};
 use sph_state::Laws;
 
-use crate::evaluate::{laws, rates};
+use crate::evaluate::{laws, offered, rates};
 use crate::world::{Random, at, disorder, lattice, periodic, set, world};
 
 /// dρ/dt of a smoother after its stages.
-fn rate<const D: usize>(world: &mut World<D>, smoother: &dyn Smoother<D>, laws: &Laws) -> Vec<f64> {
+fn rate<const D: usize>(
+    world: &mut World<D>,
+    smoother: &mut dyn Contribution<D>,
+    laws: &Laws,
+) -> Vec<f64> {
     world.free.add(DENSITY_GRADIENT, Role::Derived);
     world.free.add(PRESSURE_SLOPE, Role::Derived);
-    for mut stage in smoother.stages(laws) {
+    let offer = offered(smoother, (laws, true), world);
+    for mut stage in offer.stages {
         stage.run(world).unwrap();
     }
-    if smoother.accelerated() == Some(Accelerated::Slope) {
+    if !offer.hooks.is_empty() {
         // A slope that has long been as it is.
-        let mut mean = MeanAcceleration::new(Accelerated::Slope, 20.0);
-        mean.before_drift(world, 1e9).unwrap();
+        let mean = MeanAcceleration::new(Accelerated::Slope, 20.0);
+        mean.follow(world, 1e9).unwrap();
     }
-    rates(world, &vec![smoother.term(laws)]).1
+    rates(world, &offer.terms).1
 }
 
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m, v| m.max(v.abs()))
 }
 
-fn all<const D: usize>() -> [(&'static str, Box<dyn Smoother<D>>); 4] {
+fn all<const D: usize>() -> [(&'static str, Box<dyn Contribution<D>>); 4] {
     let plain = DeltaSph {
         form: DeltaForm::Plain,
         ..DeltaSph::default()
@@ -58,10 +63,10 @@ fn set_density<const D: usize>(world: &mut World<D>, of: impl Fn(&Vect<D>) -> f6
 fn a_constant_is_left_alone_exactly() {
     fn check<const D: usize>(n: usize) {
         let laws = laws(&[(1000.0, 20.0)]);
-        for (name, smoother) in all::<D>() {
+        for (name, mut smoother) in all::<D>() {
             let mut cloud = world(disorder::<D>(n, 0.3, 1), periodic(), 1.0 / n as f64, 1.5);
             set_density(&mut cloud, |_| 1003.0);
-            let found = largest(&rate(&mut cloud, &*smoother, &laws));
+            let found = largest(&rate(&mut cloud, &mut *smoother, &laws));
             // Differences of equal numbers.
             assert_eq!(found, 0.0, "{name} in {D}D");
         }
@@ -73,17 +78,17 @@ fn a_constant_is_left_alone_exactly() {
 #[test]
 fn a_linear_field_is_left_alone_in_the_bulk_of_a_lattice() {
     let laws = laws(&[(1000.0, 20.0)]);
-    for (name, smoother) in all::<2>() {
+    for (name, mut smoother) in all::<2>() {
         let open = Domain::open(Vect::repeat(-9.0), Vect::repeat(9.0));
         let mut world = world(lattice::<2>(25), open, 0.04, 2.0);
         set_density(&mut world, |x| 1000.0 - 0.5 * x[1]);
         set(&mut world, fields::VOLUME, |_| 0.04 * 0.04);
         // The density in the divisors would leave its own square.
-        let linear = rate(&mut world, &*smoother, &laws);
+        let linear = rate(&mut world, &mut *smoother, &laws);
         let middle = linear[at(&world, Vect::repeat(0.5))];
         set(&mut world, fields::DENSITY, |x| 1000.0 - 0.5 * x[1] * x[1]);
         set(&mut world, fields::PRESSURE, |x| -200.0 * x[1] * x[1]);
-        let square = largest(&rate(&mut world, &*smoother, &laws));
+        let square = largest(&rate(&mut world, &mut *smoother, &laws));
         // Rhie–Chow: 1/ρ varies by 5e-4; the others: rounding.
         assert!(
             middle.abs() < 1e-6 * square,
@@ -100,9 +105,9 @@ fn renormalised_gradients_leave_a_linear_density_alone_everywhere_in_2d_and_3d()
         let mut cloud = world(disorder::<D>(n, 0.2, 3), open, 1.0 / n as f64, 1.5);
         set_density(&mut cloud, |x| 1000.0 - 3.0 * x[1] + 2.0 * x[0]);
         let laws = laws(&[(1000.0, 20.0)]);
-        let [(_, plain), (_, renormalised), ..] = all::<D>();
-        let left = largest(&rate(&mut cloud, &*renormalised, &laws));
-        let plain = largest(&rate(&mut cloud, &*plain, &laws));
+        let [(_, mut plain), (_, mut renormalised), ..] = all::<D>();
+        let left = largest(&rate(&mut cloud, &mut *renormalised, &laws));
+        let plain = largest(&rate(&mut cloud, &mut *plain, &laws));
         // Differences of 1e3 at a rounding of 1e-16, against differences of 0.1.
         assert!(left < 1e-10 * plain, "{D}D: {left:e} of {plain:e}");
     }
@@ -118,11 +123,11 @@ fn rhie_chow_leaves_a_linear_pressure_alone_everywhere_in_2d_and_3d() {
         let mut cloud = world(disorder::<D>(n, 0.2, 3), open, 1.0 / n as f64, 1.5);
         set_density(&mut cloud, |_| 1000.0);
         let laws = laws(&[(1000.0, 20.0)]);
-        let smoother = RhieChow::default();
+        let mut smoother = RhieChow::default();
         set(&mut cloud, fields::PRESSURE, |x| 9810.0 * (1.0 - x[1]));
-        let left = largest(&rate(&mut cloud, &smoother, &laws));
+        let left = largest(&rate(&mut cloud, &mut smoother, &laws));
         set(&mut cloud, fields::PRESSURE, |x| 9810.0 * x[1] * x[1]);
-        let square = largest(&rate(&mut cloud, &smoother, &laws));
+        let square = largest(&rate(&mut cloud, &mut smoother, &laws));
         // Differences of 1e4 at a rounding of 1e-16, against differences of 1e2.
         assert!(left < 1e-10 * square, "{D}D: {left:e} of {square:e}");
     }
@@ -135,7 +140,7 @@ fn rhie_chow_leaves_a_linear_pressure_alone_everywhere_in_2d_and_3d() {
 fn the_step_limit_keeps_a_chequerboard_from_growing() {
     let n = 20;
     let laws = laws(&[(1000.0, 20.0)]);
-    let with = |strength: f64| -> [(&'static str, Box<dyn Smoother<2>>); 4] {
+    let with = |strength: f64| -> [(&'static str, Box<dyn Contribution<2>>); 4] {
         let form = DeltaForm::Renormalised;
         let multi = DeltaMultiphase {
             strength,
@@ -148,22 +153,24 @@ fn the_step_limit_keeps_a_chequerboard_from_growing() {
             ("rhie-chow", Box::new(RhieChow { strength })),
         ]
     };
-    for (name, smoother) in with(0.1).into_iter().chain(with(1.0)) {
+    for (name, mut smoother) in with(0.1).into_iter().chain(with(1.0)) {
         let mut board = world(lattice::<2>(n), periodic(), 1.0 / n as f64, 2.0);
         let sign = |x: &Vect<2>| {
             let index = [0, 1].map(|k| (x[k] * n as f64).floor() as i64);
             1.0 - 2.0 * ((index[0] + index[1]).rem_euclid(2)) as f64
         };
         set_density(&mut board, |x| 1000.0 + 1e-3 * sign(x));
-        let limit = smoother.limiter(&laws).expect("a limit");
-        board.dt = limit.limit(&board).unwrap().dt;
-        let rates = rate(&mut board, &*smoother, &laws);
+        let limits = offered(&mut *smoother, (&laws, true), &board).limiters;
+        board.dt = limits[0].limit(&board).unwrap().dt;
+        let rates = rate(&mut board, &mut *smoother, &laws);
         let taken = largest(&rates) * board.dt / 1e-3;
         // Measured: 1.455 in all of them.
         assert!((taken - 1.455).abs() < 0.01, "{name}: {taken}");
     }
-    let nothing = BrezziPitkaranta::with(0.0);
-    assert!(Smoother::<2>::limiter(&nothing, &laws).is_none());
+    let mut nothing = BrezziPitkaranta::with(0.0);
+    let board = world(lattice::<2>(n), periodic(), 1.0 / n as f64, 2.0);
+    let offer = offered(&mut nothing, (&laws, true), &board);
+    assert!(offer.limiters.is_empty());
 }
 
 /// Layers at rest, 100 and 1000 times apart in density: how fast the smoother fills or empties them does not grow with the ratio.
@@ -182,7 +189,11 @@ fn rhie_chow_leaves_a_light_layer_at_rest_beside_a_heavy_one() {
             -density(x) * 9.81 * (x[1] - 0.5)
         });
         layers.dt = 1e-3;
-        let rates = rate(&mut layers, &RhieChow::default(), &laws(&[(heavy, 20.0)]));
+        let rates = rate(
+            &mut layers,
+            &mut RhieChow::default(),
+            &laws(&[(heavy, 20.0)]),
+        );
         let positions = layers.free.get(fields::POSITION).unwrap();
         let inner = positions.iter().zip(&rates);
         let inner = inner.filter(|(x, _)| (x[1] - 0.5).abs() < 0.1 && (x[0] - 0.5).abs() < 0.1);
@@ -206,14 +217,14 @@ fn rhie_chow_leaves_a_light_layer_at_rest_beside_a_heavy_one() {
 fn a_chequerboard_is_pulled_flat_at_every_particle() {
     let n = 20;
     let laws = laws(&[(1000.0, 20.0)]);
-    for (name, smoother) in all::<2>() {
+    for (name, mut smoother) in all::<2>() {
         let mut board = world(lattice::<2>(n), periodic(), 1.0 / n as f64, 2.0);
         let sign = |x: &Vect<2>| {
             let index = [0, 1].map(|k| (x[k] * n as f64).floor() as i64);
             1.0 - 2.0 * ((index[0] + index[1]).rem_euclid(2)) as f64
         };
         set_density(&mut board, |x| 1000.0 + sign(x));
-        let rates = rate(&mut board, &*smoother, &laws);
+        let rates = rate(&mut board, &mut *smoother, &laws);
         let positions = board.free.get(fields::POSITION).unwrap();
         for (x, rate) in positions.iter().zip(&rates) {
             assert!(rate * sign(x) < 0.0, "{name} at {x}: {rate}");
@@ -225,7 +236,7 @@ fn a_chequerboard_is_pulled_flat_at_every_particle() {
 #[test]
 fn the_total_is_kept_to_1e_12_within_a_phase() {
     let laws = laws(&[(1000.0, 20.0)]);
-    for (name, smoother) in all::<2>() {
+    for (name, mut smoother) in all::<2>() {
         let mut cloud = world(disorder::<2>(20, 0.3, 3), periodic(), 0.05, 2.0);
         let mut random = Random::new(4);
         set(&mut cloud, fields::DENSITY, |_| {
@@ -233,7 +244,7 @@ fn the_total_is_kept_to_1e_12_within_a_phase() {
         });
         set(&mut cloud, fields::VOLUME, |_| random.between(0.002, 0.003));
         set(&mut cloud, fields::PRESSURE, |_| random.between(-3.0, 9.0));
-        let rates = rate(&mut cloud, &*smoother, &laws);
+        let rates = rate(&mut cloud, &mut *smoother, &laws);
         let volume = cloud.free.get(fields::VOLUME).unwrap();
         let density = cloud.free.get(fields::DENSITY).unwrap();
         let weight = |i: usize| match name {
@@ -267,8 +278,8 @@ fn y_squared_gives_2_0017() {
     let h = world.kernel.smoothing_length();
     let middle = at(&world, Vect::repeat(0.5));
     let [(_, plain), _, (_, multi), _] = all::<2>();
-    for smoother in [plain, multi] {
-        let found = rate(&mut world, &*smoother, &laws(&[(1.0, 1.0)]))[middle] / (0.1 * h);
+    for mut smoother in [plain, multi] {
+        let found = rate(&mut world, &mut *smoother, &laws(&[(1.0, 1.0)]))[middle] / (0.1 * h);
         assert!((found - 2.0017).abs() < 1e-4, "{found}");
     }
 }
@@ -298,8 +309,8 @@ fn at_an_interface_at_rest_the_rates_are_those_of_the_reference_to_1_per_cent() 
     let [(_, per_phase), _, (_, multi), _] = all::<2>();
     let across: [f64; 7] = [0.0, 0.184, 5.48, 40.5, 28.6, 3.87, 0.130];
     let within: [f64; 7] = [0.0, 2.2, 41.6, 140.9, -49.8, -14.7, -0.78];
-    for (smoother, printed, last) in [(multi, across, 0.0005), (per_phase, within, 0.05)] {
-        let rates = rate(&mut tank, &*smoother, &laws);
+    for (mut smoother, printed, last) in [(multi, across, 0.0005), (per_phase, within, 0.05)] {
+        let rates = rate(&mut tank, &mut *smoother, &laws);
         for (k, printed) in printed.iter().enumerate() {
             let place = Vect::<2>::new(0.305, 0.165 + 0.01 * k as f64);
             let found = rates[at(&tank, place)];
@@ -336,12 +347,12 @@ fn a_floor_balances_a_hydrostatic_density() {
     tank.rebuild_lists().unwrap();
     let laws = laws(&[(1000.0, 20.0)]);
     let first = at(&tank, Vect::<2>::new(0.525, 0.025));
-    let with = rate(&mut tank, &DeltaMultiphase::default(), &laws)[first];
-    let without = DeltaMultiphase {
+    let with = rate(&mut tank, &mut DeltaMultiphase::default(), &laws)[first];
+    let mut without = DeltaMultiphase {
         walls: false,
         ..DeltaMultiphase::default()
     };
-    let without = rate(&mut tank, &without, &laws)[first];
+    let without = rate(&mut tank, &mut without, &laws)[first];
     // The volumes follow the density, which changes by 1e-3 per row.
     assert!(with.abs() < 0.02 * without.abs(), "{with} of {without}");
     assert!(without < 0.0, "a floor left out takes density: {without}");
@@ -355,11 +366,11 @@ fn no_smoother_is_empty() {
         1.0 + 0.1 * (20.0 * x[0]).sin()
     });
     set(&mut cloud, fields::PRESSURE, |x| (20.0 * x[0]).sin());
-    for (name, smoother) in all::<2>() {
+    for (name, mut smoother) in all::<2>() {
         assert!(
-            largest(&rate(&mut cloud, &*smoother, &laws)) > 0.0,
+            largest(&rate(&mut cloud, &mut *smoother, &laws)) > 0.0,
             "{name}"
         );
     }
-    assert!(largest(&rate(&mut cloud, &BrezziPitkaranta::default(), &laws)) > 0.0);
+    assert!(largest(&rate(&mut cloud, &mut BrezziPitkaranta::default(), &laws)) > 0.0);
 }

@@ -5,7 +5,7 @@ use sph_neighbours::World;
 
 use crate::beds::columns::{Columns, End};
 use crate::phases::phase::{self, Counted};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Curves, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Three curves over a movable bed, mass of what moves of it (kg, per metre of width), and lowest
 /// point of the motion (m).
@@ -99,9 +99,13 @@ impl Probe<2> for BedLines {
         ]
     }
 
-    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
-        self.number = Some(phase::number(&self.phase, names)?);
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+        self.number = Some(phase::number(&self.phase, scene.phases)?);
         Ok(())
+    }
+
+    fn as_curves(&self) -> Option<&dyn Curves<2>> {
+        Some(self)
     }
 
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {
@@ -109,7 +113,9 @@ impl Probe<2> for BedLines {
         let heights = drawn.moving.places().map(|place| place[1]);
         Ok(vec![drawn.mass, heights.fold(f64::NAN, f64::min)])
     }
+}
 
+impl Curves<2> for BedLines {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let names = ["x", "surface", "interface", "limit"];
         names.map(|name| ProbeColumn::named(name, "m")).into()

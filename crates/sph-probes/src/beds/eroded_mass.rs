@@ -5,7 +5,7 @@ use sph_neighbours::World;
 
 use crate::flow::front::Direction;
 use crate::phases::phase::{self, Counted};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Mass of a bed that is no longer where it was at the start, kg (per metre of width in 2D).
 ///
@@ -53,8 +53,8 @@ impl<const D: usize> Probe<D> for ErodedMass {
         suffixes.map(|s| ProbeColumn::named(s, "kg")).into()
     }
 
-    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
-        self.number = Some(phase::number(&self.phase, names)?);
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+        self.number = Some(phase::number(&self.phase, scene.phases)?);
         Ok(())
     }
 

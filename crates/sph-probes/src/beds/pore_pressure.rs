@@ -4,7 +4,7 @@ use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::{carried, point};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 /// Pore-water pressure q = p − p' at a point: that of the water in the pores of a soil, and of the
 /// water beside it.
@@ -39,8 +39,11 @@ impl<const D: usize> Probe<D> for PorePressureProbe {
         ProbeColumn::only("Pa")
     }
 
-    fn fields(&self) -> Vec<&str> {
-        vec![fields::PORE_PRESSURE.name]
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            fields: vec![fields::PORE_PRESSURE.name],
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

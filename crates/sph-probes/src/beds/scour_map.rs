@@ -4,7 +4,7 @@ use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Curves, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Width of a cell in spacings: one that grains have spread from by less than a spacing is not empty.
 const WIDTH: f64 = 2.0;
@@ -128,9 +128,13 @@ impl Probe<3> for ScourMap {
         ]
     }
 
-    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
-        self.number = Some(phase::number(&self.phase, names)?);
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+        self.number = Some(phase::number(&self.phase, scene.phases)?);
         Ok(())
+    }
+
+    fn as_curves(&self) -> Option<&dyn Curves<3>> {
+        Some(self)
     }
 
     fn measure(&self, world: &World<3>) -> Result<Vec<f64>, StepError> {
@@ -144,7 +148,9 @@ impl Probe<3> for ScourMap {
             depths().map(|depth| depth.max(0.0) * area).sum(),
         ])
     }
+}
 
+impl Curves<3> for ScourMap {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let names = ["x", "y", "height", "depth"];
         names.map(|name| ProbeColumn::named(name, "m")).into()

@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::point;
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 /// Mean displacement of the particles that started within one spacing of a point.
 ///
@@ -30,8 +30,11 @@ impl<const D: usize> Probe<D> for DisplacementProbe {
         ["x", "y", "z"].iter().take(D).map(|a| column(a)).collect()
     }
 
-    fn needs_displacement(&self) -> bool {
-        true
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            displacement: true,
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

@@ -1,9 +1,11 @@
 //! Where the energy of a flow goes.
 
 use sph_core::{Field, Scalar, StepError, fields, plugin};
+use std::collections::{BTreeMap};
+use std::sync::{Mutex, PoisonError};
 use sph_neighbours::World;
 
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Who gives energy to a particle or takes it, in the order of [`ENERGY_WORKS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,6 +87,7 @@ pub const ENERGY_AT_START: Field<Scalar> = Field::new(
 /// | `surface` | changes of the density constant by `[surface.…]` |
 /// | `walls` | pressure, Σ m a_p·ū Δt − Σ V p D{ū} Δt: gradient and density sum are adjoint but at walls; lone particles that are stopped |
 /// | `others` | driving, interfaces, elastic and other forces |
+/// | a kind of plugin of yours | its terms and hooks |
 /// | `remainder` | what is left: the length of the step, and the bound on the density of lone particles |
 /// | `unlisted` | energy less that of the start less all these: 0 to rounding, unless something moves particles or densities that the books do not see |
 ///
@@ -107,18 +110,43 @@ pub const ENERGY_AT_START: Field<Scalar> = Field::new(
 #[plugin(ProbeEntry [2, 3], "energy-budget",
     "where the energy goes: energies, and the work of everybody who gives or takes some",
     source: "ours: the first law, discrete")]
-pub struct EnergyBudget {}
+pub struct EnergyBudget {
+    /// Works of strangers.
+    #[serde(skip)]
+    strangers: Vec<Field<Scalar>>,
+}
+
+/// The work of a kind of plugin that no crate of this project declares, J: the column `work_KIND`.
+pub fn work_of_stranger(kind: &str) -> Field<Scalar> {
+    static KNOWN: Mutex<BTreeMap<String, &'static str>> = Mutex::new(BTreeMap::new());
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    // Fields have names that live as long as the program; there are as many as kinds.
+    let name = known
+        .entry(kind.to_string())
+        .or_insert_with(|| Box::leak(format!("work_{kind}").into_boxed_str()));
+    Field::new(name, "J", "work of a plugin since the start")
+}
 
 impl<const D: usize> Probe<D> for EnergyBudget {
     fn columns(&self) -> Vec<ProbeColumn> {
-        let works = ENERGY_WORKS.map(|work| work.name.replacen("work_", ".", 1));
+        let works = ENERGY_WORKS.iter().chain(&self.strangers);
+        let works = works.map(|work| work.name.replacen("work_", ".", 1));
         let all = [".kinetic", ".potential", ".internal"].map(String::from);
         let all = all.into_iter().chain(works).chain([".unlisted".into()]);
         all.map(|suffix| ProbeColumn::named(&suffix, "J")).collect()
     }
 
-    fn needs_books(&self) -> bool {
-        true
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+        let strangers = scene.strangers.iter();
+        self.strangers = strangers.map(|kind| work_of_stranger(kind)).collect();
+        Ok(())
+    }
+
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            books: true,
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
@@ -137,7 +165,7 @@ impl<const D: usize> Probe<D> for EnergyBudget {
             sum(BOOKED_COMPRESSION)?,
         ];
         let now: f64 = all.iter().sum();
-        let works = ENERGY_WORKS.into_iter().map(sum);
+        let works = ENERGY_WORKS.iter().chain(&self.strangers).copied().map(sum);
         let works = works.collect::<Result<Vec<f64>, _>>()?;
         let unlisted = now - sum(ENERGY_AT_START)? - works.iter().sum::<f64>();
         all.extend(works);

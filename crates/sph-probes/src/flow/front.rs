@@ -4,7 +4,7 @@ use sph_core::{Axis, StepError, fields, parameters, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Which of the two ends of a phase along an axis.
 #[parameters]
@@ -56,9 +56,9 @@ impl<const D: usize> Probe<D> for Front {
         ProbeColumn::only("m")
     }
 
-    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         if let Some(name) = &self.phase {
-            self.number = Some(phase::number(name, names)?);
+            self.number = Some(phase::number(name, scene.phases)?);
         }
         Ok(())
     }

@@ -5,7 +5,7 @@ use sph_neighbours::World;
 
 use crate::flow::point::{carried, point};
 use crate::phases::phase::{self, Counted, column, share};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// The highest place over a point where Σ V w falls to half of what it is under water, V being at most a cell δr^d.
 ///
@@ -55,9 +55,9 @@ impl<const D: usize> Probe<D> for Level {
         ProbeColumn::only("m")
     }
 
-    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         if let Some(name) = &self.phase {
-            self.number = Some(phase::number(name, names)?);
+            self.number = Some(phase::number(name, scene.phases)?);
         }
         Ok(())
     }

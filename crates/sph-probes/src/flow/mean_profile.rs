@@ -7,7 +7,7 @@ use sph_neighbours::World;
 
 use crate::flow::profile::Component;
 use crate::norm::at;
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry};
 
 /// Means and root mean squares of the fluctuations in layers across an axis, over all particles of a layer and all rows of the
 /// series from a time on: ⟨f⟩ = Σ V f/Σ V and √(⟨f²⟩ − ⟨f⟩²), f being a component of the velocity or a scalar field.
@@ -201,10 +201,64 @@ impl<const D: usize> Probe<D> for MeanProfile {
         }
     }
 
-    fn fields(&self) -> Vec<&str> {
-        self.field.iter().map(String::as_str).collect()
+    fn file(&self) -> Option<&str> {
+        self.file.as_deref()
     }
 
+    fn learn(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
+        let finite = rows.iter().flatten().all(|v| v.is_finite());
+        let grows = rows.windows(2).all(|w| w[0][0] < w[1][0]);
+        if rows.len() < 2 || !finite || !grows {
+            return Err("is no profile: expected rows of a growing distance and a value".into());
+        }
+        self.reference = rows;
+        Ok(())
+    }
+
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            fields: self.field.iter().map(String::as_str).collect(),
+            ..Needs::default()
+        }
+    }
+
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        Some(self)
+    }
+
+    fn as_gathers(&self) -> Option<&dyn Gathers<D>> {
+        Some(self)
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        self.check::<D>()?;
+        drop(self.reader(world)?);
+        let sums = self
+            .sums
+            .lock()
+            .map_err(|_| refused("a thread failed".into()))?;
+        let components = self.components::<D>();
+        if self.file.is_none() {
+            let filled = sums.chunks(self.stride::<D>()).filter(|s| s[0] > 0.0);
+            return Ok(vec![filled.count() as f64]);
+        }
+        let rows = self.compared(&sums, components);
+        if rows.is_empty() {
+            return Ok(vec![f64::NAN; 3]);
+        }
+        let squares: f64 = rows.iter().map(|[u, e]| (u - e).powi(2)).sum();
+        let largest = rows.iter().map(|[u, e]| (u - e).abs()).fold(0.0, f64::max);
+        let shares = rows.iter().map(|[u, e]| ((u - e) / e).abs());
+        let relative = shares.fold(0.0, f64::max);
+        Ok(vec![
+            (squares / rows.len() as f64).sqrt(),
+            largest,
+            relative,
+        ])
+    }
+}
+
+impl<const D: usize> Curves<D> for MeanProfile {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let mut all = vec![ProbeColumn::named("distance", "m")];
         let of = |what: &str, k: usize| match self.field {
@@ -248,7 +302,9 @@ impl<const D: usize> Probe<D> for MeanProfile {
         };
         Ok((0..self.layers).map(row).collect())
     }
+}
 
+impl<const D: usize> Gathers<D> for MeanProfile {
     fn gather(&self, world: &World<D>) -> Result<(), StepError> {
         if world.time < self.after {
             return Ok(());
@@ -293,46 +349,5 @@ impl<const D: usize> Probe<D> for MeanProfile {
         if let (true, Ok(mut sums)) = (fits, self.sums.lock()) {
             *sums = gathered.iter().map(|v| f64::from_bits(*v)).collect();
         }
-    }
-
-    fn file(&self) -> Option<&str> {
-        self.file.as_deref()
-    }
-
-    fn learn(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
-        let finite = rows.iter().flatten().all(|v| v.is_finite());
-        let grows = rows.windows(2).all(|w| w[0][0] < w[1][0]);
-        if rows.len() < 2 || !finite || !grows {
-            return Err("is no profile: expected rows of a growing distance and a value".into());
-        }
-        self.reference = rows;
-        Ok(())
-    }
-
-    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        self.check::<D>()?;
-        drop(self.reader(world)?);
-        let sums = self
-            .sums
-            .lock()
-            .map_err(|_| refused("a thread failed".into()))?;
-        let components = self.components::<D>();
-        if self.file.is_none() {
-            let filled = sums.chunks(self.stride::<D>()).filter(|s| s[0] > 0.0);
-            return Ok(vec![filled.count() as f64]);
-        }
-        let rows = self.compared(&sums, components);
-        if rows.is_empty() {
-            return Ok(vec![f64::NAN; 3]);
-        }
-        let squares: f64 = rows.iter().map(|[u, e]| (u - e).powi(2)).sum();
-        let largest = rows.iter().map(|[u, e]| (u - e).abs()).fold(0.0, f64::max);
-        let shares = rows.iter().map(|[u, e]| ((u - e) / e).abs());
-        let relative = shares.fold(0.0, f64::max);
-        Ok(vec![
-            (squares / rows.len() as f64).sqrt(),
-            largest,
-            relative,
-        ])
     }
 }

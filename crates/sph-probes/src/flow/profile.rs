@@ -5,7 +5,7 @@ use sph_core::{StepError, Vect, fields, parameters, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::point;
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
 
 /// A component of a vector.
 #[parameters]
@@ -126,19 +126,6 @@ impl<const D: usize> Probe<D> for Profile {
             .to_vec()
     }
 
-    fn curve_columns(&self) -> Vec<ProbeColumn> {
-        vec![
-            ProbeColumn::named("distance", "m"),
-            ProbeColumn::named("velocity", "m/s"),
-            ProbeColumn::named("reference", "m/s"),
-        ]
-    }
-
-    fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
-        let rows = self.sampled(world)?;
-        Ok(rows.into_iter().map(|row| row.to_vec()).collect())
-    }
-
     fn file(&self) -> Option<&str> {
         Some(&self.file)
     }
@@ -149,6 +136,10 @@ impl<const D: usize> Probe<D> for Profile {
         }
         self.reference = rows;
         Ok(())
+    }
+
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        Some(self)
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
@@ -163,3 +154,19 @@ impl<const D: usize> Probe<D> for Profile {
         Ok(vec![(squares / count as f64).sqrt(), largest])
     }
 }
+
+impl<const D: usize> Curves<D> for Profile {
+    fn curve_columns(&self) -> Vec<ProbeColumn> {
+        vec![
+            ProbeColumn::named("distance", "m"),
+            ProbeColumn::named("velocity", "m/s"),
+            ProbeColumn::named("reference", "m/s"),
+        ]
+    }
+
+    fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
+        let rows = self.sampled(world)?;
+        Ok(rows.into_iter().map(|row| row.to_vec()).collect())
+    }
+}
+

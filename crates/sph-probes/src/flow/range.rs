@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use sph_core::{Plain, StepError, plugin};
 use sph_neighbours::World;
 
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 /// Smallest and largest value of a field, in its own unit; over `scale`, without one.
 ///
@@ -36,8 +36,11 @@ impl<const D: usize> Probe<D> for FieldRange {
             .into()
     }
 
-    fn fields(&self) -> Vec<&str> {
-        vec![&self.field]
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            fields: vec![&self.field],
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

@@ -4,7 +4,7 @@ use sph_core::{Axis, StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Least coordinate of a phase less half a spacing, and largest plus half a spacing, m.
 ///
@@ -41,9 +41,9 @@ impl<const D: usize> Probe<D> for Extent {
         vec![column(".lowest"), column(".highest")]
     }
 
-    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         if let Some(name) = &self.phase {
-            self.number = Some(phase::number(name, names)?);
+            self.number = Some(phase::number(name, scene.phases)?);
         }
         Ok(())
     }

@@ -5,7 +5,7 @@ use sph_neighbours::World;
 
 use crate::flow::point::{carried, point};
 use crate::phases::phase::{self, Counted, column, share};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// The highest place over a point where the share Σ_phase V w / Σ V w crosses one half, m.
 ///
@@ -43,8 +43,8 @@ impl<const D: usize> Probe<D> for Interface {
         ProbeColumn::only("m")
     }
 
-    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
-        self.number = Some(phase::number(&self.phase, names)?);
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+        self.number = Some(phase::number(&self.phase, scene.phases)?);
         Ok(())
     }
 

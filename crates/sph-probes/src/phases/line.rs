@@ -6,7 +6,7 @@ use sph_neighbours::World;
 use crate::beds::bed_lines;
 use crate::beds::columns::{Columns, End};
 use crate::phases::phase::{self, Counted};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Which line of a body of soil.
 #[parameters]
@@ -113,15 +113,11 @@ impl Probe<2> for Line {
         ]
     }
 
-    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         if let Some(name) = &self.phase {
-            self.number = Some(phase::number(name, names)?);
+            self.number = Some(phase::number(name, scene.phases)?);
         }
         Ok(())
-    }
-
-    fn needs_displacement(&self) -> bool {
-        self.of == LineOf::Failure
     }
 
     fn file(&self) -> Option<&str> {
@@ -134,6 +130,13 @@ impl Probe<2> for Line {
         }
         self.reference = rows;
         Ok(())
+    }
+
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            displacement: self.of == LineOf::Failure,
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {

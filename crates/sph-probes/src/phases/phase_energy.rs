@@ -4,7 +4,7 @@ use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Kinetic energy ½ Σ m u² and potential energy −Σ m g·r of a phase, J (per metre of depth in 2D).
 ///
@@ -32,9 +32,9 @@ impl<const D: usize> Probe<D> for PhaseEnergy {
         vec![column(".kinetic"), column(".potential")]
     }
 
-    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         if let Some(name) = &self.phase {
-            self.number = Some(phase::number(name, names)?);
+            self.number = Some(phase::number(name, scene.phases)?);
         }
         Ok(())
     }

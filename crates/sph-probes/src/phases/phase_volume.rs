@@ -4,7 +4,7 @@ use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Σ V over the particles of a phase, m² in two dimensions and m³ in three.
 ///
@@ -36,9 +36,9 @@ impl<const D: usize> Probe<D> for PhaseVolume {
         })
     }
 
-    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         if let Some(name) = &self.phase {
-            self.number = Some(phase::number(name, names)?);
+            self.number = Some(phase::number(name, scene.phases)?);
         }
         Ok(())
     }

@@ -6,7 +6,7 @@ use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
-use crate::{Probe, ProbeColumn, ProbeEntry, norm};
+use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene, norm};
 
 /// Angle θ = arctan(dy/dx) of the line through the surface between two places, and the root mean
 /// square of the surface about it: the angle of repose of a heap.
@@ -44,9 +44,9 @@ impl Probe<2> for SurfaceSlope {
         vec![column(".angle", "rad"), column(".rms", "m")]
     }
 
-    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         if let Some(name) = &self.phase {
-            self.number = Some(phase::number(name, names)?);
+            self.number = Some(phase::number(name, scene.phases)?);
         }
         Ok(())
     }

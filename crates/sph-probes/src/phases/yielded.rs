@@ -4,7 +4,7 @@ use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, Counted};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Share of the particles whose strain rate is above a threshold, γ̇ > γ̇_y, and the mean strain
 /// rate of those, 1/s.
@@ -41,15 +41,18 @@ impl<const D: usize> Probe<D> for Yielded {
         vec![column(".share", "1"), column(".mean", "1/s")]
     }
 
-    fn fields(&self) -> Vec<&str> {
-        vec![fields::STRAIN_RATE.name]
-    }
-
-    fn name_phases(&mut self, names: &[String]) -> Result<(), String> {
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         if let Some(name) = &self.phase {
-            self.number = Some(phase::number(name, names)?);
+            self.number = Some(phase::number(name, scene.phases)?);
         }
         Ok(())
+    }
+
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            fields: vec![fields::STRAIN_RATE.name],
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

@@ -3,6 +3,7 @@
 use sph_core::{Store, Vect};
 use sph_kernels::{Kernel, wendland_c2};
 use sph_neighbours::{Domain, World};
+use sph_probes::ProbeScene;
 
 /// Particles in an open box around the unit square or cube, without walls, gravity or lists.
 pub fn world<const D: usize>(free: Store<D>, spacing: f64) -> World<D> {
@@ -22,5 +23,13 @@ pub fn world<const D: usize>(free: Store<D>, spacing: f64) -> World<D> {
         transported: Vec::new(),
         extent: None,
         team: None,
+    }
+}
+
+/// A scene of phases with these names.
+pub fn scene(phases: &[String]) -> ProbeScene<'_> {
+    ProbeScene {
+        phases,
+        ..ProbeScene::default()
     }
 }

@@ -54,7 +54,7 @@ fn built(kind: &str, keys: &str) -> Box<dyn Probe<2>> {
 
 fn measured(kind: &str, keys: &str) -> Vec<f64> {
     let mut probe = built(kind, keys);
-    probe.name_phases(&names()).unwrap();
+    probe.settle(&super::common::scene(&names())).unwrap();
     probe.measure(&world()).unwrap()
 }
 
@@ -181,7 +181,7 @@ fn what_strains_faster_than_the_threshold_has_yielded() {
         .for_each(|(rate, y)| *rate = if *y < 0.2 { 4.0 } else { y * 0.5 });
     let measured = |keys: &str| {
         let mut probe = built("yielded", keys);
-        probe.name_phases(&names()).unwrap();
+        probe.settle(&super::common::scene(&names())).unwrap();
         probe.measure(&world).unwrap()
     };
     // Four of 24 rows; all of them are water, 80 of 200 particles.
@@ -200,7 +200,7 @@ fn the_slope_is_that_of_the_heap() {
             x[1] += dip * x[0];
         }
         let mut probe = built("slope", "between = [0.2, 0.8]");
-        probe.name_phases(&names()).unwrap();
+        probe.settle(&super::common::scene(&names())).unwrap();
         probe.measure(&world).unwrap()
     };
     for dip in [0.0, -0.4, 0.7] {
@@ -250,7 +250,7 @@ fn an_unknown_phase_has_a_near_name() {
             _ => "",
         };
         let mut probe = built(kind, &format!("{at}phase = \"watr\""));
-        let why = probe.name_phases(&names()).unwrap_err();
+        let why = probe.settle(&super::common::scene(&names())).unwrap_err();
         assert_eq!(
             why, "there is no phase called `watr`, did you mean `water`?",
             "{kind}"
@@ -274,6 +274,8 @@ fn the_only_phase_is_everything() {
         .fill(SPACING * SPACING);
     world.free = bare;
     let mut probe = built("phase-volume", "phase = \"water\"");
-    probe.name_phases(&["water".into()]).unwrap();
+    probe
+        .settle(&super::common::scene(&["water".into()]))
+        .unwrap();
     assert!((probe.measure(&world).unwrap()[0] - 1.2).abs() < 1e-12);
 }

@@ -38,7 +38,7 @@ fn probe(keys: &str) -> Box<dyn Probe<3>> {
     let entry = registry.find("scour-map").unwrap();
     let mut probe = entry.build::<3>(&toml::from_str(&keys).unwrap()).unwrap();
     probe
-        .name_phases(&["sand", "water"].map(String::from))
+        .settle(&super::common::scene(&["sand", "water"].map(String::from)))
         .unwrap();
     probe
 }
@@ -68,7 +68,7 @@ fn a_pit_has_its_depth_and_volume_and_grains_in_suspension_do_not_fill_it() {
 #[test]
 fn whole_cells_fill_the_part_that_counts() {
     let probe = probe("within = [[0.05, 0.0], [0.4, 0.4]]");
-    let rows = probe.curves(&world()).unwrap();
+    let rows = probe.as_curves().unwrap().curves(&world()).unwrap();
     let mut across: Vec<f64> = rows.iter().map(|row| row[0]).collect();
     across.dedup();
     assert_eq!(across.len(), 3);
@@ -81,10 +81,11 @@ fn whole_cells_fill_the_part_that_counts() {
 #[test]
 fn the_map_has_a_row_for_every_cell_of_two_spacings() {
     let probe = probe("");
-    let rows = probe.curves(&world()).unwrap();
+    let rows = probe.as_curves().unwrap().curves(&world()).unwrap();
     assert_eq!(rows.len(), 16);
-    let drawn = probe.drawn_column().unwrap();
-    assert_eq!(probe.curve_columns()[drawn].suffix, "depth");
+    let curves = probe.as_curves().unwrap();
+    let drawn = curves.drawn_column().unwrap();
+    assert_eq!(curves.curve_columns()[drawn].suffix, "depth");
     let pit = rows.iter().filter(|row| row[drawn] > 0.0).count();
     assert_eq!(pit, 4);
     for row in rows {

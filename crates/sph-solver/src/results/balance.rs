@@ -93,7 +93,7 @@ impl<const D: usize> Balance<D> {
         let phase = free.get(fields::PHASE).ok();
         let gravity = flow.world.steady_gravity;
         let laws = &flow.laws;
-        let stored = flow.works.iter().filter_map(|w| w.energy(&flow.world));
+        let stored = flow.stored.iter().filter_map(|s| s.energy(&flow.world));
         let stored: Vec<_> = stored.collect();
         let strained = |i: usize| stored.iter().map(|energy| energy(i)).sum::<f64>();
         let one = |i: usize| {

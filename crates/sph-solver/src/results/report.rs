@@ -3,8 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use sph_viscosity::ImplicitViscosity;
-
 use crate::Left;
 use crate::failure::error::{Failure, SolverError};
 use crate::results::advice::{self, Costs};
@@ -49,8 +47,8 @@ impl<const D: usize> Running<'_, D> {
         let mut advice = self.advise(wall_seconds, [&dt_limiters, &dt_limits], &stage_seconds)?;
         let escaped = flow.escaped()?;
         let mach = self.say_what_is_odd(escaped, &mut warnings, &mut advice);
-        let works = self.parts.flow.works.iter().map(|w| w.most_bytes());
-        let solves: usize = works.chain(self.counters.stage_bytes.iter().copied()).sum();
+        let hooks = self.parts.flow.reports().map(|r| r.most_bytes);
+        let solves: usize = hooks.chain(self.counters.stage_bytes.iter().copied()).sum();
         let summary = Summary {
             schema_version: SCHEMA_VERSION,
             scene: self.scene.title.clone(),
@@ -88,8 +86,7 @@ impl<const D: usize> Running<'_, D> {
             escaped,
             left: self.left(),
             relaxation: self.parts.relaxation,
-            open_boundaries: self.parts.flow.counts_of(sph_open::PASSING),
-            implicit_viscosity: self.parts.flow.counts_of(ImplicitViscosity::<D>::NAME),
+            counts: self.parts.flow.counts_of_summary(),
             errors,
             warnings,
             files: listing(&self.options.out),
@@ -184,7 +181,7 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    /// Adds remarks of the work within steps, on particles behind walls and on speeds near that of sound; gives the largest Mach
+    /// Adds remarks of hooks, on particles behind walls and on speeds near that of sound; gives the largest Mach
     /// number.
     fn say_what_is_odd(
         &self,
@@ -193,7 +190,8 @@ impl<const D: usize> Running<'_, D> {
         advice: &mut Vec<String>,
     ) -> f64 {
         let flow = &self.shown().flow;
-        advice.extend(flow.works.iter().flat_map(|w| w.advice(&flow.world)));
+        let reports: Vec<_> = flow.reports().collect();
+        advice.extend(reports.iter().flat_map(|r| r.advice.clone()));
         if flow.world.free.is_empty() {
             warnings.push("all particles have left: nothing is in the scene at the end".into());
         }
@@ -208,7 +206,7 @@ impl<const D: usize> Running<'_, D> {
                 left.particles, left.mass
             ));
         }
-        warnings.extend(flow.works.iter().flat_map(|w| w.warnings()));
+        warnings.extend(reports.into_iter().flat_map(|r| r.warnings));
         if flow.world.free.is_empty() {
             warnings.push("all particles have left before the end".into());
         }

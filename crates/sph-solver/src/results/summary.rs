@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
-use crate::{Findings, Left, Memory, Relaxation, Solves, Trouble};
+use crate::{Findings, Left, Memory, Relaxation, Trouble};
 
 /// Version of the summary's layout.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -138,12 +139,9 @@ pub struct Summary {
     pub list_builds: u64,
     /// Share of the steps limited by each plugin's bound.
     pub dt_limiters: BTreeMap<String, f64>,
-    /// What implicit solves took, if the scene has any.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub implicit_viscosity: Option<Solves>,
-    /// What has passed open faces, kg, by face and phase, and the share of it that is missing in the balance.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub open_boundaries: Option<Json>,
+    /// Counts of hooks, each under its key: of solves `implicit_viscosity`, of mass that passes open faces `open_boundaries`.
+    #[serde(flatten)]
+    pub counts: BTreeMap<String, Json>,
     /// Mean of each plugin's bound over the steps, s, before the safety factor.
     #[serde(default)]
     pub dt_limits: BTreeMap<String, f64>,
@@ -184,4 +182,11 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// Files of the run, relative to its folder.
     pub files: Vec<String>,
+}
+
+impl Summary {
+    /// The counts under a key, if a hook has them.
+    pub fn counted<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
+        serde_json::from_value(self.counts.get(key)?.clone()).ok()
+    }
 }

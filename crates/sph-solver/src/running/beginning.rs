@@ -9,6 +9,7 @@ use crate::running::checkpoint;
 use crate::running::counters::Counters;
 use crate::running::driver::Observer;
 use crate::running::options::{RunOptions, Start};
+use crate::step::hooks::Hooked;
 
 /// Puts the flow where the run begins, and gives what has been counted until there. Who `writes` clears the folder.
 pub fn begin<const D: usize>(
@@ -25,9 +26,9 @@ pub fn begin<const D: usize>(
         let identity = same.then_some(&options.identity);
         counters = checkpoint::load(flow, scene, &file, identity)?;
         flow.recount(&counters.left);
-        for work in &mut flow.works {
-            if let Some(counts) = counters.works.remove(&work.name()) {
-                work.recount(counts);
+        for Hooked { hook, .. } in &mut flow.hooks.all {
+            if let Some(counts) = counters.works.remove(&hook.name()) {
+                hook.resume(counts);
             }
         }
         let time = flow.world.time;

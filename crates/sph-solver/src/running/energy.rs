@@ -45,13 +45,15 @@ impl EnergyWatch {
         let world = &flow.world;
         let around = |k: usize| world.domain.periodic[k] && world.gravity[k] != 0.0;
         let kinds = flow.kinds.iter().map(|(_, kind)| kind);
-        let mut kinds = kinds.chain(&flow.work_kinds);
+        let mut kinds = kinds
+            .copied()
+            .chain(flow.hooks.all.iter().map(|hook| hook.kind));
         let driven = scene.wall.values().any(moves)
             || scene.swings()
             || world.driving.norm() > 0.0
             || (0..D).any(around)
-            || flow.works.iter().any(|work| work.gives_birth())
-            || kinds.any(|kind| !OWN.contains(kind));
+            || !flow.gates.is_empty()
+            || kinds.any(|kind| !OWN.contains(&kind));
         EnergyWatch {
             driven,
             so_far: so_far.map(|all| all.map(f64::from_bits)),

@@ -67,11 +67,12 @@ impl Outputs {
             (true, _, Some(time)) => Some(PvdSeries::open_until(path, time)?),
             (true, Some(frames), None) => Some(PvdSeries::open_at(path, frames)?),
         };
-        let drawn = probes.iter().any(|(_, p)| p.drawn_column().is_some());
+        let curves = || probes.iter().filter_map(|(_, p)| p.as_curves());
+        let drawn = curves().any(|c| c.drawn_column().is_some());
         if drawn || !scene.output.picture.is_empty() {
             sph_io::writable(folder.join("pictures"))?;
         }
-        if probes.iter().any(|(_, p)| !p.curve_columns().is_empty()) {
+        if curves().next().is_some() {
             sph_io::writable(folder.join("curves"))?;
         }
         Ok(Outputs {
@@ -131,15 +132,15 @@ impl Outputs {
             )?;
         }
         for (name, probe) in probes {
-            let columns = probe.curve_columns();
-            if columns.is_empty() {
+            let Some(curves) = probe.as_curves() else {
                 continue;
-            }
-            let rows = probe.curves(&flow.world)?;
+            };
+            let columns = curves.curve_columns();
+            let rows = curves.curves(&flow.world)?;
             let table = columns.iter().map(|c| (&c.suffix, c.unit));
             let file = format!("curves/{name}_{:04}.csv", self.written);
             sph_io::write_table(self.folder.join(file), table, &rows)?;
-            if let Some(drawn) = probe.drawn_column() {
+            if let Some(drawn) = curves.drawn_column() {
                 let label = format!("{} [{}]", columns[drawn].suffix, columns[drawn].unit);
                 let file = format!("pictures/{name}_{:04}.png", self.written);
                 let values: Vec<f64> = rows.iter().map(|row| row[drawn]).collect();

@@ -64,7 +64,7 @@ pub(crate) fn columns_of_all<const D: usize>(
 
 /// Whether somebody measures or shows what needs lists and contacts.
 fn looks_around<const D: usize>(scene: &Scene, all: &Assembled<D>) -> bool {
-    shows_depths(scene) || all.probes.iter().any(|(_, p)| p.looks_around())
+    shows_depths(scene) || all.probes.iter().any(|(_, p)| p.needs().around)
 }
 
 impl<const D: usize> Running<'_, D> {
@@ -118,7 +118,7 @@ impl<const D: usize> Running<'_, D> {
 
     /// Whether somebody measures what needs lists and contacts.
     pub(crate) fn looks_around(&self) -> bool {
-        self.parts.probes.iter().any(|(_, p)| p.looks_around())
+        self.parts.probes.iter().any(|(_, p)| p.needs().around)
     }
 
     /// Counts what is near the particles of this process.

@@ -67,8 +67,9 @@ pub(crate) fn ready<'a, const D: usize>(
     };
     let shown = whole.as_ref().unwrap_or(&parts);
     for (name, probe) in &shown.probes {
-        if let Some(gathered) = counters.probes.remove(name) {
-            probe.recall(&gathered);
+        let gathered = counters.probes.remove(name);
+        if let (Some(gathered), Some(sums)) = (gathered, probe.as_gathers()) {
+            sums.recall(&gathered);
         }
     }
     let files = match writes {

@@ -165,8 +165,7 @@ impl<const D: usize> Running<'_, D> {
             }
         }
         if time >= self.scene.run.end {
-            let mut works = self.parts.flow.works.iter();
-            let verdict = works.find_map(|w| w.verdict());
+            let verdict = self.parts.flow.reports().find_map(|r| r.verdict);
             let verdict = verdict.or_else(|| self.energy.verdict());
             if let Some(cause) = self.agreed(verdict) {
                 return Err(self.fail(cause, good.state(), observer));

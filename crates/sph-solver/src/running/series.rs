@@ -116,7 +116,9 @@ impl Series {
             row.extend([left.mass, left.particles as f64]);
         }
         for (_, probe) in probes {
-            probe.gather(&flow.world)?;
+            if let Some(sums) = probe.as_gathers() {
+                sums.gather(&flow.world)?;
+            }
             row.extend(probe.measure(&flow.world)?);
         }
         self.writer.row(&row)?;
@@ -161,7 +163,8 @@ pub fn measure_walls<const D: usize>(
     flow: &mut Flow<D>,
     probes: &Probes<D>,
 ) -> Result<(), StepError> {
-    let read: Vec<&str> = probes.iter().filter_map(|(_, p)| p.force_on()).collect();
+    let read = probes.iter().filter_map(|(_, p)| p.needs().force_on);
+    let read: Vec<&str> = read.collect();
     match read.is_empty() {
         true => Ok(()),
         false => flow.measure_wall_forces(|name| read.contains(&name)),

@@ -7,6 +7,8 @@ use crate::failure::error::SolverError;
 use crate::results::balance::Balance;
 use crate::running::checkpoint;
 use crate::running::counters::Counters;
+use sph_probes::Probe;
+
 use crate::running::course::{Due, Running};
 use crate::running::driver::Observer;
 use crate::running::output::shows_depths;
@@ -15,7 +17,9 @@ use crate::running::series::{Probes, measure_walls};
 
 /// What probes have gathered, by their names.
 fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {
-    let all = probes.iter().map(|(name, p)| (name.clone(), p.gathered()));
+    let one =
+        |(name, p): &(String, Box<dyn Probe<D>>)| Some((name.clone(), p.as_gathers()?.gathered()));
+    let all = probes.iter().filter_map(one);
     all.filter(|(_, gathered)| !gathered.is_empty()).collect()
 }
 

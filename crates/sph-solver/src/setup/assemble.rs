@@ -18,7 +18,7 @@ use crate::setup::builder::Part;
 use crate::setup::choices::Choices;
 use crate::setup::domain::{extent, height, pressure_at_rest};
 use crate::setup::field_error;
-use crate::setup::joining::{Given, evolved, joined, remedies};
+use crate::setup::joining::{Given, joined};
 use crate::setup::leaks::Leak;
 use crate::setup::output_fields::check_output_fields;
 use crate::setup::parts::parts;
@@ -90,7 +90,7 @@ pub(crate) fn assemble_share<const D: usize>(
     let filled = (&room, placed.positions.as_slice(), &laws, &lift);
     let faces = open_faces::check(scene, &opened, &walls, filled)?;
     warnings.extend(speeds.into_iter().chain(faces));
-    let ground = Ground::of(&choices.physics);
+    let mut ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
     let constant = constant_viscosities(scene, &choices.physics.rheologies);
     let formulation = choices.physics.formulation.clone();
@@ -107,10 +107,12 @@ pub(crate) fn assemble_share<const D: usize>(
         integrator: &*choices.integrator,
         laws: &laws,
         viscosities: &constant,
+        soils: &ground.soil,
         walls: walls.as_ref(),
         shown: &shown,
     };
     let planned = about.plan(&world, &mut parts)?;
+    ground.saturated = planned.offer.saturated;
     world.transported = planned.transported.clone();
     let given = Given {
         walls,
@@ -118,8 +120,7 @@ pub(crate) fn assemble_share<const D: usize>(
         kinematic_viscosities,
         swing,
         outlets,
-        remedies: remedies(scene, &parts),
-        evolved: evolved(&*formulation, &parts),
+        density: formulation.diffused().evolved,
     };
     let mut flow = joined(world, planned, given);
     show(scene, &shown, &choices.probes, &mut flow)?;
@@ -188,7 +189,7 @@ fn nursery<const D: usize>(
     columns: Vec<OwnColumn<D>>,
     flow: &Flow<D>,
 ) -> Option<Nursery<D>> {
-    let some = flow.works.iter().any(|w| w.gives_birth());
+    let some = !flow.gates.is_empty();
     some.then(|| Nursery::new(scene, formulation, columns))
 }
 
@@ -214,6 +215,7 @@ struct About<'a, const D: usize> {
     integrator: &'a dyn Integrator,
     laws: &'a Laws,
     viscosities: &'a [Option<f64>],
+    soils: &'a [bool],
     walls: Option<&'a SharedWall<D>>,
     shown: &'a [String],
 }
@@ -233,12 +235,14 @@ impl<const D: usize> About<'_, D> {
             laws: self.laws,
             phases: &phases,
             viscosities: self.viscosities,
+            soils: self.soils,
             density: diffused.evolved,
             summed: self.formulation.compressed().is_none(),
             pressure_ahead: self.scene.choice("pressure").is_some(),
             courant: coefficients.courant,
             viscous: coefficients.viscous,
             kicks_once: self.integrator.kicks_once(),
+            carried: movers::carried(self.scene),
             moving_wall: moving.map(|(name, _)| name.as_str()),
             world,
         };
@@ -250,13 +254,12 @@ impl<const D: usize> About<'_, D> {
             shown: self.shown,
         };
         let mut planned = planning.plan(parts)?;
-        let force = Box::new(ForceLimit {
+        planned.offer.limiter(ForceLimit {
             coefficient: coefficients.force,
         });
-        planned.limiters.push(force);
         let mut walls = self.scene.wall.values();
         if walls.any(|w| w.motion.is_some() || !w.mover.is_empty()) {
-            planned.limiters.push(Box::new(MotionLimit { share: WAY }));
+            planned.offer.limiter(MotionLimit { share: WAY });
         }
         Ok(planned)
     }
@@ -335,7 +338,7 @@ fn show<const D: usize>(
     flow: &mut Flow<D>,
 ) -> Result<(), SolverError> {
     let moved = shown.iter().any(|f| f == fields::DISPLACEMENT.name);
-    if moved || probes.iter().any(|(_, p)| p.needs_displacement()) {
+    if moved || probes.iter().any(|(_, p)| p.needs().displacement) {
         flow.world.free.add(fields::DISPLACEMENT, Role::State);
     }
     check_output_fields(scene, flow)
@@ -344,7 +347,7 @@ fn show<const D: usize>(
 /// Names of the columns that outputs show and probes measure.
 fn shown<const D: usize>(scene: &Scene, probes: &[(String, Box<dyn Probe<D>>)]) -> Vec<String> {
     let shown = scene.output.fields.iter().chain(&scene.output.picture);
-    let measured = probes.iter().flat_map(|(_, p)| p.fields());
+    let measured = probes.iter().flat_map(|(_, p)| p.needs().fields);
     let measured = measured.map(|name| name.to_string());
     shown.cloned().chain(measured).collect()
 }

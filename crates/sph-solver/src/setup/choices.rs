@@ -4,25 +4,20 @@ use std::sync::Arc;
 
 use sph_boundary::{Mover, MoverEntry, Wall, WallEntry};
 use sph_core::SceneProblem;
-use sph_diffusion::{Shifting, ShiftingEntry, Smoother, SmootherEntry};
 use sph_implicit::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
 use sph_integrators::{Integrator, IntegratorEntry};
 use sph_kernels::Kernel;
-use sph_multiphase::{
-    Formulation, FormulationEntry, InterfaceEntry, InterfaceModel, PressureEntry, PressureScheme,
-};
+use sph_multiphase::{Formulation, FormulationEntry, PressureEntry, PressureScheme};
 use sph_neighbours::{KernelEntry, TermEntry, Terms};
 use sph_open::{OpenBoundary, OpenBoundaryEntry};
 use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry};
 use sph_rheology::RheologyEntry;
 use sph_scene::{PluginChoice, Scene};
-use sph_seepage::{Seepage, SeepageEntry};
 use sph_state::{EquationOfState, EquationOfStateEntry};
 use sph_stress::{
-    EffectivePressure, EffectivePressureEntry, ElasticForce, ElasticForceEntry, Rheologies,
-    VelocityGradient, VelocityGradientEntry,
+    ElasticForce, ElasticForceEntry, Rheologies, VelocityGradient, VelocityGradientEntry,
 };
-use sph_viscosity::{EddyViscosity, EddyViscosityEntry, ViscousOperator, ViscousOperatorEntry};
+use sph_viscosity::{ViscousOperator, ViscousOperatorEntry};
 
 use crate::defaults;
 use crate::results::summary::PluginInForce;
@@ -64,12 +59,6 @@ pub struct Physics<const D: usize> {
     pub velocity_gradient: Option<Arc<dyn VelocityGradient<D>>>,
     /// Only where a law is elastic.
     pub elastic_force: Option<Box<dyn ElasticForce<D>>>,
-    pub effective_pressure: Option<Box<dyn EffectivePressure<D>>>,
-    pub seepage: Option<Box<dyn Seepage<D>>>,
-    pub eddy_viscosity: Option<Box<dyn EddyViscosity<D>>>,
-    pub smoother: Option<Box<dyn Smoother<D>>>,
-    pub shifting: Option<Box<dyn Shifting<D>>>,
-    pub interfaces: Vec<Box<dyn InterfaceModel<D>>>,
     pub terms: Terms<D>,
     /// In the order of the phase numbers.
     pub rheologies: Rheologies,
@@ -145,11 +134,10 @@ impl Builder<'_> {
         let pressure = self.one::<D, PressureEntry>();
         let viscous_operator = self.one::<D, ViscousOperatorEntry>();
         let implicit_viscosity = self.implicit_viscosity::<D>();
-        let eddy_viscosity = self.one::<D, EddyViscosityEntry>();
+        let eddies = scene.choice("eddy-viscosity").is_some();
         let elastic = rheologies.iter().any(|law| law.elastic().is_some());
         let felt = rheologies.iter().any(|law| law.needs().strain_rate);
-        let strained = eddy_viscosity.is_some() || felt || elastic || shows_gradients(scene);
-        let pressed = rheologies.iter().any(|law| law.needs().pressure);
+        let strained = eddies || felt || elastic || shows_gradients(scene);
         let velocity_gradient = self.where_needed::<D, VelocityGradientEntry>(
             strained,
             "no law of this scene feels a strain rate, and no output shows one: take this table out",
@@ -158,14 +146,6 @@ impl Builder<'_> {
             elastic,
             "no law of this scene is elastic: take this table out",
         );
-        let effective_pressure = self.where_needed::<D, EffectivePressureEntry>(
-            pressed,
-            "no law of this scene feels a pressure: take this table out",
-        );
-        let seepage = self.one::<D, SeepageEntry>();
-        let smoother = self.one::<D, SmootherEntry>();
-        let shifting = self.one::<D, ShiftingEntry>();
-        let interfaces = self.each::<D, InterfaceEntry>(scene.interfaces());
         let terms = self.each::<D, TermEntry>(scene.terms());
         let contributions = self.contributions::<D>();
         Some(Physics {
@@ -175,12 +155,6 @@ impl Builder<'_> {
             implicit_viscosity,
             velocity_gradient: velocity_gradient.map(Arc::from),
             elastic_force,
-            effective_pressure,
-            seepage,
-            eddy_viscosity,
-            smoother,
-            shifting,
-            interfaces,
             terms,
             rheologies,
             contributions,

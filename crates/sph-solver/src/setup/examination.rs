@@ -181,7 +181,7 @@ fn examine_in<const D: usize>(scene: &Scene) -> Result<(Examination, Assembled<D
         derived: derived::<D>(scene, flow, assembled.height),
         step_limits: limits.iter().map(|l| (l.name.to_string(), l.dt)).collect(),
         limit_formulas: (flow.limiters.iter().map(|l| l.formula()))
-            .chain(flow.works.iter().filter_map(|w| w.bound()))
+            .chain(flow.inner_bounds.iter().cloned())
             .collect(),
         plugins: std::mem::take(&mut assembled.plugins),
         fields,
@@ -210,8 +210,8 @@ fn memory<const D: usize>(
     // Where the state is one that the run will refuse, what can be counted without it counts.
     let evaluated = flow.evaluate().is_ok();
     let mut system = 0;
-    for work in flow.works.iter().filter(|_| evaluated) {
-        system += work.bytes(&mut flow.world, dt)?;
+    for hooked in flow.hooks.all.iter().filter(|_| evaluated) {
+        system += hooked.hook.bytes(&mut flow.world, dt)?;
     }
     system += flow.stages.iter().map(|stage| stage.bytes()).sum::<usize>();
     Ok(Memory::of(scene, flow, system as f64)?)

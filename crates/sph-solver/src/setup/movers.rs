@@ -59,3 +59,12 @@ pub(crate) fn settle<const D: usize>(
     }
     Ok(())
 }
+
+/// Whether no wall holds the fluid still: all of them move as prescribed, or there is none against gravity.
+pub(crate) fn carried(scene: &Scene) -> bool {
+    let mut walls = scene.wall.values();
+    match scene.wall.is_empty() {
+        true => scene.numerics.gravity.iter().flatten().any(|g| *g != 0.0),
+        false => walls.all(|wall| wall.motion.is_some()),
+    }
+}

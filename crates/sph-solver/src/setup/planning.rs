@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sph_contribution::{Limiter, Refusal, Setting, Stages, StepWork};
+use sph_contribution::{Offer, Refusal, Setting, Stages};
 use sph_core::{AnyField, Declares, fields, plan};
 use sph_multiphase::Diffused;
 use sph_neighbours::{Interaction, Terms};
@@ -11,6 +11,7 @@ use sph_scene::Scene;
 use crate::failure::error::SolverError;
 use crate::setup::builder::Part;
 use crate::setup::transported::transported_by;
+use crate::step::hooks::Hooks;
 use crate::step::stages::{InteractionSweep, SharedWall, WallGeometry, WallState};
 
 /// Pair terms shared by the sweep and whoever measures with them.
@@ -27,11 +28,11 @@ pub struct Planned<const D: usize> {
     /// What plugin every term comes from, by the term's name.
     pub kinds: Vec<(String, &'static str)>,
     /// Work within a step, in order.
-    pub works: Vec<Box<dyn StepWork<D>>>,
-    /// The kinds of plugins that it comes from, in the same order.
-    pub work_kinds: Vec<&'static str>,
-    /// Bounds on the step.
-    pub limiters: Vec<Box<dyn Limiter<D>>>,
+    pub hooks: Hooks<D>,
+    /// All other pieces.
+    pub offer: Offer<D>,
+    /// What to change where a term of a kind has thrown a particle about, or where a stage has failed.
+    pub remedies: Vec<(&'static str, String)>,
     /// Rates that the sweep sums besides those of the formulation, in the order of their slots.
     pub transported: Vec<AnyField>,
 }
@@ -50,21 +51,8 @@ pub struct Planning<'a, const D: usize> {
     pub shown: &'a [String],
 }
 
-/// Terms with the kinds of plugins that they come from.
-#[derive(Default)]
-struct Offered<const D: usize> {
-    terms: Terms<D>,
-    kinds: Vec<(String, &'static str)>,
-    change_density: bool,
-}
-
-impl<const D: usize> Offered<D> {
-    /// Takes terms of a kind of plugin.
-    fn take(&mut self, kind: &'static str, terms: Terms<D>) {
-        self.kinds.extend(terms.iter().map(|t| (t.name(), kind)));
-        self.terms.extend(terms);
-    }
-}
+/// The offers of all parts, each with its kind of plugin.
+type Offers<const D: usize> = Vec<(&'static str, Offer<D>)>;
 
 impl<const D: usize> Planning<'_, D> {
     /// Asks all parts for what they offer and keeps, in order, the stages that somebody needs.
@@ -72,58 +60,72 @@ impl<const D: usize> Planning<'_, D> {
     /// # Errors
     /// The key of the scene for which a part is not known, or a column that nobody writes.
     pub fn plan(&self, parts: &mut [Part<D>]) -> Result<Planned<D>, SolverError> {
-        let setting = self.setting;
-        for (_, part) in parts.iter() {
-            part.check(setting).map_err(|r| self.refused(r))?;
-        }
-        let mut offered = Offered::default();
-        for (kind, part) in parts.iter() {
-            offered.take(kind, part.terms(setting));
-            offered.change_density |= part.changes_density(setting);
-        }
-        let by_terms: Vec<AnyField> = (offered.terms.iter())
-            .flat_map(|t| t.access().reads())
-            .collect();
-
+        let mut offers = self.offers(parts)?;
         let mut stages: Stages<D> = Vec::new();
         if let Some(walls) = self.walls {
             stages.push(Box::new(WallGeometry(walls.clone())));
             stages.push(Box::new(WallState(walls.clone())));
         }
-        stages.extend(parts.iter().flat_map(|(_, part)| part.stages(setting)));
+        stages.extend(offers.iter_mut().flat_map(|(_, o)| o.stages.drain(..)));
+        let terms = offers.iter().flat_map(|(_, o)| &o.terms);
+        let by_terms: Vec<AnyField> = terms.flat_map(|t| t.access().reads()).collect();
         let read = self.read(&stages, by_terms);
-        stages.extend(parts.iter().flat_map(|(_, p)| p.stages_for(setting, &read)));
-        let mut works = Vec::new();
-        let mut work_kinds = Vec::new();
-        for (kind, part) in parts.iter_mut() {
-            let done = part.works(setting, &read);
-            works.extend(done.map_err(|r| self.refused(r))?);
-            work_kinds.resize(works.len(), *kind);
+        for ((_, part), (_, offer)) in parts.iter_mut().zip(&mut offers) {
+            let offered = part.offer_to_readers(self.setting, &read, offer);
+            offered.map_err(|r| self.refused(r))?;
         }
-        let later: Vec<AnyField> = works.iter().flat_map(|w| w.access().reads()).collect();
-        for (kind, part) in parts.iter() {
-            offered.take(kind, part.riding(setting, &read, &later));
+        stages.extend(offers.iter_mut().flat_map(|(_, o)| o.stages.drain(..)));
+        let later: Vec<AnyField> = offers.iter().flat_map(read_later).collect();
+        let (mut all, mut hooks, mut kinds) = (Offer::default(), Hooks::default(), Vec::new());
+        let (mut riding, mut remedies) = (Vec::new(), Vec::new());
+        for (kind, mut offer) in offers {
+            kinds.extend(offer.terms.iter().map(|t| (t.name(), kind)));
+            offer.riding.retain(|(field, _)| later.contains(field));
+            riding.extend(offer.riding.iter().map(|(_, t)| (t.name(), kind)));
+            remedies.extend(offer.remedy.take().map(|remedy| (kind, remedy)));
+            let kicking = hooks.kicking.len();
+            let own = offer.hooks.drain(..);
+            own.for_each(|hook| hooks.add(kind, hook));
+            if hooks.kicking.len() > kicking {
+                // Forces of kicks act before those that follow.
+                std::mem::swap(&mut all.outside, &mut offer.outside);
+            }
+            all.take(offer);
         }
-        let transported = transported_by(&offered.terms)?;
-        let terms: SharedTerms<D> = offered.terms.into();
-        let changed = offered.change_density.then_some(self.diffused);
+        remedies.append(&mut all.remedies_of_failures);
+        kinds.append(&mut riding);
+        let last = all.riding.drain(..).map(|(_, term)| term);
+        all.terms.extend(last);
+        let transported = transported_by(&all.terms)?;
+        let terms: SharedTerms<D> = std::mem::take(&mut all.terms).into();
+        let changed = all.changes_density.then_some(self.diffused);
         let sweep = InteractionSweep::new(terms.clone(), changed, self.walls.is_some());
         stages.push(Box::new(sweep));
-        let goals = self.goals(parts, &stages, &works);
-        let (stages, pruned) = self.ordered(stages, &goals, &works)?;
+        let goals = self.goals(&all, &stages, later);
+        let (stages, pruned) = self.ordered(stages, &goals, &hooks)?;
         Ok(Planned {
             stages,
             pruned,
             terms,
-            kinds: offered.kinds,
-            works,
-            work_kinds,
-            limiters: parts
-                .iter()
-                .flat_map(|(_, p)| p.limiters(setting))
-                .collect(),
+            kinds,
+            hooks,
+            offer: all,
+            remedies,
             transported,
         })
+    }
+
+    /// Asks all parts in turn for what they offer.
+    fn offers(&self, parts: &mut [Part<D>]) -> Result<Offers<D>, SolverError> {
+        let one = |(kind, part): &mut Part<D>| {
+            let chosen = self.scene.choice(kind);
+            let path = chosen.map_or(format!("[{kind}]"), |c| format!("`{}`", c.path));
+            let mut offer = Offer::of(path);
+            let offered = part.offer(self.setting, &mut offer);
+            offered.map_err(|r| self.refused(r))?;
+            Ok((*kind, offer))
+        };
+        parts.iter_mut().map(one).collect()
     }
 
     /// The path of a refused key in the scene.
@@ -148,18 +150,11 @@ impl<const D: usize> Planning<'_, D> {
     }
 
     /// Columns that have to be computed.
-    fn goals(
-        &self,
-        parts: &[Part<D>],
-        stages: &Stages<D>,
-        works: &[Box<dyn StepWork<D>>],
-    ) -> Vec<AnyField> {
+    fn goals(&self, offer: &Offer<D>, stages: &Stages<D>, later: Vec<AnyField>) -> Vec<AnyField> {
         let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
-        goals.extend(works.iter().flat_map(|w| w.access().reads()));
-        for (_, part) in parts {
-            goals.extend(part.goals());
-            goals.extend(part.transported().iter().map(|e| e.rate.any()));
-        }
+        goals.extend(later);
+        goals.extend(&offer.goals);
+        goals.extend(offer.transported.iter().map(|e| e.rate.any()));
         for stage in stages {
             let writes = stage.access().writes;
             let shown = writes.into_iter();
@@ -173,11 +168,11 @@ impl<const D: usize> Planning<'_, D> {
         &self,
         stages: Stages<D>,
         goals: &[AnyField],
-        works: &[Box<dyn StepWork<D>>],
+        hooks: &Hooks<D>,
     ) -> Result<(Stages<D>, Vec<String>), SolverError> {
         // All that is in the store before the first evaluation is state.
         let state = self.setting.world.free.fields();
-        let remembered = works.iter().flat_map(|w| w.remembered());
+        let remembered = hooks.all.iter().flat_map(|h| h.access.remembers.clone());
         let sources: Vec<AnyField> = state.chain(remembered).collect();
         let declared: Vec<&dyn Declares> =
             stages.iter().map(|s| s.as_ref() as &dyn Declares).collect();
@@ -192,4 +187,11 @@ impl<const D: usize> Planning<'_, D> {
         let order = planned.order.iter();
         Ok((order.filter_map(|&k| slots[k].take()).collect(), pruned))
     }
+}
+
+/// Columns that hooks and gates read.
+fn read_later<const D: usize>((_, offer): &(&'static str, Offer<D>)) -> Vec<AnyField> {
+    let hooks = offer.hooks.iter().map(|h| h.access());
+    let gates = offer.gates.iter().map(|g| g.access());
+    hooks.chain(gates).flat_map(|a| a.reads()).collect()
 }

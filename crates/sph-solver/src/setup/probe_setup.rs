@@ -1,11 +1,12 @@
 //! What probes learn from the scene before they measure.
 
 use sph_core::{SceneProblem, parse_unit, suggestion};
-use sph_probes::Probe;
+use sph_probes::{Probe, ProbeScene};
 use sph_scene::Scene;
 
 use crate::SolverError;
 use crate::results::reference_table::LONGEST;
+use crate::setup::parts::strangers;
 
 /// Tells the probes the names of the phases and what is in their files, and refuses references to columns that no probe has.
 ///
@@ -16,6 +17,11 @@ pub fn prepare<const D: usize>(
     probes: &mut [(String, Box<dyn Probe<D>>)],
 ) -> Result<(), SolverError> {
     let phases: Vec<String> = scene.phase.keys().cloned().collect();
+    let strangers = strangers(scene);
+    let known = ProbeScene {
+        phases: &phases,
+        strangers: &strangers,
+    };
     let mut problems = Vec::new();
     let mut columns = Vec::new();
     for (name, probe) in probes {
@@ -23,7 +29,7 @@ pub fn prepare<const D: usize>(
             true => "gauge",
             false => "probe",
         };
-        if let Err(why) = probe.name_phases(&phases) {
+        if let Err(why) = probe.settle(&known) {
             problems.push(SceneProblem::new(format!("{kind}.{name}.phase"), why));
         }
         if let Err(why) = learn(scene, name, &mut **probe) {

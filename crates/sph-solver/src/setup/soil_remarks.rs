@@ -19,11 +19,11 @@ const DRY: f64 = 2.0;
 /// The soils among the phases of a scene.
 pub struct Ground {
     /// Whether the law of a phase feels pressure.
-    soil: Vec<bool>,
+    pub soil: Vec<bool>,
     /// Diameter of its grains, m, if it knows one.
     grains: Vec<Option<f64>>,
     /// Whether the pores of soils are full of water.
-    saturated: bool,
+    pub saturated: bool,
 }
 
 impl Ground {
@@ -33,10 +33,7 @@ impl Ground {
         Ground {
             soil: laws().map(|law| law.needs().pressure).collect(),
             grains: laws().map(|law| law.grain_diameter()).collect(),
-            saturated: physics
-                .effective_pressure
-                .as_ref()
-                .is_some_and(|p| p.saturated()),
+            saturated: false,
         }
     }
 

@@ -8,6 +8,7 @@ use sph_scene::Scene;
 
 use crate::defaults;
 use crate::failure::error::SolverError;
+use crate::setup::parts::strangers;
 use crate::step::books::Books;
 use crate::step::flow::Flow;
 
@@ -22,10 +23,10 @@ pub(crate) fn open<const D: usize>(
     formulation: &dyn Formulation<D>,
     flow: &mut Flow<D>,
 ) -> Result<(), SolverError> {
-    let Some((name, _)) = probes.iter().find(|(_, probe)| probe.needs_books()) else {
+    let Some((name, _)) = probes.iter().find(|(_, probe)| probe.needs().books) else {
         return Ok(());
     };
-    let comes = flow.works.iter().any(|work| work.gives_birth());
+    let comes = !flow.gates.is_empty();
     let goes = !flow.outlets.labels().is_empty();
     let why = match (integrator.kicks_once(), comes || goes) {
         (false, _) => {
@@ -36,8 +37,8 @@ pub(crate) fn open<const D: usize>(
             "particles come in or leave, and their energy is not booked: take the probe out".into()
         }
         _ => {
-            let (laws, kinds) = (flow.laws.clone(), flow.work_kinds.clone());
-            flow.books = Some(Books::open(formulation, laws, kinds, &mut flow.world)?);
+            let books = Books::open(formulation, flow, &strangers(scene))?;
+            flow.observers.push(Box::new(books));
             return Ok(());
         }
     };

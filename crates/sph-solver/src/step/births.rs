@@ -23,10 +23,10 @@ impl<const D: usize> Flow<D> {
 
     fn bear(&mut self, nursery: &Nursery<D>, dt: f64) -> Result<(), StepError> {
         let mut all: Vec<Newborn<D>> = Vec::new();
-        for (work, access) in self.works.iter_mut().zip(&self.columns.works) {
+        for (gate, access) in self.gates.iter_mut().zip(&self.columns.gates) {
             self.world.free.watch([access]);
-            let born = work.births(&mut self.world, dt);
-            let ended = self.world.free.unwatch(|| work.name());
+            let born = gate.births(&mut self.world, dt);
+            let ended = self.world.free.unwatch(|| gate.name());
             ended?;
             all.extend(born?);
         }

@@ -1,14 +1,26 @@
 //! The books of energy: how much everybody has given to every particle. Only where a probe asks for them.
 
 use rayon::prelude::*;
-use sph_core::{Access, Field, FieldError, Role, Scalar, StepError, Vect, fields};
+use sph_contribution::StepPhase;
+use sph_core::{Field, FieldError, Role, Scalar, StepError, Vect, fields};
 use sph_multiphase::{Diffused, Formulation};
 use sph_neighbours::{ClassRate, Interaction, World, class_rates, interactions};
-use sph_probes::{BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyWork};
+use sph_probes::{BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyWork, work_of_stranger};
 use sph_state::Laws;
+
+use crate::step::flow::Flow;
+use crate::step::observer::{Boundary, Observer, Seen};
 
 /// Particles that one thread takes at least.
 const BATCH: usize = 1024;
+
+/// An account: the column of somebody's work.
+type Account = Field<Scalar>;
+
+/// The account of a work of this project.
+fn own(work: EnergyWork) -> Account {
+    ENERGY_WORKS[work as usize]
+}
 
 /// Classes of terms with rates of their own; the pressure has what they leave of the acceleration.
 const CLASSES: [EnergyWork; 5] = [
@@ -19,24 +31,28 @@ const CLASSES: [EnergyWork; 5] = [
     EnergyWork::Others,
 ];
 
+/// Classes with those of strangers; the terms of further strangers are booked as those of others.
+const MOST: usize = CLASSES.len() + 3;
+
 /// Whose work a term of a kind of plugin does; nobody's, the pressure.
-fn of_terms(kind: &str) -> Option<EnergyWork> {
-    match kind {
-        "formulation" => None,
-        "viscous-operator" | "eddy-viscosity" | "walls" => Some(EnergyWork::Viscosity),
-        "smoother" => Some(EnergyWork::Smoother),
-        "shifting" => Some(EnergyWork::Shifting),
-        "damping" => Some(EnergyWork::Damper),
-        _ => Some(EnergyWork::Others),
-    }
+fn of_terms(kind: &str, strangers: &[&str]) -> Option<Account> {
+    Some(match kind {
+        "formulation" => return None,
+        "viscous-operator" | "eddy-viscosity" | "walls" => own(EnergyWork::Viscosity),
+        "smoother" => own(EnergyWork::Smoother),
+        "shifting" => own(EnergyWork::Shifting),
+        "damping" => own(EnergyWork::Damper),
+        _ if strangers.contains(&kind) => work_of_stranger(kind),
+        _ => own(EnergyWork::Others),
+    })
 }
 
-/// Whose it is what a kind of plugin does within a step.
-fn of_works(kind: &str) -> EnergyWork {
+/// Whose work a hook of a kind of plugin does.
+fn of_hooks(kind: &str, strangers: &[&str]) -> Account {
     match kind {
-        "damping" => EnergyWork::Damping,
-        "surface" => EnergyWork::Surface,
-        _ => of_terms(kind).unwrap_or(EnergyWork::Others),
+        "damping" => own(EnergyWork::Damping),
+        "surface" => own(EnergyWork::Surface),
+        _ => of_terms(kind, strangers).unwrap_or(own(EnergyWork::Others)),
     }
 }
 
@@ -48,17 +64,23 @@ pub struct Books<const D: usize> {
     /// −D lnρ/Dt by motion.
     dilatation: [Box<dyn Interaction<D>>; 1],
     laws: Laws,
-    /// Kinds of the plugins that work within a step, in their order.
-    works: Vec<&'static str>,
+    /// Whose work every term does, by its name; nobody's, the pressure.
+    terms: Vec<(String, Option<Account>)>,
+    /// The accounts of the classes of terms.
+    classes: Vec<Account>,
+    /// Whose work every hook does, in their order.
+    hooks: Vec<Account>,
+    /// The number of the hook that kicks, if there is one.
+    kicker: Option<usize>,
     /// Velocities before the kick, m/s.
     before: Vec<Vect<D>>,
     /// Velocities as booked, m/s.
     velocity: Vec<Vect<D>>,
     /// What work has added to velocities in this kick, m/s, and to densities, kg/m³.
-    turns: Vec<(EnergyWork, Vec<Vect<D>>)>,
-    changes: Vec<(EnergyWork, Vec<f64>)>,
+    turns: Vec<(Account, Vec<Vect<D>>)>,
+    changes: Vec<(Account, Vec<f64>)>,
     /// Rates of all classes before the kick.
-    rates: Vec<[ClassRate<D>; CLASSES.len()]>,
+    rates: Vec<[ClassRate<D>; MOST]>,
     /// What the formulation integrates, as booked.
     scalar: Vec<f64>,
     /// Densities as booked, kg/m³.
@@ -66,8 +88,8 @@ pub struct Books<const D: usize> {
     unused: Vec<Vect<D>>,
 }
 
-/// Adds to a column of the books.
-fn add<const D: usize>(
+/// Adds work to a column of the books.
+fn book<const D: usize>(
     world: &mut World<D>,
     field: Field<Scalar>,
     amounts: &[f64],
@@ -78,32 +100,42 @@ fn add<const D: usize>(
     Ok(())
 }
 
-/// Adds work to its column.
-fn book<const D: usize>(
-    world: &mut World<D>,
-    work: EnergyWork,
-    amounts: &[f64],
-) -> Result<(), FieldError> {
-    add(world, ENERGY_WORKS[work as usize], amounts)
-}
-
 /// A number for each of so many particles.
 fn each(particles: usize, one: impl Fn(usize) -> f64 + Sync + Send) -> Vec<f64> {
     let all = (0..particles).into_par_iter().with_min_len(BATCH);
     all.map(one).collect()
 }
 
+impl<const D: usize> Observer<D> for Books<D> {
+    fn observe(&mut self, at: Boundary, seen: &mut Seen<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *seen.world, seen.dt);
+        match at {
+            Boundary::Evaluated => Ok(self.evaluated(world)?),
+            Boundary::Kicks => self.before_kick(world, seen.terms),
+            Boundary::Kicked => Ok(self.kicked(world, dt)?),
+            Boundary::Hooked(StepPhase::AfterKick, k) => Ok(self.worked(world, k)?),
+            Boundary::KickEnds => self.settled(world, dt),
+            Boundary::Hooked(StepPhase::BeforeWalls | StepPhase::BeforeDrift, k) => {
+                Ok(self.turned(world, self.hooks[k])?)
+            }
+            Boundary::Hooked(..) => Ok(()),
+            Boundary::Constrained => Ok(self.turned(world, own(EnergyWork::Walls))?),
+            Boundary::Drifts => self.drifts(world, dt),
+        }
+    }
+}
+
 impl<const D: usize> Books<D> {
-    /// Empty books; `works` are the kinds of the plugins that work within a step, in their order. Adds their columns to the
-    /// particles.
+    /// Empty books of a flow in which kinds of strangers are. Adds their columns to the particles.
     pub(crate) fn open(
         formulation: &dyn Formulation<D>,
-        laws: Laws,
-        works: Vec<&'static str>,
-        world: &mut World<D>,
+        flow: &mut Flow<D>,
+        strangers: &[&str],
     ) -> Result<Self, FieldError> {
+        let world = &mut flow.world;
         let all = [ENERGY_AT_START, BOOKED_COMPRESSION];
-        for field in ENERGY_WORKS.into_iter().chain(all) {
+        let strange = || strangers.iter().map(|kind| work_of_stranger(kind));
+        for field in ENERGY_WORKS.into_iter().chain(strange()).chain(all) {
             world.free.add(field, Role::State);
         }
         // Not a number: nothing has been booked.
@@ -112,8 +144,18 @@ impl<const D: usize> Books<D> {
             diffused: formulation.diffused(),
             summed: formulation.compressed().is_none(),
             dilatation: [formulation.dilatation()],
-            laws,
-            works,
+            laws: flow.laws.clone(),
+            terms: (flow.kinds.iter())
+                .map(|(name, kind)| (name.clone(), of_terms(kind, strangers)))
+                .collect(),
+            classes: (CLASSES.map(own).into_iter())
+                .chain(strange())
+                .take(MOST)
+                .collect(),
+            hooks: (flow.hooks.all.iter())
+                .map(|hook| of_hooks(hook.kind, strangers))
+                .collect(),
+            kicker: flow.hooks.kicking.first().copied(),
             before: Vec::new(),
             velocity: Vec::new(),
             turns: Vec::new(),
@@ -125,17 +167,8 @@ impl<const D: usize> Books<D> {
         })
     }
 
-    /// Columns that the books read while others work.
-    pub(crate) fn access(&self) -> Access {
-        Access::none()
-            .here(fields::VELOCITY)
-            .here(fields::VOLUME)
-            .here(self.diffused.evolved.value)
-            .where_there(fields::RENORMALISATION)
-    }
-
     /// After an evaluation: what the motion has made of the compression since that was booked.
-    pub(crate) fn evaluated(&self, world: &mut World<D>) -> Result<(), FieldError> {
+    fn evaluated(&self, world: &mut World<D>) -> Result<(), FieldError> {
         let density = world.free.get(fields::DENSITY)?;
         let now = self.compression(world, density)?;
         let booked = world.free.get(BOOKED_COMPRESSION)?;
@@ -150,23 +183,24 @@ impl<const D: usize> Books<D> {
             *world.free.get_mut(ENERGY_AT_START)? = start;
         } else {
             let more = each(now.len(), |i| now[i] - booked[i]);
-            book(world, EnergyWork::Remainder, &more)?;
+            book(world, own(EnergyWork::Remainder), &more)?;
         }
         *world.free.get_mut(BOOKED_COMPRESSION)? = now;
         Ok(())
     }
 
     /// Before a kick: what every class of terms is about to do.
-    pub(crate) fn before_kick(
+    fn before_kick(
         &mut self,
         world: &World<D>,
         terms: &[Box<dyn Interaction<D>>],
-        kinds: &[(String, &'static str)],
     ) -> Result<(), StepError> {
         let class = |name: &str| {
-            let kind = kinds.iter().find(|(n, _)| n == name);
-            let work = of_terms(kind.map_or("term", |(_, kind)| kind))?;
-            CLASSES.iter().position(|c| *c == work)
+            let known = self.terms.iter().find(|(n, _)| n == name);
+            let others = own(EnergyWork::Others);
+            let work = known.map_or(Some(others), |(_, work)| *work)?;
+            let class = |work| self.classes.iter().position(|c| *c == work);
+            class(work).or_else(|| class(others))
         };
         let terms: Vec<_> = terms.iter().map(|t| &**t).collect();
         self.rates = class_rates(world, &terms, class)?;
@@ -179,20 +213,14 @@ impl<const D: usize> Books<D> {
         Ok(())
     }
 
-    /// After the kick proper over `dt` seconds, which the work number `kicker` did, if there is one.
-    pub(crate) fn kicked(
-        &mut self,
-        world: &World<D>,
-        dt: f64,
-        kicker: Option<usize>,
-    ) -> Result<(), FieldError> {
+    /// After the kick proper over `dt` seconds.
+    fn kicked(&mut self, world: &World<D>, dt: f64) -> Result<(), FieldError> {
         let now = world.free.get(fields::VELOCITY)?;
-        if let Some(kicker) = kicker {
+        if let Some(kicker) = self.kicker {
             let acceleration = world.free.get(fields::ACCELERATION)?.iter();
             let before = self.before.iter().zip(acceleration);
             let more = now.iter().zip(before).map(|(u, (v, a))| u - v - a * dt);
-            let of = of_works(self.works[kicker]);
-            self.turns.push((of, more.collect()));
+            self.turns.push((self.hooks[kicker], more.collect()));
         }
         now.clone_into(&mut self.velocity);
         let scalar = world.free.get(self.diffused.evolved.value)?;
@@ -200,9 +228,9 @@ impl<const D: usize> Books<D> {
         Ok(())
     }
 
-    /// After the work number `k` on velocities and scalars that have been advanced.
-    pub(crate) fn worked(&mut self, world: &World<D>, k: usize) -> Result<(), FieldError> {
-        let of = of_works(self.works[k]);
+    /// After the hook number `k` has worked on velocities and scalars that have been advanced.
+    fn worked(&mut self, world: &World<D>, k: usize) -> Result<(), FieldError> {
+        let of = self.hooks[k];
         let now = world.free.get(fields::VELOCITY)?;
         if now != self.velocity {
             let change = now.iter().zip(&self.velocity).map(|(u, v)| u - v);
@@ -226,20 +254,20 @@ impl<const D: usize> Books<D> {
 
     /// After a kick over `dt` seconds and all that followed: the work of everybody, with the mean of the velocities before
     /// and after.
-    pub(crate) fn settled(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    fn settled(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mean = self.before.iter().zip(&self.velocity);
         let mean: Vec<Vect<D>> = mean.map(|(a, b)| (a + b) * 0.5).collect();
         let n = mean.len();
         let mass = world.free.get(fields::MASS)?.to_vec();
         let work = |i: usize, gain: Vect<D>| mass[i] * gain.dot(&mean[i]);
         let rates = &self.rates;
-        for (class, of) in CLASSES.into_iter().enumerate() {
-            let steady = match of {
-                EnergyWork::Others => world.driving + (world.gravity - world.steady_gravity),
-                _ => Vect::zeros(),
+        for (class, of) in self.classes.iter().enumerate() {
+            let steady = match *of == own(EnergyWork::Others) {
+                true => world.driving + (world.gravity - world.steady_gravity),
+                false => Vect::zeros(),
             };
             let done = each(n, |i| work(i, (rates[i][class].acceleration + steady) * dt));
-            book(world, of, &done)?;
+            book(world, *of, &done)?;
         }
         for (of, turn) in std::mem::take(&mut self.turns) {
             book(world, of, &each(n, |i| work(i, turn[i])))?;
@@ -256,22 +284,22 @@ impl<const D: usize> Books<D> {
             let push = acceleration[i] - world.gravity - world.driving - others.sum::<Vect<D>>();
             work(i, push * dt) + compressed[i]
         });
-        book(world, EnergyWork::Walls, &pushed)?;
-        add(world, BOOKED_COMPRESSION, &compressed)?;
+        book(world, own(EnergyWork::Walls), &pushed)?;
+        book(world, BOOKED_COMPRESSION, &compressed)?;
         // What the weight has given; `drifts` takes what the drift costs.
         let fallen = each(n, |i| work(i, world.steady_gravity * dt));
-        book(world, EnergyWork::Remainder, &fallen)?;
+        book(world, own(EnergyWork::Remainder), &fallen)?;
         // Densities in the middle of the motion: who changes them in this step does it all along.
         let all = self.density.par_iter_mut().zip(&dilatation);
         all.for_each(|(rho, rate)| *rho *= 1.0 - 0.5 * rate * dt);
         self.spread(world, dt)
     }
 
-    /// Changes of the density over `dt` seconds: diffusion, class by class, and works.
+    /// Changes of the density over `dt` seconds: diffusion, class by class, and hooks.
     fn spread(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let changes = std::mem::take(&mut self.changes);
         if world.free.has(self.diffused.evolved.rate.name) {
-            for (class, of) in CLASSES.into_iter().enumerate() {
+            for (class, of) in self.classes.clone().into_iter().enumerate() {
                 if self.rates.iter().any(|rates| rates[class].scalar != 0.0) {
                     let change = each(self.rates.len(), |i| self.rates[i][class].scalar * dt);
                     self.condensed(world, of, &change)?;
@@ -288,7 +316,7 @@ impl<const D: usize> Books<D> {
     fn condensed(
         &mut self,
         world: &mut World<D>,
-        of: EnergyWork,
+        of: Account,
         change: &[f64],
     ) -> Result<(), FieldError> {
         let before = self.compression(world, &self.density)?;
@@ -296,16 +324,12 @@ impl<const D: usize> Books<D> {
         all.for_each(|(rho, change)| *rho += change);
         let after = self.compression(world, &self.density)?;
         let work = each(before.len(), |i| after[i] - before[i]);
-        add(world, BOOKED_COMPRESSION, &work)?;
+        book(world, BOOKED_COMPRESSION, &work)?;
         book(world, of, &work)
     }
 
     /// Books velocities that somebody has changed.
-    pub(crate) fn turned(
-        &mut self,
-        world: &mut World<D>,
-        of: EnergyWork,
-    ) -> Result<(), FieldError> {
+    fn turned(&mut self, world: &mut World<D>, of: Account) -> Result<(), FieldError> {
         let mass = world.free.get(fields::MASS)?;
         let now = world.free.get(fields::VELOCITY)?;
         let gain = each(now.len(), |i| {
@@ -317,7 +341,7 @@ impl<const D: usize> Books<D> {
     }
 
     /// Before a drift over `dt` seconds with the present velocities: weights and shifts.
-    pub(crate) fn drifts(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    fn drifts(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mass = world.free.get(fields::MASS)?;
         let height = |i: usize, way: &Vect<D>| -mass[i] * world.steady_gravity.dot(way) * dt;
         let n = mass.len();
@@ -325,11 +349,11 @@ impl<const D: usize> Books<D> {
         let lifted = each(n, |i| height(i, &velocity[i]));
         let shift = world.free.get(fields::SHIFT_VELOCITY).ok();
         let shifted = shift.map(|s| each(n, |i| height(i, &s[i])));
-        book(world, EnergyWork::Remainder, &lifted)?;
+        book(world, own(EnergyWork::Remainder), &lifted)?;
         let Some(shifted) = shifted else {
             return Ok(());
         };
-        book(world, EnergyWork::Shifting, &shifted)?;
+        book(world, own(EnergyWork::Shifting), &shifted)?;
         if !self.summed {
             return Ok(());
         }
@@ -339,7 +363,7 @@ impl<const D: usize> Books<D> {
         let without = self.dilatation_with(world, velocity)?;
         let with = self.dilatation_with(world, both)?;
         let change = each(n, |i| -self.density[i] * (with[i] - without[i]) * dt);
-        Ok(self.condensed(world, EnergyWork::Shifting, &change)?)
+        Ok(self.condensed(world, own(EnergyWork::Shifting), &change)?)
     }
 
     /// −D lnρ/Dt at the present positions if particles had these velocities, 1/s.

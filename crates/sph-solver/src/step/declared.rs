@@ -1,4 +1,4 @@
-//! What a flow's stages, works and forces declare.
+//! What a flow's stages, gates and forces declare.
 
 use sph_core::{Access, AnyField};
 
@@ -6,7 +6,7 @@ use sph_core::{Access, AnyField};
 #[derive(Default)]
 pub(crate) struct Columns {
     pub stages: Vec<Access>,
-    pub works: Vec<Access>,
+    pub gates: Vec<Access>,
     /// Terms of the sweep, and those outside of it.
     pub forces: Vec<Access>,
 }

@@ -3,12 +3,13 @@
 use std::time::Instant;
 
 use rayon::prelude::*;
+use sph_contribution::StepPhase;
 use sph_core::{AnyField, StepError, fields};
-use sph_probes::EnergyWork;
 
 use crate::step::clocks::MOTION;
 use crate::step::declared::writes_any;
 use crate::step::flow::Flow;
+use crate::step::observer::Boundary;
 use crate::step::stages::lock;
 
 /// Particles that one thread takes at least.
@@ -17,7 +18,7 @@ const BATCH: usize = 2048;
 /// The stage in which walls move.
 pub(crate) const WALL_MOTION: &str = "wall motion";
 
-/// What work before a drift may ask for at the present positions.
+/// What hooks before a drift may ask for at the present positions.
 const STATE: [AnyField; 4] = [
     fields::RENORMALISATION.any(),
     fields::DENSITY.any(),
@@ -26,43 +27,31 @@ const STATE: [AnyField; 4] = [
 ];
 
 impl<const D: usize> Flow<D> {
-    /// Positions: r += Δt u, and all that works besides.
+    /// Positions: r += Δt u, and all hooks.
     pub(crate) fn drift_over(&mut self, dt: f64) -> Result<(), StepError> {
-        self.each_work(|work, world| work.before_walls(world))?;
-        self.book_turns(EnergyWork::Others)?;
+        self.run_hooks(StepPhase::BeforeWalls, dt)?;
         let start = Instant::now();
         if let Some(walls) = &self.walls {
             lock(walls).constrain(&mut self.world, dt)?;
         }
         self.timings[MOTION].spent += start.elapsed();
-        self.book_turns(EnergyWork::Walls)?;
-        if self.moved && self.works.iter().any(|w| w.needs_state_in_drifts()) {
+        self.observe(Boundary::Constrained, dt)?;
+        if self.moved && self.fresh_state {
             self.run_stages(|stage| writes_any(stage, &STATE))?;
         }
-        self.each_work(|work, world| work.before_drift(world, dt))?;
-        self.book_turns(EnergyWork::Others)?;
-        if let Some(books) = &mut self.books {
-            books.drifts(&mut self.world, dt)?;
-        }
-        match self.works.iter().any(|w| w.halves_drifts()) {
-            false => self.advance(dt)?,
-            true => {
-                // What works in the middle is of second order.
+        self.run_hooks(StepPhase::BeforeDrift, dt)?;
+        self.observe(Boundary::Drifts, dt)?;
+        match self.hooks.during(StepPhase::MidDrift).is_empty() {
+            true => self.advance(dt)?,
+            false => {
+                // Hooks in the middle are of second order.
                 self.advance(0.5 * dt)?;
                 self.look_around()?;
-                self.each_work(|work, world| work.amid_drift(world, dt))?;
+                self.run_hooks(StepPhase::MidDrift, dt)?;
                 self.advance(0.5 * dt)?;
             }
         }
-        self.each_work(|work, world| work.after_drift(world, dt))
-    }
-
-    /// Books velocities that somebody has turned.
-    fn book_turns(&mut self, of: EnergyWork) -> Result<(), StepError> {
-        match &mut self.books {
-            Some(books) => Ok(books.turned(&mut self.world, of)?),
-            None => Ok(()),
-        }
+        self.run_hooks(StepPhase::AfterDrift, dt)
     }
 
     /// Lists, wall contacts and γ of the present positions.

@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
-use sph_contribution::{Limiter, OutsideForce, StepWork};
+use sph_contribution::{
+    Forces, Gate, Limiter, OutsideForce, Report, StepHook, StepMoment, StepPhase, StoredEnergy,
+};
 use sph_core::{
     Access, AnyField, Evolved, Field, Role, Scalar, Stage, StepError, StepLimit, fields,
 };
@@ -14,14 +15,15 @@ use sph_decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
 use sph_state::Laws;
 
-use crate::step::books::Books;
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::declared::Columns;
 use crate::step::guard;
 use crate::step::guests::{run_and_tell, tell_guests};
+use crate::step::hooks::{Hooked, Hooks};
 use crate::step::kept_image::KeptImage;
 use crate::step::kept_rates::Kept;
 use crate::step::nursery::Nursery;
+use crate::step::observer::{Boundary, Observer, Seen};
 use crate::step::outlets::Outlets;
 use crate::step::snapshot::Snapshot;
 use crate::step::stages::{SharedWall, lock};
@@ -42,10 +44,18 @@ pub struct Flow<const D: usize> {
     pub(crate) evolved: Vec<Evolved>,
     /// All scalars that are advanced in time.
     pub(crate) integrated: Vec<Field<Scalar>>,
-    /// What physics does within a step, in this order.
-    pub(crate) works: Vec<Box<dyn StepWork<D>>>,
-    /// The kinds of plugins that it comes from, in the same order.
-    pub(crate) work_kinds: Vec<&'static str>,
+    /// Bounds on steps within a step, for listings.
+    pub(crate) inner_bounds: Vec<String>,
+    /// Work within a step.
+    pub(crate) hooks: Hooks<D>,
+    /// Whether hooks before a drift read density, volume, pressure and γ of the present positions.
+    pub(crate) fresh_state: bool,
+    /// Forces on walls by hooks in the last kick, in the order of the walls; empty if there are none.
+    pub(crate) on_walls: Vec<WallForce<D>>,
+    /// Sources and sinks of particles.
+    pub(crate) gates: Vec<Box<dyn Gate<D>>>,
+    /// Energy that particles store.
+    pub(crate) stored: Vec<Box<dyn StoredEnergy<D>>>,
     /// Forces outside of the sweep.
     pub(crate) outside: Vec<OutsideForce<D>>,
     /// What all of these declare.
@@ -76,8 +86,8 @@ pub struct Flow<const D: usize> {
     pub(crate) outlets: Outlets,
     /// What newborn particles begin with, where some may come in.
     pub(crate) nursery: Option<Nursery<D>>,
-    /// Who gives energy and who takes it, where a probe asks.
-    pub(crate) books: Option<Books<D>>,
+    /// Observers of the boundaries within a step, where a probe asks for one.
+    pub(crate) observers: Vec<Box<dyn Observer<D>>>,
     /// What this process has of a flow that is divided between several.
     pub(crate) parts: Option<Parts<D>>,
 }
@@ -108,7 +118,7 @@ impl<const D: usize> Flow<D> {
         let outside = self.outside.iter().map(|force| force.access());
         self.columns = Columns {
             stages: self.stages.iter().map(|stage| stage.access()).collect(),
-            works: self.works.iter().map(|work| work.access()).collect(),
+            gates: self.gates.iter().map(|gate| gate.access()).collect(),
             forces: sweep.chain(outside).collect(),
         };
     }
@@ -131,32 +141,71 @@ impl<const D: usize> Flow<D> {
 }
 
 impl<const D: usize> Flow<D> {
-    /// Lets all work, in their order, and holds them to what they declared.
-    pub(crate) fn each_work(
-        &mut self,
-        work: impl FnMut(&mut dyn StepWork<D>, &mut World<D>) -> Result<(), StepError>,
-    ) -> Result<(), StepError> {
-        self.each_work_with(&[], work)
-    }
-
-    /// The same, where all may read more columns than their own.
-    pub(crate) fn each_work_with(
-        &mut self,
-        more: &[Access],
-        mut work: impl FnMut(&mut dyn StepWork<D>, &mut World<D>) -> Result<(), StepError>,
-    ) -> Result<(), StepError> {
-        let first = MOTION + 1 + self.stages.len();
-        for (k, one) in self.works.iter_mut().enumerate() {
-            let start = Instant::now();
-            let access = &self.columns.works[k];
-            self.world.free.watch(more.iter().chain([access]));
-            let done = work(&mut **one, &mut self.world);
-            let ended = self.world.free.unwatch(|| one.name());
-            ended.and(done)?;
-            tell_guests(&mut self.parts, &mut self.world, access)?;
-            self.timings[first + k].spent += start.elapsed();
+    /// Runs the hooks of a phase, in their order.
+    pub(crate) fn run_hooks(&mut self, phase: StepPhase, dt: f64) -> Result<(), StepError> {
+        for n in 0..self.hooks.during(phase).len() {
+            let k = self.hooks.during(phase)[n];
+            // Before a kick a hook may bind all forces.
+            let binds = phase == StepPhase::BeforeKick;
+            self.run_hook(k, binds, dt, |hook, moment| hook.run(phase, moment))?;
+            self.observe(Boundary::Hooked(phase, k), dt)?;
         }
         Ok(())
+    }
+
+    /// Lets the hooks that kick advance the velocities.
+    pub(crate) fn run_kicks(&mut self, dt: f64) -> Result<(), StepError> {
+        for n in 0..self.hooks.kicking.len() {
+            let k = self.hooks.kicking[n];
+            self.run_hook(k, false, dt, |hook, moment| match hook.as_kick() {
+                Some(kick) => kick.kick(moment.world, dt),
+                None => Ok(()),
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Lets a hook work, and holds it to the columns that it declared, and to those of all forces where it `binds` them.
+    fn run_hook(
+        &mut self,
+        number: usize,
+        binds: bool,
+        dt: f64,
+        work: impl FnOnce(&mut dyn StepHook<D>, &mut StepMoment<'_, D>) -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
+        let start = Instant::now();
+        let Hooked { hook, access, .. } = &mut self.hooks.all[number];
+        let more = match binds {
+            true => &self.columns.forces[..],
+            false => &[],
+        };
+        self.world.free.watch(more.iter().chain([&*access]));
+        let mut moment = StepMoment {
+            world: &mut self.world,
+            dt,
+            forces: Forces {
+                sweep: &self.terms,
+                outside: &self.outside,
+            },
+            on_walls: &mut self.on_walls,
+        };
+        let done = work(&mut **hook, &mut moment);
+        let ended = self.world.free.unwatch(|| hook.name());
+        ended.and(done)?;
+        tell_guests(&mut self.parts, &mut self.world, access)?;
+        self.timings[MOTION + 1 + self.stages.len() + number].spent += start.elapsed();
+        Ok(())
+    }
+
+    /// Shows the flow to the observers at a boundary within a step.
+    pub(crate) fn observe(&mut self, at: Boundary, dt: f64) -> Result<(), StepError> {
+        let mut seen = Seen {
+            world: &mut self.world,
+            terms: &self.terms,
+            dt,
+        };
+        let mut observers = self.observers.iter_mut();
+        observers.try_for_each(|observer| observer.observe(at, &mut seen))
     }
 
     pub(crate) fn run_stages(&mut self, wanted: impl Fn(&Access) -> bool) -> Result<(), StepError> {
@@ -219,24 +268,28 @@ impl<const D: usize> Flow<D> {
         }
         let wanted: Vec<bool> = self.world.walls.names.iter().map(|n| wanted(n)).collect();
         let mut forces = wall_forces(&self.world, &self.forces(), &wanted)?;
-        for work in &self.works {
-            let walls = forces.iter_mut().zip(work.wall_forces());
-            walls.for_each(|(whole, own)| whole.add(own));
-        }
+        let walls = forces.iter_mut().zip(&self.on_walls);
+        walls.for_each(|(whole, own)| whole.add(own));
         self.world.walls.forces = forces;
         Ok(())
     }
 
-    /// What the work within steps has counted, by its name.
-    pub(crate) fn counts(&self) -> BTreeMap<String, Json> {
-        let all = self.works.iter();
-        all.filter_map(|w| Some((w.name(), w.counts()?))).collect()
+    /// The reports of all hooks, in their order.
+    pub(crate) fn reports(&self) -> impl Iterator<Item = Report> {
+        self.hooks.all.iter().map(|h| h.hook.report(&self.world))
     }
 
-    /// What the work of a name has counted, if there is such work.
-    pub(crate) fn counts_of<T: DeserializeOwned>(&self, name: &str) -> Option<T> {
-        let work = self.works.iter().find(|w| w.name() == name)?;
-        serde_json::from_value(work.counts()?).ok()
+    /// What hooks have counted, by their names.
+    pub(crate) fn counts(&self) -> BTreeMap<String, Json> {
+        let all = self.hooks.all.iter().zip(self.reports());
+        all.filter_map(|(h, report)| Some((h.hook.name(), report.counts?)))
+            .collect()
+    }
+
+    /// What hooks have counted, by the keys of the summary.
+    pub(crate) fn counts_of_summary(&self) -> BTreeMap<String, Json> {
+        let keyed = |report: Report| Some((report.summary?.into(), report.counts?));
+        self.reports().filter_map(keyed).collect()
     }
 
     /// Particles behind a wall.
@@ -292,7 +345,7 @@ impl<const D: usize> Flow<D> {
         let names = services
             .into_iter()
             .chain(self.stages.iter().map(|s| s.name()))
-            .chain(self.works.iter().map(|w| w.name()));
+            .chain(self.hooks.all.iter().map(|h| h.hook.name()));
         self.timings = names
             .map(|name| Timing {
                 name,

@@ -3,30 +3,29 @@
 use std::time::Instant;
 
 use rayon::prelude::*;
-use sph_contribution::Forces;
+use sph_contribution::StepPhase;
 use sph_core::{StepError, fields};
 use sph_neighbours::{WallForce, facing_forces, reactions};
 
-use crate::step::books::Books;
 use crate::step::clocks::MOTION;
 use crate::step::flow::Flow;
+use crate::step::observer::Boundary;
 use crate::step::stages::lock;
 
 /// Particles that one thread takes at least.
 const BATCH: usize = 2048;
 
 impl<const D: usize> Flow<D> {
-    /// Velocities and evolved scalars: value += Δt rate, and all that works besides.
+    /// Velocities and evolved scalars: value += Δt rate, and all hooks.
     pub(crate) fn kick_over(&mut self, dt: f64) -> Result<(), StepError> {
         let felt = self.felt();
         self.load_walls(&felt)?;
         self.look_before_walls()?;
-        self.before_kick()?;
-        if let Some(books) = &mut self.books {
-            books.before_kick(&self.world, &self.terms, &self.kinds)?;
-        }
+        self.on_walls.clear();
+        self.run_hooks(StepPhase::BeforeKick, dt)?;
+        self.observe(Boundary::Kicks, dt)?;
         let start = Instant::now();
-        if !self.works.iter().any(|w| w.kicks()) {
+        if self.hooks.kicking.is_empty() {
             let mut velocity = self.world.free.take(fields::VELOCITY)?;
             let acceleration = self.world.free.get(fields::ACCELERATION)?;
             let all = velocity.par_iter_mut().zip(acceleration);
@@ -41,36 +40,11 @@ impl<const D: usize> Flow<D> {
             self.world.free.put(evolved.value, value)?;
         }
         self.timings[MOTION].spent += start.elapsed();
-        self.each_work(|work, world| match work.kicks() {
-            true => work.kick(world, dt),
-            false => Ok(()),
-        })?;
-        self.after_kick(dt)?;
+        self.run_kicks(dt)?;
+        self.observe(Boundary::Kicked, dt)?;
+        self.run_hooks(StepPhase::AfterKick, dt)?;
+        self.observe(Boundary::KickEnds, dt)?;
         self.load_walls_more(&felt)
-    }
-
-    /// What works on velocities and scalars that have been advanced.
-    fn after_kick(&mut self, dt: f64) -> Result<(), StepError> {
-        let Some(mut books) = self.books.take() else {
-            return self.each_work(|work, world| work.after_kick(world, dt));
-        };
-        let done = self.after_booked_kick(&mut books, dt);
-        self.books = Some(books);
-        done
-    }
-
-    /// The same, with the books open.
-    fn after_booked_kick(&mut self, books: &mut Books<D>, dt: f64) -> Result<(), StepError> {
-        let kicker = self.works.iter().position(|w| w.kicks());
-        books.kicked(&self.world, dt, kicker)?;
-        let mut number = 0;
-        self.each_work_with(&[books.access()], |work, world| {
-            work.after_kick(world, dt)?;
-            books.worked(world, number)?;
-            number += 1;
-            Ok(())
-        })?;
-        books.settled(&mut self.world, dt)
     }
 
     /// Whether the mover of each wall asks for forces; empty if none does.
@@ -133,25 +107,8 @@ impl<const D: usize> Flow<D> {
                 (0..3).for_each(|k| whole.moment[k] += more.moment[k]);
             });
         }
-        for work in &self.works {
-            let walls = self.loads.iter_mut().zip(work.wall_forces());
-            walls.for_each(|(whole, own)| whole.add(own));
-        }
+        let walls = self.loads.iter_mut().zip(&self.on_walls);
+        walls.for_each(|(whole, own)| whole.add(own));
         Ok(())
-    }
-
-    /// What is asked before a kick; it may bind all terms, so that it reads their columns, too.
-    fn before_kick(&mut self) -> Result<(), StepError> {
-        let terms = self.terms.clone();
-        let outside = std::mem::take(&mut self.outside);
-        let forces = Forces {
-            sweep: &terms,
-            outside: &outside,
-        };
-        let reads = std::mem::take(&mut self.columns.forces);
-        let done = self.each_work_with(&reads, |work, world| work.before_kick(world, forces));
-        self.columns.forces = reads;
-        self.outside = outside;
-        done
     }
 }

@@ -17,14 +17,14 @@ impl<const D: usize> Flow<D> {
     /// If a column is missing.
     pub(crate) fn let_out(&mut self, dt: f64) -> Result<(), StepError> {
         // First those who look at wall contacts, which are by slots.
-        self.by_works(dt)?;
+        self.by_gates(dt)?;
         self.by_outlets(dt)
     }
 
-    /// Counts the exits of all work behind the outlets, and behind these the border of the domain where walls end freely.
+    /// Counts the exits of all gates behind the outlets, and behind these the border of the domain where walls end freely.
     pub(crate) fn know_exits(&mut self, scene: &Scene) {
         let mut taken = self.world.free.taken().to_vec();
-        let exits = self.works.iter().flat_map(|w| w.exits());
+        let exits = self.gates.iter().flat_map(|gate| gate.exits());
         for (exit, name) in (self.outlets.all.len() as u32..).zip(exits) {
             for (phase, of) in scene.phase.keys().enumerate() {
                 self.outlets.labels.push(format!("open.{name}.{of}"));
@@ -52,18 +52,18 @@ impl<const D: usize> Flow<D> {
         self.world.free.set_taken(taken);
     }
 
-    /// Takes out whom work lets out, and counts them.
-    fn by_works(&mut self, dt: f64) -> Result<(), StepError> {
+    /// Takes out whom gates let out, and counts them.
+    fn by_gates(&mut self, dt: f64) -> Result<(), StepError> {
         let mut first = self.outlets.all.len();
-        for k in 0..self.works.len() {
-            let work = &mut self.works[k];
-            let exits = work.exits().len();
+        for k in 0..self.gates.len() {
+            let gate = &mut self.gates[k];
+            let exits = gate.exits().len();
             if exits == 0 {
                 continue;
             }
-            self.world.free.watch([&self.columns.works[k]]);
-            let gone = work.departures(&mut self.world, dt);
-            self.world.free.unwatch(|| work.name())?;
+            self.world.free.watch([&self.columns.gates[k]]);
+            let gone = gate.departures(&mut self.world, dt);
+            self.world.free.unwatch(|| gate.name())?;
             self.take_out(&gone?, first)?;
             first += exits;
         }

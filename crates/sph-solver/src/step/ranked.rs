@@ -23,16 +23,15 @@ impl<const D: usize> Flow<D> {
 
     /// How often a stage goes from particles to their neighbours.
     pub(crate) fn rings(&self) -> usize {
-        let stages = self.stages.iter().map(|s| s.rings());
-        let all = stages.chain(self.works.iter().map(|w| w.rings()));
-        all.max().unwrap_or(1)
+        let hooks = self.hooks.all.iter().map(|hook| &hook.access);
+        let all = self.columns.stages.iter().chain(hooks);
+        let all = all.chain(&self.columns.gates).map(|access| access.rings);
+        all.fold(1, usize::max)
     }
 
     /// Why the flow cannot be divided between ranks, if it cannot.
     pub(crate) fn indivisible(&self) -> Option<String> {
-        let works = self.works.iter().map(|w| (w.name(), w.needs_all()));
-        let stages = self.stages.iter().map(|s| (s.name(), s.needs_all()));
-        let mut all = works.chain(stages);
+        let mut all = self.stages.iter().map(|s| (s.name(), s.needs_all()));
         let (name, why) = all.find_map(|(name, why)| Some((name, why?)))?;
         Some(format!("`{name}` cannot run on several ranks: {why}"))
     }

@@ -8,6 +8,7 @@ use sph_core::{Recall, StepError, StepLimit, System, fields};
 
 use crate::step::declared::writes_any;
 use crate::step::flow::Flow;
+use crate::step::observer::Boundary;
 
 /// The motions of [`System`].
 enum Motion {
@@ -82,10 +83,7 @@ impl<const D: usize> Flow<D> {
         match motion {
             Motion::Evaluate => {
                 self.run_stages(|_| true)?;
-                match &self.books {
-                    Some(books) => Ok(books.evaluated(&mut self.world)?),
-                    None => Ok(()),
-                }
+                self.observe(Boundary::Evaluated, 0.0)
             }
             Motion::EvaluateForces => {
                 let state = [fields::DENSITY, fields::VOLUME, fields::PRESSURE].map(|f| f.any());

@@ -2,14 +2,14 @@
 
 use std::rc::Rc;
 
-use sph_contribution::{Contribution, Limiter, Refusal, Setting, Stages, StepWork};
+use sph_contribution::{Contribution, Offer, OutsideForce, Refusal, Setting};
 use sph_core::AnyField;
-use sph_neighbours::{Interaction, Terms};
+use sph_neighbours::Interaction;
 use sph_rheology::Rheology;
 
 use crate::{
     AdjointDivergence, Blend, Blended, CarriedAhead, CarriedStress, ElasticForce, ElasticMotion,
-    ElasticSubSteps, ElasticWaveLimit, ElasticWork, Materials, StressCorrection, Yielded,
+    ElasticSubSteps, ElasticWaveLimit, Materials, StressCorrection, Yielded,
 };
 
 /// Remembered stresses of the laws of a scene, and the force that they make.
@@ -47,17 +47,75 @@ impl<const D: usize> Elasticity<D> {
 }
 
 impl<const D: usize> Contribution<D> for Elasticity<D> {
-    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let Some(force) = &self.0.force else {
             return Ok(());
         };
+        self.check(&**force, setting)?;
+        if !force.sub_steps() {
+            offer.terms.push(self.term(&**force));
+            let wave = self.wave(setting).filter(|_| !force.implicit());
+            wave.into_iter().for_each(|wave| offer.limiter(wave));
+        }
+        offer.stored.push(Box::new(self.0.felt()));
+        offer.remedy = Some(format!(
+            "lower Young's modulus of the soil, give it `damping`, or change {}",
+            offer.path
+        ));
+        Ok(())
+    }
+    fn offer_to_readers(
+        &mut self,
+        setting: &Setting<'_, D>,
+        read: &[AnyField],
+        offer: &mut Offer<D>,
+    ) -> Result<(), Refusal> {
+        let Some(force) = &self.0.force else {
+            return Ok(());
+        };
+        let felt = self.0.felt();
+        match self.0.ahead() {
+            true => offer.stage(CarriedAhead(felt.clone())),
+            false => offer.stage(CarriedStress(felt.clone())),
+        }
+        offer.stage(Yielded(felt.clone()));
+        if let Some(gradient) = self.0.adjoint() {
+            offer.stage(StressCorrection(gradient.clone()));
+        }
+        let Some(gradient) = self.0.gradient_stage(read) else {
+            return Ok(());
+        };
+        offer.fresh_state = true;
+        let motion = ElasticMotion {
+            gradient,
+            felt: felt.clone(),
+            displaced: force.displaced(),
+        };
+        match self.wave(setting).filter(|_| force.sub_steps()) {
+            None => offer.hook(motion),
+            Some(wave) => {
+                let longest = wave.longest_sub_step(setting.world);
+                let term: OutsideForce<D> = self.term(&**force).into();
+                let sub_steps = ElasticSubSteps::new(term.clone(), motion, felt, longest);
+                offer.outside.push(term);
+                offer.inner_bounds.push(sub_steps.bound());
+                offer.hook(sub_steps);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<const D: usize> Elasticity<D> {
+    /// Refuses combinations in which a force is not known.
+    fn check(&self, force: &dyn ElasticForce<D>, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         if force.implicit() {
             self.refuse_implicit()?;
         }
         if force.blend() == Blend::Forces {
             self.refuse_blend()?;
         }
-        self.refuse_adjoint(&**force, setting)?;
+        self.refuse_adjoint(force, setting)?;
         if let (true, Some(name)) = (force.displaced(), setting.moving_wall) {
             let why = format!(
                 "the displacement of a wall is not remembered, and the wall `{name}` moves: take \
@@ -66,65 +124,11 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             return Err(Refusal::of(KIND, "", why));
         }
         match force.sub_steps() {
-            true => self.refuse_sub_steps(&**force, setting.kicks_once),
+            true => self.refuse_sub_steps(force, setting.kicks_once),
             false => Ok(()),
         }
     }
-    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
-        let force = self.0.force.iter().filter(|force| !force.sub_steps());
-        force.map(|force| self.term(&**force)).collect()
-    }
-    fn stages_for(&self, _: &Setting<'_, D>, _: &[AnyField]) -> Stages<D> {
-        if self.0.force.is_none() {
-            return Vec::new();
-        }
-        let felt = self.0.felt();
-        let mut stages: Stages<D> = vec![match self.0.ahead() {
-            true => Box::new(CarriedAhead(felt.clone())),
-            false => Box::new(CarriedStress(felt.clone())),
-        }];
-        stages.push(Box::new(Yielded(felt)));
-        if let Some(gradient) = self.0.adjoint() {
-            stages.push(Box::new(StressCorrection(gradient.clone())));
-        }
-        stages
-    }
-    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
-        let force = self.0.force.as_ref();
-        let bound = force.is_some_and(|force| !force.implicit() && !force.sub_steps());
-        let wave = self.wave(setting).filter(|_| bound).into_iter();
-        wave.map(|wave| Box::new(wave) as Box<dyn Limiter<D>>)
-            .collect()
-    }
-    fn works(
-        &mut self,
-        setting: &Setting<'_, D>,
-        read: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        let both = self.0.gradient_stage(read).zip(self.0.force.as_ref());
-        let Some((gradient, force)) = both else {
-            return Ok(Vec::new());
-        };
-        let motion = ElasticMotion {
-            gradient,
-            felt: self.0.felt(),
-            displaced: force.displaced(),
-        };
-        let wave = self.wave(setting).filter(|_| force.sub_steps());
-        let sub_steps = wave.map(|wave| {
-            let longest = wave.longest_sub_step(setting.world);
-            ElasticSubSteps::new(self.term(&**force).into(), self.0.felt(), longest)
-        });
-        Ok(vec![Box::new(ElasticWork::new(motion, sub_steps))])
-    }
-    fn remedy(&self, path: &str) -> Option<String> {
-        Some(format!(
-            "lower Young's modulus of the soil, give it `damping`, or change {path}"
-        ))
-    }
-}
 
-impl<const D: usize> Elasticity<D> {
     /// Refuses stresses of the end of the step where they are not known.
     fn refuse_implicit(&self) -> Result<(), Refusal> {
         let why = match self.0.implicit_share {

@@ -2,10 +2,9 @@
 
 use std::rc::Rc;
 
-use sph_contribution::{Contribution, Limiter, Refusal, Setting, Stages, StepWork};
+use sph_contribution::{Contribution, Offer, Refusal, Setting, Stages};
 use sph_core::AnyField;
 use sph_implicit::{LinearSolver, TimeScheme};
-use sph_neighbours::Terms;
 use sph_viscosity::{ImplicitViscosity, Lagged, ViscousLimit};
 
 use crate::{Blend, Blended, Materials, StrainRate, ViscosityStage};
@@ -39,7 +38,7 @@ impl<const D: usize> Friction<D> {
     fn viscosity_stage(&self) -> ViscosityStage {
         ViscosityStage {
             felt: self.materials.felt(),
-            eddies: self.materials.eddies.is_some(),
+            eddies: self.materials.eddies,
         }
     }
 
@@ -49,67 +48,68 @@ impl<const D: usize> Friction<D> {
         let kinematic =
             both.map(|(state, law)| law.largest_viscosity() / state.reference().density);
         match self.materials.eddies {
-            Some(_) => f64::INFINITY,
-            None => kinematic.fold(0.0, f64::max),
+            true => f64::INFINITY,
+            false => kinematic.fold(0.0, f64::max),
         }
     }
 }
 
 impl<const D: usize> Contribution<D> for Friction<D> {
-    fn check(&self, _: &Setting<'_, D>) -> Result<(), Refusal> {
-        match self.materials.inviscid() && self.solved_for() {
-            false => Ok(()),
-            true => Err(Refusal::of(
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        let (materials, viscosity) = (&self.materials, self.materials.viscosity());
+        if materials.inviscid() && self.solved_for() {
+            return Err(Refusal::of(
                 "implicit-viscosity",
                 "",
                 "no phase of this scene has a viscosity, so that there is nothing to solve for: take this table out, or \
                  give a phase a viscosity",
-            )),
+            ));
         }
-    }
-    fn stages(&self, _: &Setting<'_, D>) -> Stages<D> {
-        match self.materials.inviscid() {
-            true => Vec::new(),
-            false => self.materials.operator.stages(self.materials.viscosity()),
+        if !materials.inviscid() {
+            offer.stages = materials.operator.stages(viscosity);
         }
-    }
-    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
-        let materials = &self.materials;
-        if materials.inviscid() || self.solved_for() {
-            return Vec::new();
+        let why = "the friction could not be solved for: name a solver with more iterations \
+                   (`[linear-solver.conjugate-gradient] iterations`), or `[linear-solver.cholesky]`, which needs none";
+        let remedy = (ImplicitViscosity::<D>::NAME, why.into());
+        offer.remedies_of_failures.push(remedy);
+        if self.solved_for() {
+            offer.remedy = Some(
+                "it is solved for, so look at the rheology: a smaller largest viscosity, or another [linear-solver]"
+                    .into(),
+            );
+            return Ok(());
         }
-        let term = materials.operator.term(materials.viscosity());
-        match materials.felt().blend {
-            Blend::Forces => vec![Box::new(Blended::friction(term, &materials.laws))],
-            Blend::Stresses => vec![term],
+        offer.remedy = Some(
+            "treat the viscosity implicitly (`[implicit-viscosity.backward-euler]`), or lower it"
+                .into(),
+        );
+        if !materials.inviscid() {
+            let term = materials.operator.term(viscosity);
+            match materials.felt().blend {
+                Blend::Forces => offer.term(Blended::friction(term, &materials.laws)),
+                Blend::Stresses => offer.terms.push(term),
+            }
         }
-    }
-    fn stages_for(&self, setting: &Setting<'_, D>, _: &[AnyField]) -> Stages<D> {
-        let eddies = self.materials.eddies.iter();
-        let mut stages: Stages<D> = eddies.map(|e| e.stage_in(setting)).collect();
-        stages.push(Box::new(self.viscosity_stage()));
-        stages
-    }
-    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
         let largest = self.largest(setting);
-        if largest <= 0.0 || self.solved_for() {
-            return Vec::new();
+        if largest > 0.0 {
+            let mut laws = materials.laws.iter();
+            offer.limiter(ViscousLimit {
+                coefficient: setting.viscous / materials.operator.stiffness(),
+                largest,
+                constant: !materials.eddies && laws.all(|l| l.uniform_viscosity().is_some()),
+            });
         }
-        let mut laws = self.materials.laws.iter();
-        vec![Box::new(ViscousLimit {
-            coefficient: setting.viscous / self.materials.operator.stiffness(),
-            largest,
-            constant: self.materials.eddies.is_none()
-                && laws.all(|l| l.uniform_viscosity().is_some()),
-        })]
+        Ok(())
     }
-    fn works(
+    fn offer_to_readers(
         &mut self,
         _: &Setting<'_, D>,
         read: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
+        offer: &mut Offer<D>,
+    ) -> Result<(), Refusal> {
+        offer.stage(self.viscosity_stage());
         let Some(solve) = self.implicit.take() else {
-            return Ok(Vec::new());
+            return Ok(());
         };
         let materials = &self.materials;
         let (operator, viscosity) = (&materials.operator, materials.viscosity());
@@ -125,21 +125,9 @@ impl<const D: usize> Contribution<D> for Friction<D> {
             stiffens: materials.ahead(),
             may_hold: self.may_hold,
         };
-        let friction = (operator.coupling(viscosity), operator.term(viscosity));
-        Ok(vec![Box::new(ImplicitViscosity::new(
-            friction, solve, lagged,
-        ))])
-    }
-    fn remedies_of_failures(&self) -> Vec<(&'static str, String)> {
-        let why = "the friction could not be solved for: name a solver with more iterations \
-                   (`[linear-solver.conjugate-gradient] iterations`), or `[linear-solver.cholesky]`, which needs none";
-        vec![(ImplicitViscosity::<D>::NAME, why.into())]
-    }
-    fn remedy(&self, _: &str) -> Option<String> {
-        Some(match self.materials.implicit_share {
-            None => "treat the viscosity implicitly (`[implicit-viscosity.backward-euler]`), or lower it".into(),
-            Some(_) => "it is solved for, so look at the rheology: a smaller largest viscosity, or another [linear-solver]"
-                .into(),
-        })
+        let coupling = operator.coupling(viscosity);
+        offer.outside.push(operator.term(viscosity).into());
+        offer.hook(ImplicitViscosity::new(coupling, solve, lagged));
+        Ok(())
     }
 }

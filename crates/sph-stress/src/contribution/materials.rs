@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use sph_contribution::Setting;
 use sph_core::{AnyField, fields};
 use sph_rheology::Rheology;
-use sph_viscosity::{EddyViscosity, Viscosity, ViscousOperator};
+use sph_viscosity::{Viscosity, ViscousOperator};
 
 use crate::{Blend, ElasticForce, Felt, GradientStage, Rheologies, VelocityGradient};
 
@@ -19,8 +18,8 @@ pub struct Materials<const D: usize> {
     pub operator: Box<dyn ViscousOperator<D>>,
     /// What makes forces of elastic stresses, where a law has them.
     pub force: Option<Box<dyn ElasticForce<D>>>,
-    /// The viscosity of eddies.
-    pub eddies: Option<Box<dyn EddyViscosity<D>>>,
+    /// Whether eddies have a viscosity.
+    pub eddies: bool,
     /// Share of the friction that is of the end of the step, where it is solved for.
     pub implicit_share: Option<f64>,
     /// Whether the pressure between grains is another than that of the equation of state.
@@ -54,7 +53,7 @@ impl<const D: usize> Materials<D> {
 
     /// One viscosity for all, or a column, which something besides the laws may need.
     pub(crate) fn viscosity(&self) -> Viscosity {
-        let column = self.eddies.is_some() || self.ahead();
+        let column = self.eddies || self.ahead();
         let laws = &self.laws;
         let uniform: Vec<_> = laws.iter().map(|l| l.uniform_viscosity()).collect();
         match uniform.first() {
@@ -75,7 +74,7 @@ impl<const D: usize> Materials<D> {
     pub(crate) fn gradient_stage(&self, read: &[AnyField]) -> Option<GradientStage<D>> {
         let formula = self.gradient.clone()?;
         let of_gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
-        let others = self.eddies.is_some() || read.iter().any(|f| of_gradients.contains(f));
+        let others = self.eddies || read.iter().any(|f| of_gradients.contains(f));
         let phases = match others {
             true => None,
             false => self.phases_with_gradients(),
@@ -84,15 +83,11 @@ impl<const D: usize> Materials<D> {
     }
 
     /// Whether nobody reads strain rates before the interactions, which may then leave them for those who do it later.
-    pub(crate) fn strain_rides(&self, setting: &Setting<'_, D>, read: &[AnyField]) -> bool {
-        let Some(eddies) = &self.eddies else {
-            return false;
-        };
-        let of_eddies = eddies.stage_in(setting).access().reads();
-        let mut before = read.iter().chain(&of_eddies);
+    pub(crate) fn strain_rides(&self, read: &[AnyField]) -> bool {
         let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
-        !self.laws.iter().any(|law| reads_gradients(&**law))
-            && !before.any(|field| gradients.contains(field))
+        self.eddies
+            && !self.laws.iter().any(|law| reads_gradients(&**law))
+            && !read.iter().any(|field| gradients.contains(field))
     }
 
     /// By phase number, whether the law reads velocity gradients; `None` if all do.

@@ -2,9 +2,9 @@
 
 use std::rc::Rc;
 
-use sph_contribution::{Contribution, Setting, Stages};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{AnyField, fields};
-use sph_neighbours::Terms;
+use sph_neighbours::{Terms};
 
 use crate::{Materials, RidingStrain, StrainRate};
 
@@ -12,22 +12,29 @@ use crate::{Materials, RidingStrain, StrainRate};
 pub struct Straining<const D: usize>(pub Rc<Materials<D>>);
 
 impl<const D: usize> Contribution<D> for Straining<D> {
-    fn stages_for(&self, setting: &Setting<'_, D>, read: &[AnyField]) -> Stages<D> {
-        let mut stages: Stages<D> = Vec::new();
+    fn offer(&mut self, _: &Setting<'_, D>, _: &mut Offer<D>) -> Result<(), Refusal> {
+        Ok(())
+    }
+    fn offer_to_readers(
+        &mut self,
+        _: &Setting<'_, D>,
+        read: &[AnyField],
+        offer: &mut Offer<D>,
+    ) -> Result<(), Refusal> {
         // An elastic motion leaves the gradients of its drift.
         if let (Some(stage), None) = (self.0.gradient_stage(read), &self.0.force) {
-            stages.push(Box::new(stage));
+            offer.stage(stage);
         }
-        if self.0.gradient.is_some() && !self.0.strain_rides(setting, read) {
-            stages.push(Box::new(StrainRate));
+        let Some(formula) = self.0.gradient.clone() else {
+            return Ok(());
+        };
+        match self.0.strain_rides(read) {
+            false => offer.stage(StrainRate),
+            true => {
+                let term = Box::new(RidingStrain { formula });
+                offer.riding.push((fields::STRAIN_RATE.any(), term));
+            }
         }
-        stages
-    }
-    fn riding(&self, setting: &Setting<'_, D>, read: &[AnyField], later: &[AnyField]) -> Terms<D> {
-        let wanted =
-            later.contains(&fields::STRAIN_RATE.any()) && self.0.strain_rides(setting, read);
-        let formula = self.0.gradient.clone().filter(|_| wanted);
-        let term = formula.map(|formula| Box::new(RidingStrain { formula }) as _);
-        term.into_iter().collect()
+        Ok(())
     }
 }

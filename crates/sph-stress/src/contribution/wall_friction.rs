@@ -2,8 +2,7 @@
 
 use std::rc::Rc;
 
-use sph_contribution::{Contribution, Refusal, Setting, StepWork};
-use sph_core::AnyField;
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_rheology::Rheology;
 
 use crate::{CoulombFriction, Materials};
@@ -12,17 +11,14 @@ use crate::{CoulombFriction, Materials};
 pub struct WallFriction<const D: usize>(pub Rc<Materials<D>>);
 
 impl<const D: usize> Contribution<D> for WallFriction<D> {
-    fn works(
-        &mut self,
-        setting: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         if setting.world.walls.elements.coulomb.is_empty() {
-            return Ok(Vec::new());
+            return Ok(());
         }
         let slips = |l: &dyn Rheology| l.elastic().is_none() && l.uniform_viscosity().is_some();
         let rubs = self.0.laws.iter().map(|l| !slips(&**l)).collect();
         let pressure = self.0.felt().pressure;
-        Ok(vec![Box::new(CoulombFriction::new(rubs, pressure))])
+        offer.hook(CoulombFriction::new(rubs, pressure));
+        Ok(())
     }
 }

@@ -106,7 +106,7 @@ fn record(summary: &Summary) -> Record {
         steps_rolled_back: summary.steps_rolled_back,
         simulated_seconds: summary.simulated_seconds,
         dt_limiters: summary.dt_limiters.clone(),
-        solves: summary.implicit_viscosity.as_ref().map(SolveCost::of),
+        solves: summary.counted("implicit_viscosity").map(SolveCost::of),
         health: Health::of(summary),
         errors: errors.map(|(name, e)| (name.clone(), e.into())).collect(),
         wall_seconds_by_stage: summary.wall_seconds_by_stage.clone(),

@@ -1,7 +1,7 @@
 //! What all closures refuse, need and say.
 
-use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork};
-use sph_core::{Access, AnyField, Stage, suggestion};
+use sph_contribution::{Offer, Refusal, Report, Setting, StepHook, StepPhase};
+use sph_core::{Access, Stage, suggestion};
 use sph_neighbours::World;
 
 use super::phases::{BedEddies, Only, acting, check, viscosities};
@@ -35,7 +35,7 @@ pub(crate) struct Behind {
 
 impl Behind {
     /// Refuses what no closure is for.
-    pub fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+    fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Err(Refusal::of(KIND, key, why));
         check(self.name, &self.phases, setting)?;
         if let Some(bed) = &self.bed {
@@ -60,79 +60,65 @@ impl Behind {
         Ok(())
     }
 
-    /// The stage of the closure, where there are several phases only in its own.
-    pub fn stage<const D: usize>(
+    /// Offers the stage of a closure, where there are several phases only in its own; the stages of distances and of the
+    /// bed, if it reads them; and a word at the end, if it has one.
+    ///
+    /// # Errors
+    /// The key of what no closure is for.
+    pub fn offer_to<const D: usize>(
         &self,
         setting: &Setting<'_, D>,
         stage: impl Stage<World<D>> + 'static,
-    ) -> Box<dyn Stage<World<D>>> {
+        offer: &mut Offer<D>,
+    ) -> Result<(), Refusal> {
+        self.check(setting)?;
         match acting(&self.phases, setting) {
+            None => offer.stage(stage),
             Some(acts) => {
                 let bed = self.bed.as_ref().map(|bed| BedEddies {
                     law: bed.law(),
                     viscosities: viscosities(&self.phases, setting),
                 });
-                Box::new(Only { stage, acts, bed })
+                offer.stage(Only { stage, acts, bed });
             }
-            None => Box::new(stage),
         }
-    }
-
-    /// The stages of distances and of the bed, if it reads them.
-    pub fn stages<const D: usize>(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        let stage = |d: &Distances| -> Box<dyn Stage<World<D>>> {
-            Box::new(WallDistance::new(&d.walls, d.within))
-        };
-        let mut all: Stages<D> = self.distances.iter().map(stage).collect();
+        if let Some(d) = &self.distances {
+            offer.stage(WallDistance::new(&d.walls, d.within));
+        }
         if let Some(bed) = &self.bed {
             let number = setting.phases.iter().position(|p| *p == bed.phase);
             let own = viscosities(&self.phases, setting);
-            let stage = BedShear::new(number.unwrap_or_default() as u32, own, bed.law());
-            all.push(Box::new(stage));
+            let number = number.unwrap_or_default() as u32;
+            offer.stage(BedShear::new(number, own, bed.law()));
         }
-        all
-    }
-
-    /// A word at the end, if it has one.
-    pub fn works<const D: usize>(&self) -> Vec<Box<dyn StepWork<D>>> {
-        match self.eddies_in_space && D == 2 {
-            true => vec![Box::new(Flat(self.name))],
-            false => Vec::new(),
+        if self.eddies_in_space && D == 2 {
+            offer.hook(Flat(self.name));
         }
-    }
-}
-
-impl<const D: usize> Contribution<D> for Behind {
-    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
-        Behind::check(self, setting)
-    }
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        Behind::stages(self, setting)
-    }
-    fn works(
-        &mut self,
-        _: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        Ok(Behind::works(self))
+        Ok(())
     }
 }
 
 /// Large eddies in the plane.
 struct Flat(&'static str);
 
-impl<const D: usize> StepWork<D> for Flat {
+impl<const D: usize> StepHook<D> for Flat {
     fn name(&self) -> String {
         self.0.into()
     }
     fn access(&self) -> Access {
         Access::none()
     }
-    fn warnings(&self) -> Vec<String> {
-        vec![format!(
-            "`{}` is a model of eddies below the spacing of a flow whose larger ones are resolved, and they are of three \
-             dimensions: in two its results are not those of a turbulent flow (Issa 2004, §5.2.3)",
-            self.0
-        )]
+    fn phases(&self) -> &'static [StepPhase] {
+        &[]
+    }
+    fn report(&self, _: &World<D>) -> Report {
+        Report {
+            warnings: vec![format!(
+                "`{}` is a model of eddies below the spacing of a flow whose larger ones are resolved, and they are of \
+                 three dimensions: in two its results are not those of a turbulent flow (Issa 2004, §5.2.3)",
+                self.0
+            )],
+            ..Report::default()
+        }
     }
 }

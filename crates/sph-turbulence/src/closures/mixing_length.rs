@@ -1,9 +1,9 @@
 //! Prandtl's mixing length.
 
-use sph_contribution::{Contribution, Setting};
+use sph_contribution::{Contribution, Setting, Offer, Refusal};
 use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_neighbours::World;
-use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+use sph_viscosity::EddyViscosityEntry;
 
 use super::behind::{Behind, Distances};
 use super::length::Length;
@@ -121,15 +121,9 @@ impl<const D: usize> Stage<World<D>> for MixingLength {
     }
 }
 
-impl<const D: usize> EddyViscosity<D> for MixingLength {
-    fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(self.clone())
-    }
-    fn stage_in(&self, setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
-        self.behind().stage(setting, self.clone())
-    }
-    fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
-        Some(Box::new(self.behind()))
+impl<const D: usize> Contribution<D> for MixingLength {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        self.behind().offer_to(setting, self.clone(), offer)
     }
 }
 

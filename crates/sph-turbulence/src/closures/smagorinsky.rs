@@ -1,11 +1,9 @@
 //! Smagorinsky's closure of large-eddy simulations.
 
-use sph_contribution::{Contribution, OwnColumn, Refusal, Setting, Stages, StepWork};
-use sph_core::{
-    Access, AnyField, Declares, Field, Scalar, Stage, StepError, fields, parameters, plugin,
-};
+use sph_contribution::{Contribution, OwnColumn, Refusal, Setting, Stages, StepWork, Offer};
+use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, StepError, fields, parameters, plugin};
 use sph_neighbours::World;
-use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+use sph_viscosity::EddyViscosityEntry;
 
 use super::behind::Behind;
 use super::filter::FilterLength;
@@ -144,62 +142,35 @@ impl<const D: usize> Stage<World<D>> for Smagorinsky {
     }
 }
 
-impl<const D: usize> EddyViscosity<D> for Smagorinsky {
-    fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(self.clone())
-    }
-    fn stage_in(&self, setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
-        self.behind().stage(setting, self.clone())
-    }
-    fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
-        Some(Box::new(LargeEddies(self.clone())))
-    }
-}
-
-/// What stands behind it.
-struct LargeEddies(Smagorinsky);
-
-impl<const D: usize> Contribution<D> for LargeEddies {
-    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
-        self.0.behind().check(setting)?;
-        let grips = &setting.world.walls.elements.grip;
-        let damps = self.0.damping == Damping::VanDriest;
-        match damps && !grips.iter().any(|grip| *grip > 0.0) {
-            false => Ok(()),
-            true => Err(Refusal::of(
-                KIND,
-                "damping",
-                "van Driest's damping is of walls of segments or triangles that rub, and there are none: it needs \
-                 `[walls.usaw]` and a wall with `condition = \"no-slip\"`",
-            )),
-        }
-    }
+impl<const D: usize> Contribution<D> for Smagorinsky {
     fn columns(&self) -> Vec<OwnColumn<D>> {
-        match self.0.strain_of {
+        match self.strain_of {
             StrainOf::ThisStep => Vec::new(),
             StrainOf::LastStep => vec![OwnColumn::scalar(LAST_STRAIN, |_| 0.0)],
         }
     }
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        let mut stages = self.0.behind().stages(setting);
-        if self.0.damping == Damping::VanDriest {
-            stages.push(Box::new(WallUnits {
-                viscosities: viscosities(&self.0.phases, setting),
-                tree: None,
-            }));
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        self.behind().offer_to(setting, self.clone(), offer)?;
+        if self.strain_of == StrainOf::LastStep {
+            offer.hook(KeepStrain);
         }
-        stages
-    }
-    fn works(
-        &mut self,
-        _: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        let mut works = self.0.behind().works();
-        if self.0.strain_of == StrainOf::LastStep {
-            works.push(Box::new(KeepStrain));
+        if self.damping != Damping::VanDriest {
+            return Ok(());
         }
-        Ok(works)
+        let grips = &setting.world.walls.elements.grip;
+        if !grips.iter().any(|grip| *grip > 0.0) {
+            return Err(Refusal::of(
+                KIND,
+                "damping",
+                "van Driest's damping is of walls of segments or triangles that rub, and there are none: it needs \
+                 `[walls.usaw]` and a wall with `condition = \"no-slip\"`",
+            ));
+        }
+        offer.stage(WallUnits {
+            viscosities: viscosities(&self.phases, setting),
+            tree: None,
+        });
+        Ok(())
     }
 }
 

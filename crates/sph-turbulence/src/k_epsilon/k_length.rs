@@ -1,7 +1,7 @@
 //! One transported scalar, and a length by the distance from walls.
 
 use rayon::prelude::*;
-use sph_contribution::{Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork};
+use sph_contribution::{Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork, Offer, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, plugin};
 use sph_neighbours::{Terms, World};
 use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
@@ -139,77 +139,43 @@ impl<const D: usize> Stage<World<D>> for KLength {
     }
 }
 
-impl<const D: usize> EddyViscosity<D> for KLength {
-    fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(self.clone())
+impl<const D: usize> Contribution<D> for KLength {
+    fn columns(&self) -> Vec<OwnColumn<D>> {
+        let (energy, phases) = (self.energy, self.phases.clone());
+        let start = move |phase: &str| if acts_on(&phases, phase) { energy } else { 0.0 };
+        vec![OwnColumn::scalar(TURBULENT_ENERGY, move |b| start(b.phase)).positive()]
     }
-    fn stage_in(&self, setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
-        self.behind().stage(setting, self.clone())
-    }
-    fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
-        Some(Box::new(OneEquation(self.clone())))
-    }
-}
-
-/// What stands behind it.
-struct OneEquation(KLength);
-
-impl<const D: usize> Contribution<D> for OneEquation {
-    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
-        self.0.behind().check(setting)?;
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        self.behind().offer_to(setting, self.clone(), offer)?;
         let rubs = setting.world.walls.elements.grip.iter().any(|g| *g > 0.0);
-        match rubs && setting.phases.len() == 1 {
-            false => Ok(()),
-            true => Err(Refusal::of(
+        if rubs && setting.phases.len() == 1 {
+            return Err(Refusal::of(
                 KIND,
                 "",
                 "k has no value at walls that rub without a wall function: write `condition = \"free-slip\"` there and name \
                  the walls in `[wall-function.log-law]`",
-            )),
+            ));
         }
-    }
-    fn columns(&self) -> Vec<OwnColumn<D>> {
-        let (energy, phases) = (self.0.energy, self.0.phases.clone());
-        let start = move |phase: &str| if acts_on(&phases, phase) { energy } else { 0.0 };
-        vec![OwnColumn::scalar(TURBULENT_ENERGY, move |b| start(b.phase)).positive()]
-    }
-    fn transported(&self) -> Vec<Evolved> {
-        vec![Evolved {
+        offer.transported.push(Evolved {
             value: TURBULENT_ENERGY,
             rate: TURBULENT_ENERGY_RATE,
-        }]
-    }
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        let mut stages = self.0.behind().stages(setting);
-        if self.0.damped_at_surfaces {
-            stages.push(Box::new(SurfaceShare));
+        });
+        if self.damped_at_surfaces {
+            offer.stage(SurfaceShare);
         }
-        stages
-    }
-    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
-        let sigma = KEpsilonModel::default().sigma_k;
-        vec![Box::new(Diffusion {
-            sigma: [sigma],
+        offer.term(Diffusion {
+            sigma: [KEpsilonModel::default().sigma_k],
             wall_flux: None,
-        })]
-    }
-    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
-        vec![Box::new(DiffusionLimit(setting.viscous))]
-    }
-    fn works(
-        &mut self,
-        setting: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        Ok(vec![Box::new(Sources {
-            length: self.0.length(),
-            viscosities: viscosities(&self.0.phases, setting),
-            damped: self.0.damped_at_surfaces,
-            bed: self.0.bed.is_some(),
-        })])
-    }
-    fn remedy(&self, _: &str) -> Option<String> {
-        Some("look at k at the start: the eddy viscosity is 0.55 √k L".into())
+        });
+        offer.limiter(DiffusionLimit(setting.viscous));
+        offer.hook(Sources {
+            length: self.length(),
+            viscosities: viscosities(&self.phases, setting),
+            damped: self.damped_at_surfaces,
+            bed: self.bed.is_some(),
+        });
+        offer.remedy = Some("look at k at the start: the eddy viscosity is 0.55 √k L".into());
+        Ok(())
     }
 }
 
@@ -224,7 +190,7 @@ struct Sources {
     bed: bool,
 }
 
-impl<const D: usize> StepWork<D> for Sources {
+impl<const D: usize> StepHook<D> for Sources {
     fn name(&self) -> String {
         "k-length".into()
     }
@@ -247,7 +213,11 @@ impl<const D: usize> StepWork<D> for Sources {
         };
         BedSide::access(self.bed, access)
     }
-    fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::AfterKick]
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *moment.world, moment.dt);
         let mut energy = world.free.take(TURBULENT_ENERGY)?;
         let viscosity = Kinematic::of(&self.viscosities, world)?;
         let acts = |i: usize| viscosity.at(i).is_some();

@@ -1,13 +1,11 @@
 //! The k–ε closure as a plugin.
 
 use rayon::prelude::*;
-use sph_contribution::{
-    Birth, Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork,
-};
+use sph_contribution::{Birth, Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork, Offer};
 use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, plugin};
 use sph_neighbours::{Terms, World};
 use sph_stress::StressDivergence;
-use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+use sph_viscosity::EddyViscosityEntry;
 
 use super::diffusion::{Diffusion, DiffusionLimit};
 use super::earsm::AlgebraicStress;
@@ -149,39 +147,7 @@ impl<const D: usize> Stage<World<D>> for EddyStage {
     }
 }
 
-impl<const D: usize> EddyViscosity<D> for KEpsilon {
-    fn stage(&self) -> Box<dyn Stage<World<D>>> {
-        Box::new(EddyStage(self.variant))
-    }
-    fn stage_in(&self, setting: &Setting<'_, D>) -> Box<dyn Stage<World<D>>> {
-        self.behind().stage(setting, EddyStage(self.variant))
-    }
-    fn contribution(&self) -> Option<Box<dyn Contribution<D>>> {
-        Some(Box::new(self.clone()))
-    }
-}
-
 impl<const D: usize> Contribution<D> for KEpsilon {
-    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
-        self.behind().check(setting)?;
-        if self.start(0.0).is_none() {
-            return Err(Refusal::of(
-                KIND,
-                "",
-                "k and ε at the start are missing: either both `energy` and `dissipation` were expected, or `channel` alone",
-            ));
-        }
-        let rubs = setting.world.walls.elements.grip.iter().any(|g| *g > 0.0);
-        match rubs && setting.phases.len() == 1 {
-            false => Ok(()),
-            true => Err(Refusal::of(
-                KIND,
-                "",
-                "k and ε have no values at walls that rub without a wall function: write `condition = \"free-slip\"` there \
-                 and name the walls in `[wall-function.log-law]`",
-            )),
-        }
-    }
     fn columns(&self) -> Vec<OwnColumn<D>> {
         let at = |own: KEpsilon, k: usize| {
             move |birth: &Birth<'_, D>| match acts_on(&own.phases, birth.phase) {
@@ -196,51 +162,48 @@ impl<const D: usize> Contribution<D> for KEpsilon {
             OwnColumn::scalar(DISSIPATION, at(self.clone(), 1)).positive(),
         ]
     }
-    fn transported(&self) -> Vec<Evolved> {
-        vec![
-            Evolved {
-                value: TURBULENT_ENERGY,
-                rate: TURBULENT_ENERGY_RATE,
-            },
-            Evolved {
-                value: DISSIPATION,
-                rate: DISSIPATION_RATE,
-            },
-        ]
-    }
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
-        let mut stages = self.behind().stages(setting);
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        self.behind()
+            .offer_to(setting, EddyStage(self.variant), offer)?;
+        if self.start(0.0).is_none() {
+            return Err(Refusal::of(
+                KIND,
+                "",
+                "k and ε at the start are missing: either both `energy` and `dissipation` were expected, or `channel` alone",
+            ));
+        }
+        let rubs = setting.world.walls.elements.grip.iter().any(|g| *g > 0.0);
+        if rubs && setting.phases.len() == 1 {
+            return Err(Refusal::of(
+                KIND,
+                "",
+                "k and ε have no values at walls that rub without a wall function: write `condition = \"free-slip\"` there \
+                 and name the walls in `[wall-function.log-law]`",
+            ));
+        }
+        let both = [
+            (TURBULENT_ENERGY, TURBULENT_ENERGY_RATE),
+            (DISSIPATION, DISSIPATION_RATE),
+        ];
+        let both = both.map(|(value, rate)| Evolved { value, rate });
+        offer.transported.extend(both);
         if self.damped_at_surfaces || self.surface_depth.is_some() {
-            stages.push(Box::new(SurfaceShare));
+            offer.stage(SurfaceShare);
         }
-        if self.variant == Variant::ExplicitAlgebraic {
-            stages.push(Box::new(ExtraStress));
-        }
-        stages
-    }
-    fn terms(&self, _: &Setting<'_, D>) -> Terms<D> {
         let through = self.at_wall == AtWall::BothFluxes;
-        let mut terms: Terms<D> = vec![Box::new(Diffusion {
+        offer.term(Diffusion {
             sigma: self.variant.sigmas(),
             wall_flux: through.then_some(KEpsilonModel::default().c_mu),
-        })];
+        });
         if self.variant == Variant::ExplicitAlgebraic {
-            terms.push(Box::new(StressDivergence {
+            offer.stage(ExtraStress);
+            offer.term(StressDivergence {
                 name: "stress of eddies",
                 stress: EDDY_STRESS,
-            }));
+            });
         }
-        terms
-    }
-    fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
-        vec![Box::new(DiffusionLimit(setting.viscous))]
-    }
-    fn works(
-        &mut self,
-        setting: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        Ok(vec![Box::new(Sources {
+        offer.limiter(DiffusionLimit(setting.viscous));
+        offer.hook(Sources {
             variant: self.variant,
             at_wall: self.at_wall,
             karman: self.karman,
@@ -248,9 +211,9 @@ impl<const D: usize> Contribution<D> for KEpsilon {
             damped: self.damped_at_surfaces,
             surface_depth: self.surface_depth,
             bed: self.bed.is_some(),
-        })])
-    }
-    fn remedy(&self, _: &str) -> Option<String> {
-        Some("look at k and ε at the start: the eddy viscosity is 0.09 k²/ε".into())
+        });
+        let remedy = "look at k and ε at the start: the eddy viscosity is 0.09 k²/ε";
+        offer.remedy = Some(remedy.into());
+        Ok(())
     }
 }

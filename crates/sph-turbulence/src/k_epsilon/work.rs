@@ -1,7 +1,7 @@
 //! Production and dissipation within a step, and what walls set.
 
 use rayon::prelude::*;
-use sph_contribution::StepWork;
+use sph_contribution::{StepWork, Report, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, StepError, fields, parameters};
 use sph_neighbours::World;
 
@@ -114,7 +114,7 @@ impl Sources {
     }
 }
 
-impl<const D: usize> StepWork<D> for Sources {
+impl<const D: usize> StepHook<D> for Sources {
     fn name(&self) -> String {
         "k-epsilon".into()
     }
@@ -141,7 +141,11 @@ impl<const D: usize> StepWork<D> for Sources {
             _ => access.here(fields::PHASE),
         }
     }
-    fn after_kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::AfterKick]
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *moment.world, moment.dt);
         let mut energy = world.free.take(TURBULENT_ENERGY)?;
         let mut dissipation = world.free.take(DISSIPATION)?;
         let viscosity = Kinematic::of(&self.viscosities, world)?;
@@ -190,7 +194,10 @@ impl<const D: usize> StepWork<D> for Sources {
         world.free.put(TURBULENT_ENERGY, energy)?;
         Ok(world.free.put(DISSIPATION, dissipation)?)
     }
-    fn advice(&self, world: &World<D>) -> Vec<String> {
-        rubbed(world, &self.viscosities)
+    fn report(&self, world: &World<D>) -> Report {
+        Report {
+            advice: rubbed(world, &self.viscosities),
+            ..Report::default()
+        }
     }
 }

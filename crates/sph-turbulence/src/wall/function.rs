@@ -1,6 +1,6 @@
 //! Walls whose boundary layer is finer than the particles.
 
-use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork, contribution_kind};
+use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork, contribution_kind, Offer, Report, StepHook, StepPhase};
 use sph_core::{Access, AnyField, fields, plugin, suggestion};
 use sph_neighbours::World;
 
@@ -113,7 +113,7 @@ impl LogLaw {
 }
 
 impl<const D: usize> Contribution<D> for LogLaw {
-    fn check(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Refusal::of(KIND, key, why);
         self.law().check().map_err(|e| refused("", e.to_string()))?;
         self.check_walls(setting)
@@ -128,33 +128,23 @@ impl<const D: usize> Contribution<D> for LogLaw {
                 ),
             ));
         }
-        match setting.viscosities.iter().any(is_viscous) {
-            true => Ok(()),
-            false => Err(refused(
+        if !setting.viscosities.iter().any(is_viscous) {
+            return Err(refused(
                 "",
                 "no phase of this scene is a viscous fluid with one viscosity, which z⁺ = z u*/ν needs: give a phase \
                  `rheology.newtonian` with a viscosity"
                     .into(),
-            )),
+            ));
         }
-    }
-    fn goals(&self) -> Vec<AnyField> {
-        vec![fields::WALL_FRICTION.any()]
-    }
-    fn stages(&self, setting: &Setting<'_, D>) -> Stages<D> {
+        offer.goals.push(fields::WALL_FRICTION.any());
         let viscous = |nu: &Option<f64>| nu.filter(|nu| *nu > 0.0);
-        vec![Box::new(WallShear {
+        offer.stage(WallShear {
             law: self.law(),
             walls: self.walls.clone(),
             viscosities: setting.viscosities.iter().map(viscous).collect(),
-        })]
-    }
-    fn works(
-        &mut self,
-        _: &Setting<'_, D>,
-        _: &[AnyField],
-    ) -> Result<Vec<Box<dyn StepWork<D>>>, Refusal> {
-        Ok(vec![Box::new(Range)])
+        });
+        offer.hook(Range);
+        Ok(())
     }
 }
 
@@ -169,30 +159,37 @@ struct Range;
 /// Where the logarithmic law of a boundary layer is taken to hold: Issa 2004, Table 6.1, and the issue's upper end.
 const VALID: [f64; 2] = [1.0, 1000.0];
 
-impl<const D: usize> StepWork<D> for Range {
+impl<const D: usize> StepHook<D> for Range {
     fn name(&self) -> String {
         KIND.into()
     }
     fn access(&self) -> Access {
         Access::none().here(WALL_UNITS).here(FRICTION_VELOCITY)
     }
-    fn advice(&self, world: &World<D>) -> Vec<String> {
+    fn phases(&self) -> &'static [StepPhase] {
+        &[]
+    }
+    fn report(&self, world: &World<D>) -> Report {
         let (Ok(units), Ok(friction)) = (
             world.free.get(WALL_UNITS),
             world.free.get(FRICTION_VELOCITY),
         ) else {
-            return Vec::new();
+            return Report::default();
         };
         // z⁺ of the particles within a spacing of the wall: those that the shear acts on most.
         let near = (0..units.len()).filter(|i| friction[*i] > 0.0);
         let least = near.map(|i| units[i]).fold(f64::INFINITY, f64::min);
-        match least.is_finite() && !(VALID[0]..=VALID[1]).contains(&least) {
+        let advice = match least.is_finite() && !(VALID[0]..=VALID[1]).contains(&least) {
             true => vec![format!(
                 "the particles nearest to the walls with a wall function are at z+ = {least:.3}: the law of the wall is \
                  meant for {} to {}, so change the spacing",
                 VALID[0], VALID[1]
             )],
             false => Vec::new(),
+        };
+        Report {
+            advice,
+            ..Report::default()
         }
     }
 }

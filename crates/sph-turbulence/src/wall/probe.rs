@@ -2,7 +2,7 @@
 
 use sph_core::{StepError, plugin, suggestion};
 use sph_neighbours::World;
-use sph_probes::{Probe, ProbeColumn, ProbeEntry};
+use sph_probes::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 use crate::columns::{FRICTION_VELOCITY, WALL_UNITS};
 
@@ -22,9 +22,6 @@ pub struct FrictionVelocityProbe {
 }
 
 impl<const D: usize> Probe<D> for FrictionVelocityProbe {
-    fn looks_around(&self) -> bool {
-        true
-    }
     fn columns(&self) -> Vec<ProbeColumn> {
         vec![
             ProbeColumn::named("", "m/s"),
@@ -33,8 +30,12 @@ impl<const D: usize> Probe<D> for FrictionVelocityProbe {
         ]
     }
 
-    fn fields(&self) -> Vec<&str> {
-        vec![FRICTION_VELOCITY.name, WALL_UNITS.name]
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            around: true,
+            fields: vec![FRICTION_VELOCITY.name, WALL_UNITS.name],
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

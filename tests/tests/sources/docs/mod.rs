@@ -53,7 +53,7 @@ fn blocks<'t>(text: &'t str, language: &str) -> Vec<&'t str> {
 #[test]
 fn the_code_of_the_plugin_page_is_that_of_the_examples() {
     let quoted = blocks(PLUGINS, "rust");
-    assert_eq!(quoted.len(), 5);
+    assert_eq!(quoted.len(), 6);
     for block in &quoted {
         let found = QUOTED.iter().any(|file| file.contains(block));
         assert!(found, "in none of the examples:\n{block}");
