@@ -1,11 +1,10 @@
 //! A body force by functions of Python: `[body-force.python]`.
 
-use sph_contribution::{Contribution, Refusal, Setting, Stages, contribution_kind, Offer};
-use std::any::{Any};
+use sph_contribution::{Contribution, Offer, Refusal, Setting, contribution_kind};
 use sph_core::{
     Access, AnyField, Declares, Field, Stage, StepError, Vect, Vector, plugin, suggestion,
 };
-use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, Terms, WithTerm, World};
+use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, WithTerm, World};
 
 use crate::columns::field_of;
 use crate::functions::{call, known};

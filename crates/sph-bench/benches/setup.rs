@@ -130,7 +130,7 @@ pub fn terms_by_name() -> Terms<2> {
     vec![
         column(formulation).pressure_term(),
         column(viscous).term(Viscosity::Uniform(VISCOSITY)),
-        Box::new(Lanewise(BrezziPitkaranta::with(STRENGTH).of(&laws()))),
+        Box::new(BrezziPitkaranta::with(STRENGTH).of(&laws())),
     ]
 }
 

@@ -1,9 +1,10 @@
 //! Damping in proportion to the velocity.
 
 use rayon::prelude::*;
-use sph_contribution::{Contribution, Refusal, Setting, StepWork, contribution_kind, Offer, StepHook, StepMoment, StepPhase};
-use sph_core::{Access, AnyField, StepError, Vect, fields, plugin};
-use sph_neighbours::{World};
+use sph_contribution::{
+    Contribution, Offer, Refusal, Setting, StepHook, StepMoment, StepPhase, contribution_kind,
+};
+use sph_core::{Access, StepError, Vect, fields, plugin};
 
 use crate::zone::Zone;
 

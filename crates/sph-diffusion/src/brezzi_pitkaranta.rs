@@ -2,7 +2,8 @@
 
 use sph_core::{Access, StepError, Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot, splat, Pair,
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot,
+    splat,
 };
 
 use crate::diffusion_limit::fastest;

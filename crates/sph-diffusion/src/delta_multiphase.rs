@@ -1,7 +1,10 @@
 //! The δ-SPH smoother for several phases.
 
 use sph_core::{Access, StepError, Vect, fields, parameters, plugin};
-use sph_neighbours::{BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot, splat, Pair};
+use sph_neighbours::{
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot,
+    splat,
+};
 
 use crate::per_phase::PerPhase;
 use crate::{Accelerated, SmootherEntry, Smoothing};

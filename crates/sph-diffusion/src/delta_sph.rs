@@ -4,7 +4,8 @@ use sph_core::{
     Access, Declares, Field, Stage, StepError, Vect, Vector, fields, parameters, plugin,
 };
 use sph_neighbours::{
-    Around, BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, Values, World, dot, unlike, walk_into, Pair,
+    Around, BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, Values,
+    World, dot, unlike, walk_into,
 };
 
 use crate::linear_exact::linear_exact;

@@ -2,8 +2,7 @@
 
 use rayon::prelude::*;
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, parameters, plugin};
-use sph_neighbours::{Interaction, World};
-use serde::{Serialize};
+use sph_neighbours::World;
 
 use crate::ShiftingEntry;
 use crate::evenness::{Evenness, Held, evenness, held_normals};

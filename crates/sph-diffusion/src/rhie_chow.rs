@@ -1,7 +1,7 @@
 //! The Rhie–Chow smoother.
 
 use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
-use sph_neighbours::{Around, Interaction, Values, World, walk_into};
+use sph_neighbours::{Around, Values, World, walk_into};
 
 use crate::balance::PRESSURE_SLOPE;
 use crate::linear_exact::linear_exact;

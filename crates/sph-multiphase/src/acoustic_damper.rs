@@ -2,13 +2,14 @@
 
 use std::sync::OnceLock;
 
-use sph_contribution::{Contribution, Limiter, Setting, Stages, Offer, Refusal};
+use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 use sph_core::{
     Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, plugin,
 };
 use sph_damping::DampingEntry;
 use sph_neighbours::{
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, Sums, Terms, Values, World, add_scaled, all_sums, declared, walk_some, Pair, splat,
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+    Rates, Sums, Values, World, add_scaled, all_sums, declared, walk_some,
 };
 
 use crate::divergence::{Divergence, OwnVolume};

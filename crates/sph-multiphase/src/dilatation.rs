@@ -1,9 +1,9 @@
 //! Scalars that the motion compresses: d ln(value)/dt = exponent · D{u}, down to a particle alone.
 
 use rayon::prelude::*;
-use sph_contribution::{StepWork, StepHook, StepMoment, StepPhase};
-use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
-use sph_neighbours::{Interaction, World, interactions};
+use sph_contribution::{StepHook, StepMoment, StepPhase};
+use sph_core::{Access, StepError, Vect, fields};
+use sph_neighbours::{Interaction, interactions};
 
 use crate::Compressed;
 

@@ -1,7 +1,7 @@
 //! The interface force of Grenier et al. (2009).
 
-use sph_core::{plugin};
-use sph_neighbours::{Interaction, Lane};
+use sph_core::plugin;
+use sph_neighbours::Lane;
 
 use crate::repulsion::{Repelling, Repulsion};
 use crate::{InterfaceEntry, offer_interface};

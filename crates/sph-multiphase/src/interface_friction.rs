@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use sph_core::{Access, StepError, StepLimit, Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, WallPoints, World, add_scaled, dot, minus, unlike, Pair, splat,
+    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
+    WallPoints, World, add_scaled, dot, minus, unlike,
 };
 
 use crate::scattered::{SCATTERED, Scattered};

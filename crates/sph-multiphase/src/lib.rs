@@ -22,7 +22,6 @@ mod contract;
 mod contribution;
 mod dilatation;
 mod divergence;
-#[cfg(not(test))]
 mod gradient;
 mod grenier;
 mod grenier_interface;

@@ -1,7 +1,7 @@
 //! The force against micro-mixing.
 
-use sph_core::{plugin};
-use sph_neighbours::{Interaction, Lane};
+use sph_core::plugin;
+use sph_neighbours::Lane;
 
 use crate::repulsion::{Repelling, Repulsion};
 use crate::{InterfaceEntry, offer_interface};

@@ -4,10 +4,9 @@ use sph_core::{
     Access, Declares, Field, Stage, StepError, StepLimit, Vect, Vector, fields, parameters, plugin,
 };
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
-    World, dot, splat,
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot,
+    splat,
 };
-use sph_neighbours::{BoundTerm, Pair, PairTerm, Rates, World};
 
 use crate::contact_angle::{ContactAngle, FILM};
 use crate::{InterfaceEntry, offer_interface};

@@ -16,7 +16,8 @@ pub struct Cluster<'a, const D: usize> {
     pub(crate) width: Width,
     pub(crate) members: Members<'a>,
     pub(crate) contacts: &'a Contacts<D>,
-    pub(crate) renormalisation: Option<&'a [f64]>,
+    /// 1/γ of every member.
+    pub(crate) inverse_renormalisation: [f64; MOST],
     /// Square of the support radius, m².
     pub(crate) limit: f64,
     /// Whether images across periodic faces may be nearer.
@@ -141,7 +142,7 @@ impl<const D: usize> Cluster<'_, D> {
                 free: self.buffers.free[k].row(),
                 wall: self.buffers.walls[k].row(),
                 contacts: self.contacts.of(particle),
-                inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
+                inverse_renormalisation: self.inverse_renormalisation[k],
             };
             visit(k, &neighbourhood);
         }
@@ -176,7 +177,7 @@ impl<const D: usize> Cluster<'_, D> {
             free: Row::empty(),
             wall: self.buffers.walls[member].row(),
             contacts: self.contacts.of(particle),
-            inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
+            inverse_renormalisation: self.inverse_renormalisation[member],
         }
     }
 

@@ -5,7 +5,7 @@ use std::borrow::Borrow;
 use rayon::prelude::*;
 use sph_core::{Access, StepError, Vect, fields};
 use sph_kernels::Sampler;
-use sph_lanes::{Width, width};
+use sph_lanes::{MOST, Width, width};
 
 use crate::cluster::{Buffers, Cluster};
 use crate::half::is_wanted;
@@ -318,6 +318,12 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         let world = self.world;
         let hidden = &world.lists.hidden;
         let own = members.from..members.from + members.count;
+        let mut inverse_renormalisation = [1.0; MOST];
+        if let Some(gamma) = self.renormalisation {
+            let gamma = &gamma[own.clone()];
+            let both = inverse_renormalisation.iter_mut().zip(gamma);
+            both.for_each(|(inverse, gamma)| *inverse = 1.0 / gamma);
+        }
         let mut domain = None;
         for (i, row) in own.zip(&mut buffers.walls) {
             let x = &self.positions[i];
@@ -338,7 +344,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
             width: self.width,
             members,
             contacts: &world.walls.contacts,
-            renormalisation: self.renormalisation,
+            inverse_renormalisation,
             limit: self.kernel.support_radius().powi(2),
             wraps: domain.is_some(),
             buffers,

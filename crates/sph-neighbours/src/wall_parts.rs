@@ -194,7 +194,7 @@ impl<const D: usize> Apart<D> {
         }
         let mut without = Cluster {
             contacts: none,
-            renormalisation: None,
+            inverse_renormalisation: [1.0; MOST],
             buffers: &mut *cluster.buffers,
             ..*cluster
         };

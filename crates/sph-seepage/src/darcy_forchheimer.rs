@@ -1,7 +1,7 @@
 //! Seepage by the law of Darcy and Forchheimer.
 
-use sph_contribution::{StepWork, Contribution, Offer, Refusal, Setting};
-use sph_core::{plugin, suggestion, fields};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_core::{fields, plugin, suggestion};
 use sph_implicit::{ConjugateGradient, Preconditioner};
 
 use crate::contract::SeepageEntry;

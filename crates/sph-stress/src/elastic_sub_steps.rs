@@ -1,8 +1,8 @@
 //! Steps of the elastic force within that of the flow.
 
 use rayon::prelude::*;
-use sph_contribution::{OutsideForce, Kick, StepHook, StepMoment, StepPhase};
-use sph_core::{Stage, StepError, Vect, fields, Access, Declares};
+use sph_contribution::{Kick, OutsideForce, StepHook, StepMoment, StepPhase};
+use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
 use sph_neighbours::{World, accelerations_of};
 
 use crate::{CarriedStress, ElasticMotion, Felt};

@@ -1,8 +1,7 @@
 //! The effective pressure as a harmonic function of place.
 
-use sph_core::{Access, Declares, Stage, StepError, Vect, fields, parameters, plugin};
-use serde::{Serialize};
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_core::{Access, Declares, Stage, StepError, Vect, fields, parameters, plugin};
 use sph_implicit::{
     Assembly, ConjugateGradient, DividedMatrix, Entries, Jacobi, LinearSolver, Matrix,
     Preconditioner, Report,

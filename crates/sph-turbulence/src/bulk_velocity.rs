@@ -1,8 +1,9 @@
 //! A flow rate that is held.
 
-use sph_contribution::{Contribution, Refusal, Setting, StepWork, contribution_kind, Offer, StepHook, StepMoment, StepPhase};
-use sph_core::{Access, AnyField, Axis, StepError, fields, plugin};
-use sph_neighbours::{World};
+use sph_contribution::{
+    Contribution, Offer, Refusal, Setting, StepHook, StepMoment, StepPhase, contribution_kind,
+};
+use sph_core::{Access, Axis, StepError, fields, plugin};
 
 contribution_kind!(
     /// A control of the flow rate that a scene may name.

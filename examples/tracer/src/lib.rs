@@ -4,9 +4,10 @@ use sph_contribution::{
     Contribution, Limiter, Offer, OwnColumn, Refusal, Report, Setting, StepHook, StepPhase,
     contribution_kind,
 };
-use sph_core::{Access, AnyField, Evolved, Field, Scalar, StepError, StepLimit, fields, plugin};
-use sph_neighbours::{BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, Pair};
-use sph_core::reexport::{inventory};
+use sph_core::{Access, Evolved, Field, Scalar, StepError, StepLimit, fields, plugin};
+use sph_neighbours::{
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World,
+};
 
 contribution_kind!(
     /// What diffuses through a fluid.

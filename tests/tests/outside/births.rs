@@ -4,7 +4,7 @@ use sph_contribution::{
     Contribution, Gate, Newborn, Offer, OwnColumn, Refusal, Setting, StepHook, StepMoment,
     StepPhase, contribution_kind,
 };
-use sph_core::{Access, AnyField, Field, Scalar, StepError, Vect, plugin};
+use sph_core::{Access, Field, Scalar, StepError, Vect, plugin};
 use sph_neighbours::World;
 use sph_scene::parse;
 use sph_solver::{RunOptions, Start, Summary, run};
@@ -43,7 +43,7 @@ impl Contribution<2> for Drip {
     }
     fn offer(&mut self, _: &Setting<'_, 2>, offer: &mut Offer<2>) -> Result<(), Refusal> {
         offer.hook(Failing(self.fails_at));
-        offer.gate(self.clone());
+        offer.gate(*self);
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! The pair term in lanes of `examples/artificial-viscosity`, and the bits of all widths of lanes.
 
-use artificial_viscosity::{ArtificialViscosity, Bound};
+use artificial_viscosity::ArtificialViscosity;
 use sph_core::{Access, StepError, plugin};
 use sph_lanes::{Width, force_width};
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World};

@@ -4,12 +4,13 @@
 //! Everything between the two lines could be a crate of its own. A binary that mentions it,
 //! `use my_plugins as _;`, and calls `sph_cli::main()` has the plugins in all its commands.
 
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_kernels::{Kernel, Sampler, ScalarSampler};
-use sph_neighbours::{Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World};
-use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
-use std::any::{Any};
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_neighbours::{
+    Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World,
+};
+use sph_viscosity::EddyViscosityEntry;
 
 // ------------------------------------------------------------------------------------------------
 

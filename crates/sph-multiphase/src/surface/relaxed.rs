@@ -2,8 +2,11 @@
 
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
-use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork, contribution_kind, Offer, Report, StepHook, StepMoment, StepPhase};
-use sph_core::{Access, AnyField, StepError, fields, plugin};
+use sph_contribution::{
+    Contribution, Offer, Refusal, Report, Setting, StepHook, StepMoment, StepPhase,
+    contribution_kind,
+};
+use sph_core::{Access, StepError, fields, plugin};
 use sph_neighbours::World;
 
 use super::cone::{FREE_SURFACE, FreeSurface, Place};

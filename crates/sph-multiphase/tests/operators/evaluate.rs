@@ -4,7 +4,7 @@ use sph_contribution::{Contribution, Offer, Setting};
 use sph_core::Vect;
 use sph_diffusion::BrezziPitkaranta;
 use sph_multiphase::{Formulation, HuAdams};
-use sph_neighbours::{Interaction, Lanewise, Terms, World, interactions};
+use sph_neighbours::{Interaction, Terms, World, interactions};
 use sph_state::{EquationOfState, Laws, Linear, Reference};
 use sph_viscosity::{Choice, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm};
 
@@ -53,9 +53,7 @@ pub fn viscosity_column<const D: usize>() -> Box<dyn Interaction<D>> {
 }
 
 pub fn smoother<const D: usize>(strength: f64) -> Box<dyn Interaction<D>> {
-    Box::new(Lanewise(
-        BrezziPitkaranta::with(strength).of(&laws(&[(1000.0, 20.0)])),
-    ))
+    Box::new(BrezziPitkaranta::with(strength).of(&laws(&[(1000.0, 20.0)])))
 }
 
 /// The offer of a plugin to a scene of two phases with these laws, whose densities are sums or not.

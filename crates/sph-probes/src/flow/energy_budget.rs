@@ -1,9 +1,9 @@
 //! Where the energy of a flow goes.
 
 use sph_core::{Field, Scalar, StepError, fields, plugin};
-use std::collections::{BTreeMap};
-use std::sync::{Mutex, PoisonError};
 use sph_neighbours::World;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 

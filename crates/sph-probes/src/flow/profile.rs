@@ -169,4 +169,3 @@ impl<const D: usize> Curves<D> for Profile {
         Ok(rows.into_iter().map(|row| row.to_vec()).collect())
     }
 }
-

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sph_contribution::{Offer, Refusal, Setting, Stages};
 use sph_core::{AnyField, Declares, fields, plan};
 use sph_multiphase::Diffused;
-use sph_neighbours::{Interaction, Terms};
+use sph_neighbours::Interaction;
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;

@@ -4,7 +4,6 @@ use std::rc::Rc;
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{AnyField, fields};
-use sph_neighbours::{Terms};
 
 use crate::{Materials, RidingStrain, StrainRate};
 

@@ -1,6 +1,6 @@
 //! Prandtl's mixing length.
 
-use sph_contribution::{Contribution, Setting, Offer, Refusal};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_neighbours::World;
 use sph_viscosity::EddyViscosityEntry;

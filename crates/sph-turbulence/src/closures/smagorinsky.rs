@@ -1,7 +1,7 @@
 //! Smagorinsky's closure of large-eddy simulations.
 
-use sph_contribution::{Contribution, OwnColumn, Refusal, Setting, Stages, StepWork, Offer};
-use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, StepError, fields, parameters, plugin};
+use sph_contribution::{Contribution, Offer, OwnColumn, Refusal, Setting};
+use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields, parameters, plugin};
 use sph_neighbours::World;
 use sph_viscosity::EddyViscosityEntry;
 

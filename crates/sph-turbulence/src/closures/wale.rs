@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, SMatrix};
 use rayon::prelude::*;
-use sph_contribution::{Contribution, Setting, Offer, Refusal};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_neighbours::World;
 use sph_viscosity::EddyViscosityEntry;

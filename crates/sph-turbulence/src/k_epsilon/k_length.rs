@@ -1,10 +1,12 @@
 //! One transported scalar, and a length by the distance from walls.
 
 use rayon::prelude::*;
-use sph_contribution::{Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork, Offer, StepHook, StepMoment, StepPhase};
-use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, plugin};
-use sph_neighbours::{Terms, World};
-use sph_viscosity::{EddyViscosity, EddyViscosityEntry};
+use sph_contribution::{
+    Contribution, Offer, OwnColumn, Refusal, Setting, StepHook, StepMoment, StepPhase,
+};
+use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, plugin};
+use sph_neighbours::World;
+use sph_viscosity::EddyViscosityEntry;
 
 use super::diffusion::{Diffusion, DiffusionLimit};
 use super::model::KEpsilonModel;

@@ -1,9 +1,9 @@
 //! The k–ε closure as a plugin.
 
 use rayon::prelude::*;
-use sph_contribution::{Birth, Contribution, Limiter, OwnColumn, Refusal, Setting, Stages, StepWork, Offer};
-use sph_core::{Access, AnyField, Declares, Evolved, Stage, StepError, fields, plugin};
-use sph_neighbours::{Terms, World};
+use sph_contribution::{Birth, Contribution, Offer, OwnColumn, Refusal, Setting};
+use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, plugin};
+use sph_neighbours::World;
 use sph_stress::StressDivergence;
 use sph_viscosity::EddyViscosityEntry;
 

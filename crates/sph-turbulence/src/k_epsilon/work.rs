@@ -1,7 +1,7 @@
 //! Production and dissipation within a step, and what walls set.
 
 use rayon::prelude::*;
-use sph_contribution::{StepWork, Report, StepHook, StepMoment, StepPhase};
+use sph_contribution::{Report, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, StepError, fields, parameters};
 use sph_neighbours::World;
 

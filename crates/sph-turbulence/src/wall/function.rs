@@ -1,7 +1,9 @@
 //! Walls whose boundary layer is finer than the particles.
 
-use sph_contribution::{Contribution, Refusal, Setting, Stages, StepWork, contribution_kind, Offer, Report, StepHook, StepPhase};
-use sph_core::{Access, AnyField, fields, plugin, suggestion};
+use sph_contribution::{
+    Contribution, Offer, Refusal, Report, Setting, StepHook, StepPhase, contribution_kind,
+};
+use sph_core::{Access, fields, plugin, suggestion};
 use sph_neighbours::World;
 
 use super::law::WallLaw;
