@@ -5,17 +5,9 @@ use quote::{ToTokens, format_ident, quote};
 use syn::ext::IdentExt;
 use syn::{DeriveInput, Field, Generics, parse_quote};
 
+use crate::attributes::is_skipped;
 use crate::number::optional;
-use crate::parameter::Parameter;
-use crate::table::is_skipped;
-
-/// What the word `default` says.
-pub enum Fallback {
-    /// The default of the type.
-    OfType,
-    /// The value of an expression.
-    Value(TokenStream),
-}
+use crate::parameter::{Fallback, Parameter};
 
 /// The type whose parameters are read, with the functions that make their defaults.
 pub struct Defaults {

@@ -16,6 +16,7 @@
 //! `#[serde(skip)]` keeps is neither cloned nor printed, unless it is plain numbers. What an author derives as well is
 //! not derived twice; further attributes of `serde` and `schemars` stay possible.
 
+mod attributes;
 mod defaults;
 mod number;
 mod parameter;

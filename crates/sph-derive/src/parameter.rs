@@ -6,8 +6,6 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Error, Token};
 
-use crate::defaults::Fallback;
-
 /// Words, and the keys of the schema that they become.
 const WORDS: [(&str, &str); 10] = [
     ("unit", "unit"),
@@ -21,6 +19,14 @@ const WORDS: [(&str, &str); 10] = [
     ("examples", "examples"),
     ("source", "source"),
 ];
+
+/// What the word `default` says.
+pub enum Fallback {
+    /// The default of the type.
+    OfType,
+    /// The value of an expression.
+    Value(TokenStream),
+}
 
 /// The words of one parameter.
 #[derive(Default)]

@@ -1,11 +1,12 @@
 //! The derives and attributes of a table of parameters, or of a choice between variants.
 
-use proc_macro2::{Ident, TokenStream, TokenTree};
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
-use syn::{Attribute, Data, DataEnum, DataStruct, DeriveInput, Error, Field, Fields};
+use syn::{Attribute, Data, DataEnum, DataStruct, DeriveInput, Error, Fields};
 
+use crate::attributes::{is_skipped, words};
 use crate::defaults::Defaults;
 use crate::number::is_number;
 use crate::parameter::value;
@@ -169,27 +170,6 @@ fn is_plain(data: &Data) -> bool {
         Data::Enum(data) => data.variants.iter().all(|variant| plain(&variant.fields)),
         Data::Union(_) => false,
     }
-}
-
-/// Whether a field is no parameter but what a plugin keeps.
-pub fn is_skipped(field: &Field) -> bool {
-    words(&field.attrs, "serde")
-        .iter()
-        .any(|word| word == "skip")
-}
-
-/// The words within the attributes of a name: what an author derives and says to `serde` besides.
-fn words(attributes: &[Attribute], name: &str) -> Vec<String> {
-    let named = attributes.iter().filter(|a| a.path().is_ident(name));
-    let lists = named.filter_map(|a| a.meta.require_list().ok());
-    let word = |token| match token {
-        TokenTree::Ident(word) => Some(word.to_string()),
-        _ => None,
-    };
-    lists
-        .flat_map(|list| list.tokens.clone())
-        .filter_map(word)
-        .collect()
 }
 
 #[cfg(test)]
