@@ -1,5 +1,5 @@
-//! Attributes that declare a plugin and its parameters in one place; use them as `sph_core::plugin` and
-//! `sph_core::parameters`.
+//! Attributes that declare a plugin and its parameters in one place; use them as `sph_core::plugin`,
+//! `sph_core::parameters` and, for the columns of a pair term, `sph_neighbours::pair_term`.
 //!
 //! ```text
 //! /// τ = 2 η γ̇ with constant η.
@@ -19,6 +19,7 @@
 mod attributes;
 mod defaults;
 mod number;
+mod pair_term;
 mod parameter;
 mod registration;
 mod table;
@@ -55,6 +56,26 @@ pub fn plugin(arguments: TokenStream, item: TokenStream) -> TokenStream {
 pub fn parameters(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let root = parse_macro_input!(arguments as table::Root);
     expanded(parse_macro_input!(item as DeriveInput), &root.0, None)
+}
+
+/// A pair term: its columns and constants, declared once in the struct that holds them while a sweep goes on.
+///
+/// `#[pair_term(Term, "name in plans")]` on the bound struct implements `PairTerm` for `Term`. Every field has one word:
+///
+/// * `#[here(FIELD)]`, `#[neighbours(FIELD)]`, `#[both(FIELD)]`: a column of the particle, of its neighbours, of both;
+/// * `#[both(FIELD, if condition)]`: a column that is read in some scenes only, an `Option` or else an empty slice;
+/// * `#[where_there(FIELD)]`: a column that not every scene has, an `Option`;
+/// * `#[rate(FIELD)]`: the slot of a rate that the term adds to;
+/// * `#[value(expression)]`: a constant of the sweep.
+///
+/// Expressions know `self`, which is the term, and `world`.
+#[proc_macro_attribute]
+pub fn pair_term(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    let term = parse_macro_input!(arguments as pair_term::Term);
+    let item = parse_macro_input!(item as DeriveInput);
+    pair_term::expand(&term, item)
+        .unwrap_or_else(syn::Error::into_compile_error)
+        .into()
 }
 
 /// The table, and the registration of a plugin. After a mistake in the words of a parameter all goes on without them, so

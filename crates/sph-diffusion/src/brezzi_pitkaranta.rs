@@ -1,8 +1,8 @@
 //! The Brezzi–Pitkäranta smoother.
 
 use sph_core::{Access, StepError, Vect, fields, plugin};
-use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot,
+use sph_neighbours::{pair_term, 
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World, dot,
     splat,
 };
 
@@ -81,46 +81,20 @@ pub struct PressureDiffusion {
     accelerated: bool,
 }
 
-impl<const D: usize> PairTerm<D> for PressureDiffusion {
-    type Bound<'a> = Bound<'a, D>;
-
-    fn name(&self) -> String {
-        "Brezzi–Pitkäranta smoother".into()
-    }
-
-    fn access(&self) -> Access {
-        let access = Access::none()
-            .both(fields::PRESSURE)
-            .both(fields::DENSITY)
-            .neighbours(fields::VOLUME);
-        match self.accelerated {
-            true => access.both(fields::MEAN_ACCELERATION),
-            false => access,
-        }
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
-        Ok(Bound {
-            pressure: world.free.get(fields::PRESSURE)?,
-            density: world.free.get(fields::DENSITY)?,
-            volume: world.free.get(fields::VOLUME)?,
-            acceleration: match self.accelerated {
-                true => Some(world.free.get(fields::MEAN_ACCELERATION)?),
-                false => None,
-            },
-            gravity: world.gravity,
-            weight: 2.0 * self.slowness * world.kernel.smoothing_length(),
-        })
-    }
-}
-
 /// [`PressureDiffusion`] with its columns.
+#[pair_term(PressureDiffusion, "Brezzi–Pitkäranta smoother")]
 pub struct Bound<'a, const D: usize> {
+    #[both(fields::PRESSURE)]
     pressure: &'a [f64],
+    #[both(fields::DENSITY)]
     density: &'a [f64],
+    #[neighbours(fields::VOLUME)]
     volume: &'a [f64],
+    #[both(fields::MEAN_ACCELERATION, if self.accelerated)]
     acceleration: Option<&'a [Vect<D>]>,
+    #[value(world.gravity)]
     gravity: Vect<D>,
+    #[value(2.0 * self.slowness * world.kernel.smoothing_length())]
     weight: f64,
 }
 

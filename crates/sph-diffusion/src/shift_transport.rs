@@ -1,8 +1,8 @@
 //! What shifted particles take up where they go.
 
 use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{
-    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World,
+use sph_neighbours::{pair_term, 
+    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World,
     add_scaled, dot, splat, unlike,
 };
 
@@ -31,60 +31,29 @@ pub struct ShiftTransport {
     pub summed: bool,
 }
 
-impl<const D: usize> PairTerm<D> for ShiftTransport {
-    type Bound<'a> = Bound<'a, D>;
-
-    fn name(&self) -> String {
-        "transport by shifting".into()
-    }
-
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::SHIFT_VELOCITY)
-            .both(fields::VELOCITY)
-            .both(fields::DENSITY)
-            .where_there(fields::PHASE)
-            .here(fields::EMPTINESS)
-            .neighbours(fields::VOLUME)
-            .here(fields::MASS)
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
-        let points = &world.walls.points;
-        Ok(Bound {
-            which: *self,
-            shift: world.free.get(fields::SHIFT_VELOCITY)?,
-            velocity: world.free.get(fields::VELOCITY)?,
-            density: world.free.get(fields::DENSITY)?,
-            emptiness: world.free.get(fields::EMPTINESS)?,
-            volume: world.free.get(fields::VOLUME)?,
-            mass: world.free.get(fields::MASS)?,
-            phase: world.free.get(fields::PHASE).ok(),
-            wall_velocity: &points.velocity,
-            wall_share: &points.share,
-            wall_volume: &points.volume,
-            wall_grip: &points.grip,
-            elements: &world.walls.elements,
-        })
-    }
-}
-
 /// [`ShiftTransport`] with its columns.
+#[pair_term(ShiftTransport, "transport by shifting")]
 pub struct Bound<'a, const D: usize> {
+    #[value(*self)]
     which: ShiftTransport,
+    #[both(fields::SHIFT_VELOCITY)]
     shift: &'a [Vect<D>],
+    #[both(fields::VELOCITY)]
     velocity: &'a [Vect<D>],
+    #[both(fields::DENSITY)]
     density: &'a [f64],
+    #[here(fields::EMPTINESS)]
     emptiness: &'a [f64],
+    #[neighbours(fields::VOLUME)]
     volume: &'a [f64],
+    #[here(fields::MASS)]
     mass: &'a [f64],
+    #[where_there(fields::PHASE)]
     phase: Option<&'a [u32]>,
-    wall_velocity: &'a [Vect<D>],
-    wall_share: &'a [f64],
-    wall_volume: &'a [f64],
-    wall_grip: &'a [f64],
-    elements: &'a Elements<D>,
+    #[value(&world.walls)]
+    walls: &'a WallSet<D>,
 }
+
 
 /// The own values of a particle.
 #[derive(Clone, Copy)]
@@ -159,15 +128,15 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         let (shift, velocity, density) = (self.shift[i], self.velocity[i], self.density[i]);
         let summed = if self.which.summed { self.mass[i] } else { 0.0 };
         for (v, pair) in at.wall.pairs() {
-            let along = shift.dot(&pair.separation) * self.wall_share[v] * pair.factor;
-            let apart = self.wall_velocity[v] - velocity;
-            taken_up += apart * (self.wall_volume[v] * self.wall_grip[v] * along);
+            let along = shift.dot(&pair.separation) * self.walls.points.share[v] * pair.factor;
+            let apart = self.walls.points.velocity[v] - velocity;
+            taken_up += apart * (self.walls.points.volume[v] * self.walls.points.grip[v] * along);
             rate -= summed * along;
         }
         for contact in at.contacts {
             let s = contact.element as usize;
             let along = shift.dot(&contact.gradient);
-            taken_up -= (self.elements.velocity[s] - velocity) * (self.elements.grip[s] * along);
+            taken_up -= (self.walls.elements.velocity[s] - velocity) * (self.walls.elements.grip[s] * along);
             if self.which.summed {
                 rate += density * along;
             }

@@ -7,8 +7,8 @@ use sph_core::{
     Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, plugin,
 };
 use sph_damping::DampingEntry;
-use sph_neighbours::{
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+use sph_neighbours::{pair_term, WallSet, 
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles,
     Rates, Sums, Values, World, add_scaled, all_sums, declared, walk_some,
 };
 
@@ -180,39 +180,17 @@ impl<const D: usize> Limiter<D> for DamperLimit {
 /// The force of [`AcousticDamper`].
 struct DampingForce;
 
-impl<const D: usize> PairTerm<D> for DampingForce {
-    type Bound<'a> = Bound<'a, D>;
-
-    fn name(&self) -> String {
-        "acoustic damper".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .both(DAMPING_PRESSURE)
-            .both(fields::VOLUME)
-            .here(fields::MASS)
-    }
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
-        let points = &world.walls.points;
-        Ok(Bound {
-            pressure: world.free.get(DAMPING_PRESSURE)?,
-            volume: world.free.get(fields::VOLUME)?,
-            mass: world.free.get(fields::MASS)?,
-            wall_volume: &points.volume,
-            wall_share: &points.share,
-            elements: &world.walls.elements,
-        })
-    }
-}
-
 /// [`DampingForce`] with its columns.
+#[pair_term(DampingForce, "acoustic damper")]
 struct Bound<'a, const D: usize> {
+    #[both(DAMPING_PRESSURE)]
     pressure: &'a [f64],
+    #[both(fields::VOLUME)]
     volume: &'a [f64],
+    #[here(fields::MASS)]
     mass: &'a [f64],
-    wall_volume: &'a [f64],
-    wall_share: &'a [f64],
-    elements: &'a Elements<D>,
+    #[value(&world.walls)]
+    walls: &'a WallSet<D>,
 }
 
 impl<const D: usize> PairSum<D> for Bound<'_, D> {
@@ -241,11 +219,11 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         let against = |volume: f64| pressure * (own * own + volume * volume);
         let mut sum = Vect::from(sum);
         for (v, pair) in at.wall.pairs() {
-            let weight = self.wall_share[v] * against(self.wall_volume[v]);
+            let weight = self.walls.points.share[v] * against(self.walls.points.volume[v]);
             sum += pair.separation * (weight * pair.factor);
         }
         for contact in at.contacts {
-            let volume = self.elements.volume[contact.element as usize];
+            let volume = self.walls.elements.volume[contact.element as usize];
             sum -= contact.gradient * (against(volume) / volume);
         }
         rates.acceleration -= sum * (1.0 / self.mass[i] * at.inverse_renormalisation);

@@ -1,8 +1,8 @@
 //! Discrete divergences of the velocity.
 
 use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+use sph_neighbours::{pair_term, WallSet, 
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles,
     Rates, World, dot, minus,
 };
 
@@ -84,45 +84,19 @@ impl<W: DivergenceWeight> Divergence<W> {
     }
 }
 
-impl<const D: usize, W: DivergenceWeight> PairTerm<D> for Divergence<W> {
-    type Bound<'a> = Bound<'a, D, W>;
-
-    fn name(&self) -> String {
-        W::NAME.into()
-    }
-
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::VELOCITY)
-            .both(fields::VOLUME)
-            .both(fields::DENSITY)
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D, W>, StepError> {
-        let points = &world.walls.points;
-        Ok(Bound {
-            weight: self.0,
-            velocity: world.free.get(fields::VELOCITY)?,
-            volume: world.free.get(fields::VOLUME)?,
-            density: world.free.get(fields::DENSITY)?,
-            wall_velocity: &points.velocity,
-            wall_volume: &points.volume,
-            wall_share: &points.share,
-            elements: &world.walls.elements,
-        })
-    }
-}
-
 /// [`Divergence`] with its columns.
-pub struct Bound<'a, const D: usize, W> {
+#[pair_term(Divergence<W>, W::NAME)]
+pub struct Bound<'a, const D: usize, W: DivergenceWeight> {
+    #[value(self.0)]
     weight: W,
+    #[both(fields::VELOCITY)]
     velocity: &'a [Vect<D>],
+    #[both(fields::VOLUME)]
     volume: &'a [f64],
+    #[both(fields::DENSITY)]
     density: &'a [f64],
-    wall_velocity: &'a [Vect<D>],
-    wall_volume: &'a [f64],
-    wall_share: &'a [f64],
-    elements: &'a Elements<D>,
+    #[value(&world.walls)]
+    walls: &'a WallSet<D>,
 }
 
 impl<const D: usize, W: DivergenceWeight> PairSum<D> for Bound<'_, D, W> {
@@ -151,16 +125,16 @@ impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for Bound<'_, D, W> {
         let i = at.particle;
         let (velocity, volume, density) = (self.velocity[i], self.volume[i], self.density[i]);
         for (v, pair) in at.wall.pairs() {
-            let there = self.wall_volume[v];
+            let there = self.walls.points.volume[v];
             let weight = self.weight.weight(volume, density, there, density);
-            let apart = (velocity - self.wall_velocity[v]).dot(&pair.separation);
-            sum -= self.wall_share[v] * weight * apart * pair.factor;
+            let apart = (velocity - self.walls.points.velocity[v]).dot(&pair.separation);
+            sum -= self.walls.points.share[v] * weight * apart * pair.factor;
         }
         for contact in at.contacts {
             let s = contact.element as usize;
-            let there = self.elements.volume[s];
+            let there = self.walls.elements.volume[s];
             let weight = self.weight.at_element(volume, density, there);
-            sum += weight * (velocity - self.elements.velocity[s]).dot(&contact.gradient);
+            sum += weight * (velocity - self.walls.elements.velocity[s]).dot(&contact.gradient);
         }
         rates.scalar += sum * at.inverse_renormalisation;
     }

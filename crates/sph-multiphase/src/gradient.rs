@@ -1,8 +1,8 @@
 //! Pressure gradients that are sums over pairs with a symmetric weight.
 
 use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+use sph_neighbours::{pair_term, WallSet, 
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles,
     Rates, World, add_scaled,
 };
 
@@ -79,54 +79,21 @@ impl<P: PairPressure> PressureGradient<P> {
     }
 }
 
-impl<const D: usize, P: PairPressure> PairTerm<D> for PressureGradient<P> {
-    type Bound<'a> = Bound<'a, D, P>;
-
-    fn name(&self) -> String {
-        P::NAME.into()
-    }
-
-    fn access(&self) -> Access {
-        let access = Access::none()
-            .both(fields::PRESSURE)
-            .both(fields::VOLUME)
-            .here(fields::MASS);
-        match P::DENSITY {
-            true => access.both(fields::DENSITY),
-            false => access,
-        }
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D, P>, StepError> {
-        let points = &world.walls.points;
-        Ok(Bound {
-            weight: self.0,
-            pressure: world.free.get(fields::PRESSURE)?,
-            volume: world.free.get(fields::VOLUME)?,
-            density: match P::DENSITY {
-                true => world.free.get(fields::DENSITY)?,
-                false => &[],
-            },
-            mass: world.free.get(fields::MASS)?,
-            wall_pressure: &points.pressure,
-            wall_volume: &points.volume,
-            wall_share: &points.share,
-            elements: &world.walls.elements,
-        })
-    }
-}
-
 /// [`PressureGradient`] with its columns.
-pub struct Bound<'a, const D: usize, P> {
+#[pair_term(PressureGradient<P>, P::NAME)]
+pub struct Bound<'a, const D: usize, P: PairPressure> {
+    #[value(self.0)]
     weight: P,
+    #[both(fields::PRESSURE)]
     pressure: &'a [f64],
+    #[both(fields::VOLUME)]
     volume: &'a [f64],
+    #[both(fields::DENSITY, if P::DENSITY)]
     density: &'a [f64],
+    #[here(fields::MASS)]
     mass: &'a [f64],
-    wall_pressure: &'a [f64],
-    wall_volume: &'a [f64],
-    wall_share: &'a [f64],
-    elements: &'a Elements<D>,
+    #[value(&world.walls)]
+    walls: &'a WallSet<D>,
 }
 
 impl<const D: usize, P: PairPressure> PairSum<D> for Bound<'_, D, P> {
@@ -166,18 +133,18 @@ impl<const D: usize, P: PairPressure> BoundTerm<D> for Bound<'_, D, P> {
         // A wall has no density of its own: it is that of the particle.
         for (v, pair) in at.wall.pairs() {
             let there = Side {
-                pressure: self.wall_pressure[v],
-                volume: self.wall_volume[v],
+                pressure: self.walls.points.pressure[v],
+                volume: self.walls.points.volume[v],
                 density: own.density,
             };
-            let weight = self.wall_share[v] * self.weight.pair(own, there);
+            let weight = self.walls.points.share[v] * self.weight.pair(own, there);
             sum += pair.separation * (weight * pair.factor);
         }
         for contact in at.contacts {
             let s = contact.element as usize;
             let there = Side {
-                pressure: self.elements.pressure[s],
-                volume: self.elements.volume[s],
+                pressure: self.walls.elements.pressure[s],
+                volume: self.walls.elements.volume[s],
                 density: own.density,
             };
             sum -= contact.gradient * (self.weight.pair(own, there) / there.volume);

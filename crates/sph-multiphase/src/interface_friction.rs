@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use sph_core::{Access, StepError, StepLimit, Vect, fields, plugin};
-use sph_neighbours::{
-    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
+use sph_neighbours::{pair_term, 
+    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates,
     WallPoints, World, add_scaled, dot, minus, unlike,
 };
 
@@ -103,56 +103,35 @@ impl<const D: usize> Limiter<D> for DampingLimit {
     }
 }
 
-impl<const D: usize> PairTerm<D> for Damping {
-    type Bound<'a> = Bound<'a, D>;
-
-    fn name(&self) -> String {
-        "artificial viscosity between phases".into()
-    }
-
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::VELOCITY)
-            .both(fields::MASS)
-            .both(fields::DENSITY)
-            .both(fields::PHASE)
-            .both(SCATTERED)
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
-        let h = world.kernel.smoothing_length();
-        Ok(Bound {
-            strength: self.strength,
-            shocks: self.shocks,
-            length: h,
-            sound: &self.sound,
-            wall_density: &self.wall_density,
-            points: &world.walls.points,
-            elements: &world.walls.elements,
-            mass: world.free.get(fields::MASS)?,
-            phase: world.free.get(fields::PHASE)?,
-            density: world.free.get(fields::DENSITY)?,
-            scattered: world.free.get(SCATTERED)?,
-            velocity: world.free.get(fields::VELOCITY)?,
-        })
-    }
-}
-
 /// [`Damping`] with its columns.
+#[pair_term(Damping, "artificial viscosity between phases")]
 struct Bound<'a, const D: usize> {
+    #[value(self.strength)]
     strength: f64,
+    #[value(self.shocks)]
     shocks: f64,
+    #[value(world.kernel.smoothing_length())]
     length: f64,
+    #[value(&self.sound)]
     sound: &'a [f64],
+    #[value(&self.wall_density)]
     wall_density: &'a [f64],
+    #[value(&world.walls.points)]
     points: &'a WallPoints<D>,
+    #[value(&world.walls.elements)]
     elements: &'a Elements<D>,
+    #[both(fields::MASS)]
     mass: &'a [f64],
+    #[both(fields::PHASE)]
     phase: &'a [u32],
+    #[both(fields::DENSITY)]
     density: &'a [f64],
+    #[both(SCATTERED)]
     scattered: &'a [f64],
+    #[both(fields::VELOCITY)]
     velocity: &'a [Vect<D>],
 }
+
 
 /// The own values of a particle.
 #[derive(Clone, Copy)]

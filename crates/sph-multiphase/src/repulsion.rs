@@ -1,8 +1,8 @@
 //! Forces that push phases apart: a weight per pair of particles of different phases.
 
 use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
+use sph_neighbours::{pair_term, 
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates,
     World, add_scaled, unlike,
 };
 
@@ -31,38 +31,18 @@ impl<R: Repulsion> Repelling<R> {
     }
 }
 
-impl<const D: usize, R: Repulsion> PairTerm<D> for Repelling<R> {
-    type Bound<'a> = Bound<'a, R>;
-
-    fn name(&self) -> String {
-        R::NAME.into()
-    }
-
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::PRESSURE)
-            .both(fields::VOLUME)
-            .both(fields::PHASE)
-            .here(fields::MASS)
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, R>, StepError> {
-        Ok(Bound {
-            term: self,
-            pressure: world.free.get(fields::PRESSURE)?,
-            volume: world.free.get(fields::VOLUME)?,
-            mass: world.free.get(fields::MASS)?,
-            phase: world.free.get(fields::PHASE)?,
-        })
-    }
-}
-
 /// [`Repelling`] with its columns.
-pub struct Bound<'a, R> {
+#[pair_term(Repelling<R>, R::NAME)]
+pub struct Bound<'a, R: Repulsion> {
+    #[value(self)]
     term: &'a Repelling<R>,
+    #[both(fields::PRESSURE)]
     pressure: &'a [f64],
+    #[both(fields::VOLUME)]
     volume: &'a [f64],
+    #[here(fields::MASS)]
     mass: &'a [f64],
+    #[both(fields::PHASE)]
     phase: &'a [u32],
 }
 

@@ -3,8 +3,8 @@
 use sph_core::{
     Access, Declares, Field, Stage, StepError, StepLimit, Vect, Vector, fields, parameters, plugin,
 };
-use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot,
+use sph_neighbours::{pair_term, 
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World, dot,
     splat,
 };
 
@@ -126,50 +126,24 @@ impl<const D: usize> Stage<World<D>> for ColourGradient {
     }
 }
 
-impl<const D: usize> PairTerm<D> for SurfaceTension {
-    type Bound<'a> = Bound<'a, D>;
-
-    fn name(&self) -> String {
-        "surface tension".into()
-    }
-
-    fn access(&self) -> Access {
-        let access = Access::none()
-            .both(COLOUR_GRADIENT)
-            .both(fields::VOLUME)
-            .here(fields::MASS);
-        match &self.contact_angle {
-            Some(_) => access.both(FILM),
-            None => access,
-        }
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
-        Ok(Bound {
-            colour: world.free.get(COLOUR_GRADIENT)?,
-            volume: world.free.get(fields::VOLUME)?,
-            mass: world.free.get(fields::MASS)?,
-            film: match &self.contact_angle {
-                Some(_) => world.free.get(FILM)?,
-                None => &[],
-            },
-            tension: self.tension,
-            isotropic: match self.stress {
-                SurfaceStress::Full => 1.0,
-                SurfaceStress::TraceFree => 1.0 / D as f64,
-            },
-        })
-    }
-}
-
 /// [`SurfaceTension`] with its columns.
+#[pair_term(SurfaceTension, "surface tension")]
 pub struct Bound<'a, const D: usize> {
+    #[both(COLOUR_GRADIENT)]
     colour: &'a [Vect<D>],
+    #[both(fields::VOLUME)]
     volume: &'a [f64],
+    #[here(fields::MASS)]
     mass: &'a [f64],
     /// Empty where the scene has no contact angle.
+    #[both(FILM, if self.contact_angle.is_some())]
     film: &'a [Vect<D>],
+    #[value(self.tension)]
     tension: f64,
+    #[value(match self.stress {
+        SurfaceStress::Full => 1.0,
+        SurfaceStress::TraceFree => 1.0 / D as f64,
+    })]
     isotropic: f64,
 }
 

@@ -88,6 +88,7 @@ pub use row::{NOBODY, Neighbourhood, Row, Scratch};
 pub use shared_rows::{SharedElements, SharedRows, inner};
 pub use shares::{TermShare, shares_at};
 pub use sight::Sight;
+pub use sph_derive::pair_term;
 pub use sph_lanes::{Body, InLanes, Lane, MOST, add_scaled, dot, scaled};
 pub use sweep::{Sums, accelerations_of, all_sums, declared, interactions, interactions_with};
 pub use team::Team;

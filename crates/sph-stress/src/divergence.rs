@@ -1,8 +1,8 @@
 //! The force of a stress that particles carry.
 
 use sph_core::{Access, Field, StepError, Symmetric, SymmetricTensor, Vect, fields, plugin};
-use sph_neighbours::{
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+use sph_neighbours::{pair_term, WallSet, 
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles,
     Rates, World, dot,
 };
 
@@ -76,44 +76,19 @@ impl StressDivergence {
     }
 }
 
-impl<const D: usize> PairTerm<D> for StressDivergence {
-    type Bound<'a> = Bound<'a, D>;
-
-    fn name(&self) -> String {
-        self.name.into()
-    }
-
-    fn access(&self) -> Access {
-        Access::none()
-            .both(self.stress)
-            .both(fields::VOLUME)
-            .here(fields::MASS)
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
-        let points = &world.walls.points;
-        Ok(Bound {
-            stress: world.free.get(self.stress)?,
-            volume: world.free.get(fields::VOLUME)?,
-            mass: world.free.get(fields::MASS)?,
-            wall_volume: &points.volume,
-            wall_share: &points.share,
-            wall_grip: &points.grip,
-            elements: &world.walls.elements,
-        })
-    }
-}
-
 /// [`StressDivergence`] with its columns.
+#[pair_term(StressDivergence, self.name)]
 pub struct Bound<'a, const D: usize> {
+    #[both(self.stress)]
     stress: &'a [Symmetric],
+    #[both(fields::VOLUME)]
     volume: &'a [f64],
+    #[here(fields::MASS)]
     mass: &'a [f64],
-    wall_volume: &'a [f64],
-    wall_share: &'a [f64],
-    wall_grip: &'a [f64],
-    elements: &'a Elements<D>,
+    #[value(&world.walls)]
+    walls: &'a WallSet<D>,
 }
+
 
 /// Sums of one particle.
 #[derive(Clone, Copy)]
@@ -198,19 +173,19 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         let (stress, volume) = (self.stress[i], self.volume[i]);
         let mut sum = Sum::of(sum);
         for (v, pair) in at.wall.pairs() {
-            let squares = volume * volume + self.wall_volume[v] * self.wall_volume[v];
-            let weight = self.wall_share[v] * squares * pair.factor;
+            let squares = volume * volume + self.walls.points.volume[v] * self.walls.points.volume[v];
+            let weight = self.walls.points.share[v] * squares * pair.factor;
             let force = stress.apply(&pair.separation) * weight;
-            let grip = self.wall_grip[v];
+            let grip = self.walls.points.grip[v];
             sum.force += force * grip;
             sum.slipping += force * (1.0 - grip);
         }
         for contact in at.contacts {
             let s = contact.element as usize;
-            let there = self.elements.volume[s];
+            let there = self.walls.elements.volume[s];
             let squares = volume * volume + there * there;
             let force = stress.apply(&contact.gradient) * (squares / there);
-            let grip = self.elements.grip[s];
+            let grip = self.walls.elements.grip[s];
             sum.force -= force * grip;
             sum.slipping -= force * (1.0 - grip);
             sum.normal += contact.gradient * (1.0 - grip);

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, WallSet, World,
+use sph_neighbours::{pair_term, 
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, World,
 };
 
 use crate::VelocityGradient;
@@ -20,35 +20,18 @@ pub struct RidingStrain<const D: usize> {
 }
 
 /// [`RidingStrain`] with its columns.
+#[pair_term(RidingStrain<D>, "strain rate")]
 pub struct Bound<'a, const D: usize> {
+    #[value(&*self.formula)]
     formula: &'a dyn VelocityGradient<D>,
+    #[both(fields::VELOCITY)]
     velocity: &'a [Vect<D>],
+    #[neighbours(fields::VOLUME)]
     volume: &'a [f64],
+    #[value(&world.walls)]
     walls: &'a WallSet<D>,
+    #[rate(fields::STRAIN_RATE)]
     slot: usize,
-}
-
-impl<const D: usize> PairTerm<D> for RidingStrain<D> {
-    type Bound<'a> = Bound<'a, D>;
-
-    fn name(&self) -> String {
-        "strain rate".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::VELOCITY)
-            .neighbours(fields::VOLUME)
-            .writes(fields::STRAIN_RATE)
-    }
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
-        Ok(Bound {
-            formula: &*self.formula,
-            velocity: world.free.get(fields::VELOCITY)?,
-            volume: world.free.get(fields::VOLUME)?,
-            walls: &world.walls,
-            slot: world.slot(fields::STRAIN_RATE)?,
-        })
-    }
 }
 
 impl<const D: usize> PairSum<D> for Bound<'_, D> {

@@ -1,8 +1,8 @@
 //! A pair force from outside, in lanes: `[term.artificial-viscosity]`.
 
 use sph_core::{Access, StepError, Vect, fields, plugin};
-use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, TermEntry,
+use sph_neighbours::{pair_term, 
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, TermEntry,
     World, add_scaled, dot, minus,
 };
 
@@ -16,33 +16,18 @@ pub struct ArtificialViscosity {
 }
 
 /// The term with its columns.
+#[pair_term(ArtificialViscosity, "artificial viscosity")]
 pub struct Bound<'a, const D: usize> {
+    #[both(fields::VELOCITY)]
     velocity: &'a [Vect<D>],
+    #[both(fields::DENSITY)]
     density: &'a [f64],
+    #[neighbours(fields::VOLUME)]
     volume: &'a [f64],
+    #[value(2.0 * self.speed * world.kernel.smoothing_length())]
     strength: f64,
+    #[value(0.01 * world.kernel.smoothing_length().powi(2))]
     softening: f64,
-}
-
-impl<const D: usize> PairTerm<D> for ArtificialViscosity {
-    type Bound<'a> = Bound<'a, D>;
-    fn name(&self) -> String {
-        "artificial viscosity".into()
-    }
-    fn access(&self) -> Access {
-        let access = Access::none().both(fields::VELOCITY).both(fields::DENSITY);
-        access.neighbours(fields::VOLUME)
-    }
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
-        let h = world.kernel.smoothing_length();
-        Ok(Bound {
-            velocity: world.free.get(fields::VELOCITY)?,
-            density: world.free.get(fields::DENSITY)?,
-            volume: world.free.get(fields::VOLUME)?,
-            strength: 2.0 * self.speed * h,
-            softening: 0.01 * h * h,
-        })
-    }
 }
 
 impl<const D: usize> PairSum<D> for Bound<'_, D> {

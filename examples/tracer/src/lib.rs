@@ -5,8 +5,8 @@ use sph_contribution::{
     contribution_kind,
 };
 use sph_core::{Access, Evolved, Field, Scalar, StepError, StepLimit, fields, plugin};
-use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World,
+use sph_neighbours::{pair_term, 
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World,
 };
 
 contribution_kind!(
@@ -30,33 +30,19 @@ const RATE: [Field<Scalar>; 2] = [
 /// dA/dt = 2κ Σ_b V_b (A_a − A_b) F_ab of the scalar number K (Morris 1997, for a scalar).
 struct Diffusion<const K: usize>(f64);
 
-struct BoundDiffusion<'a> {
+#[pair_term(Diffusion<K>, format!("diffusion of {}", VALUE[K].name))]
+struct BoundDiffusion<'a, const K: usize> {
+    #[both(VALUE[K])]
     value: &'a [f64],
+    #[neighbours(fields::VOLUME)]
     volume: &'a [f64],
+    #[value(2.0 * self.0)]
     twice: f64,
+    #[rate(RATE[K])]
     slot: usize,
 }
 
-impl<const D: usize, const K: usize> PairTerm<D> for Diffusion<K> {
-    type Bound<'a> = BoundDiffusion<'a>;
-    fn name(&self) -> String {
-        format!("diffusion of {}", VALUE[K].name)
-    }
-    fn access(&self) -> Access {
-        let access = Access::none().both(VALUE[K]).writes(RATE[K]);
-        access.neighbours(fields::VOLUME)
-    }
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError> {
-        Ok(BoundDiffusion {
-            value: world.free.get(VALUE[K])?,
-            volume: world.free.get(fields::VOLUME)?,
-            twice: 2.0 * self.0,
-            slot: world.slot(RATE[K])?,
-        })
-    }
-}
-
-impl<const D: usize> PairSum<D> for BoundDiffusion<'_> {
+impl<const D: usize, const K: usize> PairSum<D> for BoundDiffusion<'_, K> {
     type Own<L: Lane> = L;
     type Sum<L: Lane> = L;
     #[inline(always)]
@@ -69,7 +55,7 @@ impl<const D: usize> PairSum<D> for BoundDiffusion<'_> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for BoundDiffusion<'_> {
+impl<const D: usize, const K: usize> BoundTerm<D> for BoundDiffusion<'_, K> {
     fn finish(&self, sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         rates.more[self.slot] += self.twice * sum * at.inverse_renormalisation;
     }
