@@ -75,7 +75,10 @@ impl Entry {
                 value: quote!(world.slot(#rate)?),
             });
         }
-        let Column { field: column, condition } = attribute.parse_args()?;
+        let Column {
+            field: column,
+            condition,
+        } = attribute.parse_args()?;
         let method = format_ident!("{word}");
         let add = quote!(access = access.#method(#column););
         let get = quote!(world.free.get(#column));
@@ -104,12 +107,18 @@ impl Entry {
 /// The bound term without its words, and the `PairTerm`.
 pub fn expand(term: &Term, mut item: DeriveInput) -> syn::Result<TokenStream> {
     let Data::Struct(data) = &mut item.data else {
-        return Err(Error::new_spanned(&item.ident, "a bound term is a struct with named fields"));
+        return Err(Error::new_spanned(
+            &item.ident,
+            "a bound term is a struct with named fields",
+        ));
     };
     let (mut access, mut fields) = (TokenStream::new(), TokenStream::new());
     for field in &mut data.fields {
         let Some(name) = field.ident.clone() else {
-            return Err(Error::new_spanned(field, "a bound term is a struct with named fields"));
+            return Err(Error::new_spanned(
+                field,
+                "a bound term is a struct with named fields",
+            ));
         };
         let known = |a: &Attribute| {
             let words = ["here", "both", "neighbours", "where_there", "rate", "value"];
@@ -137,7 +146,9 @@ pub fn expand(term: &Term, mut item: DeriveInput) -> syn::Result<TokenStream> {
         GenericParam::Const(c) => c.ident.clone(),
         GenericParam::Lifetime(l) => l.lifetime.ident.clone(),
     });
-    let has_dimension = own.iter().any(|p| matches!(p, GenericParam::Const(c) if c.ident == "D"));
+    let has_dimension = own
+        .iter()
+        .any(|p| matches!(p, GenericParam::Const(c) if c.ident == "D"));
     let dimension = (!has_dimension).then(|| quote!(const D: usize,));
     let names: Vec<_> = names.collect();
     let bounds = &item.generics.where_clause;
@@ -199,7 +210,10 @@ mod tests {
 
     #[test]
     fn a_field_without_a_word_is_told_the_words() {
-        for item in ["struct Bound<'a> { v: &'a [f64] }", "struct Bound<'a> { #[here(A)] #[both(B)] v: &'a [f64] }"] {
+        for item in [
+            "struct Bound<'a> { v: &'a [f64] }",
+            "struct Bound<'a> { #[here(A)] #[both(B)] v: &'a [f64] }",
+        ] {
             let told = expanded(item).expect_err("a mistake");
             assert!(told.contains("`#[both(FIELD)]`"), "{told}");
         }

@@ -1,9 +1,8 @@
 //! The Brezzi–Pitkäranta smoother.
 
-use sph_core::{Access, StepError, Vect, fields, plugin};
-use sph_neighbours::{pair_term, 
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World, dot,
-    splat,
+use sph_core::{Vect, fields, plugin};
+use sph_neighbours::{
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, dot, pair_term, splat,
 };
 
 use crate::diffusion_limit::fastest;

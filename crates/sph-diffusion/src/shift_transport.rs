@@ -1,9 +1,9 @@
 //! What shifted particles take up where they go.
 
-use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{pair_term, 
-    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World,
-    add_scaled, dot, splat, unlike,
+use sph_core::{Vect, fields};
+use sph_neighbours::{
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, add_scaled, dot,
+    pair_term, splat, unlike,
 };
 
 /// du/dt += (s·∇)u and dρ/dt += s·∇ρ with the shift velocity s, the gradients from differences:
@@ -53,7 +53,6 @@ pub struct Bound<'a, const D: usize> {
     #[value(&world.walls)]
     walls: &'a WallSet<D>,
 }
-
 
 /// The own values of a particle.
 #[derive(Clone, Copy)]
@@ -136,7 +135,8 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         for contact in at.contacts {
             let s = contact.element as usize;
             let along = shift.dot(&contact.gradient);
-            taken_up -= (self.walls.elements.velocity[s] - velocity) * (self.walls.elements.grip[s] * along);
+            taken_up -= (self.walls.elements.velocity[s] - velocity)
+                * (self.walls.elements.grip[s] * along);
             if self.which.summed {
                 rate += density * along;
             }

@@ -7,9 +7,9 @@ use sph_core::{
     Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, plugin,
 };
 use sph_damping::DampingEntry;
-use sph_neighbours::{pair_term, WallSet, 
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles,
-    Rates, Sums, Values, World, add_scaled, all_sums, declared, walk_some,
+use sph_neighbours::{
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Sums, Values,
+    WallSet, World, add_scaled, all_sums, declared, pair_term, walk_some,
 };
 
 use crate::divergence::{Divergence, OwnVolume};

@@ -1,9 +1,9 @@
 //! Discrete divergences of the velocity.
 
-use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{pair_term, WallSet, 
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles,
-    Rates, World, dot, minus,
+use sph_core::{Vect, fields};
+use sph_neighbours::{
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, dot,
+    minus, pair_term,
 };
 
 /// Which weight a pair has in D_a{u} = −1/γ_a [Σ_b θ_b W_ab u_ab·∇w_ab − Σ_s W_as/V_s u_as·∇γ_as].

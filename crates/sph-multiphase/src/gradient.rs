@@ -1,9 +1,9 @@
 //! Pressure gradients that are sums over pairs with a symmetric weight.
 
-use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{pair_term, WallSet, 
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles,
-    Rates, World, add_scaled,
+use sph_core::{Vect, fields};
+use sph_neighbours::{
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet,
+    add_scaled, pair_term,
 };
 
 /// Pressure, volume and density of one side of a pair.

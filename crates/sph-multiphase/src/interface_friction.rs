@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use sph_core::{Access, StepError, StepLimit, Vect, fields, plugin};
-use sph_neighbours::{pair_term, 
-    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates,
-    WallPoints, World, add_scaled, dot, minus, unlike,
+use sph_core::{StepError, StepLimit, Vect, fields, plugin};
+use sph_neighbours::{
+    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallPoints,
+    World, add_scaled, dot, minus, pair_term, unlike,
 };
 
 use crate::scattered::{SCATTERED, Scattered};
@@ -131,7 +131,6 @@ struct Bound<'a, const D: usize> {
     #[both(fields::VELOCITY)]
     velocity: &'a [Vect<D>],
 }
-
 
 /// The own values of a particle.
 #[derive(Clone, Copy)]

@@ -1,9 +1,9 @@
 //! Forces that push phases apart: a weight per pair of particles of different phases.
 
-use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{pair_term, 
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates,
-    World, add_scaled, unlike,
+use sph_core::{Vect, fields};
+use sph_neighbours::{
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, add_scaled,
+    pair_term, unlike,
 };
 
 /// The weight P_ab of m_a a = −ε Σ_{b of other phases} P_ab ∇w_ab.

@@ -3,8 +3,8 @@
 use sph_core::{
     Access, Declares, Field, Stage, StepError, StepLimit, Vect, Vector, fields, parameters, plugin,
 };
-use sph_neighbours::{pair_term, 
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World, dot,
+use sph_neighbours::{
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World, dot, pair_term,
     splat,
 };
 

@@ -1,9 +1,9 @@
 //! The force of a stress that particles carry.
 
-use sph_core::{Access, Field, StepError, Symmetric, SymmetricTensor, Vect, fields, plugin};
-use sph_neighbours::{pair_term, WallSet, 
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles,
-    Rates, World, dot,
+use sph_core::{Field, Symmetric, SymmetricTensor, Vect, fields, plugin};
+use sph_neighbours::{
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, dot,
+    pair_term,
 };
 
 use crate::{Blend, ElasticForce, ElasticForceEntry, Felt};
@@ -89,7 +89,6 @@ pub struct Bound<'a, const D: usize> {
     walls: &'a WallSet<D>,
 }
 
-
 /// Sums of one particle.
 #[derive(Clone, Copy)]
 pub struct Sum<const D: usize> {
@@ -173,7 +172,8 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         let (stress, volume) = (self.stress[i], self.volume[i]);
         let mut sum = Sum::of(sum);
         for (v, pair) in at.wall.pairs() {
-            let squares = volume * volume + self.walls.points.volume[v] * self.walls.points.volume[v];
+            let squares =
+                volume * volume + self.walls.points.volume[v] * self.walls.points.volume[v];
             let weight = self.walls.points.share[v] * squares * pair.factor;
             let force = stress.apply(&pair.separation) * weight;
             let grip = self.walls.points.grip[v];

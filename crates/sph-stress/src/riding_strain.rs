@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use sph_core::{Access, StepError, Vect, fields};
-use sph_neighbours::{pair_term, 
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, World,
+use sph_core::{Vect, fields};
+use sph_neighbours::{
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, pair_term,
 };
 
 use crate::VelocityGradient;

@@ -1,9 +1,9 @@
 //! A pair force from outside, in lanes: `[term.artificial-viscosity]`.
 
-use sph_core::{Access, StepError, Vect, fields, plugin};
-use sph_neighbours::{pair_term, 
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, TermEntry,
-    World, add_scaled, dot, minus,
+use sph_core::{Vect, fields, plugin};
+use sph_neighbours::{
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, TermEntry, add_scaled,
+    dot, minus, pair_term,
 };
 
 /// a = α c h Σ_b m_b µ_ab/ρ̄ ∇w_ab where particles approach, µ_ab = u_ab·r_ab/(r² + h²/100); nothing at walls.

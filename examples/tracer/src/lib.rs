@@ -5,8 +5,8 @@ use sph_contribution::{
     contribution_kind,
 };
 use sph_core::{Access, Evolved, Field, Scalar, StepError, StepLimit, fields, plugin};
-use sph_neighbours::{pair_term, 
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World,
+use sph_neighbours::{
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World, pair_term,
 };
 
 contribution_kind!(
