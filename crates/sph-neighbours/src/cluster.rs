@@ -9,7 +9,7 @@ use sph_lanes::{Lane, MOST, Width, dispatch_at};
 use crate::lane_pair::LanePair;
 use crate::members::Members;
 use crate::separation::{Distances, grow};
-use crate::{Blocked, Contacts, Domain, Neighbourhood, Row, Scratch};
+use crate::{Blocked, ContactRow, Contacts, Domain, Neighbourhood, Row, Scratch};
 
 /// A few particles that follow each other, with distances and kernel gradients for all whom they may have as neighbours.
 pub struct Cluster<'a, const D: usize> {
@@ -20,6 +20,8 @@ pub struct Cluster<'a, const D: usize> {
     pub(crate) inverse_renormalisation: [f64; MOST],
     /// Square of the support radius, m².
     pub(crate) limit: f64,
+    /// Whether any member sees a wall.
+    pub(crate) beside: bool,
     /// Whether images across periodic faces may be nearer.
     pub(crate) wraps: bool,
     pub(crate) buffers: &'a mut Buffers<D>,
@@ -148,9 +150,9 @@ impl<const D: usize> Cluster<'_, D> {
         }
     }
 
-    /// A candidate by its place as all members see it; with `values`, which must have been [weighed](Self::weigh), or without.
+    /// A candidate by its place as all members see it, without kernel values.
     #[inline(always)]
-    pub(crate) fn pair<L: Lane>(&self, candidate: usize, values: bool) -> LanePair<D, L> {
+    pub(crate) fn pair<L: Lane>(&self, candidate: usize) -> LanePair<D, L> {
         let buffers = &*self.buffers;
         let from = candidate * L::N;
         let apart = &buffers.separation[D * from..D * (from + L::N)];
@@ -162,21 +164,24 @@ impl<const D: usize> Cluster<'_, D> {
             separation,
             distance2: L::load(&buffers.distance2[from..from + L::N]),
             factor: L::load(&buffers.factor[from..from + L::N]),
-            value: match values {
-                true => L::load(&buffers.value[from..from + L::N]),
-                false => L::splat(0.0),
-            },
+            value: L::splat(0.0),
         }
     }
 
     /// The walls of a member; its row of free neighbours is empty.
+    #[inline(always)]
     pub fn walls(&self, member: usize) -> Neighbourhood<'_, D> {
         let particle = self.members.from + member;
+        // Most clusters are away from walls.
+        let (wall, contacts) = match self.beside {
+            true => (self.buffers.walls[member].row(), self.contacts.of(particle)),
+            false => (Row::empty(), ContactRow::NONE),
+        };
         Neighbourhood {
             particle,
             free: Row::empty(),
-            wall: self.buffers.walls[member].row(),
-            contacts: self.contacts.of(particle),
+            wall,
+            contacts,
             inverse_renormalisation: self.inverse_renormalisation[member],
         }
     }

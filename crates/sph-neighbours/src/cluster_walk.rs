@@ -125,7 +125,7 @@ impl<const D: usize, const M: usize, P: PairNumbers<D, M>> Body for SideBySide<'
         let own = pairs.own::<L>(members.into());
         let all = members.candidates.iter().enumerate();
         for ((k, &j), out) in all.zip(out.chunks_exact_mut(M * L::N)) {
-            let numbers = pairs.numbers(&own, j as usize, &cluster.pair(k, false));
+            let numbers = pairs.numbers(&own, j as usize, &cluster.pair(k));
             for (number, out) in numbers.into_iter().zip(out.chunks_exact_mut(L::N)) {
                 number.store(out);
             }

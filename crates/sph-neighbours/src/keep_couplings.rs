@@ -161,7 +161,7 @@ impl<const D: usize> Body for Split<'_, '_, D> {
             // Without `map`, which is a call in some builds, and then for the least processor.
             let even = real.where_positive(L::load(numbers), zero);
             let along = real.where_positive(L::load(&numbers[L::N..]), zero);
-            let apart = cluster.pair::<L>(k, false).separation;
+            let apart = cluster.pair::<L>(k).separation;
             let mut softness = zero;
             if let Some(weak) = weak {
                 let there = L::splat(weak.limit[j]);

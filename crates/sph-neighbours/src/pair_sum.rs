@@ -148,10 +148,34 @@ impl<const D: usize, S: PairSum<D>> Body for OfCluster<'_, '_, D, S> {
         let members = self.cluster.members;
         let own = self.sum.own::<L>(members.into());
         let mut sums = S::Sum::<L>::zero();
-        for k in 0..members.candidates.len() {
-            let pair = self.cluster.pair::<L>(k, S::VALUES);
-            let j = members.candidates[k] as usize;
-            self.sum.pair(&own, j, &pair, &mut sums);
+        let buffers = &*self.cluster.buffers;
+        let n = members.candidates.len() * L::N;
+        let values = match S::VALUES {
+            true => &buffers.value[..n],
+            false => &buffers.factor[..n],
+        };
+        // Chunks of a length that the compiler knows are read without a check.
+        let measures = buffers.distance2[..n]
+            .chunks_exact(L::N)
+            .zip(buffers.factor[..n].chunks_exact(L::N))
+            .zip(values.chunks_exact(L::N));
+        let separations = buffers.separation[..D * n].chunks_exact(D * L::N);
+        let all = members.candidates.iter().zip(separations).zip(measures);
+        for ((&j, apart), ((distance2, factor), value)) in all {
+            let mut separation = [L::splat(0.0); D];
+            for k in 0..D {
+                separation[k] = L::load(&apart[k * L::N..]);
+            }
+            let pair = LanePair {
+                separation,
+                distance2: L::load(distance2),
+                factor: L::load(factor),
+                value: match S::VALUES {
+                    true => L::load(value),
+                    false => L::splat(0.0),
+                },
+            };
+            self.sum.pair(&own, j as usize, &pair, &mut sums);
         }
         sums.store(self.rows);
     }

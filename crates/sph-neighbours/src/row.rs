@@ -20,6 +20,7 @@ pub struct Row<'a, const D: usize> {
 
 impl<const D: usize> Row<'_, D> {
     /// Without anybody.
+    #[inline(always)]
     pub(crate) fn empty() -> Self {
         Row {
             index: &[],

@@ -324,8 +324,10 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
             let both = inverse_renormalisation.iter_mut().zip(gamma);
             both.for_each(|(inverse, gamma)| *inverse = 1.0 / gamma);
         }
-        let mut domain = None;
+        let contacts = &world.walls.contacts;
+        let (mut domain, mut beside) = (None, false);
         for (i, row) in own.zip(&mut buffers.walls) {
+            beside |= !contacts.of(i).is_empty();
             let x = &self.positions[i];
             let near = wrapping(&world.domain, x, world.reach());
             domain = domain.or(near);
@@ -335,6 +337,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
                 if !candidates.is_empty() {
                     row.fill(x, self.points, candidates, NOBODY, near, self.kernel);
                     row.hide(&hidden.points, i);
+                    beside = true;
                 }
             }
         }
@@ -343,9 +346,10 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         Cluster {
             width: self.width,
             members,
-            contacts: &world.walls.contacts,
+            contacts,
             inverse_renormalisation,
             limit: self.kernel.support_radius().powi(2),
+            beside,
             wraps: domain.is_some(),
             buffers,
         }
