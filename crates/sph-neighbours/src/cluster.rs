@@ -42,7 +42,7 @@ pub(crate) struct Buffers<const D: usize> {
     /// Rows of free neighbours, one per member, where somebody asked for rows.
     free: [Scratch<D>; MOST],
     /// Sums of the members.
-    pub sums: crate::pair_sum::Rows,
+    pub sums: crate::particles::Rows,
     /// Whether `free` is of the cluster at hand.
     rows: bool,
 }

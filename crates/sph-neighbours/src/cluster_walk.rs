@@ -9,7 +9,7 @@ use sph_lanes::{Body, Lane, dispatch_at};
 use crate::cluster::Cluster;
 use crate::lane_pair::LanePair;
 use crate::members::groups;
-use crate::pair_sum::Particles;
+use crate::particles::Particles;
 use crate::separation::grow;
 use crate::sweep::{Room, Sweep};
 use crate::{CHUNK, World};

@@ -9,7 +9,8 @@ use crate::lane_pair::LanePair;
 use crate::lane_vector::minus;
 use crate::list::{CHUNK, make_room};
 use crate::members::{Members, groups};
-use crate::pair_sum::{self, PairSum, Particles, Rows};
+use crate::pair_sum::PairSum;
+use crate::particles::{Particles, Rows, make_room as room_for};
 use crate::separation::Distances;
 use crate::sweep::wrapping;
 use crate::{Blocked, Clusters, Domain, World};
@@ -157,8 +158,10 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
     let positions = world.free.get(fields::POSITION)?;
     let kernel = &*world.kernel;
     let width = width();
-    let none = vec![[0.0; MOST]; S::Sum::<f64>::NUMBERS];
-    out.resize_with(targets.len(), || of(0, S::Sum::<f64>::one(&none, 0)));
+    out.resize_with(targets.len(), || {
+        let none = vec![[0.0; MOST]; S::Sum::<f64>::NUMBERS];
+        of(0, S::Sum::<f64>::one(&none, 0))
+    });
     let limit = kernel.support_radius().powi(2);
     each_block(out, CHUNK, &|b, out| {
         let mut room = world.lists.shelf.lend::<(Values, Vec<u32>, Rows)>();
@@ -188,7 +191,7 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
                 let needed = inside.len() * width.lanes();
                 let value = &mut values.value[..needed];
                 kernel.value(&values.distance2[..needed], value);
-                pair_sum::make_room(rows, S::Sum::<f64>::NUMBERS);
+                room_for(rows, S::Sum::<f64>::NUMBERS);
                 let body = SumAround {
                     around: &around,
                     members,

@@ -1,6 +1,17 @@
-//! One neighbour of several particles.
+//! One neighbour of a particle, and of several.
 
-use crate::Pair;
+use sph_core::Vect;
+
+/// One pair of a particle.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<const D: usize> {
+    /// r_i − r_j, m.
+    pub separation: Vect<D>,
+    /// |r_i − r_j|², m².
+    pub distance2: f64,
+    /// F = w'(r)/r ≤ 0: ∇w = F · separation.
+    pub factor: f64,
+}
 
 /// One neighbour as the particles of a cluster see it, a particle in each lane.
 #[derive(Clone, Copy, Debug)]

@@ -40,6 +40,7 @@ mod members;
 mod moment;
 mod nearby;
 mod pair_sum;
+mod particles;
 mod reaction;
 mod row;
 mod separation;
@@ -74,7 +75,7 @@ pub use hidden::{Blocked, Hidden};
 pub use keep_couplings::{Keeper, Rows as CouplingRows, Tally, Weak};
 pub use kernel_sums::{kernel_sums, shepard};
 pub use kernels::KernelEntry;
-pub use lane_pair::LanePair;
+pub use lane_pair::{LanePair, Pair};
 pub use lane_vector::{minus, set, splat, unlike, vector};
 pub use lane_walk::walk_in_lanes;
 pub use lattice::{lattice_sum, rows_sum};
@@ -82,7 +83,8 @@ pub use lightness::lightness;
 pub use list::{CHUNK, NeighbourList};
 pub use moment::trusted_inverse;
 pub use nearby::Nearby;
-pub use pair_sum::{PairSum, Particles};
+pub use pair_sum::PairSum;
+pub use particles::Particles;
 pub use reaction::{reactions, wall_forces};
 pub use row::{NOBODY, Neighbourhood, Row, Scratch};
 pub use shared_rows::{SharedElements, SharedRows, inner};
@@ -93,7 +95,7 @@ pub use sph_lanes::{Body, InLanes, Lane, MOST, add_scaled, dot, scaled};
 pub use sweep::{Sums, accelerations_of, all_sums, declared, interactions, interactions_with};
 pub use team::Team;
 pub use term::{
-    BoundTerm, ByPairs, Interaction, Pair, PairTerm, Rates, RowTerm, TRANSPORTED, TermEntry, Terms,
+    BoundTerm, ByPairs, Interaction, PairTerm, Rates, RowTerm, TRANSPORTED, TermEntry, Terms,
     WithTerm,
 };
 pub use walk::{Around, Rows, Surroundings, Values, walk, walk_into, walk_some};

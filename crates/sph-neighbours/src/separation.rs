@@ -6,7 +6,7 @@ use sph_lanes::{Body, Lane, dot};
 use crate::Domain;
 use crate::lane_vector::minus;
 use crate::members::Members;
-use crate::pair_sum::Particles;
+use crate::particles::Particles;
 
 /// The places of some points, one in each lane; the last one fills what is left over.
 #[inline(always)]

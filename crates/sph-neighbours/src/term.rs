@@ -3,7 +3,9 @@
 use sph_core::{Access, StepError, Vect, contract};
 use sph_lanes::InLanes;
 
-use crate::pair_sum::{PairSum, Particles, sum_cluster};
+use crate::lane_pair::Pair;
+use crate::pair_sum::{PairSum, sum_cluster};
+use crate::particles::Particles;
 use crate::{Cluster, Neighbourhood, Row, World};
 
 /// What the interaction sweep sums per particle.
@@ -30,17 +32,6 @@ impl<const D: usize> Rates<D> {
             more: [0.0; TRANSPORTED],
         }
     }
-}
-
-/// One pair of a particle.
-#[derive(Clone, Copy, Debug)]
-pub struct Pair<const D: usize> {
-    /// r_i − r_j, m.
-    pub separation: Vect<D>,
-    /// |r_i − r_j|², m².
-    pub distance2: f64,
-    /// F = w'(r)/r ≤ 0: ∇w = F · separation.
-    pub factor: f64,
 }
 
 impl<'a, const D: usize> Row<'a, D> {

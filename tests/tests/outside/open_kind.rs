@@ -145,11 +145,10 @@ fn one_sweep_sums_both_and_a_scene_without_them_has_nothing_of_them() {
     let [sweep] = &sweeps[..] else {
         panic!("one sweep: {sweeps:?}")
     };
-    // Fused by the entry above.
     assert!(
         sweep
             .name
-            .contains("diffusion of temperature + diffusion of salinity"),
+            .contains("diffusion of temperature; diffusion of salinity"),
         "{}",
         sweep.name
     );

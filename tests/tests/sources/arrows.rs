@@ -35,7 +35,10 @@ const ALLOWED: [(&str, &[&str]); 38] = [
     ("sph-kernels", &["sph-lanes"]),
     ("sph-derive", &[]),
     ("sph-core", &["scene-text", "sph-derive"]),
-    ("sph-neighbours", &["sph-core", "sph-kernels", "sph-lanes"]),
+    (
+        "sph-neighbours",
+        &["sph-core", "sph-derive", "sph-kernels", "sph-lanes"],
+    ),
     (
         "sph-boundary",
         &[

@@ -1,0 +1,137 @@
+//! Friction at walls: the slip past the nearest element, and the correction of the sum.
+
+use sph_core::Vect;
+use sph_neighbours::{Contact, Pair, Particles};
+
+use super::{Bound, Here, PairFriction, Sum};
+
+/// κ is left at 1 where |∇γ| δr is below this: opposite walls, or the edge of the support.
+const FAINT: f64 = 1e-3;
+/// Elements whose normals differ by less than 45° are one smooth wall.
+const ONE_WALL: f64 = 0.7;
+/// Least distance from a wall over the spacing, for stability.
+const LEAST_DISTANCE: f64 = 0.5;
+/// Bounds of κ.
+const BOUNDS: [f64; 2] = [0.0, 4.0];
+
+impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
+    /// Whether fluid passes an element.
+    #[inline(always)]
+    pub(super) fn is_open(&self, element: u32) -> bool {
+        !self.open.is_empty() && self.open.contains(&self.elements.wall[element as usize])
+    }
+
+    /// Normal and distance of the element with the largest mean kernel, the nearest one.
+    #[inline(always)]
+    pub(super) fn nearest(&self, i: usize) -> Option<Contact<D>> {
+        if !(self.rubs && self.corrected) {
+            return None;
+        }
+        let mean = |c: &Contact<D>| {
+            let measure = self.elements.measure[c.element as usize];
+            c.gradient.norm_squared() / (measure * measure)
+        };
+        let mut nearest = None;
+        let mut largest = 0.0;
+        for contact in self.contacts.of(i) {
+            let mean = mean(&contact);
+            if mean > largest && !self.is_open(contact.element) {
+                largest = mean;
+                nearest = Some(contact);
+            }
+        }
+        nearest
+    }
+
+    /// Unit vector along the velocity relative to an element, in its plane.
+    #[inline(always)]
+    pub(super) fn along(&self, i: usize, nearest: &Contact<D>) -> Vect<D> {
+        let s = nearest.element as usize;
+        let slip = self.velocity[i] - self.elements.velocity[s];
+        let normal = &self.elements.normal[s];
+        let slip = slip - normal * slip.dot(normal);
+        slip.try_normalize(0.0).unwrap_or_else(Vect::zeros)
+    }
+
+    /// Friction per tangential velocity at an element, before κ: 2 η |∇γ_as|/δr; 2 τ_w/u_t |∇γ_as| of a wall function.
+    #[inline(always)]
+    pub(super) fn weight(&self, here: &Here<D>, contact: &Contact<D>) -> f64 {
+        let s = contact.element as usize;
+        // A phase that the wall function is not for has none, and the condition of the wall.
+        if self.elements.wall_function.get(s) == Some(&true) && here.wall_friction > 0.0 {
+            return 2.0 * here.wall_friction * contact.gradient.norm();
+        }
+        let slip = self.elements.slip.get(s).copied().unwrap_or(0.0);
+        let distance = self.distance(here, contact, &self.elements.normal[s]) + slip;
+        // κ holds whatever the pair formula makes of volumes and strength.
+        let factor = match here.nearest {
+            Some(_) => 1.0,
+            None => self
+                .friction
+                .at_element(here.volume, self.elements.volume[s]),
+        };
+        let grip = self.elements.grip[s];
+        2.0 * factor * grip * here.viscosity.eta * contact.gradient.norm() / distance
+    }
+
+    /// Share of a wall point's friction that counts.
+    #[inline(always)]
+    pub(super) fn rubbing(&self, v: usize, pair: &Pair<D>) -> f64 {
+        let mut rubbing = self.wall_share[v] * self.wall_grip[v];
+        if let Some((slip, normal)) = self.wall_slip.get(v) {
+            // At the wall the fluid goes with the share λ/(d + λ) of the velocity at d.
+            let distance = pair.separation.dot(normal).max(self.spacing);
+            rubbing *= distance / (distance + slip);
+        }
+        rubbing
+    }
+
+    /// κ.
+    #[inline(always)]
+    pub(super) fn correction(&self, here: &Here<D>, sum: &Sum<D>) -> f64 {
+        let squared = sum.gradient.norm_squared();
+        match here.nearest.is_some() && squared * self.spacing * self.spacing > FAINT * FAINT {
+            true => (sum.discrete.dot(&sum.gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]),
+            false => 1.0,
+        }
+    }
+
+    /// Over which the velocity falls to that of an element.
+    #[inline(always)]
+    pub(super) fn distance(&self, here: &Here<D>, contact: &Contact<D>, normal: &Vect<D>) -> f64 {
+        let Some((nearest, distance)) = &here.nearest else {
+            return contact.distance.max(self.spacing);
+        };
+        let cosine = normal.dot(nearest);
+        let distance = match cosine > ONE_WALL {
+            true => distance / cosine,
+            false => contact.distance,
+        };
+        distance.max(LEAST_DISTANCE * self.spacing)
+    }
+}
+
+impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
+    /// The unit vector along the slip past the nearest wall, where it is looked at.
+    #[inline(always)]
+    pub(super) fn slip(&self, i: usize, nearest: Option<&Contact<D>>) -> Vect<D> {
+        match (F::DIRECTIONAL, nearest) {
+            (true, Some(nearest)) => self.along(i, nearest),
+            _ => Vect::zeros(),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn here(&self, i: usize) -> Here<D> {
+        let nearest = self.nearest(i);
+        Here {
+            velocity: self.velocity[i],
+            viscosity: self.viscosity.own(Particles::one(i)),
+            volume: self.volume[i],
+            specific_volume: self.volume[i] / self.mass[i],
+            wall_friction: self.wall_friction.get(i).copied().unwrap_or(0.0),
+            along: self.slip(i, nearest.as_ref()),
+            nearest: nearest.map(|c| (self.elements.normal[c.element as usize], c.distance)),
+        }
+    }
+}
