@@ -150,20 +150,26 @@ impl<const D: usize> Cluster<'_, D> {
         }
     }
 
-    /// A candidate by its place as all members see it, without kernel values.
+    /// r_i − r_j of all members from a candidate by its place, m.
     #[inline(always)]
-    pub(crate) fn pair<L: Lane>(&self, candidate: usize) -> LanePair<D, L> {
-        let buffers = &*self.buffers;
-        let from = candidate * L::N;
-        let apart = &buffers.separation[D * from..D * (from + L::N)];
+    pub(crate) fn separation<L: Lane>(&self, candidate: usize) -> [L; D] {
+        let from = D * candidate * L::N;
+        let apart = &self.buffers.separation[from..from + D * L::N];
         let mut separation = [L::splat(0.0); D];
         for k in 0..D {
             separation[k] = L::load(&apart[k * L::N..]);
         }
+        separation
+    }
+
+    /// A candidate by its place as all members see it, without kernel values.
+    #[inline(always)]
+    pub(crate) fn pair<L: Lane>(&self, candidate: usize) -> LanePair<D, L> {
+        let from = candidate * L::N;
         LanePair {
-            separation,
-            distance2: L::load(&buffers.distance2[from..from + L::N]),
-            factor: L::load(&buffers.factor[from..from + L::N]),
+            separation: self.separation(candidate),
+            distance2: L::load(&self.buffers.distance2[from..from + L::N]),
+            factor: L::load(&self.buffers.factor[from..from + L::N]),
             value: L::splat(0.0),
         }
     }

@@ -138,14 +138,16 @@ impl<const D: usize> Body for Split<'_, '_, D> {
         let own = cluster.members();
         let zero = L::splat(0.0);
         // Lanes without a particle repeat the last one, which is near itself: their numbers are of nobody.
-        let mut real = zero;
-        (0..own.len()).for_each(|lane| real.set(lane, 1.0));
-        let mut limit = zero;
+        let mut real = [0.0; MOST];
+        real[..own.len()].fill(1.0);
+        let real = L::load(&real);
+        let mut limits = [0.0; MOST];
         let mut velocity = [zero; D];
         if let Some(weak) = weak {
             velocity = places::<D, L>(&weak.velocity[own.clone()]);
-            (0..own.len()).for_each(|lane| limit.set(lane, weak.limit[own.start + lane]));
+            limits[..own.len()].copy_from_slice(&weak.limit[own.clone()]);
         }
+        let limit = L::load(&limits);
         let mut blocks = [[zero; D]; D];
         let mut force = [zero; D];
         let each = kinds.count() * L::N;
@@ -161,7 +163,7 @@ impl<const D: usize> Body for Split<'_, '_, D> {
             // Without `map`, which is a call in some builds, and then for the least processor.
             let even = real.where_positive(L::load(numbers), zero);
             let along = real.where_positive(L::load(&numbers[L::N..]), zero);
-            let apart = cluster.pair::<L>(k).separation;
+            let apart = cluster.separation::<L>(k);
             let mut softness = zero;
             if let Some(weak) = weak {
                 let there = L::splat(weak.limit[j]);
