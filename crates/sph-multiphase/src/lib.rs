@@ -2,12 +2,11 @@
 //!
 //! * [`Formulation`] is a kind of plugin, what density is and which pressure gradient belongs to it: [`HuAdams`],
 //!   [`ColagrossiLandrini`], [`Grenier`], [`Krimi`]. [`Dilatation`] is the work of those that integrate continuity.
-//! * [`InterfaceModel`] is a kind of plugin, a force where phases meet: [`SurfaceTension`], [`GrenierInterface`],
+//! * [`InterfaceEntry`] is a kind of plugin, a force where phases meet: [`SurfaceTension`], [`GrenierInterface`],
 //!   [`MicroMixing`], [`InterfaceFriction`].
 //! * [`PressureScheme`] is a kind of plugin, which pressure acts in a step; none is here.
 //! * [`SurfaceEntry`] is a kind of plugin, what free surfaces are: [`ConeTest`].
 //! * [`AcousticDamper`] takes sound away.
-//! * The combinations of pressure, friction and smoothing that are compiled into one loop.
 #![doc = include_str!("../README.md")]
 // Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
 #![cfg_attr(
