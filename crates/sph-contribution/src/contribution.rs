@@ -28,7 +28,7 @@ pub struct Setting<'a, const D: usize> {
     pub viscous: f64,
     /// Whether a step has one kick and one drift, both over all of it.
     pub kicks_once: bool,
-    /// Whether no wall holds the fluid still: all of them move as prescribed, or there is none against gravity.
+    /// Whether the fluid moves with its walls: every wall has a prescribed motion, or no wall acts against gravity.
     pub carried: bool,
     /// A wall that moves, if there is one.
     pub moving_wall: Option<&'a str>,

@@ -53,9 +53,9 @@ pub struct Offer<const D: usize> {
     pub stored: Vec<Box<dyn StoredEnergy<D>>>,
     /// Whether the pores of soils are full of a fluid that bears a part of their weight; for remarks.
     pub saturated: bool,
-    /// What to change where one of the terms has thrown a particle about.
+    /// Advice for a run in which a term makes a particle too fast.
     pub remedy: Option<String>,
-    /// What to change where a stage or a hook has failed, by its name.
+    /// Advice for a run in which a stage or a hook fails, by the name of the stage or hook.
     pub remedies_of_failures: Vec<(&'static str, String)>,
 }
 

@@ -119,7 +119,7 @@ pub trait StepHook<const D: usize>: Send {
 pub struct Report {
     /// Counts, for checkpoints.
     pub counts: Option<Json>,
-    /// The key of the summary under which the counts stand; in no summary if there is none.
+    /// Key of the counts in the summary; `None` leaves them out.
     pub summary: Option<&'static str>,
     /// Why the run has no result.
     pub verdict: Option<StepError>,

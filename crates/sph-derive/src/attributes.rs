@@ -1,4 +1,4 @@
-//! What an author says in attributes of others.
+//! Attributes of `serde` and `schemars` that an author adds.
 
 use proc_macro2::TokenTree;
 use syn::{Attribute, Field};

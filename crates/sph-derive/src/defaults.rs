@@ -1,4 +1,4 @@
-//! What parameters are if they are left out.
+//! Values of parameters that a scene leaves out.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote};

@@ -47,7 +47,7 @@ impl Parse for Column {
     }
 }
 
-/// What a field of the bound term is made of.
+/// Access and initial value of a field of the bound term.
 struct Entry {
     access: TokenStream,
     value: TokenStream,

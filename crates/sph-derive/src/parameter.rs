@@ -20,7 +20,7 @@ const WORDS: [(&str, &str); 10] = [
     ("source", "source"),
 ];
 
-/// What the word `default` says.
+/// Value of the word `default`.
 pub enum Fallback {
     /// The default of the type.
     OfType,

@@ -191,7 +191,10 @@ impl<const D: usize> Stress<D, f64> {
     /// Of several particles.
     #[inline(always)]
     fn each<L: Lane>(all: Particles, of: impl Fn(usize) -> Self) -> Stress<D, L> {
-        let [isotropic, along] = all.each(|i| [of(i).isotropic, of(i).along]);
+        let [isotropic, along] = all.each(|i| {
+            let stress = of(i);
+            [stress.isotropic, stress.along]
+        });
         Stress {
             isotropic,
             along,

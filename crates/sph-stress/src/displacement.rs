@@ -7,7 +7,7 @@ use sph_neighbours::{
 };
 use sph_viscosity::{OnLattice, PairFriction, WithTransposed};
 
-use crate::divergence::Sum;
+use crate::divergence::{PLACE, Sum};
 use crate::{Blend, ElasticForce, ElasticForceEntry, Felt};
 
 /// f_a = min(1, τ_y/|τ|)_a [L^E{𝒢, X} + D{J}]_a: second differences of the displacement instead of a divergence.
@@ -165,9 +165,6 @@ pub struct Own<const D: usize, L> {
     turn: [L; 6],
     volume: L,
 }
-
-/// Where the components of a symmetric tensor stand.
-const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
 impl<const D: usize> PairSum<D> for Bound<'_, D> {
     type Own<L: Lane> = Own<D, L>;

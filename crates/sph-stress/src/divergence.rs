@@ -132,7 +132,7 @@ impl<const D: usize> Sum<D> {
 }
 
 /// Where the components of a symmetric tensor stand.
-const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+pub(crate) const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
 impl<const D: usize> Bound<'_, D> {
     /// τ V².

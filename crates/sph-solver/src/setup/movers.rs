@@ -60,7 +60,7 @@ pub(crate) fn settle<const D: usize>(
     Ok(())
 }
 
-/// Whether no wall holds the fluid still: all of them move as prescribed, or there is none against gravity.
+/// Whether the fluid moves with its walls: every wall has a prescribed motion, or no wall acts against gravity.
 pub(crate) fn carried(scene: &Scene) -> bool {
     let mut walls = scene.wall.values();
     match scene.wall.is_empty() {
