@@ -11,7 +11,7 @@ use crate::functions::{call, known};
 
 contribution_kind!(
     /// What pushes particles from outside.
-    pub BodyForceEntry, "body-force", Any, "accelerations that come from outside", "none if left out"
+    pub BodyForceEntry, "body-force", Any, "accelerations that come from outside"
 );
 
 const PUSH: Field<Vector> = Field::new(

@@ -28,6 +28,8 @@ pub struct Setting<'a, const D: usize> {
     pub viscous: f64,
     /// Whether a step has one kick and one drift, both over all of it.
     pub kicks_once: bool,
+    /// Whether a solve for friction may hold soils beyond their strength.
+    pub delayed_yield: bool,
     /// Whether the fluid moves with its walls: every wall has a prescribed motion, or no wall acts against gravity.
     pub carried: bool,
     /// A wall that moves, if there is one.

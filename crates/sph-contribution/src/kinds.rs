@@ -1,86 +1,96 @@
 //! Kinds of plugins that bring contributions.
 
 use sph_core::reexport::inventory;
-use sph_core::{PluginInfo, RegistryError};
-use toml::Table;
 
-use crate::Contribution;
+use crate::{Contribution, Plugins};
 
-/// A contribution with what is known of its plugin.
-pub type Built<const D: usize> = (Box<dyn Contribution<D>>, PluginInfo);
+/// Contributions with the name of their kind.
+pub type Part<const D: usize> = (&'static str, Box<dyn Contribution<D>>);
 
-/// A kind of plugin whose plugins are contributions; submitted by [`contribution_kind!`](crate::contribution_kind).
-pub struct OpenKind {
-    /// Name in scene files.
+/// What the plugins of a kind contribute to a flow.
+pub struct Contributor {
+    /// Name of the kind.
     pub kind: &'static str,
-    /// Builds a plugin of that name from its parameters, in two dimensions.
-    pub build_2d: fn(&str, &Table) -> Result<Built<2>, RegistryError>,
-    /// The same in three dimensions.
-    pub build_3d: fn(&str, &Table) -> Result<Built<3>, RegistryError>,
+    /// Contributions to flows in two dimensions.
+    pub in_2d: fn(&Plugins) -> Vec<Box<dyn Contribution<2>>>,
+    /// Contributions to flows in three dimensions.
+    pub in_3d: fn(&Plugins) -> Vec<Box<dyn Contribution<3>>>,
 }
-inventory::collect!(OpenKind);
+inventory::collect!(Contributor);
 
-impl OpenKind {
-    /// Builds a plugin from its parameters.
-    ///
-    /// # Errors
-    /// If there is none of that name, it has no form in D dimensions, or a parameter is wrong.
-    pub fn build<const D: usize>(
-        &self,
-        name: &str,
-        table: &Table,
-    ) -> Result<Built<D>, RegistryError> {
-        let built: Box<dyn std::any::Any> = match D {
-            2 => Box::new((self.build_2d)(name, table)?),
-            _ => Box::new((self.build_3d)(name, table)?),
+impl Contributor {
+    fn parts<const D: usize>(&self, plugins: &Plugins) -> Vec<Part<D>> {
+        let all: Box<dyn std::any::Any> = match D {
+            2 => Box::new((self.in_2d)(plugins)),
+            _ => Box::new((self.in_3d)(plugins)),
         };
-        built
-            .downcast::<Built<D>>()
-            .map(|built| *built)
-            .map_err(|_| RegistryError::Dimension {
-                kind: self.kind,
-                name: "contribution",
-                dimension: D,
-            })
+        let all = all.downcast::<Vec<Box<dyn Contribution<D>>>>();
+        let all = all.map_or(Vec::new(), |all| *all).into_iter();
+        all.map(|part| (self.kind, part)).collect()
     }
 }
 
-/// Every kind of contribution in this binary, by name.
-pub fn open_kinds() -> Vec<&'static OpenKind> {
-    let mut all: Vec<_> = inventory::iter::<OpenKind>.into_iter().collect();
-    all.sort_by_key(|k| k.kind);
-    all
+/// The contributions of all plugins of a scene, in the order of their kinds.
+pub fn parts<const D: usize>(plugins: &Plugins) -> Vec<Part<D>> {
+    let order = |kind: &str| sph_core::kind_of(kind).map_or(u8::MAX, |kind| kind.order);
+    let mut contributors: Vec<_> = inventory::iter::<Contributor>.into_iter().collect();
+    contributors.sort_by_key(|c| (order(c.kind), c.kind));
+    let each = contributors.into_iter();
+    each.flat_map(|c| c.parts::<D>(plugins)).collect()
+}
+
+/// Whether plugins of a kind contribute to flows.
+pub fn contributes(kind: &str) -> bool {
+    let mut all = inventory::iter::<Contributor>.into_iter();
+    all.any(|contributor| contributor.kind == kind)
+}
+
+/// A contribution that a kind makes of the plugins of a scene, its own and those of other kinds.
+pub trait FromPlugins<const D: usize>: Contribution<D> + Sized + 'static {
+    /// The contribution; none where the scene has no use for it, or where a plugin could not be built.
+    fn from_plugins(plugins: &Plugins) -> Option<Self>;
+
+    /// As a [`Contributor`] has it.
+    #[doc(hidden)]
+    fn boxed(plugins: &Plugins) -> Vec<Box<dyn Contribution<D>>> {
+        let made = Self::from_plugins(plugins).into_iter();
+        made.map(|made| Box::new(made) as _).collect()
+    }
+}
+
+/// Declares the contribution of a kind: `contributes!("formulation", Compressible)` for a type `Compressible<D>` that
+/// is [`FromPlugins`].
+#[macro_export]
+macro_rules! contributes {
+    ($kind:literal, $made:ident) => {
+        $crate::reexport::inventory::submit! {
+            $crate::Contributor {
+                kind: $kind,
+                in_2d: <$made<2> as $crate::FromPlugins<2>>::boxed,
+                in_3d: <$made<3> as $crate::FromPlugins<3>>::boxed,
+            }
+        }
+    };
 }
 
 /// Declares a kind whose plugins are contributions:
-/// `contribution_kind!(/** doc */ pub TracerEntry, "tracer", Any, "what for", "none if left out")`. `One` instead of
-/// `Any` where a scene may have one plugin of it. [`Contribution`] has to be in scope.
-///
-/// Without place and absence for a kind that `sph_core::kinds` lists itself.
+/// `contribution_kind!(/** doc */ pub TracerEntry, "tracer", Any, "what for")`. `One` instead of `Any` where a scene may
+/// have one plugin of it. Methods of [`PluginKind`](sph_core::PluginKind) may follow. [`Contribution`] has to be in scope.
 #[macro_export]
 macro_rules! contribution_kind {
-    ($(#[$doc:meta])* $vis:vis $entry:ident, $kind:literal, $place:ident, $purpose:literal, $absent:literal) => {
-        $crate::contribution_kind!($(#[$doc])* $vis $entry, $kind, $purpose);
-        $crate::reexport::sph_core::kind!($kind, $place, $absent);
-    };
-    ($(#[$doc:meta])* $vis:vis $entry:ident, $kind:literal, $purpose:literal) => {
+    (
+        $(#[$doc:meta])* $vis:vis $entry:ident, $kind:literal, $place:ident, $purpose:literal
+        $(, $($more:tt)*)?
+    ) => {
         $crate::reexport::sph_core::contract!(
             $(#[$doc])*
-            $vis $entry, $kind, $purpose, Contribution<D>
+            $vis $entry, $kind, $place, $purpose, Contribution<D>, $($($more)*)?
         );
         $crate::reexport::inventory::submit! {
-            $crate::OpenKind {
+            $crate::Contributor {
                 kind: $kind,
-                build_2d: |name, table| {
-                    let registry = $crate::reexport::sph_core::Registry::<$entry>::discovered()?;
-                    let entry = registry.find(name)?;
-                    Ok((entry.build::<2>(table)?, entry.info))
-                },
-                build_3d: |name, table| {
-                    let registry = $crate::reexport::sph_core::Registry::<$entry>::discovered()?;
-                    let entry = registry.find(name)?;
-                    Ok((entry.build::<3>(table)?, entry.info))
-                },
+                in_2d: $crate::Plugins::all::<2, $entry>,
+                in_3d: $crate::Plugins::all::<3, $entry>,
             }
         }
     };

@@ -9,6 +9,8 @@
 //! * [`Limiter`]: a bound on the step; [`SoundLimit`] and [`ForceLimit`] are in every scene, [`MotionLimit`] where
 //!   walls move.
 //! * [`contribution_kind!`] declares a kind: scenes may name its plugins, `sph plugins` and the schema list them.
+//! * [`contributes!`] declares the contribution of a kind whose plugins are something else; [`Plugins`] has the plugins of all
+//!   kinds for it. [`parts`] are the contributions of a scene.
 //!
 //! What a contribution remembers from step to step belongs into its columns, not into its own fields: only
 //! columns are rolled back when a step fails, and only they are in checkpoints.
@@ -23,18 +25,21 @@ mod limiter;
 mod limits;
 mod newborn;
 mod offer;
+mod plugins;
 mod refusal;
 mod step_hook;
+mod terms;
 
 pub use column::{Birth, Initial, OwnColumn};
 pub use contribution::{Contribution, Setting};
 pub use even_out::even_out;
 pub use gate::Gate;
-pub use kinds::{OpenKind, open_kinds};
+pub use kinds::{Contributor, FromPlugins, Part, contributes, parts};
 pub use limiter::Limiter;
 pub use limits::{ForceLimit, LightBodyLimit, MotionLimit, SoundLimit};
 pub use newborn::Newborn;
 pub use offer::{Offer, ParticleEnergy, StoredEnergy};
+pub use plugins::{PluginInForce, Plugins};
 pub use refusal::Refusal;
 pub use step_hook::{Forces, Kick, OutsideForce, Report, StepHook, StepMoment, StepPhase};
 

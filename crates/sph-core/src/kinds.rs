@@ -1,4 +1,6 @@
-//! Kinds of plugins: their names, and where a scene names a plugin of each. The one list of them.
+//! Kinds of plugins: their names, places in scenes, defaults and order.
+
+use crate::PluginInfo;
 
 /// Where a scene names plugins of a kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,109 +17,134 @@ pub enum Place {
     Probe,
     /// `solution` of `[reference.NAME]`, and `[body.NAME.initial.PLUGIN]`.
     Solution,
+    /// Nowhere in scenes of particles.
+    Elsewhere,
 }
 
-/// A kind of plugin as scenes know it.
+/// The account of the energy budget for the work of a kind's terms and hooks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct KindInfo {
+pub enum Work {
+    /// None: the pressure has the rest of the acceleration.
+    Pressure,
+    /// Friction.
+    Friction,
+    /// Diffusion of the density.
+    Smoothing,
+    /// Shifted positions.
+    Shifting,
+    /// Terms that damp sound, and hooks that damp velocities.
+    Damping,
+    /// Hooks that change the density constants of surface particles.
+    Surface,
+    /// That of all other forces.
+    Others,
+    /// An account of its own, which has the kind's name.
+    Own,
+}
+
+/// A kind of plugin; declared by [`contract!`](crate::contract).
+#[derive(Clone, Copy)]
+pub struct PluginKind {
     /// Name in scene files.
     pub name: &'static str,
+    /// One sentence.
+    pub purpose: &'static str,
     /// Where a scene names its plugins.
     pub place: Place,
-    /// What a scene has that leaves it out, after a semicolon: "none if left out".
+    /// The plugin of a scene that names none.
+    pub default: Option<&'static str>,
+    /// What a scene has that names none, where no plugin is the default.
     pub absent: &'static str,
+    /// The message to a scene that names a plugin and has no use for it; without one, such a scene is no mistake.
+    pub idle: Option<&'static str>,
+    /// Position of its terms in sums and of its hooks in steps, the least first.
+    pub order: u8,
+    /// The account of its work.
+    pub work: Work,
+    /// Its plugins in this binary, by name.
+    pub plugins: fn() -> Vec<PluginInfo>,
 }
-inventory::collect!(KindInfo);
+inventory::collect!(PluginKind);
 
-impl KindInfo {
+impl std::fmt::Debug for PluginKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+impl PluginKind {
+    /// A kind without a default, whose terms and hooks follow those of all kinds with an [order](Self::ordered).
+    pub const fn new(name: &'static str, place: Place, purpose: &'static str) -> Self {
+        PluginKind {
+            name,
+            purpose,
+            place,
+            default: None,
+            absent: "none if left out",
+            idle: None,
+            order: u8::MAX,
+            work: Work::Own,
+            plugins: Vec::new,
+        }
+    }
+
+    /// With a default.
+    pub const fn by_default(mut self, plugin: &'static str) -> Self {
+        self.default = Some(plugin);
+        self
+    }
+
+    /// With a text for scenes that name none, after a semicolon: "explicit if left out".
+    pub const fn absent(mut self, text: &'static str) -> Self {
+        self.absent = text;
+        self
+    }
+
+    /// With a message to scenes that name a plugin and have no use for it.
+    pub const fn idle(mut self, message: &'static str) -> Self {
+        self.idle = Some(message);
+        self
+    }
+
+    /// With a position of its terms and hooks, the least first.
+    pub const fn ordered(mut self, order: u8) -> Self {
+        self.order = order;
+        self
+    }
+
+    /// With an account of its work.
+    pub const fn works(mut self, work: Work) -> Self {
+        self.work = work;
+        self
+    }
+
+    /// With a list of its plugins.
+    pub const fn of(mut self, plugins: fn() -> Vec<PluginInfo>) -> Self {
+        self.plugins = plugins;
+        self
+    }
+
     /// Whether its plugins stand in a table of the scene's own, `[KIND.PLUGIN]`.
     pub fn has_table(&self) -> bool {
         matches!(self.place, Place::One | Place::Any)
     }
-}
 
-const DEFAULT: &str = "chosen by the solver if left out";
-const NONE: &str = "none if left out";
-
-const fn one(name: &'static str, absent: &'static str) -> KindInfo {
-    let place = Place::One;
-    KindInfo {
-        name,
-        place,
-        absent,
+    /// What a scene has that names none: "`tait` if left out".
+    pub fn if_left_out(&self) -> String {
+        self.default
+            .map_or(self.absent.into(), |name| format!("`{name}` if left out"))
     }
 }
 
-const fn at(place: Place, name: &'static str) -> KindInfo {
-    KindInfo {
-        name,
-        place,
-        absent: NONE,
-    }
-}
-
-/// Those that the crates of this project have; others register theirs with [`kind!`](crate::kind).
-static OWN: [KindInfo; 23] = [
-    one("kernel", DEFAULT),
-    one("formulation", DEFAULT),
-    one("integrator", DEFAULT),
-    one("walls", DEFAULT),
-    one("viscous-operator", DEFAULT),
-    one("implicit-viscosity", "explicit if left out"),
-    one("linear-solver", DEFAULT),
-    one("velocity-gradient", DEFAULT),
-    one("elastic-force", DEFAULT),
-    one(
-        "effective-pressure",
-        "that of the equation of state if left out",
-    ),
-    one("pressure", "that of the equation of state if left out"),
-    one("seepage", NONE),
-    one("eddy-viscosity", NONE),
-    one("smoother", NONE),
-    one("shifting", NONE),
-    at(Place::Any, "interface"),
-    at(Place::Any, "term"),
-    at(Place::InPhase, "equation-of-state"),
-    at(Place::InPhase, "rheology"),
-    at(Place::InWall, "mover"),
-    at(Place::InWall, "open-boundary"),
-    at(Place::Probe, "probe"),
-    at(Place::Solution, "solution"),
-];
-
-/// Every kind of plugin that a scene may name: this project's own, then those that other crates in this binary
-/// registered, by name. A name that is taken already is left out.
-pub fn kinds() -> Vec<&'static KindInfo> {
-    let mut others: Vec<_> = inventory::iter::<KindInfo>.into_iter().collect();
-    others.sort_by_key(|k| k.name);
-    let mut all: Vec<&'static KindInfo> = OWN.iter().collect();
-    for other in others {
-        if all.iter().all(|k| k.name != other.name) {
-            all.push(other);
-        }
-    }
+/// Every kind of plugin in this binary, by name. Of two with the same name one is left out.
+pub fn kinds() -> Vec<&'static PluginKind> {
+    let mut all: Vec<_> = inventory::iter::<PluginKind>.into_iter().collect();
+    all.sort_by_key(|k| k.name);
+    all.dedup_by_key(|k| k.name);
     all
 }
 
 /// The kind of a name.
-pub fn kind_of(name: &str) -> Option<&'static KindInfo> {
+pub fn kind_of(name: &str) -> Option<&'static PluginKind> {
     kinds().into_iter().find(|k| k.name == name)
-}
-
-/// Registers a kind of plugin, so that scenes may name one (`One`) or any number (`Any`) of its plugins:
-/// `kind!("tracer", Any, "none if left out")`.
-#[macro_export]
-macro_rules! kind {
-    ($name:literal, One, $absent:literal) => {
-        $crate::kind!(@ $name, One, $absent);
-    };
-    ($name:literal, Any, $absent:literal) => {
-        $crate::kind!(@ $name, Any, $absent);
-    };
-    (@ $name:literal, $place:ident, $absent:literal) => {
-        $crate::reexport::inventory::submit! {
-            $crate::KindInfo { name: $name, place: $crate::Place::$place, absent: $absent }
-        }
-    };
 }

@@ -31,6 +31,7 @@ mod kinds;
 mod limit;
 mod parcel;
 mod plan;
+mod plugin_choice;
 mod registry;
 mod saved;
 mod shelf;
@@ -48,12 +49,13 @@ pub use duct::rectangular_duct;
 pub use error::{FieldError, PlanError, RegistryError, StepError};
 pub use evolve::{Evolved, Recall, System};
 pub use field::{AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector};
-pub use kinds::{KindInfo, Place, kind_of, kinds};
+pub use kinds::{Place, PluginKind, Work, kind_of, kinds};
 pub use limit::StepLimit;
 pub use plan::{Plan, plan};
+pub use plugin_choice::PluginChoice;
 pub use registry::{
-    Contract, ContractInfo, Makes, Parameter, PluginInfo, Registry, contracts, node_of, parameters,
-    registry_contract_info, schema_of, typed,
+    Contract, Makes, Parameter, PluginInfo, Registry, node_of, parameters, plugins_of, schema_of,
+    typed,
 };
 pub use saved::Saved;
 pub use scene_text::{

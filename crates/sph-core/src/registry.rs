@@ -5,7 +5,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use toml::{Table, Value};
 
-use crate::{RegistryError, SceneProblem, conform, suggestion};
+use crate::{PluginKind, RegistryError, SceneProblem, conform, suggestion};
 
 /// What is known of a plugin without building it.
 #[derive(Clone, Copy)]
@@ -77,32 +77,12 @@ pub fn parameters(schema: &Json) -> Vec<Parameter> {
 
 /// A kind of plugin: the type of its entries and where the discovered ones are.
 pub trait Contract: Sized + 'static {
-    /// Kind in scene files and listings.
-    const KIND: &'static str;
-    /// What the kind is for, one sentence.
-    const PURPOSE: &'static str;
+    /// The kind.
+    const KIND: PluginKind;
     /// Entries registered in any crate that the binary mentions.
     fn discovered() -> Vec<&'static Self>;
     /// What is known without building.
     fn info(&self) -> &PluginInfo;
-}
-
-/// A kind of plugin with its type forgotten, for listings.
-pub struct ContractInfo {
-    /// Kind in scene files.
-    pub kind: &'static str,
-    /// One sentence.
-    pub purpose: &'static str,
-    /// Its discovered plugins.
-    pub plugins: fn() -> Vec<PluginInfo>,
-}
-inventory::collect!(ContractInfo);
-
-/// Every kind of plugin in this binary, sorted by name.
-pub fn contracts() -> Vec<&'static ContractInfo> {
-    let mut all: Vec<_> = inventory::iter::<ContractInfo>.into_iter().collect();
-    all.sort_by_key(|c| c.kind);
-    all
 }
 
 /// The plugins of one kind that may be named.
@@ -142,7 +122,7 @@ impl<E: Contract> Registry<E> {
         let info = entry.info();
         if let Some(other) = self.entries.iter().find(|e| e.info().name == info.name) {
             return Err(RegistryError::Duplicate {
-                kind: E::KIND,
+                kind: E::KIND.name,
                 name: info.name,
                 first: other.info().provider,
                 second: info.provider,
@@ -161,7 +141,7 @@ impl<E: Contract> Registry<E> {
         let names = || self.entries.iter().map(|e| e.info().name);
         let found = self.entries.iter().find(|e| e.info().name == name);
         found.copied().ok_or_else(|| RegistryError::Unknown {
-            kind: E::KIND,
+            kind: E::KIND.name,
             name: name.to_string(),
             hint: suggestion(name, names()),
             known: names().collect::<Vec<_>>().join(", "),
@@ -221,11 +201,15 @@ pub fn schema_of<P: JsonSchema>() -> Json {
     schema
 }
 
-/// Declares a kind of plugin: `contract!(/** doc */ pub WallEntry, "walls", "what for", Wall<D>)`
-/// for a trait with a dimension, `Kernel` without `<D>` for one without.
+/// Declares a kind of plugin: `contract!(/** doc */ pub WallEntry, "walls", One, "what for", Wall<D>, .by_default("usaw"))`
+/// for a trait with a dimension, `Kernel` without `<D>` for one without. `One` is a [`Place`](crate::Place); methods of
+/// [`PluginKind`](crate::PluginKind) may follow the trait.
 #[macro_export]
 macro_rules! contract {
-    ($(#[$doc:meta])* $vis:vis $entry:ident, $kind:literal, $purpose:literal, $tr:ident<D>) => {
+    (
+        $(#[$doc:meta])* $vis:vis $entry:ident, $kind:literal, $place:ident, $purpose:literal, $tr:ident<D>
+        $(, $($more:tt)*)?
+    ) => {
         $(#[$doc])*
         $vis struct $entry {
             /// What is known without building.
@@ -270,9 +254,12 @@ macro_rules! contract {
                 self.build::<D>(table)
             }
         }
-        $crate::contract!(@common $entry, $kind, $purpose);
+        $crate::contract!(@common $entry, $kind, $place, $purpose, $($($more)*)?);
     };
-    ($(#[$doc:meta])* $vis:vis $entry:ident, $kind:literal, $purpose:literal, $tr:ident) => {
+    (
+        $(#[$doc:meta])* $vis:vis $entry:ident, $kind:literal, $place:ident, $purpose:literal, $tr:ident
+        $(, $($more:tt)*)?
+    ) => {
         $(#[$doc])*
         $vis struct $entry {
             /// What is known without building.
@@ -290,12 +277,12 @@ macro_rules! contract {
                 (self.build)(table)
             }
         }
-        $crate::contract!(@common $entry, $kind, $purpose);
+        $crate::contract!(@common $entry, $kind, $place, $purpose, $($($more)*)?);
     };
-    (@common $entry:ident, $kind:literal, $purpose:literal) => {
+    (@common $entry:ident, $kind:literal, $place:ident, $purpose:literal, $($more:tt)*) => {
         impl $crate::Contract for $entry {
-            const KIND: &'static str = $kind;
-            const PURPOSE: &'static str = $purpose;
+            const KIND: $crate::PluginKind =
+                $crate::PluginKind::new($kind, $crate::Place::$place, $purpose) $($more)*;
             fn discovered() -> Vec<&'static Self> {
                 $crate::reexport::inventory::iter::<$entry>.into_iter().collect()
             }
@@ -305,28 +292,14 @@ macro_rules! contract {
         }
         $crate::reexport::inventory::collect!($entry);
         $crate::reexport::inventory::submit! {
-            $crate::registry_contract_info($kind, $purpose, || {
-                let mut all: Vec<_> = <$entry as $crate::Contract>::discovered()
-                    .iter()
-                    .map(|e| e.info)
-                    .collect();
-                all.sort_by_key(|i| i.name);
-                all
-            })
+            <$entry as $crate::Contract>::KIND.of($crate::plugins_of::<$entry>)
         }
     };
 }
 
-/// Used by [`contract!`].
-#[doc(hidden)]
-pub const fn registry_contract_info(
-    kind: &'static str,
-    purpose: &'static str,
-    plugins: fn() -> Vec<PluginInfo>,
-) -> ContractInfo {
-    ContractInfo {
-        kind,
-        purpose,
-        plugins,
-    }
+/// The discovered plugins of a kind, by name.
+pub fn plugins_of<E: Contract>() -> Vec<PluginInfo> {
+    let mut all: Vec<_> = E::discovered().iter().map(|e| *e.info()).collect();
+    all.sort_by_key(|info| info.name);
+    all
 }

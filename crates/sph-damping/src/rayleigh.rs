@@ -4,13 +4,14 @@ use rayon::prelude::*;
 use sph_contribution::{
     Contribution, Offer, Refusal, Setting, StepHook, StepMoment, StepPhase, contribution_kind,
 };
-use sph_core::{Access, StepError, Vect, fields, plugin};
+use sph_core::{Access, StepError, Vect, Work, fields, plugin};
 
 use crate::zone::Zone;
 
 contribution_kind!(
     /// What takes motion away, that a scene may name.
-    pub DampingEntry, "damping", Any, "what takes motion away: of a fluid that is to settle, of waves, of sound", "none if left out"
+    pub DampingEntry, "damping", Any, "what takes motion away: of a fluid that is to settle, of waves, of sound",
+    .works(Work::Damping)
 );
 
 /// du/dt = −Γ(x) (u − U), with the velocity of the end of the step: u ← (u + ΓΔt U)/(1 + ΓΔt) after every kick, whatever ΓΔt.

@@ -1,6 +1,7 @@
 //! Smoothers and shifting.
 
 use sph_contribution::{Contribution, Offer, Setting, contribution_kind};
+use sph_core::Work;
 use sph_neighbours::Interaction;
 
 use crate::diffusion_limit::{DiffusionLimit, fastest};
@@ -8,13 +9,15 @@ use crate::{Accelerated, MeanAcceleration};
 
 contribution_kind!(
     /// A smoother that a scene may name: a density diffusion that damps the chequerboard mode of pressure.
-    pub SmootherEntry, "smoother", "density diffusion against pressure noise"
+    pub SmootherEntry, "smoother", One, "density diffusion against pressure noise",
+    .ordered(70).works(Work::Smoothing)
 );
 
 contribution_kind!(
     /// A shifting scheme that a scene may name. The last of its stages writes
     /// [`SHIFT_VELOCITY`](sph_core::fields::SHIFT_VELOCITY).
-    pub ShiftingEntry, "shifting", "what keeps particles evenly spread"
+    pub ShiftingEntry, "shifting", One, "what keeps particles evenly spread",
+    .ordered(90).works(Work::Shifting)
 );
 
 /// A smoother by its term, which adds dρ/dt to [`Rates::scalar`](sph_neighbours::Rates).

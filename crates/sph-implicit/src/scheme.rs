@@ -25,7 +25,8 @@ pub trait TimeScheme: Send {
 
 contract!(
     /// An implicit treatment of viscosity that a scene may name.
-    pub ImplicitViscosityEntry, "implicit-viscosity", "friction from the end of the step: no viscous bound on it", TimeScheme
+    pub ImplicitViscosityEntry, "implicit-viscosity", One, "friction from the end of the step: no viscous bound on it",
+    TimeScheme, .absent("explicit if left out")
 );
 
 /// θ = 1: first order, damps all modes for any Δt.

@@ -33,5 +33,5 @@ pub trait Integrator: Send {
 
 contract!(
     /// An integrator that a scene may name.
-    pub IntegratorEntry, "integrator", "the time stepping scheme", Integrator
+    pub IntegratorEntry, "integrator", One, "the time stepping scheme", Integrator, .by_default("symplectic-euler")
 );

@@ -1,7 +1,7 @@
 //! What formulations and interface models are.
 
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, Stages, contribution_kind};
-use sph_core::{Evolved, Field, Scalar, Stage, StepError, contract};
+use sph_core::{Evolved, Field, Scalar, Stage, StepError, Work, contract};
 use sph_neighbours::{Interaction, World};
 use sph_state::PressureStage;
 
@@ -54,7 +54,8 @@ pub trait Formulation<const D: usize>: Send + Sync {
 
 contract!(
     /// A formulation that a scene may name.
-    pub FormulationEntry, "formulation", "density and the pressure gradient that belongs to it", Formulation<D>
+    pub FormulationEntry, "formulation", One, "density and the pressure gradient that belongs to it",
+    Formulation<D>, .by_default("hu-adams").ordered(10).works(Work::Pressure)
 );
 
 /// What a [`PressureScheme`] works with.
@@ -77,12 +78,13 @@ pub trait PressureScheme<const D: usize>: Send + Sync {
 
 contract!(
     /// A pressure scheme that a scene may name.
-    pub PressureEntry, "pressure", "which pressure acts in a step", PressureScheme<D>
+    pub PressureEntry, "pressure", One, "which pressure acts in a step", PressureScheme<D>,
+    .absent("that of the equation of state if left out")
 );
 
 contribution_kind!(
     /// An interface model that a scene may name: a force where phases meet.
-    pub InterfaceEntry, "interface", "a force where phases meet"
+    pub InterfaceEntry, "interface", Any, "a force where phases meet", .ordered(80).works(Work::Others)
 );
 
 /// Offers the term of an interface model, which may read the phase column, and a remedy.

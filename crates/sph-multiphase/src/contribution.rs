@@ -1,20 +1,37 @@
 //! Formulations and interfaces in a scene.
 
-use std::sync::Arc;
-
-use sph_contribution::{Contribution, LightBodyLimit, Offer, Refusal, Setting, SoundLimit};
+use sph_contribution::{
+    Contribution, FromPlugins, LightBodyLimit, Offer, Plugins, Refusal, Setting, SoundLimit,
+    contributes,
+};
 use sph_state::PressureStage;
 
-use crate::{Acting, Dilatation, Formulation, InterfaceLimit, PressureScheme};
+use crate::{
+    Acting, Dilatation, Formulation, FormulationEntry, InterfaceLimit, PressureEntry,
+    PressureScheme,
+};
 
 /// The formulation that a scene names, with its equations of state.
-pub struct Compressible<const D: usize> {
+struct Compressible<const D: usize> {
     /// What density is.
-    pub formulation: Arc<dyn Formulation<D>>,
+    formulation: Box<dyn Formulation<D>>,
     /// Which pressure acts; that of the equations of state if there is none.
-    pub scheme: Option<Box<dyn PressureScheme<D>>>,
+    scheme: Option<Box<dyn PressureScheme<D>>>,
     /// Whether the scene names what free surfaces are.
-    pub surfaces: bool,
+    surfaces: bool,
+}
+
+contributes!("formulation", Compressible);
+
+impl<const D: usize> FromPlugins<D> for Compressible<D> {
+    fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        let scheme = plugins.one::<D, PressureEntry>();
+        Some(Compressible {
+            formulation: plugins.one::<D, FormulationEntry>()?,
+            scheme,
+            surfaces: plugins.names("surface"),
+        })
+    }
 }
 
 impl<const D: usize> Compressible<D> {

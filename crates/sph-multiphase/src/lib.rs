@@ -42,7 +42,6 @@ pub use contract::{
     Acting, Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, PressureEntry,
     PressureScheme, offer_interface,
 };
-pub use contribution::Compressible;
 pub use dilatation::Dilatation;
 pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, OwnVolume, TheirVolume};
 pub use gradient::{

@@ -5,7 +5,7 @@ use sph_kernels::Kernel;
 
 contract!(
     /// A kernel that a scene may name.
-    pub KernelEntry, "kernel", "the smoothing function w(r, h)", Kernel
+    pub KernelEntry, "kernel", One, "the smoothing function w(r, h)", Kernel, .by_default("wendland-c2")
 );
 
 /// The table of a kernel without parameters.

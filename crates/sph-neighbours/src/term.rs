@@ -107,7 +107,7 @@ pub trait Interaction<const D: usize>: Send + Sync {
 
 contract!(
     /// A pair term that a scene may add to the built-in ones.
-    pub TermEntry, "term", "an additional term of the interaction sweep", Interaction<D>
+    pub TermEntry, "term", Any, "an additional term of the interaction sweep", Interaction<D>, .ordered(100)
 );
 
 impl<const D: usize, T: PairTerm<D>> Interaction<D> for T {

@@ -123,7 +123,7 @@ pub trait Probe<const D: usize>: Send {
 
 contract!(
     /// A probe that a scene may name.
-    pub ProbeEntry, "probe", "what is measured over time", Probe<D>
+    pub ProbeEntry, "probe", Probe, "what is measured over time", Probe<D>
 );
 
 /// An analytical flow.
@@ -144,5 +144,5 @@ pub trait Solution<const D: usize>: Send + Sync {
 
 contract!(
     /// A solution that a scene may name, as a reference or as an initial state.
-    pub SolutionEntry, "solution", "analytical flows: references and initial states", Solution<D>
+    pub SolutionEntry, "solution", Solution, "analytical flows: references and initial states", Solution<D>
 );

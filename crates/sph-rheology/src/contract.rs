@@ -112,5 +112,5 @@ pub trait Elastic: Send + Sync {
 
 contract!(
     /// A rheology that a scene may name.
-    pub RheologyEntry, "rheology", "the constitutive law of a phase", Rheology
+    pub RheologyEntry, "rheology", InPhase, "the constitutive law of a phase", Rheology
 );

@@ -1,7 +1,7 @@
 //! Scene files: from a TOML text to plain validated data and particle positions.
 //!
 //! A scene is data. This crate knows no kernel, no wall treatment and no rheology: every table
-//! that names a plugin is kept as it stands ([`PluginChoice`]) and handed to whoever builds
+//! that names a plugin is kept as it stands ([`PluginChoice`](sph_core::PluginChoice)) and handed to whoever builds
 //! plugins. What it does know is the form of a scene, its units, its geometry, and how to say
 //! where a mistake is.
 //!
@@ -66,7 +66,7 @@ pub use geometry::region::Region;
 pub use geometry::shapes::Shape;
 pub use reading::files::DataFile;
 pub use reading::load::{LoadError, Loaded, Refused, load, load_allowing, parse, read};
-pub use reading::plugins::{PluginChoice, Plugins};
+pub use reading::plugins::Plugins;
 pub use reading::schema::{schema, unit};
 pub use scene_text::{
     Diagnostic, Origin, Override, PathProblem, PictureRange, Source, read_text, within,

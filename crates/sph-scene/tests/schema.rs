@@ -7,21 +7,21 @@ use sph_scene::{Norm, schema};
 pub trait Kernel {}
 contract!(
     /// Kernels of this test.
-    pub KernelEntry, "kernel", "weights neighbours", Kernel
+    pub KernelEntry, "kernel", One, "weights neighbours", Kernel
 );
 
 /// Probes of this test.
 pub trait Probe {}
 contract!(
     /// Probes of this test.
-    pub ProbeEntry, "probe", "measures", Probe
+    pub ProbeEntry, "probe", Probe, "measures", Probe
 );
 
 /// Laws of this test.
 pub trait Law {}
 contract!(
     /// Laws of this test.
-    pub LawEntry, "rheology", "flows", Law
+    pub LawEntry, "rheology", InPhase, "flows", Law
 );
 
 macro_rules! plugin_of {

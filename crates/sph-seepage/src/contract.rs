@@ -1,7 +1,7 @@
 //! What lets water through the pores of soils.
 
 use sph_contribution::{Contribution, contribution_kind};
-use sph_core::{Field, Scalar, Vector};
+use sph_core::{Field, Scalar, Vector, Work};
 
 /// Flux of the water through the pores, relative to the grains: volume per area and time. 0 outside of soils.
 pub const SEEPAGE_VELOCITY: Field<Vector> = Field::new(
@@ -19,5 +19,6 @@ pub const SEEPAGE_PRESSURE: Field<Scalar> = Field::new(
 
 contribution_kind!(
     /// A law of seepage that a scene may name.
-    pub SeepageEntry, "seepage", "the flow of water through the pores of a soil"
+    pub SeepageEntry, "seepage", One, "the flow of water through the pores of a soil",
+    .ordered(120).works(Work::Others)
 );

@@ -29,7 +29,7 @@ pub use failure::error::{Failure, SolverError};
 pub use failure::findings::{Findings, Share, Sighting, Suspect};
 pub use failure::trouble::Trouble;
 pub use results::scene_picture::draw_scene;
-pub use results::summary::{Drift, ErrorEntry, PluginInForce, RankShare, Status, Summary};
+pub use results::summary::{Drift, ErrorEntry, RankShare, Status, Summary};
 pub use running::driver::{Command, Observer, Progress};
 pub use running::identity::{FileMark, Identity, marks};
 pub use running::on_threads::run_on_threads;
@@ -44,6 +44,7 @@ pub use setup::examination::{Examination, FieldUse, StageUse, examine, examine_a
 pub use setup::memory::Memory;
 pub use setup::ranks::{ExchangeUse, RankUse, Ranks, ranks};
 pub use setup::relaxation::Relaxation;
+pub use sph_contribution::PluginInForce;
 pub use sph_viscosity::Solves;
 pub use step::flow::Flow;
 pub use step::outlets::Left;

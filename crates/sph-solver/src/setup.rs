@@ -1,7 +1,6 @@
 //! From a scene to a flow that can be evaluated.
 
 pub(crate) mod assemble;
-pub(crate) mod builder;
 pub(crate) mod choices;
 pub(crate) mod dimensions;
 pub(crate) mod domain;
@@ -17,7 +16,6 @@ pub(crate) mod memory;
 pub(crate) mod movers;
 pub(crate) mod open_faces;
 pub(crate) mod output_fields;
-pub(crate) mod parts;
 pub(crate) mod placement;
 pub(crate) mod planning;
 pub(crate) mod probe_setup;

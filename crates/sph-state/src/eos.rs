@@ -45,5 +45,6 @@ pub trait EquationOfState: Send + Sync {
 
 contract!(
     /// An equation of state that a phase may name.
-    pub EquationOfStateEntry, "equation-of-state", "pressure from density, per phase", EquationOfState
+    pub EquationOfStateEntry, "equation-of-state", InPhase, "pressure from density, per phase", EquationOfState,
+    .by_default("tait")
 );

@@ -6,8 +6,4 @@ mod materials;
 mod straining;
 mod wall_friction;
 
-pub use elasticity::Elasticity;
-pub use friction::Friction;
-pub use materials::Materials;
-pub use straining::Straining;
-pub use wall_friction::WallFriction;
+use materials::Materials;

@@ -1,6 +1,6 @@
 //! What makes a force of what an elastic material remembers.
 
-use sph_core::contract;
+use sph_core::{Work, contract};
 use sph_neighbours::Interaction;
 
 use crate::{Blend, Felt};
@@ -34,5 +34,7 @@ pub trait ElasticForce<const D: usize>: Send {
 
 contract!(
     /// An elastic force that a scene may name.
-    pub ElasticForceEntry, "elastic-force", "the force of an elastic material", ElasticForce<D>
+    pub ElasticForceEntry, "elastic-force", One, "the force of an elastic material", ElasticForce<D>,
+    .by_default("divergence").ordered(60).works(Work::Others)
+    .idle("no law of this scene is elastic: take this table out")
 );

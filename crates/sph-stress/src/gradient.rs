@@ -1,7 +1,7 @@
 //! Gradients of the velocity from sums over neighbours.
 
 use nalgebra::SMatrix;
-use sph_core::contract;
+use sph_core::{Work, contract};
 
 /// What a formula is made of: sums over neighbours, wall points and elements with the weights
 /// θ_b V_b ∇w_ab and −∇γ_as.
@@ -31,5 +31,8 @@ pub trait VelocityGradient<const D: usize>: Send + Sync {
 
 contract!(
     /// A velocity gradient that a scene may name.
-    pub VelocityGradientEntry, "velocity-gradient", "the strain rate that a law feels", VelocityGradient<D>
+    pub VelocityGradientEntry, "velocity-gradient", One, "the strain rate that a law feels", VelocityGradient<D>,
+    .by_default("renormalised").ordered(30).works(Work::Others).idle(
+        "no law of this scene feels a strain rate, and no output shows one: take this table out"
+    )
 );

@@ -11,8 +11,7 @@
 //! * [`Laplace`] is an effective pressure ([`EffectivePressureEntry`]): that between the grains, where it is not that
 //!   of the equation of state. [`PorePressure`] is what is left for the water.
 //! * [`CoulombFriction`] brakes soils on walls that have a coefficient of friction.
-//! * [`Friction`], [`Elasticity`], [`Straining`] and [`WallFriction`] bring all that into a scene; they
-//!   share its [`Materials`].
+//! * `contribution` brings all that into a scene.
 //!
 //! Nothing here runs in a scene whose laws do not ask for it.
 
@@ -49,7 +48,6 @@ pub use adjoint::{AdjointDivergence, StressCorrection};
 pub use blend::Blend;
 pub use blended::Blended;
 pub use carried::{CarriedAhead, CarriedStress};
-pub use contribution::{Elasticity, Friction, Materials, Straining, WallFriction};
 pub use coulomb::CoulombFriction;
 pub use displacement::{Displacement, DisplacementForce};
 pub use divergence::{Divergence, StressDivergence};

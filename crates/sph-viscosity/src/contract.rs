@@ -1,7 +1,7 @@
 //! What a viscous operator is.
 
 use sph_contribution::Stages;
-use sph_core::contract;
+use sph_core::{Work, contract};
 use sph_neighbours::Interaction;
 
 use crate::Coupling;
@@ -37,5 +37,6 @@ pub trait ViscousOperator<const D: usize>: Send {
 
 contract!(
     /// A viscous operator that a scene may name.
-    pub ViscousOperatorEntry, "viscous-operator", "the discrete div(η grad u) and its kin", ViscousOperator<D>
+    pub ViscousOperatorEntry, "viscous-operator", One, "the discrete div(η grad u) and its kin", ViscousOperator<D>,
+    .by_default("morris").ordered(40).works(Work::Friction)
 );

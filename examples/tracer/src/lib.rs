@@ -11,7 +11,7 @@ use sph_neighbours::{
 
 contribution_kind!(
     /// What diffuses through a fluid.
-    pub TracerEntry, "tracer", Any, "what diffuses through the fluid", "none if left out"
+    pub TracerEntry, "tracer", Any, "what diffuses through the fluid"
 );
 
 const VALUE: [Field<Scalar>; 2] = [

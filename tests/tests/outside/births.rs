@@ -12,7 +12,7 @@ use sph_tests::FinalState;
 
 contribution_kind!(
     /// What lets particles in.
-    pub TapEntry, "tap", Any, "what lets particles in", "none if left out"
+    pub TapEntry, "tap", Any, "what lets particles in"
 );
 
 const WARMTH: Field<Scalar> = Field::new("warmth", "K", "what particles begin with");

@@ -37,7 +37,7 @@ impl<const D: usize> Interaction<D> for OneByOne {
 /// A transparent wrapper shows the parameters of the term within, in listings and in the schema for editors.
 #[test]
 fn the_parameters_of_wrapped_terms_are_listed() {
-    let kind = sph_core::contracts().into_iter().find(|c| c.kind == "term");
+    let kind = sph_core::kind_of("term");
     let all = (kind.expect("terms").plugins)();
     let wrapped = all
         .iter()

@@ -228,12 +228,3 @@ fn scenes_are_told_what_is_wrong_with_it() {
     let at = "/properties/tracer/properties/heat-and-salt/properties/heat/unit";
     assert_eq!(schema.pointer(at).and_then(|u| u.as_str()), Some("m²/s"));
 }
-
-/// A contract that no kind is for would be listed and never be reached by a scene, and the reverse.
-#[test]
-fn every_contract_has_its_kind_and_every_kind_its_contract() {
-    let mut kinds: Vec<_> = sph_core::kinds().iter().map(|k| k.name).collect();
-    let contracts: Vec<_> = sph_core::contracts().iter().map(|c| c.kind).collect();
-    kinds.sort_unstable();
-    assert_eq!(kinds, contracts);
-}

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
-use sph_core::contracts;
+use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
 const ALLOWED: [(&str, &[&str]); 38] = [
@@ -368,9 +368,9 @@ fn no_plugin_is_named_in_the_solver_but_on_its_page_of_defaults() {
         // Tests may run scenes.
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         lines += code.lines().count();
-        for contract in contracts() {
-            for plugin in (contract.plugins)() {
-                let kind = contract.kind;
+        for kind in kinds() {
+            for plugin in (kind.plugins)() {
+                let kind = kind.name;
                 let alone = format!("\"{}\"", plugin.name);
                 let in_table = format!("{kind}.{}", plugin.name);
                 // Names of one common word are names of other things, too.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sph_core::{StepError, Vect, contract};
+use sph_core::{StepError, Vect, Work, contract};
 use sph_kernels::Kernel;
 use sph_neighbours::{Coulomb, Domain, Sight, WallSet, World};
 
@@ -231,5 +231,6 @@ pub trait Wall<const D: usize>: WallShape<D> + WallMotion<D> + Send + Sync {
 
 contract!(
     /// A wall treatment that a scene may name.
-    pub WallEntry, "walls", "the treatment of all walls", Wall<D>
+    pub WallEntry, "walls", One, "the treatment of all walls", Wall<D>,
+    .by_default("usaw").ordered(110).works(Work::Friction)
 );

@@ -4,6 +4,6 @@ pub mod check;
 pub mod explain;
 pub mod failed;
 mod outcome;
-pub mod plugins;
+mod plugins;
 pub mod run;
 pub mod study;

@@ -8,10 +8,9 @@ mod snippet;
 mod specimen;
 
 use serde_json::{Value as Json, json};
-use sph_core::{ContractInfo, Parameter, PluginInfo, contracts, parameters, suggestion};
+use sph_core::{Parameter, PluginInfo, PluginKind, kinds, parameters, suggestion};
 
 use crate::arguments::PluginArguments;
-use crate::commands::grains;
 use crate::telling::console;
 use crate::telling::layout::{columns, paragraph};
 use crate::telling::trouble::Trouble;
@@ -22,10 +21,7 @@ const KERNELS: &str = "kernel";
 
 /// Lists kinds, the plugins of a kind, or some plugins; or draws laws.
 pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
-    let own = grains::plugins::contracts();
-    let mut kinds = contracts();
-    kinds.extend(&own);
-    kinds.sort_by_key(|kind| kind.kind);
+    let kinds = kinds();
     let Some(kind) = &arguments.kind else {
         let all: Vec<Json> = kinds.iter().map(|k| kind_json(k)).collect();
         let text = match arguments.markdown {
@@ -39,7 +35,7 @@ pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
     let plugins = names.map(|name| find_plugin(kind, name));
     let plugins = plugins.collect::<Result<Vec<_>, _>>()?;
     if let Some(file) = &arguments.picture {
-        return match kind.kind {
+        return match kind.name {
             LAWS => picture::draw(arguments, &plugins, file),
             KERNELS => kernel_picture::draw(arguments, &plugins, file),
             _ => Err(Trouble::usage(format!(
@@ -47,10 +43,10 @@ pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
             ))),
         };
     }
-    let each = plugins.iter().map(|p| plugin_json(kind.kind, p));
+    let each = plugins.iter().map(|p| plugin_json(kind.name, p));
     let (text, json) = match plugins.as_slice() {
         [] => (kind_text(kind), kind_json(kind)),
-        [only] => (plugin_text(kind, only), plugin_json(kind.kind, only)),
+        [only] => (plugin_text(kind, only), plugin_json(kind.name, only)),
         several => {
             let texts = several.iter().map(|p| plugin_text(kind, p));
             (texts.collect::<Vec<_>>().join("\n"), each.collect())
@@ -67,10 +63,10 @@ fn shown(arguments: &PluginArguments, text: &str, json: &Json) -> Result<(), Tro
     Ok(())
 }
 
-fn find_kind<'k>(kinds: &[&'k ContractInfo], name: &str) -> Result<&'k ContractInfo, Trouble> {
-    let found = kinds.iter().find(|k| k.kind == name);
+fn find_kind<'k>(kinds: &[&'k PluginKind], name: &str) -> Result<&'k PluginKind, Trouble> {
+    let found = kinds.iter().find(|k| k.name == name);
     found.copied().ok_or_else(|| {
-        let names: Vec<&str> = kinds.iter().map(|k| k.kind).collect();
+        let names: Vec<&str> = kinds.iter().map(|k| k.name).collect();
         let near = suggestion(name, names.iter().copied());
         let known = names.join(", ");
         Trouble::usage(format!(
@@ -79,7 +75,7 @@ fn find_kind<'k>(kinds: &[&'k ContractInfo], name: &str) -> Result<&'k ContractI
     })
 }
 
-fn find_plugin(kind: &ContractInfo, name: &str) -> Result<PluginInfo, Trouble> {
+fn find_plugin(kind: &PluginKind, name: &str) -> Result<PluginInfo, Trouble> {
     let plugins = (kind.plugins)();
     let found = plugins.iter().find(|p| p.name == name);
     found.copied().ok_or_else(|| {
@@ -88,13 +84,13 @@ fn find_plugin(kind: &ContractInfo, name: &str) -> Result<PluginInfo, Trouble> {
         Trouble::usage(format!(
             "there is no {} called `{name}`{near} (registered: {}; a plugin of another crate must be \
              mentioned in your binary: `use my_plugin as _;`)",
-            kind.kind,
+            kind.name,
             known.join(", ")
         ))
     })
 }
 
-fn overview(kinds: &[&ContractInfo]) -> String {
+fn overview(kinds: &[&PluginKind]) -> String {
     let mut text = String::new();
     for kind in kinds {
         text.push_str(&kind_text(kind));
@@ -104,7 +100,7 @@ fn overview(kinds: &[&ContractInfo]) -> String {
     text
 }
 
-fn kind_text(kind: &ContractInfo) -> String {
+fn kind_text(kind: &PluginKind) -> String {
     let row = |p: &PluginInfo| {
         vec![
             p.name.to_string(),
@@ -118,7 +114,10 @@ fn kind_text(kind: &ContractInfo) -> String {
         true => "  none is registered in this binary\n".to_string(),
         false => columns(2, &rows),
     };
-    format!("{}: {}\n{rows}", kind.kind, kind.purpose)
+    let default = kind.default.map_or(String::new(), |name| {
+        format!("; `{name}` if a scene names none")
+    });
+    format!("{}: {}{default}\n{rows}", kind.name, kind.purpose)
 }
 
 fn dimensions(plugin: &PluginInfo) -> String {
@@ -126,9 +125,9 @@ fn dimensions(plugin: &PluginInfo) -> String {
     each.join(" ")
 }
 
-fn plugin_text(kind: &ContractInfo, plugin: &PluginInfo) -> String {
+fn plugin_text(kind: &PluginKind, plugin: &PluginInfo) -> String {
     let schema = (plugin.schema)();
-    let mut text = format!("{} {}: {}\n", kind.kind, plugin.name, plugin.summary);
+    let mut text = format!("{} {}: {}\n", kind.name, plugin.name, plugin.summary);
     let facts = [
         ["dimensions".to_string(), dimensions(plugin)],
         ["source".to_string(), plugin.source.to_string()],
@@ -150,7 +149,7 @@ fn plugin_text(kind: &ContractInfo, plugin: &PluginInfo) -> String {
         text.push_str(&parameter_text(parameter, &schema));
     }
     text.push_str("\nin a scene\n");
-    for line in snippet::of(kind.kind, plugin).lines() {
+    for line in snippet::of(kind.name, plugin).lines() {
         text.push_str(format!("  {line}").trim_end());
         text.push('\n');
     }
@@ -197,10 +196,10 @@ fn required(schema: &Json, name: &str) -> bool {
     listed.into_iter().flatten().any(|r| r == name)
 }
 
-fn kind_json(kind: &ContractInfo) -> Json {
+fn kind_json(kind: &PluginKind) -> Json {
     let plugins = (kind.plugins)();
-    let plugins: Vec<Json> = plugins.iter().map(|p| plugin_json(kind.kind, p)).collect();
-    json!({ "kind": kind.kind, "purpose": kind.purpose, "plugins": plugins })
+    let plugins: Vec<Json> = plugins.iter().map(|p| plugin_json(kind.name, p)).collect();
+    json!({ "kind": kind.name, "purpose": kind.purpose, "default": kind.default, "plugins": plugins })
 }
 
 fn plugin_json(kind: &str, plugin: &PluginInfo) -> Json {

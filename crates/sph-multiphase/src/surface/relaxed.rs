@@ -6,7 +6,7 @@ use sph_contribution::{
     Contribution, Offer, Refusal, Report, Setting, StepHook, StepMoment, StepPhase,
     contribution_kind,
 };
-use sph_core::{Access, StepError, fields, plugin};
+use sph_core::{Access, StepError, Work, fields, plugin};
 use sph_neighbours::World;
 
 use super::cone::{FREE_SURFACE, FreeSurface, Place};
@@ -14,7 +14,7 @@ use super::cone::{FREE_SURFACE, FreeSurface, Place};
 contribution_kind!(
     /// A treatment of free surfaces that a scene may name.
     pub SurfaceEntry, "surface", One, "where free surfaces are, and what densities there know of them",
-    "surfaces that densities remember if left out"
+    .absent("surfaces that densities remember if left out").works(Work::Surface)
 );
 
 /// The density constant K of [`HuAdams`](crate::HuAdams) belongs to a place, not to a particle:

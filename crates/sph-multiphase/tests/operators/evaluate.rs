@@ -73,6 +73,7 @@ pub fn offered<const D: usize>(
         pressure_ahead: false,
         courant: 0.4,
         viscous: 0.125,
+        delayed_yield: false,
         kicks_once: true,
         carried: false,
         moving_wall: None,

@@ -10,7 +10,7 @@ pub trait Law<const D: usize>: Send {
 
 contract!(
     /// Laws of this test.
-    pub LawEntry, "law", "maps a rate to a stress", Law<D>
+    pub LawEntry, "law", Elsewhere, "maps a rate to a stress", Law<D>
 );
 
 /// τ = η γ̇
@@ -65,7 +65,8 @@ fn a_registered_plugin_is_found_built_and_listed() {
     let listed = sph_core::parameters(&(law.info().schema)());
     assert_eq!(listed[0].unit, "Pa s");
     assert_eq!(listed[0].source, "Newton 1687");
-    assert!(sph_core::contracts().iter().any(|c| c.kind == "law"));
+    let kind = sph_core::kind_of("law").unwrap();
+    assert_eq!((kind.plugins)().len(), 2);
 }
 
 #[test]

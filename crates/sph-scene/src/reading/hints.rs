@@ -1,6 +1,6 @@
 //! Hints at the place where a table was probably meant to stand.
 
-use sph_core::{KindInfo, Place, SceneProblem, contracts, kind_of, kinds, nearest};
+use sph_core::{Place, PluginKind, SceneProblem, kind_of, kinds, nearest};
 use toml::{Table, Value};
 
 use crate::checks::names::NAMED;
@@ -95,25 +95,19 @@ fn places(name: &str, value: &Value, parents: &[&str]) -> Option<String> {
     (!each.is_empty()).then(|| each.join(", "))
 }
 
-fn plugins_of(kind: &KindInfo) -> Vec<&'static str> {
-    let found = contracts().into_iter().find(|c| c.kind == kind.name);
-    let all = found.map_or(Vec::new(), |c| (c.plugins)());
-    all.iter().map(|plugin| plugin.name).collect()
-}
-
-fn is_of(kind: &KindInfo, plugin: &str) -> bool {
-    plugins_of(kind).contains(&plugin)
+fn is_of(kind: &PluginKind, plugin: &str) -> bool {
+    (kind.plugins)().iter().any(|known| known.name == plugin)
 }
 
 /// The table of a plugin, with the name that the user chose where there is one.
-fn place(kind: &KindInfo, plugin: &str, parents: &[&str]) -> String {
+fn place(kind: &PluginKind, plugin: &str, parents: &[&str]) -> String {
     let own = |root: &str| match parents {
         [first, name, ..] if *first == root && kind_of(name).is_none() => name.to_string(),
         _ => "NAME".to_string(),
     };
     let inner = kind.name;
     match kind.place {
-        Place::One | Place::Any => format!("`[{inner}.{plugin}]`"),
+        Place::One | Place::Any | Place::Elsewhere => format!("`[{inner}.{plugin}]`"),
         Place::InPhase => format!("`[phase.{}.{inner}.{plugin}]`", own("phase")),
         Place::InWall => format!("`[wall.{}.{inner}.{plugin}]`", own("wall")),
         Place::Probe => format!("`[probe.{}]` with `kind = \"{plugin}\"`", own("probe")),
@@ -160,7 +154,8 @@ fn without_a_name(path: &[&str]) -> Option<(String, String)> {
 }
 
 fn kind_of_probe(name: &str, table: &Table) -> Option<String> {
-    let known = kind_of("probe").map_or(Vec::new(), plugins_of);
+    let plugins = kind_of("probe").map_or(Vec::new(), |kind| (kind.plugins)());
+    let known: Vec<_> = plugins.iter().map(|plugin| plugin.name).collect();
     let texts = table.values().filter_map(Value::as_str);
     let inner = table.keys().map(String::as_str);
     let meant = inner.chain(texts).find(|text| known.contains(text));

@@ -1,6 +1,6 @@
 //! Viscosities that are given as kinematic ones: η = ρν with the density of the phase.
 
-use sph_core::{contracts, parameters, parse_quantity};
+use sph_core::{kind_of, parameters, parse_quantity};
 use toml::{Table, Value};
 
 const DYNAMIC: &str = "Pa s";
@@ -10,8 +10,8 @@ const KINEMATIC: &str = "m²/s";
 ///
 /// A number without a unit is left in Pa s, as all other texts are left to whoever builds the law.
 pub(crate) fn to_dynamic(scene: &mut Table) {
-    let laws = contracts().into_iter().find(|c| c.kind == "rheology");
-    let laws = laws.map_or(Vec::new(), |c| (c.plugins)());
+    let laws = kind_of("rheology");
+    let laws = laws.map_or(Vec::new(), |kind| (kind.plugins)());
     let phases = scene.get_mut("phase").and_then(Value::as_table_mut);
     for (_, phase) in phases.into_iter().flatten() {
         let density = phase.get("density").and_then(density);

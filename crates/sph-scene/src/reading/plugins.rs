@@ -4,17 +4,17 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{KindInfo, Place, RegistryError, SceneProblem, kinds};
+use sph_core::{Place, PluginChoice, PluginKind, kinds};
 use toml::{Table, Value};
 
 /// Tables that hold exactly one plugin, as the keys that lead to them.
 fn single_tables() -> Vec<Vec<&'static str>> {
-    let path = |kind: &'static KindInfo| match kind.place {
+    let path = |kind: &'static PluginKind| match kind.place {
         Place::One => Some(vec![kind.name]),
         Place::InPhase => Some(vec!["phase", "*", kind.name]),
         Place::InWall => Some(vec!["wall", "*", kind.name]),
         Place::Solution => Some(vec!["body", "*", "initial"]),
-        Place::Any | Place::Probe => None,
+        Place::Any | Place::Probe | Place::Elsewhere => None,
     };
     kinds().into_iter().filter_map(path).collect()
 }
@@ -40,56 +40,8 @@ pub(crate) struct Probe {
     kind: String,
 }
 
-/// A plugin that the scene asks for, with its parameters as they stand in the scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PluginChoice {
-    /// Kind of plugin: "kernel", "rheology", "probe", …
-    pub kind: &'static str,
-    /// Name of the plugin.
-    pub name: String,
-    /// Its parameters, unchecked.
-    pub table: Table,
-    /// Path of the parameter table in the scene.
-    pub path: String,
-    /// Path of the key or value that gives the plugin's name.
-    pub name_path: String,
-}
-
-impl PluginChoice {
-    /// A plugin with no parameters that the scene does not mention: a solver's default.
-    pub fn default_of(kind: &'static str, name: &str) -> Self {
-        PluginChoice {
-            kind,
-            name: name.to_string(),
-            table: Table::new(),
-            path: format!("{kind}.{name}"),
-            name_path: format!("{kind}.{name}"),
-        }
-    }
-
-    /// Turns the refusal of a registry or plugin into problems of the scene.
-    pub fn blame(&self, error: &RegistryError) -> Vec<SceneProblem> {
-        match error {
-            RegistryError::Parameters(problems) => problems
-                .iter()
-                .map(|p| SceneProblem::new(self.inside(&p.path), p.message.clone()))
-                .collect(),
-            other => vec![SceneProblem::new(self.name_path.clone(), other.to_string())],
-        }
-    }
-
-    /// The scene's path of a key of this plugin's table.
-    pub fn inside(&self, key: &str) -> String {
-        match key {
-            "" => self.path.clone(),
-            key if key.starts_with('[') => format!("{}{key}", self.path),
-            key => format!("{}.{key}", self.path),
-        }
-    }
-}
-
 /// The tables of a scene that hold plugins of a kind, with their paths; probes and references hold theirs otherwise.
-pub(crate) fn holders<'t>(kind: &KindInfo, scene: &'t Table) -> Vec<(String, &'t Value)> {
+pub(crate) fn holders<'t>(kind: &PluginKind, scene: &'t Table) -> Vec<(String, &'t Value)> {
     let nested = |root: &str, key: &str| {
         let named = scene.get(root).and_then(Value::as_table);
         let held = |(name, keys): (&String, &'t Value)| {
@@ -107,7 +59,7 @@ pub(crate) fn holders<'t>(kind: &KindInfo, scene: &'t Table) -> Vec<(String, &'t
         Place::InPhase => nested("phase", kind.name),
         Place::InWall => nested("wall", kind.name),
         Place::Solution => nested("body", "initial"),
-        Place::Probe => Vec::new(),
+        Place::Probe | Place::Elsewhere => Vec::new(),
     }
 }
 

@@ -1,10 +1,10 @@
 //! What is to be said of plugins before they are built: remarks on numbers that nature does not have, and mistakes.
 
 use scene_text::suggestion;
-use sph_core::{PluginInfo, RegistryError, SceneProblem, conform, contracts, kinds};
+use sph_core::{PluginChoice, PluginInfo, RegistryError, SceneProblem, conform, kind_of, kinds};
 use toml::{Table, Value};
 
-use crate::reading::plugins::{PluginChoice, holders, in_table, probes, solutions};
+use crate::reading::plugins::{holders, in_table, probes, solutions};
 
 /// Of every plugin that a scene names: remarks on its parameters, and what is wrong with its name or with them.
 pub(crate) fn of_plugins(scene: &Table) -> (Vec<SceneProblem>, Vec<SceneProblem>) {
@@ -20,8 +20,8 @@ pub(crate) fn of_plugins(scene: &Table) -> (Vec<SceneProblem>, Vec<SceneProblem>
 
 /// Remarks on the parameters of a plugin, or what is wrong with its name or with them.
 fn check(choice: &PluginChoice) -> Result<Vec<SceneProblem>, Vec<SceneProblem>> {
-    let kind = contracts().into_iter().find(|c| c.kind == choice.kind);
-    let plugins = kind.map_or(Vec::new(), |c| (c.plugins)());
+    let kind = kind_of(choice.kind);
+    let plugins = kind.map_or(Vec::new(), |kind| (kind.plugins)());
     if plugins.is_empty() {
         // A reader of scenes without any plugin of the kind, which builds none.
         return Ok(Vec::new());

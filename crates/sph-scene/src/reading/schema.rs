@@ -2,7 +2,7 @@
 
 use scene_text::for_editors;
 use serde_json::{Map, Value as Json, json};
-use sph_core::{ContractInfo, Place, contracts, kind_of, kinds, schema_of};
+use sph_core::{Place, PluginKind, kinds, schema_of};
 
 use crate::Scene;
 use crate::reading::plugins::AnyPlugins;
@@ -14,8 +14,8 @@ use crate::reading::plugins::AnyPlugins;
 pub fn schema() -> Json {
     let mut root = of_scene();
     let mut shared = Map::new();
-    for contract in contracts() {
-        insert(&mut root, contract, &mut shared);
+    for kind in kinds() {
+        insert(&mut root, kind, &mut shared);
     }
     if let Some(defs) = root.get_mut("$defs").and_then(Json::as_object_mut) {
         defs.extend(shared);
@@ -29,16 +29,13 @@ pub fn schema() -> Json {
 /// The schema of what is the scene's own, and of the tables that name plugins, whose keys it does not know.
 pub(crate) fn of_scene() -> Json {
     let mut root = schema_of::<Scene>();
-    let purposes = contracts();
     let Some(properties) = root.get_mut("properties").and_then(Json::as_object_mut) else {
         return root;
     };
     for kind in kinds().into_iter().filter(|k| k.has_table()) {
         let mut place = schema_of::<AnyPlugins>();
-        let purpose = purposes.iter().find(|c| c.kind == kind.name);
-        let purpose = purpose.map_or(kind.name, |c| c.purpose);
-        let name = kind.name;
-        place["description"] = json!(format!("{purpose}, `[{name}.PLUGIN]`; {}", kind.absent));
+        let (name, purpose, absent) = (kind.name, kind.purpose, kind.if_left_out());
+        place["description"] = json!(format!("{purpose}, `[{name}.PLUGIN]`; {absent}"));
         if kind.place == Place::One {
             place["maxProperties"] = json!(1);
         }
@@ -65,76 +62,57 @@ pub fn unit(key: &str) -> Option<String> {
     here.get("unit").and_then(Json::as_str).map(String::from)
 }
 
-fn insert(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, Json>) {
-    let kind = contract.kind;
-    match kind_of(kind).map(|k| k.place) {
-        Some(place @ (Place::InPhase | Place::InWall)) => {
-            let owner = if place == Place::InPhase {
-                "Phase"
-            } else {
-                "Wall"
-            };
-            named(
-                root.pointer_mut(&format!("/$defs/{owner}/properties/{kind}")),
-                contract,
-                shared,
-            );
+fn insert(root: &mut Json, kind: &PluginKind, shared: &mut Map<String, Json>) {
+    let name = kind.name;
+    let owner = match kind.place {
+        Place::InPhase => format!("/$defs/Phase/properties/{name}"),
+        Place::InWall => format!("/$defs/Wall/properties/{name}"),
+        // A solution is also an initial state.
+        Place::Solution => {
+            solutions(root, kind, shared);
+            "/$defs/Body/properties/initial".into()
         }
-        Some(Place::Probe) => {
-            let all = json!({ "oneOf": tagged(contract, shared) });
+        Place::One | Place::Any => format!("/properties/{name}"),
+        Place::Probe => {
+            let all = json!({ "oneOf": tagged(kind, shared) });
             for table in ["probe", "gauge"] {
                 if let Some(place) = root.pointer_mut(&format!("/properties/{table}")) {
                     place["additionalProperties"] = all.clone();
                 }
             }
+            return;
         }
-        Some(Place::Solution) => {
-            // A solution is also an initial state.
-            named(
-                root.pointer_mut("/$defs/Body/properties/initial"),
-                contract,
-                shared,
-            );
-            solutions(root, contract, shared);
-        }
-        Some(Place::One | Place::Any) => {
-            named(
-                root.pointer_mut(&format!("/properties/{kind}")),
-                contract,
-                shared,
-            );
-        }
-        None => {}
-    }
+        Place::Elsewhere => return,
+    };
+    named(root.pointer_mut(&owner), kind, shared);
 }
 
-/// Plugins as the keys of a table.
-fn named(place: Option<&mut Json>, contract: &ContractInfo, shared: &mut Map<String, Json>) {
+fn named(place: Option<&mut Json>, kind: &PluginKind, shared: &mut Map<String, Json>) {
     let Some(place) = place else { return };
-    let plugins = (contract.plugins)().into_iter();
+    let plugins = (kind.plugins)().into_iter();
     let properties: Map<String, Json> = plugins
-        .map(|p| (p.name.to_string(), plugin(contract.kind, &p, shared)))
+        .map(|p| (p.name.to_string(), plugin(kind.name, &p, shared)))
         .collect();
     place["properties"] = Json::Object(properties);
     place["additionalProperties"] = json!(false);
 }
 
 /// Plugins as alternatives that the key `kind` tells apart.
-fn tagged(contract: &ContractInfo, shared: &mut Map<String, Json>) -> Vec<Json> {
+fn tagged(kind: &PluginKind, shared: &mut Map<String, Json>) -> Vec<Json> {
     let alternative = |p: sph_core::PluginInfo| {
-        let mut schema = plugin(contract.kind, &p, shared);
+        let mut schema = plugin(kind.name, &p, shared);
         schema["properties"]["kind"] = json!({ "const": p.name, "description": p.summary });
         let mut required = schema["required"].as_array().cloned().unwrap_or_default();
         required.push(json!("kind"));
         schema["required"] = Json::Array(required);
         schema
     };
-    (contract.plugins)().into_iter().map(alternative).collect()
+    (kind.plugins)().into_iter().map(alternative).collect()
 }
 
 /// Names of reference solutions, and the parameters that go with each name.
-fn solutions(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, Json>) {
-    let plugins = (contract.plugins)();
+fn solutions(root: &mut Json, kind: &PluginKind, shared: &mut Map<String, Json>) {
+    let plugins = (kind.plugins)();
     let Some(place) = root.pointer_mut("/$defs/Reference") else {
         return;
     };
@@ -145,7 +123,7 @@ fn solutions(root: &mut Json, contract: &ContractInfo, shared: &mut Map<String, 
         .map(|p| {
             json!({
                 "if": { "required": ["solution"], "properties": { "solution": { "const": p.name } } },
-                "then": { "properties": { "parameters": plugin(contract.kind, p, shared) } },
+                "then": { "properties": { "parameters": plugin(kind.name, p, shared) } },
             })
         })
         .collect();

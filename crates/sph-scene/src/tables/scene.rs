@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use sph_core::{SceneProblem, Vect, parameters};
 
 use crate::geometry::vector::array;
-use crate::reading::plugins::{PluginChoice, Plugins, Probe, in_table, probes, single};
+use crate::reading::plugins::{Plugins, Probe, in_table, probes, single};
 use crate::{Body, Numerics, Outlet, Output, Phase, Reference, Region, Run, Wall};
+use sph_core::PluginChoice;
 
 /// Displacement at the start, over the spacing, where particles are shifted and the scene says nothing.
 ///
@@ -139,14 +140,10 @@ impl Scene {
         }
     }
 
-    /// The additional pair terms.
-    pub fn terms(&self) -> Vec<PluginChoice> {
-        self.choices("term")
-    }
-
-    /// What acts where phases meet.
-    pub fn interfaces(&self) -> Vec<PluginChoice> {
-        self.choices("interface")
+    /// The kinds of which the scene names plugins in tables of its own, by name.
+    pub fn kinds_named(&self) -> impl Iterator<Item = &'static str> {
+        let named = self.plugins.iter().filter(|(_, all)| !all.is_empty());
+        named.map(|(kind, _)| *kind)
     }
 
     /// The equation of state of a phase, if the scene chooses one.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
+use sph_contribution::PluginInForce;
 
 use crate::{Findings, Left, Memory, Relaxation, Trouble};
 
@@ -21,21 +22,6 @@ pub enum Status {
     Failed,
     /// It was told to stop and left a checkpoint.
     Interrupted,
-}
-
-/// A plugin with the parameters in force.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct PluginInForce {
-    /// Kind of plugin.
-    pub kind: String,
-    /// Name.
-    pub name: String,
-    /// Where in the scene it was asked for.
-    pub path: String,
-    /// Crate and version it comes from.
-    pub provider: String,
-    /// Given parameters and defaults.
-    pub parameters: Json,
 }
 
 /// A comparison with a reference.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sph_contribution::{ForceLimit, MotionLimit, OwnColumn, Setting};
+use sph_contribution::{ForceLimit, MotionLimit, OwnColumn, Part, PluginInForce, Setting};
 use sph_core::{Born, Role, Store, fields};
 use sph_integrators::Integrator;
 use sph_multiphase::Formulation;
@@ -13,15 +13,12 @@ use sph_scene::Scene;
 use sph_state::{Laws, Lift, Lifted, Reference};
 
 use crate::failure::error::SolverError;
-use crate::results::summary::PluginInForce;
-use crate::setup::builder::Part;
-use crate::setup::choices::Choices;
+use crate::setup::choices::{Choices, shown};
 use crate::setup::domain::{extent, height, pressure_at_rest};
 use crate::setup::field_error;
 use crate::setup::joining::{Given, joined};
 use crate::setup::leaks::Leak;
 use crate::setup::output_fields::check_output_fields;
-use crate::setup::parts::parts;
 use crate::setup::placement::Placed;
 use crate::setup::planning::{Planned, Planning};
 use crate::setup::probe_setup;
@@ -90,12 +87,12 @@ pub(crate) fn assemble_share<const D: usize>(
     let filled = (&room, placed.positions.as_slice(), &laws, &lift);
     let faces = open_faces::check(scene, &opened, &walls, filled)?;
     warnings.extend(speeds.into_iter().chain(faces));
-    let mut ground = Ground::of(&choices.physics);
-    let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
-    let constant = constant_viscosities(scene, &choices.physics.rheologies);
-    let formulation = choices.physics.formulation.clone();
+    let mut ground = Ground::of(&choices.rheologies);
+    let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
+    let constant = constant_viscosities(scene, &choices.rheologies);
+    let formulation: Arc<dyn Formulation<D>> = choices.formulation.into();
     let shown = shown(scene, &choices.probes);
-    let mut parts = parts(scene, choices.physics, &shown);
+    let mut parts = choices.parts;
     let entering = opened.as_ref().map(|o| o.entering()).unwrap_or_default();
     parts.extend(opened.map(|opened| ("open-boundary", opened.boxed())));
     open_faces::check_values(scene, &entering, &parts)?;
@@ -242,6 +239,7 @@ impl<const D: usize> About<'_, D> {
             courant: coefficients.courant,
             viscous: coefficients.viscous,
             kicks_once: self.integrator.kicks_once(),
+            delayed_yield: self.scene.numerics.delayed_yield,
             carried: movers::carried(self.scene),
             moving_wall: moving.map(|(name, _)| name.as_str()),
             world,
@@ -342,14 +340,6 @@ fn show<const D: usize>(
         flow.world.free.add(fields::DISPLACEMENT, Role::State);
     }
     check_output_fields(scene, flow)
-}
-
-/// Names of the columns that outputs show and probes measure.
-fn shown<const D: usize>(scene: &Scene, probes: &[(String, Box<dyn Probe<D>>)]) -> Vec<String> {
-    let shown = scene.output.fields.iter().chain(&scene.output.picture);
-    let measured = probes.iter().flat_map(|(_, p)| p.needs().fields);
-    let measured = measured.map(|name| name.to_string());
-    shown.cloned().chain(measured).collect()
 }
 
 /// Equations of state with their reference states, and what gravity changes by; what may lift them where faces are

@@ -1,27 +1,17 @@
 //! From names in the scene to built plugins.
 
-use std::sync::Arc;
-
 use sph_boundary::{Mover, MoverEntry, Wall, WallEntry};
-use sph_core::SceneProblem;
-use sph_implicit::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
+use sph_contribution::{Part, PluginInForce, Plugins};
+use sph_core::{SceneProblem, Work, fields, kind_of};
 use sph_integrators::{Integrator, IntegratorEntry};
 use sph_kernels::Kernel;
-use sph_multiphase::{Formulation, FormulationEntry, PressureEntry, PressureScheme};
-use sph_neighbours::{KernelEntry, TermEntry, Terms};
+use sph_multiphase::{Formulation, FormulationEntry};
+use sph_neighbours::KernelEntry;
 use sph_open::{OpenBoundary, OpenBoundaryEntry};
-use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry};
-use sph_rheology::RheologyEntry;
-use sph_scene::{PluginChoice, Scene};
+use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry, needs_gradient};
+use sph_rheology::{Rheology, RheologyEntry};
+use sph_scene::Scene;
 use sph_state::{EquationOfState, EquationOfStateEntry};
-use sph_stress::{
-    ElasticForce, ElasticForceEntry, Rheologies, VelocityGradient, VelocityGradientEntry,
-};
-use sph_viscosity::{ViscousOperator, ViscousOperatorEntry};
-
-use crate::defaults;
-use crate::results::summary::PluginInForce;
-use crate::setup::builder::{Builder, Part};
 
 /// Everything the scene's names stand for.
 pub struct Choices<const D: usize> {
@@ -32,38 +22,50 @@ pub struct Choices<const D: usize> {
     pub movers: Vec<(String, Box<dyn Mover<D>>)>,
     /// Laws of open faces, by the wall's name.
     pub open: Vec<(String, Box<dyn OpenBoundary<D>>)>,
-    pub physics: Physics<D>,
+    pub formulation: Box<dyn Formulation<D>>,
+    /// In the order of the phase numbers.
+    pub rheologies: Vec<Box<dyn Rheology>>,
     /// In the order of the phase numbers.
     pub equations_of_state: Vec<Box<dyn EquationOfState>>,
+    /// The contributions of all plugins, in the order of their kinds.
+    pub parts: Vec<Part<D>>,
     pub probes: Vec<(String, Box<dyn Probe<D>>)>,
     /// Solutions of references, by the reference's name.
     pub solutions: Vec<(String, Box<dyn Solution<D>>)>,
     /// Initial fields, by the body's name.
     pub initial: Vec<(String, Box<dyn Solution<D>>)>,
-    /// What is in force, for the summary.
+    /// All plugins that were built, for the summary.
     pub in_force: Vec<PluginInForce>,
 }
 
-/// How viscosity is taken over a step, and what solves for it.
-pub type ImplicitSolve<const D: usize> = (Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>);
+/// The plugins that a scene names.
+pub fn plugins(scene: &Scene) -> Plugins {
+    let one = |phase: &String| {
+        let all = [scene.rheology(phase), scene.equation_of_state(phase)];
+        all.into_iter().flatten().collect()
+    };
+    let choices = scene.kinds_named().flat_map(|kind| scene.choices(kind));
+    Plugins::new(choices.collect(), scene.phase.keys().map(one).collect())
+}
 
-/// What acts on the particles.
-pub struct Physics<const D: usize> {
-    pub formulation: Arc<dyn Formulation<D>>,
-    /// Which pressure acts; that of the equations of state if there is none.
-    pub pressure: Option<Box<dyn PressureScheme<D>>>,
-    pub viscous_operator: Box<dyn ViscousOperator<D>>,
-    /// Explicitly if there is none.
-    pub implicit_viscosity: Option<ImplicitSolve<D>>,
-    /// Only where a law asks for a strain rate.
-    pub velocity_gradient: Option<Arc<dyn VelocityGradient<D>>>,
-    /// Only where a law is elastic.
-    pub elastic_force: Option<Box<dyn ElasticForce<D>>>,
-    pub terms: Terms<D>,
-    /// In the order of the phase numbers.
-    pub rheologies: Rheologies,
-    /// What plugins of kinds offer that the solver does not know, each with its kind.
-    pub contributions: Vec<Part<D>>,
+/// The kinds of plugins of a scene whose work has an account of its own in the energy budget.
+pub fn own_accounts(scene: &Scene) -> Vec<&'static str> {
+    let own = |kind: &&str| kind_of(kind).is_some_and(|kind| kind.work == Work::Own);
+    let kinds = scene.kinds_named().filter(own);
+    kinds
+        .filter(|kind| sph_contribution::contributes(kind))
+        .collect()
+}
+
+/// What a scene names for things with names of their own.
+fn named<T>(
+    names: impl IntoIterator<Item = impl ToString>,
+    choice: impl Fn(&str) -> Option<T>,
+) -> Vec<(String, T)> {
+    let names = names.into_iter().map(|name| name.to_string());
+    names
+        .filter_map(|name| Some((name.clone(), choice(&name)?)))
+        .collect()
 }
 
 impl<const D: usize> Choices<D> {
@@ -72,124 +74,54 @@ impl<const D: usize> Choices<D> {
     /// # Errors
     /// All unknown names and wrong parameters at once.
     pub fn of(scene: &Scene) -> Result<Self, Vec<SceneProblem>> {
-        let mut b = Builder::new(scene);
-        let kernel = b.one::<D, KernelEntry>();
-        let integrator = b.one::<D, IntegratorEntry>();
+        let mut plugins = plugins(scene);
         let walls = match scene.wall.is_empty() {
             true => None,
-            false => b.one::<D, WallEntry>(),
+            false => plugins.one::<D, WallEntry>(),
         };
-        let movers = scene.wall.keys().cloned();
-        let movers = movers.filter_map(|n| Some((n.clone(), scene.mover(&n)?)));
-        let movers = b.named::<D, MoverEntry>(movers);
-        let open = scene.wall.keys().cloned();
-        let open = open.filter_map(|n| Some((n.clone(), scene.open_boundary(&n)?)));
-        let open = b.named::<D, OpenBoundaryEntry>(open);
-        let physics = b.physics::<D>();
-        let equations_of_state = b.equations_of_state::<D>();
-        let probes = b.named::<D, ProbeEntry>(scene.probes());
-        let of_references = scene.reference.keys().cloned();
-        let solutions = of_references.filter_map(|n| Some((n.clone(), scene.solution(&n)?)));
-        let solutions = b.named::<D, SolutionEntry>(solutions);
-        let of_bodies = scene.body.keys().cloned();
-        let initial = of_bodies.filter_map(|n| Some((n.clone(), scene.initial(&n)?)));
-        let initial = b.named::<D, SolutionEntry>(initial);
-        match (kernel, integrator, physics) {
-            (Some(kernel), Some(integrator), Some(physics)) if b.problems.is_empty() => {
-                Ok(Choices {
-                    kernel,
-                    integrator,
-                    walls,
-                    movers,
-                    open,
-                    physics,
-                    equations_of_state,
-                    probes,
-                    solutions,
-                    initial,
-                    in_force: b.in_force,
-                })
-            }
-            _ => Err(b.problems),
+        let movers = named(scene.wall.keys(), |wall| scene.mover(wall));
+        let open = named(scene.wall.keys(), |wall| scene.open_boundary(wall));
+        let solutions = named(scene.reference.keys(), |name| scene.solution(name));
+        let initial = named(scene.body.keys(), |body| scene.initial(body));
+        let probes = plugins.named::<D, ProbeEntry>(scene.probes());
+        plugins.shown = shown(scene, &probes);
+        if plugins.shown.iter().any(|name| needs_gradient(name)) {
+            plugins.shown.push(fields::VELOCITY_GRADIENT.name.into());
         }
-    }
-}
-
-impl Builder<'_> {
-    fn equations_of_state<const D: usize>(&mut self) -> Vec<Box<dyn EquationOfState>> {
-        const KIND: &str = "equation-of-state";
-        let default = || defaults::of(KIND).map(|name| PluginChoice::default_of(KIND, name));
-        let phases = self.scene.phase.keys();
-        let choices = phases.map(|phase| self.scene.equation_of_state(phase).or_else(default));
-        let choices: Vec<_> = choices.flatten().collect();
-        self.each::<D, EquationOfStateEntry>(choices)
-    }
-
-    /// What acts on the particles; none if something is missing.
-    fn physics<const D: usize>(&mut self) -> Option<Physics<D>> {
-        let scene = self.scene;
-        let laws = scene.phase.keys().filter_map(|phase| scene.rheology(phase));
-        let rheologies: Rheologies = self.each::<D, RheologyEntry>(laws.collect()).into();
-        let formulation = self.one::<D, FormulationEntry>();
-        let pressure = self.one::<D, PressureEntry>();
-        let viscous_operator = self.one::<D, ViscousOperatorEntry>();
-        let implicit_viscosity = self.implicit_viscosity::<D>();
-        let eddies = scene.choice("eddy-viscosity").is_some();
-        let elastic = rheologies.iter().any(|law| law.elastic().is_some());
-        let felt = rheologies.iter().any(|law| law.needs().strain_rate);
-        let strained = eddies || felt || elastic || shows_gradients(scene);
-        let velocity_gradient = self.where_needed::<D, VelocityGradientEntry>(
-            strained,
-            "no law of this scene feels a strain rate, and no output shows one: take this table out",
-        );
-        let elastic_force = self.where_needed::<D, ElasticForceEntry>(
-            elastic,
-            "no law of this scene is elastic: take this table out",
-        );
-        let terms = self.each::<D, TermEntry>(scene.terms());
-        let contributions = self.contributions::<D>();
-        Some(Physics {
-            formulation: formulation?.into(),
-            pressure,
-            viscous_operator: viscous_operator?,
-            implicit_viscosity,
-            velocity_gradient: velocity_gradient.map(Arc::from),
-            elastic_force,
-            terms,
+        let kernel = plugins.one::<D, KernelEntry>();
+        let integrator = plugins.one::<D, IntegratorEntry>();
+        let formulation = plugins.one::<D, FormulationEntry>();
+        let parts = sph_contribution::parts(&plugins);
+        let movers = plugins.named::<D, MoverEntry>(movers);
+        let open = plugins.named::<D, OpenBoundaryEntry>(open);
+        let rheologies = plugins.of_phases::<D, RheologyEntry>();
+        let equations_of_state = plugins.of_phases::<D, EquationOfStateEntry>();
+        let solutions = plugins.named::<D, SolutionEntry>(solutions);
+        let initial = plugins.named::<D, SolutionEntry>(initial);
+        let in_force = plugins.in_force()?;
+        let missing = |kind: &str| vec![SceneProblem::new(kind, "there is none in this binary")];
+        Ok(Choices {
+            kernel: kernel.ok_or_else(|| missing("kernel"))?,
+            integrator: integrator.ok_or_else(|| missing("integrator"))?,
+            walls,
+            movers,
+            open,
+            formulation: formulation.ok_or_else(|| missing("formulation"))?,
             rheologies,
-            contributions,
+            equations_of_state,
+            parts,
+            probes,
+            solutions,
+            initial,
+            in_force,
         })
     }
-
-    /// What solves for friction, and how; a solver is of no use without.
-    fn implicit_viscosity<const D: usize>(&mut self) -> Option<ImplicitSolve<D>> {
-        let scheme = self.one::<D, ImplicitViscosityEntry>();
-        if let Some(scheme) = scheme {
-            return Some((scheme, self.one::<D, LinearSolverEntry>()?));
-        }
-        let idle = self.scene.choice("linear-solver");
-        if let (None, Some(idle)) = (self.scene.choice("implicit-viscosity"), idle) {
-            let add = defaults::suggested("implicit-viscosity");
-            let add = add.map_or(String::new(), |table| format!(", or add {table}"));
-            let message = format!("nothing in this scene is solved for: take this table out{add}");
-            self.problems.push(SceneProblem::new(idle.path, message));
-        }
-        None
-    }
 }
 
-/// Whether an output or a probe asks for a field that is made from the velocity gradient.
-fn shows_gradients(scene: &Scene) -> bool {
+/// Names of the columns that outputs show and probes measure.
+pub fn shown<const D: usize>(scene: &Scene, probes: &[(String, Box<dyn Probe<D>>)]) -> Vec<String> {
     let shown = scene.output.fields.iter().chain(&scene.output.picture);
-    let named = |value: &toml::Value| match value {
-        toml::Value::String(name) => sph_probes::needs_gradient(name),
-        toml::Value::Array(all) => all
-            .iter()
-            .filter_map(toml::Value::as_str)
-            .any(sph_probes::needs_gradient),
-        _ => false,
-    };
-    let probes = scene.probes();
-    let mut values = probes.iter().flat_map(|(_, probe)| probe.table.values());
-    shown.clone().any(|name| sph_probes::needs_gradient(name)) || values.any(named)
+    let measured = probes.iter().flat_map(|(_, p)| p.needs().fields);
+    let measured = measured.map(|name| name.to_string());
+    shown.cloned().chain(measured).collect()
 }

@@ -7,12 +7,12 @@ use serde::Serialize;
 use sph_core::{Role, StepLimit, System, fields};
 use sph_scene::Scene;
 
-use crate::results::summary::PluginInForce;
 use crate::running::trial::{Trial, trial};
 use crate::setup::assemble::Assembled;
 use crate::setup::dimensions::assemble;
 use crate::setup::estimate::short_steps;
 use crate::{Estimate, Flow, Memory, Relaxation, SolverError};
+use sph_contribution::PluginInForce;
 
 /// A column with its cost.
 #[derive(Clone, Debug, Serialize)]

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use sph_boundary::Condition;
+use sph_contribution::Part;
 use sph_core::{SceneProblem, Shape};
 use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenSetting, open};
 use sph_scene::Scene;
@@ -10,7 +11,6 @@ use sph_state::Laws;
 
 use crate::defaults;
 use crate::failure::error::SolverError;
-use crate::setup::builder::Part;
 use crate::setup::choices::Choices;
 use crate::setup::shapes::Drawn;
 use crate::setup::tension::{self, Filled};
@@ -71,7 +71,7 @@ pub(crate) fn settle<const D: usize>(
         .into_iter()
         .map(|(name, law)| (name, Arc::from(law)))
         .collect();
-    let summed = choices.physics.formulation.compressed().is_none();
+    let summed = choices.formulation.compressed().is_none();
     let (walls, opened) = open(
         walls,
         given,

@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use sph_contribution::{Offer, Refusal, Setting, Stages};
+use sph_contribution::{Offer, Part, Refusal, Setting, Stages};
 use sph_core::{AnyField, Declares, fields, plan};
 use sph_multiphase::Diffused;
 use sph_neighbours::Interaction;
 use sph_scene::Scene;
 
 use crate::failure::error::SolverError;
-use crate::setup::builder::Part;
 use crate::setup::transported::transported_by;
 use crate::step::hooks::Hooks;
 use crate::step::stages::{InteractionSweep, SharedWall, WallGeometry, WallState};
@@ -67,6 +66,7 @@ impl<const D: usize> Planning<'_, D> {
             stages.push(Box::new(WallState(walls.clone())));
         }
         stages.extend(offers.iter_mut().flat_map(|(_, o)| o.stages.drain(..)));
+        stages.extend(sph_probes::derived_stages(self.shown));
         let terms = offers.iter().flat_map(|(_, o)| &o.terms);
         let by_terms: Vec<AnyField> = terms.flat_map(|t| t.access().reads()).collect();
         let read = self.read(&stages, by_terms);

@@ -6,7 +6,7 @@ use sph_scene::Scene;
 
 use crate::SolverError;
 use crate::results::reference_table::LONGEST;
-use crate::setup::parts::strangers;
+use crate::setup::choices::own_accounts;
 
 /// Tells the probes the names of the phases and what is in their files, and refuses references to columns that no probe has.
 ///
@@ -17,7 +17,7 @@ pub fn prepare<const D: usize>(
     probes: &mut [(String, Box<dyn Probe<D>>)],
 ) -> Result<(), SolverError> {
     let phases: Vec<String> = scene.phase.keys().cloned().collect();
-    let strangers = strangers(scene);
+    let strangers = own_accounts(scene);
     let known = ProbeScene {
         phases: &phases,
         strangers: &strangers,

@@ -3,14 +3,14 @@
 use std::sync::{Arc, Mutex};
 
 use sph_boundary::WallEntry;
+use sph_contribution::Plugins;
 use sph_core::Store;
 use sph_core::plausible::Quantity;
 use sph_neighbours::{WallSet, World};
-use sph_scene::{PluginChoice, Scene};
+use sph_scene::Scene;
 
 use crate::defaults;
 use crate::failure::error::SolverError;
-use crate::setup::builder::Builder;
 use crate::setup::choices::Choices;
 use crate::setup::domain::{check_periods, domain_of};
 use crate::setup::leaks::{Leak, leaks};
@@ -132,10 +132,8 @@ fn with_elements<const D: usize>(
     choices: &Choices<D>,
     h: f64,
 ) -> Option<WallSet<D>> {
-    let name = defaults::of("walls")?;
-    let default = PluginChoice::default_of("walls", name);
-    let made = Builder::new(scene).each::<D, WallEntry>(vec![default]);
-    let mut walls = made.into_iter().next()?;
+    let nothing_named = Plugins::new(Vec::new(), Vec::new());
+    let mut walls = nothing_named.one::<D, WallEntry>()?;
     let kernel = &*choices.kernel;
     build_walls(scene, &drawn.walls, &mut *walls, kernel, &world.domain, h).ok()
 }

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use sph_core::{Vect, fields};
+use sph_rheology::Rheology;
 use sph_scene::Scene;
 
-use crate::setup::choices::Physics;
 use crate::step::stages::lock;
 use crate::{Flow, SolverError};
 
@@ -28,8 +28,8 @@ pub struct Ground {
 
 impl Ground {
     /// From the plugins of a scene.
-    pub fn of<const D: usize>(physics: &Physics<D>) -> Self {
-        let laws = || physics.rheologies.iter();
+    pub fn of(rheologies: &[Box<dyn Rheology>]) -> Self {
+        let laws = || rheologies.iter();
         Ground {
             soil: laws().map(|law| law.needs().pressure).collect(),
             grains: laws().map(|law| law.grain_diameter()).collect(),

@@ -8,7 +8,7 @@ use sph_scene::Scene;
 
 use crate::defaults;
 use crate::failure::error::SolverError;
-use crate::setup::parts::strangers;
+use crate::setup::choices::own_accounts;
 use crate::step::books::Books;
 use crate::step::flow::Flow;
 
@@ -37,7 +37,7 @@ pub(crate) fn open<const D: usize>(
             "particles come in or leave, and their energy is not booked: take the probe out".into()
         }
         _ => {
-            let books = Books::open(formulation, flow, &strangers(scene))?;
+            let books = Books::open(formulation, flow, &own_accounts(scene))?;
             flow.observers.push(Box::new(books));
             return Ok(());
         }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sph_contribution::StepPhase;
-use sph_core::{Field, FieldError, Role, Scalar, StepError, Vect, fields};
+use sph_core::{Field, FieldError, Role, Scalar, StepError, Vect, Work, fields, kind_of};
 use sph_multiphase::{Diffused, Formulation};
 use sph_neighbours::{ClassRate, Interaction, World, class_rates, interactions};
 use sph_probes::{BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyWork, work_of_stranger};
@@ -34,25 +34,25 @@ const CLASSES: [EnergyWork; 5] = [
 /// Classes with those of strangers; the terms of further strangers are booked as those of others.
 const MOST: usize = CLASSES.len() + 3;
 
-/// Whose work a term of a kind of plugin does; nobody's, the pressure.
-fn of_terms(kind: &str, strangers: &[&str]) -> Option<Account> {
-    Some(match kind {
-        "formulation" => return None,
-        "viscous-operator" | "eddy-viscosity" | "walls" => own(EnergyWork::Viscosity),
-        "smoother" => own(EnergyWork::Smoother),
-        "shifting" => own(EnergyWork::Shifting),
-        "damping" => own(EnergyWork::Damper),
-        _ if strangers.contains(&kind) => work_of_stranger(kind),
-        _ => own(EnergyWork::Others),
+/// The account of the work of a kind's terms; none of the pressure's.
+fn of_terms(kind: &str) -> Option<Account> {
+    Some(match kind_of(kind).map(|kind| kind.work) {
+        Some(Work::Pressure) => return None,
+        Some(Work::Friction) => own(EnergyWork::Viscosity),
+        Some(Work::Smoothing) => own(EnergyWork::Smoother),
+        Some(Work::Shifting) => own(EnergyWork::Shifting),
+        Some(Work::Damping) => own(EnergyWork::Damper),
+        Some(Work::Own) => work_of_stranger(kind),
+        Some(Work::Surface | Work::Others) | None => own(EnergyWork::Others),
     })
 }
 
-/// Whose work a hook of a kind of plugin does.
-fn of_hooks(kind: &str, strangers: &[&str]) -> Account {
-    match kind {
-        "damping" => own(EnergyWork::Damping),
-        "surface" => own(EnergyWork::Surface),
-        _ => of_terms(kind, strangers).unwrap_or(own(EnergyWork::Others)),
+/// The account of the work of a kind's hooks.
+fn of_hooks(kind: &str) -> Account {
+    match kind_of(kind).map(|kind| kind.work) {
+        Some(Work::Damping) => own(EnergyWork::Damping),
+        Some(Work::Surface) => own(EnergyWork::Surface),
+        _ => of_terms(kind).unwrap_or(own(EnergyWork::Others)),
     }
 }
 
@@ -146,14 +146,14 @@ impl<const D: usize> Books<D> {
             dilatation: [formulation.dilatation()],
             laws: flow.laws.clone(),
             terms: (flow.kinds.iter())
-                .map(|(name, kind)| (name.clone(), of_terms(kind, strangers)))
+                .map(|(name, kind)| (name.clone(), of_terms(kind)))
                 .collect(),
             classes: (CLASSES.map(own).into_iter())
                 .chain(strange())
                 .take(MOST)
                 .collect(),
             hooks: (flow.hooks.all.iter())
-                .map(|hook| of_hooks(hook.kind, strangers))
+                .map(|hook| of_hooks(hook.kind))
                 .collect(),
             kicker: flow.hooks.kicking.first().copied(),
             before: Vec::new(),

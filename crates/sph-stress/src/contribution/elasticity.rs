@@ -1,19 +1,29 @@
 //! The elastic force in a scene: which one, and with what it cannot be combined.
 
-use std::rc::Rc;
-
-use sph_contribution::{Contribution, Offer, OutsideForce, Refusal, Setting};
+use sph_contribution::{
+    Contribution, FromPlugins, Offer, OutsideForce, Plugins, Refusal, Setting, contributes,
+};
 use sph_core::AnyField;
 use sph_neighbours::Interaction;
 use sph_rheology::Rheology;
 
+use super::Materials;
 use crate::{
     AdjointDivergence, Blend, Blended, CarriedAhead, CarriedStress, ElasticForce, ElasticMotion,
-    ElasticSubSteps, ElasticWaveLimit, Materials, StressCorrection, Yielded,
+    ElasticSubSteps, ElasticWaveLimit, StressCorrection, Yielded,
 };
 
 /// Remembered stresses of the laws of a scene, and the force that they make.
-pub struct Elasticity<const D: usize>(pub Rc<Materials<D>>);
+struct Elasticity<const D: usize>(Materials<D>);
+
+contributes!("elastic-force", Elasticity);
+
+impl<const D: usize> FromPlugins<D> for Elasticity<D> {
+    fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        let materials = Materials::from_plugins(plugins)?;
+        materials.force.is_some().then_some(Elasticity(materials))
+    }
+}
 
 const KIND: &str = "elastic-force";
 

@@ -1,36 +1,35 @@
 //! Friction of fluids in a scene, explicit or solved for.
 
-use std::rc::Rc;
-
-use sph_contribution::{Contribution, Offer, Refusal, Setting, Stages};
+use sph_contribution::{
+    Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, Stages, contributes,
+};
 use sph_core::AnyField;
-use sph_implicit::{LinearSolver, TimeScheme};
+use sph_implicit::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
 use sph_viscosity::{ImplicitViscosity, Lagged, ViscousLimit};
 
-use crate::{Blend, Blended, Materials, StrainRate, ViscosityStage};
+use super::Materials;
+use crate::{Blend, Blended, StrainRate, ViscosityStage};
 
 /// The viscous force of the laws.
-pub struct Friction<const D: usize> {
-    materials: Rc<Materials<D>>,
+struct Friction<const D: usize> {
+    materials: Materials<D>,
     implicit: Option<(Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>)>,
-    /// Whether a solve may hold soils beyond their strength.
-    may_hold: bool,
+}
+
+contributes!("viscous-operator", Friction);
+
+impl<const D: usize> FromPlugins<D> for Friction<D> {
+    fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        let scheme = plugins.one::<D, ImplicitViscosityEntry>();
+        let implicit = scheme.and_then(|s| Some((s, plugins.one::<D, LinearSolverEntry>()?)));
+        Some(Friction {
+            materials: Materials::from_plugins(plugins)?,
+            implicit,
+        })
+    }
 }
 
 impl<const D: usize> Friction<D> {
-    /// Of laws, with what solves for it, if something does; `may_hold` lets a solve hold soils beyond their strength.
-    pub fn new(
-        materials: Rc<Materials<D>>,
-        implicit: Option<(Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>)>,
-        may_hold: bool,
-    ) -> Self {
-        Friction {
-            materials,
-            implicit,
-            may_hold,
-        }
-    }
-
     fn solved_for(&self) -> bool {
         self.materials.implicit_share.is_some()
     }
@@ -103,7 +102,7 @@ impl<const D: usize> Contribution<D> for Friction<D> {
     }
     fn offer_to_readers(
         &mut self,
-        _: &Setting<'_, D>,
+        setting: &Setting<'_, D>,
         read: &[AnyField],
         offer: &mut Offer<D>,
     ) -> Result<(), Refusal> {
@@ -123,7 +122,7 @@ impl<const D: usize> Contribution<D> for Friction<D> {
         let lagged = Lagged {
             stages,
             stiffens: materials.ahead(),
-            may_hold: self.may_hold,
+            may_hold: setting.delayed_yield,
         };
         let coupling = operator.coupling(viscosity);
         offer.outside.push(operator.term(viscosity).into());

@@ -2,11 +2,16 @@
 
 use std::sync::Arc;
 
+use sph_contribution::Plugins;
 use sph_core::{AnyField, fields};
-use sph_rheology::Rheology;
-use sph_viscosity::{Viscosity, ViscousOperator};
+use sph_implicit::ImplicitViscosityEntry;
+use sph_rheology::{Rheology, RheologyEntry};
+use sph_viscosity::{Viscosity, ViscousOperator, ViscousOperatorEntry};
 
-use crate::{Blend, ElasticForce, Felt, GradientStage, Rheologies, VelocityGradient};
+use crate::{
+    Blend, ElasticForce, ElasticForceEntry, Felt, GradientStage, Rheologies, VelocityGradient,
+    VelocityGradientEntry,
+};
 
 /// The laws of a scene, and the plugins that make forces of them.
 pub struct Materials<const D: usize> {
@@ -27,6 +32,31 @@ pub struct Materials<const D: usize> {
 }
 
 impl<const D: usize> Materials<D> {
+    /// Those of a scene; none if its viscous operator could not be built.
+    pub fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        let laws: Rheologies = plugins.of_phases::<D, RheologyEntry>().into();
+        let eddies = plugins.names("eddy-viscosity");
+        let elastic = laws.iter().any(|law| law.elastic().is_some());
+        let of_gradients = [fields::VELOCITY_GRADIENT.name, fields::STRAIN_RATE.name];
+        let shown = plugins
+            .shown
+            .iter()
+            .any(|name| of_gradients.contains(&&**name));
+        let strained = eddies || elastic || shown || laws.iter().any(|law| law.needs().strain_rate);
+        let gradient = strained.then(|| plugins.one::<D, VelocityGradientEntry>());
+        let force = elastic.then(|| plugins.one::<D, ElasticForceEntry>());
+        let scheme = plugins.one::<D, ImplicitViscosityEntry>();
+        Some(Materials {
+            laws,
+            gradient: gradient.flatten().map(Arc::from),
+            operator: plugins.one::<D, ViscousOperatorEntry>()?,
+            force: force.flatten(),
+            eddies,
+            implicit_share: scheme.map(|scheme| scheme.implicit_share()),
+            grain_pressure: plugins.names("effective-pressure"),
+        })
+    }
+
     /// What the laws feel.
     pub(crate) fn felt(&self) -> Felt {
         let blend = self.force.as_ref().map(|force| force.blend());

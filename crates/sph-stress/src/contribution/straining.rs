@@ -1,14 +1,22 @@
 //! Gradients of the velocity in a scene.
 
-use std::rc::Rc;
-
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_contribution::{Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, contributes};
 use sph_core::{AnyField, fields};
 
-use crate::{Materials, RidingStrain, StrainRate};
+use super::Materials;
+use crate::{RidingStrain, StrainRate};
 
 /// Velocity gradients and strain rates, where a law or somebody else needs them.
-pub struct Straining<const D: usize>(pub Rc<Materials<D>>);
+struct Straining<const D: usize>(Materials<D>);
+
+contributes!("velocity-gradient", Straining);
+
+impl<const D: usize> FromPlugins<D> for Straining<D> {
+    fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        let materials = Materials::from_plugins(plugins)?;
+        materials.gradient.is_some().then_some(Straining(materials))
+    }
+}
 
 impl<const D: usize> Contribution<D> for Straining<D> {
     fn offer(&mut self, _: &Setting<'_, D>, _: &mut Offer<D>) -> Result<(), Refusal> {

@@ -1,14 +1,21 @@
 //! Friction of soils on walls in a scene.
 
-use std::rc::Rc;
-
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_contribution::{Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, contributes};
 use sph_rheology::Rheology;
 
-use crate::{CoulombFriction, Materials};
+use super::Materials;
+use crate::CoulombFriction;
 
 /// Coulomb's friction, where a wall has a coefficient.
-pub struct WallFriction<const D: usize>(pub Rc<Materials<D>>);
+struct WallFriction<const D: usize>(Materials<D>);
+
+contributes!("walls", WallFriction);
+
+impl<const D: usize> FromPlugins<D> for WallFriction<D> {
+    fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        Some(WallFriction(Materials::from_plugins(plugins)?))
+    }
+}
 
 impl<const D: usize> Contribution<D> for WallFriction<D> {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {

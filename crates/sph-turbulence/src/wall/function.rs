@@ -3,7 +3,7 @@
 use sph_contribution::{
     Contribution, Offer, Refusal, Report, Setting, StepHook, StepPhase, contribution_kind,
 };
-use sph_core::{Access, fields, plugin, suggestion};
+use sph_core::{Access, Work, fields, plugin, suggestion};
 use sph_neighbours::World;
 
 use super::law::WallLaw;
@@ -13,7 +13,7 @@ use crate::columns::{FRICTION_VELOCITY, WALL_UNITS};
 contribution_kind!(
     /// A wall function that a scene may name.
     pub WallFunctionEntry, "wall-function", One, "the shear of walls whose boundary layer is finer than the particles",
-    "none if left out"
+    .works(Work::Others)
 );
 
 const KIND: &str = "wall-function";

@@ -100,8 +100,7 @@ fn the_scenes_of_the_plugin_page_name_plugins_with_their_parameters() {
         let laws = laws.filter_map(toml::Value::as_table);
         let kinds = std::iter::once(&table).chain(laws).flatten();
         for (kind, plugins) in kinds {
-            let contracts = sph_core::contracts();
-            let Some(kind) = contracts.into_iter().find(|c| c.kind == kind) else {
+            let Some(kind) = sph_core::kind_of(kind) else {
                 continue;
             };
             for (name, keys) in plugins.as_table().expect("a table") {
@@ -119,7 +118,7 @@ fn the_scenes_of_the_plugin_page_name_plugins_with_their_parameters() {
 /// The kinds of particles are all that are registered, those of grains are in a list of the command line.
 #[test]
 fn the_plugin_page_has_a_row_for_every_kind() {
-    let own = sph_core::contracts().into_iter().map(|c| c.kind);
+    let own = sph_core::kinds().into_iter().map(|kind| kind.name);
     let grains = ["conductance", "contact-law"];
     let kinds: Vec<_> = own.chain(grains).filter(|k| *k != "tracer").collect();
     assert!(kinds.len() > 28, "{kinds:?}");

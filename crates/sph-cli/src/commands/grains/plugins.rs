@@ -2,25 +2,26 @@
 
 use dem_flow::conductances;
 use dem_grains::contact_laws;
-use sph_core::{ContractInfo, PluginInfo};
+use sph_core::{Place, PluginInfo, PluginKind, reexport::inventory};
 
 /// Grains are spheres in space.
 const DIMENSIONS: &[usize] = &[3];
 
-/// Contact laws and conductances, as `sph plugins` lists the kinds of particles.
-pub fn contracts() -> [ContractInfo; 2] {
-    [
-        ContractInfo {
-            kind: "contact-law",
-            purpose: "forces of grains that touch, in [grains.contact.LAW], [box.contact.LAW], [wall.NAME.contact.LAW]",
-            plugins: laws,
-        },
-        ContractInfo {
-            kind: "conductance",
-            purpose: "what a throat between two pores lets through, in [fluid.conductance.LAW]",
-            plugins: throats,
-        },
-    ]
+inventory::submit! {
+    PluginKind::new(
+        "contact-law",
+        Place::Elsewhere,
+        "forces of grains that touch, in [grains.contact.LAW], [box.contact.LAW], [wall.NAME.contact.LAW]",
+    )
+    .of(laws)
+}
+inventory::submit! {
+    PluginKind::new(
+        "conductance",
+        Place::Elsewhere,
+        "what a throat between two pores lets through, in [fluid.conductance.LAW]",
+    )
+    .of(throats)
 }
 
 fn laws() -> Vec<PluginInfo> {

@@ -73,7 +73,13 @@ pub fn of(kinds: &[Json]) -> String {
     }
     for kind in kinds {
         let (name, purpose) = (text(&kind["kind"]), text(&kind["purpose"]));
-        line(&mut page, &format!("\n## {name}\n\n{}.", capital(purpose)));
+        let default = kind["default"].as_str().map_or(String::new(), |plugin| {
+            format!(" `{plugin}` is taken if a scene names none.")
+        });
+        line(
+            &mut page,
+            &format!("\n## {name}\n\n{}.{default}", capital(purpose)),
+        );
         let plugins = kind["plugins"].as_array().into_iter().flatten();
         plugins.for_each(|plugin| one(&mut page, name, plugin));
     }

@@ -139,7 +139,7 @@ fn kind(node: &Json) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use sph_core::contracts;
+    use sph_core::kinds;
 
     use super::*;
 
@@ -197,8 +197,8 @@ mod tests {
     #[test]
     fn a_snippet_has_values_of_the_right_types() {
         let mut count = 0;
-        for contract in contracts() {
-            for plugin in (contract.plugins)() {
+        for kind in kinds() {
+            for plugin in (kind.plugins)() {
                 let schema = (plugin.schema)();
                 for parameter in parameters(&schema) {
                     let line = key(&parameter, &schema);
@@ -207,7 +207,7 @@ mod tests {
                     let read = serde_json::to_value(read).expect("plain values");
                     let node = &schema["properties"][&parameter.name];
                     let why = misfit(&read[&parameter.name], node, &schema);
-                    assert_eq!(why, None, "{} {}: {line}", contract.kind, plugin.name);
+                    assert_eq!(why, None, "{} {}: {line}", kind.name, plugin.name);
                     count += 1;
                 }
             }
