@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect};
 use sph_kernels::Sampler;
 
-use crate::{CellGrid, SharedElements, WallForce, World, cross};
+use crate::{CellGrid, Domain, SharedElements, WallForce, World, cross};
 
 /// Corners that are as near to each other are one, over the size of an element.
 const SAME_PLACE: f64 = 1e-6;
@@ -82,53 +82,97 @@ struct Facing {
     pair: [usize; 2],
     /// Which part of 1 − γ each leaves at the other: the second at the first, the first at the second.
     parts: [f64; 2],
-    joined: bool,
 }
 
-/// The elements of wanted walls with all those of other walls within a support.
+/// The elements of wanted walls with all those of other walls within a support, but for walls with a common corner.
 fn pairs<const D: usize>(world: &World<D>, wanted: &[bool]) -> Vec<Facing> {
     let (elements, names) = (&world.walls.elements, &world.walls.names);
     if names.iter().all(|name| *name == names[0]) || !wanted.contains(&true) {
         return Vec::new();
     }
+    // The number of the first wall with the same name.
+    let first = |name: &String| names.iter().position(|other| other == name);
+    let numbers: Vec<_> = names.iter().map(first).collect();
+    let number = |s: usize| numbers[elements.wall[s] as usize];
+    let mut all = near(world, wanted, number);
+    let walls = |[s, t]: [usize; 2]| [number(s).min(number(t)), number(s).max(number(t))];
+    let joined = all.par_iter().with_min_len(256);
+    let joined = joined.filter(|([s, t], _)| are_joined(world, *s, *t));
+    let joined: BTreeSet<_> = joined.map(|(pair, _)| walls(*pair)).collect();
+    all.retain(|(pair, _)| !joined.contains(&walls(*pair)));
+    let outer = OuterPart::of(&*world.kernel);
+    let all = all.into_par_iter().with_min_len(64);
+    let parts = all.map(|(pair, distance)| {
+        let part = outer.at(distance) / (2.0 * TAU);
+        let [s, t] = pair;
+        let parts = [(t, s), (s, t)].map(|(of, at)| part * angle(world, of, at));
+        Facing { pair, parts }
+    });
+    parts.collect()
+}
+
+/// The elements of wanted walls with all those of walls with another number within a support, and their distances, m.
+fn near<const D: usize, N: PartialEq>(
+    world: &World<D>,
+    wanted: &[bool],
+    number: impl Fn(usize) -> N + Sync,
+) -> Vec<([usize; 2], f64)> {
+    let elements = &world.walls.elements;
     let radius = world.kernel.support_radius();
     let held = (0..elements.centre.len()).filter(|s| wanted[elements.wall[*s] as usize]);
     let held: Vec<usize> = held.collect();
     let place = |s: usize| world.domain.wrapped(elements.centre[s]);
     let places: Vec<_> = held.iter().map(|s| place(*s)).collect();
     let grid = CellGrid::new(&places, radius, &world.domain);
-    let name = |s: usize| &names[elements.wall[s] as usize];
-    let outer = OuterPart::of(&*world.kernel);
+    let reach = Reach::of(&held, &places, &number);
     let before = |t: usize| {
         let mut found = Vec::new();
-        grid.ranges(&place(t), radius, |range| {
+        let x = place(t);
+        if !reach.others_near(&x, number(t), radius, &world.domain) {
+            return found;
+        }
+        grid.ranges(&x, radius, |range| {
             let near = grid.order()[range].iter().map(|k| held[*k as usize]);
-            for s in near.filter(|s| name(*s) != name(t)) {
+            for s in near.filter(|s| number(*s) != number(t)) {
                 let apart = elements.centre[s] - elements.centre[t];
                 let distance = world.domain.nearest_image(apart).norm();
                 if distance < radius {
-                    let part = outer.at(distance) / (2.0 * TAU);
-                    let parts = [(t, s), (s, t)].map(|(of, at)| part * angle(world, of, at));
-                    found.push(Facing {
-                        pair: [s, t],
-                        parts,
-                        joined: are_joined(world, s, t),
-                    });
+                    found.push(([s, t], distance));
                 }
             }
         });
         found
     };
     let all = (0..elements.centre.len()).into_par_iter().with_min_len(256);
-    let mut all: Vec<Facing> = all.flat_map_iter(before).collect();
-    let walls = |facing: &Facing| {
-        let mut walls = facing.pair.map(name);
-        walls.sort_unstable();
-        walls
-    };
-    let joined: BTreeSet<_> = all.iter().filter(|f| f.joined).map(walls).collect();
-    all.retain(|facing| !joined.contains(&walls(facing)));
-    all
+    all.flat_map_iter(before).collect()
+}
+
+/// Boxes around the elements of every wall.
+struct Reach<const D: usize, N>(Vec<(N, [Vect<D>; 2])>);
+
+impl<const D: usize, N: PartialEq> Reach<D, N> {
+    fn of(held: &[usize], places: &[Vect<D>], number: impl Fn(usize) -> N) -> Self {
+        let mut all: Vec<(N, [Vect<D>; 2])> = Vec::new();
+        for (s, x) in held.iter().zip(places) {
+            let own = number(*s);
+            match all.iter_mut().find(|(other, _)| *other == own) {
+                Some((_, [low, high])) => {
+                    (*low, *high) = (low.inf(x), high.sup(x));
+                }
+                None => all.push((own, [*x; 2])),
+            }
+        }
+        Reach(all)
+    }
+
+    /// Whether a place is within a radius of the box of a wall of another number, as far as the box tells.
+    fn others_near(&self, x: &Vect<D>, own: N, radius: f64, domain: &Domain<D>) -> bool {
+        let near = |[low, high]: &[Vect<D>; 2]| {
+            let along = |k: usize| x[k] > low[k] - radius && x[k] < high[k] + radius;
+            (0..D).all(|k| domain.periodic[k] || along(k))
+        };
+        self.0.iter().any(|(other, of)| *other != own && near(of))
+    }
 }
 
 /// Whether two elements have a corner at the same place.
