@@ -41,7 +41,7 @@ impl<const D: usize> Probe<D> for PythonProbe {
     }
     fn needs(&self) -> Needs<'_> {
         Needs {
-            fields: self.columns.iter().map(String::as_str).collect(),
+            fields: self.columns.clone(),
             ..Needs::default()
         }
     }

@@ -112,7 +112,7 @@ fn pairs<const D: usize>(world: &World<D>, wanted: &[bool]) -> Vec<Facing> {
 }
 
 /// The elements of wanted walls with all those of walls with another number within a support, and their distances, m.
-fn near<const D: usize, N: PartialEq>(
+fn near<const D: usize, N: PartialEq + Sync>(
     world: &World<D>,
     wanted: &[bool],
     number: impl Fn(usize) -> N + Sync,

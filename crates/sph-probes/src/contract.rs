@@ -49,7 +49,7 @@ pub struct Needs<'a> {
     /// The work of everybody on the particles.
     pub books: bool,
     /// Names of derived fields.
-    pub fields: Vec<&'a str>,
+    pub fields: Vec<String>,
 }
 
 /// Curves of a probe: a table is written with every output of fields, `curves/NAME_0003.csv`.

@@ -7,6 +7,8 @@
 //!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
 //!   [`SurfaceSlope`], [`Line`]), and of a bed under water ([`BedLines`], [`ErodedMass`],
 //!   [`PorePressureProbe`]).
+//! * [`Measure`] composes a quantity, the particles that count and reductions; probes as [`Front`] are such measurements
+//!   with names of their own.
 //! * [`derived_stages`]: vorticity and other fields that outputs and probes ask for by name.
 //! * [`surface_distance`]: the distance to the free surface, computed when it is written.
 //! * [`Solution`]: analytical flows, as references and as initial states.
@@ -16,6 +18,7 @@ mod beds;
 mod contract;
 mod derived;
 mod flow;
+mod measure;
 mod nearest;
 pub mod norm;
 mod phases;
@@ -52,6 +55,7 @@ pub use flow::spectrum::EnergySpectrum;
 pub use flow::stream_function::StreamFunction;
 pub use flow::wall_force::WallForceProbe;
 pub use flow::wall_motion::WallMotionProbe;
+pub use measure::{Measure, Reduction, Weight};
 pub use phases::extent::Extent;
 pub use phases::interface::Interface;
 pub use phases::line::{Line, LineOf};

@@ -28,7 +28,7 @@ impl<const D: usize> Probe<D> for TurbulentEnergyProbe {
 
     fn needs(&self) -> Needs<'_> {
         Needs {
-            fields: vec![TURBULENT_ENERGY.name],
+            fields: vec![TURBULENT_ENERGY.name.into()],
             ..Needs::default()
         }
     }

@@ -41,7 +41,7 @@ impl<const D: usize> Probe<D> for PorePressureProbe {
 
     fn needs(&self) -> Needs<'_> {
         Needs {
-            fields: vec![fields::PORE_PRESSURE.name],
+            fields: vec![fields::PORE_PRESSURE.name.into()],
             ..Needs::default()
         }
     }

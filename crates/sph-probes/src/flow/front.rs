@@ -1,10 +1,9 @@
 //! The foremost particle.
 
-use sph_core::{Axis, StepError, fields, parameters, plugin};
-use sph_neighbours::World;
+use sph_core::{Axis, parameters, plugin};
 
-use crate::phases::phase::{self, Counted};
-use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
+use crate::ProbeEntry;
+use crate::measure::{Condition, Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
 
 /// Which of the two ends of a phase along an axis.
 #[parameters]
@@ -31,7 +30,8 @@ pub enum Direction {
 /// quantile = 0.995
 /// ```
 #[plugin(ProbeEntry [2, 3], "front", "the foremost particle along an axis, either way",
-    source: "extreme coordinate or quantile, and half a spacing")]
+    source: "extreme coordinate or quantile, and half a spacing",
+    within: Measured::new)]
 pub struct Front {
     /// Axis along which the front moves.
     #[parameter(default)]
@@ -47,41 +47,22 @@ pub struct Front {
     pub below: Option<f64>,
     /// Name of the phase whose front is measured; that of all particles if left out.
     pub phase: Option<String>,
-    #[serde(skip)]
-    number: Option<u32>,
 }
 
-impl<const D: usize> Probe<D> for Front {
-    fn columns(&self) -> Vec<ProbeColumn> {
-        ProbeColumn::only("m")
-    }
-
-    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
-        if let Some(name) = &self.phase {
-            self.number = Some(phase::number(name, scene.phases)?);
-        }
-        Ok(())
-    }
-
-    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let axis = (self.axis as usize).min(D - 1);
-        let below = self.below.unwrap_or(f64::INFINITY);
-        let sign = match self.direction {
-            Direction::Forward => 1.0,
-            Direction::Backward => -1.0,
+impl Preset for Front {
+    fn plan(&self, dimension: usize) -> Plan<'_> {
+        let share = self.quantile.unwrap_or(1.0);
+        let (reduce, spacings) = match self.direction {
+            Direction::Forward => (Reduce::Quantile(share), 0.5),
+            Direction::Backward => (Reduce::QuantileDown(share), -0.5),
         };
-        let positions = world.free.get(fields::POSITION)?;
-        let phase = Counted::of(world, self.phase.as_deref(), self.number)?;
-        let all = positions.iter().enumerate();
-        let counted = all.filter(|(k, x)| x[D - 1] < below && phase.has(*k));
-        let mut along: Vec<f64> = counted.map(|(_, x)| sign * x[axis]).collect();
-        let behind = self.quantile.unwrap_or(1.0) * along.len() as f64;
-        // The last of the share that is behind the front, counted from one.
-        let last = (behind.ceil() as usize).clamp(1, along.len().max(1)) - 1;
-        if along.is_empty() {
-            return Ok(vec![f64::NAN]);
+        let along = Quantity::Coordinate(self.axis as usize);
+        let front = PlannedColumn::new("", along, reduce).and_spacings(spacings);
+        let upright = || Quantity::Coordinate(dimension - 1);
+        let below = self.below.map(|height| Condition::below(upright(), height));
+        Plan {
+            conditions: below.into_iter().collect(),
+            ..Plan::of(self.phase.as_deref(), vec![front.in_unit("m")])
         }
-        let (_, front, _) = along.select_nth_unstable_by(last, f64::total_cmp);
-        Ok(vec![sign * (*front + 0.5 * world.spacing)])
     }
 }

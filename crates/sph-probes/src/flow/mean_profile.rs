@@ -217,7 +217,7 @@ impl<const D: usize> Probe<D> for MeanProfile {
 
     fn needs(&self) -> Needs<'_> {
         Needs {
-            fields: self.field.iter().map(String::as_str).collect(),
+            fields: self.field.iter().cloned().collect(),
             ..Needs::default()
         }
     }

@@ -3,6 +3,7 @@
 mod bed;
 mod common;
 mod line;
+mod measure;
 mod phases;
 mod profile;
 mod scour_map;

@@ -122,6 +122,5 @@ impl<const D: usize> Choices<D> {
 pub fn shown<const D: usize>(scene: &Scene, probes: &[(String, Box<dyn Probe<D>>)]) -> Vec<String> {
     let shown = scene.output.fields.iter().chain(&scene.output.picture);
     let measured = probes.iter().flat_map(|(_, p)| p.needs().fields);
-    let measured = measured.map(|name| name.to_string());
     shown.cloned().chain(measured).collect()
 }

@@ -33,7 +33,7 @@ impl<const D: usize> Probe<D> for FrictionVelocityProbe {
     fn needs(&self) -> Needs<'_> {
         Needs {
             around: true,
-            fields: vec![FRICTION_VELOCITY.name, WALL_UNITS.name],
+            fields: vec![FRICTION_VELOCITY.name.into(), WALL_UNITS.name.into()],
             ..Needs::default()
         }
     }

@@ -1,0 +1,13 @@
+//! Measurements that compose: a quantity of particles, the particles that count, and a reduction to numbers.
+
+mod conditions;
+mod plan;
+mod plugin;
+mod quantity;
+mod reduction;
+
+pub(crate) use conditions::Condition;
+pub(crate) use plan::{Measured, Plan, PlannedColumn, Preset};
+pub use plugin::{Measure, Reduction, Weight};
+pub(crate) use quantity::Quantity;
+pub(crate) use reduction::Reduce;

@@ -1,0 +1,278 @@
+//! Probes that are measurements with a name of their own.
+
+use std::sync::OnceLock;
+
+use sph_core::{StepError, fields};
+use sph_neighbours::World;
+
+use super::conditions::{Condition, counted};
+use super::quantity::Quantity;
+use super::reduction::{Reduce, Weighed};
+use crate::phases::phase;
+use crate::{Curves, Needs, Probe, ProbeColumn, ProbeScene, norm};
+
+/// A column of a measurement: reduced/`scale` + `offset`.
+pub(crate) struct PlannedColumn {
+    pub suffix: String,
+    pub of: Quantity,
+    pub reduce: Reduce,
+    pub scale: f64,
+    pub offset: Offset,
+    /// The unit, where it is not that of the quantity.
+    pub unit: Option<&'static str>,
+}
+
+/// What is added to a reduced value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Offset {
+    /// Nothing.
+    None,
+    /// So many spacings.
+    Spacings(f64),
+}
+
+impl PlannedColumn {
+    /// A reduced quantity as it is.
+    pub fn new(suffix: &str, of: Quantity, reduce: Reduce) -> Self {
+        PlannedColumn {
+            suffix: suffix.into(),
+            of,
+            reduce,
+            scale: 1.0,
+            offset: Offset::None,
+            unit: None,
+        }
+    }
+
+    /// With so many spacings more.
+    pub fn and_spacings(mut self, spacings: f64) -> Self {
+        self.offset = Offset::Spacings(spacings);
+        self
+    }
+
+    /// In a unit of its own.
+    pub fn in_unit(mut self, unit: &'static str) -> Self {
+        self.unit = Some(unit);
+        self
+    }
+
+    /// Over a number; without a unit where that is not 1.
+    pub fn over(mut self, scale: f64) -> Self {
+        if scale != 1.0 {
+            self.scale = scale;
+            self.unit = Some("1");
+        }
+        self
+    }
+}
+
+/// A measurement: which particles count, with which weight, and what of them is reduced.
+pub(crate) struct Plan<'a> {
+    pub phase: Option<&'a str>,
+    pub conditions: Vec<Condition>,
+    pub weight: Option<Quantity>,
+    pub columns: Vec<PlannedColumn>,
+    /// The axis and the width of slices, in spacings, in which the columns are curves.
+    pub slices: Option<(usize, f64)>,
+    /// The axis along which the first quantity is fitted by a line.
+    pub fitted: Option<usize>,
+}
+
+impl<'a> Plan<'a> {
+    /// Columns of all particles of a phase.
+    pub fn of(phase: Option<&'a str>, columns: Vec<PlannedColumn>) -> Self {
+        Plan {
+            phase,
+            conditions: Vec::new(),
+            weight: None,
+            columns,
+            slices: None,
+            fitted: None,
+        }
+    }
+}
+
+/// Parameters of which a measurement is made.
+pub(crate) trait Preset: Send {
+    /// The measurement in so many dimensions.
+    fn plan(&self, dimension: usize) -> Plan<'_>;
+}
+
+/// A probe that measures as its parameters say.
+pub(crate) struct Measured<P> {
+    preset: P,
+    number: Option<u32>,
+    /// The units of the quantities of the columns, known from the first measurement on.
+    units: OnceLock<Vec<&'static str>>,
+}
+
+impl<P: Preset> Measured<P> {
+    /// Of parameters.
+    pub fn new(preset: P) -> Self {
+        Measured {
+            preset,
+            number: None,
+            units: OnceLock::new(),
+        }
+    }
+
+    fn named<const D: usize>(&self) -> Vec<ProbeColumn> {
+        let plan = self.preset.plan(D);
+        let known = |k: usize| self.units.get().and_then(|units| units.get(k)).copied();
+        let columns = plan.columns.iter().enumerate();
+        let one = |(k, column): (usize, &PlannedColumn)| {
+            let unit = column.unit.or(known(k)).unwrap_or("1");
+            ProbeColumn::named(&column.suffix, unit)
+        };
+        let mut all: Vec<_> = columns.map(one).collect();
+        if plan.fitted.is_some() {
+            all.push(ProbeColumn::named(".slope", "1"));
+            all.push(ProbeColumn::named(".rms_about", all[0].unit));
+        }
+        all
+    }
+
+    /// The columns of the particles of some numbers, of a phase with so much weight.
+    fn reduced<const D: usize>(
+        &self,
+        world: &World<D>,
+        plan: &Plan<'_>,
+        (counted, of_phase): (&[usize], &[usize]),
+    ) -> Result<Vec<f64>, StepError> {
+        let weight = plan.weight.as_ref().map(|weight| weight.values(world));
+        let weight = weight.transpose()?.map(|(weight, _)| weight);
+        let weights = |of: &[usize]| -> Option<Vec<f64>> {
+            Some(
+                of.iter()
+                    .map(|k| weight.as_ref().map_or(1.0, |w| w(*k)))
+                    .collect(),
+            )
+            .filter(|_| weight.is_some())
+        };
+        let own = weights(counted);
+        let whole = weights(of_phase).map_or(of_phase.len() as f64, |all| all.iter().sum());
+        let mut units = Vec::new();
+        let one = |column: &PlannedColumn| {
+            let (value, unit) = column.of.values(world)?;
+            units.push(unit);
+            let values: Vec<f64> = counted.iter().map(|k| value(*k)).collect();
+            let weighed = Weighed {
+                values: &values,
+                weights: own.as_deref(),
+                whole,
+            };
+            let reduced = weighed.reduced(column.reduce) / column.scale;
+            Ok(match column.offset {
+                Offset::None => reduced,
+                Offset::Spacings(some) => reduced + some * world.spacing,
+            })
+        };
+        let all: Result<Vec<f64>, StepError> = plan.columns.iter().map(one).collect();
+        self.units.get_or_init(|| units);
+        all
+    }
+
+    /// Slope and root mean square distance of the line through the first quantity over a coordinate.
+    fn fitted<const D: usize>(
+        &self,
+        world: &World<D>,
+        plan: &Plan<'_>,
+        (axis, counted): (usize, &[usize]),
+    ) -> Result<[f64; 2], StepError> {
+        let (value, _) = plan.columns[0].of.values(world)?;
+        let (place, _) = Quantity::Coordinate(axis).values(world)?;
+        let x: Vec<f64> = counted.iter().map(|k| place(*k)).collect();
+        let y: Vec<f64> = counted.iter().map(|k| value(*k)).collect();
+        if x.len() < 3 {
+            return Ok([f64::NAN; 2]);
+        }
+        let slope = norm::slope(&x, &y);
+        let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
+        let (mx, my) = (mean(&x), mean(&y));
+        let about = x.iter().zip(&y).map(|(x, y)| y - my - slope * (x - mx));
+        let squares: f64 = about.map(|d| d * d).sum();
+        Ok([slope, (squares / x.len() as f64).sqrt()])
+    }
+}
+
+impl<const D: usize, P: Preset> Probe<D> for Measured<P> {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        self.named::<D>()
+    }
+
+    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+        if let Some(name) = self.preset.plan(D).phase {
+            self.number = Some(phase::number(name, scene.phases)?);
+        }
+        Ok(())
+    }
+
+    fn needs(&self) -> Needs<'static> {
+        let plan = self.preset.plan(D);
+        let of_conditions = plan.conditions.iter().map(|condition| &condition.of);
+        let all = plan.columns.iter().map(|column| &column.of);
+        let all = all.chain(of_conditions).chain(&plan.weight);
+        let fields = all.filter_map(|of| Some(of.column()?.to_string()));
+        Needs {
+            fields: fields.collect(),
+            ..Needs::default()
+        }
+    }
+
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        self.preset.plan(D).slices.is_some().then_some(self)
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let plan = self.preset.plan(D);
+        let phase = (plan.phase, self.number);
+        let (all, of_phase) = counted(world, phase, &plan.conditions)?;
+        let mut columns = self.reduced(world, &plan, (&all, &of_phase))?;
+        if let Some(axis) = plan.fitted {
+            columns.extend(self.fitted(world, &plan, (axis, &all))?);
+        }
+        Ok(columns)
+    }
+}
+
+impl<const D: usize, P: Preset> Curves<D> for Measured<P> {
+    fn curve_columns(&self) -> Vec<ProbeColumn> {
+        let axis = self
+            .preset
+            .plan(D)
+            .slices
+            .map_or(0, |(axis, _)| axis.min(D - 1));
+        let mut all = vec![ProbeColumn::named(["x", "y", "z"][axis], "m")];
+        let columns = self.named::<D>().into_iter();
+        let own = columns.take(self.preset.plan(D).columns.len());
+        all.extend(own.map(|column| ProbeColumn {
+            suffix: match column.suffix.trim_start_matches('.') {
+                "" => "value".into(),
+                name => name.into(),
+            },
+            unit: column.unit,
+        }));
+        all
+    }
+
+    fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
+        let plan = self.preset.plan(D);
+        let Some((axis, spacings)) = plan.slices else {
+            return Ok(Vec::new());
+        };
+        let (axis, width) = (axis.min(D - 1), spacings * world.spacing);
+        let (all, of_phase) = counted(world, (plan.phase, self.number), &plan.conditions)?;
+        let positions = world.free.get(fields::POSITION)?;
+        let slice = |k: &usize| (positions[*k][axis] / width).floor() as i64;
+        let mut slices: std::collections::BTreeMap<i64, Vec<usize>> = Default::default();
+        for k in &all {
+            slices.entry(slice(k)).or_default().push(*k);
+        }
+        let rows = slices.iter().map(|(slice, own)| {
+            let mut row = vec![(*slice as f64 + 0.5) * width];
+            row.extend(self.reduced(world, &plan, (own, &of_phase))?);
+            Ok(row)
+        });
+        rows.collect()
+    }
+}

@@ -1,0 +1,159 @@
+//! A measurement that a scene composes itself.
+
+use std::collections::BTreeMap;
+
+use sph_core::{Axis, parameters, plugin};
+
+use super::conditions::Condition;
+use super::plan::{Measured, Plan, PlannedColumn, Preset};
+use super::quantity::{Quantity, unit_of};
+use super::reduction::Reduce;
+use crate::ProbeEntry;
+
+/// A reduction of many values to a number.
+#[parameters]
+#[derive(Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum Reduction {
+    /// The least value.
+    Min,
+    /// The largest value.
+    Max,
+    /// Σ w v/Σ w.
+    #[default]
+    Mean,
+    /// Σ w v.
+    Sum,
+    /// √(Σ w v²/Σ w).
+    Rms,
+    /// The weight of the particles that count, Σ w: their number, mass or volume.
+    Total,
+    /// Their weight over that of all particles of the phase.
+    Share,
+}
+
+/// The weight of a particle.
+#[parameters]
+#[derive(Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum Weight {
+    /// One.
+    #[default]
+    One,
+    /// Its mass.
+    Mass,
+    /// Its volume.
+    Volume,
+}
+
+/// Any field over any particles, reduced to numbers: one column for each reduction.
+///
+/// The particles that count are those of `phase` whose quantities lie between the bounds `above` and `below`: a box is
+/// `above = { x = 0.1 }, below = { x = 0.2, y = 0.05 }`, what has yielded `above = { strain_rate = 1 }`. A quantity
+/// is a column (`pressure`; of a vector or tensor its magnitude), a component (`velocity.x`), a coordinate (`x`, `y`,
+/// `z`), or one of `speed`, `kinetic_energy` and `potential_energy`. Bounds and values are in SI units.
+///
+/// `fit = "x"` adds slope and root mean square distance of the line through the values over that coordinate. `along =
+/// "y"` writes the columns as curves over slices across that axis, with every output of fields.
+///
+/// ```toml
+/// [probe.wave-crest]
+/// kind = "measure"
+/// field = "y"
+/// reduce = ["max", "mean"]
+/// quantiles = [0.99]
+/// phase = "water"
+/// above = { x = 0.5 }
+/// ```
+#[plugin(ProbeEntry [2, 3], "measure", "any field over any particles, reduced to numbers",
+    source: "sums, extrema, quantiles", within: Measured::new)]
+pub struct Measure {
+    /// The quantity.
+    pub field: String,
+    /// Its reductions.
+    #[parameter(default: vec![Reduction::Mean])]
+    pub reduce: Vec<Reduction>,
+    /// Shares q: a column for the least value that a share q of the weight does not exceed.
+    #[parameter(default, unit: "1", min: 0.0, max: 1.0)]
+    pub quantiles: Vec<f64>,
+    /// The weight of a particle.
+    #[parameter(default)]
+    pub weight: Weight,
+    /// Name of the phase; all particles if left out.
+    pub phase: Option<String>,
+    /// Lower bounds on quantities, in SI units.
+    #[parameter(default)]
+    pub above: BTreeMap<String, f64>,
+    /// Upper bounds on quantities, in SI units.
+    #[parameter(default)]
+    pub below: BTreeMap<String, f64>,
+    /// The axis along which a line is fitted to the values.
+    pub fit: Option<Axis>,
+    /// The axis along which the columns are written as curves.
+    pub along: Option<Axis>,
+    /// Width of the slices of such curves, in spacings.
+    #[parameter(default: 2.0, unit: "1", above: 0.0)]
+    pub slice: f64,
+    /// The values are divided by this, in the field's own unit.
+    #[parameter(default: 1.0, above: 0.0)]
+    pub scale: f64,
+}
+
+impl Measure {
+    fn column(&self, suffix: &str, reduce: Reduce) -> PlannedColumn {
+        let column = PlannedColumn::new(suffix, Quantity::named(&self.field), reduce);
+        let weighed = match self.weight {
+            Weight::One => "1",
+            Weight::Mass => "kg",
+            Weight::Volume => "m³",
+        };
+        match reduce {
+            Reduce::Share => column.in_unit("1"),
+            Reduce::Total => column.in_unit(weighed),
+            _ => match unit_of(&self.field) {
+                Some(unit) => column.in_unit(unit).over(self.scale),
+                None => column.over(self.scale),
+            },
+        }
+    }
+}
+
+impl Preset for Measure {
+    fn plan(&self, _: usize) -> Plan<'_> {
+        let count = self.reduce.len() + self.quantiles.len();
+        let suffix = |name: String| match count {
+            1 => String::new(),
+            _ => format!(".{name}"),
+        };
+        let reduced = self.reduce.iter().map(|reduction| {
+            let (name, reduce) = match reduction {
+                Reduction::Min => ("min", Reduce::Min),
+                Reduction::Max => ("max", Reduce::Max),
+                Reduction::Mean => ("mean", Reduce::Mean),
+                Reduction::Sum => ("sum", Reduce::Sum),
+                Reduction::Rms => ("rms", Reduce::Rms),
+                Reduction::Total => ("total", Reduce::Total),
+                Reduction::Share => ("share", Reduce::Share),
+            };
+            self.column(&suffix(name.into()), reduce)
+        });
+        let quantiles = self.quantiles.iter();
+        let quantiles =
+            quantiles.map(|q| self.column(&suffix(format!("q{q}")), Reduce::Quantile(*q)));
+        let above = self.above.iter();
+        let above = above.map(|(name, least)| Condition::above(Quantity::named(name), *least));
+        let below = self.below.iter();
+        let below = below.map(|(name, most)| Condition::below(Quantity::named(name), *most));
+        Plan {
+            conditions: above.chain(below).collect(),
+            weight: match self.weight {
+                Weight::One => None,
+                Weight::Mass => Some(Quantity::Column("mass".into())),
+                Weight::Volume => Some(Quantity::Column("volume".into())),
+            },
+            slices: self.along.map(|axis| (axis as usize, self.slice)),
+            fitted: self.fit.map(|axis| axis as usize),
+            ..Plan::of(self.phase.as_deref(), reduced.chain(quantiles).collect())
+        }
+    }
+}
