@@ -15,13 +15,17 @@ use sph_state::{EquationOfState, EquationOfStateEntry};
 
 /// Everything the scene's names stand for.
 pub struct Choices<const D: usize> {
+    /// The kernel.
     pub kernel: Box<dyn Kernel>,
+    /// The time stepping scheme.
     pub integrator: Box<dyn Integrator>,
+    /// The treatment of walls; none without walls.
     pub walls: Option<Box<dyn Wall<D>>>,
     /// What moves walls, by the wall's name.
     pub movers: Vec<(String, Box<dyn Mover<D>>)>,
     /// Laws of open faces, by the wall's name.
     pub open: Vec<(String, Box<dyn OpenBoundary<D>>)>,
+    /// The definition of density, and its pressure gradient.
     pub formulation: Box<dyn Formulation<D>>,
     /// In the order of the phase numbers.
     pub rheologies: Vec<Box<dyn Rheology>>,
@@ -29,6 +33,7 @@ pub struct Choices<const D: usize> {
     pub equations_of_state: Vec<Box<dyn EquationOfState>>,
     /// The contributions of all plugins, in the order of their kinds.
     pub parts: Vec<Part<D>>,
+    /// Probes, by name.
     pub probes: Vec<(String, Box<dyn Probe<D>>)>,
     /// Solutions of references, by the reference's name.
     pub solutions: Vec<(String, Box<dyn Solution<D>>)>,
