@@ -18,7 +18,7 @@ use sph_state::Laws;
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::declared::Columns;
 use crate::step::guard;
-use crate::step::guests::{run_and_tell, tell_guests};
+use crate::step::guests::run_and_tell;
 use crate::step::hooks::{Hooked, Hooks};
 use crate::step::kept_image::KeptImage;
 use crate::step::kept_rates::Kept;
@@ -192,7 +192,7 @@ impl<const D: usize> Flow<D> {
         let done = work(&mut **hook, &mut moment);
         let ended = self.world.free.unwatch(|| hook.name());
         ended.and(done)?;
-        tell_guests(&mut self.parts, &mut self.world, access)?;
+        self.world.refresh(access)?;
         self.timings[MOTION + 1 + self.stages.len() + number].spent += start.elapsed();
         Ok(())
     }
@@ -233,7 +233,7 @@ impl<const D: usize> Flow<D> {
                 continue;
             }
             let start = Instant::now();
-            run_and_tell(&mut **stage, access, &mut self.parts, &mut self.world)?;
+            run_and_tell(&mut **stage, access, self.parts.as_ref(), &mut self.world)?;
             self.timings[MOTION + 1 + k].spent += start.elapsed();
         }
         Ok(())

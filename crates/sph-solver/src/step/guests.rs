@@ -2,39 +2,24 @@
 
 use sph_core::{Access, Stage, StepError};
 use sph_decomposition::Parts;
-use sph_neighbours::{Half, World};
-
-/// Gives guests what work has found for their owners: what was summed over neighbours.
-pub(crate) fn tell_guests<const D: usize>(
-    parts: &mut Option<Parts<D>>,
-    world: &mut World<D>,
-    access: &Access,
-) -> Result<(), StepError> {
-    let Some(parts) = parts else {
-        return Ok(());
-    };
-    if access.sweep && !access.writes.is_empty() {
-        parts.tell(&mut world.free, |f| access.writes.contains(f))?;
-    }
-    Ok(())
-}
+use sph_neighbours::{SweepHalf, World};
 
 /// Runs a stage and gives guests what it has found: where it may run in halves, those who are guests elsewhere come first, and
 /// the others while the messages are on their way.
 pub(crate) fn run_and_tell<const D: usize>(
     stage: &mut dyn Stage<World<D>>,
     access: &Access,
-    parts: &mut Option<Parts<D>>,
+    parts: Option<&Parts<D>>,
     world: &mut World<D>,
 ) -> Result<(), StepError> {
-    let Some(own) = parts.as_ref().filter(|_| stage.halves()) else {
+    let Some(own) = parts.filter(|_| stage.halves()) else {
         watched(stage, access, world)?;
-        return tell_guests(parts, world, access);
+        return world.refresh(access);
     };
     let sent = own.sent(world.free.len());
-    world.lists.half = Some(Half::first(world.lists.nearest(), &sent));
+    world.lists.sweep_half = Some(SweepHalf::first(world.lists.nearest(), &sent));
     let done = in_halves(stage, access, own, world);
-    world.lists.half = None;
+    world.lists.sweep_half = None;
     done
 }
 
@@ -50,7 +35,7 @@ fn in_halves<const D: usize>(
         world,
         |f| access.writes.contains(f),
         |world| {
-            world.lists.half = world.lists.half.take().map(Half::second);
+            world.lists.sweep_half = world.lists.sweep_half.take().map(SweepHalf::second);
             rest = watched(stage, access, world);
         },
     );

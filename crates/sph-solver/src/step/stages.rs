@@ -166,7 +166,7 @@ impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
                 let density = free.get(fields::DENSITY)?;
                 let volume = free.get(fields::VOLUME)?;
                 let gamma = free.get(fields::RENORMALISATION).ok();
-                let half = world.lists.half.as_ref();
+                let half = world.lists.sweep_half.as_ref();
                 let rates = scalar.par_iter_mut().zip(density).zip(volume).enumerate();
                 rates.with_min_len(2048).for_each(|(i, ((rate, rho), v))| {
                     if is_wanted(half, i) {
