@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{TermShare, shares_at};
 
-use crate::step::stages::lock;
 use crate::{Flow, Trouble};
 
 /// Wall distances beyond this many spacings are not told.
@@ -171,7 +170,6 @@ impl<const D: usize> Flow<D> {
         let nearest = nearest.fold(f64::INFINITY, f64::min).sqrt();
         let sane = x.iter().all(|c| c.is_finite()) && world.domain.contains(x);
         let wall = self.walls.as_ref().filter(|_| sane).and_then(|walls| {
-            let walls = lock(walls);
             let (distance, name) = walls.clearance(x, NEAR * world.spacing)?;
             Some((name.to_string(), distance / world.spacing))
         });

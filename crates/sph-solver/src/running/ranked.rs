@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use sph_boundary::Wall;
 use sph_core::{StepError, System};
 use sph_decomposition::{PartError, Transport};
 use sph_neighbours::{Nearby, WallSet};
@@ -17,7 +18,6 @@ use crate::running::output::shows_depths;
 use crate::setup::assemble::{Assembled, assemble_share};
 use crate::setup::memory::Memory;
 use crate::setup::share::Share;
-use crate::step::stages::lock;
 
 /// What a process assembles: on ranks only where particles settle first does each hold the whole for a while.
 pub(crate) fn share<const D: usize>(
@@ -38,7 +38,7 @@ pub(crate) fn share<const D: usize>(
 pub(crate) fn columns_of_all<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
-    parts: &Assembled<D>,
+    parts: &mut Assembled<D>,
     counters: &Counters,
 ) -> Result<Assembled<D>, SolverError> {
     if looks_around(scene, parts) {
@@ -46,7 +46,7 @@ pub(crate) fn columns_of_all<const D: usize>(
         begin(scene, options, false, &mut all.flow, &mut ())?;
         return Ok(all);
     }
-    let standing = parts.flow.walls.as_ref().map(|walls| {
+    let standing = parts.flow.walls.take().map(|walls| {
         let set = &parts.flow.world.walls;
         let set = WallSet {
             names: set.names.clone(),
@@ -54,9 +54,10 @@ pub(crate) fn columns_of_all<const D: usize>(
             elements: set.elements.clone(),
             ..WallSet::default()
         };
-        Box::new((walls.clone(), set))
+        Box::new((walls, set))
     });
     let mut all = assemble_share::<D>(scene, Share::Columns(standing))?;
+    parts.flow.walls = all.flow.walls.take();
     all.flow.laws = parts.flow.laws.clone();
     all.flow.recount(&counters.left);
     Ok(all)
@@ -71,6 +72,12 @@ impl<const D: usize> Running<'_, D> {
     /// What is shown and measured: the whole flow, where this process has it.
     pub(crate) fn shown(&self) -> &Assembled<D> {
         self.whole.as_ref().unwrap_or(&self.parts)
+    }
+
+    /// The walls of what is shown: its own, or those of this process's part.
+    pub(crate) fn walls(&self) -> Option<&dyn Wall<D>> {
+        let own = self.shown().flow.walls.as_deref();
+        own.or(self.parts.flow.walls.as_deref())
     }
 
     /// Brings the whole flow to the state of all ranks; with all that is derived from it, if it is to be `evaluated`. Every rank
@@ -89,12 +96,10 @@ impl<const D: usize> Running<'_, D> {
         whole.world.forget_lists();
         let gathered = parts.gather(&flow.world, Some(&mut whole.world));
         gathered.map_err(StepError::from)?;
-        if let (Some(own), Some(all)) = (&flow.walls, &whole.walls)
-            && !Arc::ptr_eq(own, all)
-        {
-            let states = lock(own).states();
+        if let (Some(own), Some(all)) = (&flow.walls, &mut whole.walls) {
+            let states = own.states();
             let (set, time) = (&mut whole.world.walls, flow.world.time);
-            let moved = lock(all).put_back(set, &states, time);
+            let moved = all.put_back(set, &states, time);
             moved.map_err(|e| SolverError::at("wall", e.to_string()))?;
         }
         whole.world.walls.follow(&flow.world.walls);

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use sph_boundary::Wall;
 use sph_contribution::{ForceLimit, MotionLimit, OwnColumn, Setting};
 use sph_core::{Born, Role, Store, fields};
 use sph_integrators::Integrator;
@@ -38,7 +39,6 @@ use crate::step::accounts;
 use crate::step::flow::Flow;
 use crate::step::nursery::Nursery;
 use crate::step::outlets::Outlets;
-use crate::step::stages::SharedWall;
 use crate::step::swing::Swing;
 
 /// How far the fastest point of a wall goes within a step, over the spacing: two that meet close half a spacing.
@@ -88,7 +88,7 @@ pub(crate) fn assemble_share<const D: usize>(
     let (walls, placed, mut warnings) = (room.walls, room.placed, room.warnings);
     let (leaks, room) = (room.leaks, room.world);
     let filled = (&room, placed.positions.as_slice(), &laws, &lift);
-    let faces = open_faces::check(scene, &opened, &walls, filled)?;
+    let faces = open_faces::check(scene, &opened, walls.as_deref(), filled)?;
     warnings.extend(speeds.into_iter().chain(faces));
     let mut ground = Ground::of(&choices.physics);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.physics.rheologies);
@@ -108,7 +108,7 @@ pub(crate) fn assemble_share<const D: usize>(
         laws: &laws,
         viscosities: &constant,
         soils: &ground.soil,
-        walls: walls.as_ref(),
+        walls: walls.as_deref(),
         shown: &shown,
     };
     let planned = about.plan(&world, &mut parts)?;
@@ -216,7 +216,7 @@ struct About<'a, const D: usize> {
     laws: &'a Laws,
     viscosities: &'a [Option<f64>],
     soils: &'a [bool],
-    walls: Option<&'a SharedWall<D>>,
+    walls: Option<&'a dyn Wall<D>>,
     shown: &'a [String],
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use serde::Serialize;
-use sph_core::{Role, StepLimit, System, fields};
+use sph_core::{Declares, Role, StepLimit, System, fields};
 use sph_scene::Scene;
 
 use crate::results::summary::PluginInForce;

@@ -1,8 +1,6 @@
 //! Box, kernel, walls and places of a scene: the world before it has columns.
 
-use std::sync::{Arc, Mutex};
-
-use sph_boundary::WallEntry;
+use sph_boundary::{Wall, WallEntry};
 use sph_core::Store;
 use sph_core::plausible::Quantity;
 use sph_neighbours::{WallSet, World};
@@ -18,14 +16,13 @@ use crate::setup::placement::{Placed, place};
 use crate::setup::shapes::Drawn;
 use crate::setup::share::{Share, Standing};
 use crate::setup::walls::{build_walls, thin_walls, wall_problem};
-use crate::step::stages::SharedWall;
 
 /// The room in which particles will move, and where they begin.
 pub(crate) struct Room<const D: usize> {
     /// Without columns.
     pub world: World<D>,
     /// The walls, if there are any.
-    pub walls: Option<SharedWall<D>>,
+    pub walls: Option<Box<dyn Wall<D>>>,
     /// Places and bodies of the particles.
     pub placed: Placed<D>,
     /// Walls behind which fluid can get.
@@ -87,7 +84,7 @@ impl<const D: usize> Room<D> {
         Ok(Room {
             leaks,
             world,
-            walls: choices.walls.take().map(|w| Arc::new(Mutex::new(w))),
+            walls: choices.walls.take(),
             placed,
             warnings,
         })

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
+use sph_boundary::Wall;
 use sph_core::StepError;
 use sph_decomposition::{PartError, Transport};
 use sph_neighbours::WallSet;
 
 use crate::Flow;
 use crate::failure::error::SolverError;
-use crate::step::stages::SharedWall;
 
 /// How much of a flow a process begins with.
 pub(crate) enum Share<const D: usize> {
@@ -23,7 +23,7 @@ pub(crate) enum Share<const D: usize> {
 }
 
 /// Walls that stand already: the plugin, and what pair sums know of them.
-pub(crate) type Standing<const D: usize> = (SharedWall<D>, WallSet<D>);
+pub(crate) type Standing<const D: usize> = (Box<dyn Wall<D>>, WallSet<D>);
 
 /// Refuses what cannot be divided between ranks.
 pub(crate) fn refuse_the_indivisible<const D: usize>(

@@ -6,7 +6,6 @@ use sph_core::{Vect, fields};
 use sph_scene::Scene;
 
 use crate::setup::choices::Physics;
-use crate::step::stages::lock;
 use crate::{Flow, SolverError};
 
 /// Spacings per grain above which a continuum of particles finer than its grains is remarked upon.
@@ -142,7 +141,6 @@ fn hanging<const D: usize>(
         return Ok(None);
     };
     let world = &flow.world;
-    let walls = lock(walls);
     let up = -world.gravity.normalize();
     let phase = Phases::of(flow)?;
     let position = world.free.get(fields::POSITION)?;

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use serde_json::Value as Json;
+use sph_boundary::Wall;
 use sph_contribution::{
     Forces, Gate, Limiter, OutsideForce, Report, StepHook, StepMoment, StepPhase, StoredEnergy,
 };
 use sph_core::{
-    Access, AnyField, Evolved, Field, Role, Scalar, Stage, StepError, StepLimit, fields,
+    Access, AnyField, Declares, Evolved, Field, Role, Scalar, StepError, StepLimit, fields,
 };
 use sph_decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
@@ -26,19 +27,20 @@ use crate::step::nursery::Nursery;
 use crate::step::observer::{Boundary, Observer, Seen};
 use crate::step::outlets::Outlets;
 use crate::step::snapshot::Snapshot;
-use crate::step::stages::{SharedWall, lock};
+use crate::step::stages::Work;
 use crate::step::swing::Swing;
 
 /// The assembled system of one scene.
 pub struct Flow<const D: usize> {
     /// Columns, walls, lists, kernel, clock.
     pub world: World<D>,
-    /// Stages in the order of the plan.
-    pub(crate) stages: Vec<Box<dyn Stage<World<D>>>>,
+    /// Stages in the order of the plan, those of the walls among them.
+    pub(crate) stages: Vec<Work<D>>,
     /// Names of the stages nobody needed.
     pub(crate) pruned: Vec<String>,
     pub(crate) limiters: Vec<Box<dyn Limiter<D>>>,
-    pub(crate) walls: Option<SharedWall<D>>,
+    /// The walls; none without any, and where a flow is shown among those of its part.
+    pub(crate) walls: Option<Box<dyn Wall<D>>>,
     /// What movers are told, in the order of the walls' names, from the last kick; empty if none asks.
     pub(crate) loads: Vec<WallForce<D>>,
     pub(crate) evolved: Vec<Evolved>,
@@ -233,7 +235,8 @@ impl<const D: usize> Flow<D> {
                 continue;
             }
             let start = Instant::now();
-            run_and_tell(&mut **stage, access, self.parts.as_ref(), &mut self.world)?;
+            let walls = self.walls.as_deref_mut().map(|walls| walls as _);
+            run_and_tell(stage, access, self.parts.as_ref(), &mut self.world, walls)?;
             self.timings[MOTION + 1 + k].spent += start.elapsed();
         }
         Ok(())
@@ -297,10 +300,14 @@ impl<const D: usize> Flow<D> {
     /// # Errors
     /// If there is no position column.
     pub fn escaped(&self) -> Result<usize, StepError> {
-        let Some(walls) = &self.walls else {
+        self.escaped_from(self.walls.as_deref())
+    }
+
+    /// Particles behind one of these walls.
+    pub(crate) fn escaped_from(&self, walls: Option<&dyn Wall<D>>) -> Result<usize, StepError> {
+        let Some(walls) = walls else {
             return Ok(0);
         };
-        let walls = lock(walls);
         let position = self.world.free.get(fields::POSITION)?;
         Ok(position.iter().filter(|x| !walls.contains(x)).count())
     }

@@ -8,13 +8,13 @@ use crate::step::snapshot::Snapshot;
 impl<const D: usize> Snapshot<D> {
     /// Copies the state; reuses its buffers.
     pub fn take(&mut self, flow: &Flow<D>) -> Result<(), FieldError> {
-        self.save(&flow.world, flow.walls.as_ref(), &flow.loads)
+        self.save(&flow.world, flow.walls.as_deref(), &flow.loads)
     }
 
     /// Puts the state back. If the particles were sorted meanwhile, they return to their
     /// order; those that left since come back, those that came in are gone.
     pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), StepError> {
-        let walls = (flow.walls.as_ref(), &mut flow.loads);
+        let walls = (flow.walls.as_deref_mut(), &mut flow.loads);
         self.put_back(&mut flow.world, walls)?;
         // What the evaluation of this state has left is among it.
         flow.restored = true;
@@ -26,6 +26,7 @@ impl<const D: usize> Snapshot<D> {
 mod tests {
     use super::*;
     use crate::setup::dimensions::in_plane;
+    use crate::step::stages::Work;
     use sph_core::{Access, Declares, Field, Role, Scalar, Stage, StepError, System, fields};
     use sph_neighbours::World;
 
@@ -60,7 +61,7 @@ mod tests {
     #[test]
     fn a_state_column_that_the_solver_does_not_know_is_rolled_back_and_not_advanced_twice() {
         let mut flow = in_plane(SCENE);
-        flow.stages.push(Box::new(Counting));
+        flow.stages.push(Work::Stage(Box::new(Counting)));
         flow.ask_all();
         flow.reset_timings();
         flow.evaluate().unwrap();

@@ -8,7 +8,6 @@ use sph_scene::Scene;
 
 use crate::Flow;
 use crate::step::outlets::Left;
-use crate::step::stages::lock;
 
 /// A particle that leaves.
 struct Leaver<const D: usize> {
@@ -63,7 +62,7 @@ impl<const D: usize> Flow<D> {
             }
         }
         self.outlets.named = self.outlets.labels.len();
-        if self.walls.as_ref().is_some_and(|w| lock(w).ends_freely()) {
+        if self.walls.as_ref().is_some_and(|w| w.ends_freely()) {
             let phases = scene.phase.len().max(1);
             let border = self.outlets.named / phases;
             self.outlets.border = Some(border);
