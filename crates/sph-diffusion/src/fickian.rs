@@ -259,9 +259,7 @@ fn largest_speeds<const D: usize>(world: &World<D>) -> Result<Vec<f64>, StepErro
     })?;
     let mean = Vect::<D>::from_fn(|k, _| sums[1 + k]) / sums[0];
     let mut phases = [phase.map_or(0.0, |p| f64::from(p.iter().max().copied().unwrap_or(0)))];
-    if let Some(team) = &world.team {
-        team.largest(&mut phases)?;
-    }
+    world.largest(&mut phases)?;
     let phases = phases[0] as usize + 1;
     let scale = mean.norm_squared();
     let largest = |k: usize| {
@@ -271,9 +269,7 @@ fn largest_speeds<const D: usize>(world: &World<D>) -> Result<Vec<f64>, StepErro
         squares.reduce(|| 0.0, f64::max)
     };
     let mut squares: Vec<f64> = (0..phases).map(largest).collect();
-    if let Some(team) = &world.team {
-        team.largest(&mut squares)?;
-    }
+    world.largest(&mut squares)?;
     // A uniform wind differs from its own mean by rounding.
     let speed = |square: &f64| {
         if *square > 1e-24 * scale {

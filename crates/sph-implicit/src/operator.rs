@@ -1,26 +1,26 @@
 //! What a solver needs to know of a system.
 
 use sph_core::{Shelf, Vect};
+use sph_neighbours::inner;
 
 use crate::halved::Halved;
-use crate::vector::dot;
 use crate::{Diagonal, Matrix, SolveError};
 
 /// A symmetric operator on vectors of particles, with or without a matrix behind it.
 ///
-/// Rows are those of particles of one's own. Columns are the same particles and, after them, guests: copies of particles
-/// whose rows are elsewhere, across a seam or in another process. [`import`](Operator::import) gives guests the values
-/// of their owners, [`total`](Operator::total) adds what all owners of rows have summed. A [`Matrix`] has no guests.
+/// Rows are those of particles of one's own. Columns are the same particles and, after them, copies of particles
+/// whose rows are elsewhere, across a seam or in another process. [`import`](Operator::import) gives copies the values
+/// of their owners, [`total`](Operator::total) adds what all owners of rows have summed. A [`Matrix`] has no copies.
 pub trait Operator<const D: usize>: Sync {
     /// Rows: particles of one's own.
     fn rows(&self) -> usize;
 
-    /// Columns: the rows, then the guests.
+    /// Columns: the rows, then the copies.
     fn columns(&self) -> usize {
         self.rows()
     }
 
-    /// Gives the guests, x\[rows..columns\], the values of their owners.
+    /// Gives the copies, x\[rows..columns\], the values of their owners.
     fn import(&self, _x: &mut [Vect<D>]) {}
 
     /// The sum over the owners of all rows of what each has summed over its own; the same bits for everybody.
@@ -31,7 +31,7 @@ pub trait Operator<const D: usize>: Sync {
     /// Σ x·y over all rows, in an order that does not depend on the number of threads; the same bits for everybody.
     fn inner(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
         let rows = self.rows();
-        self.total(dot(&x[..rows], &y[..rows]))
+        self.total(inner(&x[..rows], &y[..rows]))
     }
 
     /// Whether it holds for all who share the operator; everybody must ask.
@@ -71,7 +71,7 @@ pub trait Operator<const D: usize>: Sync {
 }
 
 impl<const D: usize> dyn Operator<D> + '_ {
-    /// y = A x, for an x whose guests may be of an earlier iteration.
+    /// y = A x, for an x whose copies may be of an earlier iteration.
     pub(crate) fn apply(&self, x: &mut [Vect<D>], y: &mut [Vect<D>]) {
         self.import(x);
         self.multiply(x, y);
@@ -98,7 +98,7 @@ impl<const D: usize> dyn Operator<D> + '_ {
     /// The whole matrix.
     ///
     /// # Errors
-    /// If it is not written down, or some of it is with the owners of guests.
+    /// If it is not written down, or some of it is with the owners of copies.
     pub(crate) fn whole(&self, method: &'static str) -> Result<&Matrix<D>, SolveError> {
         let whole = self.assembled().filter(|_| self.is_whole());
         whole.ok_or_else(|| SolveError::NotWhole {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect};
 use sph_kernels::Sampler;
 
-use crate::{CellGrid, Domain, SharedElements, WallForce, World, cross};
+use crate::{CellGrid, Domain, WallForce, World, cross};
 
 /// Corners that are as near to each other are one, over the size of an element.
 const SAME_PLACE: f64 = 1e-6;
@@ -39,8 +39,7 @@ pub fn facing_forces<const D: usize>(
         return Ok(forces);
     }
     let elements = &world.walls.elements;
-    let shared = SharedElements::of(world)?;
-    let own = |s: usize| shared.as_ref().is_none_or(|shared| shared.own(s));
+    let owned = world.owned_elements()?;
     // Of the pressure of one of the two, which one rank knows.
     let part = |facing: &Facing, pressure: f64| {
         let ([s, t], [to_t, to_s]) = (facing.pair, facing.parts);
@@ -57,7 +56,9 @@ pub fn facing_forces<const D: usize>(
         both
     };
     let parts = |facing: &Facing| {
-        let known = facing.pair.map(|e| own(e).then_some(elements.pressure[e]));
+        let known = facing
+            .pair
+            .map(|e| owned.has(e).then_some(elements.pressure[e]));
         known.map(|p| p.map(|p| part(facing, p)))
     };
     for (wall, force) in forces.iter_mut().enumerate() {

@@ -4,14 +4,14 @@ use crate::{CHUNK, Clusters};
 
 /// Which particles a sweep is to sum for; what it has summed for the others stays.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Half {
+pub struct SweepHalf {
     /// Whether each particle, or one of its cluster, is sent to others.
     edge: Vec<bool>,
     /// Whether the others are asked for.
     inner: bool,
 }
 
-impl Half {
+impl SweepHalf {
     /// The first half: clusters with a particle that is `sent`. The `lists` are those of the sweep.
     pub fn first(lists: &Clusters, sent: &[bool]) -> Self {
         let mut edge = vec![false; sent.len()];
@@ -22,12 +22,12 @@ impl Half {
                 edge[own].fill(some);
             }
         }
-        Half { edge, inner: false }
+        SweepHalf { edge, inner: false }
     }
 
     /// The other half.
     pub fn second(self) -> Self {
-        Half {
+        SweepHalf {
             inner: true,
             ..self
         }
@@ -47,6 +47,6 @@ impl Half {
 
 /// Whether a particle is asked for: all are where nobody halves.
 #[inline]
-pub fn is_wanted(half: Option<&Half>, particle: usize) -> bool {
+pub fn is_wanted(half: Option<&SweepHalf>, particle: usize) -> bool {
     half.is_none_or(|half| half.wants(particle))
 }

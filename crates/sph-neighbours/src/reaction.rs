@@ -3,7 +3,7 @@
 use sph_core::{StepError, Vect, fields};
 
 use crate::facing::facing_forces;
-use crate::{Interaction, SharedElements, WallForce, WallPart, World, cross, wall_parts};
+use crate::{Interaction, WallForce, WallPart, World, cross, wall_parts};
 
 /// Forces on the wanted ones of all walls, in the order of their names, at the state of the last sweep; NaN on the others.
 ///
@@ -52,8 +52,8 @@ pub fn reactions<const D: usize>(
         elements.any(|s| wanted[walls.elements.wall[*s as usize] as usize])
             || (points.iter()).any(|v| wanted[walls.points.wall[*v as usize] as usize])
     };
-    let own = world.team.as_ref().map(|team| team.own(&world.free));
-    let sees = |i: usize| own.as_ref().is_none_or(|own| own[i]) && sees(i);
+    let owned = world.owned();
+    let sees = |i: usize| owned.has(i) && sees(i);
     let mut parts: Vec<Vec<[f64; 6]>> = vec![Vec::new(); wanted.len()];
     for part in wall_parts(world, terms, sees)? {
         let mut both = [0.0; 6];
@@ -105,9 +105,8 @@ fn beside<const D: usize>(world: &World<D>, x: &Vect<D>, part: &WallPart<D>) -> 
 /// Force and moment of the pressure on the elements of a wall.
 fn pressure_on<const D: usize>(world: &World<D>, wall: u32) -> Result<[f64; 6], StepError> {
     let elements = &world.walls.elements;
-    let shared = SharedElements::of(world)?;
+    let owned = world.owned_elements()?;
     let round = world.walls.round(wall);
-    let counts = |s: usize| shared.as_ref().is_none_or(|shared| shared.own(s));
     let part = |s: usize| {
         let force = elements.normal[s] * (-elements.pressure[s] * elements.measure[s]);
         let mut both = [0.0; 6];
@@ -115,6 +114,6 @@ fn pressure_on<const D: usize>(world: &World<D>, wall: u32) -> Result<[f64; 6], 
         both[3..].copy_from_slice(&cross(&(elements.centre[s] + round), &force));
         both
     };
-    let on = |s: usize| elements.wall[s] == wall && counts(s);
+    let on = |s: usize| elements.wall[s] == wall && owned.has(s);
     world.sums_of(elements.centre.len(), &|s| on(s).then(|| part(s)))
 }

@@ -22,9 +22,8 @@ impl<const D: usize> World<D> {
         &self,
         each: impl Fn(usize) -> [f64; N] + Sync,
     ) -> Result<[f64; N], StepError> {
-        let own = self.team.as_ref().map(|team| team.own(&self.free));
-        let counts = |i: usize| own.as_ref().is_none_or(|own| own[i]);
-        self.sums_of(self.free.len(), &|i| counts(i).then(|| each(i)))
+        let owned = self.owned();
+        self.sums_of(self.free.len(), &|i| owned.has(i).then(|| each(i)))
     }
 
     /// The same of `count` values, some of which may be missing; of several ranks each has some. Each is asked for twice.
@@ -42,9 +41,7 @@ impl<const D: usize> World<D> {
             sizes.fold([0.0; N], larger)
         };
         let mut largest = joined(count, BATCH, [0.0; N], &largest_of, larger);
-        if let Some(team) = &self.team {
-            team.largest(&mut largest)?;
-        }
+        self.largest(&mut largest)?;
         // Powers of two: scaling rounds nothing.
         let shifts = largest.map(|m| BITS - exponent(m));
         let powers = shifts.map(powers);

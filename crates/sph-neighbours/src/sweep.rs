@@ -144,7 +144,7 @@ where
     let sweep = Sweep::new(world, kernel)?;
     let start = Rates::of(world.gravity + world.driving);
     let shelf = || world.lists.shelf.lend::<Room<D>>();
-    let half = world.lists.half.as_ref();
+    let half = world.lists.sweep_half.as_ref();
     let work = |room: &mut Room<D>, block: usize, particles: usize| {
         let (buffers, rates) = room;
         rates.clear();

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sph_core::{AnyField, Field, FieldError, Lent, Scalar, Shelf, Store, Vect, fields};
 use sph_kernels::Sampler;
 
-use crate::{CellGrid, Clusters, Domain, Extent, Half, Hidden, NeighbourList, Team, WallSet};
+use crate::{CellGrid, Clusters, Domain, Extent, Hidden, NeighbourList, SweepHalf, Team, WallSet};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
 #[derive(Default)]
@@ -31,7 +31,7 @@ pub struct Lists<const D: usize> {
     /// Pairs that walls hide from each other; of nobody until the walls say so at the present positions.
     pub hidden: Hidden,
     /// Which particles a sweep is asked for, where it runs in halves.
-    pub half: Option<Half>,
+    pub sweep_half: Option<SweepHalf>,
     /// Builds so far.
     pub builds: u64,
     /// Time of the last build, s: the walls were where they are at that time.
@@ -249,10 +249,10 @@ impl<const D: usize> World<D> {
 
     fn build_lists_on(&mut self, shelf: &Shelf, positions: &[Vect<D>], points: &[Vect<D>]) {
         let reach = self.reach();
+        let idle = self.idle();
         let grid = self.grid(positions, shelf);
         let lists = &mut self.lists;
         let domain = &self.domain;
-        let idle = self.team.as_ref().and_then(|team| team.idle(&self.free));
         let idle = idle.as_deref().filter(|idle| idle.len() == positions.len());
         lists
             .free

@@ -1,13 +1,13 @@
-//! What is in front of faces, where the particles are divided between ranks: all know all of it, and let the same pass.
+//! What is in front of faces, wherever the particles are at home: all know all of it, and let the same pass.
 
 use sph_core::{StepError, Vect};
-use sph_neighbours::{SharedElements, World};
+use sph_neighbours::{Words, World};
 
 use crate::Inside;
 use crate::faces::Faces;
 use crate::looked::Looked;
 
-impl<const D: usize> Looked<D> {
+impl<const D: usize> Words for Looked<D> {
     fn write(&self, to: &mut Vec<u64>) {
         let inside = &self.inside;
         to.push(u64::from(inside.wet));
@@ -52,33 +52,18 @@ impl<const D: usize> Looked<D> {
 }
 
 impl<const D: usize> Faces<D> {
-    /// The means of all ranks. Each [element](SharedElements) is looked at on one.
+    /// The means of all [elements](sph_neighbours::OwnedElements), each looked at where it counts.
     pub(crate) fn agreed(
         &self,
         world: &World<D>,
         looked: Vec<Looked<D>>,
     ) -> Result<Vec<Looked<D>>, StepError> {
-        let (Some(team), Some(shared)) = (&world.team, SharedElements::of(world)?) else {
-            return Ok(looked);
-        };
+        let owned = world.owned_elements()?;
         let looks = |k: usize| {
-            shared.own_around(&self.places[k].centre, world.lists.of_points.candidates(k))
+            let candidates = || world.lists.of_points.candidates(k);
+            owned.has_around(&self.places[k].centre, candidates)
         };
-        let each = 9 + 3 * D + self.whole.len();
-        let mut words = Vec::new();
-        for (k, seen) in looked.iter().enumerate().filter(|(k, _)| looks(*k)) {
-            words.push(k as u64);
-            seen.write(&mut words);
-        }
-        let words = team.gather(&words)?;
-        let elements = 0..self.elements.len();
-        let mut all: Vec<Looked<D>> = elements.map(|k| self.nothing(k)).collect();
-        for message in words.chunks_exact(1 + each) {
-            if let Some(seen) = all.get_mut(message[0] as usize) {
-                *seen = Looked::read(&message[1..]);
-            }
-        }
-        Ok(all)
+        world.agreed(looked, looks, |k| self.nothing(k))
     }
 
     /// What is seen where no particle is near.

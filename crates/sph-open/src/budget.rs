@@ -140,7 +140,7 @@ impl<const D: usize> Faces<D> {
     }
 
     fn difference(&self, f: usize) -> Option<String> {
-        // A rank that has not looked at the faces knows none.
+        // Whoever has not looked at the faces knows none.
         let (name, volumes) = (&self.faces[f].name, self.memory.volumes.get(f)?);
         let first = volumes.dry.map(|time| format!("first at {time:.3} s"));
         if self.asked.get(f)?.is_none() {

@@ -2,7 +2,7 @@
 
 use sph_contribution::Newborn;
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::World;
+use sph_neighbours::{Words, World};
 
 use crate::faces::{CLOSED, Faces, LATE};
 
@@ -43,7 +43,7 @@ impl<const D: usize> Behind<D> {
 pub(crate) struct Gone<const D: usize> {
     /// Particles here, each with the number of its face.
     pub here: Vec<(u32, usize)>,
-    /// Where all stood, those of other ranks among them, in the order of identities.
+    /// Where all stood, those who are at home elsewhere among them, in the order of identities.
     pub places: Vec<Vect<D>>,
 }
 
@@ -57,9 +57,7 @@ struct Leaver<const D: usize> {
     place: Vect<D>,
 }
 
-impl<const D: usize> Leaver<D> {
-    const WORDS: usize = 6 + D;
-
+impl<const D: usize> Words for Leaver<D> {
     fn write(&self, to: &mut Vec<u64>) {
         let [first, second] = self.ports.map(|port| port as u64);
         to.extend([self.identity, first, second, self.phase as u64]);
@@ -80,7 +78,7 @@ impl<const D: usize> Leaver<D> {
     }
 }
 
-/// The leavers of all ranks, in the order of identities: copies of others' particles are counted where they are at home.
+/// All leavers, in the order of identities: copies of others' particles are counted where they are at home.
 fn of_all<const D: usize>(
     world: &World<D>,
     behind: &[Behind<D>],
@@ -89,8 +87,8 @@ fn of_all<const D: usize>(
         world.free.get(fields::POSITION)?,
         world.free.get(fields::IDENTITY)?,
     );
-    let own = world.team.as_ref().map(|team| team.own(&world.free));
-    let counts = |b: &&Behind<D>| own.as_ref().is_none_or(|own| own[b.particle as usize]);
+    let owned = world.owned();
+    let counts = |b: &&Behind<D>| owned.has(b.particle as usize);
     let leaver = |b: &Behind<D>| Leaver {
         identity: u64::from(identity[b.particle as usize]),
         ports: b.ports.map(|(port, _)| port),
@@ -99,16 +97,7 @@ fn of_all<const D: usize>(
         mass: b.mass,
         place: position[b.particle as usize],
     };
-    let mut all: Vec<Leaver<D>> = behind.iter().filter(counts).map(leaver).collect();
-    if let Some(team) = &world.team {
-        let mut words = Vec::new();
-        all.iter().for_each(|leaver| leaver.write(&mut words));
-        let words = team.gather(&words)?;
-        all = words
-            .chunks_exact(Leaver::<D>::WORDS)
-            .map(Leaver::read)
-            .collect();
-    }
+    let mut all = world.of_all(behind.iter().filter(counts).map(leaver).collect())?;
     all.sort_unstable_by_key(|leaver| leaver.identity);
     Ok(all)
 }
@@ -151,9 +140,7 @@ impl<const D: usize> Faces<D> {
         let late = (0..self.elements.len()).filter_map(|k| self.ripeness(k));
         let depths = behind.iter().map(|b| b.depth / self.spacing);
         let mut late = [late.chain(depths).fold(0.0, f64::max)];
-        if let Some(team) = &world.team {
-            team.largest(&mut late)?;
-        }
+        world.largest(&mut late)?;
         self.due = late[0] >= LATE;
         if !self.due {
             return Ok(Gone::default());

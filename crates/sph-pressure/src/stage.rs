@@ -1,11 +1,9 @@
 //! The stage that solves for the pressure.
 
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
-use sph_implicit::{
-    Assembly, Automatic, DividedMatrix, Entries, LinearSolver, LowRank, Matrix, Operator,
-};
+use sph_implicit::{Assembly, Automatic, Entries, LinearSolver, LowRank, Matrix, ParticleMatrix};
 use sph_multiphase::{Acting, FREE_SURFACE, Place};
-use sph_neighbours::{Interaction, SharedRows, World, interactions, lattice_sum};
+use sph_neighbours::{Interaction, World, interactions, lattice_sum};
 use sph_state::{BoundState, PressureStage};
 
 use crate::bodies::give_way;
@@ -125,10 +123,7 @@ impl<const D: usize> SolvePressure<D> {
     fn solve(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         self.diverge(world)?;
         self.fill_parts(world)?;
-        let shared = SharedRows::of(world);
-        if let Some(shared) = &shared {
-            shared.team.begin_solve()?;
-        }
+        let space = world.space()?;
         let Room {
             parts,
             assembly,
@@ -136,7 +131,7 @@ impl<const D: usize> SolvePressure<D> {
             ..
         } = &mut self.room;
         let system = Couplings {
-            own: shared.as_ref().map(|shared| &shared.own[..]),
+            owned: space.owned(),
             volume: world.free.get(fields::VOLUME)?,
             density: world.free.get(fields::DENSITY)?,
             gamma: world.free.get(fields::RENORMALISATION).ok(),
@@ -154,21 +149,19 @@ impl<const D: usize> SolvePressure<D> {
         let values = std::mem::take(&mut assembly.values);
         let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
         let sources = &mut assembly.sources;
-        let divided = shared.map(|shared| DividedMatrix::new(&matrix, shared, None));
-        let base = divided.as_ref().map_or(&matrix as &dyn Operator<1>, |d| d);
+        let base = ParticleMatrix::new(&matrix, &space, None);
         let solved = match world.walls.bodies.is_empty() {
-            true => self.solver.solve(base, sources, x),
+            true => self.solver.solve(&base, sources, x),
             false => {
-                let vectors = give_way(world, base, sources, x)?;
+                let vectors = give_way(world, &base, sources, x)?;
                 let operator = LowRank {
-                    base,
+                    base: &base,
                     vectors: &vectors,
                     sign: 1.0,
                 };
                 self.solver.solve(&operator, sources, x)
             }
         };
-        drop(divided);
         if let Entries::Scalar(values) = matrix.entries {
             assembly.values = values;
         }

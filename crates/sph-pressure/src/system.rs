@@ -2,12 +2,14 @@
 
 use sph_core::{Shelf, Vect};
 use sph_implicit::Rows;
-use sph_neighbours::{Body, Cluster, Lane, LanePair, MOST, PairNumbers, Particles, dot, splat};
+use sph_neighbours::{
+    Body, Cluster, Lane, LanePair, MOST, Owned, PairNumbers, Particles, dot, splat,
+};
 
 /// What couples the pressures of two particles.
 pub(crate) struct Couplings<'a, const D: usize> {
-    /// Which rows are one's own, where some are not.
-    pub own: Option<&'a [bool]>,
+    /// The rows that count.
+    pub owned: &'a Owned,
     /// V, m^d.
     pub volume: &'a [f64],
     /// ρ, kg/m³.
@@ -50,7 +52,7 @@ struct Room {
 impl<const D: usize> Couplings<'_, D> {
     /// Whether the row of a particle is not with another owner.
     pub fn is_own(&self, i: usize) -> bool {
-        self.own.is_none_or(|own| own[i])
+        self.owned.has(i)
     }
 
     /// Adds a row that holds a pressure at 0: the owner has the right one.

@@ -111,9 +111,8 @@ impl Exchange {
         let fair = |i: usize| (size(i) - 1.0).abs() <= self.limit;
         let mut all = 0..mass.len();
         // What copies of others' particles have, their owners know.
-        let own = world.team.as_ref().map(|team| team.own(&world.free));
-        let counts = |i: usize| own.as_ref().is_none_or(|own| own[i]);
-        let Some(i) = all.find(|&i| number[i] == phase.water && counts(i) && !fair(i)) else {
+        let owned = world.owned();
+        let Some(i) = all.find(|&i| number[i] == phase.water && owned.has(i) && !fair(i)) else {
             return Ok(());
         };
         let position = world.free.get(fields::POSITION)?[i];

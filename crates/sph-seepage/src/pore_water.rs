@@ -4,9 +4,9 @@ use nalgebra::SMatrix;
 use sph_contribution::{StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
 use sph_implicit::{
-    ConjugateGradient, DividedMatrix, Entries, LinearSolver, Matrix, Pattern, Values,
+    ConjugateGradient, Entries, LinearSolver, Matrix, ParticleMatrix, Pattern, Values,
 };
-use sph_neighbours::{Around, Neighbourhood, SharedRows, World, trusted_inverse, walk_some};
+use sph_neighbours::{Around, Neighbourhood, World, trusted_inverse, walk_some};
 
 use crate::contract::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
 use crate::exchange::Exchange;
@@ -255,16 +255,12 @@ impl PoreWater {
         let phase = world.free.get(fields::PHASE)?;
         let present = world.free.get(fields::PRESSURE)?;
         let soil = |i: u32| phase[i as usize] == self.phase.soil;
-        let mut rank = vec![u32::MAX; phase.len()];
+        let mut row = vec![u32::MAX; phase.len()];
         let grounds = net.particles.iter().filter(|i| soil(**i));
         for (k, &i) in grounds.enumerate() {
-            rank[i as usize] = k as u32;
+            row[i as usize] = k as u32;
         }
-        let shared = SharedRows::of(world);
-        if let Some(shared) = &shared {
-            shared.team.begin_solve()?;
-        }
-        let own = |i: u32| shared.as_ref().is_none_or(|s| s.own[i as usize]);
+        let space = world.space()?;
         let (mut pattern, mut values) = (Pattern::default(), Values::default());
         let mut places = Vec::new();
         pattern.starts.push(0);
@@ -282,8 +278,8 @@ impl PoreWater {
                 source += link.conductance * link.drop;
                 match soil(link.to) {
                     // Rows of copies are with their owners.
-                    true if own(particle) => {
-                        pattern.columns.push(rank[link.to as usize]);
+                    true if space.owned().has(particle as usize) => {
+                        pattern.columns.push(row[link.to as usize]);
                         values.others.push(-link.conductance);
                     }
                     true => {}
@@ -297,19 +293,14 @@ impl PoreWater {
             x.push(Vect::<1>::from([start]));
         }
         let matrix = Matrix::new(pattern, Entries::Scalar(values));
-        let solved = match shared {
-            None => self.solver.solve(&matrix, &right, &mut x),
-            Some(shared) => {
-                let divided = DividedMatrix::new(&matrix, shared, Some(&places));
-                self.solver.solve(&divided, &right, &mut x)
-            }
-        };
+        let system = ParticleMatrix::new(&matrix, &space, Some(&places));
+        let solved = self.solver.solve(&system, &right, &mut x);
         solved.map_err(|e| StepError::Stage {
             stage: "seepage".into(),
             reason: e.to_string(),
         })?;
         let found = net.particles.iter().map(|&i| match soil(i) {
-            true => x[rank[i as usize] as usize][0],
+            true => x[row[i as usize] as usize][0],
             false => present[i as usize],
         });
         let found: Vec<f64> = found.collect();

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use sph_boundary::Wall;
 use sph_contribution::{ForceLimit, MotionLimit, OwnColumn, Part, PluginInForce, Setting};
 use sph_core::{Born, Role, Store, fields};
 use sph_integrators::Integrator;
@@ -11,7 +12,7 @@ use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_solver::setup::{Choices, Given, Planned, Planning, joined, shown};
-use sph_solver::step::{Nursery, Outlets, SharedWall, Swing, accounts};
+use sph_solver::step::{Nursery, Outlets, Swing, accounts};
 use sph_solver::{Flow, SolverError};
 use sph_state::{Laws, Lift, Lifted, Reference};
 
@@ -78,7 +79,7 @@ pub fn assemble_share<const D: usize>(
     let (walls, placed, mut warnings) = (room.walls, room.placed, room.warnings);
     let (leaks, room) = (room.leaks, room.world);
     let filled = (&room, placed.positions.as_slice(), &laws, &lift);
-    let faces = open_faces::check(scene, &opened, &walls, filled)?;
+    let faces = open_faces::check(scene, &opened, walls.as_deref(), filled)?;
     warnings.extend(speeds.into_iter().chain(faces));
     let mut ground = Ground::of(&choices.rheologies);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
@@ -98,7 +99,7 @@ pub fn assemble_share<const D: usize>(
         laws: &laws,
         viscosities: &constant,
         soils: &ground.soil,
-        walls: walls.as_ref(),
+        walls: walls.as_deref(),
         shown: &shown,
     };
     let planned = about.plan(&world, &mut parts)?;
@@ -206,7 +207,7 @@ struct About<'a, const D: usize> {
     laws: &'a Laws,
     viscosities: &'a [Option<f64>],
     soils: &'a [bool],
-    walls: Option<&'a SharedWall<D>>,
+    walls: Option<&'a dyn Wall<D>>,
     shown: &'a [String],
 }
 

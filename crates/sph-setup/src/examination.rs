@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use sph_core::{Role, StepLimit, System, fields};
+use sph_core::{Declares, Role, StepLimit, System, fields};
 use sph_scene::Scene;
 use sph_solver::{Flow, PluginInForce, SolverError};
 

@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 use sph_core::fields;
 use sph_neighbours::CellGrid;
 use sph_scene::{OFF_LATTICE, Scene};
-use sph_solver::step::lock;
 use sph_solver::{Flow, SolverError};
 
 /// Deviation from one spacing, in spacings, from which a contact is remarked upon.
@@ -67,7 +66,7 @@ pub fn remarks<const D: usize>(
     let names: Vec<&String> = scene.body.keys().collect();
     let mut contacts: BTreeMap<[u32; 2], Contact> = BTreeMap::new();
     let mut at_walls: BTreeMap<(u32, String), Contact> = BTreeMap::new();
-    let walls = flow.walls.as_ref().map(lock);
+    let walls = flow.walls.as_deref();
     // Where the first row belongs, in spacings from the wall.
     let first = walls.as_ref().map_or(1.0, |w| 1.0 - w.lattice_offset());
     // A single body touches nobody, and lists need not be there yet.

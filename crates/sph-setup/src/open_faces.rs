@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use sph_boundary::Condition;
+use sph_boundary::{Condition, Wall};
 use sph_contribution::Part;
 use sph_core::{SceneProblem, Shape};
 use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenSetting, open};
 use sph_scene::Scene;
 use sph_solver::setup::Choices;
-use sph_solver::step::{SharedWall, lock};
 use sph_solver::{SolverError, defaults};
 use sph_state::Laws;
 
@@ -97,7 +96,7 @@ fn path(scene: &Scene, wall: &str, key: &str) -> String {
 pub(crate) fn check<const D: usize>(
     scene: &Scene,
     opened: &Option<OpenBoundaries<D>>,
-    walls: &Option<SharedWall<D>>,
+    walls: Option<&dyn Wall<D>>,
     filled: Filled<'_, D>,
 ) -> Result<Vec<String>, SolverError> {
     let Some(opened) = opened else {
@@ -112,7 +111,6 @@ pub(crate) fn check<const D: usize>(
     }
     let mut blocked = Vec::<SceneProblem>::new();
     if let Some(walls) = walls {
-        let walls = lock(walls);
         for (name, place) in opened.in_front(ROOM * scene.numerics.spacing) {
             let path = path(scene, &name, "");
             if !walls.contains(&place) && blocked.iter().all(|p| p.path != path) {
@@ -129,7 +127,7 @@ pub(crate) fn check<const D: usize>(
         return Err(SolverError::Scene(blocked));
     }
     let mut all = remarks(scene, opened);
-    all.extend(tension::lift(scene, opened, walls.as_ref(), filled));
+    all.extend(tension::lift(scene, opened, walls, filled));
     Ok(all)
 }
 

@@ -1,7 +1,7 @@
 //! What a scene would send if it were split over several machines.
 
 use serde::Serialize;
-use sph_core::{System, fields};
+use sph_core::{Declares, System, fields};
 use sph_decomposition::{Halo, bisect, exchanges};
 use sph_scene::Scene;
 use sph_solver::step::costs;

@@ -5,7 +5,6 @@ use sph_boundary::Wall;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{CHUNK, Domain, NOBODY, Row, Scratch, World};
 use sph_scene::Scene;
-use sph_solver::step::{SharedWall, lock};
 
 use crate::relaxation::Relaxation;
 use crate::shapes::Drawn;
@@ -33,7 +32,7 @@ pub fn relax<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,
     world: &mut World<D>,
-    walls: Option<&SharedWall<D>>,
+    walls: Option<&mut dyn Wall<D>>,
 ) -> Result<Option<Relaxation>, StepError> {
     let (Some(settings), Some(walls)) = (scene.numerics.relax, walls) else {
         return Ok(None);
@@ -42,9 +41,8 @@ pub fn relax<const D: usize>(
     let domain = world.domain.clone();
     let surface =
         |x: &Vect<D>, walls: &dyn Wall<D>| near_surface(drawn, &domain, x, walls, support);
-    let mut walls = lock(walls);
     let (most, tolerance) = (settings.steps as usize, settings.tolerance);
-    settle(world, &mut **walls, &surface, most, tolerance).map(Some)
+    settle(world, walls, &surface, most, tolerance).map(Some)
 }
 
 /// Whether air is within a support: a place of the fluid's side that belongs to no body.

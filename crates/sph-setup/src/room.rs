@@ -1,15 +1,12 @@
 //! Box, kernel, walls and places of a scene: the world before it has columns.
 
-use std::sync::{Arc, Mutex};
-
-use sph_boundary::WallEntry;
+use sph_boundary::{Wall, WallEntry};
 use sph_contribution::Plugins;
 use sph_core::Store;
 use sph_core::plausible::Quantity;
 use sph_neighbours::{WallSet, World};
 use sph_scene::Scene;
 use sph_solver::setup::Choices;
-use sph_solver::step::SharedWall;
 use sph_solver::{SolverError, defaults};
 
 use crate::domain::{check_periods, domain_of};
@@ -24,7 +21,7 @@ pub(crate) struct Room<const D: usize> {
     /// Without columns.
     pub world: World<D>,
     /// The walls, if there are any.
-    pub walls: Option<SharedWall<D>>,
+    pub walls: Option<Box<dyn Wall<D>>>,
     /// Places and bodies of the particles.
     pub placed: Placed<D>,
     /// Walls behind which fluid can get.
@@ -86,7 +83,7 @@ impl<const D: usize> Room<D> {
         Ok(Room {
             leaks,
             world,
-            walls: choices.walls.take().map(|w| Arc::new(Mutex::new(w))),
+            walls: choices.walls.take(),
             placed,
             warnings,
         })

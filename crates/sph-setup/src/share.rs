@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use sph_boundary::Wall;
 use sph_core::StepError;
 use sph_decomposition::{PartError, Transport};
 use sph_neighbours::WallSet;
-use sph_solver::step::SharedWall;
 use sph_solver::{Flow, SolverError};
 
 /// How much of a flow a process begins with.
@@ -21,7 +21,7 @@ pub enum Share<const D: usize> {
 }
 
 /// Walls that stand already: the plugin, and what pair sums know of them.
-pub type Standing<const D: usize> = (SharedWall<D>, WallSet<D>);
+pub type Standing<const D: usize> = (Box<dyn Wall<D>>, WallSet<D>);
 
 /// Refuses what cannot be divided between ranks.
 pub fn refuse_the_indivisible<const D: usize>(

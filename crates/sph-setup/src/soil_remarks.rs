@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use sph_core::{Vect, fields};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
-use sph_solver::step::lock;
 use sph_solver::{Flow, SolverError};
 
 /// Spacings per grain above which a continuum of particles finer than its grains is remarked upon.
@@ -141,7 +140,6 @@ fn hanging<const D: usize>(
         return Ok(None);
     };
     let world = &flow.world;
-    let walls = lock(walls);
     let up = -world.gravity.normalize();
     let phase = Phases::of(flow)?;
     let position = world.free.get(fields::POSITION)?;

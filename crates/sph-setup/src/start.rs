@@ -49,7 +49,8 @@ pub(crate) fn start<const D: usize>(
         Share::Whole => {
             let world = &mut flow.world;
             world.rebuild_lists()?;
-            relax(given.scene, given.drawn, world, flow.walls.as_ref())?
+            let walls = flow.walls.as_deref_mut().map(|walls| walls as _);
+            relax(given.scene, given.drawn, world, walls)?
         }
         Share::Part(ranks) => {
             refuse_the_indivisible(flow, ranks.ranks())?;
@@ -122,8 +123,8 @@ fn give_state<const D: usize>(
         };
         fill(world, column, name)?;
     }
-    if let Some(walls) = &flow.walls {
-        sph_solver::step::lock(walls).geometry(world)?;
+    if let Some(walls) = &mut flow.walls {
+        walls.geometry(world)?;
     }
     Ok(given.formulation.rebase(world)?)
 }

@@ -2,6 +2,7 @@
 
 use sph_core::{Access, Declares, Field, Role, Scalar, Stage, StepError, System, fields};
 use sph_neighbours::World;
+use sph_solver::step::Work;
 use sph_solver::{Flow, Snapshot};
 
 use crate::dimensions::in_plane;
@@ -84,7 +85,7 @@ impl<const D: usize> Stage<World<D>> for Counting {
 #[test]
 fn a_state_column_that_the_solver_does_not_know_is_rolled_back_and_not_advanced_twice() {
     let mut flow = in_plane(PERIODIC);
-    flow.stages.push(Box::new(Counting));
+    flow.stages.push(Work::Stage(Box::new(Counting)));
     flow.ask_all();
     flow.reset_timings();
     flow.evaluate().unwrap();

@@ -4,11 +4,11 @@
 //! A face whose velocity into the fluid falls by Δu sends off a wave of −ρcΔu. Particles carry no tension: a full box
 //! without background pressure is torn apart, and what is torn off goes its own way.
 
+use sph_boundary::Wall;
 use sph_core::Vect;
 use sph_neighbours::{CellGrid, World};
 use sph_open::OpenBoundaries;
 use sph_scene::Scene;
-use sph_solver::step::{SharedWall, lock};
 use sph_state::{Laws, Lift};
 
 /// Lift over ρcΔu: half as much again for what faces and walls throw back.
@@ -26,7 +26,7 @@ pub(crate) type Filled<'a, const D: usize> = (&'a World<D>, &'a [Vect<D>], &'a L
 pub(crate) fn lift<const D: usize>(
     scene: &Scene,
     opened: &OpenBoundaries<D>,
-    walls: Option<&SharedWall<D>>,
+    walls: Option<&dyn Wall<D>>,
     (room, positions, laws, lift): Filled<'_, D>,
 ) -> Option<String> {
     let walls = walls?;
@@ -84,8 +84,7 @@ pub(crate) fn lift<const D: usize>(
 }
 
 /// Whether every place a spacing beside a particle has another particle, or is behind a wall.
-fn is_full<const D: usize>(room: &World<D>, walls: &SharedWall<D>, positions: &[Vect<D>]) -> bool {
-    let walls = lock(walls);
+fn is_full<const D: usize>(room: &World<D>, walls: &dyn Wall<D>, positions: &[Vect<D>]) -> bool {
     let reach = (1.0 + NEAR) * room.spacing;
     let grid = CellGrid::new(positions, reach, &room.domain);
     positions.iter().all(|x| {

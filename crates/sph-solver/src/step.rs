@@ -34,5 +34,5 @@ pub use hooks::Hooked;
 pub use nursery::Nursery;
 pub use outlets::{Left, Outlets};
 pub use snapshot::Snapshot;
-pub use stages::{SharedWall, lock};
+pub use stages::Work;
 pub use swing::{Given, Swing};

@@ -2,7 +2,9 @@
 
 use sph_core::{Shelf, Vect};
 use sph_implicit::Rows;
-use sph_neighbours::{Body, Cluster, Lane, LanePair, MOST, PairNumbers, Particles, dot, splat};
+use sph_neighbours::{
+    Body, Cluster, Lane, LanePair, MOST, Owned, PairNumbers, Particles, dot, splat,
+};
 
 /// What a particle is to the problem.
 #[derive(Clone, Copy, PartialEq)]
@@ -44,8 +46,8 @@ impl Part {
 
 /// What couples the pressures.
 pub(crate) struct Couplings<'a, const D: usize> {
-    /// Which rows are one's own, where some are not.
-    pub own: Option<&'a [bool]>,
+    /// The rows that count.
+    pub owned: &'a Owned,
     /// What every particle is.
     pub parts: &'a [Part],
     /// Of every particle, m^d.
@@ -67,7 +69,7 @@ struct Room {
 impl<const D: usize> Couplings<'_, D> {
     /// Whether a particle has a pressure that is solved for, in a row that is not with another owner.
     pub fn is_solved(&self, i: usize) -> bool {
-        self.parts[i].inside().is_some() && self.own.is_none_or(|own| own[i])
+        self.parts[i].inside().is_some() && self.owned.has(i)
     }
 
     /// Adds the row of a pressure that is known.

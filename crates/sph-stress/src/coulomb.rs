@@ -157,7 +157,7 @@ fn felt<const D: usize>(
     let (elements, contacts) = (&world.walls.elements, &world.walls.contacts);
     let position = world.free.get(fields::POSITION)?;
     let mass = world.free.get(fields::MASS)?;
-    let own = world.team.as_ref().map(|team| team.own(&world.free));
+    let owned = world.owned();
     let rubs = |wall: usize| {
         let all = elements.coulomb.iter().zip(&elements.wall);
         all.into_iter()
@@ -172,7 +172,7 @@ fn felt<const D: usize>(
             };
             let rubbed = contacts.of(i).iter().filter(rubbed);
             let gradient: f64 = rubbed.map(|c| c.gradient.norm()).sum();
-            if gradient == 0.0 || own.as_ref().is_some_and(|own| !own[i]) {
+            if gradient == 0.0 || !owned.has(i) {
                 return None;
             }
             let force = -pull.change * (mass[i] * gradient / (pull.gradient * dt));

@@ -41,10 +41,7 @@ impl<const D: usize> ElasticMotion<D> {
     /// # Errors
     /// As [`apply`](Self::apply).
     pub fn apply_within(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
-        self.gradient.run(world)?;
-        if let Some(team) = world.team.clone() {
-            team.tell(&mut world.free, &self.gradient.access().writes)?;
-        }
+        world.run(&mut self.gradient)?;
         self.advance(world, dt)
     }
 

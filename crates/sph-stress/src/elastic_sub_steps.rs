@@ -149,17 +149,10 @@ impl<const D: usize> Kick<D> for ElasticSubSteps<D> {
     fn kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let count = self.count(dt);
         let part = dt / count as f64;
-        let team = world.team.clone();
         self.find_touched(world)?;
-        if let Some(team) = &team {
-            // Whether copies of others' particles have soil around, their owners know.
-            team.begin_solve()?;
-            let told = self.touched.iter().map(|t| f64::from(u8::from(*t)));
-            let mut told: Vec<Vect<1>> = told.map(|t| Vect::from([t])).collect();
-            team.mirror_scalars(&mut told);
-            let all = self.touched.iter_mut().zip(&told);
-            all.for_each(|(touched, told)| *touched = told[0] > 0.0);
-        }
+        let space = world.space()?;
+        // Whether copies of others' particles have soil around, their owners know.
+        space.refresh_marked(&mut self.touched, |touched| *touched, |_, touched| touched);
         let particles = world.free.len();
         self.acceleration.resize(particles, Vect::zeros());
         let more = 0.5 * (1.0 - 1.0 / count as f64);
@@ -172,9 +165,7 @@ impl<const D: usize> Kick<D> for ElasticSubSteps<D> {
             }
             let touched = &self.touched;
             accelerations_of(world, &*self.term, |i| touched[i], &mut self.acceleration)?;
-            if let Some(team) = &team {
-                team.mirror(&mut self.acceleration);
-            }
+            space.refresh(&mut self.acceleration);
             let mut velocity = world.free.take(fields::VELOCITY)?;
             let others = world.free.get(fields::ACCELERATION)?;
             let all = velocity.par_iter_mut().zip(&self.acceleration).zip(others);

@@ -3,10 +3,10 @@
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, parameters, plugin};
 use sph_implicit::{
-    Assembly, ConjugateGradient, DividedMatrix, Entries, Jacobi, LinearSolver, Matrix,
+    Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, ParticleMatrix,
     Preconditioner, Report,
 };
-use sph_neighbours::{SharedRows, World, walk_in_lanes};
+use sph_neighbours::{Space, World, walk_in_lanes};
 
 use crate::PorePressure;
 use crate::bed_system::{Couplings, Part, start};
@@ -140,7 +140,7 @@ struct Solve<const D: usize> {
     least_depth: f64,
     /// Time between solves over √(δr/|g|).
     interval: f64,
-    /// Whether the solver asks for the rows of all ranks.
+    /// Whether the solver asks for the rows of all particles.
     whole: bool,
     /// Of systems with one component.
     solver: Box<dyn LinearSolver<1>>,
@@ -212,13 +212,10 @@ impl<const D: usize> Solve<D> {
             pressure: x,
         } = room;
         self.parts(world, parts)?;
-        let shared = SharedRows::of(world);
-        if let Some(shared) = &shared {
-            shared.team.begin_solve()?;
-            self.copied(world, shared, parts)?;
-        }
+        let space = world.space()?;
+        self.refresh(world, &space, parts)?;
         let system = Couplings {
-            own: shared.as_ref().map(|shared| &shared.own[..]),
+            owned: space.owned(),
             parts,
             volume: world.free.get(fields::VOLUME)?,
             gravity: world.gravity,
@@ -240,13 +237,8 @@ impl<const D: usize> Solve<D> {
                 .map(|(p, part)| start(*p, part)),
         );
         let sources = &assembly.sources;
-        let solved = match shared {
-            None => self.solver.solve(&matrix, sources, x),
-            Some(shared) => {
-                let divided = DividedMatrix::new(&matrix, shared, None);
-                self.solver.solve(&divided, sources, x)
-            }
-        };
+        let system = ParticleMatrix::new(&matrix, &space, None);
+        let solved = self.solver.solve(&system, sources, x);
         pressure
             .iter_mut()
             .zip(&*x)
@@ -292,24 +284,16 @@ impl<const D: usize> Solve<D> {
     }
 
     /// Whether copies of others' particles are at the surface, their owners know.
-    fn copied(
+    fn refresh(
         &self,
         world: &World<D>,
-        shared: &SharedRows<D>,
+        space: &Space<D>,
         parts: &mut [Part],
     ) -> Result<(), StepError> {
         let (buoyant, top) = (self.densities(world)?, self.top(world));
         let surface = |part: &Part| matches!(part, Part::Surface(..));
-        let told = parts.iter().map(|p| f64::from(u8::from(surface(p))));
-        let mut told: Vec<Vect<1>> = told.map(|x| Vect::from([x])).collect();
-        shared.team.mirror_scalars(&mut told);
-        for (i, part) in parts
-            .iter_mut()
-            .enumerate()
-            .filter(|(i, _)| !shared.own[*i])
-        {
-            *part = Part::of(buoyant(i), told[i][0] > 0.0, top);
-        }
+        let of = |i: usize, surface: bool| Part::of(buoyant(i), surface, top);
+        space.refresh_marked(parts, surface, of);
         Ok(())
     }
 

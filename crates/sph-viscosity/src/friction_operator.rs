@@ -4,9 +4,9 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use sph_core::{Shelf, Vect};
 use sph_implicit::{
-    Assembly, Block, Diagonal, Entries, Entry, Halved, Matrix, Operator, Pattern, Rows, Values, dot,
+    Assembly, Block, Diagonal, Entries, Entry, Halved, Matrix, Operator, Pattern, Rows, Values,
 };
-use sph_neighbours::{CouplingsAt, Neighbourhood, SharedRows, Visitor, World};
+use sph_neighbours::{CouplingsAt, Neighbourhood, Owned, Space, Visitor};
 
 use crate::{BoundCoupling, CouplingRow};
 
@@ -59,8 +59,7 @@ pub struct FrictionOperator<'a, const D: usize> {
     rows: RowsOf<'a, D>,
     matrix: OnceLock<Matrix<D>>,
     matrices: &'a Mutex<Matrices<D>>,
-    /// Others with rows of the same system, and which rows are one's own.
-    shared: Option<SharedRows<D>>,
+    space: &'a Space<D>,
 }
 
 impl<'a, const D: usize> FrictionOperator<'a, D> {
@@ -69,15 +68,15 @@ impl<'a, const D: usize> FrictionOperator<'a, D> {
         coupling_bytes: usize,
         rows: RowsOf<'a, D>,
         matrices: &'a Mutex<Matrices<D>>,
-        world: &World<D>,
+        space: &'a Space<D>,
     ) -> Self {
         FrictionOperator {
-            shared: SharedRows::of(world),
             couplings,
             coupling_bytes,
             rows,
             matrix: OnceLock::new(),
             matrices,
+            space,
         }
     }
 
@@ -115,7 +114,7 @@ impl<'a, const D: usize> FrictionOperator<'a, D> {
             let mut writer = Writer {
                 own,
                 rows,
-                mine: self.shared.as_ref().map(|shared| &shared.own[..]),
+                owned: self.space.owned(),
                 particle: 0,
                 left_out: E::ZERO,
             };
@@ -140,11 +139,11 @@ impl<const D: usize> Drop for FrictionOperator<'_, D> {
     }
 }
 
-/// Writes rows of a matrix; what couples rows of different ranks stands on the diagonal alone.
+/// Writes rows of a matrix; what couples copies stands on the diagonal alone.
 struct Writer<'a, E, const D: usize> {
     own: &'a [E],
     rows: &'a mut Rows<E, D>,
-    mine: Option<&'a [bool]>,
+    owned: &'a Owned,
     particle: usize,
     left_out: E,
 }
@@ -158,8 +157,7 @@ impl<E: Entry<D>, const D: usize> Visitor<D> for Writer<'_, E, D> {
     #[inline(always)]
     fn pair(&mut self, neighbour: u32, [even, along]: [f64; 2], separation: &Vect<D>) {
         let entry = E::central(even, along, separation);
-        let own = |particle: usize| self.mine.is_none_or(|mine| mine[particle]);
-        let counts = own(self.particle) && own(neighbour as usize);
+        let counts = self.owned.has(self.particle) && self.owned.has(neighbour as usize);
         if !counts {
             self.left_out = self.left_out.plus(&entry);
         }
@@ -167,9 +165,9 @@ impl<E: Entry<D>, const D: usize> Visitor<D> for Writer<'_, E, D> {
     }
     #[inline(always)]
     fn end(&mut self, particle: usize) {
-        let own = match self.mine {
-            None => self.own[particle],
-            Some(_) => self.own[particle].plus(&self.left_out),
+        let own = match self.owned.all() {
+            true => self.own[particle],
+            false => self.own[particle].plus(&self.left_out),
         };
         self.rows.end(own, Vect::zeros());
     }
@@ -208,37 +206,27 @@ impl<const D: usize> Operator<D> for FrictionOperator<'_, D> {
                     .sums(x, y, |i, sum| own[i].apply(&x[i]) + sum);
             }
         }
-        if let Some(shared) = &self.shared {
-            shared.team.mirror(y);
-        }
+        self.space.refresh(y);
     }
 
     fn import(&self, x: &mut [Vect<D>]) {
-        if let Some(shared) = &self.shared {
-            shared.team.mirror(x);
-        }
+        self.space.refresh(x);
     }
 
     fn inner(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
-        match &self.shared {
-            None => dot(x, y),
-            Some(shared) => shared.inner(x, y),
-        }
+        self.space.inner(x, y)
     }
 
     fn all(&self, holds: bool) -> bool {
-        match &self.shared {
-            None => holds,
-            Some(shared) => shared.all(holds),
-        }
+        self.space.all(holds)
     }
 
     fn is_whole(&self) -> bool {
-        self.shared.is_none()
+        self.space.is_whole()
     }
 
     fn prepared<'a>(&'a self, shelf: &'a Shelf) -> Option<Halved<'a, D>> {
-        let whole = self.matrix.get().filter(|_| self.shared.is_none());
+        let whole = self.matrix.get().filter(|_| self.space.is_whole());
         whole.and_then(|matrix| matrix.prepared(shelf))
     }
 
@@ -255,10 +243,7 @@ impl<const D: usize> Operator<D> for FrictionOperator<'_, D> {
             RowsOf::Scalar(own, whole) => stiffness::<f64, D>(own, whole),
             RowsOf::Block(own, whole) => stiffness(own, whole),
         };
-        Some(match &self.shared {
-            None => here,
-            Some(shared) => shared.team.most(here),
-        })
+        Some(self.space.largest(here))
     }
 
     fn assembled(&self) -> Option<&Matrix<D>> {

@@ -4,7 +4,7 @@ use std::sync::Mutex;
 
 use sph_core::{StepError, Vect, fields};
 use sph_implicit::Block;
-use sph_neighbours::{Cluster, CouplingRows, Couplings, Keeper, MOST, Weak, World};
+use sph_neighbours::{Cluster, CouplingRows, Couplings, Keeper, MOST, Space, Weak, World};
 
 use crate::friction_operator::{FrictionEntry, FrictionOperator, Matrices, RowsOf};
 use crate::{BoundCoupling, Coupling, CouplingRow};
@@ -130,13 +130,14 @@ impl<const D: usize> FrictionSystem<D> {
         (own - Block::<D>::identity() * self.mass[particle]) / self.dt
     }
 
-    /// The system's left side, for a world that stands where it was filled.
+    /// The system's left side in the space of a solve, for a world that stands where it was filled.
     ///
     /// # Errors
     /// If the world has no positions.
     pub fn operator<'a>(
         &'a self,
         world: &'a World<D>,
+        space: &'a Space<D>,
     ) -> Result<FrictionOperator<'a, D>, StepError> {
         let rows = match self.mixes {
             false => RowsOf::Scalar(&self.scalar.own, &self.scalar.whole),
@@ -148,7 +149,7 @@ impl<const D: usize> FrictionSystem<D> {
             couplings.bytes(),
             rows,
             &self.matrices,
-            world,
+            space,
         ))
     }
 }

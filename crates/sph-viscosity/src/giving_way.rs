@@ -46,10 +46,10 @@ fn pushed<const D: usize>(
     rows: &[(usize, SMatrix<f64, D, 6>)],
     u: &[Vect<D>],
 ) -> Result<Vector6<f64>, StepError> {
-    let own = world.team.as_ref().map(|team| team.own(&world.free));
+    let owned = world.owned();
     let part = |k: usize| {
         let (i, b) = &rows[k];
-        let counts = own.as_ref().is_none_or(|own| own[*i]);
+        let counts = owned.has(*i);
         counts.then(|| <[f64; 6]>::from(b.transpose() * u[*i]))
     };
     Ok(world.sums_of(rows.len(), &part)?.into())
@@ -67,7 +67,7 @@ impl<const D: usize> GivingWay<D> {
         let position = world.free.get(fields::POSITION)?;
         let (walls, mut rows) = (&world.walls, Vec::new());
         let mut parts = Vec::new();
-        let own = world.team.as_ref().map(|team| team.own(&world.free));
+        let owned = world.owned();
         for (i, x) in position.iter().enumerate() {
             let (mut all, mut mine, mut normal) = (0.0, 0.0, Vect::<D>::zeros());
             for contact in walls.contacts.of(i) {
@@ -88,7 +88,7 @@ impl<const D: usize> GivingWay<D> {
             let j = SMatrix::<f64, D, 6>::from_rows(&lines);
             let b = along * system.of_walls(i) * along * j * (mine / all);
             rows.push((i, b));
-            if own.as_ref().is_none_or(|own| own[i]) {
+            if owned.has(i) {
                 let c: Matrix6<f64> = j.transpose() * b;
                 parts.push(<[f64; 36]>::try_from(c.as_slice()).unwrap_or([0.0; 36]));
             }

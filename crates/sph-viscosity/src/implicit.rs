@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use serde_json::Value as Json;
 use sph_contribution::{Report, Stages, StepHook, StepMoment, StepPhase};
-use sph_core::{Access, Stage, StepError, Vect, fields};
+use sph_core::{Access, StepError, Vect, fields};
 use sph_implicit::{LinearSolver, LowRank, Operator, TimeScheme};
 use sph_neighbours::World;
 
@@ -103,8 +103,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             let again = iterations > 0;
             if again {
                 for stage in &mut self.lagged.stages {
-                    stage.run(world)?;
-                    tell(&**stage, world)?;
+                    world.run(&mut **stage)?;
                 }
             }
             let mut velocity = std::mem::take(&mut self.velocity);
@@ -185,11 +184,9 @@ impl<const D: usize> ImplicitViscosity<D> {
         let mut right = std::mem::take(&mut system.right);
         let rows = right.iter_mut().zip(ahead).zip(&system.mass);
         rows.for_each(|((b, u), m)| *b += u * *m);
-        if let Some(team) = &world.team {
-            team.begin_solve()?;
-            team.mirror(&mut right);
-        }
-        let operator = system.operator(world)?;
+        let space = world.space()?;
+        space.refresh(&mut right);
+        let operator = system.operator(world, &space)?;
         if share < 1.0 || !again {
             self.start.image.resize(earlier.len(), Vect::zeros());
             let before = &mut self.start.image;
@@ -285,7 +282,8 @@ impl<const D: usize> StepHook<D> for ImplicitViscosity<D> {
             unstiffen(world, &mut plain)?;
         }
         filled?;
-        let operator = system.operator(world)?;
+        let space = world.space()?;
+        let operator = system.operator(world, &space)?;
         if self.solver.wants_entries(&operator) {
             operator.assembled();
         }
@@ -327,21 +325,6 @@ fn stiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Result
 fn unstiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Result<(), StepError> {
     std::mem::swap(plain, world.free.get_mut(fields::VISCOSITY)?);
     Ok(())
-}
-
-/// Gives copies of others' particles what a stage has summed over the neighbours of these.
-fn tell<const D: usize>(
-    stage: &dyn Stage<World<D>>,
-    world: &mut World<D>,
-) -> Result<(), StepError> {
-    let Some(team) = world.team.clone() else {
-        return Ok(());
-    };
-    let access = stage.access();
-    match access.sweep {
-        true => team.tell(&mut world.free, &access.writes),
-        false => Ok(()),
-    }
 }
 
 /// √(Σm|u − u'|²/Σm(|u|² + Δt²|g|²)) of a velocity against the world's, with what drives the flow:

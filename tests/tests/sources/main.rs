@@ -4,3 +4,4 @@ mod arrows;
 mod docs;
 mod long_functions;
 mod module_circles;
+mod ranks;

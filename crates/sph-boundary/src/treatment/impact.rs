@@ -92,14 +92,14 @@ fn give_way<const D: usize>(
 ) -> Result<(), StepError> {
     let position = world.free.get(fields::POSITION)?;
     let mass = world.free.get(fields::MASS)?;
-    let own = world.team.as_ref().map(|team| team.own(&world.free));
+    let owned = world.owned();
     let along = |p: usize, push: &Vect<D>, image: &Vect<D>| {
         let size = push.norm();
         (body.along(&(position[p] - image), &(push / size)), size)
     };
     let mut parts = Vec::new();
     for (p, corrected) in changed.iter() {
-        if own.as_ref().is_some_and(|own| !own[*p]) {
+        if !owned.has(*p) {
             continue;
         }
         for (_, push, image) in corrected.pushes.iter().filter(|(wall, ..)| body.is(*wall)) {
@@ -132,8 +132,8 @@ fn give_way<const D: usize>(
     Ok(())
 }
 
-/// What stopping particles over `dt` did to the walls of movers, each with all its pieces: the same on all ranks,
-/// however many have a part of the particles.
+/// What stopping particles over `dt` did to the walls of movers, each with all its pieces, by all particles wherever
+/// they are at home.
 fn blows<const D: usize, M: WallMesh<D>>(
     outline: &Outline<D, M>,
     world: &World<D>,
@@ -144,12 +144,9 @@ fn blows<const D: usize, M: WallMesh<D>>(
         world.free.get(fields::MASS)?,
         world.free.get(fields::POSITION)?,
     );
-    let own = world.team.as_ref().map(|team| team.own(&world.free));
+    let owned = world.owned();
     let mut each: Vec<Vec<[f64; 6]>> = vec![Vec::new(); outline.specs.len()];
-    for (p, corrected) in changed
-        .iter()
-        .filter(|(p, _)| own.as_ref().is_none_or(|own| own[*p]))
-    {
+    for (p, corrected) in changed.iter().filter(|(p, _)| owned.has(*p)) {
         for (wall, push, image) in &corrected.pushes {
             let force = push * (-mass[*p] / dt);
             let mut both = [0.0; 6];

@@ -292,12 +292,14 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         let mut renormalisation = world.free.take(fields::RENORMALISATION)?;
         renormalisation.fill(1.0);
         let positions = world.free.get(fields::POSITION)?;
-        let contacts = &mut world.walls.contacts;
-        let mut blocks = contacts.take_blocks(positions.len());
         // Wall functions and what is transported to walls read the contacts of every particle, and not in sums.
         let read = !(world.walls.elements.wall_function.is_empty() && world.transported.is_empty());
-        let team = world.team.as_ref().filter(|_| !read);
-        let idle = team.and_then(|team| team.idle(&world.free));
+        let idle = match read {
+            true => None,
+            false => world.idle(),
+        };
+        let contacts = &mut world.walls.contacts;
+        let mut blocks = contacts.take_blocks(positions.len());
         set_up.find(positions, idle.as_deref(), &mut blocks);
         contacts.put_blocks(blocks);
         let batches = set_up.near.particles.chunks(BATCH).zip(&set_up.found);

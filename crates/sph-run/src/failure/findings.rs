@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{TermShare, shares_at};
 use sph_solver::Flow;
-use sph_solver::step::lock;
 
 use crate::Trouble;
 
@@ -171,7 +170,6 @@ pub(crate) fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Optio
     let nearest = nearest.fold(f64::INFINITY, f64::min).sqrt();
     let sane = x.iter().all(|c| c.is_finite()) && world.domain.contains(x);
     let wall = flow.walls.as_ref().filter(|_| sane).and_then(|walls| {
-        let walls = lock(walls);
         let (distance, name) = walls.clearance(x, NEAR * world.spacing)?;
         Some((name.to_string(), distance / world.spacing))
     });

@@ -47,7 +47,7 @@ impl<const D: usize> Running<'_, D> {
         let ranks = self.shares.len().max(1);
         let [dt_limiters, dt_limits] = self.bounds_of_steps();
         let mut advice = self.advise(wall_seconds, [&dt_limiters, &dt_limits], &stage_seconds)?;
-        let escaped = flow.escaped()?;
+        let escaped = flow.escaped_from(self.walls())?;
         let mach = self.say_what_is_odd(escaped, &mut warnings, &mut advice);
         let hooks = self.parts.flow.reports().map(|r| r.most_bytes);
         let solves: usize = hooks.chain(self.counters.stage_bytes.iter().copied()).sum();

@@ -4,13 +4,12 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
-use sph_boundary::WallStates;
+use sph_boundary::{Wall, WallStates};
 use sph_core::{Born, Plain, Role, Vect, fields};
 use sph_io::{Checkpoint, Column, ColumnData};
 use sph_neighbours::WallForce;
 use sph_scene::Scene;
 use sph_solver::Flow;
-use sph_solver::step::lock;
 
 use crate::Identity;
 use crate::failure::error::RunError;
@@ -45,9 +44,9 @@ struct Meta<T> {
     run: T,
 }
 
-/// Writes the state; `run` is whatever the driver wants back.
+/// Writes the state of a flow with its walls; `run` is whatever the driver wants back.
 pub fn save<const D: usize, T: Serialize>(
-    flow: &Flow<D>,
+    (flow, walls): (&Flow<D>, Option<&dyn Wall<D>>),
     path: &Path,
     identity: &Identity,
     run: &T,
@@ -76,8 +75,8 @@ pub fn save<const D: usize, T: Serialize>(
             data: ColumnData::F64(positions.iter().flatten().copied().collect()),
         });
     }
-    if let Some(walls) = &flow.walls {
-        let states = lock(walls).states();
+    if let Some(walls) = walls {
+        let states = walls.states();
         let listed = states.listed.unwrap_or_default();
         // Steps that drift first drift with the forces of the step before.
         let loads = flow.loads.iter().flat_map(WallForce::numbers).collect();
@@ -309,7 +308,7 @@ fn set_clock<const D: usize>(
 ) -> Result<(), RunError> {
     flow.world.time = f64::from_bits(clock.time);
     flow.world.dt = f64::from_bits(clock.dt);
-    if let Some(walls) = &flow.walls {
+    if let Some(walls) = &mut flow.walls {
         let now = flow.world.time;
         let numbers = |name: &str| match checkpoint.column(name).map(|c| &c.data) {
             Some(ColumnData::F64(numbers)) => numbers.clone(),
@@ -319,7 +318,7 @@ fn set_clock<const D: usize>(
             now: numbers(WALL_STATES),
             listed: same_lists.then(|| numbers(WALL_LIST_STATES)),
         };
-        let moved = lock(walls).put_back(&mut flow.world.walls, &states, now);
+        let moved = walls.put_back(&mut flow.world.walls, &states, now);
         moved.map_err(|e| refused(path, e.to_string()))?;
         let loads = numbers(WALL_LOADS);
         if loads.len() == flow.world.walls.names.len() * WallForce::<D>::NUMBERS {

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
+use sph_boundary::Wall;
 use sph_core::{StepError, System};
 use sph_decomposition::{PartError, Transport};
 use sph_neighbours::{Nearby, WallSet};
 use sph_scene::Scene;
 use sph_setup::{Assembled, Memory, Share, assemble_share};
-use sph_solver::step::lock;
 
 use crate::failure::error::RunError;
 use crate::results::summary::RankShare;
@@ -36,7 +36,7 @@ pub(crate) fn share<const D: usize>(
 pub(crate) fn columns_of_all<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
-    parts: &Assembled<D>,
+    parts: &mut Assembled<D>,
     counters: &Counters,
 ) -> Result<Assembled<D>, RunError> {
     if looks_around(scene, parts) {
@@ -44,7 +44,7 @@ pub(crate) fn columns_of_all<const D: usize>(
         begin(scene, options, false, &mut all.flow, &mut ())?;
         return Ok(all);
     }
-    let standing = parts.flow.walls.as_ref().map(|walls| {
+    let standing = parts.flow.walls.take().map(|walls| {
         let set = &parts.flow.world.walls;
         let set = WallSet {
             names: set.names.clone(),
@@ -52,9 +52,10 @@ pub(crate) fn columns_of_all<const D: usize>(
             elements: set.elements.clone(),
             ..WallSet::default()
         };
-        Box::new((walls.clone(), set))
+        Box::new((walls, set))
     });
     let mut all = assemble_share::<D>(scene, Share::Columns(standing))?;
+    parts.flow.walls = all.flow.walls.take();
     all.flow.laws = parts.flow.laws.clone();
     all.flow.recount(&counters.left);
     Ok(all)
@@ -69,6 +70,12 @@ impl<const D: usize> Running<'_, D> {
     /// What is shown and measured: the whole flow, where this process has it.
     pub(crate) fn shown(&self) -> &Assembled<D> {
         self.whole.as_ref().unwrap_or(&self.parts)
+    }
+
+    /// The walls of what is shown: its own, or those of this process's part.
+    pub(crate) fn walls(&self) -> Option<&dyn Wall<D>> {
+        let own = self.shown().flow.walls.as_deref();
+        own.or(self.parts.flow.walls.as_deref())
     }
 
     /// Brings the whole flow to the state of all ranks; with all that is derived from it, if it is to be `evaluated`. Every rank
@@ -87,12 +94,10 @@ impl<const D: usize> Running<'_, D> {
         whole.world.forget_lists();
         let gathered = parts.gather(&flow.world, Some(&mut whole.world));
         gathered.map_err(StepError::from)?;
-        if let (Some(own), Some(all)) = (&flow.walls, &whole.walls)
-            && !Arc::ptr_eq(own, all)
-        {
-            let states = lock(own).states();
+        if let (Some(own), Some(all)) = (&flow.walls, &mut whole.walls) {
+            let states = own.states();
             let (set, time) = (&mut whole.world.walls, flow.world.time);
-            let moved = lock(all).put_back(set, &states, time);
+            let moved = all.put_back(set, &states, time);
             moved.map_err(|e| RunError::at("wall", e.to_string()))?;
         }
         whole.world.walls.follow(&flow.world.walls);

@@ -61,7 +61,9 @@ pub(crate) fn ready<'a, const D: usize>(
     }
     let parted = parts.flow.parts.is_some();
     let whole = match writes && parted {
-        true => Some(ranked::columns_of_all(scene, options, &parts, &counters)?),
+        true => Some(ranked::columns_of_all(
+            scene, options, &mut parts, &counters,
+        )?),
         false => None,
     };
     let shown = whole.as_ref().unwrap_or(&parts);

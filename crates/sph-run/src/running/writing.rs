@@ -153,6 +153,11 @@ impl<const D: usize> Running<'_, D> {
             ..self.counters.clone()
         };
         let path = self.options.out.join(checkpoint::FILE);
-        checkpoint::save(&shown.flow, &path, &self.options.identity, &counters)
+        checkpoint::save(
+            (&shown.flow, self.walls()),
+            &path,
+            &self.options.identity,
+            &counters,
+        )
     }
 }

@@ -1,5 +1,6 @@
 //! A flow of what was planned.
 
+use sph_boundary::Wall;
 use sph_core::{AnyField, Evolved, Role, fields};
 use sph_neighbours::World;
 use sph_state::Laws;
@@ -9,13 +10,13 @@ use crate::step::declared::Columns;
 use crate::step::flow::Flow;
 use crate::step::outlets::Outlets;
 use crate::step::snapshot::Snapshot;
-use crate::step::stages::{SharedWall, WALL_STATE};
+use crate::step::stages::WALL_STATE;
 use crate::step::swing::Swing;
 
 /// What a flow is made of besides its plan.
 pub struct Given<const D: usize> {
     /// The walls, if there are any.
-    pub walls: Option<SharedWall<D>>,
+    pub walls: Option<Box<dyn Wall<D>>>,
     /// Equations of state, in the order of the phase numbers.
     pub laws: Laws,
     /// η/ρ₀ of every phase, m²/s.

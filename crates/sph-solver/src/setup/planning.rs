@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use sph_contribution::{Offer, Part, Refusal, Setting, Stages};
+use sph_boundary::Wall;
+use sph_contribution::{Offer, Part, Refusal, Setting};
 use sph_core::{AnyField, Declares, fields, plan};
 use sph_multiphase::Diffused;
 use sph_neighbours::Interaction;
@@ -11,7 +12,7 @@ use sph_scene::Scene;
 use crate::error::SolverError;
 use crate::setup::transported::transported_by;
 use crate::step::hooks::Hooks;
-use crate::step::stages::{InteractionSweep, SharedWall, WallGeometry, WallState};
+use crate::step::stages::{InteractionSweep, Work};
 
 /// Pair terms shared by the sweep and whoever measures with them.
 pub type SharedTerms<const D: usize> = Arc<[Box<dyn Interaction<D>>]>;
@@ -19,7 +20,7 @@ pub type SharedTerms<const D: usize> = Arc<[Box<dyn Interaction<D>>]>;
 /// What is run, what is not, and with which pair terms.
 pub struct Planned<const D: usize> {
     /// Stages in order.
-    pub stages: Stages<D>,
+    pub stages: Vec<Work<D>>,
     /// Names of the stages nobody needs.
     pub pruned: Vec<String>,
     /// The pair terms of the sweep.
@@ -43,7 +44,7 @@ pub struct Planning<'a, const D: usize> {
     /// What contributions learn of it.
     pub setting: &'a Setting<'a, D>,
     /// The walls, if there are any.
-    pub walls: Option<&'a SharedWall<D>>,
+    pub walls: Option<&'a dyn Wall<D>>,
     /// How density diffusion reaches what the formulation integrates.
     pub diffused: Diffused,
     /// Names of columns that outputs show and probes measure.
@@ -60,21 +61,22 @@ impl<const D: usize> Planning<'_, D> {
     /// The key of the scene for which a part is not known, or a column that nobody writes.
     pub fn plan(&self, parts: &mut [Part<D>]) -> Result<Planned<D>, SolverError> {
         let mut offers = self.offers(parts)?;
-        let mut stages: Stages<D> = Vec::new();
+        let mut stages: Vec<Work<D>> = Vec::new();
         if let Some(walls) = self.walls {
-            stages.push(Box::new(WallGeometry(walls.clone())));
-            stages.push(Box::new(WallState(walls.clone())));
+            let renormalises = walls.renormalises();
+            stages.extend([Work::WallGeometry { renormalises }, Work::WallState]);
         }
-        stages.extend(offers.iter_mut().flat_map(|(_, o)| o.stages.drain(..)));
-        stages.extend(sph_probes::derived_stages(self.shown));
+        stages.extend(offered(&mut offers));
+        let derived = sph_probes::derived_stages(self.shown).into_iter();
+        stages.extend(derived.map(Work::Stage));
         let terms = offers.iter().flat_map(|(_, o)| &o.terms);
         let by_terms: Vec<AnyField> = terms.flat_map(|t| t.access().reads()).collect();
         let read = self.read(&stages, by_terms);
         for ((_, part), (_, offer)) in parts.iter_mut().zip(&mut offers) {
-            let offered = part.offer_to_readers(self.setting, &read, offer);
-            offered.map_err(|r| self.refused(r))?;
+            let done = part.offer_to_readers(self.setting, &read, offer);
+            done.map_err(|r| self.refused(r))?;
         }
-        stages.extend(offers.iter_mut().flat_map(|(_, o)| o.stages.drain(..)));
+        stages.extend(offered(&mut offers));
         let later: Vec<AnyField> = offers.iter().flat_map(read_later).collect();
         let (mut all, mut hooks, mut kinds) = (Offer::default(), Hooks::default(), Vec::new());
         let (mut riding, mut remedies) = (Vec::new(), Vec::new());
@@ -100,7 +102,7 @@ impl<const D: usize> Planning<'_, D> {
         let terms: SharedTerms<D> = std::mem::take(&mut all.terms).into();
         let changed = all.changes_density.then_some(self.diffused);
         let sweep = InteractionSweep::new(terms.clone(), changed, self.walls.is_some());
-        stages.push(Box::new(sweep));
+        stages.push(Work::Stage(Box::new(sweep)));
         let goals = self.goals(&all, &stages, later);
         let (stages, pruned) = self.ordered(stages, &goals, &hooks)?;
         Ok(Planned {
@@ -140,7 +142,7 @@ impl<const D: usize> Planning<'_, D> {
     }
 
     /// What stages and terms read, probes measure and outputs show.
-    fn read(&self, stages: &Stages<D>, by_terms: Vec<AnyField>) -> Vec<AnyField> {
+    fn read(&self, stages: &[Work<D>], by_terms: Vec<AnyField>) -> Vec<AnyField> {
         let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
         let shown = gradients
             .into_iter()
@@ -150,7 +152,7 @@ impl<const D: usize> Planning<'_, D> {
     }
 
     /// Columns that have to be computed.
-    fn goals(&self, offer: &Offer<D>, stages: &Stages<D>, later: Vec<AnyField>) -> Vec<AnyField> {
+    fn goals(&self, offer: &Offer<D>, stages: &[Work<D>], later: Vec<AnyField>) -> Vec<AnyField> {
         let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
         goals.extend(later);
         goals.extend(&offer.goals);
@@ -166,16 +168,15 @@ impl<const D: usize> Planning<'_, D> {
     /// The stages that the goals need, in order, and the names of the others.
     fn ordered(
         &self,
-        stages: Stages<D>,
+        stages: Vec<Work<D>>,
         goals: &[AnyField],
         hooks: &Hooks<D>,
-    ) -> Result<(Stages<D>, Vec<String>), SolverError> {
+    ) -> Result<(Vec<Work<D>>, Vec<String>), SolverError> {
         // All that is in the store before the first evaluation is state.
         let state = self.setting.world.free.fields();
         let remembered = hooks.all.iter().flat_map(|h| h.access.remembers.clone());
         let sources: Vec<AnyField> = state.chain(remembered).collect();
-        let declared: Vec<&dyn Declares> =
-            stages.iter().map(|s| s.as_ref() as &dyn Declares).collect();
+        let declared: Vec<&dyn Declares> = stages.iter().map(|s| s as &dyn Declares).collect();
         let mut planned = plan(&declared, goals, &sources)?;
         // Walls without γ still need their geometry checked, although nobody reads a field of it.
         if self.walls.is_some() && !planned.order.contains(&0) {
@@ -187,6 +188,14 @@ impl<const D: usize> Planning<'_, D> {
         let order = planned.order.iter();
         Ok((order.filter_map(|&k| slots[k].take()).collect(), pruned))
     }
+}
+
+/// The stages that are offered.
+fn offered<const D: usize>(offers: &mut Offers<D>) -> impl Iterator<Item = Work<D>> {
+    let stages = offers
+        .iter_mut()
+        .flat_map(|(_, offer)| offer.stages.drain(..));
+    stages.map(Work::Stage)
 }
 
 /// Columns that hooks and gates read.

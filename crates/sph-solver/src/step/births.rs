@@ -5,7 +5,6 @@ use sph_core::{FieldError, StepError, fields};
 
 use crate::step::flow::Flow;
 use crate::step::nursery::Nursery;
-use crate::step::stages::lock;
 
 impl<const D: usize> Flow<D> {
     /// Lets in who is born at the end of a step of `dt` seconds.
@@ -40,8 +39,8 @@ impl<const D: usize> Flow<D> {
         self.fill(nursery, &all)?;
         // Where they are follows from their places alone, whatever the order in which they were born.
         self.refresh_lists_and_derived()?;
-        if let Some(walls) = &self.walls {
-            lock(walls).geometry(&mut self.world)?;
+        if let Some(walls) = &mut self.walls {
+            walls.geometry(&mut self.world)?;
         }
         self.begin_density(nursery, first)
     }

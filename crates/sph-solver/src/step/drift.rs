@@ -10,7 +10,6 @@ use crate::step::clocks::MOTION;
 use crate::step::declared::writes_any;
 use crate::step::flow::Flow;
 use crate::step::observer::Boundary;
-use crate::step::stages::lock;
 
 /// Particles that one thread takes at least.
 const BATCH: usize = 2048;
@@ -31,8 +30,8 @@ impl<const D: usize> Flow<D> {
     pub(crate) fn drift_over(&mut self, dt: f64) -> Result<(), StepError> {
         self.run_hooks(StepPhase::BeforeWalls, dt)?;
         let start = Instant::now();
-        if let Some(walls) = &self.walls {
-            lock(walls).constrain(&mut self.world, dt)?;
+        if let Some(walls) = &mut self.walls {
+            walls.constrain(&mut self.world, dt)?;
         }
         self.timings[MOTION].spent += start.elapsed();
         self.observe(Boundary::Constrained, dt)?;
@@ -58,8 +57,8 @@ impl<const D: usize> Flow<D> {
     fn look_around(&mut self) -> Result<(), StepError> {
         let start = Instant::now();
         self.refresh_lists_and_derived()?;
-        if let Some(walls) = &self.walls {
-            lock(walls).geometry(&mut self.world)?;
+        if let Some(walls) = &mut self.walls {
+            walls.geometry(&mut self.world)?;
         }
         self.timings[MOTION].spent += start.elapsed();
         Ok(())
@@ -80,12 +79,12 @@ impl<const D: usize> Flow<D> {
         self.moved = true;
         let time = self.world.time;
         self.world.time += dt;
-        if let Some(walls) = &self.walls {
+        if let Some(walls) = &mut self.walls {
             let gravity = self.world.gravity;
             let set = &mut self.world.walls;
             // Probes may have measured other walls since the kick.
             std::mem::swap(&mut set.forces, &mut self.loads);
-            let moved = lock(walls).advance(set, gravity, time, dt);
+            let moved = walls.advance(set, gravity, time, dt);
             std::mem::swap(&mut set.forces, &mut self.loads);
             moved.map_err(|e| StepError::Stage {
                 stage: WALL_MOTION.into(),

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use serde_json::Value as Json;
+use sph_boundary::Wall;
 use sph_contribution::{
     Forces, Gate, Limiter, OutsideForce, Report, StepHook, StepMoment, StepPhase, StoredEnergy,
 };
 use sph_core::{
-    Access, AnyField, Evolved, Field, Role, Scalar, Stage, StepError, StepLimit, fields,
+    Access, AnyField, Declares, Evolved, Field, Role, Scalar, StepError, StepLimit, fields,
 };
 use sph_decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
@@ -18,7 +19,7 @@ use sph_state::Laws;
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::declared::Columns;
 use crate::step::guard;
-use crate::step::guests::{run_and_tell, tell_guests};
+use crate::step::guests::run_and_tell;
 use crate::step::hooks::{Hooked, Hooks};
 use crate::step::kept_image::KeptImage;
 use crate::step::kept_rates::Kept;
@@ -26,21 +27,21 @@ use crate::step::nursery::Nursery;
 use crate::step::observer::{Boundary, Observer, Seen};
 use crate::step::outlets::Outlets;
 use crate::step::snapshot::Snapshot;
-use crate::step::stages::{SharedWall, lock};
+use crate::step::stages::Work;
 use crate::step::swing::Swing;
 
 /// The assembled system of one scene.
 pub struct Flow<const D: usize> {
     /// Columns, walls, lists, kernel, clock.
     pub world: World<D>,
-    /// Stages in the order of the plan.
-    pub stages: Vec<Box<dyn Stage<World<D>>>>,
+    /// Stages in the order of the plan, those of the walls among them.
+    pub stages: Vec<Work<D>>,
     /// Names of the stages nobody needed.
     pub pruned: Vec<String>,
     /// Bounds on the step.
     pub limiters: Vec<Box<dyn Limiter<D>>>,
-    /// The walls, if there are any.
-    pub walls: Option<SharedWall<D>>,
+    /// The walls; none without any, and where a flow is shown among those of its part.
+    pub walls: Option<Box<dyn Wall<D>>>,
     /// What movers are told, in the order of the walls' names, from the last kick; empty if none asks.
     pub loads: Vec<WallForce<D>>,
     pub(crate) evolved: Vec<Evolved>,
@@ -195,7 +196,7 @@ impl<const D: usize> Flow<D> {
         let done = work(&mut **hook, &mut moment);
         let ended = self.world.free.unwatch(|| hook.name());
         ended.and(done)?;
-        tell_guests(&mut self.parts, &mut self.world, access)?;
+        self.world.refresh(access)?;
         self.timings[MOTION + 1 + self.stages.len() + number].spent += start.elapsed();
         Ok(())
     }
@@ -236,7 +237,8 @@ impl<const D: usize> Flow<D> {
                 continue;
             }
             let start = Instant::now();
-            run_and_tell(&mut **stage, access, &mut self.parts, &mut self.world)?;
+            let walls = self.walls.as_deref_mut().map(|walls| walls as _);
+            run_and_tell(stage, access, self.parts.as_ref(), &mut self.world, walls)?;
             self.timings[MOTION + 1 + k].spent += start.elapsed();
         }
         Ok(())
@@ -300,10 +302,14 @@ impl<const D: usize> Flow<D> {
     /// # Errors
     /// If there is no position column.
     pub fn escaped(&self) -> Result<usize, StepError> {
-        let Some(walls) = &self.walls else {
+        self.escaped_from(self.walls.as_deref())
+    }
+
+    /// Particles behind one of these walls.
+    pub fn escaped_from(&self, walls: Option<&dyn Wall<D>>) -> Result<usize, StepError> {
+        let Some(walls) = walls else {
             return Ok(0);
         };
-        let walls = lock(walls);
         let position = self.world.free.get(fields::POSITION)?;
         Ok(position.iter().filter(|x| !walls.contains(x)).count())
     }

@@ -8,13 +8,13 @@ use crate::step::snapshot::Snapshot;
 impl<const D: usize> Snapshot<D> {
     /// Copies the state; reuses its buffers.
     pub fn take(&mut self, flow: &Flow<D>) -> Result<(), FieldError> {
-        self.save(&flow.world, flow.walls.as_ref(), &flow.loads)
+        self.save(&flow.world, flow.walls.as_deref(), &flow.loads)
     }
 
     /// Puts the state back. If the particles were sorted meanwhile, they return to their
     /// order; those that left since come back, those that came in are gone.
     pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), StepError> {
-        let walls = (flow.walls.as_ref(), &mut flow.loads);
+        let walls = (flow.walls.as_deref_mut(), &mut flow.loads);
         self.put_back(&mut flow.world, walls)?;
         // What the evaluation of this state has left is among it.
         flow.restored = true;

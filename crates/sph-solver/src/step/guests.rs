@@ -1,41 +1,34 @@
 //! What guests are told.
 
-use sph_core::{Access, Stage, StepError};
+use sph_boundary::Wall;
+use sph_core::{Access, Declares, Stage, StepError};
 use sph_decomposition::Parts;
-use sph_neighbours::{Half, World};
+use sph_neighbours::{SweepHalf, World};
 
-/// Gives guests what work has found for their owners: what was summed over neighbours.
-pub(crate) fn tell_guests<const D: usize>(
-    parts: &mut Option<Parts<D>>,
-    world: &mut World<D>,
-    access: &Access,
-) -> Result<(), StepError> {
-    let Some(parts) = parts else {
-        return Ok(());
-    };
-    if access.sweep && !access.writes.is_empty() {
-        parts.tell(&mut world.free, |f| access.writes.contains(f))?;
-    }
-    Ok(())
-}
+use crate::step::stages::Work;
 
-/// Runs a stage and gives guests what it has found: where it may run in halves, those who are guests elsewhere come first, and
-/// the others while the messages are on their way.
+/// Runs a piece of work and gives guests what it has found: where it may run in halves, those who are guests elsewhere come
+/// first, and the others while the messages are on their way.
 pub(crate) fn run_and_tell<const D: usize>(
-    stage: &mut dyn Stage<World<D>>,
+    work: &mut Work<D>,
     access: &Access,
-    parts: &mut Option<Parts<D>>,
+    parts: Option<&Parts<D>>,
     world: &mut World<D>,
+    walls: Option<&mut dyn Wall<D>>,
 ) -> Result<(), StepError> {
-    let Some(own) = parts.as_ref().filter(|_| stage.halves()) else {
-        watched(stage, access, world)?;
-        return tell_guests(parts, world, access);
-    };
-    let sent = own.sent(world.free.len());
-    world.lists.half = Some(Half::first(world.lists.nearest(), &sent));
-    let done = in_halves(stage, access, own, world);
-    world.lists.half = None;
-    done
+    if let (Work::Stage(stage), Some(parts)) = (&mut *work, parts)
+        && stage.halves()
+    {
+        let sent = parts.sent(world.free.len());
+        world.lists.sweep_half = Some(SweepHalf::first(world.lists.nearest(), &sent));
+        let done = in_halves(&mut **stage, access, parts, world);
+        world.lists.sweep_half = None;
+        return done;
+    }
+    world.free.watch([access]);
+    let ran = work.run(world, walls);
+    world.free.unwatch(|| work.name()).and(ran)?;
+    world.refresh(access)
 }
 
 fn in_halves<const D: usize>(
@@ -50,7 +43,7 @@ fn in_halves<const D: usize>(
         world,
         |f| access.writes.contains(f),
         |world| {
-            world.lists.half = world.lists.half.take().map(Half::second);
+            world.lists.sweep_half = world.lists.sweep_half.take().map(SweepHalf::second);
             rest = watched(stage, access, world);
         },
     );
@@ -58,7 +51,7 @@ fn in_halves<const D: usize>(
     Ok(told?)
 }
 
-/// Runs a stage, which is held to what it declares.
+/// Runs half of a stage, which is held to what it declares.
 fn watched<const D: usize>(
     stage: &mut dyn Stage<World<D>>,
     access: &Access,

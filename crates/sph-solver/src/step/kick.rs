@@ -10,7 +10,6 @@ use sph_neighbours::{WallForce, facing_forces, reactions};
 use crate::step::clocks::MOTION;
 use crate::step::flow::Flow;
 use crate::step::observer::Boundary;
-use crate::step::stages::lock;
 
 /// Particles that one thread takes at least.
 const BATCH: usize = 2048;
@@ -52,7 +51,6 @@ impl<const D: usize> Flow<D> {
         let Some(walls) = &self.walls else {
             return Vec::new();
         };
-        let walls = lock(walls);
         let names = &self.world.walls.names;
         if !(0..names.len()).any(|k| walls.feels(k)) {
             return Vec::new();
@@ -82,7 +80,7 @@ impl<const D: usize> Flow<D> {
         let Some(walls) = &self.walls else {
             return Ok(());
         };
-        let sights = lock(walls).sights();
+        let sights = walls.sights();
         if sights.is_empty() {
             return Ok(());
         }

@@ -3,11 +3,37 @@
 use rayon::prelude::*;
 use sph_contribution::even_out;
 use sph_core::{StepError, Taken, Vect, fields};
+use sph_neighbours::Words;
 use sph_scene::Scene;
 
 use crate::Flow;
 use crate::step::outlets::Left;
-use crate::step::stages::lock;
+
+/// A particle that leaves.
+struct Leaver<const D: usize> {
+    identity: u32,
+    /// Number of the count in which it is.
+    count: usize,
+    position: Vect<D>,
+    mass: f64,
+}
+
+impl<const D: usize> Words for Leaver<D> {
+    fn write(&self, to: &mut Vec<u64>) {
+        to.extend([u64::from(self.identity), self.count as u64]);
+        let numbers = [&self.mass].into_iter().chain(self.position.iter());
+        to.extend(numbers.map(|x| x.to_bits()));
+    }
+
+    fn read(from: &[u64]) -> Self {
+        Leaver {
+            identity: from[0] as u32,
+            count: from[1] as usize,
+            mass: f64::from_bits(from[2]),
+            position: Vect::from_fn(|k, _| f64::from_bits(from[3 + k])),
+        }
+    }
+}
 
 impl<const D: usize> Flow<D> {
     /// Takes out the particles that are in an outlet or have passed an open face at the end of a step of `dt` seconds, and
@@ -36,7 +62,7 @@ impl<const D: usize> Flow<D> {
             }
         }
         self.outlets.named = self.outlets.labels.len();
-        if self.walls.as_ref().is_some_and(|w| lock(w).ends_freely()) {
+        if self.walls.as_ref().is_some_and(|w| w.ends_freely()) {
             let phases = scene.phase.len().max(1);
             let border = self.outlets.named / phases;
             self.outlets.border = Some(border);
@@ -136,33 +162,26 @@ impl<const D: usize> Flow<D> {
         let (identity, mass) = (free.get(fields::IDENTITY)?, free.get(fields::MASS)?);
         let position = free.get(fields::POSITION)?;
         let phase = free.get(fields::PHASE).ok();
-        let own = self.world.team.as_ref().map(|team| team.own(free));
+        let owned = self.world.owned();
         let phases = self.laws.len();
         // Copies of others' particles leave as their owners do, who count them.
-        let counts = |k: usize| own.as_ref().is_none_or(|own| own[k]);
-        let left = left.filter(|(k, _)| counts(*k));
-        let leavers = left.flat_map(|(k, exit)| {
-            let place = exit * phases + phase.map_or(0, |p| p[k] as usize);
-            let numbers = position[k].iter().chain([&mass[k]]).map(|x| x.to_bits());
-            [u64::from(identity[k]), place as u64]
-                .into_iter()
-                .chain(numbers)
+        let left = left.filter(|(k, _)| owned.has(*k));
+        let leavers = left.map(|(k, exit)| Leaver {
+            identity: identity[k],
+            count: exit * phases + phase.map_or(0, |p| p[k] as usize),
+            position: position[k],
+            mass: mass[k],
         });
-        let mut leavers: Vec<u64> = leavers.collect();
-        if let Some(team) = &self.world.team {
-            leavers = team.gather(&leavers)?;
-        }
-        let mut leavers: Vec<&[u64]> = leavers.chunks_exact(D + 3).collect();
-        leavers.sort_unstable();
+        let mut leavers = self.world.of_all(leavers.collect())?;
+        leavers.sort_unstable_by_key(|leaver| leaver.identity);
         let mut taken = self.world.free.taken().to_vec();
         for leaver in &leavers {
-            let count = &mut taken[leaver[1] as usize];
-            count.mass += f64::from_bits(leaver[D + 2]);
+            let count = &mut taken[leaver.count];
+            count.mass += leaver.mass;
             count.particles += 1;
         }
         self.world.free.set_taken(taken);
-        let place = |leaver: &&[u64]| Vect::from_fn(|k, _| f64::from_bits(leaver[2 + k]));
-        Ok(leavers.iter().map(place).collect())
+        Ok(leavers.iter().map(|leaver| leaver.position).collect())
     }
 
     /// What a resumed run has counted: mass as bits, and particles.

@@ -31,8 +31,8 @@ impl<const D: usize> Flow<D> {
 
     /// Why the flow cannot be divided between ranks, if it cannot.
     pub fn indivisible(&self) -> Option<String> {
-        let mut all = self.stages.iter().map(|s| (s.name(), s.needs_all()));
-        let (name, why) = all.find_map(|(name, why)| Some((name, why?)))?;
+        let mut all = self.stages.iter().filter_map(|work| work.stage());
+        let (name, why) = all.find_map(|stage| Some((stage.name(), stage.needs_all()?)))?;
         Some(format!("`{name}` cannot run on several ranks: {why}"))
     }
 

@@ -1,14 +1,14 @@
 //! The state before a step, to fall back on when the step fails.
 
-use sph_boundary::WallStates;
+use sph_boundary::{Wall, WallStates};
 use sph_core::{Field, FieldError, Recall, Saved, Scalar, Slots, Store, Vect, fields};
 use sph_neighbours::{WallForce, World};
 
-use crate::step::stages::{SharedWall, lock};
-
 /// The walls, and what their movers are told.
-pub(crate) type MovedWalls<'a, const D: usize> =
-    (Option<&'a SharedWall<D>>, &'a mut Vec<WallForce<D>>);
+pub(crate) type MovedWalls<'a, const D: usize> = (
+    Option<&'a mut (dyn Wall<D> + 'static)>,
+    &'a mut Vec<WallForce<D>>,
+);
 
 /// All columns that carry history, whoever declared them, in the order the particles had, and the clock.
 #[derive(Default)]
@@ -27,7 +27,7 @@ impl<const D: usize> Snapshot<D> {
     pub(crate) fn save(
         &mut self,
         world: &World<D>,
-        walls: Option<&SharedWall<D>>,
+        walls: Option<&dyn Wall<D>>,
         loads: &[WallForce<D>],
     ) -> Result<(), FieldError> {
         world.free.save_state(&mut self.columns)?;
@@ -38,7 +38,7 @@ impl<const D: usize> Snapshot<D> {
             let listed = None;
             self.walls = WallStates {
                 listed,
-                ..lock(walls).states()
+                ..walls.states()
             };
             self.loads.clear();
             self.loads.extend_from_slice(loads);
@@ -107,7 +107,7 @@ impl<const D: usize> Snapshot<D> {
     fn walls_back(&self, world: &mut World<D>, (walls, loads): MovedWalls<'_, D>) {
         if let Some(walls) = walls {
             // The walls accepted this time before, so they accept it again.
-            let _ = lock(walls).put_back(&mut world.walls, &self.walls, self.time);
+            let _ = walls.put_back(&mut world.walls, &self.walls, self.time);
             loads.clone_from(&self.loads);
         }
     }

@@ -1,6 +1,6 @@
-//! The stages the solver itself contributes: walls and the interaction sweep.
+//! The work of an evaluation: of the walls, of stages, and the interaction sweep.
 
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 use rayon::prelude::*;
 use sph_boundary::Wall;
@@ -15,59 +15,79 @@ pub const WALL_STATE: Field<Scalar> = Field::new(
     "pressure and volume at wall points and elements",
 );
 
-/// The wall plugin, shared by its two stages and the clock.
-pub type SharedWall<const D: usize> = Arc<Mutex<Box<dyn Wall<D>>>>;
-
-/// The wall plugin; a panic elsewhere does not make it unusable.
-pub fn lock<const D: usize>(wall: &SharedWall<D>) -> MutexGuard<'_, Box<dyn Wall<D>>> {
-    wall.lock().unwrap_or_else(PoisonError::into_inner)
+/// A piece of work of an evaluation: of the walls, which the flow has, or a stage.
+pub enum Work<const D: usize> {
+    /// Contacts and γ.
+    WallGeometry {
+        /// Whether γ differs from 1 near walls.
+        renormalises: bool,
+    },
+    /// Pressures and volumes at the walls.
+    WallState,
+    /// What a piece of physics brings along.
+    Stage(Box<dyn Stage<World<D>>>),
 }
 
-/// Contacts and γ.
-pub struct WallGeometry<const D: usize>(pub SharedWall<D>);
-
-impl<const D: usize> Declares for WallGeometry<D> {
-    fn name(&self) -> String {
-        "wall geometry".into()
+impl<const D: usize> Work<D> {
+    /// Does the work.
+    ///
+    /// # Errors
+    /// Those of the stage, or of the walls.
+    pub fn run(
+        &mut self,
+        world: &mut World<D>,
+        walls: Option<&mut dyn Wall<D>>,
+    ) -> Result<(), StepError> {
+        match (self, walls) {
+            (Work::WallGeometry { .. }, Some(walls)) => walls.geometry(world),
+            (Work::WallState, Some(walls)) => walls.state(world),
+            (Work::WallGeometry { .. } | Work::WallState, None) => Ok(()),
+            (Work::Stage(stage), _) => stage.run(world),
+        }
     }
-    fn access(&self) -> Access {
-        let access = Access::none().here(fields::POSITION).here(fields::IDENTITY);
-        match lock(&self.0).renormalises() {
-            true => access.writes(fields::RENORMALISATION),
-            false => access,
+
+    /// Memory of the system that it solved last, bytes.
+    pub fn bytes(&self) -> usize {
+        self.stage().map_or(0, |stage| stage.bytes())
+    }
+
+    /// The stage, if this is one.
+    pub fn stage(&self) -> Option<&dyn Stage<World<D>>> {
+        match self {
+            Work::Stage(stage) => Some(&**stage),
+            Work::WallGeometry { .. } | Work::WallState => None,
         }
     }
 }
 
-impl<const D: usize> Stage<World<D>> for WallGeometry<D> {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        lock(&self.0).geometry(world)
-    }
-}
-
-/// Pressures and volumes at the walls.
-pub struct WallState<const D: usize>(pub SharedWall<D>);
-
-impl<const D: usize> Declares for WallState<D> {
+impl<const D: usize> Declares for Work<D> {
     fn name(&self) -> String {
-        "wall state".into()
+        match self {
+            Work::WallGeometry { .. } => "wall geometry".into(),
+            Work::WallState => "wall state".into(),
+            Work::Stage(stage) => stage.name(),
+        }
     }
     fn access(&self) -> Access {
-        Access::none()
-            .neighbours(fields::POSITION)
-            .neighbours(fields::VELOCITY)
-            .neighbours(fields::PRESSURE)
-            .neighbours(fields::DENSITY)
-            .neighbours(fields::VOLUME)
-            .here(fields::IDENTITY)
-            .where_there(fields::PHASE)
-            .writes(WALL_STATE)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for WallState<D> {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        lock(&self.0).state(world)
+        match self {
+            Work::WallGeometry { renormalises } => {
+                let access = Access::none().here(fields::POSITION).here(fields::IDENTITY);
+                match renormalises {
+                    true => access.writes(fields::RENORMALISATION),
+                    false => access,
+                }
+            }
+            Work::WallState => Access::none()
+                .neighbours(fields::POSITION)
+                .neighbours(fields::VELOCITY)
+                .neighbours(fields::PRESSURE)
+                .neighbours(fields::DENSITY)
+                .neighbours(fields::VOLUME)
+                .here(fields::IDENTITY)
+                .where_there(fields::PHASE)
+                .writes(WALL_STATE),
+            Work::Stage(stage) => stage.access(),
+        }
     }
 }
 
@@ -166,7 +186,7 @@ impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
                 let density = free.get(fields::DENSITY)?;
                 let volume = free.get(fields::VOLUME)?;
                 let gamma = free.get(fields::RENORMALISATION).ok();
-                let half = world.lists.half.as_ref();
+                let half = world.lists.sweep_half.as_ref();
                 let rates = scalar.par_iter_mut().zip(density).zip(volume).enumerate();
                 rates.with_min_len(2048).for_each(|(i, ((rate, rho), v))| {
                     if is_wanted(half, i) {

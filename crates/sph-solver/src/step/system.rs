@@ -92,7 +92,7 @@ impl<const D: usize> Flow<D> {
             }
             Motion::Keep => {
                 self.kept
-                    .save(&self.world, self.walls.as_ref(), &self.loads)?;
+                    .save(&self.world, self.walls.as_deref(), &self.loads)?;
                 self.kept_rates.keep(&self.world.free, &self.evolved)?;
                 self.kept_image.keep(self.parts.as_ref(), &self.world);
                 Ok(())
@@ -104,7 +104,7 @@ impl<const D: usize> Flow<D> {
                 };
                 self.kept_follows()?;
                 let named = (&self.integrated[..], &by_stages[..]);
-                let walls = (self.walls.as_ref(), &mut self.loads);
+                let walls = (self.walls.as_deref_mut(), &mut self.loads);
                 self.kept.recall(&mut self.world, walls, what, named)?;
                 Ok(())
             }

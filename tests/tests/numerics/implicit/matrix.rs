@@ -146,7 +146,8 @@ fn friction<const D: usize, R>(
     system.mass = vec![0.0; world.free.len()];
     let filled = system.fill_without(&*coupling, world, weak, [1.0, 1.0]);
     filled.unwrap();
-    of(&system.operator(world).unwrap(), &system.right)
+    let space = world.space().unwrap();
+    of(&system.operator(world, &space).unwrap(), &system.right)
 }
 
 fn largest<const D: usize>(all: &[Vect<D>]) -> f64 {

@@ -1,56 +1,61 @@
-//! A system with one component whose rows are divided between ranks.
+//! A system with one component whose rows are those of particles.
 
 use std::sync::OnceLock;
 
-use sph_core::Vect;
-use sph_neighbours::{SharedRows, inner};
+use sph_core::{Shelf, Vect};
+use sph_neighbours::{Owned, Space};
 
-use crate::{Entries, Matrix, Operator, Pattern, Values};
+use crate::{Entries, Halved, Matrix, Operator, Pattern, Values};
 
-/// A matrix whose rows are divided between ranks. Its columns are one's own particles and copies of others', which follow their
-/// owners in every product.
-pub struct DividedMatrix<'a, const D: usize> {
+/// A matrix whose rows and columns are those of particles. Where some of these are copies of particles that are at home
+/// elsewhere, they follow their owners in every product.
+pub struct ParticleMatrix<'a, const D: usize> {
     matrix: &'a Matrix<1>,
-    rows: SharedRows<D>,
+    space: &'a Space<D>,
     /// Particles of the rows, if not all have one.
     places: Option<&'a [u32]>,
-    own: Vec<bool>,
+    /// Of the rows, where not all particles have one.
+    owned: Option<Owned>,
     inside: OnceLock<Matrix<1>>,
 }
 
-impl<'a, const D: usize> DividedMatrix<'a, D> {
+impl<'a, const D: usize> ParticleMatrix<'a, D> {
     /// Of the rows of all particles, or of those at `places`; rows of copies are here, and need not be right.
-    pub fn new(matrix: &'a Matrix<1>, rows: SharedRows<D>, places: Option<&'a [u32]>) -> Self {
-        let own = match places {
-            None => rows.own.clone(),
-            Some(places) => places.iter().map(|p| rows.own[*p as usize]).collect(),
-        };
-        DividedMatrix {
+    pub fn new(matrix: &'a Matrix<1>, space: &'a Space<D>, places: Option<&'a [u32]>) -> Self {
+        ParticleMatrix {
             matrix,
-            rows,
+            space,
             places,
-            own,
+            owned: places.map(|places| space.owned().of_rows(places)),
             inside: OnceLock::new(),
         }
     }
 
+    /// The rows that count.
+    fn owned(&self) -> &Owned {
+        self.owned.as_ref().unwrap_or(self.space.owned())
+    }
+
     /// Copies follow their owners.
-    fn mirror(&self, x: &mut [Vect<1>]) {
+    fn refresh(&self, x: &mut [Vect<1>]) {
+        if self.space.is_whole() {
+            return;
+        }
         let Some(places) = self.places else {
-            self.rows.team.mirror_scalars(x);
+            self.space.refresh_numbers(x);
             return;
         };
-        let mut all = vec![Vect::<1>::zeros(); self.rows.own.len()];
+        let mut all = vec![Vect::<1>::zeros(); self.space.particles()];
         for (place, x) in places.iter().zip(&*x) {
             all[*place as usize] = *x;
         }
-        self.rows.team.mirror_scalars(&mut all);
+        self.space.refresh_numbers(&mut all);
         for (place, x) in places.iter().zip(x) {
             *x = all[*place as usize];
         }
     }
 
-    /// The matrix without what couples rows of different ranks: its preconditioner reaches as far.
+    /// The matrix without what couples copies: its preconditioner reaches as far.
     fn cut(&self) -> Matrix<1> {
         let mut pattern = Pattern {
             starts: vec![0],
@@ -65,7 +70,7 @@ impl<'a, const D: usize> DividedMatrix<'a, D> {
                     .clone()
                     .map(|k| (self.matrix.pattern.columns[k], values.others[k]))
                 {
-                    if self.own[j as usize] {
+                    if self.owned().has(j as usize) {
                         pattern.columns.push(j);
                         cut.others.push(value);
                     }
@@ -77,27 +82,36 @@ impl<'a, const D: usize> DividedMatrix<'a, D> {
     }
 }
 
-impl<const D: usize> Operator<1> for DividedMatrix<'_, D> {
+impl<const D: usize> Operator<1> for ParticleMatrix<'_, D> {
     fn rows(&self) -> usize {
         self.matrix.rows()
     }
     fn multiply(&self, x: &[Vect<1>], y: &mut [Vect<1>]) {
         self.matrix.multiply(x, y);
-        self.mirror(y);
+        self.refresh(y);
     }
     fn import(&self, x: &mut [Vect<1>]) {
-        self.mirror(x);
+        self.refresh(x);
     }
     fn inner(&self, x: &[Vect<1>], y: &[Vect<1>]) -> f64 {
-        self.rows.team.add(inner(x, y, &self.own))
+        self.space.inner_of(self.owned(), x, y)
     }
     fn all(&self, holds: bool) -> bool {
-        self.rows.all(holds)
+        self.space.all(holds)
     }
     fn is_whole(&self) -> bool {
-        false
+        self.space.is_whole()
+    }
+    fn prepared<'b>(&'b self, shelf: &'b Shelf) -> Option<Halved<'b, 1>> {
+        match self.is_whole() {
+            true => self.matrix.prepared(shelf),
+            false => None,
+        }
     }
     fn assembled(&self) -> Option<&Matrix<1>> {
-        Some(self.inside.get_or_init(|| self.cut()))
+        Some(match self.is_whole() {
+            true => self.matrix,
+            false => self.inside.get_or_init(|| self.cut()),
+        })
     }
 }

@@ -1,0 +1,114 @@
+//! What is found together by all who hold particles of a flow, and what copies of particles are told.
+
+use sph_core::{Access, Stage, StepError};
+
+use crate::World;
+
+/// What is written as whole numbers, and read elsewhere.
+pub trait Words: Sized {
+    /// Writes the numbers behind others.
+    fn write(&self, to: &mut Vec<u64>);
+
+    /// Reads what was written.
+    fn read(from: &[u64]) -> Self;
+}
+
+/// An item of a list, with its place there.
+struct Placed<T>(usize, T);
+
+impl<T: Words> Words for Placed<T> {
+    fn write(&self, to: &mut Vec<u64>) {
+        to.push(self.0 as u64);
+        self.1.write(to);
+    }
+
+    fn read(from: &[u64]) -> Self {
+        Placed(from[0] as usize, T::read(&from[1..]))
+    }
+}
+
+impl<const D: usize> World<D> {
+    /// Replaces each value by the largest of all.
+    ///
+    /// # Errors
+    /// If the particles elsewhere are lost, as everywhere below.
+    pub fn largest(&self, values: &mut [f64]) -> Result<(), StepError> {
+        self.team
+            .as_ref()
+            .map_or(Ok(()), |team| team.largest(values))
+    }
+
+    /// The items of all, one's own among them.
+    ///
+    /// # Errors
+    /// As [`largest`](Self::largest).
+    pub fn of_all<T: Words>(&self, own: Vec<T>) -> Result<Vec<T>, StepError> {
+        let Some(team) = &self.team else {
+            return Ok(own);
+        };
+        let mut words = Vec::new();
+        for item in &own {
+            let length = words.len();
+            words.push(0);
+            item.write(&mut words);
+            words[length] = (words.len() - length - 1) as u64;
+        }
+        let words = team.gather(&words)?;
+        let (mut all, mut rest) = (Vec::new(), &words[..]);
+        while let Some((length, behind)) = rest.split_first() {
+            let (item, others) = behind.split_at((*length as usize).min(behind.len()));
+            all.push(T::read(item));
+            rest = others;
+        }
+        Ok(all)
+    }
+
+    /// A list of which each item is known where it is `owned`, and `otherwise` nowhere.
+    ///
+    /// # Errors
+    /// As [`largest`](Self::largest).
+    pub fn agreed<T: Words>(
+        &self,
+        list: Vec<T>,
+        owned: impl Fn(usize) -> bool,
+        otherwise: impl Fn(usize) -> T,
+    ) -> Result<Vec<T>, StepError> {
+        if self.team.is_none() {
+            return Ok(list);
+        }
+        let mut all: Vec<T> = (0..list.len()).map(otherwise).collect();
+        let known = list.into_iter().enumerate().filter(|(k, _)| owned(*k));
+        let known = known.map(|(k, item)| Placed(k, item)).collect();
+        for Placed(k, item) in self.of_all(known)? {
+            if let Some(place) = all.get_mut(k) {
+                *place = item;
+            }
+        }
+        Ok(all)
+    }
+
+    /// Runs a stage within other work: copies of particles follow their owners at once.
+    ///
+    /// # Errors
+    /// Those of the stage, and as [`largest`](Self::largest).
+    pub fn run(&mut self, stage: &mut dyn Stage<World<D>>) -> Result<(), StepError> {
+        stage.run(self)?;
+        match self.team.is_some() {
+            true => self.refresh(&stage.access()),
+            false => Ok(()),
+        }
+    }
+
+    /// Gives copies what work with this access has summed over the neighbours of their owners. All else they work out
+    /// themselves.
+    ///
+    /// # Errors
+    /// As [`largest`](Self::largest).
+    pub fn refresh(&mut self, access: &Access) -> Result<(), StepError> {
+        let sums = access.sweep && !access.writes.is_empty();
+        match self.team.clone().filter(|_| sums) {
+            Some(team) => team.tell(&mut self.free, &access.writes),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Which particles and elements of walls count in sums over all.
+
+use sph_core::{FieldError, Vect, fields};
+
+use crate::World;
+
+/// Which particles, or rows of theirs, count: all but the copies of those that are at home elsewhere.
+#[derive(Clone, Debug)]
+pub struct Owned(Option<Vec<bool>>);
+
+impl Owned {
+    /// Whether there are no copies.
+    pub fn all(&self) -> bool {
+        self.0.is_none()
+    }
+
+    /// Whether a particle counts.
+    #[inline]
+    pub fn has(&self, particle: usize) -> bool {
+        self.0.as_ref().is_none_or(|own| own[particle])
+    }
+
+    /// The same of rows, each of a particle.
+    pub fn of_rows(&self, particles: &[u32]) -> Self {
+        let rows = |own: &Vec<bool>| particles.iter().map(|p| own[*p as usize]).collect();
+        Owned(self.0.as_ref().map(rows))
+    }
+
+    /// The marks, where there are copies.
+    pub(crate) fn marks(&self) -> Option<&[bool]> {
+        self.0.as_deref()
+    }
+}
+
+impl<const D: usize> World<D> {
+    /// The particles that count in sums over all.
+    pub fn owned(&self) -> Owned {
+        Owned(self.team.as_ref().map(|team| team.own(&self.free)))
+    }
+
+    /// Particles whose sums over neighbours nobody asks for; `None` if all are asked for.
+    pub fn idle(&self) -> Option<Vec<bool>> {
+        self.team.as_ref().and_then(|team| team.idle(&self.free))
+    }
+
+    /// The elements of walls that count in sums over all.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn owned_elements(&self) -> Result<OwnedElements<'_, D>, FieldError> {
+        let owned = self.owned();
+        let looked = match owned.all() {
+            true => None,
+            false => Some(Looked {
+                identity: self.free.get(fields::IDENTITY)?,
+                position: self.free.get(fields::POSITION)?,
+            }),
+        };
+        Ok(OwnedElements {
+            world: self,
+            owned,
+            looked,
+        })
+    }
+}
+
+/// Which elements of walls count: where there are copies, those whose mean over the fluid has the particle of the lowest
+/// number at home here. All others in the mean are then here too, or copies of them.
+pub struct OwnedElements<'a, const D: usize> {
+    world: &'a World<D>,
+    owned: Owned,
+    looked: Option<Looked<'a, D>>,
+}
+
+/// What tells the particle of the lowest number.
+struct Looked<'a, const D: usize> {
+    identity: &'a [u32],
+    position: &'a [Vect<D>],
+}
+
+impl<const D: usize> OwnedElements<'_, D> {
+    /// Whether an element counts; where there are copies, none without a particle within a support.
+    pub fn has(&self, element: usize) -> bool {
+        let centre = &self.world.walls.elements.centre[element];
+        self.has_around(centre, || self.world.lists.of_elements.candidates(element))
+    }
+
+    /// The same of a place on a wall, with all particles that may be within a support of it.
+    pub fn has_around<'c>(&self, place: &Vect<D>, candidates: impl FnOnce() -> &'c [u32]) -> bool {
+        let (world, Some(looked)) = (self.world, &self.looked) else {
+            return true;
+        };
+        let support = world.kernel.support_radius().powi(2);
+        let near = |j: &usize| {
+            let apart = world.domain.nearest_image(looked.position[*j] - place);
+            apart.norm_squared() < support
+        };
+        let first = candidates().iter().map(|j| *j as usize).filter(near);
+        first
+            .min_by_key(|j| looked.identity[*j])
+            .is_some_and(|j| self.owned.has(j))
+    }
+}

@@ -1,0 +1,87 @@
+//! Physics knows no ranks: the world sums, and copies of particles follow their owners.
+
+use std::path::{Path, PathBuf};
+
+/// Crates that divide flows, run their parts, or write a file of each.
+const KNOWS: [&str; 6] = [
+    "sph-cli",
+    "sph-decomposition",
+    "sph-io",
+    "sph-mpi",
+    "sph-neighbours",
+    "sph-solver",
+];
+
+/// Words that no other crate may say, comments included, and what it has instead.
+const REFUSED: [(&[&str], &str); 4] = [
+    (
+        &["rank", "ranks", "team", "Team"],
+        "`World::sums`, `World::largest` and `World::of_all`, which are of all particles",
+    ),
+    (
+        &["begin_solve", "mirror_scalars"],
+        "`World::space`, whose vectors are of all particles",
+    ),
+    (
+        &["guest", "guests"],
+        "copies, which `World::owned` leaves out",
+    ),
+    (
+        &["SweepHalf", "sweep_half", "is_wanted"],
+        "the executor, which runs sweeps in halves",
+    ),
+];
+
+/// Refused words in a source, each with its line and what there is instead.
+fn refused(text: &str) -> Vec<(usize, String, &'static str)> {
+    let mut found = Vec::new();
+    for (k, line) in text.lines().enumerate() {
+        for word in line.split(|c: char| !(c.is_alphanumeric() || c == '_')) {
+            let of = REFUSED.iter().find(|(words, _)| words.contains(&word));
+            found.extend(of.map(|(_, instead)| (k + 1, word.to_string(), *instead)));
+        }
+    }
+    found
+}
+
+#[test]
+fn no_physics_names_a_rank() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    let entries = std::fs::read_dir(crates).expect("the crates");
+    let paths = entries.map(|entry| entry.expect("a crate").path());
+    let knows = |path: &PathBuf| KNOWS.iter().any(|name| path.ends_with(name));
+    let mut open: Vec<_> = paths
+        .filter(|path| !knows(path))
+        .map(|path| path.join("src"))
+        .collect();
+    let (mut lines, mut found) = (0, Vec::new());
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            let entries = std::fs::read_dir(&path).expect("a folder");
+            open.extend(entries.map(|entry| entry.expect("an entry").path()));
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).expect("a source");
+        lines += text.lines().count();
+        let file = path.display();
+        found.extend(
+            refused(&text).into_iter().map(|(line, word, instead)| {
+                format!("{file}:{line}: `{word}`; there is {instead}")
+            }),
+        );
+    }
+    assert!(lines > 50_000, "only {lines} lines were read");
+    found.sort();
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn a_word_is_refused_as_a_whole() {
+    let text =
+        "let low = LowRank { base };\n// On all ranks.\nif let Some(team) = &world.team {}\n";
+    let found = refused(text)
+        .into_iter()
+        .map(|(line, word, _)| (line, word));
+    let expected = [(2, "ranks"), (3, "team"), (3, "team")];
+    assert!(found.eq(expected.map(|(line, word)| (line, word.to_string()))));
+}
