@@ -186,7 +186,7 @@ fn every_whole_scene_of_the_documents_can_be_assembled() {
             }
         }
     }
-    assert!(scenes > 0, "the README shows a scene");
+    assert!(scenes > 0, "a tutorial shows a scene");
 }
 
 #[test]
