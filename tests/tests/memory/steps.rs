@@ -1,5 +1,5 @@
 //! What steps ask an allocator for, once all buffers have grown: counted, and bounded by what is known to remain
-//! (docs/performance.md, "What a step allocates").
+//! (docs/performance.md, "Allocations of a step").
 //!
 //! `DHAT_OUT=FILE DHAT_SCENE=NAME cargo test -p sph-tests --test memory steps` leaves a profile for dhat's viewer.
 

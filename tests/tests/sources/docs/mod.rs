@@ -186,7 +186,7 @@ fn every_whole_scene_of_the_documents_can_be_assembled() {
             }
         }
     }
-    assert!(scenes > 0, "the README shows a scene");
+    assert!(scenes > 0, "a tutorial shows a scene");
 }
 
 #[test]
@@ -207,7 +207,7 @@ fn links_within_the_workspace_lead_somewhere() {
 /// What a scene may name is told once; whoever mentions it leads there.
 #[test]
 fn pages_agree_on_which_folders_a_scene_may_name() {
-    let rule = "validation/stability.md#files-nobody-meant";
+    let rule = "validation/stability.md#files-of-a-scene";
     let mut mentioned = 0;
     for (path, text) in documents() {
         if !path.starts_with(root().join("docs")) || path.ends_with("validation/stability.md") {
