@@ -30,7 +30,7 @@ impl Parse for Term {
 /// A column, and the condition under which it is read.
 struct Column {
     field: Expr,
-    condition: Option<Expr>,
+    condition: Option<TokenStream>,
 }
 
 impl Parse for Column {
@@ -62,14 +62,14 @@ impl Entry {
         let word = attribute.path().get_ident().map(ToString::to_string);
         let word = word.unwrap_or_default();
         if word == "value" {
-            let value: Expr = attribute.parse_args()?;
+            let value: TokenStream = attribute.parse_args()?;
             return Ok(Entry {
                 access: TokenStream::new(),
                 value: quote!(#value),
             });
         }
         if word == "rate" {
-            let rate: Expr = attribute.parse_args()?;
+            let rate: TokenStream = attribute.parse_args()?;
             return Ok(Entry {
                 access: quote!(access = access.writes(#rate);),
                 value: quote!(world.slot(#rate)?),

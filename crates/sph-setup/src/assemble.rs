@@ -65,7 +65,7 @@ pub struct Assembled<const D: usize> {
 ///
 /// # Errors
 /// Every problem of the scene, with its path, and nothing is written; a flow that cannot be divided; another rank that failed.
-pub fn assemble_share<const D: usize>(
+pub(crate) fn assembled<const D: usize>(
     scene: &Scene,
     mut share: Share<D>,
 ) -> Result<Assembled<D>, SolverError> {

@@ -39,11 +39,8 @@ mod tension;
 mod wall_speeds;
 mod walls;
 
-#[cfg(test)]
-mod taken_back;
-
-pub use assemble::{Assembled, assemble_share, moves};
-pub use dimensions::assemble;
+pub use assemble::{Assembled, moves};
+pub use dimensions::{assemble, assemble_share};
 pub use estimate::{Estimate, Size, short_steps, size};
 pub use examination::{Examination, FieldUse, StageUse, examine, examine_in};
 pub use leaks::Leak;
