@@ -25,6 +25,8 @@ readmes! {
     Probes "../crates/sph-probes/README.md"
     Rheology "../crates/sph-rheology/README.md"
     Seepage "../crates/sph-seepage/README.md"
+    Setup "../crates/sph-setup/README.md"
+    Run "../crates/sph-run/README.md"
     Solver "../crates/sph-solver/README.md"
     State "../crates/sph-state/README.md"
     Stress "../crates/sph-stress/README.md"

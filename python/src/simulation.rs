@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sph_cli::library::{AnyScene, Request, Trouble};
 use sph_core::{Role, StepError};
-use sph_solver::{SolverError, Stepper};
+use sph_run::{RunError, Stepper};
 
 use crate::columns::{array, axes, field_of, from_array, numbers};
 use crate::scene::opened;
@@ -45,7 +45,7 @@ pub struct Simulation {
 /// Name, unit, whether it is state, and lengths of the axes after the first, of a column.
 type Described = (&'static str, &'static str, bool, Vec<usize>);
 
-fn assembled(scene: &sph_cli::library::ParticleScene) -> Result<Flow, SolverError> {
+fn assembled(scene: &sph_cli::library::ParticleScene) -> Result<Flow, RunError> {
     Ok(match scene.dimension {
         3 => Flow::Spatial(Box::new(Stepper::new(scene)?)),
         _ => Flow::Planar(Box::new(Stepper::new(scene)?)),
@@ -112,7 +112,7 @@ impl Simulation {
                     };
                     each!(&mut flow, s => s.start_from(&file))?;
                 }
-                Ok(flow)
+                Ok::<_, RunError>(flow)
             })
         });
         let flow = made.map_err(|e| {

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use sph_solver::{Command, Observer, Progress};
+use sph_run::{Command, Observer, Progress};
 
 /// Time between two looks of the thread of Python.
 const LOOK: Duration = Duration::from_millis(100);

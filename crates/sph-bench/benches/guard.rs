@@ -10,7 +10,8 @@ use std::path::Path;
 use divan::Bencher;
 use rayon::ThreadPoolBuilder;
 use sph_scene::Override;
-use sph_solver::{Snapshot, assemble};
+use sph_setup::assemble;
+use sph_solver::Snapshot;
 
 use running::advance;
 

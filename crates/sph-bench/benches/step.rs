@@ -10,7 +10,7 @@ use std::path::Path;
 use divan::{Bencher, counter::ItemsCount};
 use rayon::ThreadPoolBuilder;
 use sph_scene::Override;
-use sph_solver::{Assembled, assemble};
+use sph_setup::{Assembled, assemble};
 
 use running::advance;
 

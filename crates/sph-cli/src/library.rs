@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use sph_solver::Observer;
+use sph_run::Observer;
 
 use crate::arguments::{RunArguments, SceneArguments, StudyArguments};
 use crate::commands::{run as runs, study as studies};

@@ -1,38 +1,16 @@
-//! From a scene to a flow that can be evaluated.
+//! From names in a scene to plugins, and from plugins to a plan.
 
-pub(crate) mod assemble;
 pub(crate) mod builder;
 pub(crate) mod choices;
-pub(crate) mod dimensions;
-pub(crate) mod domain;
-pub(crate) mod estimate;
-pub(crate) mod examination;
-pub(crate) mod field_error;
-pub(crate) mod initial;
+pub(crate) mod in_force;
 pub(crate) mod joining;
-pub(crate) mod lattices;
-pub(crate) mod layers;
-pub(crate) mod leaks;
-pub(crate) mod memory;
-pub(crate) mod movers;
-pub(crate) mod open_faces;
-pub(crate) mod output_fields;
 pub(crate) mod parts;
-pub(crate) mod placement;
 pub(crate) mod planning;
-pub(crate) mod probe_setup;
-pub(crate) mod ranks;
-pub(crate) mod relax;
-pub(crate) mod relaxation;
-pub(crate) mod rims;
-pub(crate) mod room;
-pub(crate) mod shapes;
-pub(crate) mod share;
-pub(crate) mod soil_remarks;
-pub(crate) mod sound;
-pub(crate) mod start;
-pub(crate) mod swing;
-pub(crate) mod tension;
 pub(crate) mod transported;
-pub(crate) mod wall_speeds;
-pub(crate) mod walls;
+
+pub use builder::{Builder, Part};
+pub use choices::{Choices, ImplicitSolve, Physics};
+pub use in_force::PluginInForce;
+pub use joining::{Given, joined};
+pub use parts::{parts, strangers};
+pub use planning::{Planned, Planning, SharedTerms};

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use sph_core::SceneProblem;
 use sph_io::IoError;
+use sph_run::Observer;
 use sph_scene::{Diagnostic, Source};
-use sph_solver::Observer;
 use toml::Table;
 
 use crate::running::record::Record;

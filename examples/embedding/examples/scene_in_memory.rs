@@ -1,7 +1,7 @@
 //! A scene from a text, stepped by hand: no file is read and none is written.
 
 use sph_core::fields;
-use sph_solver::{SolverError, Stepper};
+use sph_run::{RunError, Stepper};
 
 const SCENE: &str = r#"
 title = "A drop falls"
@@ -22,13 +22,13 @@ box = [[0.0, 0.0], [0.05, 0.05]]
 "#;
 
 /// Height of the centre above its start (m) and mean velocity (m/s) after `seconds`.
-pub fn fall(seconds: f64) -> Result<[f64; 2], SolverError> {
+pub fn fall(seconds: f64) -> Result<[f64; 2], RunError> {
     let loaded = sph_scene::parse(SCENE, "drop.toml", &[]);
     let loaded = loaded.unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let mut drop = Stepper::<2>::new(&loaded.scene)?;
     let mean = |drop: &Stepper<2>, field| {
         let all = drop.parts().flow.world.free.get(field)?;
-        Ok::<f64, SolverError>(
+        Ok::<f64, RunError>(
             all.iter().map(|v: &sph_core::Vect<2>| v[1]).sum::<f64>() / all.len() as f64,
         )
     };
@@ -40,7 +40,7 @@ pub fn fall(seconds: f64) -> Result<[f64; 2], SolverError> {
     ])
 }
 
-fn main() -> Result<(), SolverError> {
+fn main() -> Result<(), RunError> {
     let [height, velocity] = fall(0.1)?;
     println!("after 0.1 s: {height:.5} m, {velocity:.5} m/s");
     Ok(())

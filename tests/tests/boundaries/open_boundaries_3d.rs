@@ -3,8 +3,10 @@
 use std::path::Path;
 
 use serde_json::Value as Json;
+use sph_run::{Identity, RunOptions, Start, Summary, run};
 use sph_scene::parse;
-use sph_solver::{Identity, RunOptions, SolverError, Start, Summary, assemble, run};
+use sph_setup::assemble;
+use sph_solver::SolverError;
 use sph_tests::FinalState;
 
 /// A duct of four by five by eight rows between an inlet and an outlet.

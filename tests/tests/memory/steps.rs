@@ -6,8 +6,8 @@
 use std::path::Path;
 
 use dhat::{HeapStats, Profiler};
+use sph_run::{Command, Identity, Observer, Progress, RunOptions, Start, run};
 use sph_scene::{Override, load};
-use sph_solver::{Command, Identity, Observer, Progress, RunOptions, Start, run};
 use sph_turbulence as _;
 
 /// Steps after which all buffers have grown.

@@ -7,7 +7,8 @@ use std::io::Write;
 
 use sph_core::{StepLimit, System, Vect, fields};
 use sph_scene::{Override, load};
-use sph_solver::{Assembled, SolverError, assemble};
+use sph_setup::{Assembled, assemble};
+use sph_solver::SolverError;
 
 const STEPS: usize = 60;
 const FORMULATIONS: [&str; 4] = ["hu-adams", "colagrossi-landrini", "grenier", "krimi"];

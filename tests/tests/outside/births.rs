@@ -6,8 +6,8 @@ use sph_contribution::{
 };
 use sph_core::{Access, Field, Scalar, StepError, Vect, plugin};
 use sph_neighbours::World;
+use sph_run::{RunOptions, Start, Summary, run};
 use sph_scene::parse;
-use sph_solver::{RunOptions, Start, Summary, run};
 use sph_tests::FinalState;
 
 contribution_kind!(
@@ -143,7 +143,7 @@ fn into(folder: &std::path::Path, text: &str, threads: usize, start: Start) -> S
         out: folder.to_path_buf(),
         start,
         threads: Some(threads),
-        identity: sph_solver::Identity::of_text(SCENE),
+        identity: sph_run::Identity::of_text(SCENE),
     };
     run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
 }

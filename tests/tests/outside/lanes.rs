@@ -4,8 +4,8 @@ use artificial_viscosity::ArtificialViscosity;
 use sph_core::{Access, StepError, plugin};
 use sph_lanes::{Width, force_width};
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World};
+use sph_run::{RunOptions, Start, run};
 use sph_scene::{Override, parse};
-use sph_solver::{RunOptions, Start, run};
 use sph_tests::{DAM_BREAK, FinalState, PERIODIC, SOAK, STIRRER};
 
 /// The same term for one particle at a time.
@@ -64,7 +64,7 @@ fn end_of(scene: &str, steps: usize) -> FinalState {
         out: folder.path().to_path_buf(),
         start: Start::Afresh,
         threads: Some(2),
-        identity: sph_solver::Identity::of_text(scene),
+        identity: sph_run::Identity::of_text(scene),
     };
     run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"));
     FinalState::of(folder.path())

@@ -1,7 +1,8 @@
 //! The kind of plugin of `examples/tracer`: heat and salt that diffuse through a fluid, `[tracer.heat-and-salt]`.
 
+use sph_run::{RunError, RunOptions, Start, Summary, run};
 use sph_scene::{Override, parse};
-use sph_solver::{Examination, RunOptions, SolverError, Start, Summary, examine, run};
+use sph_setup::{Examination, examine};
 use sph_tests::FinalState;
 use tracer as _;
 
@@ -41,7 +42,7 @@ fn into(
     changes: &[&str],
     threads: usize,
     start: Start,
-) -> Result<Summary, SolverError> {
+) -> Result<Summary, RunError> {
     let changes: Vec<_> = changes
         .iter()
         .map(|c| Override::parse(c).unwrap())
@@ -51,7 +52,7 @@ fn into(
         out: folder.to_path_buf(),
         start,
         threads: Some(threads),
-        identity: sph_solver::Identity::of_text(SCENE),
+        identity: sph_run::Identity::of_text(SCENE),
     };
     run(&loaded.scene, &options, &mut ())
 }
@@ -68,7 +69,7 @@ fn examined(changes: &[&str]) -> Examination {
 /// Rate at which a wave of length 1 dies on the lattice, over κ: 2 Σ_b V F_ab (1 − cos k x_b), the operator's own.
 fn decay_on_the_lattice() -> f64 {
     let loaded = parse(SCENE, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let parts = sph_solver::assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let parts = sph_setup::assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
     let (world, d) = (&parts.flow.world, 0.0625);
     let reach = (world.kernel.support_radius() / d).ceil() as i32;
     let mut sum = 0.0;

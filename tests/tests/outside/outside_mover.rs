@@ -1,8 +1,8 @@
 //! The mover of `examples/winch`.
 
 use sph_boundary::RigidState;
+use sph_run::{RunOptions, Start, run};
 use sph_scene::{Override, parse};
-use sph_solver::{RunOptions, Start, run};
 use winch as _;
 
 /// A block under water, away from the walls.
@@ -51,7 +51,7 @@ fn velocity(changes: &[&str]) -> f64 {
         out: folder.path().to_path_buf(),
         start: Start::Afresh,
         threads: Some(1),
-        identity: sph_solver::Identity::of_text(SCENE),
+        identity: sph_run::Identity::of_text(SCENE),
     };
     run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"));
     let checkpoint = sph_io::Checkpoint::load(folder.path().join("checkpoint.sph"));

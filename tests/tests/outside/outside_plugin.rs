@@ -177,19 +177,20 @@ impl<const D: usize> Contribution<D> for Remembering {
 // ------------------------------------------------------------------------------------------------
 
 use sph_rheology::{Rheology, rheometer};
+use sph_run::{RunError, RunOptions, Start, Summary, run};
 use sph_scene::parse;
-use sph_solver::{RunOptions, SolverError, Start, Summary, run};
+use sph_solver::SolverError;
 use sph_tests::{DAM_BREAK, FinalState, PERIODIC};
 use syrup::PowellEyring;
 
-fn run_text(scene: &str) -> Result<(Summary, tempfile::TempDir), SolverError> {
+fn run_text(scene: &str) -> Result<(Summary, tempfile::TempDir), RunError> {
     let loaded = parse(scene, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
     let folder = tempfile::tempdir().expect("a temporary folder");
     let options = RunOptions {
         out: folder.path().to_path_buf(),
         start: Start::Afresh,
         threads: Some(2),
-        identity: sph_solver::Identity::of_text(scene),
+        identity: sph_run::Identity::of_text(scene),
     };
     Ok((run(&loaded.scene, &options, &mut ())?, folder))
 }
@@ -245,7 +246,7 @@ fn a_kernel_of_ones_own_runs_where_there_are_no_walls() {
 #[test]
 fn walls_that_integrate_moments_refuse_it_and_say_why() {
     let refused = run_text(&format!("{DAM_BREAK}\n[kernel.gaussian]\n")).unwrap_err();
-    assert!(matches!(refused, SolverError::Scene(_)));
+    assert!(matches!(refused, RunError::Solver(SolverError::Scene(_))));
     let told = refused.to_string();
     assert!(
         told.contains("`gaussian` gives no radial moments"),

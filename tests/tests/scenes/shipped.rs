@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use sph_io::{Table, read_table};
+use sph_run::{RunOptions, Start, Status, Summary, run};
 use sph_scene::{Override, load};
-use sph_solver::{RunOptions, Start, Status, Summary, run};
 use tempfile::TempDir;
 
 /// A finished run.
@@ -69,7 +69,7 @@ pub fn finished(name: &str, overrides: &[&str]) -> Finished {
         out: folder.path().to_path_buf(),
         start: Start::Afresh,
         threads: Some(1),
-        identity: sph_solver::Identity::of_text(name),
+        identity: sph_run::Identity::of_text(name),
     };
     let summary = run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{name}: {e}"));
     let finished = Finished { summary, folder };

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::contracts;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 38] = [
+const ALLOWED: [(&str, &[&str]); 40] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation", "sph-derive"]),
     ("dem-grains", &["sph-derive"]),
@@ -166,8 +166,51 @@ const ALLOWED: [(&str, &[&str]); 38] = [
     ),
     ("sph-scene", &["scene-text", "surface-file", "sph-core"]),
     (
+        "sph-setup",
+        &[
+            "sph-boundary",
+            "sph-contribution",
+            "sph-core",
+            "sph-decomposition",
+            "sph-integrators",
+            "sph-io",
+            "sph-kernels",
+            "sph-multiphase",
+            "sph-neighbours",
+            "sph-open",
+            "sph-probes",
+            "sph-rheology",
+            "sph-scene",
+            "sph-solver",
+            "sph-state",
+        ],
+    ),
+    (
+        "sph-run",
+        &[
+            "sph-boundary",
+            "sph-contribution",
+            "sph-core",
+            "sph-decomposition",
+            "sph-io",
+            "sph-neighbours",
+            "sph-probes",
+            "sph-scene",
+            "sph-setup",
+            "sph-solver",
+            "sph-viscosity",
+        ],
+    ),
+    (
         "sph-study",
-        &["sph-core", "sph-io", "sph-scene", "sph-solver"],
+        &[
+            "sph-core",
+            "sph-io",
+            "sph-run",
+            "sph-scene",
+            "sph-setup",
+            "sph-solver",
+        ],
     ),
     (
         "sph-cli",
@@ -183,7 +226,9 @@ const ALLOWED: [(&str, &[&str]); 38] = [
             "sph-io",
             "sph-mpi",
             "sph-pressure",
+            "sph-run",
             "sph-scene",
+            "sph-setup",
             "sph-solver",
             "sph-study",
             "sph-turbulence",
@@ -199,10 +244,14 @@ const ALLOWED: [(&str, &[&str]); 38] = [
             "sph-io",
             "sph-neighbours",
             "sph-probes",
+            "sph-run",
             "sph-solver",
         ],
     ),
 ];
+
+/// From the plugins of a scene to its run.
+const SOLVERS: [&str; 3] = ["sph-solver", "sph-setup", "sph-run"];
 
 /// Heavy crates, each with the crates that may name it: one for particles, and one for grains, which
 /// know nothing of each other.
@@ -270,12 +319,11 @@ fn every_dependency_within_the_workspace_is_an_arrow_of_the_design() {
                 ("sph-tests", _) => true,
                 // Examples stand for crates of strangers.
                 ("artificial-viscosity" | "syrup" | "tracer" | "winch", _) => {
-                    target != "sph-solver"
+                    !SOLVERS.contains(&target.as_str())
                 }
                 ("embedding", _) => true,
-                ("sph-solver", _) => {
-                    !["sph-study", "sph-cli", "sph-tests"].contains(&target.as_str())
-                }
+                ("sph-solver", _) => !["sph-setup", "sph-run", "sph-study", "sph-cli", "sph-tests"]
+                    .contains(&target.as_str()),
                 (_, Some(allowed)) => allowed.contains(&target.as_str()),
                 (_, None) => target == "sph-core",
             };
@@ -287,8 +335,11 @@ fn every_dependency_within_the_workspace_is_an_arrow_of_the_design() {
 #[test]
 fn nothing_but_studies_the_command_line_python_tests_examples_and_benches_knows_the_solver() {
     for (name, room) in rooms() {
-        let knows = room.uses.contains("sph-solver") || room.tests_use.contains("sph-solver");
+        let all = || room.uses.union(&room.tests_use);
+        let knows = all().find(|d| SOLVERS.contains(&d.as_str()));
         let may = [
+            "sph-setup",
+            "sph-run",
             "sph-study",
             "sph-cli",
             "sph-python",
@@ -298,8 +349,8 @@ fn nothing_but_studies_the_command_line_python_tests_examples_and_benches_knows_
         ];
         let may = may.contains(&name.as_str());
         assert!(
-            !knows || may,
-            "{name} depends on sph-solver, if only for its tests"
+            knows.is_none() || may,
+            "{name} depends on {knows:?}, if only for its tests"
         );
     }
 }
@@ -351,8 +402,8 @@ fn heavy_crates_stay_in_their_room() {
 /// The solver assembles what scenes name. The names that it knows itself are on one page, `defaults.rs`.
 #[test]
 fn no_plugin_is_named_in_the_solver_but_on_its_page_of_defaults() {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/sph-solver/src");
-    let mut files = vec![source];
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    let mut files = Vec::from(SOLVERS.map(|name| crates.join(name).join("src")));
     let mut named = Vec::new();
     let mut lines = 0;
     while let Some(path) = files.pop() {

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde_json::{Value as Json, json};
-use sph_solver::{Examination, Memory, draw_scene, examine_and_try};
+use sph_run::{draw_scene, examine_and_try};
+use sph_setup::{Examination, Memory};
 
 use crate::arguments::CheckArguments;
 use crate::commands::{draw, grains, mesh};

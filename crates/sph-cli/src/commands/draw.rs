@@ -5,7 +5,7 @@ use std::path::Path;
 use sph_core::parse_quantity;
 use sph_draw::{DrawError, Frames, Line};
 use sph_io::IoError;
-use sph_solver::SolverError;
+use sph_run::RunError;
 
 use crate::telling::console;
 use crate::telling::trouble::Trouble;
@@ -140,7 +140,7 @@ fn trouble(error: DrawError) -> Trouble {
     match error {
         DrawError::Io(error @ (IoError::Write { .. } | IoError::DiskFull { .. })) => {
             Trouble::Failed {
-                error: SolverError::Io(error),
+                error: RunError::Io(error),
                 summary: None,
                 advice: None,
             }

@@ -1,7 +1,8 @@
 //! `sph explain`.
 
 use serde_json::Value as Json;
-use sph_solver::{Examination, PluginInForce, Ranks, StageUse, examine, ranks};
+use sph_setup::{Examination, Ranks, StageUse, examine, ranks};
+use sph_solver::PluginInForce;
 
 use crate::arguments::ExplainArguments;
 use crate::commands::check::memory;

@@ -3,7 +3,7 @@
 use clap::CommandFactory;
 use clap_mangen::Man;
 use sph_io::{Durability, IoError, write_atomic};
-use sph_solver::SolverError;
+use sph_run::RunError;
 
 use crate::arguments::Arguments;
 use crate::telling::console;
@@ -42,7 +42,7 @@ pub fn man(arguments: &ManArguments) -> Result<(), Trouble> {
         return Ok(());
     };
     let failed = |error: IoError| Trouble::Failed {
-        error: SolverError::Io(error),
+        error: RunError::Io(error),
         summary: None,
         advice: None,
     };

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sph_solver::{Status, Summary};
+use sph_run::{Status, Summary};
 
 use crate::commands::check::memory;
 use crate::commands::written;

@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
-use sph_scene::{Loaded, Source};
-use sph_solver::{
-    Identity, Observer, RunOptions, SolverError, Start, Status, Summary, run, run_on_threads,
-    run_part,
+use sph_run::{
+    Identity, Observer, RunError, RunOptions, Start, Status, Summary, run, run_on_threads, run_part,
 };
+use sph_scene::{Loaded, Source};
 
 use crate::arguments::RunArguments;
 use crate::commands::left_behind::{CHECKPOINT, failed_summary, going_on, remedy};
@@ -76,7 +75,7 @@ fn particles(
     out: &Path,
     observer: &mut (dyn Observer + Send),
 ) -> Result<Ended, Trouble> {
-    let located = |error| Trouble::of(error, &loaded.source);
+    let located = |error: sph_solver::SolverError| Trouble::of(error, &loaded.source);
     let options = RunOptions {
         out: out.to_path_buf(),
         start: start(arguments, out)?,
@@ -174,8 +173,8 @@ fn conclude(arguments: &RunArguments, ended: &Ended, out: &Path) -> Result<(), T
     Err(Trouble::Interrupted)
 }
 
-fn trouble(error: SolverError, arguments: &RunArguments, source: &Source, out: &Path) -> Trouble {
-    let ran = matches!(error, SolverError::Failed(_));
+fn trouble(error: RunError, arguments: &RunArguments, source: &Source, out: &Path) -> Trouble {
+    let ran = matches!(error, RunError::Failed(_));
     let advice = unwritten(&error)
         .filter(|_| out.join(CHECKPOINT).is_file())
         .map(|why| {
@@ -198,9 +197,9 @@ fn trouble(error: SolverError, arguments: &RunArguments, source: &Source, out: &
 }
 
 /// What is to be done first, if a file could not be written.
-fn unwritten(error: &SolverError) -> Option<&'static str> {
+fn unwritten(error: &RunError) -> Option<&'static str> {
     match error {
-        SolverError::Io(io) => remedy(io),
+        RunError::Io(io) => remedy(io),
         _ => None,
     }
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sph_io::clean;
-use sph_solver::{Command, Observer, Progress};
+use sph_run::{Command, Observer, Progress};
 
 use crate::telling::console;
 

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sph_io::clean;
-use sph_solver::Progress;
+use sph_run::Progress;
 use sph_study::{Cost, Options, Record, Status, Study, Variant, to_run, verdict};
 
 use crate::telling::console;

@@ -4,6 +4,7 @@ use dem_scene::DemError;
 use serde_json::{Value as Json, json};
 use sph_core::SceneProblem;
 use sph_io::IoError;
+use sph_run::RunError;
 use sph_scene::{LoadError, Source};
 use sph_solver::SolverError;
 use sph_study::{ReadError, Refused};
@@ -21,7 +22,7 @@ pub enum Trouble {
     /// The run failed; the summary it left, if it did.
     Failed {
         /// What happened.
-        error: SolverError,
+        error: RunError,
         /// Content of `summary.json`.
         summary: Option<Box<Json>>,
         /// How to go on.
@@ -89,9 +90,9 @@ impl Trouble {
     }
 
     /// What the solver says, with places in the scene where it is the scene's fault.
-    pub fn of(error: SolverError, source: &Source) -> Self {
-        let problems = match error {
-            SolverError::Scene(problems) => problems,
+    pub fn of(error: impl Into<RunError>, source: &Source) -> Self {
+        let problems = match error.into() {
+            RunError::Solver(SolverError::Scene(problems)) => problems,
             error if error.exit_code() == 2 => vec![SceneProblem::new("", error.to_string())],
             error => {
                 return Trouble::Failed {
@@ -161,11 +162,11 @@ fn left(summary: &Option<Box<Json>>, error: &impl std::fmt::Display) -> Json {
     }
 }
 
-fn failed(error: &SolverError) -> String {
+fn failed(error: &RunError) -> String {
     let mut text = format!("error: {error}\n");
     match error {
-        SolverError::Failed(failure) => text.push_str(&crate::commands::failed::text(failure)),
-        SolverError::Io(io) if is_unreadable_checkpoint(io) => text.push_str(
+        RunError::Failed(failure) => text.push_str(&crate::commands::failed::text(failure)),
+        RunError::Io(io) if is_unreadable_checkpoint(io) => text.push_str(
             "a checkpoint that cannot be read cannot be resumed: start again without --resume\n",
         ),
         _ => {}

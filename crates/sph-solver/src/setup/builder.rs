@@ -6,19 +6,23 @@ use sph_core::{Makes, PluginInfo, Registry, SceneProblem};
 use sph_scene::{PluginChoice, Scene};
 
 use crate::defaults;
-use crate::results::summary::PluginInForce;
+use crate::setup::in_force::PluginInForce;
 
 /// A contribution with the kind of plugin that it comes from.
 pub type Part<const D: usize> = (&'static str, Box<dyn Contribution<D>>);
 
 /// Builds what a scene names.
 pub struct Builder<'a> {
+    /// The scene.
     pub scene: &'a Scene,
+    /// What is wrong so far.
     pub problems: Vec<SceneProblem>,
+    /// What is built so far.
     pub in_force: Vec<PluginInForce>,
 }
 
 impl<'a> Builder<'a> {
+    /// A builder that has built nothing yet.
     pub fn new(scene: &'a Scene) -> Self {
         Builder {
             scene,

@@ -20,21 +20,26 @@ use sph_stress::{
 use sph_viscosity::{ViscousOperator, ViscousOperatorEntry};
 
 use crate::defaults;
-use crate::results::summary::PluginInForce;
 use crate::setup::builder::{Builder, Part};
+use crate::setup::in_force::PluginInForce;
 
 /// Everything the scene's names stand for.
 pub struct Choices<const D: usize> {
+    /// The kernel.
     pub kernel: Box<dyn Kernel>,
+    /// The time stepping scheme.
     pub integrator: Box<dyn Integrator>,
+    /// The treatment of walls; none without walls.
     pub walls: Option<Box<dyn Wall<D>>>,
     /// What moves walls, by the wall's name.
     pub movers: Vec<(String, Box<dyn Mover<D>>)>,
     /// Laws of open faces, by the wall's name.
     pub open: Vec<(String, Box<dyn OpenBoundary<D>>)>,
+    /// What acts on the particles.
     pub physics: Physics<D>,
     /// In the order of the phase numbers.
     pub equations_of_state: Vec<Box<dyn EquationOfState>>,
+    /// Probes, by name.
     pub probes: Vec<(String, Box<dyn Probe<D>>)>,
     /// Solutions of references, by the reference's name.
     pub solutions: Vec<(String, Box<dyn Solution<D>>)>,
@@ -49,9 +54,11 @@ pub type ImplicitSolve<const D: usize> = (Box<dyn TimeScheme>, Box<dyn LinearSol
 
 /// What acts on the particles.
 pub struct Physics<const D: usize> {
+    /// What density is, and how its pressure acts.
     pub formulation: Arc<dyn Formulation<D>>,
     /// Which pressure acts; that of the equations of state if there is none.
     pub pressure: Option<Box<dyn PressureScheme<D>>>,
+    /// Friction between particles.
     pub viscous_operator: Box<dyn ViscousOperator<D>>,
     /// Explicitly if there is none.
     pub implicit_viscosity: Option<ImplicitSolve<D>>,
@@ -59,6 +66,7 @@ pub struct Physics<const D: usize> {
     pub velocity_gradient: Option<Arc<dyn VelocityGradient<D>>>,
     /// Only where a law is elastic.
     pub elastic_force: Option<Box<dyn ElasticForce<D>>>,
+    /// Pair terms that the scene names itself.
     pub terms: Terms<D>,
     /// In the order of the phase numbers.
     pub rheologies: Rheologies,

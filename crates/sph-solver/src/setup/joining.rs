@@ -13,23 +13,23 @@ use crate::step::stages::{SharedWall, WALL_STATE};
 use crate::step::swing::Swing;
 
 /// What a flow is made of besides its plan.
-pub(crate) struct Given<const D: usize> {
+pub struct Given<const D: usize> {
+    /// The walls, if there are any.
     pub walls: Option<SharedWall<D>>,
+    /// Equations of state, in the order of the phase numbers.
     pub laws: Laws,
     /// η/ρ₀ of every phase, m²/s.
     pub kinematic_viscosities: Vec<f64>,
+    /// What gravity changes by, if it does.
     pub swing: Option<Swing<D>>,
+    /// Where particles leave.
     pub outlets: Outlets,
     /// The scalar with its rate that the formulation integrates.
     pub density: Evolved,
 }
 
 /// A flow of what was planned, with all columns that it touches.
-pub(crate) fn joined<const D: usize>(
-    world: World<D>,
-    planned: Planned<D>,
-    given: Given<D>,
-) -> Flow<D> {
+pub fn joined<const D: usize>(world: World<D>, planned: Planned<D>, given: Given<D>) -> Flow<D> {
     let mut evolved = vec![given.density];
     let offer = planned.offer;
     evolved.extend(offer.transported);

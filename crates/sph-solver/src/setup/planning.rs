@@ -8,7 +8,7 @@ use sph_multiphase::Diffused;
 use sph_neighbours::Interaction;
 use sph_scene::Scene;
 
-use crate::failure::error::SolverError;
+use crate::error::SolverError;
 use crate::setup::builder::Part;
 use crate::setup::transported::transported_by;
 use crate::step::hooks::Hooks;

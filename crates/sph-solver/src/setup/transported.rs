@@ -3,7 +3,7 @@
 use sph_core::{AnyField, Shape};
 use sph_neighbours::{Interaction, TRANSPORTED};
 
-use crate::failure::error::SolverError;
+use crate::error::SolverError;
 
 /// The rates that terms write, each once.
 pub(crate) fn transported_by<const D: usize>(

@@ -7,7 +7,7 @@ use sph_probes::Probe;
 use sph_scene::Scene;
 
 use crate::defaults;
-use crate::failure::error::SolverError;
+use crate::error::SolverError;
 use crate::setup::parts::strangers;
 use crate::step::books::Books;
 use crate::step::flow::Flow;
@@ -16,7 +16,7 @@ use crate::step::flow::Flow;
 ///
 /// # Errors
 /// If steps have another form than the books know, or particles come in or leave.
-pub(crate) fn open<const D: usize>(
+pub fn open<const D: usize>(
     scene: &Scene,
     probes: &[(String, Box<dyn Probe<D>>)],
     integrator: &dyn Integrator,

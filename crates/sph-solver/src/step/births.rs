@@ -12,7 +12,7 @@ impl<const D: usize> Flow<D> {
     ///
     /// # Errors
     /// If somebody is born impossible, or a column is missing.
-    pub(crate) fn let_in(&mut self, dt: f64) -> Result<(), StepError> {
+    pub fn let_in(&mut self, dt: f64) -> Result<(), StepError> {
         let Some(nursery) = self.nursery.take() else {
             return Ok(());
         };

@@ -14,7 +14,7 @@ pub struct Timing {
 /// Place of the list refresh among the timings.
 pub(crate) const LISTS: usize = 0;
 /// Name of the time spent on neighbour lists.
-pub(crate) const LISTS_NAME: &str = "neighbour lists";
+pub const LISTS_NAME: &str = "neighbour lists";
 /// Place of kicks and drifts among the timings; the stages follow, and then the work within a step.
 pub(crate) const MOTION: usize = 1;
 /// Name of the time spent on kicks and drifts.

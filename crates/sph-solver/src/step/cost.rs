@@ -7,7 +7,7 @@ use sph_neighbours::World;
 const CONTACT: f64 = 12.0;
 
 /// Candidates of each particle, and its contacts with walls.
-pub(crate) fn costs<const D: usize>(world: &World<D>) -> Vec<f64> {
+pub fn costs<const D: usize>(world: &World<D>) -> Vec<f64> {
     let contacts = &world.walls.contacts;
     let particles = world.free.len();
     if world.lists.reference.len() != particles {

@@ -16,7 +16,7 @@ use crate::step::stages::lock;
 const BATCH: usize = 2048;
 
 /// The stage in which walls move.
-pub(crate) const WALL_MOTION: &str = "wall motion";
+pub const WALL_MOTION: &str = "wall motion";
 
 /// What hooks before a drift may ask for at the present positions.
 const STATE: [AnyField; 4] = [

@@ -34,62 +34,65 @@ pub struct Flow<const D: usize> {
     /// Columns, walls, lists, kernel, clock.
     pub world: World<D>,
     /// Stages in the order of the plan.
-    pub(crate) stages: Vec<Box<dyn Stage<World<D>>>>,
+    pub stages: Vec<Box<dyn Stage<World<D>>>>,
     /// Names of the stages nobody needed.
-    pub(crate) pruned: Vec<String>,
-    pub(crate) limiters: Vec<Box<dyn Limiter<D>>>,
-    pub(crate) walls: Option<SharedWall<D>>,
+    pub pruned: Vec<String>,
+    /// Bounds on the step.
+    pub limiters: Vec<Box<dyn Limiter<D>>>,
+    /// The walls, if there are any.
+    pub walls: Option<SharedWall<D>>,
     /// What movers are told, in the order of the walls' names, from the last kick; empty if none asks.
-    pub(crate) loads: Vec<WallForce<D>>,
+    pub loads: Vec<WallForce<D>>,
     pub(crate) evolved: Vec<Evolved>,
     /// All scalars that are advanced in time.
     pub(crate) integrated: Vec<Field<Scalar>>,
     /// Bounds on steps within a step, for listings.
-    pub(crate) inner_bounds: Vec<String>,
+    pub inner_bounds: Vec<String>,
     /// Work within a step.
-    pub(crate) hooks: Hooks<D>,
+    pub hooks: Hooks<D>,
     /// Whether hooks before a drift read density, volume, pressure and γ of the present positions.
     pub(crate) fresh_state: bool,
     /// Forces on walls by hooks in the last kick, in the order of the walls; empty if there are none.
     pub(crate) on_walls: Vec<WallForce<D>>,
     /// Sources and sinks of particles.
-    pub(crate) gates: Vec<Box<dyn Gate<D>>>,
+    pub gates: Vec<Box<dyn Gate<D>>>,
     /// Energy that particles store.
-    pub(crate) stored: Vec<Box<dyn StoredEnergy<D>>>,
+    pub stored: Vec<Box<dyn StoredEnergy<D>>>,
     /// Forces outside of the sweep.
     pub(crate) outside: Vec<OutsideForce<D>>,
     /// What all of these declare.
     pub(crate) columns: Columns,
     /// Whether somebody moved since the last evaluation.
-    pub(crate) moved: bool,
+    pub moved: bool,
     /// Whether the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
-    pub(crate) restored: bool,
+    pub restored: bool,
     /// The state that an integrator keeps within a step.
     pub(crate) kept: Snapshot<D>,
     /// Accelerations and scalar rates of the kept state.
     pub(crate) kept_rates: Kept<D>,
     /// The same particles, where some of them may go to another rank.
     pub(crate) kept_image: KeptImage<D>,
-    pub(crate) laws: Laws,
+    /// Equations of state, in the order of the phase numbers.
+    pub laws: Laws,
     /// η/ρ₀ of every phase, m²/s.
-    pub(crate) kinematic_viscosities: Vec<f64>,
+    pub kinematic_viscosities: Vec<f64>,
     /// The pair terms of the interaction sweep.
     pub(crate) terms: Arc<[Box<dyn Interaction<D>>]>,
     /// What plugin every term comes from, by the term's name.
-    pub(crate) kinds: Vec<(String, &'static str)>,
+    pub kinds: Vec<(String, &'static str)>,
     /// What to change where a term of a kind has thrown a particle about, by the kind, or a stage failed, by its name.
-    pub(crate) remedies: Vec<(&'static str, String)>,
+    pub remedies: Vec<(&'static str, String)>,
     pub(crate) timings: Vec<Timing>,
     /// What gravity changes by, if it does.
     pub(crate) swing: Option<Swing<D>>,
     /// Where particles leave.
-    pub(crate) outlets: Outlets,
+    pub outlets: Outlets,
     /// What newborn particles begin with, where some may come in.
-    pub(crate) nursery: Option<Nursery<D>>,
+    pub nursery: Option<Nursery<D>>,
     /// Observers of the boundaries within a step, where a probe asks for one.
     pub(crate) observers: Vec<Box<dyn Observer<D>>>,
     /// What this process has of a flow that is divided between several.
-    pub(crate) parts: Option<Parts<D>>,
+    pub parts: Option<Parts<D>>,
 }
 
 impl<const D: usize> Flow<D> {
@@ -104,7 +107,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// The same into a buffer.
-    pub(crate) fn step_limits_into(&self, limits: &mut Vec<StepLimit>) -> Result<(), StepError> {
+    pub fn step_limits_into(&self, limits: &mut Vec<StepLimit>) -> Result<(), StepError> {
         limits.clear();
         for limiter in &self.limiters {
             limits.push(limiter.limit(&self.world)?);
@@ -113,7 +116,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Asks everybody what they declare; after a change of who is at work.
-    pub(crate) fn ask_all(&mut self) {
+    pub fn ask_all(&mut self) {
         let sweep = self.terms.iter().map(|term| term.access());
         let outside = self.outside.iter().map(|force| force.access());
         self.columns = Columns {
@@ -124,12 +127,12 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Whether nothing has been looked for near particles yet.
-    pub(crate) fn is_blank(&self) -> bool {
+    pub fn is_blank(&self) -> bool {
         self.world.lists.reference.is_empty()
     }
 
     /// What lengthens each bound, by its name, where its plugin knows.
-    pub(crate) fn remedies_of_bounds(&self) -> Result<BTreeMap<String, String>, StepError> {
+    pub fn remedies_of_bounds(&self) -> Result<BTreeMap<String, String>, StepError> {
         let mut all = BTreeMap::new();
         for limiter in &self.limiters {
             if let Some(remedy) = limiter.remedy() {
@@ -240,7 +243,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Largest extent of the particles along any axis, m.
-    pub(crate) fn extent(&self) -> f64 {
+    pub fn extent(&self) -> f64 {
         let Ok(position) = self.world.free.get(fields::POSITION) else {
             return 0.0;
         };
@@ -253,7 +256,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// The terms that push particles, those outside of the sweep included.
-    pub(crate) fn forces(&self) -> Vec<&dyn Interaction<D>> {
+    pub fn forces(&self) -> Vec<&dyn Interaction<D>> {
         let terms = self.terms.iter().map(|t| &**t);
         terms.chain(self.outside.iter().map(|f| &**f)).collect()
     }
@@ -275,19 +278,19 @@ impl<const D: usize> Flow<D> {
     }
 
     /// The reports of all hooks, in their order.
-    pub(crate) fn reports(&self) -> impl Iterator<Item = Report> {
+    pub fn reports(&self) -> impl Iterator<Item = Report> {
         self.hooks.all.iter().map(|h| h.hook.report(&self.world))
     }
 
     /// What hooks have counted, by their names.
-    pub(crate) fn counts(&self) -> BTreeMap<String, Json> {
+    pub fn counts(&self) -> BTreeMap<String, Json> {
         let all = self.hooks.all.iter().zip(self.reports());
         all.filter_map(|(h, report)| Some((h.hook.name(), report.counts?)))
             .collect()
     }
 
     /// What hooks have counted, by the keys of the summary.
-    pub(crate) fn counts_of_summary(&self) -> BTreeMap<String, Json> {
+    pub fn counts_of_summary(&self) -> BTreeMap<String, Json> {
         let keyed = |report: Report| Some((report.summary?.into(), report.counts?));
         self.reports().filter_map(keyed).collect()
     }
@@ -306,7 +309,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Least and largest K/ρ₀, if the formulation has a density constant.
-    pub(crate) fn density_constant_range(&self) -> Option<[f64; 2]> {
+    pub fn density_constant_range(&self) -> Option<[f64; 2]> {
         let constant = self.world.free.get(fields::DENSITY_CONSTANT).ok()?;
         let phase = self.world.free.get(fields::PHASE).ok();
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
@@ -325,7 +328,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Names of the columns that carry history, in order of allocation.
-    pub(crate) fn state_columns(&self) -> Vec<&'static str> {
+    pub fn state_columns(&self) -> Vec<&'static str> {
         let columns = self.world.free.columns();
         let state = columns.filter(|(_, _, role, ..)| *role == Role::State);
         state.map(|(name, ..)| name).collect()
@@ -340,7 +343,8 @@ impl<const D: usize> Flow<D> {
         guard::rates(&self.world, &self.laws, density_bounds)
     }
 
-    pub(crate) fn reset_timings(&mut self) {
+    /// Starts all timings anew; after a change of who is at work.
+    pub fn reset_timings(&mut self) {
         let services = [LISTS_NAME, MOTION_NAME].map(String::from);
         let names = services
             .into_iter()

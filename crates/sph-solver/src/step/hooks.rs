@@ -4,9 +4,10 @@ use sph_contribution::{StepHook, StepPhase};
 use sph_core::Access;
 
 /// A hook at work.
-pub(crate) struct Hooked<const D: usize> {
+pub struct Hooked<const D: usize> {
     /// The kind of plugin that it comes from.
     pub kind: &'static str,
+    /// The hook.
     pub hook: Box<dyn StepHook<D>>,
     /// Its columns: asked once, since each answer asks for memory.
     pub access: Access,
@@ -14,7 +15,7 @@ pub(crate) struct Hooked<const D: usize> {
 
 /// All hooks of a flow, in their order.
 #[derive(Default)]
-pub(crate) struct Hooks<const D: usize> {
+pub struct Hooks<const D: usize> {
     pub all: Vec<Hooked<D>>,
     /// The numbers of those that run, by phase.
     by_phase: [Vec<usize>; StepPhase::COUNT],

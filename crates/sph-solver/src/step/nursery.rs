@@ -7,7 +7,7 @@ use sph_multiphase::Formulation;
 use sph_scene::Scene;
 
 /// What newborn particles begin with.
-pub(crate) struct Nursery<const D: usize> {
+pub struct Nursery<const D: usize> {
     pub(crate) formulation: Arc<dyn Formulation<D>>,
     /// Columns that contributions bring along.
     pub(crate) columns: Vec<OwnColumn<D>>,
@@ -16,7 +16,8 @@ pub(crate) struct Nursery<const D: usize> {
 }
 
 impl<const D: usize> Nursery<D> {
-    pub(crate) fn new(
+    /// That of a scene.
+    pub fn new(
         scene: &Scene,
         formulation: Arc<dyn Formulation<D>>,
         columns: Vec<OwnColumn<D>>,

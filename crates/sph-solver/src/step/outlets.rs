@@ -1,10 +1,8 @@
 //! Where particles leave the flow.
 
 use serde::{Deserialize, Serialize};
-use sph_core::{SceneProblem, Store, Taken};
+use sph_core::{SceneProblem, Store, Taken, Vect};
 use sph_scene::{Outlet, Scene};
-
-use crate::setup::placement::Placed;
 
 /// The outlets of a scene.
 pub struct Outlets {
@@ -27,13 +25,13 @@ pub struct Left {
 }
 
 impl Outlets {
-    /// The outlets of a scene; `free` counts what leaves by them.
+    /// The outlets of a scene; `free` counts what leaves by them. Particles start at `places`, each in the body of a number.
     ///
     /// # Errors
     /// If a body stands in one at the start.
     pub fn of<const D: usize>(
         scene: &Scene,
-        placed: &Placed<D>,
+        (places, bodies): (&[Vect<D>], &[u32]),
         free: &mut Store<D>,
     ) -> Result<Self, Vec<SceneProblem>> {
         let mut problems = Vec::new();
@@ -47,7 +45,7 @@ impl Outlets {
                     ..Taken::default()
                 });
             }
-            let mut starts = placed.positions.iter().zip(&placed.body);
+            let mut starts = places.iter().zip(bodies);
             let inside = starts.find(|(x, _)| place.contains(&(**x).into()));
             if let Some((x, body)) = inside {
                 let body = scene.body.keys().nth(*body as usize);

@@ -14,7 +14,7 @@ impl<const D: usize> Flow<D> {
     ///
     /// # Errors
     /// More ranks than particles.
-    pub(crate) fn divide(&mut self, transport: Arc<dyn Transport>) -> Result<(), PartError> {
+    pub fn divide(&mut self, transport: Arc<dyn Transport>) -> Result<(), PartError> {
         let rings = self.rings();
         let parts = Parts::divide(&mut self.world, rings, transport)?;
         self.parts = Some(parts);
@@ -22,7 +22,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// How often a stage goes from particles to their neighbours.
-    pub(crate) fn rings(&self) -> usize {
+    pub fn rings(&self) -> usize {
         let hooks = self.hooks.all.iter().map(|hook| &hook.access);
         let all = self.columns.stages.iter().chain(hooks);
         let all = all.chain(&self.columns.gates).map(|access| access.rings);
@@ -30,7 +30,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Why the flow cannot be divided between ranks, if it cannot.
-    pub(crate) fn indivisible(&self) -> Option<String> {
+    pub fn indivisible(&self) -> Option<String> {
         let mut all = self.stages.iter().map(|s| (s.name(), s.needs_all()));
         let (name, why) = all.find_map(|(name, why)| Some((name, why?)))?;
         Some(format!("`{name}` cannot run on several ranks: {why}"))
@@ -78,7 +78,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Limits become the smallest of all ranks.
-    pub(crate) fn least_limits(&mut self, limits: &mut [StepLimit]) -> Result<(), StepError> {
+    pub fn least_limits(&mut self, limits: &mut [StepLimit]) -> Result<(), StepError> {
         if let Some(parts) = &mut self.parts {
             let mut times: Vec<f64> = limits.iter().map(|l| l.dt).collect();
             parts.least(&mut times)?;
@@ -88,7 +88,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Tells guests all that their owners know.
-    pub(crate) fn tell_all(&mut self) -> Result<(), StepError> {
+    pub fn tell_all(&mut self) -> Result<(), StepError> {
         match &mut self.parts {
             None => Ok(()),
             Some(parts) => Ok(parts.tell(&mut self.world.free, |_| true)?),
@@ -96,7 +96,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Whether any rank has a reason; every rank must ask.
-    pub(crate) fn any_rank(&mut self, own: bool) -> Result<bool, StepError> {
+    pub fn any_rank(&mut self, own: bool) -> Result<bool, StepError> {
         match &mut self.parts {
             None => Ok(own),
             Some(parts) => Ok(parts.any(false, own)?),

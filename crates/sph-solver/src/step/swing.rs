@@ -4,7 +4,7 @@ use sph_boundary::{Course, RigidMotion};
 use sph_core::Vect;
 
 /// Gravity over time, without what is steady of it.
-pub(crate) struct Swing<const D: usize> {
+pub struct Swing<const D: usize> {
     /// Motion of the frame.
     pub frame: RigidMotion<D>,
     /// What is added to gravity.
@@ -12,7 +12,8 @@ pub(crate) struct Swing<const D: usize> {
 }
 
 /// What is added to gravity over time.
-pub(crate) enum Given<const D: usize> {
+pub enum Given<const D: usize> {
+    /// Nothing.
     None,
     /// a·r(t)·sin(2πt/T + φ): amplitude, m/s², and course of amplitude 1 with its value at time 0.
     Sine(Vect<D>, Course, f64),

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use sph_core::SceneProblem;
 use sph_io::IoError;
+use sph_run::{Identity, Observer, RunError, RunOptions, Start, Summary, marks, run};
 use sph_scene::{Diagnostic, Loaded, Source, read};
-use sph_solver::{
-    Identity, Observer, RunOptions, SolverError, Start, Summary, examine, marks, run,
-};
+use sph_setup::examine;
+use sph_solver::SolverError;
 use toml::Table;
 
 use crate::running::cost::SolveCost;
@@ -52,7 +52,7 @@ impl Subject for Loaded {
             }
             other => SceneProblem::new("", other.to_string()),
         })?;
-        let each = |mark: sph_solver::FileMark| (mark.key, mark.content.to_string());
+        let each = |mark: sph_run::FileMark| (mark.key, mark.content.to_string());
         Ok(marks.into_iter().map(each).collect())
     }
 
@@ -84,12 +84,12 @@ impl Subject for Loaded {
             identity: Identity::of_text(request.identity.to_string()),
         };
         match run(&self.scene, &options, observer) {
-            Ok(summary) if summary.status == sph_solver::Status::Done => {
+            Ok(summary) if summary.status == sph_run::Status::Done => {
                 Ok(Ended::Done(Box::new(record(&summary))))
             }
             Ok(summary) => Ok(Ended::Stopped(Box::new(record(&summary)))),
             Err(error) if request.resume && cannot_resume(&error) => Ok(Ended::Unusable),
-            Err(SolverError::Io(error)) => Err(error),
+            Err(RunError::Io(error)) => Err(error),
             Err(error) => Ok(Ended::Failed(Box::new(failed(&error)), error.to_string())),
         }
     }
@@ -115,8 +115,8 @@ fn record(summary: &Summary) -> Record {
 }
 
 /// What a failed run gave.
-fn failed(error: &SolverError) -> Record {
-    let SolverError::Failed(failure) = error else {
+fn failed(error: &RunError) -> Record {
+    let RunError::Failed(failure) = error else {
         return Record::default();
     };
     let mut known = match &failure.summary {
@@ -133,10 +133,10 @@ fn failed(error: &SolverError) -> Record {
 }
 
 /// Whether an error says that a checkpoint is of no use, so that the variant starts afresh.
-fn cannot_resume(error: &SolverError) -> bool {
+fn cannot_resume(error: &RunError) -> bool {
     match error {
-        SolverError::Resume { .. } => true,
-        SolverError::Io(io) => unusable(io),
+        RunError::Resume { .. } => true,
+        RunError::Io(io) => unusable(io),
         _ => false,
     }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use sph_io::IoError;
-use sph_solver::{Command, Observer, Progress};
+use sph_run::{Command, Observer, Progress};
 
 use crate::reading::options::Options;
 use crate::reading::plan::Study;

@@ -1,6 +1,6 @@
 //! Who is told how a study goes on.
 
-use sph_solver::Progress;
+use sph_run::Progress;
 
 use crate::reading::variant::Variant;
 use crate::running::record::Record;

@@ -8,8 +8,10 @@ use std::path::Path;
 
 use serde_json::Value as Json;
 use sph_core::{SceneProblem, fields};
+use sph_run::{Identity, RunOptions, Start, Stepper, Summary, run};
 use sph_scene::parse;
-use sph_solver::{Identity, RunOptions, SolverError, Start, Stepper, Summary, assemble, run};
+use sph_setup::assemble;
+use sph_solver::SolverError;
 use sph_tests::FinalState;
 
 /// A column of the series that a run has written, by the beginning of its name.

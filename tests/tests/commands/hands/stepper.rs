@@ -1,8 +1,8 @@
 //! A scene stepped by hand: the bits of a run, and columns that are changed between steps.
 
 use sph_core::{Plain, Role, StepError, fields};
+use sph_run::{Identity, RunOptions, Start, Stepper, run};
 use sph_scene::Scene;
-use sph_solver::{Identity, RunOptions, Start, Stepper, run};
 
 const SCENE: &str = include_str!("../../../../scenes/dam-break-koshizuka.toml");
 

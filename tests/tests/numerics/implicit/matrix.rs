@@ -4,7 +4,7 @@ use sph_core::{System, Vect, fields};
 use sph_implicit::{Cholesky, Diagonal, Entries, Entry, LinearSolver, Matrix, Operator};
 use sph_neighbours::{Weak, World, interactions};
 use sph_scene::parse;
-use sph_solver::assemble;
+use sph_setup::assemble;
 use sph_viscosity::{
     Choice, EspanolRevenga, FrictionOperator, FrictionSystem, HuAdamsViscosity, KrimiViscosity,
     MonaghanGingold, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm,

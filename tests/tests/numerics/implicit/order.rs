@@ -2,7 +2,7 @@
 
 use sph_core::{System, Vect, fields};
 use sph_scene::parse;
-use sph_solver::assemble;
+use sph_setup::assemble;
 
 /// Vortices that decay by e^−0.5 in the time that sound takes over half the box.
 pub fn vortices(integrator: &str, viscosity: &str) -> String {

@@ -4,7 +4,7 @@ use sph_core::{System, Vect, fields};
 use sph_multiphase::FREE_SURFACE;
 use sph_pressure as _;
 use sph_scene::parse;
-use sph_solver::assemble;
+use sph_setup::assemble;
 use sph_tests::Bench;
 
 use crate::implicit::order::{after, vortices};

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use sph_core::{Vect, fields};
+use sph_run::{RunOptions, Start, run};
 use sph_scene::load;
-use sph_solver::{Assembled, RunOptions, Start, run};
+use sph_setup::Assembled;
 
 use crate::invariants::{fly, given, shipped};
 
@@ -166,7 +167,7 @@ fn energy_rise(name: &str, overrides: &[&str]) -> f64 {
         out: folder.path().to_path_buf(),
         start: Start::Afresh,
         threads: Some(1),
-        identity: sph_solver::Identity::of_text(name),
+        identity: sph_run::Identity::of_text(name),
     };
     let summary = run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{name}: {e}"));
     summary.drift.energy_rise

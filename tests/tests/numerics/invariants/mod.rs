@@ -4,7 +4,7 @@ use std::path::Path;
 
 use sph_core::{StepLimit, System, Vect, fields};
 use sph_scene::{Override, load, parse};
-use sph_solver::{Assembled, assemble};
+use sph_setup::{Assembled, assemble};
 
 mod conservation;
 mod energy;

@@ -6,7 +6,7 @@ use std::time::Instant;
 use sph_core::{StepLimit, System, fields};
 use sph_neighbours::World;
 use sph_scene::{Override, load};
-use sph_solver::{Assembled, assemble};
+use sph_setup::{Assembled, assemble};
 use sph_stress::{Laplace, PressureSolver, Soils};
 
 /// ρ and Δρ of the bed, kg/m³.

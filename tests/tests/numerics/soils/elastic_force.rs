@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use sph_core::{Registry, Role, System, Vect, fields};
 use sph_neighbours::{Interaction, interactions};
 use sph_rheology::{DruckerPrager, Newtonian, Rheology};
-use sph_solver::{Assembled, SolverError, assemble};
+use sph_setup::{Assembled, assemble};
+use sph_solver::SolverError;
 use sph_stress::{Blended, Rheologies};
 use sph_viscosity::{Viscosity, ViscousOperatorEntry};
 

@@ -1,7 +1,7 @@
 //! A cliff of dry soil that must fall: what holds it, and what a run tells of it.
 
+use sph_run::{RunError, RunOptions, Solves, Start, Summary, run};
 use sph_scene::{Override, parse};
-use sph_solver::{RunOptions, SolverError, Solves, Start, Summary, run};
 
 /// 0.3 m wide, 0.8 m high, friction angle 30°, E = 1 GPa, grains of 10 mm, 0.2 s.
 const CLIFF: &str = include_str!("../../../scenes/cliff.toml");
@@ -17,7 +17,7 @@ fn end_of(text: &str, overrides: &[&str]) -> Summary {
     outcome(text, overrides).unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn outcome(text: &str, overrides: &[&str]) -> Result<Summary, SolverError> {
+fn outcome(text: &str, overrides: &[&str]) -> Result<Summary, RunError> {
     let overrides = overrides.iter().map(|o| Override::parse(o).unwrap());
     let overrides: Vec<_> = overrides.collect();
     let loaded = parse(text, "scene.toml", &overrides).unwrap_or_else(|e| panic!("{e}"));
@@ -26,7 +26,7 @@ fn outcome(text: &str, overrides: &[&str]) -> Result<Summary, SolverError> {
         out: folder.path().to_path_buf(),
         start: Start::Afresh,
         threads: Some(1),
-        identity: sph_solver::Identity::of_text(text),
+        identity: sph_run::Identity::of_text(text),
     };
     run(&loaded.scene, &options, &mut ())
 }

@@ -14,7 +14,8 @@ mod stepping;
 use std::path::Path;
 
 use sph_scene::{Override, load};
-use sph_solver::{Assembled, SolverError, assemble};
+use sph_setup::{Assembled, assemble};
+use sph_solver::SolverError;
 
 /// A shipped scene in the plane with some changes, assembled.
 fn tried(scene: &str, overrides: &[&str]) -> Result<Assembled<2>, SolverError> {

@@ -7,8 +7,9 @@ mod refusals;
 mod strains;
 
 use sph_core::{System, Vect, fields};
+use sph_run::{RunOptions, Start, Summary, run};
 use sph_scene::{Override, parse};
-use sph_solver::{Assembled, RunOptions, Start, Summary, assemble, run};
+use sph_setup::{Assembled, assemble};
 use sph_tests::{Bench, FinalState, PERIODIC};
 use sph_turbulence::{
     DISSIPATION, FRICTION_VELOCITY, Smagorinsky, TURBULENT_ENERGY, WALL_DISTANCE, WallLaw,
@@ -98,7 +99,7 @@ fn into(
         out: folder.to_path_buf(),
         start,
         threads: Some(threads),
-        identity: sph_solver::Identity::of_text(text),
+        identity: sph_run::Identity::of_text(text),
     };
     run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
 }

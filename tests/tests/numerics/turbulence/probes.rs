@@ -1,6 +1,6 @@
 //! Means over time and layers, and spectra.
 
-use sph_solver::Start;
+use sph_run::Start;
 use sph_tests::{Bench, FinalState, PERIODIC};
 
 use crate::turbulence::{CHANNEL, PROGRAM, into, last};

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use dem_scene::{DemError, Loaded, RunOptions, SUMMARY, Start, Status, Step, run};
 use serde_json::Value as Json;
-use sph_solver::{Command, Observer, Progress};
+use sph_run::{Command, Observer, Progress};
 
 use super::outcome;
 use crate::arguments::RunArguments;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use dem_scene::{Compared, DemError, Loaded, RunOptions, Start, Status, Summary, run};
 use sph_core::SceneProblem;
 use sph_io::IoError;
+use sph_run::Observer;
 use sph_scene::{Diagnostic, Source};
-use sph_solver::Observer;
 use sph_study::{Ended, Method, Record, Request, Subject, unusable};
 use toml::{Table, Value};
 

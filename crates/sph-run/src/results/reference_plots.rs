@@ -1,0 +1,163 @@
+//! Pictures of probes beside their references.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+
+use sph_io::{Plot, Series, read_table};
+use sph_probes::norm;
+use sph_scene::{Norm, Scene};
+use sph_setup::reference_table;
+
+use crate::failure::error::RunError;
+
+/// More points than this are drawn as a line: markers would cover one another, and the run.
+const MOST_MARKERS: usize = 200;
+
+/// Longest list of authors in a legend, characters.
+const LONGEST: usize = 40;
+
+/// A reference is shown this much beyond the end of the run, over its length.
+const BEYOND: f64 = 0.05;
+
+/// A picture of every probe beside its reference, `plots/NAME.png`.
+pub fn plots(scene: &Scene, folder: &Path) -> Result<(), RunError> {
+    let compared = scene.reference.iter().filter(|(_, r)| r.probe.is_some());
+    let compared: Vec<_> = compared.filter(|(_, r)| r.path.is_some()).collect();
+    if compared.is_empty() {
+        return Ok(());
+    }
+    let measured = read_table(folder.join("series.csv"))?;
+    let plots = folder.join("plots");
+    sph_io::writable(&plots)?;
+    for (name, reference) in compared {
+        let (Some(probe), Some(path)) = (&reference.probe, &reference.path) else {
+            continue;
+        };
+        let times = measured.column("time").unwrap_or(&[]);
+        let Some(values) = measured.column(probe) else {
+            continue;
+        };
+        let values = match reference.average {
+            Some(width) => norm::moving_mean(times, values, width),
+            None => values.to_vec(),
+        };
+        let unit = measured
+            .columns
+            .iter()
+            .find(|c| c.name == *probe)
+            .map(|c| c.unit.clone());
+        let Ok(table) = reference_table(reference, path) else {
+            continue;
+        };
+        let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
+            let column = table.columns.get(k).map_or(&[][..], |c| &c.values);
+            column.iter().map(|v| v * scale + offset).collect()
+        };
+        let at = scaled(0, reference.scale_time, reference.offset_time);
+        let shown = shown(&at, scene.run.end);
+        let of = |column: Vec<f64>| -> Vec<f64> {
+            shown
+                .iter()
+                .filter_map(|k| column.get(*k).copied())
+                .collect()
+        };
+        let value = |k: usize| of(scaled(k, reference.scale_value, reference.offset_value));
+        let at = of(at);
+        let pairs = |x: &[f64], y: &[f64]| -> Vec<[f64; 2]> {
+            x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
+        };
+        let source = source(path).unwrap_or_else(|| name.clone());
+        let given = match reference.norm() {
+            Norm::Band => Series::band(format!("band: {source}"), pairs(&at, &value(1)), value(2)),
+            _ if at.len() > MOST_MARKERS => Series::line(source, pairs(&at, &value(1))),
+            _ => Series::markers(source, pairs(&at, &value(1))),
+        };
+        let y_label = match unit.as_deref() {
+            None | Some("" | "1") => probe.clone(),
+            Some(unit) => format!("{probe} [{unit}]"),
+        };
+        let plot = Plot {
+            title: format!("{}: {name}", scene.title),
+            x_label: "time [s]".into(),
+            y_label,
+            series: vec![given, Series::line("this run", pairs(times, &values))],
+            ..Plot::default()
+        };
+        plot.save_png(plots.join(format!("{name}.png")))?;
+    }
+    Ok(())
+}
+
+/// Who made the reference: what a line `# Source: …` of its file says up to the year.
+fn source(path: &Path) -> Option<String> {
+    let lines = BufReader::new(File::open(path).ok()?).lines();
+    let heads = lines
+        .map_while(Result::ok)
+        .take_while(|line| line.starts_with('#'));
+    let mut sources = heads.filter_map(|line| cited(line.split_once("Source:")?.1));
+    sources.next()
+}
+
+/// Authors and year of a source; of many authors the first.
+fn cited(source: &str) -> Option<String> {
+    let source = source.trim();
+    let year = |(k, _): &(usize, &str)| {
+        let digits = source[k + 1..]
+            .chars()
+            .take_while(char::is_ascii_digit)
+            .count();
+        digits == 4
+    };
+    let Some((open, _)) = source.match_indices('(').find(year) else {
+        // What this project has computed says so before its first colon.
+        let what = source.split([':', ';', ',']).next()?.trim();
+        return (!what.is_empty()).then(|| what.to_string());
+    };
+    let authors = source[..open].trim();
+    let year = format!("({})", &source[open + 1..open + 5]);
+    Some(match authors.chars().count() > LONGEST {
+        true => format!(
+            "{} et al. {year}",
+            authors.split([',', '&', ';']).next()?.trim()
+        ),
+        false => format!("{authors} {year}"),
+    })
+}
+
+/// Which of a reference's times a picture shows: those to a little beyond the end of the run, or all if there are none.
+fn shown(times: &[f64], end: f64) -> Vec<usize> {
+    let shown = (0..times.len()).filter(|k| times[*k] <= end * (1.0 + BEYOND));
+    match shown.collect::<Vec<_>>() {
+        none if none.is_empty() => (0..times.len()).collect(),
+        shown => shown,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_legend_names_authors_and_year() {
+        let faltinsen = " Faltinsen O.M., Rognebakke O.F., Lukovsky I.A., Timokha A.N. (2000) J. Fluid Mech. (407)";
+        assert_eq!(
+            cited(faltinsen).as_deref(),
+            Some("Faltinsen O.M. et al. (2000)")
+        );
+        assert_eq!(
+            cited("Enet F., Grilli S.T. (2007) Exp").as_deref(),
+            Some("Enet F., Grilli S.T. (2007)")
+        );
+        let own = "computed for this project: potential flow (linear)";
+        assert_eq!(cited(own).as_deref(), Some("computed for this project"));
+        assert_eq!(cited(" "), None);
+    }
+
+    #[test]
+    fn a_picture_ends_with_the_run_unless_nothing_were_left() {
+        assert_eq!(shown(&[0.0, 2.6, 1.0, 2.7], 2.5), [0, 1, 2]);
+        assert_eq!(shown(&[3.0, 4.0], 2.5), [0, 1]);
+        assert!(shown(&[], 2.5).is_empty());
+    }
+}

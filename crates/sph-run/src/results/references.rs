@@ -1,0 +1,311 @@
+//! Errors against the scene's references.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use sph_core::fields;
+use sph_io::{Table, read_table};
+use sph_probes::{Solution, norm};
+use sph_scene::{Norm, Reference, Scene};
+use sph_setup::field_error::Compared;
+use sph_setup::{field_error, reference_table};
+use sph_solver::Flow;
+
+use crate::failure::error::RunError;
+use crate::results::summary::ErrorEntry;
+
+type Solutions<const D: usize> = [(String, Box<dyn Solution<D>>)];
+
+/// Every reference that can be compared; the others become warnings.
+pub fn errors<const D: usize>(
+    scene: &Scene,
+    flow: &Flow<D>,
+    solutions: &Solutions<D>,
+    series: &Path,
+    warnings: &mut Vec<String>,
+) -> Result<BTreeMap<String, ErrorEntry>, RunError> {
+    let mut errors = BTreeMap::new();
+    let in_series = |r: &Reference| r.probe.is_some() || r.norm() == Norm::L2Mean;
+    let measured = match scene.reference.values().any(in_series) {
+        true => Some(read_table(series)?),
+        false => None,
+    };
+    for (name, reference) in &scene.reference {
+        let solution = solutions.iter().find(|(n, _)| n == name).map(|(_, s)| &**s);
+        let entry = match (&reference.field, &reference.probe, &measured) {
+            (Some(_), _, Some(table)) if reference.norm() == Norm::L2Mean => {
+                let times = table.column("time").unwrap_or(&[]);
+                let column = field_error::column(name);
+                let values = table.column(&column).ok_or_else(|| absent(&column));
+                values.and_then(|values| averaged(reference, times, values))
+            }
+            (Some(field), _, _) => against_field(flow, reference, field, solution),
+            (None, Some(probe), Some(table)) => {
+                let column = table.column(probe).map(<[f64]>::to_vec);
+                let times = table.column("time").unwrap_or(&[]);
+                match column {
+                    Some(values) => {
+                        let values = match reference.average {
+                            Some(width) => norm::moving_mean(times, &values, width),
+                            None => values,
+                        };
+                        against_series(reference, times, &values, solution)?
+                    }
+                    None => Err(absent(probe)),
+                }
+            }
+            _ => Err("it names neither a field nor a probe".to_string()),
+        };
+        match entry {
+            Ok(entry) => {
+                errors.insert(name.clone(), entry);
+            }
+            Err(reason) => warnings.push(format!("reference `{name}` was not compared: {reason}")),
+        }
+    }
+    Ok(errors)
+}
+
+fn absent(column: &str) -> String {
+    format!("the series has no column `{column}`")
+}
+
+fn entry(value: f64, reference: &Reference, samples: usize, window: [f64; 2]) -> ErrorEntry {
+    let against = match (&reference.file, &reference.solution) {
+        (Some(file), _) => file.clone(),
+        (None, Some(solution)) => format!("solution {solution}"),
+        (None, None) => match (reference.norm(), reference.value, reference.period) {
+            (Norm::Mean, Some(value), _) => format!("value {value}"),
+            (Norm::Period, _, Some(period)) => format!("period {period} s"),
+            _ => String::new(),
+        },
+    };
+    ErrorEntry {
+        value: value.is_finite().then_some(value),
+        norm: reference.norm().name().to_string(),
+        unit: "1".into(),
+        samples,
+        window,
+        against,
+    }
+}
+
+/// A field at the end of the run against a solution.
+fn against_field<const D: usize>(
+    flow: &Flow<D>,
+    reference: &Reference,
+    field: &str,
+    solution: Option<&dyn Solution<D>>,
+) -> Result<ErrorEntry, String> {
+    let solution = solution.ok_or("a field is compared with a `solution`")?;
+    let time = flow.world.time;
+    let volume = flow.world.free.get(fields::VOLUME);
+    let volume = volume.map_err(|e| e.to_string())?;
+    let Compared {
+        values,
+        exact,
+        components,
+    } = Compared::of(&flow.world, field, solution)?;
+    let difference: Vec<f64> = values.iter().zip(&exact).map(|(u, e)| u - e).collect();
+    let (value, unit) = match reference.norm() {
+        Norm::L2 => (norm::l2(&values, &exact, volume, components), "1"),
+        Norm::L1 => (norm::l1(&values, &exact, components), "1"),
+        Norm::Linf => (norm::linf(&values, &exact, components), "1"),
+        Norm::Rms => (
+            norm::rms(&difference, volume, components, reference.scale_value),
+            "1",
+        ),
+        Norm::Absolute => (difference.iter().fold(0.0_f64, |m, d| m.max(d.abs())), ""),
+        other => return Err(format!("the norm `{}` is for probes", other.name())),
+    };
+    let mut entry = entry(value, reference, volume.len(), [time, time]);
+    entry.unit = unit.to_string();
+    Ok(entry)
+}
+
+/// Whether a time counts.
+fn counts(reference: &Reference, t: f64) -> bool {
+    let inside = reference.window.is_none_or(|[a, b]| t >= a && t <= b);
+    inside && reference.exclude.is_none_or(|[a, b]| t < a || t > b)
+}
+
+/// What is averaged over the rows that count: the error itself, the value, the period.
+fn averaged(reference: &Reference, times: &[f64], values: &[f64]) -> Result<ErrorEntry, String> {
+    let rows = times.iter().zip(values);
+    let rows = rows.filter(|(t, v)| counts(reference, **t) && v.is_finite());
+    let (times, values): (Vec<f64>, Vec<f64>) = rows.unzip();
+    let (Some(first), Some(last)) = (times.first(), times.last()) else {
+        return Err("no row of the series counts".into());
+    };
+    let mean = || norm::mean(&times, &values).unwrap_or(f64::NAN);
+    let value = match (reference.norm(), reference.value, reference.period) {
+        (Norm::Mean, Some(exact), _) => ((mean() - exact) / exact).abs(),
+        (Norm::Period, _, Some(exact)) => {
+            let found = norm::period(&times, &values);
+            let found = found.ok_or("the series crosses its mean too seldom for a period")?;
+            (found / exact - 1.0).abs()
+        }
+        _ => mean(),
+    };
+    Ok(entry(value, reference, times.len(), [*first, *last]))
+}
+
+/// A probe's series against a file or a solution's rate of decay.
+fn against_series<const D: usize>(
+    reference: &Reference,
+    times: &[f64],
+    values: &[f64],
+    solution: Option<&dyn Solution<D>>,
+) -> Result<Result<ErrorEntry, String>, RunError> {
+    let counts = |t: f64| counts(reference, t);
+    match reference.norm() {
+        Norm::DecayRate => return Ok(decay(reference, times, values, solution, counts)),
+        _ if reference.stands_alone() => return Ok(averaged(reference, times, values)),
+        _ => {}
+    }
+    let Some(path) = &reference.path else {
+        return Ok(Err(
+            "a probe is compared with a `file`, or by the norm `decay-rate`".into(),
+        ));
+    };
+    // It was good when the run began; what has been computed since is not lost with it.
+    let table = match reference_table(reference, path) {
+        Ok(table) => table,
+        Err(gone) => return Ok(Err(gone.to_string())),
+    };
+    let samples = match Samples::of(reference, &table, times, values) {
+        Some(samples) => samples,
+        None => return Ok(Err("no time of the reference lies within the run".into())),
+    };
+    Ok(samples.error(reference, [times, values]))
+}
+
+/// A series where a reference has values, and both there.
+struct Samples {
+    instants: Vec<f64>,
+    /// Values of the reference.
+    compared: Vec<f64>,
+    /// Series less reference.
+    differences: Vec<f64>,
+    /// Share of the time outside of the band.
+    outside: f64,
+    /// Relative error at the last instant.
+    last: f64,
+    /// First and last instant, s.
+    window: [f64; 2],
+}
+
+impl Samples {
+    /// At the instants of a table that count; none if none does.
+    fn of(reference: &Reference, table: &Table, times: &[f64], values: &[f64]) -> Option<Self> {
+        let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
+            let column = table.columns[k].values.iter();
+            column.map(|v| v * scale + offset).collect()
+        };
+        let at = scaled(0, reference.scale_time, reference.offset_time);
+        let value = |k: usize| scaled(k, reference.scale_value, reference.offset_value);
+        let low = value(1);
+        let high = (reference.norm() == Norm::Band && table.columns.len() > 2).then(|| value(2));
+        let weights = norm::time_weights(&at);
+        let (mut outside, mut whole) = (0.0, 0.0);
+        let mut last = None;
+        let mut samples = Samples {
+            instants: Vec::new(),
+            compared: Vec::new(),
+            differences: Vec::new(),
+            outside: 0.0,
+            last: 0.0,
+            window: [f64::INFINITY, f64::NEG_INFINITY],
+        };
+        for (k, &t) in at
+            .iter()
+            .enumerate()
+            .filter(|(_, t)| counts(reference, **t))
+        {
+            let Some(u) = norm::at(times, values, t).filter(|u| u.is_finite()) else {
+                continue;
+            };
+            samples.window = [samples.window[0].min(t), samples.window[1].max(t)];
+            samples.differences.push(u - low[k]);
+            samples.compared.push(low[k]);
+            samples.instants.push(t);
+            if let Some(high) = &high {
+                let out = u < low[k] || u > high[k];
+                outside += if out { weights[k] } else { 0.0 };
+                whole += weights[k];
+            }
+            if last.is_none_or(|(before, _)| t >= before) {
+                last = Some((t, ((u - low[k]) / low[k]).abs()));
+            }
+        }
+        samples.outside = outside / whole;
+        samples.last = last?.1;
+        Some(samples)
+    }
+
+    /// The error by the norm of the reference; the whole series is there for norms that look between instants.
+    fn error(&self, reference: &Reference, series: [&[f64]; 2]) -> Result<ErrorEntry, String> {
+        let Samples {
+            instants,
+            compared,
+            differences,
+            ..
+        } = self;
+        let n = differences.len();
+        let largest = || differences.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+        let ones = vec![1.0; n];
+        let both = compared.iter().zip(differences);
+        let exact_plus: Vec<f64> = both.map(|(e, d)| e + d).collect();
+        let (value, unit) = match reference.norm() {
+            Norm::RmsOverRange => (norm::rms_over_range(differences, compared), "1"),
+            Norm::Band => (self.outside, "1"),
+            Norm::Final => (self.last, "1"),
+            Norm::Absolute => (largest(), ""),
+            Norm::L2 => (norm::l2(&exact_plus, compared, &ones, 1), "1"),
+            Norm::L1 => (norm::l1(&exact_plus, compared, 1), "1"),
+            Norm::Linf => (norm::linf(&exact_plus, compared, 1), "1"),
+            Norm::Range => (norm::range_error(&exact_plus, compared), "1"),
+            Norm::PeakTime => {
+                let peak = |values: &[f64]| norm::peak_time(instants, values).unwrap_or(f64::NAN);
+                ((peak(&exact_plus) / peak(compared) - 1.0).abs(), "1")
+            }
+            Norm::Lag => {
+                let period = reference.period;
+                let period = period.ok_or("the norm `lag` needs the `period`")?;
+                let found = norm::lag(series, [instants, compared], 0.5 * period);
+                (found.map_or(f64::NAN, |lag| lag.abs() / period), "1")
+            }
+            Norm::Rms
+            | Norm::DecayRate
+            | Norm::L2Mean
+            | Norm::Mean
+            | Norm::ErrorMean
+            | Norm::Period => return Err("this norm is for fields".into()),
+        };
+        let mut entry = entry(value, reference, n, self.window);
+        entry.unit = unit.to_string();
+        Ok(entry)
+    }
+}
+
+fn decay<const D: usize>(
+    reference: &Reference,
+    times: &[f64],
+    values: &[f64],
+    solution: Option<&dyn Solution<D>>,
+    counts: impl Fn(f64) -> bool,
+) -> Result<ErrorEntry, String> {
+    let exact = solution.and_then(|s| s.energy_rate());
+    let exact = exact.ok_or("the norm `decay-rate` needs a solution with a constant rate")?;
+    let pairs = times
+        .iter()
+        .zip(values)
+        .filter(|(t, v)| counts(**t) && **v > 0.0);
+    let (t, ln): (Vec<f64>, Vec<f64>) = pairs.map(|(t, v)| (*t, v.ln())).unzip();
+    if t.len() < 2 {
+        return Err("fewer than two rows of the series count".into());
+    }
+    let window = [t[0], t[t.len() - 1]];
+    let value = (norm::slope(&t, &ln) / exact - 1.0).abs();
+    Ok(entry(value, reference, t.len(), window))
+}

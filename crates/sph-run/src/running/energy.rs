@@ -1,0 +1,181 @@
+//! Whether a flow that nothing drives gains energy: a warning while it runs, and no result where it is gross.
+
+use sph_core::StepError;
+use sph_scene::Scene;
+use sph_setup::moves;
+use sph_solver::{Flow, defaults};
+
+use crate::results::balance::Balance;
+
+/// Shares of the scale from which the run is told of it, and from which no result is right.
+const TOLD: f64 = 0.01;
+const GROSS: f64 = 0.1;
+/// Least scale over Σ m c²: the energy of a flow with a sixteenth of its speed of sound, so that what is at rest is not
+/// measured by its own noise.
+const STILL: f64 = 2e-3;
+/// Kinds of plugins that give a flow no energy but what its sums hold.
+const OWN: [&str; 9] = [
+    "formulation",
+    "viscous-operator",
+    "velocity-gradient",
+    "eddy-viscosity",
+    "smoother",
+    "shifting",
+    "damping",
+    "surface",
+    "walls",
+];
+
+/// The energies of a flow so far, J.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EnergyWatch {
+    /// Whether anything else than its own weight may give the flow energy, or hold some that its sums leave out.
+    driven: bool,
+    /// Sum and potential energy in the first row, largest kinetic, least potential energy, largest rise of the sum.
+    so_far: Option<[f64; 5]>,
+    /// Largest rise over the scale of the flow.
+    share: f64,
+    warned: bool,
+}
+
+impl EnergyWatch {
+    /// Of a scene; `so_far` is what a run that is resumed has seen.
+    pub fn of<const D: usize>(scene: &Scene, flow: &Flow<D>, so_far: Option<[u64; 5]>) -> Self {
+        let world = &flow.world;
+        let around = |k: usize| world.domain.periodic[k] && world.gravity[k] != 0.0;
+        let kinds = flow.kinds.iter().map(|(_, kind)| kind);
+        let mut kinds = kinds
+            .copied()
+            .chain(flow.hooks.all.iter().map(|hook| hook.kind));
+        let driven = scene.wall.values().any(moves)
+            || scene.swings()
+            || world.driving.norm() > 0.0
+            || (0..D).any(around)
+            || !flow.gates.is_empty()
+            || kinds.any(|kind| !OWN.contains(&kind));
+        EnergyWatch {
+            driven,
+            so_far: so_far.map(|all| all.map(f64::from_bits)),
+            share: 0.0,
+            warned: false,
+        }
+    }
+
+    /// What a run that is resumed needs.
+    pub fn bits(&self) -> Option<[u64; 5]> {
+        self.so_far.map(|all| all.map(f64::to_bits))
+    }
+
+    /// Looks at the sums of a state at a time, s; gives what is to be said, once in a run. The sums of what remains tell
+    /// nothing once some of the fluid has left.
+    pub fn look<const D: usize>(
+        &mut self,
+        now: &Balance<D>,
+        left: f64,
+        time: f64,
+    ) -> Option<String> {
+        if self.driven || left > 0.0 {
+            return None;
+        }
+        let begin = || [now.energy(), now.potential, 0.0, now.potential, 0.0];
+        let [energy, potential, kinetic, lowest, rise] = self.so_far.get_or_insert_with(begin);
+        *kinetic = kinetic.max(now.kinetic);
+        *lowest = lowest.min(now.potential);
+        *rise = rise.max(now.energy() - *energy);
+        let scale = (*kinetic + (*potential - *lowest)).max(STILL * now.acoustic);
+        self.share = self.share.max(*rise / scale);
+        if self.warned || self.share <= TOLD {
+            return None;
+        }
+        self.warned = true;
+        Some(format!("warning: at t = {time:.4} s {}", self.told()))
+    }
+
+    /// What stands in the summary, if there is anything to tell: a warning, and advice.
+    pub fn remarks(&self) -> Option<[String; 2]> {
+        let damping = defaults::SOUND_DAMPING;
+        let advice = format!(
+            "`[probe.NAME] kind = \"energy-budget\"` tells what makes the energy; {damping} takes sound that walls feed, also \
+             beside a smoother"
+        );
+        (self.share > TOLD).then(|| [self.told(), advice])
+    }
+
+    /// Why the run has no result, if it made too much energy.
+    pub fn verdict(&self) -> Option<StepError> {
+        (self.share > GROSS).then(|| StepError::Stage {
+            stage: "energy".into(),
+            reason: format!("{}, and no result of such a run is right", self.told()),
+        })
+    }
+
+    fn told(&self) -> String {
+        let [.., rise] = self.so_far.unwrap_or_default();
+        format!(
+            "the energy of a flow that nothing drives has risen by {rise:.3e} J, {:.1} % of what moves in it",
+            100.0 * self.share
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hundredth_is_told_once_and_a_tenth_leaves_no_result() {
+        let balance = |kinetic, potential, acoustic| Balance::<2> {
+            kinetic,
+            potential,
+            acoustic,
+            ..Balance::zero()
+        };
+        let watch = EnergyWatch {
+            driven: false,
+            so_far: None,
+            share: 0.0,
+            warned: false,
+        };
+        let mut flow = watch;
+        assert_eq!(flow.look(&balance(0.0, 10.0, 100.0), 0.0, 0.0), None);
+        assert_eq!(
+            flow.look(&balance(4.0, 6.0, 100.0), 0.0, 1.0),
+            None,
+            "it falls"
+        );
+        assert_eq!(
+            flow.look(&balance(4.07, 6.0, 100.0), 0.0, 2.0),
+            None,
+            "0.9 %"
+        );
+        let told = flow
+            .look(&balance(4.2, 6.0, 100.0), 0.0, 3.0)
+            .expect("2.4 %");
+        assert!(told.contains("2.000e-1 J, 2.4 %"), "{told}");
+        assert_eq!(flow.look(&balance(4.3, 6.0, 100.0), 0.0, 4.0), None, "once");
+        assert!(flow.verdict().is_none() && flow.remarks().is_some());
+        // What has been lost again was made all the same.
+        flow.look(&balance(6.0, 6.0, 100.0), 0.0, 5.0);
+        flow.look(&balance(1.0, 6.0, 100.0), 0.0, 6.0);
+        assert!(flow.verdict().is_some());
+        // At rest the scale is that of sound: 2e-3 of 100 J.
+        let mut still = watch;
+        still.look(&balance(0.0, 10.0, 100.0), 0.0, 0.0);
+        assert_eq!(still.look(&balance(1.9e-3, 10.0, 100.0), 0.0, 1.0), None);
+        assert!(
+            still
+                .look(&balance(2.1e-3, 10.0, 100.0), 0.0, 2.0)
+                .is_some()
+        );
+        let mut driven = EnergyWatch {
+            driven: true,
+            ..watch
+        };
+        driven.look(&balance(0.0, 10.0, 100.0), 0.0, 0.0);
+        assert_eq!(driven.look(&balance(9.0, 10.0, 100.0), 0.0, 1.0), None);
+        assert!(driven.verdict().is_none());
+        let mut leaving = watch;
+        leaving.look(&balance(0.0, 10.0, 100.0), 0.0, 0.0);
+        assert_eq!(leaving.look(&balance(9.0, 10.0, 100.0), 1.0, 1.0), None);
+    }
+}

@@ -1,0 +1,166 @@
+//! Particles and walls as pieces of a frame.
+
+use sph_core::{Plain, Store, fields};
+use sph_decomposition::OWNER;
+use sph_io::{Cells, FieldData, FieldValues, Location, Piece};
+use sph_neighbours::World;
+use sph_scene::Scene;
+use sph_solver::Flow;
+
+use crate::failure::error::RunError;
+use crate::running::drawn_flow::padded;
+
+/// The places of the particles.
+pub(crate) fn points<const D: usize>(flow: &Flow<D>) -> Result<Vec<[f64; 3]>, RunError> {
+    let position = flow.world.free.get(fields::POSITION)?;
+    Ok(position.iter().map(padded).collect())
+}
+
+/// A vector field padded to three components.
+fn vectors<const D: usize>(
+    name: &'static str,
+    unit: &'static str,
+    values: &[sph_core::Vect<D>],
+) -> FieldData<'static> {
+    FieldData {
+        name: name.into(),
+        unit: unit.into(),
+        location: Location::Point,
+        components: 3,
+        data: FieldValues::F64(values.iter().flat_map(padded).collect()),
+    }
+}
+
+/// The particles of a store with the columns that are `wanted`.
+pub(crate) fn particles<'a, const D: usize>(
+    free: &'a Store<D>,
+    points: &'a [[f64; 3]],
+    wanted: impl Fn(&str) -> bool,
+) -> Piece<'a> {
+    let mut data = Vec::new();
+    for (name, unit, _, components, values) in free.columns() {
+        let always = name == fields::IDENTITY.name || name == fields::PHASE.name;
+        if name == fields::POSITION.name || !(always || wanted(name)) {
+            continue;
+        }
+        data.push(match values {
+            Plain::Index(v) => FieldData::integer(name, v.to_vec()),
+            Plain::Real(v) if components == 1 => FieldData::scalar(name, unit, v.into_owned()),
+            Plain::Real(v) if components != D => {
+                FieldData::tensor(name, unit, components, v.into_owned())
+            }
+            Plain::Real(v) => {
+                let vector = |c: &[f64]| sph_core::Vect::<D>::from_column_slice(c);
+                vectors(
+                    name,
+                    unit,
+                    &v.chunks_exact(D).map(vector).collect::<Vec<_>>(),
+                )
+            }
+        });
+    }
+    Piece {
+        name: "fluid".into(),
+        points: points.into(),
+        cells: Cells::Vertices,
+        fields: data,
+    }
+}
+
+/// The particles of a rank that are its own.
+pub(crate) fn own_particles<const D: usize>(
+    flow: &Flow<D>,
+    wanted: impl Fn(&str) -> bool,
+) -> Result<Piece<'static>, RunError> {
+    let own = match &flow.parts {
+        Some(parts) => parts
+            .own(&flow.world.free)
+            .map_err(sph_core::StepError::from)?,
+        None => vec![true; flow.world.free.len()],
+    };
+    let all = points(flow)?;
+    let piece = particles(&flow.world.free, &all, |name| {
+        name != OWNER.name && wanted(name)
+    });
+    Ok(Piece {
+        name: piece.name.into_owned().into(),
+        points: kept(&piece.points, 1, &own).into(),
+        cells: Cells::Vertices,
+        fields: piece
+            .fields
+            .into_iter()
+            .map(|f| kept_field(f, &own))
+            .collect(),
+    })
+}
+
+fn kept_field(field: FieldData<'_>, own: &[bool]) -> FieldData<'static> {
+    let each = field.components;
+    FieldData {
+        name: field.name.into_owned().into(),
+        unit: field.unit.into_owned().into(),
+        location: field.location,
+        components: each,
+        data: match field.data {
+            FieldValues::F64(v) => FieldValues::F64(kept(&v, each, own).into()),
+            FieldValues::U32(v) => FieldValues::U32(kept(&v, each, own).into()),
+            FieldValues::I64(v) => FieldValues::I64(kept(&v, each, own).into()),
+        },
+    }
+}
+
+/// The tuples of `each` numbers whose particle is kept.
+fn kept<T: Copy>(values: &[T], each: usize, own: &[bool]) -> Vec<T> {
+    let tuples = values.chunks_exact(each).zip(own);
+    let tuples = tuples.filter(|(_, own)| **own);
+    tuples
+        .flat_map(|(tuple, _)| tuple.iter().copied())
+        .collect()
+}
+
+/// Writes the share of a rank behind the first of output `index`.
+pub(crate) fn write_own_share<const D: usize>(
+    scene: &Scene,
+    flow: &Flow<D>,
+    folder: &std::path::Path,
+    (index, rank): (usize, usize),
+) -> Result<(), RunError> {
+    let wanted = |name: &str| scene.output.fields.iter().any(|f| f == name);
+    let piece = own_particles(flow, wanted)?;
+    let below = folder.join("fields");
+    sph_io::write_share(below, &piece, (index, rank), flow.world.time)?;
+    Ok(())
+}
+
+/// The walls, if there are any.
+pub(crate) fn walls<const D: usize>(world: &World<D>) -> Option<Piece<'_>> {
+    let walls = &world.walls;
+    if walls.is_empty() {
+        return None;
+    }
+    let p = &walls.points;
+    let mut data = vec![
+        FieldData::scalar("pressure", "Pa", &p.pressure[..]),
+        FieldData::scalar("share", "1", &p.share[..]),
+        vectors("velocity", "m/s", &p.velocity),
+        FieldData::integer("wall", &p.wall[..]),
+    ];
+    let elements = &walls.elements;
+    let cells = match D {
+        2 if !elements.corners.is_empty() => {
+            data.push(vectors("normal", "1", &elements.normal).at_cells());
+            let pressure = FieldData::scalar("element_pressure", "Pa", &elements.pressure[..]);
+            data.push(pressure.at_cells());
+            let segments = elements.corners.iter().map(|c| [c[0], c[1]]);
+            Cells::Segments(segments.collect())
+        }
+        _ => Cells::Vertices,
+    };
+    let points: Vec<[f64; 3]> = p.position.iter().map(padded).collect();
+    Some(Piece {
+        name: "walls".into(),
+        points: points.into(),
+        cells,
+        fields: data,
+    })
+}

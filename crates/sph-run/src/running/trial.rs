@@ -1,0 +1,106 @@
+//! A few steps of a scene, to see how long the whole of it will take.
+
+use std::time::{Duration, Instant};
+
+use sph_core::StepError;
+use sph_scene::Scene;
+use sph_setup::{Assembled, Examination, examine_in};
+
+use crate::Stepper;
+use crate::failure::error::RunError;
+
+/// Least number of steps, where there is time for them.
+const FEWEST: usize = 32;
+/// Relative change from a quarter of the steps to the half that follows, below which more steps tell no more.
+const SETTLED: f64 = 0.1;
+
+/// What the first steps of a scene took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trial {
+    /// Steps that were timed.
+    pub steps: usize,
+    /// Mean time step, s.
+    pub dt: f64,
+    /// Wall-clock time of one step, s.
+    pub seconds: f64,
+}
+
+/// As [`examine`](sph_setup::examine), and a trial of the first steps.
+///
+/// # Errors
+/// Every problem of the scene, with its path. That of the trial is apart: a scene whose first steps fail is known.
+pub fn examine_and_try(
+    scene: &Scene,
+    threads: usize,
+    budget: Duration,
+) -> Result<(Examination, Result<Option<Trial>, RunError>), RunError> {
+    fn both<const D: usize>(
+        scene: &Scene,
+        threads: usize,
+        budget: Duration,
+    ) -> Result<(Examination, Result<Option<Trial>, RunError>), RunError> {
+        let (examined, assembled) = examine_in::<D>(scene)?;
+        Ok((examined, trial(scene, assembled, threads, budget)))
+    }
+    match scene.dimension {
+        3 => both::<3>(scene, threads, budget),
+        _ => both::<2>(scene, threads, budget),
+    }
+}
+
+/// Takes the first steps of an assembled scene on `threads` threads, and times the later half of them.
+///
+/// It ends where time step and wall-clock time have settled, and after `budget` in any case.
+///
+/// None is where there is nothing to step.
+///
+/// # Errors
+/// The step that fails in spite of the retries of the scene; a pool of threads that cannot be made.
+pub fn trial<const D: usize>(
+    scene: &Scene,
+    assembled: Assembled<D>,
+    threads: usize,
+    budget: Duration,
+) -> Result<Option<Trial>, RunError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|e| RunError::at("--threads", e.to_string()))?;
+    let mut stepper = Stepper::over(scene, assembled);
+    pool.install(|| Ok(timed(scene, &mut stepper, budget)?))
+}
+
+fn timed<const D: usize>(
+    scene: &Scene,
+    stepper: &mut Stepper<D>,
+    budget: Duration,
+) -> Result<Option<Trial>, StepError> {
+    let end = scene.run.end;
+    let began = Instant::now();
+    let mut taken = vec![(stepper.time(), 0.0)];
+    // Means over steps `from` to `to`: the time step and the wall-clock time.
+    let means = |taken: &[(f64, f64)], from: usize, to: usize| {
+        let steps = (to - from) as f64;
+        let [first, last] = [taken[from], taken[to]];
+        [(last.0 - first.0) / steps, (last.1 - first.1) / steps]
+    };
+    while stepper.time() < end && began.elapsed() < budget {
+        stepper.step(end)?;
+        taken.push((stepper.time(), began.elapsed().as_secs_f64()));
+        let steps = taken.len() - 1;
+        if steps >= FEWEST && steps.is_power_of_two() {
+            let before = means(&taken, steps / 4, steps / 2);
+            let after = means(&taken, steps / 2, steps);
+            if (0..2).all(|k| (after[k] - before[k]).abs() < SETTLED * after[k]) {
+                break;
+            }
+        }
+    }
+    // The later half: lists, caches and the first guesses of solvers are cold before.
+    let last = taken.len() - 1;
+    let first = (taken.len() / 2).min(last.saturating_sub(1));
+    let [dt, seconds] = means(&taken, first, last);
+    Ok((last > first).then_some(Trial {
+        steps: last - first,
+        dt,
+        seconds,
+    }))
+}

@@ -1,0 +1,124 @@
+//! Whether the lattices of bodies fit each other and the walls where they touch.
+//!
+//! The lattice of a body starts at the corner of its box. Where two bodies are not whole spacings apart, or a body is not from a flat
+//! wall, the pressure of the first steps pushes them into place, with currents of a good part of a metre per second.
+
+use std::collections::BTreeMap;
+
+use sph_core::fields;
+use sph_neighbours::CellGrid;
+use sph_scene::{OFF_LATTICE, Scene};
+use sph_solver::step::lock;
+use sph_solver::{Flow, SolverError};
+
+/// Deviation from one spacing, in spacings, from which a contact is remarked upon.
+const MISFIT: f64 = 0.2;
+/// Distance in spacings within which two rows are in contact.
+const CONTACT: f64 = 1.45;
+/// Scatter of the distances, in spacings, above which the contact is none of two flat rows.
+const FLAT: f64 = 0.1;
+/// Particles that make a contact.
+const ROW: usize = 4;
+
+/// Distances along one contact.
+#[derive(Clone, Copy, Default)]
+struct Contact {
+    number: usize,
+    sum: f64,
+    squares: f64,
+}
+
+impl Contact {
+    fn add(&mut self, distance: f64) {
+        self.number += 1;
+        self.sum += distance;
+        self.squares += distance * distance;
+    }
+
+    /// Mean distance where it is far from what fits, all along.
+    fn misfit(&self, fitting: f64) -> Option<f64> {
+        let mean = self.sum / self.number as f64;
+        let scatter = (self.squares / self.number as f64 - mean * mean)
+            .max(0.0)
+            .sqrt();
+        let told = self.number >= ROW && scatter < FLAT && (mean - fitting).abs() > MISFIT;
+        told.then_some(mean)
+    }
+}
+
+/// Remarks on bodies whose rows are not a spacing apart where they touch, or not from a flat wall; `body_of` gives the body of a
+/// particle's number.
+///
+/// # Errors
+/// If a column is missing.
+pub fn remarks<const D: usize>(
+    scene: &Scene,
+    flow: &Flow<D>,
+    body_of: &[u32],
+) -> Result<Vec<String>, SolverError> {
+    // Settled or far displaced particles stand on no lattice.
+    if scene.numerics.relax.is_some() || scene.disorder() > OFF_LATTICE {
+        return Ok(Vec::new());
+    }
+    let world = &flow.world;
+    let position = world.free.get(fields::POSITION)?;
+    let identity = world.free.get(fields::IDENTITY)?;
+    let body = |k: usize| body_of[identity[k] as usize];
+    let names: Vec<&String> = scene.body.keys().collect();
+    let mut contacts: BTreeMap<[u32; 2], Contact> = BTreeMap::new();
+    let mut at_walls: BTreeMap<(u32, String), Contact> = BTreeMap::new();
+    let walls = flow.walls.as_ref().map(lock);
+    // Where the first row belongs, in spacings from the wall.
+    let first = walls.as_ref().map_or(1.0, |w| 1.0 - w.lattice_offset());
+    // A single body touches nobody, and lists need not be there yet.
+    let reach = CONTACT * world.spacing;
+    let grid = (names.len() > 1).then(|| CellGrid::new(position, reach, &world.domain));
+    for (k, x) in position.iter().enumerate() {
+        let mut nearest: BTreeMap<u32, f64> = BTreeMap::new();
+        let mut look = |j: usize| {
+            if body(j) > body(k) {
+                let apart = world.domain.nearest_image(x - position[j]).norm() / world.spacing;
+                let least = nearest.entry(body(j)).or_insert(f64::INFINITY);
+                *least = least.min(apart);
+            }
+        };
+        if let Some(grid) = &grid {
+            grid.ranges(x, reach, |range| {
+                grid.order()[range].iter().for_each(|j| look(*j as usize));
+            });
+        }
+        for (other, apart) in nearest.into_iter().filter(|(_, d)| *d < CONTACT) {
+            contacts.entry([body(k), other]).or_default().add(apart);
+        }
+        let wall = walls.as_ref();
+        if let Some((distance, name)) =
+            wall.and_then(|w| w.clearance(x, (first + CONTACT - 1.0) * world.spacing))
+        {
+            let key = (body(k), name.to_string());
+            at_walls
+                .entry(key)
+                .or_default()
+                .add(distance / world.spacing);
+        }
+    }
+    let mut remarks = Vec::new();
+    for ([a, b], contact) in contacts {
+        remarks.extend(contact.misfit(1.0).map(|apart| {
+            format!(
+                "the particles of `{}` and `{}` are {apart:.2} spacings apart where the bodies touch: currents will push them into \
+                 place; let the bodies start whole spacings from each other",
+                names[a as usize], names[b as usize]
+            )
+        }));
+    }
+    for ((a, wall), contact) in at_walls {
+        remarks.extend(contact.misfit(first).map(|apart| {
+            format!(
+                "the first row of `{}` is {apart:.2} spacings from the wall `{wall}`, and {first} fit: currents will push it into \
+                 place; let the body start whole spacings from the wall",
+                names[a as usize]
+            )
+        }));
+    }
+    Ok(remarks)
+}

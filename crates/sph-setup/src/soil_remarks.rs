@@ -1,0 +1,180 @@
+//! What is odd about a scene's soils before they move.
+
+use std::collections::HashMap;
+
+use sph_core::{Vect, fields};
+use sph_scene::Scene;
+use sph_solver::setup::Physics;
+use sph_solver::step::lock;
+use sph_solver::{Flow, SolverError};
+
+/// Spacings per grain above which a continuum of particles finer than its grains is remarked upon.
+const COARSE_GRAINS: f64 = 10.0;
+/// Distance in spacings under the lowest particles of a bed above which nothing carries them.
+const GAP: f64 = 1.6;
+/// Spacings by which a soil may stand over the water that is to fill its pores.
+const DRY: f64 = 2.0;
+
+/// The soils among the phases of a scene.
+pub struct Ground {
+    /// Whether the law of a phase feels pressure.
+    pub soil: Vec<bool>,
+    /// Diameter of its grains, m, if it knows one.
+    grains: Vec<Option<f64>>,
+    /// Whether the pores of soils are full of water.
+    pub saturated: bool,
+}
+
+impl Ground {
+    /// From the plugins of a scene.
+    pub fn of<const D: usize>(physics: &Physics<D>) -> Self {
+        let laws = || physics.rheologies.iter();
+        Ground {
+            soil: laws().map(|law| law.needs().pressure).collect(),
+            grains: laws().map(|law| law.grain_diameter()).collect(),
+            saturated: false,
+        }
+    }
+
+    /// Remarks on soils that are finer than their grains, stand dry while they are taken as saturated, or hang over a gap.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn remarks<const D: usize>(
+        &self,
+        scene: &Scene,
+        flow: &Flow<D>,
+    ) -> Result<Vec<String>, SolverError> {
+        let spacing = flow.world.spacing;
+        let mut remarks = Vec::new();
+        for (name, grain) in scene.phase.keys().zip(&self.grains) {
+            let ratio = grain.unwrap_or(0.0) / spacing;
+            if ratio > COARSE_GRAINS {
+                remarks.push(format!(
+                    "a grain of `{name}` is {ratio:.0} spacings wide: the law is that of many grains in every \
+                     particle, best with one to three diameters per spacing, and erosion is too strong below"
+                ));
+            }
+        }
+        if flow.world.gravity.norm() > 0.0 {
+            for (number, name) in scene
+                .phase
+                .keys()
+                .enumerate()
+                .filter(|(k, _)| self.soil[*k])
+            {
+                remarks.extend(self.dry(name, number, flow)?);
+                remarks.extend(hanging(name, number, flow)?);
+            }
+        }
+        Ok(remarks)
+    }
+
+    fn dry<const D: usize>(
+        &self,
+        name: &str,
+        number: usize,
+        flow: &Flow<D>,
+    ) -> Result<Option<String>, SolverError> {
+        if !self.saturated {
+            return Ok(None);
+        }
+        let world = &flow.world;
+        let up = -world.gravity.normalize();
+        let phase = Phases::of(flow)?;
+        let (mut above, mut all) = (0_usize, 0_usize);
+        let heights: Vec<f64> = world
+            .free
+            .get(fields::POSITION)?
+            .iter()
+            .map(|x| x.dot(&up))
+            .collect();
+        let fluid = heights
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| !self.soil[phase.number(*k)]);
+        let water = fluid
+            .map(|(_, height)| *height)
+            .fold(f64::NEG_INFINITY, f64::max);
+        for (_, height) in heights
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| phase.number(*k) == number)
+        {
+            all += 1;
+            above += usize::from(*height > water + DRY * world.spacing);
+        }
+        // A soil without any water beside it may stand for one under water that rests.
+        Ok((above > 0 && water.is_finite()).then(|| {
+            format!(
+                "{:.0} % of `{name}` stands above the highest water, at {water:.4} m, but \
+                 `effective-pressure` takes its pores as full of water: there it presses with its weight under water",
+                100.0 * above as f64 / all as f64
+            )
+        }))
+    }
+}
+
+/// Numbers of the particles' phases.
+struct Phases<'a>(Option<&'a [u32]>);
+
+impl<'a> Phases<'a> {
+    fn of<const D: usize>(flow: &'a Flow<D>) -> Result<Self, SolverError> {
+        let free = &flow.world.free;
+        Ok(Phases(match free.has(fields::PHASE.name) {
+            true => Some(free.get(fields::PHASE)?),
+            false => None,
+        }))
+    }
+    fn number(&self, k: usize) -> usize {
+        self.0.map_or(0, |p| p[k] as usize)
+    }
+}
+
+/// A remark if the lowest particles of a bed have neither a wall nor anybody else close beneath.
+fn hanging<const D: usize>(
+    name: &str,
+    number: usize,
+    flow: &Flow<D>,
+) -> Result<Option<String>, SolverError> {
+    let Some(walls) = &flow.walls else {
+        return Ok(None);
+    };
+    let world = &flow.world;
+    let walls = lock(walls);
+    let up = -world.gravity.normalize();
+    let phase = Phases::of(flow)?;
+    let position = world.free.get(fields::POSITION)?;
+    let reach = GAP * world.spacing;
+    let cell = |x: &Vect<D>| -> [i64; D] { std::array::from_fn(|k| (x[k] / reach).floor() as i64) };
+    let mut cells: HashMap<[i64; D], Vec<usize>> = HashMap::new();
+    for (k, x) in position.iter().enumerate() {
+        cells.entry(cell(x)).or_default().push(k);
+    }
+    // Somebody within reach, less than 60° from straight below.
+    let beneath = |k: usize| {
+        let x = &position[k];
+        let middle = cell(x);
+        (0..3_usize.pow(D as u32)).any(|n| {
+            let shifted: [i64; D] =
+                std::array::from_fn(|d| middle[d] + (n / 3_usize.pow(d as u32) % 3) as i64 - 1);
+            let near = cells.get(&shifted).into_iter().flatten();
+            near.copied().any(|j| {
+                let apart = position[j] - x;
+                j != k && apart.norm() <= reach && -apart.dot(&up) > 0.5 * apart.norm()
+            })
+        })
+    };
+    let grains = (0..position.len()).filter(|k| phase.number(*k) == number);
+    let hang = |k: &usize| walls.clearance(&position[*k], reach).is_none() && !beneath(*k);
+    let hanging: Vec<usize> = grains.filter(hang).collect();
+    Ok(hanging.first().map(|k| {
+        let place: Vec<String> = position[*k].iter().map(|x| format!("{x:.4}")).collect();
+        format!(
+            "{} particles of `{name}` have nothing beneath them, neither a wall nor a fluid, one of them at ({}): the \
+             bed will fall",
+            hanging.len(),
+            place.join(", ")
+        )
+    }))
+}

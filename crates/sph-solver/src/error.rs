@@ -1,0 +1,39 @@
+//! How assembling a flow may fail.
+
+use sph_core::{PlanError, SceneProblem, StepError};
+use thiserror::Error;
+
+/// Anything that keeps a scene from a flow that can be stepped.
+#[derive(Debug, Error)]
+pub enum SolverError {
+    /// The scene asks for something that is not there or cannot be.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Scene(Vec<SceneProblem>),
+    /// The plugins of the scene do not fit together.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// A stage failed before the first step.
+    #[error(transparent)]
+    Step(#[from] StepError),
+}
+
+impl From<sph_core::FieldError> for SolverError {
+    fn from(error: sph_core::FieldError) -> Self {
+        SolverError::Step(error.into())
+    }
+}
+
+impl SolverError {
+    /// One problem at a key of the scene.
+    pub fn at(path: impl Into<String>, message: impl Into<String>) -> Self {
+        SolverError::Scene(vec![SceneProblem::new(path, message)])
+    }
+
+    /// 2 for a bad scene, 1 for everything that went wrong later.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            SolverError::Scene(_) | SolverError::Plan(_) => 2,
+            SolverError::Step(_) => 1,
+        }
+    }
+}
