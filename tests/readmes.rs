@@ -27,6 +27,7 @@ readmes! {
     Seepage "../crates/sph-seepage/README.md"
     Setup "../crates/sph-setup/README.md"
     Run "../crates/sph-run/README.md"
+    Particles "../crates/sph-particles/README.md"
     Solver "../crates/sph-solver/README.md"
     State "../crates/sph-state/README.md"
     Stress "../crates/sph-stress/README.md"

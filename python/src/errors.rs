@@ -20,10 +20,7 @@ pub fn of(py: Python<'_>, trouble: &Trouble) -> PyErr {
     let class = match trouble {
         Trouble::Usage(_) => "UsageError",
         Trouble::Scene(_) => "SceneError",
-        Trouble::Failed { .. }
-        | Trouble::Grains { .. }
-        | Trouble::Interrupted
-        | Trouble::Different => "RunError",
+        Trouble::Failed { .. } | Trouble::Interrupted | Trouble::Different => "RunError",
     };
     let text = trouble.text(false);
     exception(py, class, text.trim_end(), &trouble.json().to_string())

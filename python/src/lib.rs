@@ -2,7 +2,7 @@
 //! package in `package/sph`.
 //!
 //! Nothing is computed here: scenes are opened and run by [`sph_cli::library`], stepped by
-//! [`sph_run::Stepper`], files are read by [`sph_io`].
+//! [`sph_particles::Stepper`], files are read by [`sph_io`].
 
 mod columns;
 mod errors;

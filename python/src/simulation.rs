@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sph_cli::library::{AnyScene, Request, Trouble};
 use sph_core::{Role, StepError};
-use sph_run::{RunError, Stepper};
+use sph_particles::{RunError, Stepper};
 
 use crate::columns::{array, axes, field_of, from_array, numbers};
 use crate::scene::opened;

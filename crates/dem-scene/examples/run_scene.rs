@@ -1,19 +1,20 @@
 //! Runs a scene of grains without the command line: `cargo run --release -p dem-scene --example run_scene FILE OUT`.
 
-use dem_scene::{Observer, RunOptions, Start, Step, read, run};
+use dem_scene::{identity, read, run};
 use scene_text::{Override, Source};
+use sph_run::{Command, Observer, Progress, RunOptions, Start};
 
 struct Lines;
 
 impl Observer for Lines {
-    fn step(&mut self, step: &Step) -> bool {
+    fn step(&mut self, step: &Progress) -> Command {
         if step.step.is_multiple_of(20_000) {
             println!(
                 "t = {:.4} s, step {}, Δt {:.1e} s",
                 step.time, step.step, step.dt
             );
         }
-        true
+        Command::Continue
     }
     fn message(&mut self, text: &str) {
         println!("{text}");
@@ -34,6 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         out,
         start: Start::Afresh,
         threads: Some(1),
+        identity: identity(&loaded),
     };
     let summary = run(&loaded, &options, &mut Lines)?;
     println!("{}", serde_json::to_string_pretty(&summary)?);

@@ -3,16 +3,11 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use sph_io::{Checkpoint, Column, ColumnData};
+use sph_run::{SavedState, save_state};
 
 use crate::error::DemError;
 use crate::model::Saved;
 use crate::origin::Origin;
-
-/// Name of the checkpoint in a run's folder.
-pub const FILE: &str = "checkpoint.sph";
-/// Column with the state as JSON, four bytes a number.
-const STATE: &str = "state";
 
 /// How far a run has come.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
@@ -62,26 +57,13 @@ pub struct Kept {
 /// # Errors
 /// If it cannot be written.
 pub fn save(kept: &Kept, scene: &str, path: &Path) -> Result<(), DemError> {
-    let bytes = serde_json::to_vec(kept).map_err(|e| DemError::Resume(e.to_string()))?;
-    let words = bytes.chunks(4).map(|four| {
-        let mut word = [b' '; 4];
-        word[..four.len()].copy_from_slice(four);
-        u32::from_le_bytes(word)
+    let meta = serde_json::json!({
+        "method": "grains",
+        "scene": scene,
+        "wall_seconds": kept.progress.wall_seconds,
+        "preparation_seconds": kept.progress.preparation_seconds,
     });
-    let checkpoint = Checkpoint {
-        meta: serde_json::json!({
-            "method": "grains",
-            "scene": scene,
-            "wall_seconds": kept.progress.wall_seconds,
-            "preparation_seconds": kept.progress.preparation_seconds,
-        }),
-        columns: vec![Column {
-            name: STATE.into(),
-            components: 1,
-            data: ColumnData::U32(words.collect()),
-        }],
-    };
-    Ok(checkpoint.save(path)?)
+    Ok(save_state(path, meta, kept)?)
 }
 
 /// Reads a checkpoint; with `changed` also one of another scene.
@@ -89,24 +71,18 @@ pub fn save(kept: &Kept, scene: &str, path: &Path) -> Result<(), DemError> {
 /// # Errors
 /// A file that cannot be read; one of another scene or of particles.
 pub fn load(scene: &str, changed: bool, path: &Path) -> Result<Kept, DemError> {
-    let checkpoint = Checkpoint::load(path)?;
+    let saved = SavedState::load(path)?;
     let refused = |why: &str| DemError::Resume(format!("{}: {why}", path.display()));
-    if checkpoint.meta["method"] != "grains" {
+    if saved.meta["method"] != "grains" {
         return Err(refused("it is the checkpoint of a scene of particles"));
     }
-    if checkpoint.meta["scene"] != scene && !changed {
+    if saved.meta["scene"] != scene && !changed {
         return Err(refused(
             "the scene has changed since; --changed goes on all the same, or start without --resume",
         ));
     }
-    let column = checkpoint.column(STATE).map(|c| &c.data);
-    let Some(ColumnData::U32(words)) = column else {
-        return Err(refused("it holds no state"));
-    };
-    let bytes: Vec<u8> = words.iter().flat_map(|w| w.to_le_bytes()).collect();
-    let kept = serde_json::from_slice(&bytes);
-    let mut kept: Kept = kept.map_err(|e| refused(&e.to_string()))?;
-    let seconds = |name: &str| checkpoint.meta[name].as_f64().unwrap_or_default();
+    let mut kept: Kept = saved.state().map_err(|e| refused(&e))?;
+    let seconds = |name: &str| saved.meta[name].as_f64().unwrap_or_default();
     kept.progress.wall_seconds = seconds("wall_seconds");
     kept.progress.preparation_seconds = seconds("preparation_seconds");
     Ok(kept)

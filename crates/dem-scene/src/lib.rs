@@ -6,7 +6,7 @@
 //! 1. [`read`] turns a [`scene_text::Source`] into a [`Loaded`] scene ([`Scene`] and its tables), or into all its mistakes
 //!    with their places; [`is_grain_scene`] tells such scenes from those of particles.
 //! 2. [`examine`] tells what it is made of without preparing its grains.
-//! 3. [`run()`] prepares the grains, steps them, measures ([`Probe`]), writes and compares ([`Reference`]);
+//! 3. [`run()`] prepares the grains and lets `sph-run` drive them: it steps, measures ([`Probe`]), writes and compares ([`Reference`]);
 //!    [`assemble`] alone gives the [`Model`].
 //! 4. [`Summary`] is what a run leaves; [`DemError`] what keeps it from its end, with the grain at fault ([`Failure`]).
 //!
@@ -68,10 +68,8 @@ mod schema;
 mod summary;
 mod tables;
 mod walls;
-mod written;
 
 pub use assemble::{Assembled, assemble};
-pub use checkpoint::FILE as CHECKPOINT;
 pub use compare::Compared;
 pub use error::{DemError, Failure};
 pub use examine::{Examination, examine};
@@ -79,9 +77,9 @@ pub use foreseen::Cost;
 pub use model::{Load, Made, Model, Saved};
 pub use origin::Origin;
 pub use read::{Loaded, is_grain_scene, kinds_of_probes, kinds_of_references, read};
-pub use run::{Observer, RunOptions, SUMMARY, Start, Step, run};
+pub use run::{identity, run};
 pub use schema::editor_schema;
-pub use summary::{PluginInForce, Status, Summary};
+pub use summary::{PluginInForce, Summary};
 pub use tables::{
     Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Lubrication, Oedometer, Output, Piston,
     Plugins, Probe, Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple,

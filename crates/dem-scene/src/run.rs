@@ -1,83 +1,38 @@
-//! A run: prepared or resumed, stepped, measured, written.
+//! Grains as a model that is run.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 use dem_coupled::CoupledError;
+use sph_run::{
+    BAD_STATE, BAD_STATE_PICTURE, Books, Frames, Identity, Now, Outlay, RunOptions, SERIES,
+    Schedule, Start, Status, Watch, next_multiple,
+};
 
 use crate::assemble::{Assembled, assemble, loads};
 use crate::at_fault;
 use crate::checkpoint::{self, Kept, Progress};
+use crate::columns::{headings, row};
 use crate::compare;
 use crate::error::{DemError, Failure};
 use crate::examine::plugins;
+use crate::fields::values;
 use crate::frames;
 use crate::laws::{Laws, throats};
 use crate::model::Model;
 use crate::read::Loaded;
-use crate::summary::{Status, Summary};
+use crate::summary::Summary;
 use crate::tables::Probe;
-use crate::written::Written;
 
-/// Where a run begins.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub enum Start {
-    /// At the beginning.
-    Afresh,
-    /// At the checkpoint in its folder, of the same scene.
-    Resumed,
-    /// At the checkpoint in its folder, whatever has changed in the scene.
-    Changed,
-}
-
-/// How a scene is run.
-#[derive(Clone, Debug)]
-pub struct RunOptions {
-    /// Folder of the results.
-    pub out: PathBuf,
-    /// Where it begins.
-    pub start: Start,
-    /// Threads; all cores if none are given.
-    pub threads: Option<usize>,
-}
-
-/// Where a run is.
-#[derive(Clone, Copy, Debug)]
-pub struct Step {
-    /// Simulated time, s.
-    pub time: f64,
-    /// Simulated time at the end, s.
-    pub end: f64,
-    /// Steps made.
-    pub step: u64,
-    /// The last step, s.
-    pub dt: f64,
-    /// What limited it.
-    pub limiter: &'static str,
-    /// Grains.
-    pub grains: usize,
-}
-
-/// Who watches a run.
-pub trait Observer {
-    /// After every step; false stops the run with a checkpoint.
-    fn step(&mut self, step: &Step) -> bool;
-    /// A line worth saying.
-    fn message(&mut self, text: &str);
-}
-
-impl Observer for () {
-    fn step(&mut self, _: &Step) -> bool {
-        true
-    }
-    fn message(&mut self, _: &str) {}
-}
-
-/// Name of the summary in a run's folder.
-pub const SUMMARY: &str = "summary.json";
 /// Version of the form of the summary.
 const SCHEMA_VERSION: u32 = 1;
+
+/// What a checkpoint of a scene belongs to.
+#[must_use]
+pub fn identity(loaded: &Loaded) -> Identity {
+    Identity::of_text(loaded.table.to_string())
+}
 
 /// Runs a scene. Nothing is written before its grains are ready.
 ///
@@ -86,7 +41,7 @@ const SCHEMA_VERSION: u32 = 1;
 pub fn run(
     loaded: &Loaded,
     options: &RunOptions,
-    observer: &mut (dyn Observer + Send),
+    observer: &mut Watch<'_>,
 ) -> Result<Summary, DemError> {
     loaded.check_files()?;
     let mut pool = rayon::ThreadPoolBuilder::new();
@@ -97,172 +52,251 @@ pub fn run(
         threads: options.threads.unwrap_or(0),
         reason: e.to_string(),
     })?;
-    pool.install(|| Running::new(loaded, options, observer)?.run_to_end())
+    let (run, output) = (&loaded.scene.run, &loaded.scene.output);
+    let schedule = Schedule {
+        rows: output.series_interval(run.end),
+        hits_outputs: false,
+        checkpoints: run.checkpoint_every.unwrap_or(run.end / 10.0),
+        max_steps: run.max_steps,
+        capped: Status::Done,
+        ..Schedule::every(output.interval(run.end), run.end)
+    };
+    let outlay = Outlay {
+        vtk: !output.no_vtk,
+        pictures: output.picture.clone(),
+        digits: 6,
+        animation: Some(output.animation.unwrap_or(10.0)).filter(|speed| *speed > 0.0),
+        folders: output
+            .picture
+            .first()
+            .map(|_| "pictures")
+            .into_iter()
+            .collect(),
+    };
+    pool.install(|| {
+        let mut running = Running::new(loaded, options, observer)?;
+        let summary = sph_run::run(&mut running, options, &schedule, outlay, observer)?;
+        summary.ok_or_else(|| DemError::Resume("there is no summary of the run".into()))
+    })
 }
 
 struct Running<'a> {
     loaded: &'a Loaded,
-    out: &'a Path,
-    observer: &'a mut (dyn Observer + Send),
-    parts: Assembled,
+    options: &'a RunOptions,
+    /// The grains, once they are prepared or come from a checkpoint.
+    parts: Option<Assembled>,
     progress: Progress,
-    written: Written,
-    identity: String,
-    begun: Instant,
-    _lock: sph_io::FolderLock,
+    /// What limited the last step.
+    limiter: &'static str,
 }
 
 impl<'a> Running<'a> {
     fn new(
         loaded: &'a Loaded,
         options: &'a RunOptions,
-        observer: &'a mut (dyn Observer + Send),
+        observer: &mut Watch<'_>,
     ) -> Result<Self, DemError> {
-        let begun = Instant::now();
-        let out = options.out.as_path();
-        let identity = loaded.table.to_string();
-        let (mut parts, progress) = match options.start {
-            Start::Afresh => {
-                let parts = assemble(loaded, &mut |text| observer.message(text))?;
-                let preparation_seconds = begun.elapsed().as_secs_f64();
-                let progress = Progress {
-                    preparation_seconds,
-                    ..Progress::default()
-                };
-                (parts, progress)
-            }
-            start => resumed(loaded, out, &identity, start == Start::Changed)?,
-        };
-        if loaded
-            .probes
-            .values()
-            .any(|p| matches!(p, Probe::Flux { .. }))
-        {
-            parts.model.measure_inflow();
-        }
-        sph_io::writable(out)?;
-        let lock = sph_io::FolderLock::take(out)?;
-        sph_io::sweep_temporaries(out)?;
-        let afresh = options.start == Start::Afresh;
-        let written = Written::new(loaded, out, if afresh { None } else { Some(&progress) })?;
-        Ok(Self {
+        let mut running = Running {
             loaded,
-            out,
-            observer,
-            parts,
-            progress,
-            written,
-            identity,
-            begun,
-            _lock: lock,
-        })
-    }
-
-    fn run_to_end(mut self) -> Result<Summary, DemError> {
-        let run = &self.loaded.scene.run;
-        let end = run.end;
-        self.write_due()?;
-        let most = run.max_steps.unwrap_or(u64::MAX);
-        let mut interrupted = false;
-        while self.parts.model.grains().time() < end && self.parts.model.grains().steps() < most {
-            self.parts.model.apply(&self.parts.loads);
-            let made = match self.parts.model.advance(run.safety, end) {
-                Ok(made) => made,
-                Err(failure) => return Err(self.failed(failure)),
-            };
-            self.progress.dt = made.step;
-            *self
-                .progress
-                .limited
-                .entry(made.limiter.to_string())
-                .or_default() += 1;
-            self.write_due()?;
-            let grains = self.parts.model.grains();
-            let step = Step {
-                time: grains.time(),
-                end,
-                step: grains.steps(),
-                dt: made.step,
-                limiter: made.limiter,
-                grains: grains.grains().len(),
-            };
-            if !self.observer.step(&step) {
-                interrupted = true;
-                break;
-            }
-        }
-        self.checkpoint()?;
-        self.written.film(self.loaded)?;
-        let status = if interrupted {
-            Status::Interrupted
-        } else {
-            Status::Done
+            options,
+            parts: None,
+            progress: Progress::default(),
+            limiter: "none",
         };
-        let summary = self.summary(status, Vec::new())?;
-        sph_io::write_json(self.out.join(SUMMARY), &summary)?;
-        Ok(summary)
+        if options.start == Start::Afresh {
+            let begun = Instant::now();
+            running.parts = Some(assemble(loaded, &mut |text| observer.message(text))?);
+            running.progress.preparation_seconds = begun.elapsed().as_secs_f64();
+            running.progress.wall_seconds = running.progress.preparation_seconds;
+        }
+        Ok(running)
     }
 
-    /// Rows, frames and checkpoints whose time has come. Steps are not shortened for them.
-    fn write_due(&mut self) -> Result<(), DemError> {
+    fn parts(&self) -> Result<&Assembled, DemError> {
+        let none = || DemError::Resume("there are no grains yet".into());
+        self.parts.as_ref().ok_or_else(none)
+    }
+
+    /// Grains of a checkpoint, with the laws of the scene.
+    fn resume(&mut self, changed: bool, own: &Path) -> Result<(), DemError> {
         let scene = &self.loaded.scene;
-        let (time, end) = (self.parts.model.grains().time(), scene.run.end);
-        let due = |count: u64, every: f64| time >= count as f64 * every || time >= end;
-        let later = |last: Option<f64>| last.is_none_or(|last| time > last);
-        let rows = due(self.progress.rows, scene.output.series_interval(end));
-        if rows && later(self.progress.last_row) {
-            let row = crate::columns::row(
-                self.loaded,
-                &self.parts.model,
-                &self.parts.origin,
-                self.progress.dt,
-            );
-            self.progress.series = self.written.row(&row)?;
-            self.progress.rows = next(time, scene.output.series_interval(end));
-            self.progress.last_row = Some(time);
-        }
-        let fields = due(self.progress.outputs, scene.output.interval(end));
-        if fields && later(self.progress.last_output) {
-            let (model, origin) = (&self.parts.model, &self.parts.origin);
-            let (frames, wider) = self.written.frame(self.loaded, model, origin)?;
-            for field in wider {
-                self.observer.message(&format!(
-                    "note: the range of colours of `{field}` is wider from t = {time:.4} s on; `output.picture_range` fixes it"
-                ));
-            }
-            self.progress.frames = frames;
-            self.progress.colours = self.written.colours.clone();
-            self.progress.outputs = next(time, scene.output.interval(end));
-            self.progress.last_output = Some(time);
-        }
-        let every = scene.run.checkpoint_every.unwrap_or(end / 10.0);
-        if time < end && time > 0.0 && due(self.progress.checkpoints.max(1), every) {
-            self.progress.checkpoints = next(time, every);
-            self.checkpoint()?;
-        }
+        let kept = checkpoint::load(&self.options.identity.scene, changed, own)?;
+        let laws = Laws::of(scene)?.all;
+        let model = Model::resume(kept.model, laws, throats(scene)?);
+        self.parts = Some(Assembled {
+            model: model.map_err(|e| DemError::Resume(e.to_string()))?,
+            origin: kept.origin,
+            loads: loads(scene),
+        });
+        self.progress = kept.progress;
         Ok(())
     }
 
-    fn checkpoint(&mut self) -> Result<(), DemError> {
-        let mut progress = self.progress.clone();
-        progress.wall_seconds += self.begun.elapsed().as_secs_f64();
-        let kept = Kept {
-            model: self.parts.model.save(),
-            origin: self.parts.origin.clone(),
-            progress,
-        };
-        checkpoint::save(&kept, &self.identity, &self.out.join(checkpoint::FILE))
+    fn now(&self) -> Result<Now, DemError> {
+        let grains = self.parts()?.model.grains();
+        Ok(Now {
+            time: grains.time(),
+            steps: grains.steps(),
+            dt: self.progress.dt,
+            limiter: self.limiter,
+            size: grains.grains().len(),
+        })
+    }
+}
+
+impl sph_run::Model for Running<'_> {
+    type Error = DemError;
+    type Summary = Summary;
+
+    fn begin(&mut self, start: &Start, own: &Path, _: &mut Watch<'_>) -> Result<Books, DemError> {
+        match start {
+            Start::Afresh => {}
+            Start::Resumed | Start::Changed => self.resume(*start == Start::Changed, own)?,
+            Start::From(_) => {
+                let why = "grains go on from the checkpoint of their own run alone";
+                return Err(DemError::Resume(why.into()));
+            }
+        }
+        let mut probes = self.loaded.probes.values();
+        if let Some(parts) = &mut self.parts
+            && probes.any(|p| matches!(p, Probe::Flux { .. }))
+        {
+            parts.model.measure_inflow();
+        }
+        let progress = &self.progress;
+        let end = self.loaded.scene.run.end;
+        let interval = self.loaded.scene.output.interval(end);
+        Ok(Books {
+            time: self.parts()?.model.grains().time(),
+            rows: progress.rows,
+            last_row: progress.last_row,
+            series: progress.series,
+            outputs: progress.frames,
+            next_output: next_multiple(interval, end, progress.last_output.unwrap_or(-1.0)),
+            checkpoints: progress.checkpoints.saturating_sub(1),
+            colours: progress.colours.clone(),
+            wall_seconds: progress.wall_seconds,
+            output_seconds: 0.0,
+        })
     }
 
-    /// What a failed step leaves: the last state in files, a picture with the grain at fault, the summary.
-    fn failed(&mut self, mut failure: Box<Failure>) -> DemError {
+    fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<Now, DemError> {
+        let before = self.now()?;
+        if let Some(parts) = self.parts.as_mut().filter(|_| before.time < limit) {
+            parts.model.apply(&parts.loads);
+            let made = parts.model.advance(self.loaded.scene.run.safety, limit)?;
+            self.progress.dt = made.step;
+            self.limiter = made.limiter;
+            let limited = self.progress.limited.entry(made.limiter.to_string());
+            *limited.or_default() += 1;
+        }
+        self.now()
+    }
+
+    fn columns(&self) -> Vec<(String, String)> {
+        let columns = headings(self.loaded).into_iter();
+        columns.map(|(name, unit)| (name, unit.into())).collect()
+    }
+
+    fn row(&mut self, _: &mut Watch<'_>) -> Result<Vec<f64>, DemError> {
+        let parts = self.parts()?;
+        Ok(row(
+            self.loaded,
+            &parts.model,
+            &parts.origin,
+            self.progress.dt,
+        ))
+    }
+
+    fn show(
+        &mut self,
+        frames: Option<&mut Frames>,
+        observer: &mut Watch<'_>,
+    ) -> Result<(), DemError> {
+        let Assembled { model, origin, .. } = self.parts()?;
+        let (time, scene) = (model.grains().time(), &self.loaded.scene);
+        if let Some(frames) = frames {
+            if frames.lists() {
+                frames.add(time, frames::pieces(model, origin), 1)?;
+            }
+            for field in &scene.output.picture {
+                let range = scene.output.picture_range.as_ref();
+                let given = range.and_then(|all| all.of(field));
+                let range = given.or_else(|| {
+                    let seen = frames.colours.of(field, &values(field, model, origin))?;
+                    if seen.1 {
+                        observer.message(&format!(
+                            "note: the range of colours of `{field}` is wider from t = {time:.4} s on; \
+                             `output.picture_range` fixes it"
+                        ));
+                    }
+                    Some(seen.0)
+                });
+                let path = frames.picture(field);
+                frames::picture(model, origin, field, range, &scene.title, None, &path)?;
+            }
+        }
+        self.progress.last_output = Some(time);
+        Ok(())
+    }
+
+    fn save(&mut self, books: &Books, own: &Path) -> Result<(), DemError> {
+        let scene = &self.loaded.scene;
+        let (end, last) = (scene.run.end, self.progress.last_output);
+        let progress = &mut self.progress;
+        progress.rows = books.rows;
+        progress.last_row = books.last_row;
+        progress.series = books.series;
+        let begun = |time: f64| (time / scene.output.interval(end)).floor() as u64 + 1;
+        progress.outputs = last.map_or(0, begun);
+        progress.frames = books.outputs;
+        // The last state is no checkpoint of those that are due.
+        if books.time < end && books.checkpoints > 0 {
+            progress.checkpoints = books.checkpoints + 1;
+        }
+        progress.colours.clone_from(&books.colours);
+        progress.wall_seconds = books.wall_seconds;
+        let progress = progress.clone();
+        let parts = self.parts()?;
+        let kept = Kept {
+            model: parts.model.save(),
+            origin: parts.origin.clone(),
+            progress,
+        };
+        checkpoint::save(&kept, &self.options.identity.scene, own)
+    }
+
+    fn conclude(
+        &mut self,
+        ended: Result<Status, &mut DemError>,
+        books: &Books,
+        observer: &mut Watch<'_>,
+    ) -> Result<Option<Summary>, DemError> {
+        match ended {
+            Ok(status) => self.summary(status, Vec::new(), books).map(Some),
+            Err(DemError::Failed(failure)) => {
+                self.draw_the_bad_state(failure, observer)?;
+                let warnings = vec![failure.to_string()];
+                self.summary(Status::Failed, warnings, books).map(Some)
+            }
+            Err(_) => Ok(None),
+        }
+    }
+}
+
+impl Running<'_> {
+    /// The last state in files, and a picture with the grain at fault, whose name the failure learns.
+    fn draw_the_bad_state(
+        &self,
+        failure: &mut Failure,
+        observer: &mut Watch<'_>,
+    ) -> Result<(), DemError> {
         if let CoupledError::Grains(error) = &failure.error {
             failure.named = at_fault::named(self.loaded, error);
         }
-        let warnings = vec![failure.to_string()];
-        let (model, origin) = (&self.parts.model, &self.parts.origin);
+        let Assembled { model, origin, .. } = self.parts()?;
+        let out = &self.options.out;
         let title = format!("{}: failed", self.loaded.scene.title);
-        let picture = self.out.join("bad_state.png");
         let drawn = frames::picture(
             model,
             origin,
@@ -270,36 +304,37 @@ impl<'a> Running<'a> {
             None,
             &title,
             failure.position,
-            &picture,
+            &out.join(BAD_STATE_PICTURE),
         );
-        let time = model.grains().time();
         let spheres = frames::pieces(model, origin).into_iter().next();
-        let saved =
-            spheres.map(|piece| sph_io::write_vtu(self.out.join("bad_state.vtu"), &piece, time));
-        let told = self
-            .summary(Status::Failed, warnings)
-            .and_then(|summary| Ok(sph_io::write_json(self.out.join(SUMMARY), &summary)?));
+        let saved = spheres.map_or(Ok(()), |piece| {
+            let time = model.grains().time();
+            Ok(sph_io::write_vtu(out.join(BAD_STATE), &piece, time)?)
+        });
         // The failure itself matters more than what could not be written about it.
-        for problem in [drawn.err(), told.err()].into_iter().flatten() {
-            self.observer.message(&format!("note: {problem}"));
+        for problem in [drawn, saved].into_iter().filter_map(Result::err) {
+            observer.message(&format!("note: {problem}"));
         }
-        if let Some(Err(problem)) = saved {
-            self.observer.message(&format!("note: {problem}"));
-        }
-        failure.into()
+        Ok(())
     }
 
-    fn summary(&self, status: Status, warnings: Vec<String>) -> Result<Summary, DemError> {
-        let model = &self.parts.model;
+    fn summary(
+        &self,
+        status: Status,
+        warnings: Vec<String>,
+        books: &Books,
+    ) -> Result<Summary, DemError> {
+        let parts = self.parts()?;
+        let model = &parts.model;
         let grains = model.grains();
         let steps = grains.steps();
-        let wall = self.progress.wall_seconds + self.begun.elapsed().as_secs_f64();
+        let wall = books.wall_seconds;
         let stepping = wall - self.progress.preparation_seconds;
         let count = grains.grains().len();
         let limited = self.progress.limited.iter();
         let errors = match status {
             Status::Failed => BTreeMap::new(),
-            _ => compare::errors(self.loaded, &self.parts.origin, self.written.series())?,
+            _ => compare::errors(self.loaded, &parts.origin, &self.options.out.join(SERIES))?,
         };
         let finite = |x: f64| x.is_finite().then_some(x);
         Ok(Summary {
@@ -328,16 +363,11 @@ impl<'a> Running<'a> {
             dt_limiters: limited
                 .map(|(name, n)| (name.clone(), *n as f64 / steps.max(1) as f64))
                 .collect(),
-            derived: derived(&self.parts),
+            derived: derived(parts),
             errors,
             warnings,
         })
     }
-}
-
-/// How many intervals have begun by now: the number of the next one.
-fn next(time: f64, every: f64) -> u64 {
-    (time / every).floor() as u64 + 1
 }
 
 /// What was measured before the run.
@@ -359,23 +389,4 @@ fn derived(parts: &Assembled) -> BTreeMap<String, f64> {
         .into_iter()
         .filter_map(|(name, value)| Some((name.to_string(), value?)));
     known.collect()
-}
-
-fn resumed(
-    loaded: &Loaded,
-    out: &Path,
-    identity: &str,
-    changed: bool,
-) -> Result<(Assembled, Progress), DemError> {
-    let scene = &loaded.scene;
-    let kept = checkpoint::load(identity, changed, &out.join(checkpoint::FILE))?;
-    let laws = Laws::of(scene)?.all;
-    let model = Model::resume(kept.model, laws, throats(scene)?);
-    let model = model.map_err(|e| DemError::Resume(e.to_string()))?;
-    let parts = Assembled {
-        model,
-        origin: kept.origin,
-        loads: loads(scene),
-    };
-    Ok((parts, kept.progress))
 }

@@ -4,20 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use serde_json::Value as Json;
+use sph_run::Status;
 
 use crate::compare::Compared;
-
-/// How a run ended.
-#[derive(Clone, Copy, Debug, Eq, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Status {
-    /// At its end.
-    Done,
-    /// Stopped with a checkpoint.
-    Interrupted,
-    /// A step went wrong.
-    Failed,
-}
 
 /// Content of `summary.json`.
 #[derive(Clone, Debug, Serialize)]

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use sph_run::Observer;
+use sph_run::Watch;
 
 use crate::arguments::{RunArguments, SceneArguments, StudyArguments};
 use crate::commands::{run as runs, study as studies};
@@ -87,7 +87,7 @@ pub fn run(
     opened: &Opened,
     request: &Request,
     (out, threads, begin): (Option<PathBuf>, Option<u16>, Begin),
-    observer: &mut (dyn Observer + Send),
+    observer: &mut Watch<'_>,
 ) -> Result<(Ended, PathBuf), Trouble> {
     let file = match &opened.scene {
         AnyScene::Particles(loaded) => loaded.source.file(),

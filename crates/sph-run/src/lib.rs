@@ -1,26 +1,28 @@
-//! Runs of scenes of particles: clock, outputs, series, checkpoints, failure and roll-back, summary.
+//! One driver for the runs of all models: clock, series, fields, pictures, films, checkpoints, resume, summary.
 //!
-//! * [`run()`]: steps, outputs, checkpoints, roll-back, references, summary.
-//! * [`run_part()`]: the same on one of several ranks, with a part of the particles.
-//! * [`Stepper`]: the same in memory, step by step, with columns that may be changed in between.
-//! * [`examine_and_try()`]: the numbers that follow from a scene, and a trial of its first steps.
+//! A [`Model`] advances to a limit, gives rows and fields, saves itself and tells how it ended. The driver knows no
+//! physics: it decides when something is due by a [`Schedule`], owns the files of the run's folder, which it locks, and
+//! asks an [`Observer`] after every step whether to go on.
 //!
-//! Particles and walls come from `sph-setup`, plugins and steps from `sph-solver`.
+//! * [`run()`]: a whole run.
+//! * [`Opened`]: the same in two parts, for a model whose processes must agree in between.
+//! * [`save_state()`], [`SavedState`]: a checkpoint of any state that `serde` knows.
 
-mod failure;
-mod results;
-mod running;
+mod drive;
+mod frames;
+mod identity;
+mod lock;
+mod model;
+mod observer;
+mod options;
+mod schedule;
+mod state;
 
-pub use failure::error::{Failure, RunError};
-pub use failure::findings::{Findings, Share, Sighting, Suspect};
-pub use failure::trouble::Trouble;
-pub use results::scene_picture::draw_scene;
-pub use results::summary::{Drift, ErrorEntry, RankShare, Status, Summary};
-pub use running::driver::{Command, Observer, Progress};
-pub use running::identity::{FileMark, Identity, marks};
-pub use running::on_threads::run_on_threads;
-pub use running::options::{RunOptions, Start};
-pub use running::run::{run, run_part};
-pub use running::stepper::Stepper;
-pub use running::trial::{Trial, examine_and_try};
-pub use sph_viscosity::Solves;
+pub use drive::{Opened, run};
+pub use frames::{BAD_STATE, BAD_STATE_NEAR, BAD_STATE_PICTURE, Frames, Outlay};
+pub use identity::{FileMark, Identity};
+pub use model::{Books, Model, Now, Status, Wish};
+pub use observer::{Command, Observer, Progress, Watch};
+pub use options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
+pub use schedule::{Schedule, next_multiple};
+pub use state::{SavedState, save_state};

@@ -5,7 +5,7 @@
 //! [`defaults`] where the scene is silent.
 //!
 //! * [`setup`]: names → plugins → stages in order, terms, step limits. `sph-setup` gives them particles and walls.
-//! * [`Flow`]: one evaluation, one step; a [`sph_core::System`] for the integrator. `sph-run` takes the steps of a run.
+//! * [`Flow`]: one evaluation, one step; a [`sph_core::System`] for the integrator. `sph-particles` takes the steps of a run.
 //! * [`rheometer`]: a law by its name, sheared alone; [`kernels`]: a kernel by its name.
 
 // Plugins of contributions alone, which the solver knows by their kinds.

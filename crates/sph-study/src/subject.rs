@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use sph_core::SceneProblem;
 use sph_io::IoError;
-use sph_run::Observer;
+use sph_run::Watch;
 use sph_scene::{Diagnostic, Source};
 use toml::Table;
 
@@ -54,11 +54,7 @@ pub trait Subject: Debug + Send + Sync {
     ///
     /// # Errors
     /// A file that cannot be written, which is no fault of the scene.
-    fn run(
-        &self,
-        request: &Request<'_>,
-        observer: &mut (dyn Observer + Send),
-    ) -> Result<Ended, IoError>;
+    fn run(&self, request: &Request<'_>, observer: &mut Watch<'_>) -> Result<Ended, IoError>;
 }
 
 /// How a scene is to be run.

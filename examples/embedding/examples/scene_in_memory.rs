@@ -1,7 +1,7 @@
 //! A scene from a text, stepped by hand: no file is read and none is written.
 
 use sph_core::fields;
-use sph_run::{RunError, Stepper};
+use sph_particles::{RunError, Stepper};
 
 const SCENE: &str = r#"
 title = "A drop falls"

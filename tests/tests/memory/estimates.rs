@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use dhat::{HeapStats, Profiler};
-use sph_run::{Identity, RunOptions, Start, Status, run};
+use sph_particles::run;
+use sph_run::{Identity, RunOptions, Start, Status};
 use sph_scene::{Override, load};
 use sph_setup::{Memory, examine};
 

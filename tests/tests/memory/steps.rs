@@ -6,7 +6,8 @@
 use std::path::Path;
 
 use dhat::{HeapStats, Profiler};
-use sph_run::{Command, Identity, Observer, Progress, RunOptions, Start, run};
+use sph_particles::run;
+use sph_run::{Command, Identity, Observer, Progress, RunOptions, Start};
 use sph_scene::{Override, load};
 use sph_turbulence as _;
 

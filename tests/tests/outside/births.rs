@@ -6,7 +6,8 @@ use sph_contribution::{
 };
 use sph_core::{Access, Field, Scalar, StepError, Vect, plugin};
 use sph_neighbours::World;
-use sph_run::{RunOptions, Start, Summary, run};
+use sph_particles::{Summary, run};
+use sph_run::{RunOptions, Start};
 use sph_scene::parse;
 use sph_tests::FinalState;
 

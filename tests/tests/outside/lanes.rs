@@ -4,7 +4,8 @@ use artificial_viscosity::ArtificialViscosity;
 use sph_core::{Access, StepError, plugin};
 use sph_lanes::{Width, force_width};
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World};
-use sph_run::{RunOptions, Start, run};
+use sph_particles::run;
+use sph_run::{RunOptions, Start};
 use sph_scene::{Override, parse};
 use sph_tests::{DAM_BREAK, FinalState, PERIODIC, SOAK, STIRRER};
 

@@ -1,6 +1,7 @@
 //! The kind of plugin of `examples/tracer`: heat and salt that diffuse through a fluid, `[tracer.heat-and-salt]`.
 
-use sph_run::{RunError, RunOptions, Start, Summary, run};
+use sph_particles::{RunError, Summary, run};
+use sph_run::{RunOptions, Start};
 use sph_scene::{Override, parse};
 use sph_setup::{Examination, examine};
 use sph_tests::FinalState;

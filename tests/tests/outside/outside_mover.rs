@@ -1,7 +1,8 @@
 //! The mover of `examples/winch`.
 
 use sph_boundary::RigidState;
-use sph_run::{RunOptions, Start, run};
+use sph_particles::run;
+use sph_run::{RunOptions, Start};
 use sph_scene::{Override, parse};
 use winch as _;
 

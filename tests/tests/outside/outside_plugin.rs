@@ -176,8 +176,9 @@ impl<const D: usize> Contribution<D> for Remembering {
 
 // ------------------------------------------------------------------------------------------------
 
+use sph_particles::{RunError, Summary, run};
 use sph_rheology::{Rheology, rheometer};
-use sph_run::{RunError, RunOptions, Start, Summary, run};
+use sph_run::{RunOptions, Start};
 use sph_scene::parse;
 use sph_solver::SolverError;
 use sph_tests::{DAM_BREAK, FinalState, PERIODIC};

@@ -1,7 +1,7 @@
 //! Laws with a yield stress, elastic soils and effective pressures.
 
 use crate::shipped::{Finished, finished};
-use sph_run::Solves;
+use sph_particles::Solves;
 
 /// Values of a column of the series.
 fn column(run: &Finished, name: &str) -> Vec<f64> {

@@ -5,7 +5,8 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use sph_io::{Table, read_table};
-use sph_run::{RunOptions, Start, Status, Summary, run};
+use sph_particles::{Summary, run};
+use sph_run::{RunOptions, Start, Status};
 use sph_scene::{Override, load};
 use tempfile::TempDir;
 

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 40] = [
+const ALLOWED: [(&str, &[&str]); 41] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation", "sph-derive"]),
     ("dem-grains", &["sph-derive"]),
@@ -29,6 +29,7 @@ const ALLOWED: [(&str, &[&str]); 40] = [
             "surface-file",
             "sph-derive",
             "sph-io",
+            "sph-run",
         ],
     ),
     ("sph-lanes", &[]),
@@ -186,7 +187,7 @@ const ALLOWED: [(&str, &[&str]); 40] = [
         ],
     ),
     (
-        "sph-run",
+        "sph-particles",
         &[
             "sph-boundary",
             "sph-contribution",
@@ -195,17 +196,20 @@ const ALLOWED: [(&str, &[&str]); 40] = [
             "sph-io",
             "sph-neighbours",
             "sph-probes",
+            "sph-run",
             "sph-scene",
             "sph-setup",
             "sph-solver",
             "sph-viscosity",
         ],
     ),
+    ("sph-run", &["sph-io"]),
     (
         "sph-study",
         &[
             "sph-core",
             "sph-io",
+            "sph-particles",
             "sph-run",
             "sph-scene",
             "sph-setup",
@@ -226,6 +230,7 @@ const ALLOWED: [(&str, &[&str]); 40] = [
             "sph-io",
             "sph-mpi",
             "sph-pressure",
+            "sph-particles",
             "sph-run",
             "sph-scene",
             "sph-setup",
@@ -243,6 +248,7 @@ const ALLOWED: [(&str, &[&str]); 40] = [
             "sph-core",
             "sph-io",
             "sph-neighbours",
+            "sph-particles",
             "sph-probes",
             "sph-run",
             "sph-solver",
@@ -251,7 +257,7 @@ const ALLOWED: [(&str, &[&str]); 40] = [
 ];
 
 /// From the plugins of a scene to its run.
-const SOLVERS: [&str; 3] = ["sph-solver", "sph-setup", "sph-run"];
+const SOLVERS: [&str; 3] = ["sph-solver", "sph-setup", "sph-particles"];
 
 /// Heavy crates, each with the crates that may name it: one for particles, and one for grains, which
 /// know nothing of each other.
@@ -322,8 +328,14 @@ fn every_dependency_within_the_workspace_is_an_arrow_of_the_design() {
                     !SOLVERS.contains(&target.as_str())
                 }
                 ("embedding", _) => true,
-                ("sph-solver", _) => !["sph-setup", "sph-run", "sph-study", "sph-cli", "sph-tests"]
-                    .contains(&target.as_str()),
+                ("sph-solver", _) => ![
+                    "sph-setup",
+                    "sph-particles",
+                    "sph-study",
+                    "sph-cli",
+                    "sph-tests",
+                ]
+                .contains(&target.as_str()),
                 (_, Some(allowed)) => allowed.contains(&target.as_str()),
                 (_, None) => target == "sph-core",
             };
@@ -339,7 +351,7 @@ fn nothing_but_studies_the_command_line_python_tests_examples_and_benches_knows_
         let knows = all().find(|d| SOLVERS.contains(&d.as_str()));
         let may = [
             "sph-setup",
-            "sph-run",
+            "sph-particles",
             "sph-study",
             "sph-cli",
             "sph-python",
@@ -355,14 +367,13 @@ fn nothing_but_studies_the_command_line_python_tests_examples_and_benches_knows_
     }
 }
 
-/// `sph-io` writes files and `sph-derive` declares parameters; they depend on no other crate here.
+/// `sph-io` writes files, `sph-run` drives any model and `sph-derive` declares parameters; they know no particles.
 #[test]
 fn grains_know_no_particles() {
     for (name, room) in rooms() {
-        let known = room
-            .uses
-            .union(&room.tests_use)
-            .find(|d| d.starts_with("sph-") && !["sph-io", "sph-derive"].contains(&d.as_str()));
+        let known = room.uses.union(&room.tests_use).find(|d| {
+            d.starts_with("sph-") && !["sph-io", "sph-run", "sph-derive"].contains(&d.as_str())
+        });
         assert!(
             !name.starts_with("dem-") || known.is_none(),
             "{name} depends on {known:?}"

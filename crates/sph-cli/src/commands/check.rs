@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde_json::{Value as Json, json};
-use sph_run::{draw_scene, examine_and_try};
+use sph_particles::{draw_scene, examine_and_try};
 use sph_setup::{Examination, Memory};
 
 use crate::arguments::CheckArguments;

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use serde_json::{Value as Json, json};
 use sph_io::{Checkpoint, IoError};
+use sph_run::CHECKPOINT;
 
-use crate::commands::left_behind::CHECKPOINT;
 use crate::number;
 use crate::telling::layout::columns;
 use crate::telling::told::Told;

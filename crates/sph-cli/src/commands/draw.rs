@@ -5,7 +5,6 @@ use std::path::Path;
 use sph_core::parse_quantity;
 use sph_draw::{DrawError, Frames, Line};
 use sph_io::IoError;
-use sph_run::RunError;
 
 use crate::telling::console;
 use crate::telling::trouble::Trouble;
@@ -138,13 +137,7 @@ fn place(option: &str, text: &str) -> Result<[f64; 3], Trouble> {
 /// What cannot be written is a failure, all else a mistake of the one who asks.
 fn trouble(error: DrawError) -> Trouble {
     match error {
-        DrawError::Io(error @ (IoError::Write { .. } | IoError::DiskFull { .. })) => {
-            Trouble::Failed {
-                error: RunError::Io(error),
-                summary: None,
-                advice: None,
-            }
-        }
+        DrawError::Io(error @ (IoError::Write { .. } | IoError::DiskFull { .. })) => error.into(),
         other => Trouble::usage(other.to_string()),
     }
 }

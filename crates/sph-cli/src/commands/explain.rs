@@ -1,6 +1,7 @@
 //! `sph explain`.
 
 use serde_json::Value as Json;
+use sph_particles::RunError;
 use sph_setup::{Examination, Ranks, StageUse, examine, ranks};
 use sph_solver::PluginInForce;
 
@@ -33,7 +34,7 @@ pub fn told(opened: &Opened) -> Result<Told, Trouble> {
         AnyScene::Grains(loaded) => return grains::explain::told(loaded),
     };
     let examined = examine(&loaded.scene);
-    let examined = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
+    let examined = examined.map_err(|e| Trouble::of(RunError::from(e), &loaded.source))?;
     Ok(Told {
         json: serde_json::to_value(&examined).unwrap_or(Json::Null),
         text: text(&examined),
@@ -48,7 +49,7 @@ fn split(opened: &Opened, count: usize, told: &mut Told) -> Result<(), Trouble> 
         ));
     };
     let split = ranks(&loaded.scene, count);
-    let split = split.map_err(|e| Trouble::of(e, &loaded.source))?;
+    let split = split.map_err(|e| Trouble::of(RunError::from(e), &loaded.source))?;
     if let Json::Object(json) = &mut told.json {
         json.insert(
             "ranks".into(),

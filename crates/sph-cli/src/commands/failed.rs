@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sph_run::{Failure, Findings, Share, Sighting, Suspect};
+use sph_particles::{Failure, Findings, Share, Sighting, Suspect};
 
 use crate::telling::layout::{columns, remarks};
 

@@ -2,8 +2,6 @@
 
 pub mod check;
 pub mod explain;
-pub mod failed;
-mod outcome;
+pub mod outcome;
 mod plugins;
-pub mod run;
 pub mod study;

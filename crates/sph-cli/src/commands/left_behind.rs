@@ -8,9 +8,6 @@ use sph_io::IoError;
 use crate::arguments::RunArguments;
 use crate::telling::shell::quoted;
 
-/// Name of the checkpoint in a run's folder.
-pub const CHECKPOINT: &str = "checkpoint.sph";
-
 /// The command that resumes the run.
 pub fn going_on(arguments: &RunArguments, out: &Path) -> String {
     let mut words = vec!["sph".to_string(), "run".to_string()];

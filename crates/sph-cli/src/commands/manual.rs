@@ -2,8 +2,7 @@
 
 use clap::CommandFactory;
 use clap_mangen::Man;
-use sph_io::{Durability, IoError, write_atomic};
-use sph_run::RunError;
+use sph_io::{Durability, write_atomic};
 
 use crate::arguments::Arguments;
 use crate::telling::console;
@@ -41,18 +40,12 @@ pub fn man(arguments: &ManArguments) -> Result<(), Trouble> {
         console::raw(page);
         return Ok(());
     };
-    let failed = |error: IoError| Trouble::Failed {
-        error: RunError::Io(error),
-        summary: None,
-        advice: None,
-    };
-    sph_io::writable(folder).map_err(failed)?;
+    sph_io::writable(folder)?;
     for (name, page) in &pages {
         let path = folder.join(format!("{name}.1"));
         write_atomic(&path, Durability::Process, |file| {
             std::io::Write::write_all(file, page)
-        })
-        .map_err(failed)?;
+        })?;
     }
     console::out(&format!("{} pages in {}", pages.len(), folder.display()));
     Ok(())

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use sph_run::{Status, Summary};
+use sph_particles::Summary;
+use sph_run::Status;
 
 use crate::commands::check::memory;
 use crate::commands::written;

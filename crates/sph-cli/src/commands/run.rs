@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
 use serde_json::Value as Json;
-use sph_run::{
-    Identity, Observer, RunError, RunOptions, Start, Status, Summary, run, run_on_threads, run_part,
-};
+use sph_particles::{RunError, identity, run, run_on_threads, run_part};
+use sph_run::{CHECKPOINT, Identity, RunOptions, SUMMARY, Start, Status, Watch};
 use sph_scene::{Loaded, Source};
 
 use crate::arguments::RunArguments;
-use crate::commands::left_behind::{CHECKPOINT, failed_summary, going_on, remedy};
+use crate::commands::left_behind::{failed_summary, going_on, remedy};
 use crate::commands::{grains, outcome};
 use crate::interrupt;
 use crate::ranks;
@@ -17,10 +17,7 @@ use crate::scene_file::{AnyScene, Opened, open};
 use crate::telling::console;
 use crate::telling::progress::Watcher;
 use crate::telling::told::{Ended, Told};
-use crate::telling::trouble::Trouble;
-
-/// Name of the summary in a run's folder.
-const SUMMARY: &str = "summary.json";
+use crate::telling::trouble::{Failing, Trouble};
 
 /// Runs a scene.
 pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
@@ -54,18 +51,13 @@ pub fn folder(arguments: &RunArguments, opened: &Opened) -> PathBuf {
 pub fn execute(
     arguments: &RunArguments,
     opened: &Opened,
-    observer: &mut (dyn Observer + Send),
+    observer: &mut Watch<'_>,
 ) -> Result<Ended, Trouble> {
     let out = folder(arguments, opened);
     look_before_writing(arguments, &out)?;
     match &opened.scene {
         AnyScene::Particles(loaded) => particles(arguments, loaded, &out, observer),
-        AnyScene::Grains(_)
-            if arguments.ranks.is_some_and(|n| n > 1) || ranks::team().is_some() =>
-        {
-            Err(Trouble::usage("a scene of grains runs on one rank"))
-        }
-        AnyScene::Grains(loaded) => grains::run::execute(arguments, loaded, &out, observer),
+        AnyScene::Grains(loaded) => grains(arguments, loaded, &out, observer),
     }
 }
 
@@ -73,15 +65,11 @@ fn particles(
     arguments: &RunArguments,
     loaded: &Loaded,
     out: &Path,
-    observer: &mut (dyn Observer + Send),
+    observer: &mut Watch<'_>,
 ) -> Result<Ended, Trouble> {
-    let located = |error: sph_solver::SolverError| Trouble::of(error, &loaded.source);
-    let options = RunOptions {
-        out: out.to_path_buf(),
-        start: start(arguments, out)?,
-        threads: arguments.threads.map(usize::from),
-        identity: Identity::of(loaded).map_err(located)?,
-    };
+    let mut options = options(arguments, out)?;
+    let own = identity(loaded);
+    options.identity = own.map_err(|e| Trouble::of(RunError::from(e), &loaded.source))?;
     let result = match (ranks::team(), arguments.ranks.map(usize::from)) {
         (Some(_), Some(2..)) => {
             let text =
@@ -95,7 +83,7 @@ fn particles(
         (None, _) => run(&loaded.scene, &options, observer).map(Some),
     };
     let summary = result.map_err(|error| trouble(error, arguments, &loaded.source, out))?;
-    let Some(summary) = summary else {
+    let Some(s) = summary else {
         // Another rank has it.
         return Ok(Ended {
             interrupted: None,
@@ -105,17 +93,54 @@ fn particles(
             },
         });
     };
-    let stopped = summary.status != Status::Done;
-    Ok(Ended {
-        interrupted: stopped.then_some((summary.simulated_seconds, summary.steps)),
-        told: told(&summary, out),
+    let text = outcome::text(&s, out);
+    Ok(ended(&s, text, (s.status, s.simulated_seconds, s.steps)))
+}
+
+fn grains(
+    arguments: &RunArguments,
+    loaded: &dem_scene::Loaded,
+    out: &Path,
+    observer: &mut Watch<'_>,
+) -> Result<Ended, Trouble> {
+    if arguments.ranks.is_some_and(|n| n > 1) || ranks::team().is_some() {
+        return Err(Trouble::usage("a scene of grains runs on one rank"));
+    }
+    if arguments.from.is_some() {
+        return Err(Trouble::usage(
+            "--from takes particles of another run; grains go on with --resume, and --changed if the scene has changed",
+        ));
+    }
+    let options = RunOptions {
+        identity: dem_scene::identity(loaded),
+        ..options(arguments, out)?
+    };
+    let result = dem_scene::run(loaded, &options, observer);
+    let s = result.map_err(|error| trouble(error, arguments, &loaded.source, out))?;
+    let text = grains::outcome::text(&s, out);
+    Ok(ended(&s, text, (s.status, s.simulated_seconds, s.steps)))
+}
+
+fn options(arguments: &RunArguments, out: &Path) -> Result<RunOptions, Trouble> {
+    Ok(RunOptions {
+        out: out.to_path_buf(),
+        start: start(arguments, out)?,
+        threads: arguments.threads.map(usize::from),
+        identity: Identity::default(),
     })
 }
 
-fn told(summary: &Summary, out: &Path) -> Told {
-    Told {
-        json: serde_json::to_value(summary).unwrap_or(Json::Null),
-        text: outcome::text(summary, out),
+/// The end of a run whose summary is told in a text, with the time (s) and the step that it reached.
+fn ended(
+    summary: &impl Serialize,
+    text: String,
+    (status, time, steps): (Status, f64, u64),
+) -> Ended {
+    let json = serde_json::to_value(summary).unwrap_or(Json::Null);
+    let stopped = status != Status::Done;
+    Ended {
+        interrupted: stopped.then_some((time, steps)),
+        told: Told { json, text },
     }
 }
 
@@ -173,33 +198,22 @@ fn conclude(arguments: &RunArguments, ended: &Ended, out: &Path) -> Result<(), T
     Err(Trouble::Interrupted)
 }
 
-fn trouble(error: RunError, arguments: &RunArguments, source: &Source, out: &Path) -> Trouble {
-    let ran = matches!(error, RunError::Failed(_));
-    let advice = unwritten(&error)
-        .filter(|_| out.join(CHECKPOINT).is_file())
-        .map(|why| {
-            format!(
-                "the last checkpoint stands: {why}, then go on with\n  {}",
-                going_on(arguments, out)
-            )
-        });
-    match Trouble::of(error, source) {
-        Trouble::Failed { error, .. } => Trouble::Failed {
-            error,
-            summary: ran
-                .then(|| failed_summary(&out.join(SUMMARY)))
-                .flatten()
-                .map(Box::new),
-            advice,
-        },
-        other => other,
+fn trouble(error: impl Failing, arguments: &RunArguments, source: &Source, out: &Path) -> Trouble {
+    let ran = error.ran();
+    let unwritten = error.io().and_then(remedy);
+    let stands = unwritten.filter(|_| out.join(CHECKPOINT).is_file());
+    let again = stands.map(|why| {
+        let again = going_on(arguments, out);
+        format!("the last checkpoint stands: {why}, then go on with\n  {again}")
+    });
+    let mut trouble = Trouble::of(error, source);
+    if let Trouble::Failed {
+        summary, advice, ..
+    } = &mut trouble
+    {
+        let left = ran.then(|| failed_summary(&out.join(SUMMARY)));
+        *summary = left.flatten().map(Box::new);
+        *advice = again;
     }
-}
-
-/// What is to be done first, if a file could not be written.
-fn unwritten(error: &RunError) -> Option<&'static str> {
-    match error {
-        RunError::Io(io) => remedy(io),
-        _ => None,
-    }
+    trouble
 }

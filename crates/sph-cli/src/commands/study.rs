@@ -65,23 +65,18 @@ pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Stud
     };
     let watcher = Watcher::new(arguments.quiet, &study, &options, stop);
     assemble(&study, &watcher)?;
-    let failed = |error| Trouble::Failed {
-        error,
-        summary: None,
-        advice: None,
-    };
-    let _lock = sph_io::FolderLock::take(&out).map_err(|e| failed(e.into()))?;
-    sph_io::writable(&out).map_err(|e| failed(e.into()))?;
-    sph_io::sweep_temporaries(&out).map_err(|e| failed(e.into()))?;
+    let _lock = sph_io::FolderLock::take(&out)?;
+    sph_io::writable(&out)?;
+    sph_io::sweep_temporaries(&out)?;
     let outcome = execute(&study, &options, &watcher);
     watcher.finish();
     let results = Results::new(&study, &outcome.records, options.origin);
     let published = sph_study::publish(&results, &out);
     if let Some(error) = outcome.error {
         console::err(&kept(arguments, name, &outcome.records));
-        return Err(failed(error.into()));
+        return Err(error.into());
     }
-    published.map_err(|e| failed(e.into()))?;
+    published?;
     let records = &outcome.records;
     Ok(Studied {
         told: Told {

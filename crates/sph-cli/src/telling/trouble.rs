@@ -1,15 +1,17 @@
 //! Everything that keeps a command from its end, and how it is told.
 
+use std::fmt::Display;
+
 use dem_scene::DemError;
 use serde_json::{Value as Json, json};
 use sph_core::SceneProblem;
 use sph_io::IoError;
-use sph_run::RunError;
+use sph_particles::RunError;
 use sph_scene::{LoadError, Source};
 use sph_solver::SolverError;
 use sph_study::{ReadError, Refused};
 
-use crate::commands::grains;
+use crate::number;
 use crate::telling::console;
 use crate::telling::diagnostics::{self, Located};
 
@@ -22,16 +24,11 @@ pub enum Trouble {
     /// The run failed; the summary it left, if it did.
     Failed {
         /// What happened.
-        error: RunError,
-        /// Content of `summary.json`.
-        summary: Option<Box<Json>>,
-        /// How to go on.
-        advice: Option<String>,
-    },
-    /// A run of grains failed; as `Failed`.
-    Grains {
-        /// What happened.
-        error: DemError,
+        error: String,
+        /// To whom, and what may help, in lines.
+        more: String,
+        /// Exit code.
+        code: u8,
         /// Content of `summary.json`.
         summary: Option<Box<Json>>,
         /// How to go on.
@@ -69,18 +66,112 @@ impl From<Refused> for Trouble {
     }
 }
 
+impl From<IoError> for Trouble {
+    fn from(error: IoError) -> Self {
+        Trouble::failed(&RunError::Io(error))
+    }
+}
+
+/// An error of a model.
+pub trait Failing: Display + Sized {
+    /// Mistakes of the scene, if it is these.
+    ///
+    /// # Errors
+    /// The error itself, where it is another.
+    fn mistakes(self) -> Result<Vec<SceneProblem>, Self>;
+    /// To whom it happened, and what may help, in lines.
+    fn more(&self) -> String;
+    /// Exit code of the program.
+    fn code(&self) -> u8;
+    /// Whether a step failed.
+    fn ran(&self) -> bool;
+    /// The file that could not be read or written, if it is one.
+    fn io(&self) -> Option<&IoError>;
+}
+
+impl Failing for RunError {
+    fn mistakes(self) -> Result<Vec<SceneProblem>, Self> {
+        match self {
+            RunError::Solver(SolverError::Scene(problems)) => Ok(problems),
+            error if error.exit_code() == 2 => Ok(vec![SceneProblem::new("", error.to_string())]),
+            error => Err(error),
+        }
+    }
+    fn more(&self) -> String {
+        match self {
+            RunError::Failed(failure) => crate::commands::failed::text(failure),
+            RunError::Io(io) if is_unreadable_checkpoint(io) => {
+                "a checkpoint that cannot be read cannot be resumed: start again without --resume\n"
+                    .into()
+            }
+            _ => String::new(),
+        }
+    }
+    fn code(&self) -> u8 {
+        1
+    }
+    fn ran(&self) -> bool {
+        matches!(self, RunError::Failed(_))
+    }
+    fn io(&self) -> Option<&IoError> {
+        match self {
+            RunError::Io(io) => Some(io),
+            _ => None,
+        }
+    }
+}
+
+impl Failing for DemError {
+    fn mistakes(self) -> Result<Vec<SceneProblem>, Self> {
+        match self {
+            DemError::Scene(problems) => Ok(problems),
+            error => Err(error),
+        }
+    }
+    fn more(&self) -> String {
+        let DemError::Failed(failure) = self else {
+            return String::new();
+        };
+        let at = failure.grain.zip(failure.position).map(|(grain, at)| {
+            let at = at.map(number::plain).join(", ");
+            format!("grain {grain} at ({at}) m\n")
+        });
+        at.unwrap_or_default()
+            + "bad_state.vtu and bad_state.png show all grains as they were, the one at fault ringed\n\
+               the last checkpoint stands: try --resume --changed with a smaller run.safety\n"
+    }
+    fn code(&self) -> u8 {
+        self.exit_code()
+    }
+    fn ran(&self) -> bool {
+        matches!(self, DemError::Failed(_))
+    }
+    fn io(&self) -> Option<&IoError> {
+        match self {
+            DemError::Io(io) => Some(io),
+            _ => None,
+        }
+    }
+}
+
 impl Trouble {
-    /// What a run of grains says, with places in the scene where it is the scene's fault.
-    pub fn of_grains(error: DemError, source: &Source) -> Self {
-        match error {
-            DemError::Scene(problems) => {
+    /// What a model says, with places in the scene where it is the scene's fault.
+    pub fn of(error: impl Failing, source: &Source) -> Self {
+        match error.mistakes() {
+            Ok(problems) => {
                 Trouble::Scene(diagnostics::located(source, &source.diagnose(&problems)))
             }
-            error => Trouble::Grains {
-                error,
-                summary: None,
-                advice: None,
-            },
+            Err(error) => Trouble::failed(&error),
+        }
+    }
+
+    fn failed(error: &impl Failing) -> Self {
+        Trouble::Failed {
+            error: error.to_string(),
+            more: error.more(),
+            code: error.code(),
+            summary: None,
+            advice: None,
         }
     }
 
@@ -89,42 +180,29 @@ impl Trouble {
         Trouble::Usage(message.into())
     }
 
-    /// What the solver says, with places in the scene where it is the scene's fault.
-    pub fn of(error: impl Into<RunError>, source: &Source) -> Self {
-        let problems = match error.into() {
-            RunError::Solver(SolverError::Scene(problems)) => problems,
-            error if error.exit_code() == 2 => vec![SceneProblem::new("", error.to_string())],
-            error => {
-                return Trouble::Failed {
-                    error,
-                    summary: None,
-                    advice: None,
-                };
-            }
-        };
-        Trouble::Scene(diagnostics::located(source, &source.diagnose(&problems)))
-    }
-
     /// 1 for a run that failed or was interrupted, 2 for bad usage or a bad scene.
     pub fn exit_code(&self) -> u8 {
         match self {
             Trouble::Usage(_) | Trouble::Scene(_) => 2,
-            Trouble::Failed { .. } | Trouble::Interrupted | Trouble::Different => 1,
-            Trouble::Grains { error, .. } => error.exit_code(),
+            Trouble::Failed { code, .. } => *code,
+            Trouble::Interrupted | Trouble::Different => 1,
         }
     }
 
     /// What a person is told.
     pub fn text(&self, colour: bool) -> String {
-        let with = |text: String, advice: &Option<String>| match advice {
-            Some(advice) => format!("{text}{advice}\n"),
-            None => text,
-        };
         match self {
             Trouble::Usage(message) => format!("error: {message}\n"),
             Trouble::Scene(all) => diagnostics::render(all, colour),
-            Trouble::Failed { error, advice, .. } => with(failed(error), advice),
-            Trouble::Grains { error, advice, .. } => with(grains::failed::text(error), advice),
+            Trouble::Failed {
+                error,
+                more,
+                advice,
+                ..
+            } => {
+                let advice = advice.iter().map(|advice| format!("{advice}\n"));
+                format!("error: {error}\n{more}{}", advice.collect::<String>())
+            }
             Trouble::Interrupted | Trouble::Different => String::new(),
         }
     }
@@ -134,8 +212,11 @@ impl Trouble {
         match self {
             Trouble::Usage(message) => json!([{ "message": message }]),
             Trouble::Scene(all) => diagnostics::json(all),
-            Trouble::Failed { error, summary, .. } => left(summary, error),
-            Trouble::Grains { error, summary, .. } => left(summary, error),
+            Trouble::Failed { error, summary, .. } => match summary {
+                // What was left, or else the error alone.
+                Some(summary) => (**summary).clone(),
+                None => json!([{ "message": error }]),
+            },
             Trouble::Interrupted | Trouble::Different => Json::Null,
         }
     }
@@ -152,26 +233,6 @@ impl Trouble {
             console::json(&self.json());
         }
     }
-}
-
-/// The summary that was left, or else the error alone.
-fn left(summary: &Option<Box<Json>>, error: &impl std::fmt::Display) -> Json {
-    match summary {
-        Some(summary) => (**summary).clone(),
-        None => json!([{ "message": error.to_string() }]),
-    }
-}
-
-fn failed(error: &RunError) -> String {
-    let mut text = format!("error: {error}\n");
-    match error {
-        RunError::Failed(failure) => text.push_str(&crate::commands::failed::text(failure)),
-        RunError::Io(io) if is_unreadable_checkpoint(io) => text.push_str(
-            "a checkpoint that cannot be read cannot be resumed: start again without --resume\n",
-        ),
-        _ => {}
-    }
-    text
 }
 
 /// Whether a checkpoint could not be read; one that could not be *written* leaves the one before.

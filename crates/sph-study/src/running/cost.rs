@@ -58,7 +58,7 @@ pub struct SolveCost {
 }
 
 impl SolveCost {
-    pub(crate) fn of(solves: sph_run::Solves) -> Self {
+    pub(crate) fn of(solves: sph_particles::Solves) -> Self {
         SolveCost {
             count: solves.by_method.values().sum(),
             seconds: solves.wall_seconds,

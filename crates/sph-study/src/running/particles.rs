@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use sph_core::SceneProblem;
 use sph_io::IoError;
-use sph_run::{Identity, Observer, RunError, RunOptions, Start, Summary, marks, run};
+use sph_particles::{RunError, Summary, marks, run};
+use sph_run::{Identity, RunOptions, Start, Watch};
 use sph_scene::{Diagnostic, Loaded, Source, read};
 use sph_setup::examine;
 use sph_solver::SolverError;
@@ -69,11 +70,7 @@ impl Subject for Loaded {
         }
     }
 
-    fn run(
-        &self,
-        request: &Request<'_>,
-        observer: &mut (dyn Observer + Send),
-    ) -> Result<Ended, IoError> {
+    fn run(&self, request: &Request<'_>, observer: &mut Watch<'_>) -> Result<Ended, IoError> {
         let options = RunOptions {
             out: request.out.to_path_buf(),
             start: match request.resume {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sph_io::IoError;
-use sph_run::{ErrorEntry, Summary, Trouble};
+use sph_particles::{ErrorEntry, Summary, Trouble};
 
 use crate::running::cost::{Cost, SolveCost};
 use crate::running::machine::Origin;

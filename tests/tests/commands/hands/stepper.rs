@@ -1,7 +1,8 @@
 //! A scene stepped by hand: the bits of a run, and columns that are changed between steps.
 
 use sph_core::{Plain, Role, StepError, fields};
-use sph_run::{Identity, RunOptions, Start, Stepper, run};
+use sph_particles::{Stepper, run};
+use sph_run::{Identity, RunOptions, Start};
 use sph_scene::Scene;
 
 const SCENE: &str = include_str!("../../../../scenes/dam-break-koshizuka.toml");

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use sph_core::{Vect, fields};
-use sph_run::{RunOptions, Start, run};
+use sph_particles::run;
+use sph_run::{RunOptions, Start};
 use sph_scene::load;
 use sph_setup::Assembled;
 

@@ -1,6 +1,7 @@
 //! A cliff of dry soil that must fall: what holds it, and what a run tells of it.
 
-use sph_run::{RunError, RunOptions, Solves, Start, Summary, run};
+use sph_particles::{RunError, Solves, Summary, run};
+use sph_run::{RunOptions, Start};
 use sph_scene::{Override, parse};
 
 /// 0.3 m wide, 0.8 m high, friction angle 30°, E = 1 GPa, grains of 10 mm, 0.2 s.

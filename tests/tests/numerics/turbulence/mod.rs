@@ -7,7 +7,8 @@ mod refusals;
 mod strains;
 
 use sph_core::{System, Vect, fields};
-use sph_run::{RunOptions, Start, Summary, run};
+use sph_particles::{Summary, run};
+use sph_run::{RunOptions, Start};
 use sph_scene::{Override, parse};
 use sph_setup::{Assembled, assemble};
 use sph_tests::{Bench, FinalState, PERIODIC};

@@ -10,7 +10,7 @@ use crate::telling::trouble::Trouble;
 
 /// Tells what follows from a scene, without preparing its grains.
 pub fn told(loaded: &Loaded, shown: &str) -> Result<Told, Trouble> {
-    let examined = examine(loaded).map_err(|e| Trouble::of_grains(e, &loaded.source))?;
+    let examined = examine(loaded).map_err(|e| Trouble::of(e, &loaded.source))?;
     Ok(Told {
         json: serde_json::to_value(&examined).unwrap_or(Json::Null),
         text: text(&examined, shown),

@@ -10,7 +10,7 @@ use crate::telling::trouble::Trouble;
 
 /// Shows what a scene is made of.
 pub fn told(loaded: &Loaded) -> Result<Told, Trouble> {
-    let examined = examine(loaded).map_err(|e| Trouble::of_grains(e, &loaded.source))?;
+    let examined = examine(loaded).map_err(|e| Trouble::of(e, &loaded.source))?;
     Ok(Told {
         json: serde_json::to_value(&examined).unwrap_or(Json::Null),
         text: text(&examined),

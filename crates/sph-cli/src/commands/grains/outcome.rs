@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use dem_scene::{Compared, Status, Summary};
+use dem_scene::{Compared, Summary};
+use sph_run::Status;
 
 use crate::commands::written;
 use crate::number;

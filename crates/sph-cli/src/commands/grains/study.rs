@@ -2,15 +2,13 @@
 
 use std::sync::Arc;
 
-use dem_scene::{Compared, DemError, Loaded, RunOptions, Start, Status, Summary, run};
+use dem_scene::{Compared, DemError, Loaded, Summary, run};
 use sph_core::SceneProblem;
 use sph_io::IoError;
-use sph_run::Observer;
+use sph_run::{Identity, RunOptions, Start, Status, Watch};
 use sph_scene::{Diagnostic, Source};
 use sph_study::{Ended, Method, Record, Request, Subject, unusable};
 use toml::{Table, Value};
-
-use super::run::Watching;
 
 /// Longest file that a scene may name, bytes.
 const LONGEST: u64 = 512 << 20;
@@ -71,11 +69,11 @@ impl Subject for Scene {
         }
     }
 
-    fn run(
-        &self,
-        request: &Request<'_>,
-        observer: &mut (dyn Observer + Send),
-    ) -> Result<Ended, IoError> {
+    fn run(&self, request: &Request<'_>, observer: &mut Watch<'_>) -> Result<Ended, IoError> {
+        // A checkpoint holds the table of its scene: so those of another run are not gone on from.
+        let mut known = self.0.table.clone();
+        let own = Value::String(request.identity.to_string());
+        known.insert("study".into(), own);
         let options = RunOptions {
             out: request.out.to_path_buf(),
             start: match request.resume {
@@ -83,12 +81,9 @@ impl Subject for Scene {
                 false => Start::Afresh,
             },
             threads: Some(request.threads),
+            identity: Identity::of_text(known.to_string()),
         };
-        // A checkpoint holds the table of its scene: so those of another run are not gone on from.
-        let mut known = self.0.clone();
-        let identity = Value::String(request.identity.to_string());
-        known.table.insert("study".into(), identity);
-        match run(&known, &options, &mut Watching(observer)) {
+        match run(&self.0, &options, observer) {
             Ok(summary) if summary.status == Status::Done => {
                 Ok(Ended::Done(Box::new(record(&summary))))
             }

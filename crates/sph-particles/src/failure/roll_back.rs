@@ -1,0 +1,223 @@
+//! What happens after a step that failed.
+
+use std::path::PathBuf;
+
+use sph_core::{StepError, Vect, fields};
+use sph_run::{BAD_STATE, Books, CHECKPOINT, Status, Watch};
+use sph_setup::Leak;
+
+use crate::failure::bad_pictures;
+use crate::failure::error::{Failure, RunError};
+use crate::failure::findings::{Findings, Suspect, place_of, shares_on, sighting, suspect};
+use crate::failure::remedies::remedies;
+use crate::failure::trouble::Trouble;
+use crate::results::summary::Summary;
+use crate::running::course::{Known, Running};
+use crate::running::output::write_everything;
+
+/// Distance from a leak, in kernel supports, within which it is the cause: neighbours of the particles that it
+/// disturbs are two supports away.
+const NEAR_LEAKS: f64 = 2.0;
+
+impl<const D: usize> Running<'_, D> {
+    /// After a step that failed: back to the state before it, with half of the step.
+    ///
+    /// # Errors
+    /// If there is no such state, or there were too many tries.
+    pub(crate) fn go_back(
+        &mut self,
+        cause: StepError,
+        observer: &mut Watch<'_>,
+    ) -> Result<(), RunError> {
+        let cause = self.known_to_all(cause);
+        self.note_trouble(&cause);
+        self.departure.failed(&cause);
+        let hopeless = self.leak_at(&cause).is_some();
+        let left = self.counters.retries < self.scene.run.retries;
+        let Some(kept) = self.good.state().filter(|_| left && !hopeless) else {
+            return Err(self.failed(cause));
+        };
+        self.counters.retries += 1;
+        self.counters.rolled_back += 1;
+        kept.restore(&mut self.parts.flow)?;
+        let scale = 0.5 * f64::from_bits(self.counters.step_scale);
+        self.counters.step_scale = scale.to_bits();
+        observer.message(&format!(
+            "step {} failed ({cause}); going back to t = {:.6} s with {scale:.4} of the step",
+            self.counters.steps, self.parts.flow.world.time
+        ));
+        Ok(())
+    }
+
+    /// The leak of a wall beside the particle that a failed step names: no shorter step mends a wall.
+    ///
+    /// Parts of a divided flow try again, as each knows its own walls only.
+    fn leak_at(&self, cause: &StepError) -> Option<&Leak<D>> {
+        let world = &self.parts.flow.world;
+        let StepError::Bad { position, .. } = cause else {
+            return None;
+        };
+        if self.parts.flow.parts.is_some() || position.len() != D {
+            return None;
+        }
+        let at = Vect::<D>::from_column_slice(position);
+        let reach = NEAR_LEAKS * world.kernel.support_radius();
+        let near = |x: &Vect<D>| world.domain.nearest(at - x).norm() < reach;
+        let mut leaks = self.parts.leaks.iter();
+        leaks.find(|leak| leak.places.iter().any(near))
+    }
+
+    /// Keeps the first sign of trouble.
+    fn note_trouble(&mut self, cause: &StepError) {
+        let (time, step) = (self.parts.flow.world.time, self.counters.steps);
+        let first = &mut self.counters.first_trouble;
+        first.get_or_insert_with(|| Trouble::of(cause, time, step));
+    }
+
+    /// A run that ends here, of which no more is known than why.
+    pub(crate) fn failed(&mut self, cause: StepError) -> RunError {
+        let cause = self.known_to_all(cause);
+        self.note_trouble(&cause);
+        let (time, step) = (self.parts.flow.world.time, self.counters.steps);
+        RunError::Failed(Box::new(Failure {
+            first: self.counters.first_trouble.clone().unwrap_or_default(),
+            summary: None,
+            time,
+            step,
+            findings: Findings {
+                cause: Trouble::of(&cause, time, step),
+                retries: self.counters.retries,
+                dt: self.tried.0,
+                limiter: self.tried.1.to_string(),
+                ..Findings::default()
+            },
+            cause,
+            checkpoint: None,
+            bad_state: None,
+            pictures: Vec::new(),
+        }))
+    }
+
+    /// Finds out and writes what a person needs to see why the run failed.
+    pub(crate) fn find_out(
+        &mut self,
+        failure: &mut Failure,
+        books: &Books,
+    ) -> Result<Option<Summary>, RunError> {
+        // The bad state, as far as it can be had.
+        let _ = self.gather(false);
+        self.look_at_the_bad_state(failure);
+        if self.writes() {
+            self.draw_the_bad_state(failure);
+        }
+        self.go_to_the_last_good_state(failure, books);
+        if !self.writes() {
+            return Ok(None);
+        }
+        self.sum_up(failure);
+        // Of a bad state as much as can be had.
+        let _ = self.look_around();
+        let summary = self.summary(Status::Failed, Some(failure), books)?;
+        failure.summary = Some(Box::new(summary.clone()));
+        Ok(Some(summary))
+    }
+
+    fn draw_the_bad_state(&self, failure: &mut Failure) {
+        let out = &self.options.out;
+        let bad = out.join(BAD_STATE);
+        let flow = &self.shown().flow;
+        let written = write_everything(flow, &bad).is_ok();
+        failure.bad_state = written.then_some(bad);
+        let number = failure.findings.particle.as_ref().map(|p| p.number);
+        let place = number.and_then(|n| self.place(n));
+        let title = format!("failed: {}", self.scene.title);
+        failure.pictures = bad_pictures::draw(flow, &failure.cause, place, &title, out);
+    }
+
+    /// Who it was, where, and what acted on it if the bad state was evaluated.
+    fn look_at_the_bad_state(&mut self, failure: &mut Failure) {
+        let flow = &self.shown().flow;
+        let Some((k, named)) = suspect(flow, &failure.cause) else {
+            return;
+        };
+        let free = &flow.world.free;
+        let Some(number) = free.get(fields::IDENTITY).ok().map(|i| i[k]) else {
+            return;
+        };
+        let phase = free.get(fields::PHASE).map_or(0, |p| p[k] as usize);
+        let body = self.parts.body_of.get(number as usize).copied();
+        let body = body.and_then(|b| self.scene.body.keys().nth(b as usize));
+        let name = |n: Option<&String>| n.cloned().unwrap_or_default();
+        failure.findings.particle = Some(Suspect {
+            number,
+            named,
+            phase: name(self.scene.phase.keys().nth(phase)),
+            body: name(body),
+            before: None,
+            after: sighting(flow, k),
+        });
+        // Densities and accelerations are judged after the sweep; what fails earlier has none of this state.
+        let judged = ["density", "acceleration"];
+        // A whole that was gathered is not evaluated.
+        let evaluated = self.whole.is_none();
+        if evaluated && judged.contains(&failure.findings.cause.quantity.as_str()) {
+            failure.findings.after = shares_on(flow, k);
+        }
+    }
+
+    /// Where a particle is, or was before it left the domain.
+    fn place(&self, number: u32) -> Option<Vect<D>> {
+        let flow = &self.shown().flow;
+        let now = flow.world.free.get(fields::POSITION).ok()?[place_of(flow, number)?];
+        let before = self.good.state().and_then(|s| s.position_of(number));
+        // Places that are not finite are left out.
+        let shown = [Some(now), before].into_iter().flatten();
+        let mut shown = shown.filter(|x| x.iter().all(|x| x.is_finite()));
+        let within = |x: &Vect<D>| flow.world.domain.contains(x);
+        shown.clone().find(within).or_else(|| shown.next())
+    }
+
+    /// Back to the last good state, which becomes the checkpoint; what acted on the particle there.
+    fn go_to_the_last_good_state(&mut self, failure: &mut Failure, books: &Books) {
+        let Some(snapshot) = self.good.state() else {
+            return self.offer_an_earlier_checkpoint(failure);
+        };
+        self.known = Known::default();
+        let back = snapshot.restore(&mut self.parts.flow);
+        let good = back.and_then(|()| self.evaluate());
+        if self.agreed(good.err()).is_some() {
+            return self.offer_an_earlier_checkpoint(failure);
+        }
+        // Whoever goes on from here has all retries again.
+        self.counters.retries = 0;
+        let own = self.options.out.join(CHECKPOINT);
+        if self.gather(true).is_ok() && self.save_gathered(books, &own).is_ok() {
+            failure.checkpoint = Some(own);
+        }
+        let flow = &self.shown().flow;
+        let particle = &mut failure.findings.particle;
+        let place = particle.as_ref().and_then(|p| place_of(flow, p.number));
+        if let Some((particle, k)) = particle.as_mut().zip(place) {
+            particle.before = sighting(flow, k);
+            failure.findings.before = shares_on(flow, k);
+        }
+    }
+
+    /// Without a state to go back to, what was saved in its time.
+    fn offer_an_earlier_checkpoint(&self, failure: &mut Failure) {
+        let saved = self.options.out.join(CHECKPOINT);
+        failure.checkpoint = saved.exists().then_some(saved);
+    }
+
+    fn sum_up(&self, failure: &mut Failure) {
+        let name = |p: &PathBuf| Some(p.file_name()?.to_str()?.to_string());
+        let files = failure.pictures.iter().chain(&failure.bad_state);
+        let files = files.chain(&failure.checkpoint);
+        failure.findings.files = files.filter_map(name).collect();
+        let told = &self.parts.flow.remedies;
+        let all = remedies(self.scene, &failure.cause, &failure.findings, told);
+        let leak = self.leak_at(&failure.cause);
+        let leak = leak.map(|leak| format!("mend the wall beside the particle, {}", leak.text));
+        failure.findings.advice = leak.into_iter().chain(all).collect();
+    }
+}

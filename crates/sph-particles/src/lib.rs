@@ -1,0 +1,24 @@
+//! Scenes of particles as a model that `sph-run` drives.
+//!
+//! * [`run()`]: steps, outputs, checkpoints, roll-back, references, summary.
+//! * [`run_part()`]: the same on one of several ranks, with a part of the particles.
+//! * [`Stepper`]: the same in memory, step by step, with columns that may be changed in between.
+//! * [`examine_and_try()`]: the numbers that follow from a scene, and a trial of its first steps.
+//!
+//! Particles and walls come from `sph-setup`, plugins and steps from `sph-solver`.
+
+mod failure;
+mod results;
+mod running;
+
+pub use failure::error::{Failure, RunError};
+pub use failure::findings::{Findings, Share, Sighting, Suspect};
+pub use failure::trouble::Trouble;
+pub use results::scene_picture::draw_scene;
+pub use results::summary::{Drift, ErrorEntry, RankShare, Summary};
+pub use running::identity::{identity, marks};
+pub use running::on_threads::run_on_threads;
+pub use running::run::{run, run_part};
+pub use running::stepper::Stepper;
+pub use running::trial::{Trial, examine_and_try};
+pub use sph_viscosity::Solves;

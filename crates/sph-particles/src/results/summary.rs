@@ -1,0 +1,168 @@
+//! `summary.json`: what a run was and what came out.
+
+use std::collections::BTreeMap;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
+use sph_run::Status;
+use sph_setup::{Memory, Relaxation};
+use sph_solver::{Left, PluginInForce};
+
+use crate::{Findings, Trouble};
+
+/// Version of the summary's layout.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// A comparison with a reference.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ErrorEntry {
+    /// The number; null if nothing could be compared.
+    pub value: Option<f64>,
+    /// Name of the norm.
+    pub norm: String,
+    /// Unit of the value, "1" for relative norms.
+    pub unit: String,
+    /// Points or particles compared.
+    pub samples: usize,
+    /// First and last time compared, s.
+    pub window: [f64; 2],
+    /// What it was compared with.
+    pub against: String,
+}
+
+/// What one of several ranks had, at the end of a run.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct RankShare {
+    /// Particles that it owned.
+    pub particles: u64,
+    /// Copies of others'.
+    pub guests: u64,
+    /// Messages to neighbours per step.
+    pub messages_per_step: f64,
+    /// Bytes in them per step.
+    pub bytes_per_step: f64,
+    /// Particles that went from it to others during the run.
+    pub moved: u64,
+    /// What the flow's part held at the end, bytes; on the first without the columns of the whole.
+    #[serde(default)]
+    pub memory_bytes: f64,
+}
+
+/// Relative change of what should be conserved.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct Drift {
+    /// Over the initial mass; what has left by outlets is still counted.
+    pub mass: f64,
+    /// Over Σ m|u| at the end, or its largest value so far if larger.
+    pub momentum: f64,
+    /// Over the largest energy of any kind.
+    pub energy: f64,
+    /// Most that the energy has been above its first value in any row, over the same.
+    #[serde(default)]
+    pub energy_rise: f64,
+}
+
+/// All that is known of a run at its end.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Summary {
+    /// Layout of this file.
+    pub schema_version: u32,
+    /// Title of the scene.
+    pub scene: String,
+    /// How it ended.
+    pub status: Status,
+    /// Version of the program.
+    pub version: String,
+    /// Plugins with their parameters.
+    pub plugins: Vec<PluginInForce>,
+    /// Space dimensions.
+    pub dimension: usize,
+    /// Free particles.
+    pub particles: usize,
+    /// Points and elements of walls.
+    pub wall_points: usize,
+    /// Mean number of true neighbours of a free particle, walls included.
+    pub neighbours: f64,
+    /// Steps taken.
+    pub steps: u64,
+    /// Steps that were rolled back.
+    pub steps_rolled_back: u64,
+    /// Simulated time, s.
+    pub simulated_seconds: f64,
+    /// Time at which the run took over the state of another, s, if it did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub started_at: Option<f64>,
+    /// Wall-clock time of all parts of the run, s.
+    pub wall_seconds: f64,
+    /// Wall-clock time per stage, s.
+    pub wall_seconds_by_stage: BTreeMap<String, f64>,
+    /// Threads of the last part.
+    pub threads: usize,
+    /// Every rank's share; nothing where one process ran all.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ranks: Vec<RankShare>,
+    /// Particles times steps per second.
+    pub particle_steps_per_second: f64,
+    /// Wall nanoseconds × threads / (particles × steps × true neighbours), outputs excluded.
+    pub nanoseconds_per_pair: f64,
+    /// Bytes of the columns per particle.
+    pub bytes_per_particle: usize,
+    /// What the memory went to, bytes.
+    #[serde(default)]
+    pub memory: Memory,
+    /// Builds of the neighbour lists.
+    pub list_builds: u64,
+    /// Share of the steps limited by each plugin's bound.
+    pub dt_limiters: BTreeMap<String, f64>,
+    /// Counts of hooks, each under its key: of solves `implicit_viscosity`, of mass that passes open faces `open_boundaries`.
+    #[serde(flatten)]
+    pub counts: BTreeMap<String, Json>,
+    /// Mean of each plugin's bound over the steps, s, before the safety factor.
+    #[serde(default)]
+    pub dt_limits: BTreeMap<String, f64>,
+    /// Changes of conserved quantities.
+    pub drift: Drift,
+    /// Kinetic energy at the end, J.
+    pub kinetic_energy: f64,
+    /// Least and largest density over the reference, over all rows of the series.
+    pub density_range: [f64; 2],
+    /// Largest speed over the speed of sound of its phase, over all rows.
+    #[serde(default)]
+    pub mach: f64,
+    /// Least and mean distance of a free particle to its nearest neighbour at the end, over the spacing.
+    #[serde(default)]
+    pub nearest: [f64; 2],
+    /// The first step that failed, if any did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_trouble: Option<Trouble>,
+    /// What a failed run tells.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub failure: Option<Findings>,
+    /// Least and largest K/ρ₀ at the end, where the formulation has a density constant.
+    pub density_constant_range: Option<[f64; 2]>,
+    /// Particles behind a wall at the end.
+    pub escaped: usize,
+    /// What has left by outlets, by `outlet.NAME.PHASE`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub left: BTreeMap<String, Left>,
+    /// What relaxing the first particles did, if the scene asked for it.
+    #[serde(default)]
+    pub relaxation: Option<Relaxation>,
+    /// Errors against the scene's references.
+    pub errors: BTreeMap<String, ErrorEntry>,
+    /// Settings to try where one bound or one stage costs most of the run, or speeds near that of sound.
+    #[serde(default)]
+    pub advice: Vec<String>,
+    /// Things a person should know.
+    pub warnings: Vec<String>,
+    /// Files of the run, relative to its folder.
+    pub files: Vec<String>,
+}
+
+impl Summary {
+    /// The counts under a key, if a hook has them.
+    pub fn counted<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
+        serde_json::from_value(self.counts.get(key)?.clone()).ok()
+    }
+}

@@ -1,0 +1,365 @@
+//! Checkpoints: all state columns, the lists' reference positions, the clocks and counters.
+
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use sph_boundary::{Wall, WallStates};
+use sph_core::{Born, Plain, Role, Vect, fields};
+use sph_io::{Checkpoint, Column, ColumnData};
+use sph_neighbours::WallForce;
+use sph_run::Identity;
+use sph_scene::Scene;
+use sph_solver::Flow;
+
+use crate::failure::error::RunError;
+use crate::running::counters::{Counters, MOST};
+
+const REFERENCE: &str = "list_reference";
+const WALL_REFERENCE: &str = "wall_list_reference";
+const WALL_STATES: &str = "wall_states";
+const WALL_LIST_STATES: &str = "wall_list_states";
+const WALL_LOADS: &str = "wall_loads";
+
+/// The clock, as bits, so that nothing is lost on the way through JSON.
+#[derive(Serialize, Deserialize)]
+struct Clock {
+    time: u64,
+    dt: u64,
+    list_builds: u64,
+    /// Identities that were given, mass as bits and number of the particles that came in. Runs of before births were known have none.
+    born: Option<(u32, u64, u64)>,
+    /// Of the last build of the lists. Runs of before it was kept go on with walls where they were saved.
+    list_time: Option<u64>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Meta<T> {
+    #[serde(flatten)]
+    identity: Identity,
+    dimension: usize,
+    clock: Clock,
+    run: T,
+}
+
+/// Writes the state of a flow with its walls; `run` is whatever the driver wants back.
+pub fn save<const D: usize, T: Serialize>(
+    (flow, walls): (&Flow<D>, Option<&dyn Wall<D>>),
+    path: &Path,
+    identity: &Identity,
+    run: &T,
+) -> Result<(), RunError> {
+    let world = &flow.world;
+    let mut columns = Vec::new();
+    for (name, _, role, components, values) in world.free.columns() {
+        if role == Role::State {
+            columns.push(Column {
+                name: name.to_string(),
+                components,
+                data: match values {
+                    Plain::Real(v) => ColumnData::F64(v.into_owned()),
+                    Plain::Index(v) => ColumnData::U32(v.to_vec()),
+                },
+            });
+        }
+    }
+    for (name, positions) in [
+        (REFERENCE, &world.lists.reference),
+        (WALL_REFERENCE, world.lists.reference_points()),
+    ] {
+        columns.push(Column {
+            name: name.into(),
+            components: D,
+            data: ColumnData::F64(positions.iter().flatten().copied().collect()),
+        });
+    }
+    if let Some(walls) = walls {
+        let states = walls.states();
+        let listed = states.listed.unwrap_or_default();
+        // Steps that drift first drift with the forces of the step before.
+        let loads = flow.loads.iter().flat_map(WallForce::numbers).collect();
+        let all = [
+            (WALL_STATES, states.now),
+            (WALL_LIST_STATES, listed),
+            (WALL_LOADS, loads),
+        ];
+        for (name, numbers) in all.into_iter().filter(|(_, n)| !n.is_empty()) {
+            columns.push(Column {
+                name: name.into(),
+                components: 1,
+                data: ColumnData::F64(numbers),
+            });
+        }
+    }
+    let meta = Meta {
+        identity: identity.clone(),
+        dimension: D,
+        clock: Clock {
+            time: world.time.to_bits(),
+            dt: world.dt.to_bits(),
+            list_builds: world.lists.builds,
+            born: Some({
+                let born = world.free.born();
+                (born.identities, born.mass.to_bits(), born.particles)
+            }),
+            list_time: Some(world.lists.time.to_bits()),
+        },
+        run,
+    };
+    let meta = serde_json::to_value(&meta).map_err(|e| refused(path, e.to_string()))?;
+    Ok(Checkpoint { meta, columns }.save(path)?)
+}
+
+fn refused(path: &Path, reason: impl Into<String>) -> RunError {
+    RunError::Resume {
+        path: PathBuf::from(path),
+        reason: reason.into(),
+    }
+}
+
+/// Puts a saved state into the assembled flow of a scene, which must be the same as before if an identity is
+/// given; returns what the driver saved. A flow that had no lists gets none.
+pub fn load<const D: usize>(
+    flow: &mut Flow<D>,
+    scene: &Scene,
+    path: &Path,
+    identity: Option<&Identity>,
+) -> Result<Counters, RunError> {
+    let blank = flow.is_blank();
+    let (checkpoint, meta) = read::<D, Counters>(path)?;
+    let mut counters = meta.run;
+    if let Some(why) = identity.and_then(|now| now.differs_from(&meta.identity)) {
+        let why = format!(
+            "{why}; restore what it was, go on from it all the same with --changed, or take its state alone \
+             into another folder with --from"
+        );
+        return Err(refused(path, why));
+    }
+    believable(&meta.clock, scene, path)?;
+    let time = f64::from_bits(meta.clock.time);
+    if identity.is_none() {
+        counters.recount(scene, time);
+    }
+    if let Some(why) = counters.nonsense(scene, time) {
+        return Err(refused(path, why));
+    }
+    fill(flow, &checkpoint, &meta.clock, path)?;
+    let reference: Vec<Vect<D>> = positions(&checkpoint, path, REFERENCE)?;
+    let wall_reference: Vec<Vect<D>> = positions(&checkpoint, path, WALL_REFERENCE)?;
+    if reference.len() != flow.world.free.len()
+        || wall_reference.len() != flow.world.walls.points.position.len()
+    {
+        return Err(refused(path, "its number of particles is not the scene's"));
+    }
+    set_clock(flow, &meta.clock, &checkpoint, true, path)?;
+    let list_time = meta.clock.list_time.map_or(flow.world.time, f64::from_bits);
+    let world = &mut flow.world;
+    match blank {
+        true => world.lists_would_be_of(reference, wall_reference, list_time),
+        false => world.build_lists_from(reference, wall_reference, list_time),
+    }
+    flow.world.lists.builds = meta.clock.list_builds;
+    flow.restored = true;
+    Ok(counters)
+}
+
+/// Puts the particles of another run of the same bodies, with its time, into an assembled flow of other settings.
+///
+/// All that the flow remembers must be in the checkpoint; more is left aside.
+pub fn start_from<const D: usize>(
+    flow: &mut Flow<D>,
+    scene: &Scene,
+    path: &Path,
+) -> Result<(), RunError> {
+    let blank = flow.is_blank();
+    let (checkpoint, meta) = read::<D, serde::de::IgnoredAny>(path)?;
+    believable(&meta.clock, scene, path)?;
+    let identity = checkpoint.column(fields::IDENTITY.name).map(|c| &c.data);
+    let there = match identity {
+        Some(ColumnData::U32(v)) => v.len(),
+        _ => 0,
+    };
+    let here = flow.world.free.len();
+    if (there > here && flow.nursery.is_none()) || (there < here && flow.outlets.is_empty()) {
+        let why = format!("it has {there} particles, the scene {here}");
+        return Err(refused(path, why));
+    }
+    fill(flow, &checkpoint, &meta.clock, path)?;
+    set_clock(flow, &meta.clock, &checkpoint, false, path)?;
+    match blank {
+        true => flow.world.sort()?,
+        false => flow.world.rebuild_lists()?,
+    }
+    Ok(())
+}
+
+fn read<const D: usize, T: DeserializeOwned>(
+    path: &Path,
+) -> Result<(Checkpoint, Meta<T>), RunError> {
+    let checkpoint = Checkpoint::load(path)?;
+    let meta: Meta<T> = serde_json::from_value(checkpoint.meta.clone())
+        .map_err(|e| refused(path, format!("its header is not one of this version ({e})")))?;
+    if meta.dimension != D {
+        let why = format!("it has {} dimensions, the scene {D}", meta.dimension);
+        return Err(refused(path, why));
+    }
+    Ok((checkpoint, meta))
+}
+
+/// Sets all columns that carry the state; takes out who has left by an outlet.
+fn fill<const D: usize>(
+    flow: &mut Flow<D>,
+    checkpoint: &Checkpoint,
+    clock: &Clock,
+    path: &Path,
+) -> Result<(), RunError> {
+    if let Some((identities, mass, particles)) = clock.born {
+        let mass = f64::from_bits(mass);
+        let known = flow.world.free.born().identities;
+        let comes_in = flow.nursery.is_some();
+        let sound = if comes_in {
+            identities >= known
+        } else {
+            identities == known
+        };
+        if !(sound && mass >= 0.0 && mass.is_finite()) {
+            return Err(refused(path, "its births are not the scene's"));
+        }
+        flow.world.free.set_born(Born {
+            identities,
+            mass,
+            particles,
+        });
+    }
+    if let Some(ColumnData::U32(v)) = checkpoint
+        .column(fields::IDENTITY.name)
+        .map(|c| &c.data)
+        .filter(|_| !flow.outlets.is_empty() || flow.nursery.is_some())
+    {
+        flow.world.free.set_len(v.len());
+    }
+    for name in flow.state_columns() {
+        let column = checkpoint.column(name);
+        let column =
+            column.ok_or_else(|| refused(path, format!("it lacks the column `{name}`")))?;
+        match &column.data {
+            ColumnData::F64(v) => flow.world.free.set_real(name, v)?,
+            ColumnData::U32(v) => flow.world.free.set_index(name, v)?,
+            ColumnData::U64(_) => {
+                return Err(refused(path, format!("`{name}` has a foreign type")));
+            }
+        }
+    }
+    match nonsense(flow)? {
+        Some(why) => Err(refused(path, why)),
+        None => Ok(()),
+    }
+}
+
+fn positions<const D: usize>(
+    checkpoint: &Checkpoint,
+    path: &Path,
+    name: &str,
+) -> Result<Vec<Vect<D>>, RunError> {
+    match checkpoint.column(name).map(|c| &c.data) {
+        Some(ColumnData::F64(v)) if !v.iter().all(|x| x.is_finite()) => {
+            Err(refused(path, "it has particles that are nowhere"))
+        }
+        Some(ColumnData::F64(v)) => Ok(v.chunks_exact(D).map(Vect::from_column_slice).collect()),
+        _ => Err(refused(path, format!("it lacks the column `{name}`"))),
+    }
+}
+
+/// Refuses a clock that no run of the scene can have had.
+fn believable(clock: &Clock, scene: &Scene, path: &Path) -> Result<(), RunError> {
+    let [time, dt] = [clock.time, clock.dt].map(f64::from_bits);
+    let end = scene.run.end;
+    let builds = clock.list_time.map_or(time, f64::from_bits);
+    let why = if !time.is_finite() {
+        "its time is not finite".to_string()
+    } else if time < 0.0 {
+        format!("its time, {time} s, is before the start")
+    } else if time > end {
+        format!("its time, {time} s, is past the end of the scene, {end} s")
+    } else if !(dt >= 0.0 && dt <= end) {
+        format!("its step, {dt} s, is none of a run of {end} s")
+    } else if !(0.0..=time).contains(&builds) {
+        format!("its lists are of t = {builds} s, which is no time of before")
+    } else if clock.list_builds > MOST {
+        format!(
+            "its lists were built {} times, which no run reaches",
+            clock.list_builds
+        )
+    } else {
+        return Ok(());
+    };
+    Err(refused(path, why))
+}
+
+/// Time and step; walls go where they are at that time.
+fn set_clock<const D: usize>(
+    flow: &mut Flow<D>,
+    clock: &Clock,
+    checkpoint: &Checkpoint,
+    same_lists: bool,
+    path: &Path,
+) -> Result<(), RunError> {
+    flow.world.time = f64::from_bits(clock.time);
+    flow.world.dt = f64::from_bits(clock.dt);
+    if let Some(walls) = &mut flow.walls {
+        let now = flow.world.time;
+        let numbers = |name: &str| match checkpoint.column(name).map(|c| &c.data) {
+            Some(ColumnData::F64(numbers)) => numbers.clone(),
+            _ => Vec::new(),
+        };
+        let states = WallStates {
+            now: numbers(WALL_STATES),
+            listed: same_lists.then(|| numbers(WALL_LIST_STATES)),
+        };
+        let moved = walls.put_back(&mut flow.world.walls, &states, now);
+        moved.map_err(|e| refused(path, e.to_string()))?;
+        let loads = numbers(WALL_LOADS);
+        if loads.len() == flow.world.walls.names.len() * WallForce::<D>::NUMBERS {
+            let loads = loads.chunks_exact(WallForce::<D>::NUMBERS);
+            flow.loads = loads.map(WallForce::from_numbers).collect();
+        }
+    }
+    Ok(())
+}
+
+/// What cannot be in a state of this scene, though the file is whole: numbers of particles and phases
+/// that there are none of, places that are none.
+fn nonsense<const D: usize>(flow: &Flow<D>) -> Result<Option<&'static str>, RunError> {
+    let free = &flow.world.free;
+    let mut seen = HashSet::new();
+    let given = free.born().identities;
+    let mut new = |id: u32| id < given && seen.insert(id);
+    let positions = free.get(fields::POSITION)?;
+    Ok(if !free.get(fields::IDENTITY)?.iter().all(|id| new(*id)) {
+        Some("its particles are not the scene's")
+    } else if free.has(fields::PHASE.name)
+        && free
+            .get(fields::PHASE)?
+            .iter()
+            .any(|p| *p as usize >= flow.laws.len())
+    {
+        Some("its phases are not the scene's")
+    } else if positions.iter().flatten().any(|x| !x.is_finite()) {
+        Some("it has particles that are nowhere")
+    } else if free
+        .get(fields::MASS)?
+        .iter()
+        .any(|m| !(*m > 0.0 && m.is_finite()))
+    {
+        Some("it has particles without mass")
+    } else if free
+        .get(fields::VELOCITY)?
+        .iter()
+        .flatten()
+        .any(|u| !u.is_finite())
+    {
+        Some("it has velocities that are not finite")
+    } else {
+        None
+    })
+}

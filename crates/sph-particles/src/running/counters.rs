@@ -1,0 +1,219 @@
+//! What a resumed run must know besides the flow, and what of it can be believed.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
+use sph_io::ColourRanges;
+use sph_run::Books;
+use sph_scene::Scene;
+
+use crate::failure::trouble::Trouble;
+
+/// Counters of a run, as they stand in a checkpoint.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Counters {
+    pub(crate) steps: u64,
+    pub(crate) rolled_back: u64,
+    /// Roll-backs since the step had its whole length.
+    #[serde(default)]
+    pub(crate) retries: u32,
+    pub(crate) outputs: usize,
+    pub(crate) next_output: Option<u64>,
+    pub(crate) rows: u64,
+    /// Time of the last row, as bits: a run that is over has its last row.
+    #[serde(default)]
+    pub(crate) last_row: Option<u64>,
+    pub(crate) series_position: u64,
+    pub(crate) series_extrema: [u64; 4],
+    /// Highest energy, largest Mach number and largest share of fast mass of all rows; an earlier version wrote fewer.
+    #[serde(default)]
+    pub(crate) series_peaks: Option<Vec<u64>>,
+    /// What the watch on energy has seen.
+    #[serde(default)]
+    pub(crate) energies: Option<[u64; 5]>,
+    #[serde(default)]
+    pub(crate) first_trouble: Option<Trouble>,
+    /// Time at which a run began that started from another's state.
+    #[serde(default)]
+    pub(crate) started_at: Option<u64>,
+    pub(crate) checkpoints: u64,
+    pub(crate) limited: BTreeMap<String, u64>,
+    /// Σ 1/Δt of every bound, 1/s.
+    #[serde(default)]
+    pub(crate) bounds: BTreeMap<String, f64>,
+    pub(crate) wall_seconds: f64,
+    pub(crate) stage_seconds: BTreeMap<String, f64>,
+    pub(crate) initial: [u64; 2],
+    pub(crate) initial_momentum: Vec<u64>,
+    pub(crate) step_scale: u64,
+    /// Mass (as bits) and number of particles that have left, by outlet and phase.
+    #[serde(default)]
+    pub(crate) left: Vec<[u64; 2]>,
+    /// What the work within steps has counted so far, by its name.
+    #[serde(default)]
+    pub(crate) works: BTreeMap<String, Json>,
+    /// What probes have gathered so far, bit by bit, by their names.
+    #[serde(default)]
+    pub(crate) probes: BTreeMap<String, Vec<u64>>,
+    /// Most bytes of the system that each stage has solved so far.
+    #[serde(default)]
+    pub(crate) stage_bytes: Vec<usize>,
+    /// Ranges of the colours of pictures so far.
+    #[serde(default)]
+    pub(crate) colours: ColourRanges,
+}
+
+/// Largest count that is believed: a million steps a second for three centuries. Far below 2⁶⁴, so that
+/// no run can count beyond.
+pub(crate) const MOST: u64 = 1 << 53;
+/// Rounding of an output time, relative.
+const ROUNDING: f64 = 1e-9;
+
+impl Counters {
+    /// What the driver counts, at a time (s).
+    pub(crate) fn books(&self, time: f64) -> Books {
+        Books {
+            time,
+            rows: self.rows,
+            last_row: self.last_row.map(f64::from_bits),
+            series: self.series_position,
+            outputs: self.outputs,
+            next_output: self.next_output.map(f64::from_bits),
+            checkpoints: self.checkpoints,
+            colours: self.colours.clone(),
+            wall_seconds: self.wall_seconds,
+            output_seconds: 0.0,
+        }
+    }
+
+    /// Takes over what the driver has counted.
+    pub(crate) fn take(&mut self, books: &Books) {
+        self.rows = books.rows;
+        self.last_row = books.last_row.map(f64::to_bits);
+        self.series_position = books.series;
+        self.outputs = books.outputs;
+        self.next_output = books.next_output.map(f64::to_bits);
+        self.checkpoints = books.checkpoints;
+        self.colours.clone_from(&books.colours);
+        self.wall_seconds = books.wall_seconds;
+    }
+
+    /// Those of a run that begins.
+    pub(crate) fn begin() -> Self {
+        Counters {
+            step_scale: 1f64.to_bits(),
+            ..Counters::default()
+        }
+    }
+
+    /// Why no run of the scene can have counted so at a time, if none can.
+    ///
+    /// A checkpoint with right checksums may have been written by anybody. Counts that decide what is done
+    /// next must fit the time; others need only be such that counting on is possible.
+    pub(crate) fn nonsense(&self, scene: &Scene, time: f64) -> Option<String> {
+        let scale = f64::from_bits(self.step_scale);
+        if !(scale > 0.0 && scale <= 1.0) {
+            return Some(format!("its `step_scale` is {scale}, not between 0 and 1"));
+        }
+        self.counts().or_else(|| self.numbers(time)).or_else(|| {
+            let rows = self.due_rows(scene, time);
+            let saved = (time / scene.run.checkpoint_interval() * (1.0 + ROUNDING)).floor() as u64;
+            if self.rows > rows {
+                Some(format!(
+                    "it counts {} rows of the series by then, more than {rows}",
+                    self.rows
+                ))
+            } else if self.checkpoints > saved {
+                let count = self.checkpoints;
+                Some(format!(
+                    "it counts {count} checkpoints by then, more than {saved}"
+                ))
+            } else {
+                None
+            }
+        })
+    }
+
+    /// Counts that no run reaches.
+    fn counts(&self) -> Option<String> {
+        let mut counts = vec![
+            ("steps", self.steps),
+            ("rolled_back", self.rolled_back),
+            ("outputs", self.outputs as u64),
+        ];
+        counts.extend(self.limited.values().map(|n| ("limited", *n)));
+        counts.extend(self.left.iter().map(|[_, n]| ("left", *n)));
+        for (name, counted) in &self.works {
+            counts.extend(
+                whole_numbers(counted)
+                    .into_iter()
+                    .map(|n| (name.as_str(), n)),
+            );
+        }
+        let largest = counts.into_iter().find(|(_, n)| *n > MOST);
+        largest.map(|(name, n)| format!("its counter `{name}` is {n}, which no run reaches"))
+    }
+
+    /// Numbers that are none, and times that are not yet.
+    fn numbers(&self, time: f64) -> Option<String> {
+        let sums = self.bounds.values().chain(self.stage_seconds.values());
+        if !sums
+            .chain([&self.wall_seconds])
+            .all(|x| *x >= 0.0 && x.is_finite())
+        {
+            return Some("it has clocks that run backwards or are not finite".into());
+        }
+        let mass = |[mass, _]: &[u64; 2]| f64::from_bits(*mass);
+        if !self
+            .left
+            .iter()
+            .map(mass)
+            .all(|m| m >= 0.0 && m.is_finite())
+        {
+            return Some("the mass that has left is negative or not finite".into());
+        }
+        let peaks = self.series_peaks.iter().flatten().copied();
+        let energies = self.energies.into_iter().flatten();
+        let extrema = self.series_extrema.into_iter().chain(peaks).chain(energies);
+        if extrema.map(f64::from_bits).any(f64::is_nan) {
+            return Some("extrema of its series are not numbers".into());
+        }
+        let past = [("last_row", self.last_row), ("started_at", self.started_at)];
+        let passed = |t: f64| (0.0..=time).contains(&t);
+        let wrong = past
+            .into_iter()
+            .find(|(_, t)| t.is_some_and(|t| !passed(f64::from_bits(t))));
+        if let Some((name, _)) = wrong {
+            return Some(format!("its `{name}` is no time of before"));
+        }
+        let next = self.next_output.map(f64::from_bits);
+        let comes = |t: f64| t.is_finite() && t >= time * (1.0 - ROUNDING);
+        let late = next.is_some_and(|t| !comes(t));
+        late.then(|| "its `next_output` is no time to come".into())
+    }
+
+    /// Most rows of the series that are written by a time.
+    fn due_rows(&self, scene: &Scene, time: f64) -> u64 {
+        let every = scene.output.series_interval(scene.run.end);
+        (time / every * (1.0 + ROUNDING)).floor() as u64 + 1
+    }
+
+    /// What is counted in intervals of the scene, for a scene whose intervals may be others than before.
+    pub(crate) fn recount(&mut self, scene: &Scene, time: f64) {
+        if let Some(last) = self.last_row.map(f64::from_bits) {
+            self.rows = (last / scene.output.series_interval(scene.run.end)).floor() as u64 + 1;
+        }
+        self.checkpoints = (time / scene.run.checkpoint_interval()).floor() as u64;
+    }
+}
+
+/// All whole numbers in what a piece of work has counted.
+fn whole_numbers(counted: &Json) -> Vec<u64> {
+    match counted {
+        Json::Number(n) => n.as_u64().into_iter().collect(),
+        Json::Array(items) => items.iter().flat_map(whole_numbers).collect(),
+        Json::Object(items) => items.values().flat_map(whole_numbers).collect(),
+        _ => Vec::new(),
+    }
+}

@@ -1,0 +1,80 @@
+//! A run on its way: the particles, and what was counted of them.
+
+use std::sync::Arc;
+
+use sph_core::StepLimit;
+use sph_decomposition::Transport;
+use sph_neighbours::Nearby;
+use sph_run::RunOptions;
+use sph_scene::Scene;
+use sph_setup::Assembled;
+use sph_solver::Snapshot;
+
+use crate::results::summary::RankShare;
+use crate::running::counters::Counters;
+use crate::running::departure::DepartureWatch;
+use crate::running::energy::EnergyWatch;
+use crate::running::mach::MachWatch;
+use crate::running::output::Outputs;
+use crate::running::series::Extrema;
+
+/// A run on its way.
+pub(crate) struct Running<'a, const D: usize> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) options: &'a RunOptions,
+    /// The ranks among which the flow is divided, if it is.
+    pub(crate) ranks: Option<Arc<dyn Transport>>,
+    pub(crate) parts: Assembled<D>,
+    /// All of a flow of which `parts` has this rank's part; on the first of several ranks alone.
+    pub(crate) whole: Option<Assembled<D>>,
+    pub(crate) counters: Counters,
+    /// What the rows have seen.
+    pub(crate) extrema: Extrema,
+    pub(crate) outputs: Outputs,
+    /// The state before the last step.
+    pub(crate) good: LastGood<D>,
+    /// What is known of the present state.
+    pub(crate) known: Known,
+    /// The last step that was tried, s, and what limited it.
+    pub(crate) tried: (f64, &'static str),
+    /// Bounds of the step at hand.
+    pub(crate) limits: Vec<StepLimit>,
+    pub(crate) mach: MachWatch,
+    pub(crate) energy: EnergyWatch,
+    pub(crate) departure: DepartureWatch,
+    /// Every rank's share, on the first at the end.
+    pub(crate) shares: Vec<RankShare>,
+    /// What the particles of all ranks have near them, at the end.
+    pub(crate) around: Nearby,
+}
+
+/// The state before the last step, if any was kept.
+#[derive(Default)]
+pub(crate) struct LastGood<const D: usize> {
+    pub(crate) snapshot: Snapshot<D>,
+    pub(crate) taken: bool,
+}
+
+impl<const D: usize> LastGood<D> {
+    pub(crate) fn state(&self) -> Option<&Snapshot<D>> {
+        self.taken.then_some(&self.snapshot)
+    }
+}
+
+/// What has been done with the present state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Known {
+    /// Its derived columns are computed.
+    pub(crate) evaluated: bool,
+    /// The first rank has all of it; with all that is derived from it.
+    pub(crate) gathered: Option<bool>,
+    /// Something of it was written.
+    pub(crate) written: bool,
+}
+
+impl<const D: usize> Running<'_, D> {
+    /// Whether this process writes.
+    pub(crate) fn writes(&self) -> bool {
+        self.ranks.as_ref().is_none_or(|ranks| ranks.rank() == 0)
+    }
+}

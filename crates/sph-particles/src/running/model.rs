@@ -1,0 +1,188 @@
+//! Particles as a model that is run.
+
+use std::path::Path;
+
+use sph_core::StepError;
+use sph_run::{Books, Frames, Model, Now, Start, Status, Watch, Wish};
+use sph_setup::measure_walls;
+
+use crate::failure::error::RunError;
+use crate::results::summary::Summary;
+use crate::running::beginning::begin;
+use crate::running::course::{Known, Running};
+use crate::running::energy::EnergyWatch;
+use crate::running::output::shows_depths;
+use crate::running::ranked;
+use crate::running::series;
+
+impl<const D: usize> Model for Running<'_, D> {
+    type Error = RunError;
+    type Summary = Summary;
+
+    fn begin(
+        &mut self,
+        start: &Start,
+        own: &Path,
+        observer: &mut Watch<'_>,
+    ) -> Result<Books, RunError> {
+        let (scene, identity) = (self.scene, &self.options.identity);
+        let flow = &mut self.parts.flow;
+        self.counters = begin(scene, identity, start, own, flow, observer)?;
+        if let Some(ranks) = self.ranks.clone().filter(|_| flow.parts.is_none()) {
+            flow.divide(ranks).map_err(StepError::from)?;
+        }
+        if self.writes() && self.parts.flow.parts.is_some() {
+            let begins = (identity, start, own);
+            let whole = ranked::columns_of_all(scene, begins, &mut self.parts, &self.counters)?;
+            self.whole = Some(whole);
+        }
+        let shown = self.whole.as_ref().unwrap_or(&self.parts);
+        for (name, probe) in &shown.probes {
+            let gathered = self.counters.probes.remove(name);
+            if let (Some(gathered), Some(sums)) = (gathered, probe.as_gathers()) {
+                sums.recall(&gathered);
+            }
+        }
+        self.energy = EnergyWatch::of(scene, &self.parts.flow, self.counters.energies);
+        self.recall_extrema(start.goes_on());
+        Ok(self.counters.books(self.parts.flow.world.time))
+    }
+
+    /// Steps that fail are tried again with half of their length, from the state before.
+    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<Now, RunError> {
+        self.judge()?;
+        let ready = |running: &Self| limit <= running.parts.flow.world.time;
+        let mut done = ready(self);
+        loop {
+            if !self.known.evaluated {
+                if let Err(cause) = self.evaluate() {
+                    self.go_back(cause, observer)?;
+                    done = ready(self);
+                    continue;
+                }
+                self.known.evaluated = true;
+                if self.good.taken && f64::from_bits(self.counters.step_scale) >= 1.0 {
+                    self.counters.retries = 0;
+                }
+            }
+            if done {
+                return Ok(self.now());
+            }
+            self.known = Known::default();
+            match self.step(limit)? {
+                Ok(()) => done = true,
+                Err(cause) => self.go_back(cause, observer)?,
+            }
+        }
+    }
+
+    fn columns(&self) -> Vec<(String, String)> {
+        let shown = self.shown();
+        series::columns(shown.flow.outlets.labels(), &shown.probes)
+    }
+
+    fn row(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>, RunError> {
+        self.known.written = true;
+        self.gather(self.looks_around())?;
+        // On several ranks all measure together, whoever writes.
+        measure_walls(&mut self.parts.flow, &self.parts.probes)?;
+        if let Some(whole) = &mut self.whole {
+            let forces = &self.parts.flow.world.walls.forces;
+            whole.flow.world.walls.forces.clone_from(forces);
+        }
+        match self.writes() {
+            true => self.measured(observer),
+            false => Ok(Vec::new()),
+        }
+    }
+
+    fn show(
+        &mut self,
+        frames: Option<&mut Frames>,
+        observer: &mut Watch<'_>,
+    ) -> Result<(), RunError> {
+        self.known.written = true;
+        self.gather(self.looks_around() || shows_depths(self.scene))?;
+        if self.scene.output.vtk {
+            self.gather_walls()?;
+        }
+        for told in self.write_output(frames)? {
+            observer.message(&told);
+        }
+        self.counters.outputs += 1;
+        Ok(())
+    }
+
+    fn save(&mut self, books: &Books, own: &Path) -> Result<(), RunError> {
+        self.known.written = true;
+        self.gather(false)?;
+        self.save_gathered(books, own)
+    }
+
+    fn agree(&mut self, wish: Wish<RunError>) -> Result<bool, RunError> {
+        match wish {
+            Wish::Written(written) => self.all_have_written(written).map(|()| false),
+            Wish::Stop(stop) => {
+                let any = self.parts.flow.any_rank(stop);
+                any.map_err(|cause| self.failed(cause))
+            }
+        }
+    }
+
+    fn conclude(
+        &mut self,
+        ended: Result<Status, &mut RunError>,
+        books: &Books,
+        _: &mut Watch<'_>,
+    ) -> Result<Option<Summary>, RunError> {
+        match ended {
+            Err(RunError::Failed(failure)) => self.find_out(failure, books),
+            Err(_) => Ok(None),
+            Ok(status) => {
+                self.gather(self.looks_around())?;
+                self.look_around()?;
+                self.share()?;
+                match self.writes() {
+                    true => self.summary(status, None, books).map(Some),
+                    false => Ok(None),
+                }
+            }
+        }
+    }
+}
+
+impl<const D: usize> Running<'_, D> {
+    fn now(&self) -> Now {
+        let (dt, limiter) = self.tried;
+        let world = &self.parts.flow.world;
+        Now {
+            time: world.time,
+            steps: self.counters.steps,
+            dt,
+            limiter,
+            size: world.free.len(),
+        }
+    }
+
+    /// Ends a run whose state, as it was when something of it was written, is none of a flow that the scene means.
+    fn judge(&mut self) -> Result<(), RunError> {
+        if !self.known.evaluated {
+            return Ok(());
+        }
+        if std::mem::take(&mut self.known.written) {
+            let verdict = self.mach.verdict(self.scene);
+            let verdict = verdict.or_else(|| self.departure.verdict());
+            if let Some(cause) = self.agreed(verdict) {
+                return Err(self.failed(cause));
+            }
+        }
+        if self.parts.flow.world.time >= self.scene.run.end {
+            let verdict = self.parts.flow.reports().find_map(|r| r.verdict);
+            let verdict = verdict.or_else(|| self.energy.verdict());
+            if let Some(cause) = self.agreed(verdict) {
+                return Err(self.failed(cause));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,225 @@
+//! Fields for ParaView, pictures and the curves of probes.
+
+use std::path::Path;
+
+use sph_core::fields;
+use sph_io::{ColourMap, FieldData, Picture, View};
+use sph_probes::{SURFACE_DISTANCE, surface_distance};
+use sph_run::{Frames, Outlay};
+use sph_scene::Scene;
+use sph_setup::Probes;
+use sph_solver::Flow;
+
+use crate::failure::error::RunError;
+use crate::running::colours::Colours;
+use crate::running::drawn_flow::{column_of, drawn_walls};
+use crate::running::pieces::{own_particles, particles, points, walls};
+
+/// Whether outputs show how far particles are from the surface, which is found from lists and contacts.
+pub(crate) fn shows_depths(scene: &Scene) -> bool {
+    let mut shown = scene.output.fields.iter().chain(&scene.output.picture);
+    shown.any(|name| name == SURFACE_DISTANCE.name)
+}
+
+/// What a scene shows.
+pub(crate) struct Outputs {
+    fields: Vec<String>,
+    pictures: Vec<String>,
+    colours: Colours,
+    title: String,
+    /// Names of the phases, for pictures of them.
+    phases: Vec<String>,
+}
+
+/// The files of a scene's outputs.
+pub(crate) fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outlay {
+    let curves = || probes.iter().filter_map(|(_, p)| p.as_curves());
+    let drawn = curves().any(|c| c.drawn_column().is_some());
+    let pictures = drawn || !scene.output.picture.is_empty();
+    let curves = curves().next().is_some();
+    let folders = [(pictures, "pictures"), (curves, "curves")];
+    Outlay {
+        vtk: scene.output.vtk,
+        pictures: scene.output.picture.clone(),
+        digits: 4,
+        animation: scene.output.pictures_per_second(),
+        folders: folders
+            .into_iter()
+            .filter_map(|(some, name)| some.then_some(name))
+            .collect(),
+    }
+}
+
+impl Outputs {
+    /// What a scene shows, whose fluid at rest has a pressure (Pa).
+    pub fn of(scene: &Scene, pressure: f64) -> Self {
+        Outputs {
+            fields: scene.output.fields.clone(),
+            pictures: scene.output.picture.clone(),
+            colours: Colours::of(scene, pressure),
+            title: scene.title.clone(),
+            phases: scene.phase.keys().cloned().collect(),
+        }
+    }
+
+    /// Writes everything the scene asks for at the flow's present time; `among` has this process' part of it and the number of
+    /// ranks, where these write frames together. Tells what changes in the pictures.
+    pub fn write<const D: usize>(
+        &self,
+        flow: &Flow<D>,
+        probes: &Probes<D>,
+        frames: &mut Frames,
+        among: Option<(&Flow<D>, usize)>,
+    ) -> Result<Vec<String>, RunError> {
+        let mut remarks = Vec::new();
+        let points = points(flow)?;
+        // No column: nobody but an output has a use for it.
+        let depth = SURFACE_DISTANCE;
+        let asked = self.fields.iter().chain(&self.pictures);
+        let depths = match asked.into_iter().any(|name| name == depth.name) {
+            true => surface_distance(&flow.world)?,
+            false => Vec::new(),
+        };
+        self.write_frame(flow, (&points, &depths), frames, among)?;
+        for name in &self.pictures {
+            let drawn = match name == depth.name {
+                true => Some(("surface distance [m]".to_string(), depths.clone())),
+                false => column_of(flow, name),
+            };
+            let Some(drawn) = drawn else { continue };
+            let classes = match name == fields::PHASE.name {
+                true => &self.phases[..],
+                false => &[],
+            };
+            let range = match classes {
+                [] => self.colours.range(name, &drawn.1, &mut frames.colours),
+                _ => (None, None),
+            };
+            remarks.extend(range.1);
+            picture(
+                flow,
+                (&points, classes),
+                drawn,
+                range.0,
+                &self.title,
+                &frames.picture(name),
+            )?;
+        }
+        for (name, probe) in probes {
+            let Some(curves) = probe.as_curves() else {
+                continue;
+            };
+            let columns = curves.curve_columns();
+            let rows = curves.curves(&flow.world)?;
+            let table = columns.iter().map(|c| (&c.suffix, c.unit));
+            sph_io::write_table(frames.table("curves", name), table, &rows)?;
+            if let Some(drawn) = curves.drawn_column() {
+                let label = format!("{} [{}]", columns[drawn].suffix, columns[drawn].unit);
+                let values: Vec<f64> = rows.iter().map(|row| row[drawn]).collect();
+                let (range, told) = self.colours.range(name, &values, &mut frames.colours);
+                remarks.extend(told);
+                map(
+                    flow,
+                    &rows,
+                    (&label, &values),
+                    range,
+                    &self.title,
+                    &frames.picture(name),
+                )?;
+            }
+        }
+        Ok(remarks)
+    }
+
+    /// Adds a frame for ParaView; `depths` are distances to the surface, if these are asked for.
+    fn write_frame<const D: usize>(
+        &self,
+        flow: &Flow<D>,
+        (points, depths): (&[[f64; 3]], &[f64]),
+        frames: &mut Frames,
+        among: Option<(&Flow<D>, usize)>,
+    ) -> Result<(), RunError> {
+        if !frames.lists() {
+            return Ok(());
+        }
+        let wanted = |name: &str| self.fields.iter().any(|f| f == name);
+        let mut fluid = match among {
+            Some((part, _)) => own_particles(part, wanted)?,
+            None => particles(&flow.world.free, points, wanted),
+        };
+        let depth = SURFACE_DISTANCE;
+        if wanted(depth.name) {
+            let field = FieldData::scalar(depth.name, depth.unit, depths);
+            fluid.fields.push(field);
+        }
+        let mut pieces = vec![fluid];
+        pieces.extend(walls(&flow.world));
+        let ranks = among.map_or(1, |(_, ranks)| ranks);
+        Ok(frames.add(flow.world.time, pieces, ranks)?)
+    }
+}
+
+/// A frame of all columns, for the state in which a run failed.
+pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<(), RunError> {
+    let points = points(flow)?;
+    let piece = particles(&flow.world.free, &points, |_| true);
+    sph_io::write_vtu(path, &piece, flow.world.time)?;
+    Ok(())
+}
+
+/// Values of a probe's table as a map over its first two columns.
+fn map<const D: usize>(
+    flow: &Flow<D>,
+    rows: &[Vec<f64>],
+    (label, values): (&str, &[f64]),
+    range: Option<[f64; 2]>,
+    title: &str,
+    path: &Path,
+) -> Result<(), RunError> {
+    let world = &flow.world;
+    let points: Vec<[f64; 3]> = rows.iter().map(|row| [row[0], row[1], 0.0]).collect();
+    // Cells are as wide as the nearest ones are apart.
+    let apart = |[a, b]: [&[f64; 3]; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs();
+    let pairs = points.windows(2).map(|pair| apart([&pair[0], &pair[1]]));
+    let diameter = pairs.fold(f64::INFINITY, f64::min);
+    let picture = Picture {
+        title,
+        time: Some(world.time),
+        label,
+        diameter: if diameter.is_finite() {
+            diameter
+        } else {
+            world.spacing
+        },
+        view: View::Plane,
+        range,
+        colours: ColourMap::Viridis,
+        ..Picture::of(&points, values)
+    };
+    Ok(picture.save(path)?)
+}
+
+fn picture<const D: usize>(
+    flow: &Flow<D>,
+    (points, classes): (&[[f64; 3]], &[String]),
+    (label, values): (String, Vec<f64>),
+    range: Option<[f64; 2]>,
+    title: &str,
+    path: &Path,
+) -> Result<(), RunError> {
+    let world = &flow.world;
+    let walls = drawn_walls(world);
+    let picture = Picture {
+        title,
+        time: Some(world.time),
+        label: &label,
+        diameter: world.spacing,
+        walls: &walls,
+        classes,
+        view: if D == 2 { View::Plane } else { View::Above },
+        range,
+        colours: ColourMap::Viridis,
+        ..Picture::of(points, &values)
+    };
+    Ok(picture.save(path)?)
+}

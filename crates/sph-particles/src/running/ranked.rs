@@ -1,0 +1,245 @@
+//! A run on several ranks: the first gathers what all have found, and writes it.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use sph_boundary::Wall;
+use sph_core::{StepError, System};
+use sph_decomposition::{PartError, Transport};
+use sph_neighbours::{Nearby, WallSet};
+use sph_run::{Identity, RunOptions, Start};
+use sph_scene::Scene;
+use sph_setup::{Assembled, Memory, Share, assemble_share};
+
+use crate::failure::error::RunError;
+use crate::results::summary::RankShare;
+use crate::running::beginning::begin;
+use crate::running::counters::Counters;
+use crate::running::course::Running;
+use crate::running::output::shows_depths;
+
+/// What a process assembles: on ranks only where particles settle first does each hold the whole for a while.
+pub(crate) fn share<const D: usize>(
+    scene: &Scene,
+    options: &RunOptions,
+    ranks: Option<&Arc<dyn Transport>>,
+) -> Share<D> {
+    match (ranks, &options.start) {
+        (None, _) => Share::Whole,
+        (Some(_), Start::Afresh) if scene.numerics.relax.is_some() => Share::Whole,
+        (Some(ranks), Start::Afresh) => Share::Part(ranks.clone()),
+        (Some(_), _) => Share::Blank,
+    }
+}
+
+/// Columns for the whole at the first of several ranks, which has a part: among the walls of this, without lists and contacts,
+/// but where somebody looks around in it.
+pub(crate) fn columns_of_all<const D: usize>(
+    scene: &Scene,
+    (identity, start, own): (&Identity, &Start, &Path),
+    parts: &mut Assembled<D>,
+    counters: &Counters,
+) -> Result<Assembled<D>, RunError> {
+    if looks_around(scene, parts) {
+        let mut all = assemble_share::<D>(scene, Share::Blank)?;
+        begin(scene, identity, start, own, &mut all.flow, &mut ())?;
+        return Ok(all);
+    }
+    let standing = parts.flow.walls.take().map(|walls| {
+        let set = &parts.flow.world.walls;
+        let set = WallSet {
+            names: set.names.clone(),
+            points: set.points.clone(),
+            elements: set.elements.clone(),
+            ..WallSet::default()
+        };
+        Box::new((walls, set))
+    });
+    let mut all = assemble_share::<D>(scene, Share::Columns(standing))?;
+    parts.flow.walls = all.flow.walls.take();
+    all.flow.laws = parts.flow.laws.clone();
+    all.flow.recount(&counters.left);
+    Ok(all)
+}
+
+/// Whether somebody measures or shows what needs lists and contacts.
+fn looks_around<const D: usize>(scene: &Scene, all: &Assembled<D>) -> bool {
+    shows_depths(scene) || all.probes.iter().any(|(_, p)| p.needs().around)
+}
+
+impl<const D: usize> Running<'_, D> {
+    /// What is shown and measured: the whole flow, where this process has it.
+    pub(crate) fn shown(&self) -> &Assembled<D> {
+        self.whole.as_ref().unwrap_or(&self.parts)
+    }
+
+    /// The walls of what is shown: its own, or those of this process's part.
+    pub(crate) fn walls(&self) -> Option<&dyn Wall<D>> {
+        let own = self.shown().flow.walls.as_deref();
+        own.or(self.parts.flow.walls.as_deref())
+    }
+
+    /// Brings the whole flow to the state of all ranks; with all that is derived from it, if it is to be `evaluated`. Every rank
+    /// must ask. Nothing where one process runs all.
+    pub(crate) fn gather(&mut self, evaluated: bool) -> Result<(), RunError> {
+        if self.known.gathered.is_some_and(|done| done || !evaluated) {
+            return Ok(());
+        }
+        self.known.gathered = Some(evaluated);
+        let flow = &mut self.parts.flow;
+        let Some(parts) = &mut flow.parts else {
+            return Ok(());
+        };
+        parts.all_well().map_err(StepError::from)?;
+        let whole = self.whole.as_mut().map(|w| &mut w.flow);
+        let Some(whole) = whole else {
+            return Ok(parts.gather(&flow.world, None).map_err(StepError::from)?);
+        };
+        // Only what is evaluated has neighbours.
+        whole.world.forget_lists();
+        let gathered = parts.gather(&flow.world, Some(&mut whole.world));
+        gathered.map_err(StepError::from)?;
+        if let (Some(own), Some(all)) = (&flow.walls, &mut whole.walls) {
+            let states = own.states();
+            let (set, time) = (&mut whole.world.walls, flow.world.time);
+            let moved = all.put_back(set, &states, time);
+            moved.map_err(|e| RunError::at("wall", e.to_string()))?;
+        }
+        whole.world.walls.follow(&flow.world.walls);
+        whole.loads.clone_from(&flow.loads);
+        whole.world.free.set_taken(flow.world.free.taken().to_vec());
+        whole.world.free.set_born(flow.world.free.born());
+        whole.world.lists.builds = flow.world.lists.builds;
+        whole.restored = true;
+        if evaluated {
+            let world = &mut whole.world;
+            let reference = world.lists.reference.clone();
+            let points = world.lists.reference_points().clone();
+            let (time, builds) = (world.lists.time, world.lists.builds);
+            world.forget_pruned();
+            world.build_lists_from(reference, points, time);
+            whole.evaluate()?;
+            whole.world.lists.builds = builds;
+        }
+        Ok(())
+    }
+
+    /// Whether somebody measures what needs lists and contacts.
+    pub(crate) fn looks_around(&self) -> bool {
+        self.parts.probes.iter().any(|(_, p)| p.needs().around)
+    }
+
+    /// Counts what is near the particles of this process.
+    pub(crate) fn look_around(&mut self) -> Result<(), RunError> {
+        let flow = &self.parts.flow;
+        let free = &flow.world.free;
+        if flow.world.lists.free.len() != free.len() {
+            return Ok(());
+        }
+        self.around = match &flow.parts {
+            None => flow.world.nearby(|_| true)?,
+            Some(parts) => {
+                let own = parts.own(free).map_err(StepError::from)?;
+                flow.world.nearby(|k| own[k])?
+            }
+        };
+        Ok(())
+    }
+
+    /// Gives the walls of the whole flow the pressures that the ranks found; every rank must ask.
+    pub(crate) fn gather_walls(&mut self) -> Result<(), RunError> {
+        let flow = &self.parts.flow;
+        let Some(parts) = &flow.parts else {
+            return Ok(());
+        };
+        let whole = self.whole.as_mut().map(|w| &mut w.flow.world);
+        let gathered = parts.gather_walls(&flow.world, whole);
+        Ok(gathered.map_err(StepError::from)?)
+    }
+
+    /// Tells the first rank what each had; every rank must ask.
+    pub(crate) fn share(&mut self) -> Result<(), RunError> {
+        let steps = self.counters.steps.max(1) as f64;
+        let flow = &self.parts.flow;
+        let Some(parts) = &flow.parts else {
+            return Ok(());
+        };
+        let near = self.around;
+        let solved: usize = self.counters.stage_bytes.iter().sum();
+        let (divided, traffic) = (parts.divided(&flow.world.free), parts.traffic());
+        let own = [
+            divided.own as f64,
+            divided.guests as f64,
+            traffic.messages as f64 / steps,
+            traffic.bytes as f64 / steps,
+            traffic.moved as f64,
+            Memory::of(self.scene, flow, solved as f64)?.total(),
+            near.particles as f64,
+            near.neighbours as f64,
+            near.accompanied as f64,
+            near.least,
+            near.distances,
+        ];
+        let own = own.iter().flat_map(|x| x.to_le_bytes()).collect();
+        let all = parts.transport().gather(own);
+        let all = all.map_err(|e| StepError::from(PartError::from(e)))?;
+        let read = |message: &Vec<u8>| {
+            let numbers = message.as_chunks::<8>().0;
+            let at = |k: usize| numbers.get(k).map_or(0.0, |b| f64::from_le_bytes(*b));
+            let share = RankShare {
+                particles: at(0) as u64,
+                guests: at(1) as u64,
+                messages_per_step: at(2),
+                bytes_per_step: at(3),
+                moved: at(4) as u64,
+                memory_bytes: at(5),
+            };
+            let near = Nearby {
+                particles: at(6) as u64,
+                neighbours: at(7) as u64,
+                accompanied: at(8) as u64,
+                least: at(9),
+                distances: at(10),
+            };
+            (share, near)
+        };
+        let (shares, near): (Vec<_>, Vec<_>) = all.iter().map(read).unzip();
+        self.shares = shares;
+        self.around = near.into_iter().fold(Nearby::NONE, Nearby::joined);
+        Ok(())
+    }
+
+    /// A cause to end the run that any rank has, which all must ask for.
+    pub(crate) fn agreed(&mut self, own: Option<StepError>) -> Option<StepError> {
+        let Some(parts) = &mut self.parts.flow.parts else {
+            return own;
+        };
+        match parts.settle(own.is_some()) {
+            Ok(()) => None,
+            Err(elsewhere) => Some(own.unwrap_or_else(|| elsewhere.into())),
+        }
+    }
+
+    /// Ends the run on all ranks if one could not write.
+    pub(crate) fn all_have_written(
+        &mut self,
+        written: Result<(), RunError>,
+    ) -> Result<(), RunError> {
+        let Some(parts) = &mut self.parts.flow.parts else {
+            return written;
+        };
+        match parts.settle(written.is_err()) {
+            Err(PartError::Elsewhere) if written.is_err() => written,
+            Err(other) => Err(StepError::from(other).into()),
+            Ok(()) => Ok(()),
+        }
+    }
+
+    /// Tells the other ranks of a failure that they may not know of; gives the cause that the first of those has who know one.
+    pub(crate) fn known_to_all(&mut self, cause: StepError) -> StepError {
+        match &mut self.parts.flow.parts {
+            None => cause,
+            Some(parts) => parts.confess(cause),
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Everything that may be refused before anything is written.
+
+use std::sync::Arc;
+
+use sph_decomposition::Transport;
+use sph_neighbours::Nearby;
+use sph_run::RunOptions;
+use sph_scene::Scene;
+use sph_setup::{assemble_share, readable, refuse_the_indivisible, rehearse, short_steps};
+
+use crate::failure::error::RunError;
+use crate::running::counters::Counters;
+use crate::running::course::{Known, LastGood, Running};
+use crate::running::departure::DepartureWatch;
+use crate::running::energy::EnergyWatch;
+use crate::running::mach::MachWatch;
+use crate::running::output::Outputs;
+use crate::running::ranked;
+use crate::running::series::Extrema;
+
+/// A run that has not begun, of a scene that nothing is refused of.
+pub(crate) fn ready<'a, const D: usize>(
+    scene: &'a Scene,
+    options: &'a RunOptions,
+    ranks: Option<Arc<dyn Transport>>,
+) -> Result<Running<'a, D>, RunError> {
+    let share = ranked::share(scene, options, ranks.as_ref());
+    let mut parts = assemble_share::<D>(scene, share)?;
+    let begun = !parts.flow.is_blank();
+    if begun {
+        rehearse(scene, &mut parts.flow, &parts.probes)?;
+        let mut limits = parts.flow.step_limits()?;
+        parts.flow.least_limits(&mut limits)?;
+        let remedies = parts.flow.remedies_of_bounds()?;
+        parts
+            .warnings
+            .extend(short_steps(scene, &limits, &remedies)?);
+    }
+    readable(scene)?;
+    if let Some(ranks) = &ranks {
+        refuse_the_indivisible(&parts.flow, ranks.ranks())?;
+    }
+    Ok(Running {
+        scene,
+        options,
+        ranks,
+        whole: None,
+        counters: Counters::begin(),
+        extrema: Extrema::NONE,
+        outputs: Outputs::of(scene, parts.pressure),
+        good: LastGood::default(),
+        known: Known::default(),
+        tried: (0.0, "none"),
+        limits: Vec::new(),
+        mach: MachWatch::default(),
+        energy: EnergyWatch::of(scene, &parts.flow, None),
+        departure: DepartureWatch::default(),
+        shares: Vec::new(),
+        around: Nearby::NONE,
+        parts,
+    })
+}

@@ -1,0 +1,192 @@
+//! A run, and the steps that it takes.
+
+use std::collections::BTreeMap;
+use std::ops::AddAssign;
+use std::sync::Arc;
+use std::time::Instant;
+
+use sph_core::{StepError, StepLimit, System};
+use sph_decomposition::Transport;
+use sph_run::{Opened, RunOptions, Schedule, Status, Watch};
+use sph_scene::Scene;
+use sph_setup::all_ready;
+use sph_solver::step::guard;
+
+use crate::failure::error::RunError;
+use crate::results::summary::Summary;
+use crate::running::clock::standing_still;
+use crate::running::course::Running;
+use crate::running::next_step::next_step;
+use crate::running::output::outlay;
+use crate::running::ready::ready;
+
+/// Runs a scene.
+///
+/// # Errors
+/// A bad scene before anything is written; afterwards a failed step (with checkpoint and
+/// picture of the bad state), or a file that cannot be written.
+pub fn run(
+    scene: &Scene,
+    options: &RunOptions,
+    observer: &mut Watch<'_>,
+) -> Result<Summary, RunError> {
+    let summary = run_with(scene, options, None, observer)?;
+    summary.ok_or_else(|| RunError::at("", "there is no summary of the run"))
+}
+
+/// Runs this rank's part of a scene, with the same scene and options on all ranks. The first rank alone writes, and has a summary.
+///
+/// The results are those of one process, to the bit, whatever the number of ranks.
+///
+/// # Errors
+/// As [`run`], on all ranks; a scene that cannot be divided; a rank that has ended.
+pub fn run_part(
+    scene: &Scene,
+    options: &RunOptions,
+    ranks: Arc<dyn Transport>,
+    observer: &mut Watch<'_>,
+) -> Result<Option<Summary>, RunError> {
+    run_with(scene, options, Some(ranks), observer)
+}
+
+fn run_with(
+    scene: &Scene,
+    options: &RunOptions,
+    ranks: Option<Arc<dyn Transport>>,
+    observer: &mut Watch<'_>,
+) -> Result<Option<Summary>, RunError> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads.unwrap_or(0))
+        .build()
+        .map_err(|e| RunError::at("--threads", e.to_string()))?;
+    pool.install(|| match scene.dimension {
+        3 => run_in::<3>(scene, options, ranks, observer),
+        _ => run_in::<2>(scene, options, ranks, observer),
+    })
+}
+
+fn run_in<const D: usize>(
+    scene: &Scene,
+    options: &RunOptions,
+    ranks: Option<Arc<dyn Transport>>,
+    observer: &mut Watch<'_>,
+) -> Result<Option<Summary>, RunError> {
+    let begun = ready::<D>(scene, options, ranks.clone()).and_then(|mut running| {
+        let writes = running.writes();
+        let outlay = writes.then(|| outlay(scene, &running.parts.probes));
+        let opened = Opened::open(&mut running, options, outlay, observer)?;
+        for warning in &running.parts.warnings {
+            observer.message(&format!("note: {warning}"));
+        }
+        Ok((running, opened))
+    });
+    let (mut running, opened) = match ranks {
+        None => begun?,
+        Some(ranks) => all_ready(&*ranks, begun)?,
+    };
+    let end = scene.run.end;
+    let schedule = Schedule {
+        end,
+        rows: scene.output.series_interval(end),
+        next_output: Box::new(move |time| scene.output.next_after(time, end)),
+        hits_outputs: true,
+        checkpoints: scene.run.checkpoint_interval(),
+        max_steps: scene.run.max_steps,
+        capped: Status::Interrupted,
+        max_wall: scene.run.max_wall,
+    };
+    opened.drive(&mut running, &schedule, Instant::now(), observer)
+}
+
+/// Factor by which a rolled-back step recovers per good step.
+pub(crate) const RECOVERY: f64 = 1.05;
+
+/// Adds to what is counted under a name, which is written down when it first comes.
+fn count<T: AddAssign + Default>(all: &mut BTreeMap<String, T>, name: &str, more: T) {
+    match all.get_mut(name) {
+        Some(sum) => *sum += more,
+        None => *all.entry(name.to_string()).or_default() += more,
+    }
+}
+
+impl<const D: usize> Running<'_, D> {
+    /// One step from an evaluated state, which is kept, not beyond `target` (s); what went wrong in it, if something did.
+    pub(crate) fn step(&mut self, target: f64) -> Result<Result<(), StepError>, RunError> {
+        let time = self.parts.flow.world.time;
+        let (dt, limiter) = match self.chosen_step(time, target)? {
+            Ok(chosen) => chosen,
+            Err(cause) => return Ok(Err(cause)),
+        };
+        if self.scene.run.retries > 0 {
+            self.good.snapshot.take(&self.parts.flow)?;
+            self.good.taken = true;
+        }
+        if let Some(cause) = standing_still(time, dt, target, limiter) {
+            return Err(self.failed(cause));
+        }
+        self.tried = (dt, limiter);
+        self.parts.flow.world.dt = dt;
+        let flow = &mut self.parts.flow;
+        let stepped = self.parts.integrator.step(flow, dt);
+        let stepped = stepped.and_then(|()| flow.let_out(dt));
+        if let Err(cause) = stepped.and_then(|()| flow.let_in(dt)) {
+            return Ok(Err(cause));
+        }
+        // A drift in parts may end one rounding short of its aim, and the sliver that is left
+        // be too short for its parts to move the clock: for ever.
+        if time + dt >= target * (1.0 - 1e-12) {
+            self.parts.flow.world.time = target;
+        }
+        self.counters.steps += 1;
+        count(&mut self.counters.limited, limiter, 1);
+        let scale = f64::from_bits(self.counters.step_scale);
+        self.counters.step_scale = (scale * RECOVERY).min(1.0).to_bits();
+        Ok(Ok(()))
+    }
+
+    pub(crate) fn evaluate(&mut self) -> Result<(), StepError> {
+        let flow = &mut self.parts.flow;
+        let bounds = self.scene.numerics.density_bounds;
+        let done = flow.evaluate();
+        let done = done.and_then(|()| guard::rates(&flow.world, &flow.laws, bounds));
+        let most = &mut self.counters.stage_bytes;
+        most.resize(flow.stages.len(), 0);
+        for (most, stage) in most.iter_mut().zip(&flow.stages) {
+            *most = stage.bytes().max(*most);
+        }
+        // No rank goes on to what is done with an evaluated state if another has none.
+        match self.agreed(done.err()) {
+            None => Ok(()),
+            Some(cause) => Err(cause),
+        }
+    }
+
+    /// The next step and what limits it, noted with all bounds.
+    fn chosen_step(
+        &mut self,
+        time: f64,
+        target: f64,
+    ) -> Result<Result<(f64, &'static str), StepError>, RunError> {
+        let mut limits = std::mem::take(&mut self.limits);
+        let flow = &mut self.parts.flow;
+        flow.step_limits_into(&mut limits)?;
+        let chosen = flow.least_limits(&mut limits).map(|()| {
+            self.note_bounds(&limits);
+            self.choose_step(&limits, time, target)
+        });
+        self.limits = limits;
+        Ok(chosen)
+    }
+
+    fn note_bounds(&mut self, limits: &[StepLimit]) {
+        for limit in limits.iter().filter(|l| l.dt > 0.0) {
+            count(&mut self.counters.bounds, limit.name, 1.0 / limit.dt);
+        }
+    }
+
+    /// The least limit, cut so that output times and the end are hit exactly.
+    fn choose_step(&self, limits: &[StepLimit], time: f64, target: f64) -> (f64, &'static str) {
+        let factor = self.scene.run.safety * f64::from_bits(self.counters.step_scale);
+        next_step(limits, factor, [time, target], self.scene.run.end)
+    }
+}

@@ -1,0 +1,107 @@
+//! `series.csv`: balances and probes over time.
+
+use sph_setup::Probes;
+use sph_solver::Flow;
+
+use crate::failure::error::RunError;
+use crate::results::balance::Balance;
+
+/// What the rows have seen so far.
+#[derive(Clone, Copy, Debug)]
+pub struct Extrema {
+    /// Least and largest density ratio over all rows.
+    pub density_range: [f64; 2],
+    /// Highest energy, J, largest speed over the speed of sound, and largest share of the mass beyond [`FAST`], over all
+    /// rows.
+    pub peaks: [f64; 3],
+    /// Largest |energy| over all rows, J.
+    pub energy_scale: f64,
+    /// Largest Σ m|u| over all rows.
+    pub momentum_scale: f64,
+}
+
+/// Names and units of all columns, with the labels of what leaves.
+pub fn columns<const D: usize>(left: &[String], probes: &Probes<D>) -> Vec<(String, String)> {
+    let mut columns: Vec<(String, String)> = [("time", "s"), ("dt", "s")]
+        .map(|(n, u)| (n.to_string(), u.to_string()))
+        .into();
+    for axis in &["x", "y", "z"][..D] {
+        columns.push((format!("momentum.{axis}"), "kg m/s".into()));
+    }
+    let more = [
+        ("kinetic_energy", "J"),
+        ("potential_energy", "J"),
+        ("internal_energy", "J"),
+        ("largest_speed", "m/s"),
+        ("least_density_ratio", "1"),
+        ("largest_density_ratio", "1"),
+    ];
+    columns.extend(more.map(|(n, u)| (n.to_string(), u.to_string())));
+    for label in left {
+        columns.push((label.clone(), "kg".into()));
+        columns.push((format!("{label}.particles"), "1".into()));
+    }
+    for (name, probe) in probes {
+        for column in probe.columns() {
+            columns.push((format!("{name}{}", column.suffix), column.unit.into()));
+        }
+    }
+    columns
+}
+
+impl Extrema {
+    /// Of no row.
+    pub const NONE: Extrema = Extrema {
+        density_range: [f64::INFINITY, f64::NEG_INFINITY],
+        peaks: [f64::NEG_INFINITY, 0.0, 0.0],
+        energy_scale: 0.0,
+        momentum_scale: 0.0,
+    };
+
+    /// All but the peaks, as checkpoints have them.
+    pub fn numbers(&self) -> [f64; 4] {
+        let [low, high] = self.density_range;
+        [low, high, self.energy_scale, self.momentum_scale]
+    }
+
+    /// Measures a row; forces on walls have been [measured](sph_setup::measure_walls).
+    pub fn row<const D: usize>(
+        &mut self,
+        flow: &Flow<D>,
+        probes: &Probes<D>,
+        dt: f64,
+    ) -> Result<(Vec<f64>, Balance<D>), RunError> {
+        let balance = Balance::of(flow)?;
+        let mut row = vec![flow.world.time, dt];
+        row.extend(balance.momentum.iter());
+        row.extend([
+            balance.kinetic,
+            balance.potential,
+            balance.internal,
+            balance.fastest,
+            balance.least_density,
+            balance.largest_density,
+        ]);
+        for (_, left) in flow.left().take(flow.outlets.labels().len()) {
+            row.extend([left.mass, left.particles as f64]);
+        }
+        for (_, probe) in probes {
+            if let Some(sums) = probe.as_gathers() {
+                sums.gather(&flow.world)?;
+            }
+            row.extend(probe.measure(&flow.world)?);
+        }
+        self.density_range[0] = self.density_range[0].min(balance.least_density);
+        self.density_range[1] = self.density_range[1].max(balance.largest_density);
+        let parts = [balance.kinetic, balance.potential, balance.internal];
+        let largest = parts
+            .iter()
+            .fold(balance.energy().abs(), |m, e| m.max(e.abs()));
+        let fast = balance.faster[0] / balance.mass.max(f64::MIN_POSITIVE);
+        let now = [balance.energy(), balance.mach, fast];
+        self.peaks = std::array::from_fn(|k| self.peaks[k].max(now[k]));
+        self.energy_scale = self.energy_scale.max(largest);
+        self.momentum_scale = self.momentum_scale.max(balance.momentum_scale);
+        Ok((row, balance))
+    }
+}

@@ -1,0 +1,124 @@
+//! What a run writes on its way: rows, pictures, fields, checkpoints.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use sph_probes::Probe;
+use sph_run::{Books, Frames, Watch};
+use sph_setup::Probes;
+
+use crate::failure::error::RunError;
+use crate::results::balance::Balance;
+use crate::running::checkpoint;
+use crate::running::counters::Counters;
+use crate::running::course::Running;
+use crate::running::output::shows_depths;
+use crate::running::pieces::write_own_share;
+
+/// What probes have gathered, by their names.
+fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {
+    let one =
+        |(name, p): &(String, Box<dyn Probe<D>>)| Some((name.clone(), p.as_gathers()?.gathered()));
+    let all = probes.iter().filter_map(one);
+    all.filter(|(_, gathered)| !gathered.is_empty()).collect()
+}
+
+impl<const D: usize> Running<'_, D> {
+    /// Fields, pictures and curves. Ranks write the particles of a frame together, but where these have a depth that the first
+    /// alone has found. Tells what changes in the pictures.
+    pub(crate) fn write_output(
+        &mut self,
+        frames: Option<&mut Frames>,
+    ) -> Result<Vec<String>, RunError> {
+        let parts = self.parts.flow.parts.as_ref();
+        let team = parts.map(|p| (p.transport().rank(), p.transport().ranks()));
+        let together = self.scene.output.vtk && !shows_depths(self.scene);
+        let among = team.filter(|(_, ranks)| together && *ranks > 1);
+        let shown = self.whole.as_ref().unwrap_or(&self.parts);
+        match (frames, among) {
+            (Some(frames), among) => {
+                let among = among.map(|(_, ranks)| (&self.parts.flow, ranks));
+                let outputs = &self.outputs;
+                outputs.write(&shown.flow, &shown.probes, frames, among)
+            }
+            (None, Some((rank, _))) => {
+                let place = (self.counters.outputs, rank);
+                write_own_share(self.scene, &self.parts.flow, &self.options.out, place)?;
+                Ok(Vec::new())
+            }
+            (None, None) => Ok(Vec::new()),
+        }
+    }
+
+    /// The row of the whole flow.
+    pub(crate) fn measured(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>, RunError> {
+        let shown = self.whole.as_ref().unwrap_or(&self.parts);
+        let dt = shown.flow.world.dt;
+        let (row, balance) = self.extrema.row(&shown.flow, &shown.probes, dt)?;
+        let (left, time) = (shown.flow.mass_left(), shown.flow.world.time);
+        let told = self.mach.look(&balance).into_iter();
+        let told = told
+            .chain(self.energy.look(&balance, left, time))
+            .chain(self.departure.look(self.scene, &self.parts.flow));
+        told.for_each(|told| observer.message(&told));
+        if self.counters.initial_momentum.is_empty() {
+            self.remember_start(&balance);
+        }
+        Ok(row)
+    }
+
+    fn remember_start(&mut self, balance: &Balance<D>) {
+        self.counters.initial = [balance.mass.to_bits(), balance.energy().to_bits()];
+        self.counters.initial_momentum = balance.momentum.iter().map(|m| m.to_bits()).collect();
+    }
+
+    /// Takes up what the rows of earlier parts of the run have seen.
+    pub(crate) fn recall_extrema(&mut self, goes_on: bool) {
+        let extrema = &mut self.extrema;
+        if goes_on {
+            let [low, high, energy, momentum] = self.counters.series_extrema.map(f64::from_bits);
+            extrema.density_range = [low, high];
+            (extrema.energy_scale, extrema.momentum_scale) = (energy, momentum);
+        }
+        let kept = self.counters.series_peaks.iter().flatten();
+        for (peak, bits) in extrema.peaks.iter_mut().zip(kept) {
+            *peak = f64::from_bits(*bits);
+        }
+    }
+
+    pub(crate) fn stage_seconds(&self, books: &Books) -> BTreeMap<String, f64> {
+        let mut all = self.counters.stage_seconds.clone();
+        for timing in self.parts.flow.timings() {
+            *all.entry(timing.name.clone()).or_default() += timing.spent.as_secs_f64();
+        }
+        *all.entry("output".into()).or_default() += books.output_seconds;
+        all
+    }
+
+    /// Writes a checkpoint of the state that the first rank has.
+    pub(crate) fn save_gathered(&mut self, books: &Books, own: &Path) -> Result<(), RunError> {
+        if !self.writes() {
+            return Ok(());
+        }
+        let counters = &mut self.counters;
+        counters.series_extrema = self.extrema.numbers().map(f64::to_bits);
+        counters.series_peaks = Some(self.extrema.peaks.map(f64::to_bits).to_vec());
+        counters.energies = self.energy.bits();
+        counters.take(books);
+        let left = self.parts.flow.left();
+        counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
+        let shown = self.shown();
+        let counters = Counters {
+            stage_seconds: self.stage_seconds(books),
+            works: self.parts.flow.counts(),
+            probes: gathered(&shown.probes),
+            ..self.counters.clone()
+        };
+        checkpoint::save(
+            (&shown.flow, self.walls()),
+            own,
+            &self.options.identity,
+            &counters,
+        )
+    }
+}

@@ -1,0 +1,276 @@
+//! A run from start to end.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use sph_io::{FolderLock, IoError, SeriesWriter};
+
+use crate::frames::{Frames, Outlay};
+use crate::lock;
+use crate::model::{Books, Model, Now, Status, Wish};
+use crate::observer::{Command, Progress, Watch};
+use crate::options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
+use crate::schedule::{Due, Schedule};
+
+/// Runs a model; it is at its start, or goes on from the checkpoint of its folder.
+///
+/// # Errors
+/// A folder that another run has, files that cannot be written, what goes wrong in the model.
+pub fn run<M: Model>(
+    model: &mut M,
+    options: &RunOptions,
+    schedule: &Schedule<'_>,
+    outlay: Outlay,
+    observer: &mut Watch<'_>,
+) -> Result<Option<M::Summary>, M::Error> {
+    let started = Instant::now();
+    let opened = Opened::open(model, options, Some(outlay), observer)?;
+    opened.drive(model, schedule, started, observer)
+}
+
+/// A run whose folder is its own, and whose model is where it begins.
+pub struct Opened {
+    folder: PathBuf,
+    start: Start,
+    books: Books,
+    files: Option<Files>,
+    _lock: Option<FolderLock>,
+}
+
+struct Files {
+    series: SeriesWriter,
+    frames: Frames,
+}
+
+impl Opened {
+    /// Takes the folder of a run and puts its model where it begins. A process without an `outlay` writes nothing.
+    ///
+    /// # Errors
+    /// A folder that another run has, files that cannot be written, a checkpoint that is none of this run.
+    pub fn open<M: Model>(
+        model: &mut M,
+        options: &RunOptions,
+        outlay: Option<Outlay>,
+        observer: &mut Watch<'_>,
+    ) -> Result<Self, M::Error> {
+        let folder = &options.out;
+        let mut held = None;
+        if outlay.is_some() {
+            held = Some(lock::take(folder, observer)?);
+            sph_io::writable(folder)?;
+            sph_io::sweep_temporaries(folder)?;
+        }
+        let checkpoint = folder.join(CHECKPOINT);
+        let books = model.begin(&options.start, &checkpoint, observer)?;
+        let goes_on = options.start.goes_on();
+        // An old checkpoint must not be resumed into the files of this run.
+        if outlay.is_some() && !goes_on && checkpoint.exists() {
+            observer.message(&format!(
+                "note: the earlier run in {} is overwritten (--resume would have gone on with it)",
+                folder.display()
+            ));
+            std::fs::remove_file(&checkpoint).map_err(|source| IoError::Write {
+                path: checkpoint,
+                source,
+            })?;
+        }
+        let files = match outlay {
+            None => None,
+            Some(outlay) => {
+                let path = folder.join(SERIES);
+                // First what may be refused: a changed scene may measure other columns.
+                let series = match goes_on {
+                    false => SeriesWriter::create(path, model.columns())?,
+                    true => SeriesWriter::open_truncated(path, books.series, model.columns())?,
+                };
+                let changed = options.start == Start::Changed;
+                let frames = Frames::open(
+                    folder,
+                    outlay,
+                    goes_on.then_some(books.outputs),
+                    changed.then_some(books.time),
+                    books.colours.clone(),
+                )?;
+                Some(Files { series, frames })
+            }
+        };
+        Ok(Opened {
+            folder: folder.clone(),
+            start: options.start.clone(),
+            books,
+            files,
+            _lock: held,
+        })
+    }
+
+    /// Steps the model to the end, and writes what is due; the wall-clock time counts from `started`.
+    ///
+    /// # Errors
+    /// Files that cannot be written, what goes wrong in the model.
+    pub fn drive<M: Model>(
+        self,
+        model: &mut M,
+        schedule: &Schedule<'_>,
+        started: Instant,
+        observer: &mut Watch<'_>,
+    ) -> Result<Option<M::Summary>, M::Error> {
+        let mut driver = Driver {
+            before: self.books.wall_seconds,
+            opened: self,
+            schedule,
+            started,
+        };
+        match driver.go(model, observer)? {
+            Ok(status) => {
+                let film = driver.opened.files.as_ref().map(|f| f.frames.film());
+                let film = film.unwrap_or(Ok(())).map_err(M::Error::from);
+                model.agree(Wish::Written(film))?;
+                let summary = model.conclude(Ok(status), driver.books(), observer)?;
+                driver.write_summary::<M>(summary.as_ref())?;
+                Ok(summary)
+            }
+            Err(mut error) => {
+                let summary = model.conclude(Err(&mut error), driver.books(), observer);
+                let told = summary.and_then(|summary| driver.write_summary::<M>(summary.as_ref()));
+                // The failure itself matters more than what could not be written about it.
+                if let Err(problem) = told {
+                    observer.message(&format!("the summary could not be written: {problem}"));
+                }
+                Err(error)
+            }
+        }
+    }
+}
+
+struct Driver<'a> {
+    opened: Opened,
+    schedule: &'a Schedule<'a>,
+    started: Instant,
+    /// Wall-clock time of earlier parts of the run, s.
+    before: f64,
+}
+
+impl Driver<'_> {
+    /// The books as they are now.
+    fn books(&mut self) -> &Books {
+        let books = &mut self.opened.books;
+        books.wall_seconds = self.before + self.started.elapsed().as_secs_f64();
+        books
+    }
+
+    fn write_summary<M: Model>(&self, summary: Option<&M::Summary>) -> Result<(), M::Error> {
+        let written = summary.map(|s| sph_io::write_json(self.opened.folder.join(SUMMARY), s));
+        Ok(written.unwrap_or(Ok(()))?)
+    }
+
+    /// How the run ended; a file that cannot be written is no end of it.
+    fn go<M: Model>(
+        &mut self,
+        model: &mut M,
+        observer: &mut Watch<'_>,
+    ) -> Result<Result<Status, M::Error>, M::Error> {
+        let (schedule, time) = (self.schedule, self.opened.books.time);
+        match self.opened.start {
+            Start::Afresh => self.opened.books.next_output = (schedule.next_output)(-1.0),
+            Start::From(_) | Start::Changed => {
+                self.opened.books.next_output = (schedule.next_output)(time);
+            }
+            Start::Resumed => {}
+        }
+        let mut limit = time;
+        loop {
+            let now = match model.advance(limit, observer) {
+                Ok(now) => now,
+                Err(error) => return Ok(Err(error)),
+            };
+            let stepped = now.time > self.opened.books.time;
+            self.opened.books.time = now.time;
+            if stepped {
+                let stop = self.wants_to_stop(&now, observer);
+                match model.agree(Wish::Stop(stop)) {
+                    Ok(false) => {}
+                    Ok(true) => {
+                        self.save(model)?;
+                        return Ok(Ok(Status::Interrupted));
+                    }
+                    Err(error) => return Ok(Err(error)),
+                }
+            }
+            let due = schedule.due(now.time, &self.opened.books);
+            if due.any() {
+                let begun = Instant::now();
+                let written = self.write(model, due, observer);
+                self.opened.books.output_seconds += begun.elapsed().as_secs_f64();
+                model.agree(Wish::Written(written))?;
+                // What was seen is judged.
+                if let Err(error) = model.advance(now.time, observer) {
+                    return Ok(Err(error));
+                }
+            }
+            if now.time >= schedule.end {
+                return Ok(Ok(Status::Done));
+            }
+            if schedule.max_steps.is_some_and(|most| now.steps >= most) {
+                if schedule.capped == Status::Interrupted {
+                    observer.message("the largest number of steps is reached");
+                }
+                self.save(model)?;
+                return Ok(Ok(schedule.capped));
+            }
+            limit = schedule.target(&self.opened.books);
+        }
+    }
+
+    /// Tells of a step that is done; whether somebody or the clock on the wall asks to stop.
+    fn wants_to_stop(&mut self, now: &Now, observer: &mut Watch<'_>) -> bool {
+        let command = observer.step(&Progress {
+            time: now.time,
+            end: self.schedule.end,
+            step: now.steps,
+            dt: now.dt,
+            limiter: now.limiter,
+            particles: now.size,
+        });
+        let most = self.schedule.max_wall;
+        let late = most.is_some_and(|most| self.books().wall_seconds > most);
+        command == Command::Stop || late
+    }
+
+    fn write<M: Model>(
+        &mut self,
+        model: &mut M,
+        due: Due,
+        observer: &mut Watch<'_>,
+    ) -> Result<(), M::Error> {
+        let time = self.opened.books.time;
+        if due.row {
+            let row = model.row(observer)?;
+            if let Some(files) = &mut self.opened.files {
+                files.series.row(&row)?;
+                self.opened.books.series = files.series.position();
+            }
+            self.schedule.row_written(time, &mut self.opened.books);
+        }
+        if due.output {
+            let mut frames = self.opened.files.as_mut().map(|f| &mut f.frames);
+            model.show(frames.as_deref_mut(), observer)?;
+            let books = &mut self.opened.books;
+            books.outputs += 1;
+            if let Some(frames) = frames {
+                frames.written += 1;
+                books.colours.clone_from(&frames.colours);
+            }
+            books.next_output = (self.schedule.next_output)(time);
+        }
+        if due.checkpoint {
+            self.schedule.checkpoint_due(time, &mut self.opened.books);
+            self.save(model)?;
+        }
+        Ok(())
+    }
+
+    fn save<M: Model>(&mut self, model: &mut M) -> Result<(), M::Error> {
+        let checkpoint = self.opened.folder.join(CHECKPOINT);
+        model.save(self.books(), &checkpoint)
+    }
+}

@@ -1,0 +1,151 @@
+//! What a model is to its driver.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use sph_io::{ColourRanges, IoError};
+
+use crate::frames::Frames;
+use crate::observer::Watch;
+use crate::options::Start;
+
+/// A state that advances in time, with what there is to see of it.
+///
+/// Where several processes compute one flow together, each has a model and a driver of its own: they are asked the same
+/// in the same order, and one of them alone has files.
+pub trait Model {
+    /// What keeps a run from its end.
+    type Error: From<IoError> + std::error::Error;
+    /// What is left of a run; content of `summary.json`.
+    type Summary: Serialize;
+
+    /// Puts the model where the run begins: as the scene says, or at a checkpoint; `own` is that of the run's folder.
+    /// Gives what was counted until there.
+    ///
+    /// # Errors
+    /// A checkpoint that cannot be read, or is of another run.
+    fn begin(
+        &mut self,
+        start: &Start,
+        own: &Path,
+        observer: &mut Watch<'_>,
+    ) -> Result<Books, Self::Error>;
+
+    /// One step that does not go beyond a time (s), tried again as the model likes. At a time that is reached nothing
+    /// moves: the state is made ready to be looked at, and judged.
+    ///
+    /// # Errors
+    /// What went wrong, which ends the run.
+    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<Now, Self::Error>;
+
+    /// Names and units of the columns of `series.csv`.
+    fn columns(&self) -> Vec<(String, String)>;
+
+    /// The row of now, as long as [`Model::columns`].
+    ///
+    /// # Errors
+    /// If it cannot be measured.
+    fn row(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>, Self::Error>;
+
+    /// Shows the fields of now: pieces for ParaView, pictures. Without frames another process writes.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    fn show(
+        &mut self,
+        frames: Option<&mut Frames>,
+        observer: &mut Watch<'_>,
+    ) -> Result<(), Self::Error>;
+
+    /// Writes a checkpoint from which [`Model::begin`] goes on bit for bit, with these counts.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    fn save(&mut self, books: &Books, own: &Path) -> Result<(), Self::Error>;
+
+    /// What all processes of the run decide together: the error of any, or whether any wants to stop.
+    ///
+    /// # Errors
+    /// What one could not write; a process that is gone.
+    fn agree(&mut self, wish: Wish<Self::Error>) -> Result<bool, Self::Error> {
+        match wish {
+            Wish::Written(done) => done.map(|()| false),
+            Wish::Stop(stop) => Ok(stop),
+        }
+    }
+
+    /// What there is to tell of a run that is over, or failed: to the error may be added what is found out about it.
+    /// Nothing where another process tells it.
+    ///
+    /// # Errors
+    /// If the state cannot be summed up.
+    fn conclude(
+        &mut self,
+        ended: Result<Status, &mut Self::Error>,
+        books: &Books,
+        observer: &mut Watch<'_>,
+    ) -> Result<Option<Self::Summary>, Self::Error>;
+}
+
+/// Where a model is.
+#[derive(Clone, Copy, Debug)]
+pub struct Now {
+    /// Simulated time, s.
+    pub time: f64,
+    /// Steps taken.
+    pub steps: u64,
+    /// The last step, s.
+    pub dt: f64,
+    /// What limited it.
+    pub limiter: &'static str,
+    /// Particles, grains, or what else the model counts.
+    pub size: usize,
+}
+
+/// A question to all processes of a run.
+#[derive(Debug)]
+pub enum Wish<E> {
+    /// Whether what was due has been written.
+    Written(Result<(), E>),
+    /// Whether this one wants to stop.
+    Stop(bool),
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// It reached its end.
+    Done,
+    /// It stopped on an error.
+    Failed,
+    /// It was told to stop and left a checkpoint.
+    Interrupted,
+}
+
+/// What a driver counts, and a checkpoint keeps.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Books {
+    /// Simulated time, s.
+    pub time: f64,
+    /// Rows of the series that were due so far.
+    pub rows: u64,
+    /// Time of the last row, s.
+    pub last_row: Option<f64>,
+    /// Bytes of the series.
+    pub series: u64,
+    /// Outputs of fields written.
+    pub outputs: usize,
+    /// Time of the next output of fields, s.
+    pub next_output: Option<f64>,
+    /// Checkpoints that were due so far.
+    pub checkpoints: u64,
+    /// Ranges of the colours of pictures.
+    pub colours: ColourRanges,
+    /// Wall-clock time, s.
+    pub wall_seconds: f64,
+    /// Wall-clock time of what was written since the run began or went on, s.
+    #[serde(skip)]
+    pub output_seconds: f64,
+}

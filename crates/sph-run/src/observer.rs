@@ -1,0 +1,46 @@
+//! What a run tells whoever watches it.
+
+/// Where a run is.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    /// Simulated time, s.
+    pub time: f64,
+    /// Simulated time at the end, s.
+    pub end: f64,
+    /// Steps taken.
+    pub step: u64,
+    /// The last step, s.
+    pub dt: f64,
+    /// What limited it.
+    pub limiter: &'static str,
+    /// Particles, grains, or what else the model counts.
+    pub particles: usize,
+}
+
+/// What the watcher wants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Command {
+    /// Go on.
+    Continue,
+    /// Write a checkpoint and stop.
+    Stop,
+}
+
+/// A watcher of a run.
+pub trait Observer {
+    /// After every step.
+    fn step(&mut self, progress: &Progress) -> Command;
+    /// A line worth saying.
+    fn message(&mut self, text: &str);
+}
+
+/// A watcher that says nothing.
+impl Observer for () {
+    fn step(&mut self, _progress: &Progress) -> Command {
+        Command::Continue
+    }
+    fn message(&mut self, _text: &str) {}
+}
+
+/// A watcher that a model may talk to.
+pub type Watch<'a> = dyn Observer + Send + 'a;

@@ -1,0 +1,46 @@
+//! How a scene is run.
+
+use std::path::PathBuf;
+
+use crate::identity::Identity;
+
+/// Name of the checkpoint in a run's folder.
+pub const CHECKPOINT: &str = "checkpoint.sph";
+/// Name of the series in a run's folder.
+pub const SERIES: &str = "series.csv";
+/// Name of the summary in a run's folder.
+pub const SUMMARY: &str = "summary.json";
+
+/// How a scene is run.
+#[derive(Clone, Debug)]
+pub struct RunOptions {
+    /// Folder of all files of the run; it is created.
+    pub out: PathBuf,
+    /// Where the run begins.
+    pub start: Start,
+    /// Threads; `None` for all cores.
+    pub threads: Option<usize>,
+    /// The scene with its overrides and files; a checkpoint belongs to one.
+    pub identity: Identity,
+}
+
+/// Where a run begins.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Start {
+    /// As the scene says, at t = 0.
+    #[default]
+    Afresh,
+    /// With the checkpoint in the run's own folder, as if it had never stopped.
+    Resumed,
+    /// The same, although the scene, its overrides, its files or the program are not those of the checkpoint.
+    Changed,
+    /// With the particles and the time of a checkpoint of another run of the same bodies, whatever its other settings.
+    From(PathBuf),
+}
+
+impl Start {
+    /// Whether the run's own files are gone on with.
+    pub fn goes_on(&self) -> bool {
+        matches!(self, Start::Resumed | Start::Changed)
+    }
+}

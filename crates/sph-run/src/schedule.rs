@@ -1,0 +1,94 @@
+//! When something is due.
+
+use crate::model::{Books, Status};
+
+/// When rows, fields and checkpoints are due, and when a run is over.
+pub struct Schedule<'a> {
+    /// Simulated time at the end, s.
+    pub end: f64,
+    /// Simulated time between rows of the series, s.
+    pub rows: f64,
+    /// The first output of fields after a time, s.
+    pub next_output: Box<dyn Fn(f64) -> Option<f64> + Sync + 'a>,
+    /// Whether steps end where fields are due.
+    pub hits_outputs: bool,
+    /// Simulated time between checkpoints, s.
+    pub checkpoints: f64,
+    /// Largest number of steps.
+    pub max_steps: Option<u64>,
+    /// How a run with that many steps has ended.
+    pub capped: Status,
+    /// Wall-clock time after which the run stops with a checkpoint, s.
+    pub max_wall: Option<f64>,
+}
+
+/// What is to be written.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Due {
+    /// A row of the series.
+    pub row: bool,
+    /// Fields.
+    pub output: bool,
+    /// A checkpoint.
+    pub checkpoint: bool,
+}
+
+impl Due {
+    pub fn any(self) -> bool {
+        self.row || self.output || self.checkpoint
+    }
+}
+
+/// The first multiple of an interval after a time, or the `end` where it is beyond; all in s.
+pub fn next_multiple(interval: f64, end: f64, time: f64) -> Option<f64> {
+    match time < 0.0 {
+        true => Some(0.0),
+        false => (time < end).then(|| ((over(time, interval) + 1) as f64 * interval).min(end)),
+    }
+}
+
+/// How many intervals are over by a time, s.
+fn over(time: f64, every: f64) -> u64 {
+    (time / every).floor() as u64
+}
+
+impl Schedule<'_> {
+    /// Fields every so many seconds until an `end`, s; ten rows and one checkpoint for each. Steps end where they are due.
+    pub fn every(interval: f64, end: f64) -> Self {
+        Schedule {
+            end,
+            rows: 0.1 * interval,
+            next_output: Box::new(move |time| next_multiple(interval, end, time)),
+            hits_outputs: true,
+            checkpoints: interval,
+            max_steps: None,
+            capped: Status::Interrupted,
+            max_wall: None,
+        }
+    }
+
+    /// What is to be written at a time, s.
+    pub(crate) fn due(&self, time: f64, books: &Books) -> Due {
+        let written = books.last_row == Some(time);
+        Due {
+            row: !written && (time >= books.rows as f64 * self.rows || time >= self.end),
+            output: books.next_output.is_some_and(|t| time >= t),
+            checkpoint: over(time, self.checkpoints) > books.checkpoints || time >= self.end,
+        }
+    }
+
+    /// The next time that is hit exactly.
+    pub(crate) fn target(&self, books: &Books) -> f64 {
+        let output = books.next_output.filter(|_| self.hits_outputs);
+        output.unwrap_or(self.end).min(self.end)
+    }
+
+    pub(crate) fn row_written(&self, time: f64, books: &mut Books) {
+        books.rows = over(time, self.rows) + 1;
+        books.last_row = Some(time);
+    }
+
+    pub(crate) fn checkpoint_due(&self, time: f64, books: &mut Books) {
+        books.checkpoints = over(time, self.checkpoints);
+    }
+}

@@ -1,0 +1,64 @@
+//! A model that the driver does not know gets outputs, series, checkpoints, resume and summary.
+
+#[path = "../examples/heat_rod.rs"]
+mod heat_rod;
+
+use std::path::Path;
+
+use heat_rod::cool;
+use sph_run::{CHECKPOINT, Command, Observer, Progress, SERIES, SUMMARY, Start, Status};
+
+/// Stops a run after a number of steps.
+struct Until(u64);
+
+impl Observer for Until {
+    fn step(&mut self, progress: &Progress) -> Command {
+        match progress.step < self.0 {
+            true => Command::Continue,
+            false => Command::Stop,
+        }
+    }
+    fn message(&mut self, _: &str) {}
+}
+
+fn read(folder: &Path, file: &str) -> Vec<u8> {
+    std::fs::read(folder.join(file)).unwrap_or_else(|e| panic!("{file}: {e}"))
+}
+
+#[test]
+fn a_run_writes_what_is_due_and_goes_on_from_its_checkpoint_bit_for_bit() {
+    let [whole, halves] = [(), ()].map(|()| tempfile::tempdir().expect("a folder"));
+    let (whole, halves) = (whole.path(), halves.path());
+    let done = cool(whole, Start::Afresh, &mut ()).expect("a run");
+    // Second order: (π/50)²/12 · π²αt of a temperature of exp(−π²αt).
+    assert!(done.status == Status::Done && done.error < 2e-4, "{done:?}");
+    let stopped = cool(halves, Start::Afresh, &mut Until(333)).expect("a run");
+    assert_eq!((stopped.status, stopped.steps), (Status::Interrupted, 333));
+    let resumed = cool(halves, Start::Resumed, &mut ()).expect("a run");
+    assert_eq!(resumed.steps, done.steps);
+    for file in [SERIES, SUMMARY, "fields.pvd", "fields/fields_000010.vtm"] {
+        assert!(read(whole, file) == read(halves, file), "{file}");
+    }
+    let rows = String::from_utf8(read(whole, SERIES)).expect("a text");
+    assert_eq!(rows.lines().count(), 1 + 101, "{rows}");
+    // The next run does not resume what it overwrites.
+    let mut told = Notes::default();
+    cool(whole, Start::Afresh, &mut told).expect("a run");
+    assert!(
+        whole.join(CHECKPOINT).exists() && told.0.contains("is overwritten"),
+        "{}",
+        told.0
+    );
+}
+
+#[derive(Default)]
+struct Notes(String);
+
+impl Observer for Notes {
+    fn step(&mut self, _: &Progress) -> Command {
+        Command::Continue
+    }
+    fn message(&mut self, text: &str) {
+        self.0.push_str(text);
+    }
+}
