@@ -7,7 +7,7 @@ use clap::Parser;
 
 use crate::arguments::{Arguments, Command};
 use crate::commands::{
-    check, compare, draw, explain, manual, new, plugins, run, scenes, schema, study, view,
+    check, compare, draw, explain, manual, measure, new, plugins, run, scenes, schema, study, view,
 };
 use crate::ranks;
 use crate::telling::console;
@@ -45,6 +45,7 @@ pub fn command_line<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item
         Command::New(a) => new::command(a),
         Command::Compare(a) => compare::command(a),
         Command::Draw(a) => draw::command(a),
+        Command::Measure(a) => measure::command(a),
         Command::View(a) => view::command(a),
         Command::Completions(a) => manual::completions(a),
         Command::Man(a) => manual::man(a),

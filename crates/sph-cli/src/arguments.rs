@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::tool_arguments::{
-    CompareArguments, CompletionArguments, DrawCommand, ManArguments, ViewArguments,
+    CompareArguments, CompletionArguments, DrawCommand, ManArguments, MeasureArguments,
+    ViewArguments,
 };
 
 /// Smoothed particle hydrodynamics, and grains one by one, from scene files.
@@ -163,6 +164,18 @@ written. Between particles values are those of a linear fit, exact for linear fi
 Exit codes: 0 drawn, 1 a file cannot be written, 2 bad usage.")]
     #[command(subcommand)]
     Draw(DrawCommand),
+    /// Measure a field of a run afterwards: extrema, means, sums, quantiles over chosen particles
+    #[command(after_help = "\
+Examples:
+  sph measure results/dam-break-koshizuka x --reduce max
+  sph measure results/soil-collapse-bui velocity --reduce max,rms --above x=0.2 --below y=50mm
+  sph measure results/movable-bed-dambreak-sand y --quantile 0.99 --phase sand --out bed.csv
+
+A table with a row for every frame of fields.pvd. The field is a column of the frames, of a vector its length, a \
+component (velocity.x) or a coordinate (x, y, z). In a scene the probe `measure` does the same at every row of the series.
+
+Exit codes: 0 measured, 1 the file cannot be written, 2 bad usage.")]
+    Measure(MeasureArguments),
     /// Show the results of a run in a browser, also while it goes on
     #[command(after_help = "\
 Example:
@@ -195,6 +208,7 @@ impl Command {
             Command::Plugins(a) => a.json,
             Command::Scenes(a) => a.json,
             Command::Compare(a) => a.json,
+            Command::Measure(a) => a.json,
             Command::Schema(_)
             | Command::New(_)
             | Command::Draw(_)

@@ -8,6 +8,7 @@ pub mod failed;
 pub mod grains;
 pub mod left_behind;
 pub mod manual;
+pub mod measure;
 pub mod mesh;
 pub mod new;
 pub mod outcome;

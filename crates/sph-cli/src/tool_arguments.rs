@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand};
 use clap_complete::Shell;
+use sph_probes::{Reduction, Weight};
 
 /// Arguments of `sph compare`.
 #[derive(Debug, Args)]
@@ -17,6 +19,63 @@ pub struct CompareArguments {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// Arguments of `sph measure`.
+#[derive(Debug, Args)]
+pub struct MeasureArguments {
+    /// Folder of the results of a run
+    pub results: PathBuf,
+    /// The field, of a vector its length, or a component (velocity.x), or a coordinate (x, y, z)
+    pub field: String,
+    /// Reductions of its values
+    #[arg(long, value_name = "HOW,…", value_delimiter = ',', default_value = "mean", value_parser = reductions())]
+    pub reduce: Vec<Reduction>,
+    /// Shares q: the least value that a share q of the weight does not exceed
+    #[arg(long, value_name = "Q,…", value_delimiter = ',', value_parser = share)]
+    pub quantile: Vec<f64>,
+    /// The weight of a particle
+    #[arg(long, default_value = "one", value_parser = weights())]
+    pub weight: Weight,
+    /// Name of the phase whose particles count [default: all]
+    #[arg(long, value_name = "NAME")]
+    pub phase: Option<String>,
+    /// Only particles whose FIELD is above VALUE (may be repeated)
+    #[arg(long, value_name = "FIELD=VALUE")]
+    pub above: Vec<String>,
+    /// Only particles whose FIELD is below VALUE (may be repeated)
+    #[arg(long, value_name = "FIELD=VALUE")]
+    pub below: Vec<String>,
+    /// Write the table into FILE.csv
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn reductions() -> impl TypedValueParser<Value = Reduction> {
+    let names = PossibleValuesParser::new(Reduction::ALL.map(Reduction::name));
+    names.map(|name| one_of(&Reduction::ALL, |how| how.name() == name))
+}
+
+fn weights() -> impl TypedValueParser<Value = Weight> {
+    let names = PossibleValuesParser::new(Weight::ALL.map(Weight::name));
+    names.map(|name| one_of(&Weight::ALL, |weight| weight.name() == name))
+}
+
+/// The one that a name stands for, which the parser knows.
+fn one_of<T: Copy + Default>(all: &[T], is: impl Fn(T) -> bool) -> T {
+    let found = all.iter().copied().find(|one| is(*one));
+    found.unwrap_or_default()
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let share: f64 = text.parse().map_err(|_| "expected a number".to_string())?;
+    match (0.0..=1.0).contains(&share) {
+        true => Ok(share),
+        false => Err("expected a share from 0 to 1".into()),
+    }
 }
 
 /// Arguments of `sph view`.

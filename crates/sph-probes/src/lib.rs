@@ -55,7 +55,7 @@ pub use flow::spectrum::EnergySpectrum;
 pub use flow::stream_function::StreamFunction;
 pub use flow::wall_force::WallForceProbe;
 pub use flow::wall_motion::WallMotionProbe;
-pub use measure::{Measure, Reduction, Weight};
+pub use measure::{Measure, Reduction, Weight, quantile, reduced};
 pub use phases::extent::Extent;
 pub use phases::interface::Interface;
 pub use phases::line::{Line, LineOf};

@@ -89,7 +89,8 @@ fn told(what: &str, path: &Path) {
     console::out(&format!("{what} in {path} and {table}\n"));
 }
 
-fn frames(folder: &Path) -> Result<Frames, Trouble> {
+/// The frames of a run.
+pub fn frames(folder: &Path) -> Result<Frames, Trouble> {
     if !folder.join("fields.pvd").is_file() {
         let folder = folder.display();
         return Err(Trouble::usage(format!(
@@ -135,7 +136,7 @@ fn place(option: &str, text: &str) -> Result<[f64; 3], Trouble> {
 }
 
 /// What cannot be written is a failure, all else a mistake of the one who asks.
-fn trouble(error: DrawError) -> Trouble {
+pub fn trouble(error: DrawError) -> Trouble {
     match error {
         DrawError::Io(error @ (IoError::Write { .. } | IoError::DiskFull { .. })) => error.into(),
         other => Trouble::usage(other.to_string()),

@@ -7,7 +7,7 @@ use sph_core::{Axis, parameters, plugin};
 use super::conditions::Condition;
 use super::plan::{Measured, Plan, PlannedColumn, Preset};
 use super::quantity::{Quantity, unit_of};
-use super::reduction::Reduce;
+use super::reduction::{Reduce, Weighed};
 use crate::ProbeEntry;
 
 /// A reduction of many values to a number.
@@ -32,6 +32,65 @@ pub enum Reduction {
     Share,
 }
 
+impl Reduction {
+    /// All of them.
+    pub const ALL: [Reduction; 7] = [
+        Reduction::Min,
+        Reduction::Max,
+        Reduction::Mean,
+        Reduction::Sum,
+        Reduction::Rms,
+        Reduction::Total,
+        Reduction::Share,
+    ];
+
+    /// Its name in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Reduction::Min => "min",
+            Reduction::Max => "max",
+            Reduction::Mean => "mean",
+            Reduction::Sum => "sum",
+            Reduction::Rms => "rms",
+            Reduction::Total => "total",
+            Reduction::Share => "share",
+        }
+    }
+
+    fn reduce(self) -> Reduce {
+        match self {
+            Reduction::Min => Reduce::Min,
+            Reduction::Max => Reduce::Max,
+            Reduction::Mean => Reduce::Mean,
+            Reduction::Sum => Reduce::Sum,
+            Reduction::Rms => Reduce::Rms,
+            Reduction::Total => Reduce::Total,
+            Reduction::Share => Reduce::Share,
+        }
+    }
+}
+
+/// A reduction of values with their weights, which are one if none are given; `whole` is the weight of all particles of the
+/// phase, for shares.
+pub fn reduced(how: Reduction, values: &[f64], weights: Option<&[f64]>, whole: f64) -> f64 {
+    let weighed = Weighed {
+        values,
+        weights,
+        whole,
+    };
+    weighed.reduced(how.reduce())
+}
+
+/// The least value that a share of the weight does not exceed.
+pub fn quantile(share: f64, values: &[f64], weights: Option<&[f64]>) -> f64 {
+    let weighed = Weighed {
+        values,
+        weights,
+        whole: 0.0,
+    };
+    weighed.reduced(Reduce::Quantile(share))
+}
+
 /// The weight of a particle.
 #[parameters]
 #[derive(Copy, PartialEq)]
@@ -44,6 +103,29 @@ pub enum Weight {
     Mass,
     /// Its volume.
     Volume,
+}
+
+impl Weight {
+    /// All of them.
+    pub const ALL: [Weight; 3] = [Weight::One, Weight::Mass, Weight::Volume];
+
+    /// Its name in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Weight::One => "one",
+            Weight::Mass => "mass",
+            Weight::Volume => "volume",
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Weight::One => "1",
+            Weight::Mass => "kg",
+            Weight::Volume => "m³",
+        }
+    }
 }
 
 /// Any field over any particles, reduced to numbers: one column for each reduction.
@@ -102,14 +184,9 @@ pub struct Measure {
 impl Measure {
     fn column(&self, suffix: &str, reduce: Reduce) -> PlannedColumn {
         let column = PlannedColumn::new(suffix, Quantity::named(&self.field), reduce);
-        let weighed = match self.weight {
-            Weight::One => "1",
-            Weight::Mass => "kg",
-            Weight::Volume => "m³",
-        };
         match reduce {
             Reduce::Share => column.in_unit("1"),
-            Reduce::Total => column.in_unit(weighed),
+            Reduce::Total => column.in_unit(self.weight.unit()),
             _ => match unit_of(&self.field) {
                 Some(unit) => column.in_unit(unit).over(self.scale),
                 None => column.over(self.scale),
@@ -125,18 +202,10 @@ impl Preset for Measure {
             1 => String::new(),
             _ => format!(".{name}"),
         };
-        let reduced = self.reduce.iter().map(|reduction| {
-            let (name, reduce) = match reduction {
-                Reduction::Min => ("min", Reduce::Min),
-                Reduction::Max => ("max", Reduce::Max),
-                Reduction::Mean => ("mean", Reduce::Mean),
-                Reduction::Sum => ("sum", Reduce::Sum),
-                Reduction::Rms => ("rms", Reduce::Rms),
-                Reduction::Total => ("total", Reduce::Total),
-                Reduction::Share => ("share", Reduce::Share),
-            };
-            self.column(&suffix(name.into()), reduce)
-        });
+        let reduced = self
+            .reduce
+            .iter()
+            .map(|reduction| self.column(&suffix(reduction.name().into()), reduction.reduce()));
         let quantiles = self.quantiles.iter();
         let quantiles =
             quantiles.map(|q| self.column(&suffix(format!("q{q}")), Reduce::Quantile(*q)));

@@ -8,6 +8,7 @@ mod compare;
 mod derived;
 mod draw;
 mod kinematic;
+mod measure;
 mod mistakes;
 mod ranks;
 mod stepper;

@@ -1,0 +1,69 @@
+//! Numbers that are made of a run afterwards.
+
+use crate::hands::with;
+
+/// Two fluids at rest without gravity, 200 and 100 particles of 0.0025 m², the lower one moving along x.
+const LAYERS: &str = "title = \"Layers\"\ndimension = 2\n[run]\nend = 1e-6\n[numerics]\nspacing = 0.05\n\
+    periodic = { x = [0, 1], y = [0, 0.75] }\n\
+    [phase.heavy]\ndensity = 1000.0\nvelocity_scale = 1.0\n[phase.heavy.rheology.newtonian]\nviscosity = 0.0\n\
+    [phase.light]\ndensity = 500.0\nvelocity_scale = 1.0\n[phase.light.rheology.newtonian]\nviscosity = 0.0\n\
+    [body.below]\nphase = \"heavy\"\nbox = [[0.0, 0.0], [1.0, 0.5]]\nvelocity = [0.5, 0.0]\n\
+    [body.over]\nphase = \"light\"\nbox = [[0.0, 0.5], [1.0, 0.75]]\n\
+    [output]\ntimes = [1e-6]\nfields = [\"velocity\", \"phase\", \"mass\"]\n";
+
+#[test]
+fn frames_are_reduced_over_phases_and_bounds() {
+    let bench = with(LAYERS);
+    bench.done("run scene.toml -q --threads 1 --out a");
+    let rows = |keys: &str| -> Vec<f64> {
+        let table = bench.done(&format!("measure a {keys}")).out;
+        let last = table.lines().last().expect("a row");
+        let numbers = last.split(',').map(|n| n.parse::<f64>().expect("a number"));
+        numbers.skip(1).collect()
+    };
+    let near = |found: Vec<f64>, expected: &[f64]| {
+        let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
+        assert!(
+            found.len() == expected.len() && off.fold(0.0, f64::max) < 1e-5,
+            "{found:?}"
+        );
+    };
+    near(rows("y --reduce min,max"), &[0.025, 0.725]);
+    near(rows("velocity.x --reduce mean"), &[1.0 / 3.0]);
+    near(rows("velocity.x --reduce mean --weight mass"), &[0.4]);
+    near(rows("y --reduce total --phase light"), &[100.0]);
+    near(
+        rows("y --reduce total --phase light --above x=500mm"),
+        &[50.0],
+    );
+    near(rows("y --reduce share --phase heavy --below y=0.1"), &[0.2]);
+    near(
+        rows("y --quantile 0.5,1 --reduce max --phase heavy"),
+        &[0.475, 0.225, 0.475],
+    );
+    bench.done("measure a y --out heights.csv");
+    let written = std::fs::read_to_string(bench.path("heights.csv")).expect("a table");
+    assert!(written.starts_with("time [s],mean [m]\n"), "{written}");
+}
+
+#[test]
+fn mistakes_are_named() {
+    let bench = with(LAYERS);
+    bench.done("run scene.toml -q --threads 1 --out a");
+    for (keys, said) in [
+        ("a presure", "no field `presure` was written"),
+        ("a y --phase hevy", "did you mean `heavy`"),
+        ("a y --above x", "expected FIELD=VALUE"),
+        ("a y --above x=2kg", "--above x"),
+        ("a y --reduce most", "possible values"),
+        ("a y --quantile 2", "a share from 0 to 1"),
+        ("b y", "there is no fields.pvd in b"),
+    ] {
+        let refused = bench.call(&format!("measure {keys}"));
+        let told = &refused.err;
+        assert!(
+            refused.code == Some(2) && told.contains(said),
+            "{keys}: {told}"
+        );
+    }
+}
