@@ -31,9 +31,9 @@ mod kinds;
 mod limit;
 mod parcel;
 mod plan;
+mod pool;
 mod registry;
 mod saved;
-mod shelf;
 mod slots;
 mod stage;
 mod store;
@@ -51,6 +51,7 @@ pub use field::{AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Te
 pub use kinds::{KindInfo, Place, kind_of, kinds};
 pub use limit::StepLimit;
 pub use plan::{Plan, plan};
+pub use pool::{Lent, Pool};
 pub use registry::{
     Contract, ContractInfo, Makes, Parameter, PluginInfo, Registry, contracts, node_of, parameters,
     registry_contract_info, schema_of, typed,
@@ -60,7 +61,6 @@ pub use scene_text::{
     Dimensions, MOST_PROBLEMS, SceneProblem, conform, defaults, nearest, number, parse_quantity,
     parse_unit, plausible, suggestion, unit_factor,
 };
-pub use shelf::{Lent, Shelf};
 pub use slots::Slots;
 pub use sph_derive::{parameters, plugin};
 pub use stage::{Access, Declares, Stage};

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use sph_contribution::{Contribution, Offer, OutsideForce, Refusal, Setting};
-use sph_core::AnyField;
+use sph_core::{AnyField, Pool};
 use sph_neighbours::Interaction;
 use sph_rheology::Rheology;
 
@@ -90,6 +90,7 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             gradient,
             felt: felt.clone(),
             displaced: force.displaced(),
+            gradients: Pool::default(),
         };
         match self.wave(setting).filter(|_| force.sub_steps()) {
             None => offer.hook(motion),
