@@ -92,7 +92,10 @@ fn exponent(points: &[(f64, f64)]) -> f64 {
     up / down
 }
 
-fn scaling<const D: usize>(sides: &[usize], reach: f64, direct_up_to: usize) {
+fn scaling<const D: usize>(sides: &[usize], reach: f64, direct_up_to: usize)
+where
+    ConjugateGradient: LinearSolver<D>,
+{
     for stiffness in [30.0, 3e3, 3e5] {
         println!("\n{D}D, stiffness {stiffness:e}: ms per solve of {D} components");
         println!("| particles | CG, diagonal | its | CG, incomplete | its | Cholesky | MB |");

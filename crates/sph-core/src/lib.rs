@@ -32,9 +32,9 @@ mod limit;
 mod parcel;
 mod plan;
 mod plugin_choice;
+mod pool;
 mod registry;
 mod saved;
-mod shelf;
 mod slots;
 mod stage;
 mod store;
@@ -53,6 +53,7 @@ pub use kinds::{Place, PluginKind, Work, kind_of, kinds};
 pub use limit::StepLimit;
 pub use plan::{Plan, plan};
 pub use plugin_choice::PluginChoice;
+pub use pool::{Lent, Pool};
 pub use registry::{
     Contract, Makes, Parameter, PluginInfo, Registry, node_of, parameters, plugins_of, schema_of,
     typed,
@@ -62,7 +63,6 @@ pub use scene_text::{
     Dimensions, MOST_PROBLEMS, SceneProblem, conform, defaults, nearest, number, parse_quantity,
     parse_unit, plausible, suggestion, unit_factor,
 };
-pub use shelf::{Lent, Shelf};
 pub use slots::Slots;
 pub use sph_derive::{parameters, plugin};
 pub use stage::{Access, Declares, Stage};

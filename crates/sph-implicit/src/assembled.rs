@@ -1,9 +1,8 @@
 //! A matrix that is written down, as an operator.
 
-use sph_core::{Shelf, Vect};
+use sph_core::Vect;
 
-use crate::halved::Halved;
-use crate::{Matrix, Operator};
+use crate::{Halved, Halves, Matrix, Operator};
 
 impl<const D: usize> Operator<D> for Matrix<D> {
     fn rows(&self) -> usize {
@@ -14,8 +13,8 @@ impl<const D: usize> Operator<D> for Matrix<D> {
         Matrix::multiply(self, x, y);
     }
 
-    fn prepared<'a>(&'a self, shelf: &'a Shelf) -> Option<Halved<'a, D>> {
-        Some(Halved::of(self, shelf))
+    fn prepared<'a>(&'a self, memory: &'a mut Halves<D>) -> Option<Halved<'a, D>> {
+        Some(Halved::of(self, memory))
     }
 
     fn assembled(&self) -> Option<&Matrix<D>> {

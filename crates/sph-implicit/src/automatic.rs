@@ -1,13 +1,11 @@
 //! The choice between the solvers: iterations first, a factorisation where they take too long.
 
-use std::sync::Arc;
+use sph_core::{Vect, plugin};
 
-use sph_core::{Shelf, Vect, plugin};
-
-use crate::conjugate_gradient::ITERATIONS;
+use crate::conjugate_gradient::{ITERATIONS, iterate};
 use crate::{
-    Cholesky, ConjugateGradient, Diagonal, LinearSolver, LinearSolverEntry, Operator,
-    Preconditioner, Report, SolveError,
+    Cholesky, Diagonal, Keeps, LinearSolver, LinearSolverEntry, Memories, Operator, Preconditioner,
+    Report, SolveError, Tolerance,
 };
 
 /// Iterates, and factorises where that takes too long:
@@ -35,7 +33,7 @@ pub struct Automatic {
     #[serde(skip)]
     direct: Cholesky,
     #[serde(skip)]
-    shelf: Arc<Shelf>,
+    memories: Memories,
 }
 
 impl Automatic {
@@ -69,7 +67,10 @@ fn mild<const D: usize>(operator: &dyn Operator<D>) -> bool {
         .is_some_and(|stiffness| stiffness < MILD)
 }
 
-impl<const D: usize> LinearSolver<D> for Automatic {
+impl<const D: usize> LinearSolver<D> for Automatic
+where
+    Memories: Keeps<D>,
+{
     fn solve(
         &mut self,
         operator: &dyn Operator<D>,
@@ -93,14 +94,14 @@ impl<const D: usize> LinearSolver<D> for Automatic {
         x: &mut [Vect<D>],
         enough: f64,
     ) -> Result<Report, SolveError> {
+        let within = |iterations: usize| Tolerance {
+            residual: self.tolerance.max(enough),
+            iterations,
+        };
         let Some(diagonal) = operator.diagonal() else {
-            let mut plain = ConjugateGradient {
-                tolerance: self.tolerance,
-                preconditioner: Preconditioner::None,
-                iterations: ITERATIONS,
-                shelf: self.shelf.clone(),
-            };
-            return plain.solve_roughly(operator, right, x, enough);
+            let memory = self.memories.memory();
+            let system = (operator, right, x);
+            return iterate(Preconditioner::None, within(ITERATIONS), memory, system);
         };
         let mixed = matches!(diagonal, Diagonal::Block(_));
         let stages = match (mild(operator), mixed) {
@@ -114,21 +115,18 @@ impl<const D: usize> LinearSolver<D> for Automatic {
         let mut spent = 0;
         for (k, &preconditioner) in stages.iter().enumerate() {
             let last = k + 1 == stages.len();
-            let mut solver = ConjugateGradient {
-                tolerance: self.tolerance,
-                preconditioner,
-                iterations: match last {
-                    false => BLOCK_PATIENCE,
-                    true => patience.unwrap_or(ITERATIONS),
-                },
-                shelf: self.shelf.clone(),
+            let iterations = match last {
+                false => BLOCK_PATIENCE,
+                true => patience.unwrap_or(ITERATIONS),
             };
             // What a stage reached is where the next one starts.
-            match solver.solve_roughly(operator, right, x, enough) {
+            let system = (operator, right, &mut *x);
+            let memory = self.memories.memory();
+            match iterate(preconditioner, within(iterations), memory, system) {
                 Err(SolveError::NotConverged { .. } | SolveError::NotPositive { .. })
                     if !last || patience.is_some() =>
                 {
-                    spent += solver.iterations;
+                    spent += iterations;
                 }
                 solved => {
                     return solved.map(|report| Report {

@@ -1,8 +1,9 @@
 //! Stabilised bi-conjugate gradients.
 
-use sph_core::{Shelf, Vect, plugin};
+use sph_core::{Vect, plugin};
 
 use crate::krylov::{Tolerance, Watch};
+use crate::precondition::Factors;
 use crate::vector::add;
 use crate::{LinearSolver, LinearSolverEntry, Operator, Preconditioner, Report, SolveError};
 
@@ -44,14 +45,14 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
             residual: self.tolerance,
             iterations: self.iterations,
         };
-        let shelf = Shelf::default();
-        let mut watch = Watch::new(METHOD, tolerance, operator, right, &shelf)?;
+        let (mut history, mut factors) = (Vec::new(), Factors::default());
+        let mut watch = Watch::new(METHOD, tolerance, operator, right, &mut history)?;
         let mut r = Vec::new();
         operator.residual(right, x, &mut r);
         if let Some(residual) = watch.reached(operator.norm(&r))? {
             return Ok(watch.report(residual, size_of_val(&r[..])));
         }
-        let precondition = self.preconditioner.bind(operator, METHOD, &shelf)?;
+        let precondition = self.preconditioner.bind(operator, METHOD, &mut factors)?;
         let bytes = 7 * size_of_val(&r[..]) + precondition.bytes();
         let rows = right.len();
         let zeros = || vec![Vect::<D>::zeros(); operator.columns()];

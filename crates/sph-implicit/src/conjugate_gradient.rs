@@ -1,12 +1,14 @@
 //! Preconditioned conjugate gradients.
 
-use std::sync::Arc;
-
-use sph_core::{Shelf, Vect, plugin};
+use sph_core::{Vect, plugin};
 
 use crate::krylov::{Tolerance, Watch};
+use crate::memory::Vectors;
 use crate::vector::{add, scale_and_add};
-use crate::{LinearSolver, LinearSolverEntry, Operator, Preconditioner, Report, SolveError};
+use crate::{
+    Keeps, LinearSolver, LinearSolverEntry, Memories, Memory, Operator, Preconditioner, Report,
+    SolveError,
+};
 
 /// Conjugate gradients (Hestenes & Stiefel 1952), warm from the present state.
 ///
@@ -31,18 +33,9 @@ pub struct ConjugateGradient {
     /// Iterations after which it gives up; the step is then tried again with half its length.
     #[parameter(default: ITERATIONS, unit: "1", min: 1, source: "ours")]
     pub iterations: usize,
-    /// Vectors and factors of solves before, kept for their memory; solvers may share them.
+    /// Vectors and factors of solves before, kept for their memory.
     #[serde(skip)]
-    pub shelf: Arc<Shelf>,
-}
-
-/// The vectors of a solve.
-#[derive(Default)]
-struct Vectors<const D: usize> {
-    r: Vec<Vect<D>>,
-    z: Vec<Vect<D>>,
-    direction: Vec<Vect<D>>,
-    image: Vec<Vect<D>>,
+    pub memories: Memories,
 }
 
 /// Iterations after which it gives up, unless a scene says otherwise.
@@ -51,7 +44,10 @@ const METHOD: &str = "conjugate gradients";
 /// Iterations after which the matrix is put into a form that is read faster: to do so takes as long as two products.
 const PREPARE: usize = 3;
 
-impl<const D: usize> LinearSolver<D> for ConjugateGradient {
+impl<const D: usize> LinearSolver<D> for ConjugateGradient
+where
+    Memories: Keeps<D>,
+{
     fn solve(
         &mut self,
         operator: &dyn Operator<D>,
@@ -76,54 +72,72 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
             residual: self.tolerance.max(enough),
             iterations: self.iterations,
         };
-        let shelf = &*self.shelf;
-        let mut watch = Watch::new(METHOD, tolerance, operator, right, shelf)?;
-        let mut vectors = shelf.lend::<Vectors<D>>();
-        let Vectors {
-            r,
-            z,
-            direction,
-            image,
-        } = &mut *vectors;
-        operator.residual(right, x, r);
+        let memory = self.memories.memory();
+        iterate(self.preconditioner, tolerance, memory, (operator, right, x))
+    }
+}
+
+/// Solves A x = b, starting from x, in the memory of solves before.
+///
+/// # Errors
+/// If x is not what was asked for.
+pub(crate) fn iterate<const D: usize>(
+    preconditioner: Preconditioner,
+    tolerance: Tolerance,
+    memory: &mut Memory<D>,
+    (operator, right, x): (&dyn Operator<D>, &[Vect<D>], &mut [Vect<D>]),
+) -> Result<Report, SolveError> {
+    let Memory {
+        history,
+        vectors,
+        factors,
+        halves,
+    } = memory;
+    let mut watch = Watch::new(METHOD, tolerance, operator, right, history)?;
+    let Vectors {
+        r,
+        z,
+        direction,
+        image,
+    } = vectors;
+    operator.residual(right, x, r);
+    if let Some(residual) = watch.reached(operator.norm(r))? {
+        return Ok(watch.report(residual, size_of_val(&r[..])));
+    }
+    let precondition = preconditioner.bind(operator, METHOD, factors);
+    if !operator.all(precondition.is_ok()) {
+        return Err(precondition.err().unwrap_or_else(|| watch.not_positive()));
+    }
+    let precondition = precondition?;
+    let bytes = 4 * size_of_val(&r[..]) + precondition.bytes();
+    z.resize(r.len(), Vect::zeros());
+    precondition.apply(r, z);
+    direction.clone_from(z);
+    direction.resize(operator.columns(), Vect::zeros());
+    image.resize(r.len(), Vect::zeros());
+    let mut slope = operator.inner(r, z);
+    let (mut prepared, mut halves) = (None, Some(halves));
+    loop {
+        if watch.iterations() == PREPARE {
+            prepared = halves.take().and_then(|halves| operator.prepared(halves));
+        }
+        match &prepared {
+            Some(prepared) => prepared.multiply(direction, image),
+            None => operator.apply(direction, image),
+        }
+        let curvature = operator.inner(direction, image);
+        if curvature <= 0.0 || slope <= 0.0 {
+            return Err(watch.not_positive());
+        }
+        let length = slope / curvature;
+        add(x, length, direction);
+        add(r, -length, image);
         if let Some(residual) = watch.reached(operator.norm(r))? {
-            return Ok(watch.report(residual, size_of_val(&r[..])));
+            return Ok(watch.report(residual, bytes));
         }
-        let precondition = self.preconditioner.bind(operator, METHOD, shelf);
-        if !operator.all(precondition.is_ok()) {
-            return Err(precondition.err().unwrap_or_else(|| watch.not_positive()));
-        }
-        let precondition = precondition?;
-        let bytes = 4 * size_of_val(&r[..]) + precondition.bytes();
-        z.resize(r.len(), Vect::zeros());
         precondition.apply(r, z);
-        direction.clone_from(z);
-        direction.resize(operator.columns(), Vect::zeros());
-        image.resize(r.len(), Vect::zeros());
-        let mut slope = operator.inner(r, z);
-        let mut prepared = None;
-        loop {
-            if watch.iterations() == PREPARE {
-                prepared = operator.prepared(shelf);
-            }
-            match &prepared {
-                Some(prepared) => prepared.multiply(direction, image),
-                None => operator.apply(direction, image),
-            }
-            let curvature = operator.inner(direction, image);
-            if curvature <= 0.0 || slope <= 0.0 {
-                return Err(watch.not_positive());
-            }
-            let length = slope / curvature;
-            add(x, length, direction);
-            add(r, -length, image);
-            if let Some(residual) = watch.reached(operator.norm(r))? {
-                return Ok(watch.report(residual, bytes));
-            }
-            precondition.apply(r, z);
-            let next = operator.inner(r, z);
-            scale_and_add(&mut direction[..z.len()], next / slope, z);
-            slope = next;
-        }
+        let next = operator.inner(r, z);
+        scale_and_add(&mut direction[..z.len()], next / slope, z);
+        slope = next;
     }
 }

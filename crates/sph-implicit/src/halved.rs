@@ -1,7 +1,7 @@
 //! A symmetric matrix with each pair once, for many products.
 
 use rayon::prelude::*;
-use sph_core::{Lent, Shelf, Vect};
+use sph_core::Vect;
 
 use crate::matrix::{Entries, Values};
 use crate::{Block, Entry, Matrix, Pattern};
@@ -18,18 +18,29 @@ const MOST: usize = 1 << 16;
 /// The parts depend on the number of rows alone, and so does the order of the sums: by rounding another one than the matrix has.
 pub struct Halved<'a, const D: usize>(Kind<'a, D>);
 
+/// The memory of halved matrices.
+#[derive(Default)]
+pub struct Halves<const D: usize> {
+    scalar: Vec<Part<f64>>,
+    block: Vec<Part<Block<D>>>,
+}
+
 enum Kind<'a, const D: usize> {
     Scalar(Parts<'a, f64>),
     Block(Parts<'a, Block<D>>),
 }
 
 impl<'a, const D: usize> Halved<'a, D> {
-    /// Of a matrix, in memory that is kept.
-    pub(crate) fn of(matrix: &'a Matrix<D>, shelf: &'a Shelf) -> Self {
+    /// Of a matrix, in the memory of one before.
+    pub(crate) fn of(matrix: &'a Matrix<D>, memory: &'a mut Halves<D>) -> Self {
         let pattern = &matrix.pattern;
         Halved(match &matrix.entries {
-            Entries::Scalar(values) => Kind::Scalar(Parts::of::<D>(pattern, values, shelf)),
-            Entries::Block(values) => Kind::Block(Parts::of::<D>(pattern, values, shelf)),
+            Entries::Scalar(values) => {
+                Kind::Scalar(Parts::of::<D>(pattern, values, &mut memory.scalar))
+            }
+            Entries::Block(values) => {
+                Kind::Block(Parts::of::<D>(pattern, values, &mut memory.block))
+            }
         })
     }
 
@@ -50,10 +61,10 @@ impl<'a, const D: usize> Halved<'a, D> {
     }
 }
 
-struct Parts<'a, E: Send + 'static> {
+struct Parts<'a, E> {
     diagonal: &'a [E],
     rows: usize,
-    parts: Lent<'a, Vec<Part<E>>>,
+    parts: &'a [Part<E>],
 }
 
 /// Some rows that follow each other.
@@ -67,14 +78,17 @@ struct Part<E> {
     others: Vec<E>,
 }
 
-impl<'a, E: Copy + Send + Sync + 'static> Parts<'a, E> {
-    fn of<const D: usize>(pattern: &Pattern, values: &'a Values<E>, shelf: &'a Shelf) -> Self
+impl<'a, E: Copy + Send + Sync> Parts<'a, E> {
+    fn of<const D: usize>(
+        pattern: &Pattern,
+        values: &'a Values<E>,
+        parts: &'a mut Vec<Part<E>>,
+    ) -> Self
     where
         E: Entry<D>,
     {
         let rows = pattern.len().div_ceil(PARTS).clamp(PART, MOST);
         let count = pattern.len().div_ceil(rows);
-        let mut parts = shelf.lend::<Vec<Part<E>>>();
         parts.resize_with(count, Part::nothing);
         parts.par_iter_mut().enumerate().for_each(|(k, part)| {
             let own = k * rows..((k + 1) * rows).min(pattern.len());
@@ -91,7 +105,7 @@ impl<'a, E: Copy + Send + Sync + 'static> Parts<'a, E> {
     where
         E: Entry<D>,
     {
-        let parts = y.par_chunks_mut(self.rows).zip(&**self.parts).enumerate();
+        let parts = y.par_chunks_mut(self.rows).zip(self.parts).enumerate();
         parts.for_each(|(k, (y, part))| {
             let from = k * self.rows;
             part.multiply(&self.diagonal[from..from + y.len()], &x[from..], x, y);
@@ -212,7 +226,7 @@ mod tests {
             vec![Vect::<2>::repeat(f64::NAN); rows as usize],
         ];
         matrix.multiply(&x, &mut products[0]);
-        Halved::of(&matrix, &Shelf::default()).multiply(&x, &mut products[1]);
+        Halved::of(&matrix, &mut Halves::default()).multiply(&x, &mut products[1]);
         let apart = products[0].iter().zip(&products[1]);
         let apart = apart.map(|(a, b)| (a - b).amax()).fold(0.0, f64::max);
         assert!(apart < 1e-13, "{apart:e}");

@@ -1,8 +1,9 @@
 //! Jacobi's iteration.
 
-use sph_core::{Shelf, Vect};
+use sph_core::Vect;
 
 use crate::krylov::{Tolerance, Watch};
+use crate::precondition::Factors;
 use crate::{LinearSolver, Operator, Preconditioner, Report, SolveError};
 
 /// x ← x + D⁻¹(b − A x) with the diagonal blocks D of A, until |b − A x|/|b| is small.
@@ -30,9 +31,9 @@ impl<const D: usize> LinearSolver<D> for Jacobi {
             residual: self.tolerance,
             iterations: self.sweeps,
         };
-        let shelf = Shelf::default();
-        let mut watch = Watch::new(METHOD, tolerance, operator, right, &shelf)?;
-        let diagonal = Preconditioner::BlockJacobi.bind(operator, METHOD, &shelf)?;
+        let (mut history, mut factors) = (Vec::new(), Factors::default());
+        let mut watch = Watch::new(METHOD, tolerance, operator, right, &mut history)?;
+        let diagonal = Preconditioner::BlockJacobi.bind(operator, METHOD, &mut factors)?;
         let mut r = Vec::new();
         let mut step = vec![Vect::zeros(); right.len()];
         let bytes = 2 * size_of_val(&step[..]) + diagonal.bytes();

@@ -1,6 +1,6 @@
 //! What the iterative solvers have in common.
 
-use sph_core::{Lent, Shelf, Vect};
+use sph_core::Vect;
 
 use crate::{Operator, Report, SolveError};
 
@@ -18,7 +18,7 @@ pub(crate) struct Watch<'s> {
     method: &'static str,
     tolerance: Tolerance,
     scale: f64,
-    history: Lent<'s, Vec<f64>>,
+    history: &'s mut Vec<f64>,
 }
 
 impl<'s> Watch<'s> {
@@ -29,10 +29,9 @@ impl<'s> Watch<'s> {
         tolerance: Tolerance,
         operator: &dyn Operator<D>,
         right: &[Vect<D>],
-        shelf: &'s Shelf,
+        history: &'s mut Vec<f64>,
     ) -> Result<Self, SolveError> {
         let scale = operator.norm(right);
-        let mut history = shelf.lend::<Vec<f64>>();
         history.clear();
         match scale.is_finite() {
             true => Ok(Watch {

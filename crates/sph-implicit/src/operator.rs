@@ -1,10 +1,9 @@
 //! What a solver needs to know of a system.
 
-use sph_core::{Shelf, Vect};
+use sph_core::Vect;
 use sph_neighbours::inner;
 
-use crate::halved::Halved;
-use crate::{Diagonal, Matrix, SolveError};
+use crate::{Diagonal, Halved, Halves, Matrix, SolveError};
 
 /// A symmetric operator on vectors of particles, with or without a matrix behind it.
 ///
@@ -48,7 +47,7 @@ pub trait Operator<const D: usize>: Sync {
     fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]);
 
     /// The same operator in a form that is worth its making where many products are asked for; none where there is no such form.
-    fn prepared<'a>(&'a self, _shelf: &'a Shelf) -> Option<Halved<'a, D>> {
+    fn prepared<'a>(&'a self, _memory: &'a mut Halves<D>) -> Option<Halved<'a, D>> {
         None
     }
 

@@ -2,10 +2,10 @@
 
 use std::sync::OnceLock;
 
-use sph_core::{Shelf, Vect};
+use sph_core::Vect;
 use sph_neighbours::{Owned, Space};
 
-use crate::{Entries, Halved, Matrix, Operator, Pattern, Values};
+use crate::{Entries, Halved, Halves, Matrix, Operator, Pattern, Values};
 
 /// A matrix whose rows and columns are those of particles. Where some of these are copies of particles that are at home
 /// elsewhere, they follow their owners in every product.
@@ -102,9 +102,9 @@ impl<const D: usize> Operator<1> for ParticleMatrix<'_, D> {
     fn is_whole(&self) -> bool {
         self.space.is_whole()
     }
-    fn prepared<'b>(&'b self, shelf: &'b Shelf) -> Option<Halved<'b, 1>> {
+    fn prepared<'b>(&'b self, memory: &'b mut Halves<1>) -> Option<Halved<'b, 1>> {
         match self.is_whole() {
-            true => self.matrix.prepared(shelf),
+            true => self.matrix.prepared(memory),
             false => None,
         }
     }

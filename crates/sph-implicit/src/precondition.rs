@@ -1,11 +1,11 @@
 //! Preconditioners of the iterative solvers.
 
 use rayon::prelude::*;
-use sph_core::{Lent, Shelf, Vect, parameters};
+use sph_core::{Vect, parameters};
 
 use crate::incomplete::Incomplete;
-use crate::matrix::{Entries, ROWS, Values};
-use crate::{Block, Diagonal, Entry, Operator, Pattern, SolveError};
+use crate::matrix::{Entries, ROWS};
+use crate::{Block, Diagonal, Entry, Operator, SolveError};
 
 /// z ≈ A⁻¹ r.
 #[parameters]
@@ -27,10 +27,19 @@ pub enum Preconditioner {
 /// A preconditioner of one matrix.
 pub(crate) enum Bound<'s, const D: usize> {
     Nothing,
-    Scalar(Lent<'s, Vec<f64>>),
-    Block(Lent<'s, Vec<Block<D>>>),
-    IncompleteScalar(Lent<'s, Incomplete<f64, f32>>),
-    IncompleteBlock(Lent<'s, Incomplete<Block<D>, [[f32; D]; D]>>),
+    Scalar(&'s [f64]),
+    Block(&'s [Block<D>]),
+    IncompleteScalar(&'s Incomplete<f64, f32>),
+    IncompleteBlock(&'s Incomplete<Block<D>, [[f32; D]; D]>),
+}
+
+/// What preconditioners are made of.
+#[derive(Default)]
+pub(crate) struct Factors<const D: usize> {
+    scalar: Vec<f64>,
+    block: Vec<Block<D>>,
+    incomplete_scalar: Incomplete<f64, f32>,
+    incomplete_block: Incomplete<Block<D>, [[f32; D]; D]>,
 }
 
 impl Preconditioner {
@@ -48,7 +57,7 @@ impl Preconditioner {
         self,
         operator: &dyn Operator<D>,
         method: &'static str,
-        shelf: &'s Shelf,
+        factors: &'s mut Factors<D>,
     ) -> Result<Bound<'s, D>, SolveError> {
         if self == Preconditioner::None {
             return Ok(Bound::Nothing);
@@ -63,46 +72,44 @@ impl Preconditioner {
         if !self.factorises() {
             let diagonal = operator.diagonal().ok_or_else(missing)?;
             let bound = match diagonal {
-                Diagonal::Scalar(all) => inverted::<D, _>(shelf, all, |d| *d).map(Bound::Scalar),
-                Diagonal::Block(all) if self == Preconditioner::Jacobi => {
-                    inverted::<D, _>(shelf, all, Entry::<D>::diagonal).map(Bound::Block)
+                Diagonal::Scalar(all) => {
+                    inverted::<D, _>(&mut factors.scalar, all, |d| *d).map(Bound::Scalar)
                 }
-                Diagonal::Block(all) => inverted::<D, _>(shelf, all, |d| *d).map(Bound::Block),
+                Diagonal::Block(all) if self == Preconditioner::Jacobi => {
+                    inverted::<D, _>(&mut factors.block, all, Entry::<D>::diagonal)
+                        .map(Bound::Block)
+                }
+                Diagonal::Block(all) => {
+                    inverted::<D, _>(&mut factors.block, all, |d| *d).map(Bound::Block)
+                }
             };
             return bound.map_err(failed);
         }
         let matrix = operator.assembled().ok_or_else(missing)?;
         let quick = self == Preconditioner::IncompleteDiagonal;
         Ok(match &matrix.entries {
-            Entries::Scalar(values) => Bound::IncompleteScalar(
-                incomplete::<D, _>(shelf, &matrix.pattern, values, quick).map_err(failed)?,
-            ),
-            Entries::Block(values) => Bound::IncompleteBlock(
-                incomplete::<D, _>(shelf, &matrix.pattern, values, quick).map_err(failed)?,
-            ),
+            Entries::Scalar(values) => {
+                let factor = &mut factors.incomplete_scalar;
+                let filled = factor.refill::<D>(&matrix.pattern, values, quick);
+                filled.map_err(failed)?;
+                Bound::IncompleteScalar(factor)
+            }
+            Entries::Block(values) => {
+                let factor = &mut factors.incomplete_block;
+                let filled = factor.refill::<D>(&matrix.pattern, values, quick);
+                filled.map_err(failed)?;
+                Bound::IncompleteBlock(factor)
+            }
         })
     }
 }
 
-/// An incomplete factorisation, or the first row whose pivot is not positive.
-fn incomplete<'s, const D: usize, E: Entry<D>>(
-    shelf: &'s Shelf,
-    pattern: &Pattern,
-    values: &Values<E>,
-    pivots_only: bool,
-) -> Result<Lent<'s, Incomplete<E, E::Short>>, usize> {
-    let mut factor = shelf.lend::<Incomplete<E, E::Short>>();
-    factor.refill::<D>(pattern, values, pivots_only)?;
-    Ok(factor)
-}
-
 /// The inverses of parts of the diagonal, or the first row that has none.
 fn inverted<'s, const D: usize, E: Entry<D>>(
-    shelf: &'s Shelf,
+    inverse: &'s mut Vec<E>,
     diagonal: &[E],
     part: impl Fn(&E) -> E,
-) -> Result<Lent<'s, Vec<E>>, usize> {
-    let mut inverse = shelf.lend::<Vec<E>>();
+) -> Result<&'s [E], usize> {
     inverse.clear();
     for (i, d) in diagonal.iter().enumerate() {
         inverse.push(part(d).inverted().ok_or(i)?);
@@ -115,8 +122,8 @@ impl<const D: usize> Bound<'_, D> {
     pub fn bytes(&self) -> usize {
         match self {
             Bound::Nothing => 0,
-            Bound::Scalar(inverse) => size_of_val(&inverse[..]),
-            Bound::Block(inverse) => size_of_val(&inverse[..]),
+            Bound::Scalar(inverse) => size_of_val(*inverse),
+            Bound::Block(inverse) => size_of_val(*inverse),
             Bound::IncompleteScalar(factor) => factor.bytes(),
             Bound::IncompleteBlock(factor) => factor.bytes(),
         }

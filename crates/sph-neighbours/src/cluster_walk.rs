@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use sph_core::{Shelf, StepError};
+use sph_core::{Pool, StepError};
 use sph_kernels::Sampler;
 use sph_lanes::{Body, Lane, dispatch_at};
 
@@ -17,7 +17,7 @@ use crate::{CHUNK, World};
 /// Goes over the clusters of a world at the present places, block by block.
 pub struct ClusterWalk<'w, const D: usize> {
     sweep: Sweep<'w, D, dyn Sampler>,
-    shelf: &'w Shelf,
+    pool: &'w Pool<Room<D>>,
     lanes: usize,
 }
 
@@ -29,7 +29,7 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
     pub fn new(world: &'w World<D>) -> Result<Self, StepError> {
         Ok(ClusterWalk {
             sweep: Sweep::new(world, &*world.kernel)?,
-            shelf: &world.lists.shelf,
+            pool: &world.lists.pools.sweeps,
             lanes: sph_lanes::width().lanes(),
         })
     }
@@ -58,7 +58,7 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
         visit: impl Fn(&mut S, &mut Cluster<'_, D>),
         others: impl Fn(&mut S, Range<usize>),
     ) {
-        let mut room = self.shelf.lend::<Room<D>>();
+        let mut room = self.pool.lend();
         for cluster in self.sweep.clusters(block) {
             for members in groups(cluster, self.lanes) {
                 let own = members.from..members.from + members.count;

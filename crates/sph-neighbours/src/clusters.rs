@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use sph_core::{Shelf, Vect};
+use sph_core::{Pool, Vect};
 use sph_lanes::{Body, Lane, dispatch_at, width};
 
 use crate::list::{keep_all, make_room};
@@ -26,6 +26,9 @@ struct Block {
     of: Vec<u8>,
 }
 
+/// Buffers of a task that builds clusters.
+type Room = (Vec<u32>, Vec<Range<usize>>);
+
 /// For every free particle, or place on a wall, the free particles that may be within reach: one list for a cluster of at
 /// most [`MOST`](sph_lanes::MOST) that follow each other.
 #[derive(Clone, Debug, Default)]
@@ -44,9 +47,9 @@ impl Clusters {
         grid: &CellGrid<D>,
         reach: f64,
         domain: &Domain<D>,
-        shelf: &Shelf,
+        pool: &Pool<Room>,
     ) {
-        self.build_but(points, grid, (reach, domain), shelf, None);
+        self.build_but(points, grid, (reach, domain), pool, None);
     }
 
     /// The same, with nobody around clusters all of whose members are `idle`: no sum of theirs is asked for.
@@ -55,10 +58,10 @@ impl Clusters {
         points: &[Vect<D>],
         grid: &CellGrid<D>,
         within: (f64, &Domain<D>),
-        shelf: &Shelf,
+        pool: &Pool<Room>,
         idle: Option<&[bool]>,
     ) {
-        self.build_all([points, points], grid, within, shelf, idle);
+        self.build_all([points, points], grid, within, pool, idle);
     }
 
     /// The same for clusters of targets that follow each other and points around them.
@@ -69,9 +72,9 @@ impl Clusters {
         grid: &CellGrid<D>,
         reach: f64,
         domain: &Domain<D>,
-        shelf: &Shelf,
+        pool: &Pool<Room>,
     ) {
-        self.build_all([targets, points], grid, (reach, domain), shelf, None);
+        self.build_all([targets, points], grid, (reach, domain), pool, None);
     }
 
     fn build_all<const D: usize>(
@@ -79,13 +82,13 @@ impl Clusters {
         [targets, points]: [&[Vect<D>]; 2],
         grid: &CellGrid<D>,
         (reach, domain): (f64, &Domain<D>),
-        shelf: &Shelf,
+        pool: &Pool<Room>,
         idle: Option<&[bool]>,
     ) {
         self.resize(targets.len());
         let width = width();
         let blocks = self.blocks.par_iter_mut().enumerate();
-        let room = || shelf.lend::<(Vec<u32>, Vec<Range<usize>>)>();
+        let room = || pool.lend();
         blocks.for_each_init(room, |room, (b, block)| {
             let (buffer, ranges) = &mut **room;
             let from = b * CHUNK;
@@ -126,11 +129,11 @@ impl Clusters {
     ///
     /// `cluster` gets the members, room for as many candidates as they have and the members' numbers, and returns how many
     /// candidates it left.
-    pub(crate) fn fill<S: Default + Send + 'static>(
+    pub(crate) fn fill<S: Default + Send>(
         &mut self,
         all: &Clusters,
         numbers: &mut [f64],
-        shelf: &Shelf,
+        pool: &Pool<(S, Vec<u32>)>,
         cluster: impl Fn(&mut S, Members<'_>, &mut [u32], &mut [f64]) -> usize + Sync,
     ) {
         self.resize(all.len);
@@ -139,7 +142,7 @@ impl Clusters {
             .zip(numbers.par_chunks_mut(CHUNK))
             .enumerate()
             .for_each_init(
-                || shelf.lend::<(S, Vec<u32>)>(),
+                || pool.lend(),
                 |room, (b, ((block, all), numbers))| {
                     let (scratch, buffer) = &mut **room;
                     block.begin(all);

@@ -55,12 +55,11 @@ impl Couplings {
         let walk = ClusterWalk::new(world)?;
         self.kinds = kinds;
         self.blocks.resize_with(walk.blocks(), Kept::default);
-        let shelf = &world.lists.shelf;
         let (a, b, c) = rows;
         let rows = a.par_chunks_mut(CHUNK).zip(b.par_chunks_mut(CHUNK));
         let rows = rows.zip(c.par_chunks_mut(CHUNK));
         let blocks = self.blocks.par_iter_mut().zip(rows);
-        let room = || shelf.lend::<Vec<f64>>();
+        let room = || world.lists.pools.numbers.lend();
         blocks
             .enumerate()
             .for_each_init(room, |numbers, (block, (kept, ((a, b), c)))| {

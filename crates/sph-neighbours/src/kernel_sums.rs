@@ -1,10 +1,10 @@
 //! Sums of kernel values alone: the density sum, which prunes the lists, and Shepard means.
 
 use sph_core::{StepError, Vect, fields};
-use sph_kernels::Sampler;
 use sph_lanes::{Body, InLanes, Lane, MOST, dispatch_at, dot, width};
 
 use crate::blocks::each_block;
+use crate::kernel_values::SumRoom;
 use crate::lane_pair::LanePair;
 use crate::lane_vector::minus;
 use crate::list::{CHUNK, make_room};
@@ -34,7 +34,7 @@ pub fn kernel_sums<const D: usize>(
     let (blocked, unseen) = (&world.lists.hidden.particles, &world.lists.hidden.points);
     let limit = kernel.support_radius().powi(2);
     let width = width();
-    let cluster = |room: &mut Room, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
+    let cluster = |room: &mut SumRoom, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
         let domain = |i: usize| wrapping(&world.domain, &positions[i], world.reach());
         let mut inside = std::mem::take(&mut room.inside);
         inside.clear();
@@ -97,19 +97,10 @@ pub fn kernel_sums<const D: usize>(
         room.inside = inside;
         n
     };
-    let shelf = &world.lists.shelf;
-    pruned.fill(&world.lists.free, sums, shelf, cluster);
+    let pool = &world.lists.pools.pruned;
+    pruned.fill(&world.lists.free, sums, pool, cluster);
     world.lists.pruned = Some(pruned);
     Ok(())
-}
-
-/// Buffers of a thread.
-#[derive(Default)]
-struct Room {
-    lanes: Values,
-    row: Values,
-    /// Which candidates some member has within its support.
-    inside: Vec<bool>,
 }
 
 /// Σ w in every lane, and who is within the support of any.
@@ -164,7 +155,7 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
     });
     let limit = kernel.support_radius().powi(2);
     each_block(out, CHUNK, &|b, out| {
-        let mut room = world.lists.shelf.lend::<(Values, Vec<u32>, Rows)>();
+        let mut room = world.lists.pools.means.lend();
         let (values, inside, rows) = &mut *room;
         for all in list.of_block(b) {
             for members in groups(all, width.lanes()) {
@@ -313,47 +304,5 @@ impl<const D: usize, S: PairSum<D>> SumAround<'_, D, S> {
             self.sum.pair(&own, j as usize, &pair, &mut sums);
         }
         sums.store(self.rows);
-    }
-}
-
-#[derive(Default)]
-struct Values {
-    distance2: Vec<f64>,
-    value: Vec<f64>,
-}
-
-impl Values {
-    fn reserve(&mut self, n: usize) {
-        if self.value.len() < n {
-            self.distance2.resize(n.next_power_of_two(), 0.0);
-            self.value.resize(n.next_power_of_two(), 0.0);
-        }
-    }
-
-    fn fill<const D: usize>(
-        &mut self,
-        x: &Vect<D>,
-        sources: &[Vect<D>],
-        candidates: &[u32],
-        domain: Option<&Domain<D>>,
-        kernel: &dyn Sampler,
-    ) -> &[f64] {
-        let n = candidates.len();
-        self.reserve(n);
-        let distance2 = &mut self.distance2[..n];
-        match domain {
-            None => {
-                for (r2, &j) in distance2.iter_mut().zip(candidates) {
-                    *r2 = (x - sources[j as usize]).norm_squared();
-                }
-            }
-            Some(domain) => {
-                for (r2, &j) in distance2.iter_mut().zip(candidates) {
-                    *r2 = domain.nearest_image(x - sources[j as usize]).norm_squared();
-                }
-            }
-        }
-        kernel.value(distance2, &mut self.value[..n]);
-        &self.value[..n]
     }
 }

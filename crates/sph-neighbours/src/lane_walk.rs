@@ -6,7 +6,7 @@ use sph_lanes::{InLanes, width};
 use crate::blocks::each_block;
 use crate::members::groups;
 use crate::pair_sum::{PairSum, sum_cluster};
-use crate::sweep::{Room, Sweep};
+use crate::sweep::Sweep;
 use crate::{CHUNK, Neighbourhood, World};
 
 /// What `of` makes of the sum over free neighbours and of the walls near every particle that is wanted, into a place per
@@ -22,9 +22,8 @@ pub fn walk_in_lanes<const D: usize, S: PairSum<D>, R: Send>(
     of: impl Fn(S::Sum<f64>, &Neighbourhood<'_, D>) -> R + Sync,
 ) -> Result<(), StepError> {
     let sweep = Sweep::new(world, &*world.kernel)?;
-    let shelf = &world.lists.shelf;
     each_block(out, CHUNK, &|block, out| {
-        let mut room = shelf.lend::<Room<D>>();
+        let mut room = world.lists.pools.sweeps.lend();
         for cluster in sweep.clusters(block) {
             for members in groups(cluster, width().lanes()) {
                 let own = members.from..members.from + members.count;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use sph_core::{Shelf, Vect};
+use sph_core::{Pool, Vect};
 
 use crate::{CellGrid, Domain};
 
@@ -62,14 +62,13 @@ impl NeighbourList {
         reach: f64,
         domain: &Domain<D>,
     ) {
-        let shelf = Shelf::default();
-        self.build_on(&shelf, [targets, sources], grid, (reach, domain));
+        self.build_on(&Pool::default(), [targets, sources], grid, (reach, domain));
     }
 
-    /// The same with the buffers of a shelf.
+    /// The same with the buffers of tasks before.
     pub(crate) fn build_on<const D: usize>(
         &mut self,
-        shelf: &Shelf,
+        pool: &Pool<(Vec<u32>, Around)>,
         [targets, sources]: [&[Vect<D>]; 2],
         grid: &CellGrid<D>,
         (reach, domain): (f64, &Domain<D>),
@@ -78,7 +77,7 @@ impl NeighbourList {
         self.blocks
             .resize_with(targets.len().div_ceil(CHUNK), Block::default);
         let reach2 = reach * reach;
-        let room = || shelf.lend::<(Vec<u32>, Around)>();
+        let room = || pool.lend();
         self.blocks
             .par_iter_mut()
             .enumerate()
@@ -150,7 +149,7 @@ impl NeighbourList {
 
 /// The places of a grid around one of its cells; targets that follow one another mostly share them.
 #[derive(Default)]
-struct Around {
+pub(crate) struct Around {
     cell: Option<usize>,
     ranges: Vec<Range<usize>>,
     /// In all ranges.

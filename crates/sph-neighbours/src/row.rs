@@ -209,3 +209,18 @@ impl<const D: usize> Scratch<D> {
         self.len = 0;
     }
 }
+
+/// Buffers for the rows of free neighbours and wall points.
+pub struct Rows<const D: usize> {
+    pub(crate) free: Scratch<D>,
+    pub(crate) wall: Scratch<D>,
+}
+
+impl<const D: usize> Default for Rows<D> {
+    fn default() -> Self {
+        Rows {
+            free: Scratch::new(),
+            wall: Scratch::new(),
+        }
+    }
+}

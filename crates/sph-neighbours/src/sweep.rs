@@ -11,8 +11,8 @@ use crate::cluster::{Buffers, Cluster};
 use crate::half::is_wanted;
 use crate::list::CHUNK;
 use crate::members::{Members, groups};
-use crate::term::{Interaction, Rates, RowTerm, TRANSPORTED, WithTerm};
-use crate::{Clusters, Domain, NOBODY, Neighbourhood, World};
+use crate::term::{Interaction, RowTerm, WithTerm};
+use crate::{Clusters, Domain, NOBODY, Neighbourhood, Rates, TRANSPORTED, World};
 
 /// Sums all terms of all particles.
 ///
@@ -143,7 +143,7 @@ where
 {
     let sweep = Sweep::new(world, kernel)?;
     let start = Rates::of(world.gravity + world.driving);
-    let shelf = || world.lists.shelf.lend::<Room<D>>();
+    let room = || world.lists.pools.sweeps.lend();
     let half = world.lists.sweep_half.as_ref();
     let work = |room: &mut Room<D>, block: usize, particles: usize| {
         let (buffers, rates) = room;
@@ -162,7 +162,7 @@ where
     match (scalar, more) {
         (Some(scalar), []) => {
             all.zip(scalar.par_chunks_mut(CHUNK))
-                .for_each_init(shelf, |room, ((c, a), s)| {
+                .for_each_init(room, |room, ((c, a), s)| {
                     work(room, c, a.len());
                     let all = a.iter_mut().zip(s).zip(&room.1).enumerate();
                     for (_, ((a, s), rates)) in all.filter(|(k, _)| wanted((c, *k))) {
@@ -170,7 +170,7 @@ where
                     }
                 });
         }
-        (None, []) => all.for_each_init(shelf, |room, (c, a)| {
+        (None, []) => all.for_each_init(room, |room, (c, a)| {
             work(room, c, a.len());
             let all = a.iter_mut().zip(&room.1).enumerate();
             for (_, (a, rates)) in all.filter(|(k, _)| wanted((c, *k))) {
@@ -180,7 +180,7 @@ where
         (Some(scalar), more) => {
             let scalars = scalar.par_chunks_mut(CHUNK).zip(more.par_chunks_mut(CHUNK));
             all.zip(scalars)
-                .for_each_init(shelf, |room, ((c, a), (s, m))| {
+                .for_each_init(room, |room, ((c, a), (s, m))| {
                     work(room, c, a.len());
                     let all = a.iter_mut().zip(s).zip(m).zip(&room.1).enumerate();
                     for (_, (((a, s), m), rates)) in all.filter(|(k, _)| wanted((c, *k))) {
@@ -190,7 +190,7 @@ where
         }
         (None, more) => {
             all.zip(more.par_chunks_mut(CHUNK))
-                .for_each_init(shelf, |room, ((c, a), m)| {
+                .for_each_init(room, |room, ((c, a), m)| {
                     work(room, c, a.len());
                     let all = a.iter_mut().zip(m).zip(&room.1).enumerate();
                     for (_, ((a, m), rates)) in all.filter(|(k, _)| wanted((c, *k))) {
@@ -217,7 +217,7 @@ pub fn accelerations_of<const D: usize>(
     term.lend(world, &mut |bound| {
         let all = acceleration.par_chunks_mut(CHUNK).enumerate();
         all.for_each_init(
-            || world.lists.shelf.lend::<Room<D>>(),
+            || world.lists.pools.sweeps.lend(),
             |room, (c, a)| {
                 let (buffers, rates) = &mut **room;
                 rates.clear();

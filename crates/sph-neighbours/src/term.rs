@@ -1,38 +1,12 @@
 //! Pair terms: what they sum over free neighbours is written once, for lanes; walls are added one by one.
 
-use sph_core::{Access, StepError, Vect, contract};
+use sph_core::{Access, StepError, contract};
 use sph_lanes::InLanes;
 
 use crate::lane_pair::Pair;
 use crate::pair_sum::{PairSum, sum_cluster};
 use crate::particles::Particles;
-use crate::{Cluster, Neighbourhood, Row, World};
-
-/// What the interaction sweep sums per particle.
-#[derive(Clone, Copy, Debug)]
-pub struct Rates<const D: usize> {
-    /// Acceleration, m/s².
-    pub acceleration: Vect<D>,
-    /// Rate of the scalar that the formulation evolves (density diffusion), its unit per s.
-    pub scalar: f64,
-    /// Rates of further scalars, each where [`World::slot`] says, their units per s.
-    pub more: [f64; TRANSPORTED],
-}
-
-/// Most scalars whose rates one sweep sums besides the formulation's own.
-pub const TRANSPORTED: usize = 7;
-
-impl<const D: usize> Rates<D> {
-    /// An acceleration, and scalars at rest.
-    #[inline(always)]
-    pub fn of(acceleration: Vect<D>) -> Self {
-        Rates {
-            acceleration,
-            scalar: 0.0,
-            more: [0.0; TRANSPORTED],
-        }
-    }
-}
+use crate::{Cluster, Neighbourhood, Rates, Row, World};
 
 impl<'a, const D: usize> Row<'a, D> {
     /// Its pairs, each with the index of the other.

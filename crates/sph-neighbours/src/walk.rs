@@ -3,7 +3,7 @@
 use sph_core::{StepError, Vect, fields};
 
 use crate::blocks::each_block;
-use crate::{CHUNK, Clusters, NOBODY, Neighbourhood, Scratch, World};
+use crate::{CHUNK, Clusters, NOBODY, Neighbourhood, Rows, World};
 
 /// Finds neighbourhoods one by one, with the buffers of one thread.
 pub struct Surroundings<'w, const D: usize> {
@@ -11,21 +11,6 @@ pub struct Surroundings<'w, const D: usize> {
     position: &'w [Vect<D>],
     renormalisation: Option<&'w [f64]>,
     lists: &'w Clusters,
-}
-
-/// Buffers for the rows of free neighbours and wall points.
-pub struct Rows<const D: usize> {
-    free: Scratch<D>,
-    wall: Scratch<D>,
-}
-
-impl<const D: usize> Default for Rows<D> {
-    fn default() -> Self {
-        Rows {
-            free: Scratch::new(),
-            wall: Scratch::new(),
-        }
-    }
 }
 
 impl<'w, const D: usize> Surroundings<'w, D> {
@@ -155,7 +140,7 @@ pub fn walk_into<const D: usize, R: Send>(
         of(&Around { rows, free, wall })
     };
     each_block(out, CHUNK, &|block, out| {
-        let mut room = world.lists.shelf.lend::<Room<D>>();
+        let mut room = world.lists.pools.walks.lend();
         for (out, i) in out.iter_mut().zip(block * CHUNK..) {
             if wanted(i) {
                 *out = one(&mut room, i);

@@ -7,10 +7,9 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_lanes::MOST;
 
-use crate::sweep::{Room, Sweep, with_all};
-use crate::term::Rates;
+use crate::sweep::{Sweep, with_all};
 use crate::{
-    CHUNK, Cluster, ContactBlock, ContactRow, Contacts, Interaction, Neighbourhood, RowTerm,
+    CHUNK, Cluster, ContactBlock, ContactRow, Contacts, Interaction, Neighbourhood, Rates, RowTerm,
     Scratch, World,
 };
 
@@ -58,7 +57,7 @@ pub fn wall_parts<const D: usize>(
     let declared: Vec<_> = terms.iter().map(|term| term.access()).collect();
     with_all(world, &declared, terms, None, &mut |term| {
         let blocks = asked.par_chunks(CHUNK).enumerate();
-        let room = || (world.lists.shelf.lend::<Room<D>>(), Apart::default());
+        let room = || (world.lists.pools.sweeps.lend(), Apart::default());
         let all = blocks.map_init(room, |(room, apart), (block, asked)| {
             let mut parts = Vec::new();
             if !asked.contains(&true) {

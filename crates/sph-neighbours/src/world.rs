@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use sph_core::{AnyField, Field, FieldError, Lent, Scalar, Shelf, Store, Vect, fields};
+use sph_core::{AnyField, Field, FieldError, Lent, Pool, Scalar, Store, Vect, fields};
 use sph_kernels::Sampler;
 
+use crate::pools::Pools;
 use crate::{CellGrid, Clusters, Domain, Extent, Hidden, NeighbourList, SweepHalf, Team, WallSet};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
@@ -17,8 +18,7 @@ pub struct Lists<const D: usize> {
     /// distances anyway ([`kernel_sums`](crate::kernel_sums)), `None` once somebody moved.
     pub pruned: Option<Clusters>,
     pub(crate) spare: Clusters,
-    /// Buffers of the walks over the lists.
-    pub(crate) shelf: Shelf,
+    pub(crate) pools: Pools<D>,
     /// Wall points around free particles.
     pub wall: NeighbourList,
     /// Free particles around the wall points that are in sums.
@@ -188,7 +188,7 @@ impl<const D: usize> World<D> {
 
     /// The order of lists at other positions; `None` if the particles have it.
     pub fn order_at(&self, positions: &[Vect<D>]) -> Option<Vec<u32>> {
-        let mut grid = self.grid(positions, &self.lists.shelf);
+        let mut grid = self.grid(positions, &self.lists.pools.grids);
         if let Ok(identities) = self.free.get(fields::IDENTITY) {
             grid.order_by(identities);
         }
@@ -196,18 +196,17 @@ impl<const D: usize> World<D> {
     }
 
     /// The cells of free particles at these positions.
-    fn grid<'s>(&self, positions: &[Vect<D>], shelf: &'s Shelf) -> Lent<'s, CellGrid<D>> {
-        let mut grid = shelf.lend::<CellGrid<D>>();
+    fn grid<'s>(
+        &self,
+        positions: &[Vect<D>],
+        pool: &'s Pool<CellGrid<D>>,
+    ) -> Lent<'s, CellGrid<D>> {
+        let mut grid = pool.lend();
         match &self.extent {
             None => grid.renew(positions, self.reach(), &self.domain),
             Some(all) => grid.renew_among(all, positions, self.reach(), &self.domain),
         }
         grid
-    }
-
-    /// Buffers of whatever walks over the lists.
-    pub fn shelf(&self) -> &Shelf {
-        &self.lists.shelf
     }
 
     /// Gives back the memory of all lists, which have to be built before anybody asks for neighbours.
@@ -219,7 +218,7 @@ impl<const D: usize> World<D> {
         lists.of_points = Clusters::default();
         lists.of_elements = Clusters::default();
         lists.wall = NeighbourList::default();
-        lists.shelf = Shelf::default();
+        lists.pools = Pools::default();
     }
 
     /// Remembers where lists were built, without building them: for whoever has the columns of a flow and asks for no list.
@@ -235,10 +234,10 @@ impl<const D: usize> World<D> {
     /// the order of its sums, are those of the run that was interrupted.
     pub fn build_lists_from(&mut self, positions: Vec<Vect<D>>, points: Vec<Vect<D>>, time: f64) {
         // Grids stand on it while the lists are changed.
-        let shelf = std::mem::take(&mut self.lists.shelf);
-        self.build_lists_on(&shelf, &positions, &points);
+        let pools = std::mem::take(&mut self.lists.pools);
+        self.build_lists_on(&pools, &positions, &points);
         let lists = &mut self.lists;
-        lists.shelf = shelf;
+        lists.pools = pools;
         lists.reference_points = points;
         lists.reference = positions;
         lists.time = time;
@@ -247,39 +246,47 @@ impl<const D: usize> World<D> {
         lists.hidden = Hidden::default();
     }
 
-    fn build_lists_on(&mut self, shelf: &Shelf, positions: &[Vect<D>], points: &[Vect<D>]) {
+    fn build_lists_on(&mut self, pools: &Pools<D>, positions: &[Vect<D>], points: &[Vect<D>]) {
         let reach = self.reach();
         let idle = self.idle();
-        let grid = self.grid(positions, shelf);
+        let grid = self.grid(positions, &pools.grids);
         let lists = &mut self.lists;
         let domain = &self.domain;
         let idle = idle.as_deref().filter(|idle| idle.len() == positions.len());
         lists
             .free
-            .build_but(positions, &grid, (reach, domain), shelf, idle);
+            .build_but(positions, &grid, (reach, domain), &pools.clusters, idle);
         if self.walls.points.in_sums() {
             let first = self.walls.points.corners;
             let summed = &points[first..];
-            let mut wall_grid = shelf.lend::<CellGrid<D>>();
+            let mut wall_grid = pools.grids.lend();
             wall_grid.renew(summed, reach, domain);
-            lists
-                .wall
-                .build_on(shelf, [positions, summed], &wall_grid, (reach, domain));
+            lists.wall.build_on(
+                &pools.lists,
+                [positions, summed],
+                &wall_grid,
+                (reach, domain),
+            );
             lists.wall.shift(first as u32);
             lists
                 .of_points
-                .build_around(summed, positions, &grid, reach, domain, shelf);
+                .build_around(summed, positions, &grid, reach, domain, &pools.clusters);
         }
         let elements = &self.walls.elements;
         if !elements.centre.is_empty() {
             // An element stands where its corners stood.
-            let mut centres = shelf.lend::<Vec<Vect<D>>>();
+            let mut centres = pools.centres.lend();
             let all = 0..elements.centre.len();
             centres.clear();
             centres.extend(all.map(|s| elements.centre_from(s, points, domain)));
-            lists
-                .of_elements
-                .build_around(&centres, positions, &grid, reach, domain, shelf);
+            lists.of_elements.build_around(
+                &centres,
+                positions,
+                &grid,
+                reach,
+                domain,
+                &pools.clusters,
+            );
         }
     }
 

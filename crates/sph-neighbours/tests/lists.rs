@@ -1,7 +1,7 @@
 //! The lists against brute force, for random clouds in 2D and 3D, periodic or not.
 
 use proptest::prelude::*;
-use sph_core::Shelf;
+use sph_core::Pool;
 use sph_core::{Role, Store, Vect, fields};
 use sph_kernels::Kernel;
 use sph_lanes::{Width, force_width};
@@ -39,7 +39,7 @@ fn check<const D: usize>(n: usize, seed: u64, reach: f64, periodic: [bool; D]) {
         let mut list = NeighbourList::default();
         list.build(points, points, &grid, reach, &domain);
         let mut clusters = Clusters::default();
-        clusters.build(points, &grid, reach, &domain, &Shelf::default());
+        clusters.build(points, &grid, reach, &domain, &Pool::default());
         for i in 0..n {
             let mut row = list.row(i).to_vec();
             row.sort_unstable();

@@ -1,13 +1,13 @@
 //! The stage that solves for the pressure.
 
-use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
+use sph_core::{Access, Declares, Pool, Stage, StepError, Vect, fields};
 use sph_implicit::{Assembly, Automatic, Entries, LinearSolver, LowRank, Matrix, ParticleMatrix};
 use sph_multiphase::{Acting, FREE_SURFACE, Place};
 use sph_neighbours::{Interaction, World, interactions, lattice_sum};
 use sph_state::{BoundState, PressureStage};
 
 use crate::bodies::give_way;
-use crate::system::{Couplings, Part};
+use crate::system::{Couplings, Part, Room as ClusterRoom};
 
 const NAME: &str = "implicit pressure";
 
@@ -38,6 +38,7 @@ struct Room<const D: usize> {
     parts: Vec<Part>,
     assembly: Assembly<f64, 1>,
     pressure: Vec<Vect<1>>,
+    rooms: Pool<ClusterRoom>,
 }
 
 impl<const D: usize> SolvePressure<D> {
@@ -59,6 +60,7 @@ impl<const D: usize> SolvePressure<D> {
                 parts: Vec::new(),
                 assembly: Assembly::default(),
                 pressure: Vec::new(),
+                rooms: Pool::default(),
             },
         }
     }
@@ -128,8 +130,10 @@ impl<const D: usize> SolvePressure<D> {
             parts,
             assembly,
             pressure: x,
+            rooms,
             ..
         } = &mut self.room;
+        let rooms = &*rooms;
         let system = Couplings {
             owned: space.owned(),
             volume: world.free.get(fields::VOLUME)?,
@@ -143,7 +147,7 @@ impl<const D: usize> SolvePressure<D> {
         assembly.fill_wanted(
             world,
             |i| system.is_own(i),
-            |rows, cluster| system.add(cluster, rows, world.shelf()),
+            |rows, cluster| system.add(cluster, rows, rooms),
             |rows, others| others.for_each(|_| Couplings::<D>::add_other(rows)),
         )?;
         let values = std::mem::take(&mut assembly.values);

@@ -1,6 +1,6 @@
 //! The system of the pressure: what couples particles, and what holds them.
 
-use sph_core::{Shelf, Vect};
+use sph_core::{Pool, Vect};
 use sph_implicit::Rows;
 use sph_neighbours::{
     Body, Cluster, Lane, LanePair, MOST, Owned, PairNumbers, Particles, dot, splat,
@@ -41,7 +41,7 @@ pub(crate) struct Part {
 
 /// What a cluster leaves for its rows.
 #[derive(Default)]
-struct Room {
+pub(crate) struct Room {
     /// c and what it adds to the source, for every candidate, one number per lane each.
     numbers: Vec<f64>,
     /// Columns that are coupled to anybody, and their c, one number per lane.
@@ -62,8 +62,8 @@ impl<const D: usize> Couplings<'_, D> {
     }
 
     /// Adds the rows of a cluster: their sums side by side, in the order of the columns as one row alone would.
-    pub fn add(&self, cluster: &Cluster<'_, D>, rows: &mut Rows<f64, 1>, shelf: &Shelf) {
-        let mut room = shelf.lend::<Room>();
+    pub fn add(&self, cluster: &Cluster<'_, D>, rows: &mut Rows<f64, 1>, rooms: &Pool<Room>) {
+        let mut room = rooms.lend();
         let room = &mut *room;
         cluster.numbers(self, &mut room.numbers);
         let (couplings, sources) = cluster.dispatch(SideBySide {

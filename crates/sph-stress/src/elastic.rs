@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 use sph_contribution::{StepHook, StepMoment, StepPhase};
-use sph_core::{Access, Declares, Stage, StepError, Symmetric, Vect, fields};
+use sph_core::{Access, Declares, Pool, Stage, StepError, Symmetric, Vect, fields};
 use sph_neighbours::World;
 use sph_rheology::{Elastic, Yielding, jaumann};
 
@@ -24,6 +24,8 @@ pub struct ElasticMotion<const D: usize> {
     pub felt: Felt,
     /// Whether the force is made of displacements.
     pub displaced: bool,
+    /// Gradients of a run of particles, kept for their memory.
+    pub gradients: Pool<Vec<Matrix3<f64>>>,
 }
 
 impl<const D: usize> ElasticMotion<D> {
@@ -60,7 +62,7 @@ impl<const D: usize> ElasticMotion<D> {
                     out.fill(Symmetric::ZERO);
                     return;
                 };
-                let mut gradients = world.shelf().lend::<Vec<Matrix3<f64>>>();
+                let mut gradients = self.gradients.lend();
                 gradients.clear();
                 gradients.extend(gradient[run].iter().map(in_space));
                 elastic.advance(inputs, &gradients, dt, out);

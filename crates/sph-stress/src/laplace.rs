@@ -1,7 +1,7 @@
 //! The effective pressure as a harmonic function of place.
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
-use sph_core::{Access, Declares, Stage, StepError, Vect, fields, parameters, plugin};
+use sph_core::{Access, Declares, Pool, Stage, StepError, Vect, fields, parameters, plugin};
 use sph_implicit::{
     Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, ParticleMatrix,
     Preconditioner, Report,
@@ -9,7 +9,7 @@ use sph_implicit::{
 use sph_neighbours::{Space, World, walk_in_lanes};
 
 use crate::PorePressure;
-use crate::bed_system::{Couplings, Part, start};
+use crate::bed_system::{Couplings, Part, Room as ClusterRoom, start};
 use crate::effective_pressure::{EffectivePressureEntry, Soils};
 use crate::soil_surface::Grains;
 
@@ -154,6 +154,7 @@ struct Room {
     parts: Vec<Part>,
     assembly: Assembly<f64, 1>,
     pressure: Vec<Vect<1>>,
+    rooms: Pool<ClusterRoom>,
 }
 
 impl<const D: usize> Declares for Solve<D> {
@@ -210,7 +211,9 @@ impl<const D: usize> Solve<D> {
             parts,
             assembly,
             pressure: x,
+            rooms,
         } = room;
+        let rooms = &*rooms;
         self.parts(world, parts)?;
         let space = world.space()?;
         self.refresh(world, &space, parts)?;
@@ -223,7 +226,7 @@ impl<const D: usize> Solve<D> {
         assembly.fill_wanted(
             world,
             |i| system.is_solved(i),
-            |rows, cluster| system.add(cluster, rows, world.shelf()),
+            |rows, cluster| system.add(cluster, rows, rooms),
             |rows, others| others.for_each(|i| system.add_known(i, rows)),
         )?;
         let values = std::mem::take(&mut assembly.values);

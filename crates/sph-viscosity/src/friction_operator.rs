@@ -2,9 +2,10 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use sph_core::{Shelf, Vect};
+use sph_core::Vect;
 use sph_implicit::{
-    Assembly, Block, Diagonal, Entries, Entry, Halved, Matrix, Operator, Pattern, Rows, Values,
+    Assembly, Block, Diagonal, Entries, Entry, Halved, Halves, Matrix, Operator, Pattern, Rows,
+    Values,
 };
 use sph_neighbours::{CouplingsAt, Neighbourhood, Owned, Space, Visitor};
 
@@ -225,9 +226,9 @@ impl<const D: usize> Operator<D> for FrictionOperator<'_, D> {
         self.space.is_whole()
     }
 
-    fn prepared<'a>(&'a self, shelf: &'a Shelf) -> Option<Halved<'a, D>> {
+    fn prepared<'a>(&'a self, memory: &'a mut Halves<D>) -> Option<Halved<'a, D>> {
         let whole = self.matrix.get().filter(|_| self.space.is_whole());
-        whole.and_then(|matrix| matrix.prepared(shelf))
+        whole.and_then(|matrix| matrix.prepared(memory))
     }
 
     fn diagonal(&self) -> Option<Diagonal<'_, D>> {

@@ -49,8 +49,9 @@ fn pushed<const D: usize>(
     let owned = world.owned();
     let part = |k: usize| {
         let (i, b) = &rows[k];
-        let counts = owned.has(*i);
-        counts.then(|| <[f64; 6]>::from(b.transpose() * u[*i]))
+        owned
+            .has(*i)
+            .then(|| <[f64; 6]>::from(b.transpose() * u[*i]))
     };
     Ok(world.sums_of(rows.len(), &part)?.into())
 }

@@ -5,14 +5,20 @@ use sph_implicit::{Automatic, Cholesky, LinearSolver, Matrix, Report};
 
 use crate::systems::{apart, block, right, scalar};
 
-fn taken<const D: usize>(matrix: &Matrix<D>) -> (Report, Vec<Vect<D>>) {
+fn taken<const D: usize>(matrix: &Matrix<D>) -> (Report, Vec<Vect<D>>)
+where
+    Automatic: LinearSolver<D>,
+{
     let b = right(matrix.rows());
     let mut x = vec![Vect::zeros(); b.len()];
     let report = Automatic::default().solve(matrix, &b, &mut x);
     (report.expect("a solution"), x)
 }
 
-fn method<const D: usize>(matrix: &Matrix<D>) -> &'static str {
+fn method<const D: usize>(matrix: &Matrix<D>) -> &'static str
+where
+    Automatic: LinearSolver<D>,
+{
     taken(matrix).0.method
 }
 

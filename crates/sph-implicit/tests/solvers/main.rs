@@ -6,11 +6,16 @@ mod systems;
 
 use sph_core::Vect;
 use sph_implicit::{
-    Cholesky, ConjugateGradient, Entries, LinearSolver, Matrix, Pattern, Preconditioner, SolveError,
+    Automatic, Cholesky, ConjugateGradient, Entries, LinearSolver, Matrix, Pattern, Preconditioner,
+    SolveError,
 };
 use systems::{apart, block, dense, right, scalar, solvers};
 
-fn agree_with_a_dense_solution<const D: usize>(kind: &str, matrix: &Matrix<D>) {
+fn agree_with_a_dense_solution<const D: usize>(kind: &str, matrix: &Matrix<D>)
+where
+    Automatic: LinearSolver<D>,
+    ConjugateGradient: LinearSolver<D>,
+{
     assert!(
         matrix.asymmetry() < 1e-15,
         "{kind}: {:e}",
@@ -164,7 +169,11 @@ fn one_two_and_four_threads_give_the_same_bits() {
     same_bits(&block::<3>(2000, 10.0, 10.0));
 }
 
-fn same_bits<const D: usize>(matrix: &Matrix<D>) {
+fn same_bits<const D: usize>(matrix: &Matrix<D>)
+where
+    Automatic: LinearSolver<D>,
+    ConjugateGradient: LinearSolver<D>,
+{
     let b = right(matrix.rows());
     let bits = |threads: usize| -> Vec<Vec<u64>> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

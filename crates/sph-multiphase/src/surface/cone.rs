@@ -56,7 +56,19 @@ const FULL: f64 = 0.95;
 /// sheets and lone particles are ours.
 pub(super) struct FreeSurface {
     /// Whether densities are K and a sum.
-    pub(super) sums: bool,
+    sums: bool,
+    /// Kept for its memory.
+    places: Vec<Place>,
+}
+
+impl FreeSurface {
+    /// Tells whether densities are K and a sum.
+    pub(super) fn new(sums: bool) -> Self {
+        FreeSurface {
+            sums,
+            places: Vec::new(),
+        }
+    }
 }
 
 impl Declares for FreeSurface {
@@ -81,9 +93,10 @@ impl Declares for FreeSurface {
 impl<const D: usize> Stage<World<D>> for FreeSurface {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut surface = world.free.take(FREE_SURFACE)?;
+        let places = &mut self.places;
         match self.sums {
-            true => find(world, lacking(world)?, &mut surface)?,
-            false => find(world, |_| true, &mut surface)?,
+            true => find(world, lacking(world)?, places, &mut surface)?,
+            false => find(world, |_| true, places, &mut surface)?,
         }
         Ok(world.free.put(FREE_SURFACE, surface)?)
     }
@@ -93,12 +106,12 @@ impl<const D: usize> Stage<World<D>> for FreeSurface {
 fn find<const D: usize>(
     world: &World<D>,
     wanted: impl Fn(usize) -> bool + Sync,
+    places: &mut Vec<Place>,
     surface: &mut [f64],
 ) -> Result<(), StepError> {
-    let mut places = world.shelf().lend::<Vec<Place>>();
     places.clear();
     places.resize(world.free.len(), Place::Inside);
-    walk_into(world, Values::Both, wanted, &mut places, |around| {
+    walk_into(world, Values::Both, wanted, places, |around| {
         place(world, around)
     })?;
     let places = &places[..];

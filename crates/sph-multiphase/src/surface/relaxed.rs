@@ -63,13 +63,14 @@ pub struct ConeTest {
 impl<const D: usize> Contribution<D> for ConeTest {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let sums = are_sums(setting);
-        offer.stage(FreeSurface { sums });
+        offer.stage(FreeSurface::new(sums));
         if sums {
             let laws = setting.laws.iter().map(|law| law.reference());
             offer.hook(Relaxation {
                 plugin: *self,
                 phases: laws.map(|r| (r.density, r.sound_speed)).collect(),
                 energy: 0.0,
+                room: Room::default(),
             });
         }
         Ok(())
@@ -88,6 +89,16 @@ struct Relaxation {
     phases: Vec<(f64, f64)>,
     /// What it has given to the particles, J.
     energy: f64,
+    room: Room,
+}
+
+/// Kept for its memory.
+#[derive(Default)]
+struct Room {
+    /// Share of the difference that goes in a step, phase by phase.
+    parts: Vec<f64>,
+    /// What was given to each batch of particles, J.
+    given: Vec<f64>,
 }
 
 /// A particle as the relaxation sees it.
@@ -121,6 +132,7 @@ impl Relaxation {
         &self,
         world: &World<D>,
         constant: &mut [f64],
+        room: &mut Room,
         dt: f64,
     ) -> Result<f64, StepError> {
         let h = world.kernel.smoothing_length();
@@ -130,7 +142,7 @@ impl Relaxation {
         let volume = world.free.get(fields::VOLUME)?;
         let phase = world.free.get(fields::PHASE).ok();
         let gamma = world.free.get(fields::RENORMALISATION).ok();
-        let mut parts = world.shelf().lend::<Vec<f64>>();
+        let Room { parts, given } = room;
         parts.clear();
         let open = &world.walls.elements.open;
         let part = |c: f64| 1.0 - (-dt * c / (self.plugin.time * h)).exp();
@@ -156,13 +168,12 @@ impl Relaxation {
         };
         const BATCH: usize = 2048;
         let batches = constant.par_chunks_mut(BATCH).enumerate();
-        let mut given = world.shelf().lend::<Vec<f64>>();
         batches
             .map(|(batch, all)| {
                 let places = all.iter_mut().enumerate();
                 places.map(|(k, c)| one(batch * BATCH + k, c)).sum()
             })
-            .collect_into_vec(&mut given);
+            .collect_into_vec(given);
         Ok(given.iter().sum())
     }
 }
@@ -188,7 +199,10 @@ impl<const D: usize> StepHook<D> for Relaxation {
     fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
         let (world, dt) = (&mut *moment.world, moment.dt);
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
-        self.energy += self.relax(world, &mut constant, dt)?;
+        let mut room = std::mem::take(&mut self.room);
+        let given = self.relax(world, &mut constant, &mut room, dt);
+        self.room = room;
+        self.energy += given?;
         Ok(world.free.put(fields::DENSITY_CONSTANT, constant)?)
     }
     fn report(&self, _: &World<D>) -> Report {
@@ -211,6 +225,7 @@ mod tests {
             plugin: ConeTest::default(),
             phases: vec![(1000.0, 30.0)],
             energy: 0.0,
+            room: Room::default(),
         }
     }
 

@@ -89,11 +89,11 @@ pub fn rates<const D: usize>(
 ) -> Result<(), StepError> {
     let density = world.free.get(fields::DENSITY)?;
     let phase = world.free.get(fields::PHASE).ok();
-    let mut references = world.shelf().lend::<Vec<f64>>();
-    references.clear();
-    references.extend(laws.iter().map(|l| l.reference().density));
-    let references = &references[..];
-    let reference = |i: usize| phase.map_or(references[0], |p| references[p[i] as usize]);
+    let first_of_all = laws[0].reference().density;
+    let reference = |i: usize| match phase {
+        None => first_of_all,
+        Some(phase) => laws[phase[i] as usize].reference().density,
+    };
     let inside = |i: usize, rho: f64| {
         let ratio = rho / reference(i);
         ratio >= bounds[0] && ratio <= bounds[1]

@@ -3,7 +3,7 @@
 use sph_contribution::{
     Contribution, FromPlugins, Offer, OutsideForce, Plugins, Refusal, Setting, contributes,
 };
-use sph_core::AnyField;
+use sph_core::{AnyField, Pool};
 use sph_neighbours::Interaction;
 use sph_rheology::Rheology;
 
@@ -100,6 +100,7 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             gradient,
             felt: felt.clone(),
             displaced: force.displaced(),
+            gradients: Pool::default(),
         };
         match self.wave(setting).filter(|_| force.sub_steps()) {
             None => offer.hook(motion),

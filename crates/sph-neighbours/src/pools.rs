@@ -1,0 +1,31 @@
+//! Buffers of the walks over lists, and of whoever builds these.
+
+use std::ops::Range;
+
+use sph_core::{Pool, Vect};
+
+use crate::cluster::Buffers;
+use crate::kernel_values::{SumRoom, Values};
+use crate::list::Around;
+use crate::{CellGrid, Rates, Rows, particles};
+
+/// Buffers of the tasks that walk over lists, and of those that build them.
+#[derive(Default)]
+pub(crate) struct Pools<const D: usize> {
+    /// Of clusters, with the rates of a block.
+    pub sweeps: Pool<(Buffers<D>, Vec<Rates<D>>)>,
+    /// Rows, with kernel values of free particles and wall points.
+    pub walks: Pool<(Rows<D>, [Vec<f64>; 2])>,
+    /// Numbers of all pairs of a cluster.
+    pub numbers: Pool<Vec<f64>>,
+    /// Of kernel sums, with the candidates that are kept.
+    pub pruned: Pool<(SumRoom, Vec<u32>)>,
+    /// Kernel values around a place, who is within the support, and sums.
+    pub means: Pool<(Values, Vec<u32>, particles::Rows)>,
+    /// Candidates of clusters, with the ranges of cells.
+    pub clusters: Pool<(Vec<u32>, Vec<Range<usize>>)>,
+    /// Candidates of single particles, with the places around a cell.
+    pub lists: Pool<(Vec<u32>, Around)>,
+    pub grids: Pool<CellGrid<D>>,
+    pub centres: Pool<Vec<Vect<D>>>,
+}
