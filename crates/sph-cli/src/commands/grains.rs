@@ -4,4 +4,3 @@ pub mod check;
 pub mod explain;
 pub mod outcome;
 pub mod plugins;
-pub mod study;
