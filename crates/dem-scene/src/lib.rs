@@ -65,6 +65,7 @@ mod recorded;
 mod run;
 mod scaling;
 mod schema;
+mod subject;
 mod summary;
 mod tables;
 mod walls;
@@ -79,6 +80,7 @@ pub use origin::Origin;
 pub use read::{Loaded, is_grain_scene, kinds_of_probes, kinds_of_references, read};
 pub use run::{identity, run};
 pub use schema::editor_schema;
+pub use subject::DiscreteElements;
 pub use summary::{PluginInForce, Summary};
 pub use tables::{
     Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Lubrication, Oedometer, Output, Piston,

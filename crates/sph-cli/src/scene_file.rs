@@ -2,13 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
+use dem_scene::DiscreteElements;
 use sph_core::suggestion;
 use sph_io::Scratch;
+use sph_particles::Particles;
+use sph_run::Method;
 use sph_scene::{LoadError, Override, Source, read_text, within};
-use sph_study::{Method, Particles, SceneText};
+use sph_study::SceneText;
 
 use crate::arguments::SceneArguments;
-use crate::commands::grains::study::Grains;
 use crate::shipped::{self, Shipped};
 use crate::telling::diagnostics;
 use crate::telling::trouble::Trouble;
@@ -179,7 +181,7 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, St
 pub fn method(text: &str, name: &str) -> &'static dyn Method {
     let table = Source::new(text, name, &[]).table();
     match table.is_ok_and(|table| dem_scene::is_grain_scene(&table)) {
-        true => &Grains,
+        true => &DiscreteElements,
         false => &Particles,
     }
 }

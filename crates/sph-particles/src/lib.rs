@@ -10,10 +10,10 @@
 mod failure;
 mod results;
 mod running;
+mod subject;
 
 pub use failure::error::{Failure, RunError};
 pub use failure::findings::{Findings, Share, Sighting, Suspect};
-pub use failure::trouble::Trouble;
 pub use results::scene_picture::draw_scene;
 pub use results::summary::{Drift, ErrorEntry, RankShare, Summary};
 pub use running::identity::{identity, marks};
@@ -22,3 +22,4 @@ pub use running::run::{run, run_part};
 pub use running::stepper::Stepper;
 pub use running::trial::{Trial, examine_and_try};
 pub use sph_viscosity::Solves;
+pub use subject::Particles;

@@ -6,6 +6,7 @@
 //!
 //! * [`run()`]: a whole run.
 //! * [`Opened`]: the same in two parts, for a model whose processes must agree in between.
+//! * [`Subject`]: a scene that can be run, of whatever [`Method`]: what studies vary.
 //! * [`save_state()`], [`SavedState`]: a checkpoint of any state that `serde` knows.
 
 mod drive;
@@ -17,6 +18,8 @@ mod observer;
 mod options;
 mod schedule;
 mod state;
+mod subject;
+mod trouble;
 
 pub use drive::{Opened, run};
 pub use frames::{BAD_STATE, BAD_STATE_NEAR, BAD_STATE_PICTURE, Frames, Outlay};
@@ -26,3 +29,5 @@ pub use observer::{Command, Observer, Progress, Watch};
 pub use options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
 pub use schedule::{Schedule, next_multiple};
 pub use state::{SavedState, save_state};
+pub use subject::{Ended, Method, Subject, unusable};
+pub use trouble::Trouble;

@@ -3,7 +3,7 @@
 //! A study file names a scene, what is varied and the error that is judged. The way of a study:
 //! 1. [`Study::read`] crosses or pairs its axes into variants, reads the scene of each, and finds
 //!    every mistake before anything runs; [`Study::assemble`] puts a variant's plugins together.
-//!    A scene is a [`Subject`], of particles or of another [`Method`] that the program brings along.
+//!    A scene is a [`Subject`](sph_run::Subject) of any [`Method`](sph_run::Method): a study knows no physics.
 //! 2. [`execute`] runs what no [`Record`] settles; it can be stopped at any time and goes on where
 //!    it was.
 //! 3. [`Results`] has errors, times and orders of convergence; [`publish`] writes them as JSON,
@@ -17,7 +17,6 @@ mod pages;
 mod reading;
 mod results;
 mod running;
-mod subject;
 
 pub use pages::publish::publish;
 pub use pages::table::{rows, write_csv};
@@ -38,8 +37,6 @@ pub use results::variant_result::{SeriesResult, VariantResult, WallSeconds};
 pub use running::cost::{Cost, Scaling, SolveCost};
 pub use running::execute::{Outcome, execute, to_run};
 pub use running::machine::{Machine, Origin};
-pub use running::particles::{Particles, unusable};
 pub use running::record::{Error, Health, Record, Status};
 pub use running::verdict::{Colour, QUANTITIES, Verdict, verdict};
 pub use running::watcher::Watcher;
-pub use subject::{Ended, Method, Request, Subject};

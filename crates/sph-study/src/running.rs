@@ -4,7 +4,6 @@ pub mod cost;
 pub mod execute;
 pub mod fingerprint;
 pub mod machine;
-pub mod particles;
 pub mod record;
 pub mod repeat;
 pub mod verdict;

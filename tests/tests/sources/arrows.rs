@@ -203,19 +203,8 @@ const ALLOWED: [(&str, &[&str]); 41] = [
             "sph-viscosity",
         ],
     ),
-    ("sph-run", &["sph-io"]),
-    (
-        "sph-study",
-        &[
-            "sph-core",
-            "sph-io",
-            "sph-particles",
-            "sph-run",
-            "sph-scene",
-            "sph-setup",
-            "sph-solver",
-        ],
-    ),
+    ("sph-run", &["scene-text", "sph-io"]),
+    ("sph-study", &["sph-core", "sph-io", "sph-run", "sph-scene"]),
     (
         "sph-cli",
         &[

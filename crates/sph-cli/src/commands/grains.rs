@@ -4,4 +4,3 @@ pub mod check;
 pub mod explain;
 pub mod outcome;
 mod plugins;
-pub mod study;

@@ -1,5 +1,6 @@
 //! The end of a run in a few lines.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use sph_particles::Summary;
@@ -12,12 +13,7 @@ use crate::telling::layout::{columns, remarks};
 
 /// What the run was, what it cost, how good it is, and where its files are.
 pub fn text(summary: &Summary, out: &Path) -> String {
-    let status = match summary.status {
-        Status::Done => "done",
-        Status::Failed => "failed",
-        Status::Interrupted => "interrupted",
-    };
-    let mut text = format!("{status}: {}\n", summary.scene);
+    let mut text = headline(summary.status, &summary.scene);
     text.push_str(&columns(2, &cost(summary)));
     text.push_str(&errors(summary));
     if !summary.warnings.is_empty() {
@@ -32,8 +28,42 @@ pub fn text(summary: &Summary, out: &Path) -> String {
     text
 }
 
+/// How a run ended, and of which scene.
+pub fn headline(status: Status, scene: &str) -> String {
+    let status = match status {
+        Status::Done => "done",
+        Status::Failed => "failed",
+        Status::Interrupted => "interrupted",
+    };
+    format!("{status}: {scene}\n")
+}
+
+/// Wall-clock time (s) and threads.
+pub fn wall_time(seconds: f64, threads: usize) -> String {
+    let threads = match threads {
+        1 => "1 thread".to_string(),
+        n => format!("{n} threads"),
+    };
+    format!("{} on {threads}", number::duration(seconds))
+}
+
+/// What limited the steps, most of them first.
+pub fn limited_by(shares: &BTreeMap<String, f64>) -> String {
+    let mut limiters: Vec<(&String, &f64)> = shares.iter().collect();
+    limiters.sort_by(|a, b| b.1.total_cmp(a.1));
+    let limiters: Vec<String> = limiters
+        .iter()
+        .map(|(name, share)| format!("{name} {}", number::percent(**share)))
+        .collect();
+    limiters.join(", ")
+}
+
+/// A row of name and value.
+pub fn row(name: &str, value: String) -> Vec<String> {
+    vec![name.to_string(), value]
+}
+
 fn cost(s: &Summary) -> Vec<Vec<String>> {
-    let row = |name: &str, value: String| vec![name.to_string(), value];
     let particles = format!(
         "{} particles, {} wall points, {:.1} neighbours each",
         number::count(s.particles as f64),
@@ -52,31 +82,18 @@ fn cost(s: &Summary) -> Vec<Vec<String>> {
         number::count(s.steps as f64),
         number::plain(s.simulated_seconds)
     );
-    let threads = match s.threads {
-        1 => "1 thread".to_string(),
-        n => format!("{n} threads"),
-    };
     let speed = format!(
         "{} particle-steps/s, {:.1} ns per pair and thread",
         number::rate(s.particle_steps_per_second),
         s.nanoseconds_per_pair
     );
-    let mut limiters: Vec<(&String, &f64)> = s.dt_limiters.iter().collect();
-    limiters.sort_by(|a, b| b.1.total_cmp(a.1));
-    let limiters: Vec<String> = limiters
-        .iter()
-        .map(|(name, share)| format!("{name} {}", number::percent(**share)))
-        .collect();
     vec![
         row("size", particles),
         row("steps", steps),
-        row(
-            "wall time",
-            format!("{} on {threads}", number::duration(s.wall_seconds)),
-        ),
+        row("wall time", wall_time(s.wall_seconds, s.threads)),
         row("speed", speed),
         row("memory", memory(&s.memory)),
-        row("Δt limited by", limiters.join(", ")),
+        row("Δt limited by", limited_by(&s.dt_limiters)),
         // Momentum and energy, which walls and friction take, are in the summary.
         row("mass drift", format!("{:.1e}", s.drift.mass)),
     ]

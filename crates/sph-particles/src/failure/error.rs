@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use sph_core::StepError;
 use sph_io::IoError;
+use sph_run::Trouble;
 use sph_solver::SolverError;
 use thiserror::Error;
 
-use crate::{Findings, Summary, Trouble};
+use crate::{Findings, Summary};
 
 /// A run that stopped before its end.
 #[derive(Debug, Error)]

@@ -3,9 +3,8 @@
 use serde::{Deserialize, Serialize};
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{TermShare, shares_at};
+use sph_run::Trouble;
 use sph_solver::Flow;
-
-use crate::Trouble;
 
 /// Wall distances beyond this many spacings are not told.
 const NEAR: f64 = 4.0;

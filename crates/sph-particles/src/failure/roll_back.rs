@@ -10,7 +10,7 @@ use crate::failure::bad_pictures;
 use crate::failure::error::{Failure, RunError};
 use crate::failure::findings::{Findings, Suspect, place_of, shares_on, sighting, suspect};
 use crate::failure::remedies::remedies;
-use crate::failure::trouble::Trouble;
+use crate::failure::trouble::trouble;
 use crate::results::summary::Summary;
 use crate::running::course::{Known, Running};
 use crate::running::output::write_everything;
@@ -71,7 +71,7 @@ impl<const D: usize> Running<'_, D> {
     fn note_trouble(&mut self, cause: &StepError) {
         let (time, step) = (self.parts.flow.world.time, self.counters.steps);
         let first = &mut self.counters.first_trouble;
-        first.get_or_insert_with(|| Trouble::of(cause, time, step));
+        first.get_or_insert_with(|| trouble(cause, time, step));
     }
 
     /// A run that ends here, of which no more is known than why.
@@ -85,7 +85,7 @@ impl<const D: usize> Running<'_, D> {
             time,
             step,
             findings: Findings {
-                cause: Trouble::of(&cause, time, step),
+                cause: trouble(&cause, time, step),
                 retries: self.counters.retries,
                 dt: self.tried.0,
                 limiter: self.tried.1.to_string(),

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
-use sph_run::Status;
+use sph_run::{Status, Trouble};
 use sph_setup::{Memory, Relaxation};
 use sph_solver::{Left, PluginInForce};
 
-use crate::{Findings, Trouble};
+use crate::Findings;
 
 /// Version of the summary's layout.
 pub const SCHEMA_VERSION: u32 = 1;

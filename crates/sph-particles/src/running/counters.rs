@@ -5,10 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 use sph_io::ColourRanges;
-use sph_run::Books;
+use sph_run::{Books, Trouble};
 use sph_scene::Scene;
-
-use crate::failure::trouble::Trouble;
 
 /// Counters of a run, as they stand in a checkpoint.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]

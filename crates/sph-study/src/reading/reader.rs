@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use sph_core::{SceneProblem, suggestion};
+use sph_run::Subject;
 use sph_scene::{Override, Source};
 use toml::{Table, Value};
 
@@ -13,7 +14,6 @@ use crate::reading::mistake::{Blame, Mistake, Refused};
 use crate::reading::scene_text::SceneText;
 use crate::reading::variant::Variant;
 use crate::running::fingerprint::fingerprint;
-use crate::subject::Subject;
 
 /// The key over which the order of convergence is computed, where a study names none.
 const REFINEMENT: &str = "numerics.spacing";

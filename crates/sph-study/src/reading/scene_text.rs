@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::subject::Method;
+use sph_run::Method;
 
 /// The text of a scene and the file name against which it names other files.
 #[derive(Clone, Debug)]

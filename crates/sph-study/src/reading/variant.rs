@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use sph_run::Subject;
+
 use crate::reading::rung::Rung;
-use crate::subject::Subject;
 
 /// One scene of a study.
 #[derive(Clone, Debug)]

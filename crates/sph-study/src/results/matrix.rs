@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use sph_core::number;
 use sph_io::{IoError, escape};
-use sph_particles::Trouble;
+use sph_run::Trouble;
 
 use crate::pages::grid::grid;
 use crate::pages::matrix_plots;

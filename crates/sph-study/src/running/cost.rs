@@ -1,5 +1,7 @@
 //! What a run costs: a step, or a solve.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 use sph_core::parameters;
 
@@ -57,8 +59,17 @@ pub struct SolveCost {
     pub bytes: usize,
 }
 
+/// What the summary of a run tells of them.
+#[derive(Deserialize)]
+pub(crate) struct SolvesTold {
+    by_method: BTreeMap<String, u64>,
+    mean_iterations: f64,
+    wall_seconds: f64,
+    most_bytes: usize,
+}
+
 impl SolveCost {
-    pub(crate) fn of(solves: sph_particles::Solves) -> Self {
+    pub(crate) fn of(solves: SolvesTold) -> Self {
         SolveCost {
             count: solves.by_method.values().sum(),
             seconds: solves.wall_seconds,

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
 use sph_io::IoError;
-use sph_particles::{ErrorEntry, Summary, Trouble};
+use sph_run::Trouble;
 
-use crate::running::cost::{Cost, SolveCost};
+use crate::running::cost::{Cost, SolveCost, SolvesTold};
 use crate::running::machine::Origin;
 
 /// Name of the record in a variant's folder.
@@ -112,21 +113,6 @@ pub struct Health {
 }
 
 impl Health {
-    pub(crate) fn of(summary: &Summary) -> Self {
-        let finite = |x: f64| x.is_finite().then_some(x);
-        let both = |x: [f64; 2]| x.iter().all(|x| x.is_finite()).then_some(x);
-        Health {
-            escaped: summary.escaped,
-            density_range: both(summary.density_range),
-            energy_drift: finite(summary.drift.energy),
-            energy_rise: finite(summary.drift.energy_rise),
-            momentum_drift: finite(summary.drift.momentum),
-            mach: finite(summary.mach),
-            nearest: both(summary.nearest),
-            first_trouble: summary.first_trouble.clone(),
-        }
-    }
-
     /// Largest distance of a density from its reference, over it.
     pub fn density_deviation(&self) -> Option<f64> {
         let [low, high] = self.density_range?;
@@ -142,20 +128,75 @@ pub struct Error {
     /// Name of the norm.
     pub norm: String,
     /// Unit, "1" for relative norms.
+    #[serde(default = "one")]
     pub unit: String,
 }
 
-impl From<&ErrorEntry> for Error {
-    fn from(entry: &ErrorEntry) -> Self {
-        Error {
-            value: entry.value,
-            norm: entry.norm.clone(),
-            unit: entry.unit.clone(),
-        }
-    }
+fn one() -> String {
+    "1".into()
+}
+
+/// What a study reads of the summary of a run, whatever computed it.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Told {
+    wall_seconds: f64,
+    threads: usize,
+    #[serde(alias = "grains")]
+    particles: usize,
+    steps: u64,
+    steps_rolled_back: u64,
+    simulated_seconds: f64,
+    dt_limiters: BTreeMap<String, f64>,
+    implicit_viscosity: Option<SolvesTold>,
+    errors: BTreeMap<String, Error>,
+    wall_seconds_by_stage: BTreeMap<String, f64>,
+    escaped: usize,
+    density_range: [Option<f64>; 2],
+    drift: DriftTold,
+    mach: Option<f64>,
+    nearest: [Option<f64>; 2],
+    first_trouble: Option<Trouble>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct DriftTold {
+    energy: Option<f64>,
+    energy_rise: Option<f64>,
+    momentum: Option<f64>,
 }
 
 impl Record {
+    /// What a run gave, from its summary.
+    pub fn of(summary: Json) -> Self {
+        let told: Told = serde_json::from_value(summary).unwrap_or_default();
+        let both = |[low, high]: [Option<f64>; 2]| Some([low?, high?]);
+        Record {
+            spent: told.wall_seconds,
+            threads: told.threads,
+            particles: told.particles,
+            steps: told.steps,
+            steps_rolled_back: told.steps_rolled_back,
+            simulated_seconds: told.simulated_seconds,
+            dt_limiters: told.dt_limiters,
+            solves: told.implicit_viscosity.map(SolveCost::of),
+            health: Health {
+                escaped: told.escaped,
+                density_range: both(told.density_range),
+                energy_drift: told.drift.energy,
+                energy_rise: told.drift.energy_rise,
+                momentum_drift: told.drift.momentum,
+                mach: told.mach,
+                nearest: both(told.nearest),
+                first_trouble: told.first_trouble,
+            },
+            errors: told.errors,
+            wall_seconds_by_stage: told.wall_seconds_by_stage,
+            ..Record::default()
+        }
+    }
+
     /// The record in a variant's folder, if there is one that can be read.
     pub fn load(folder: &Path) -> Option<Self> {
         let file = folder.join(FILE);

@@ -4,18 +4,15 @@ use std::path::Path;
 use std::time::Instant;
 
 use sph_io::IoError;
-use sph_run::{Command, Observer, Progress};
+use sph_run::{
+    BAD_STATE, CHECKPOINT, Command, Ended, Identity, Observer, Progress, RunOptions, Start,
+};
 
 use crate::reading::options::Options;
 use crate::reading::plan::Study;
 use crate::reading::variant::Variant;
 use crate::running::record::{Record, Status};
 use crate::running::watcher::Watcher;
-use crate::subject::{Ended, Request};
-
-/// Files that only an interrupted variant needs, or one whose output is kept.
-const CHECKPOINT: &str = "checkpoint.sph";
-const BAD_STATE: &str = "bad_state.vtu";
 
 /// A variant to be run.
 pub(crate) struct Job<'a> {
@@ -98,11 +95,14 @@ impl Job<'_> {
         let repetition = record.wall_seconds.len();
         self.watcher.started(self.variant, repetition);
         let identity = format!("{} repetition {repetition}", self.variant.fingerprint);
-        let mut request = Request {
-            out: folder,
-            resume: folder.join(CHECKPOINT).exists(),
-            threads: self.threads,
-            identity: &identity,
+        let mut options = RunOptions {
+            out: folder.to_path_buf(),
+            start: match folder.join(CHECKPOINT).exists() {
+                true => Start::Resumed,
+                false => Start::Afresh,
+            },
+            threads: Some(self.threads),
+            identity: Identity::of_text(identity),
         };
         let limit = self.study.file.time_limit;
         let mut observer = Watching {
@@ -112,28 +112,29 @@ impl Job<'_> {
             cause: None,
         };
         let subject = &self.variant.subject;
-        let mut ended = subject.run(&request, &mut observer)?;
+        let mut ended = subject.run(&options, &mut observer)?;
         if matches!(ended, Ended::Unusable) {
-            request.resume = false;
+            options.start = Start::Afresh;
             observer.since = Instant::now();
             observer.left = limit;
-            ended = subject.run(&request, &mut observer)?;
+            ended = subject.run(&options, &mut observer)?;
         }
         let cause = observer.cause;
         match ended {
-            Ended::Done(run) => {
-                record.add(&run);
+            Ended::Done(summary) => {
+                record.add(&Record::of(summary));
                 if record.wall_seconds.len() >= self.study.file.repetitions {
                     record.status = Status::Done;
                 }
                 return Ok(Status::Done);
             }
-            Ended::Stopped(run) => {
+            Ended::Stopped(summary) => {
+                let run = Record::of(summary);
                 record.look(&run);
                 (record.status, record.reason) = self.stopped(run.simulated_seconds, cause);
             }
-            Ended::Failed(run, reason) => {
-                record.look(&run);
+            Ended::Failed(summary, reason) => {
+                record.look(&Record::of(summary));
                 record.threads = self.threads;
                 record.status = Status::Failed;
                 record.reason = Some(reason);

@@ -3,20 +3,15 @@
 use std::path::Path;
 
 use dem_scene::{Compared, Summary};
-use sph_run::Status;
 
+use crate::commands::outcome::{headline, limited_by, row, wall_time};
 use crate::commands::written;
 use crate::number;
 use crate::telling::layout::{columns, remarks};
 
 /// What the run was, what it cost, how good it is, and where its files are.
 pub fn text(summary: &Summary, out: &Path) -> String {
-    let status = match summary.status {
-        Status::Done => "done",
-        Status::Failed => "failed",
-        Status::Interrupted => "interrupted",
-    };
-    let mut text = format!("{status}: {}\n", summary.scene);
+    let mut text = headline(summary.status, &summary.scene);
     text.push_str(&columns(2, &cost(summary)));
     if !summary.derived.is_empty() {
         let row = |(name, value): (&String, &f64)| vec![name.clone(), number::plain(*value)];
@@ -34,7 +29,6 @@ pub fn text(summary: &Summary, out: &Path) -> String {
 }
 
 fn cost(s: &Summary) -> Vec<Vec<String>> {
-    let row = |name: &str, value: String| vec![name.to_string(), value];
     let cells = s.cells.map_or(String::new(), |cells| {
         format!(", {} pores", number::count(cells as f64))
     });
@@ -51,21 +45,11 @@ fn cost(s: &Summary) -> Vec<Vec<String>> {
         number::count(s.steps as f64),
         number::plain(s.simulated_seconds)
     );
-    let threads = match s.threads {
-        1 => "1 thread".to_string(),
-        n => format!("{n} threads"),
-    };
     let time = format!(
-        "{} on {threads}, of these {} for the preparation",
-        number::duration(s.wall_seconds),
+        "{}, of these {} for the preparation",
+        wall_time(s.wall_seconds, s.threads),
         number::duration(s.preparation_seconds)
     );
-    let mut limiters: Vec<_> = s.dt_limiters.iter().collect();
-    limiters.sort_by(|a, b| b.1.total_cmp(a.1));
-    let limiters: Vec<String> = limiters
-        .iter()
-        .map(|(name, share)| format!("{name} {}", number::percent(**share)))
-        .collect();
     let mut rows = vec![
         row("size", size),
         row("steps", steps),
@@ -74,7 +58,7 @@ fn cost(s: &Summary) -> Vec<Vec<String>> {
             "speed",
             format!("{} grain-steps/s", number::rate(s.grain_steps_per_second)),
         ),
-        row("Δt limited by", limiters.join(", ")),
+        row("Δt limited by", limited_by(&s.dt_limiters)),
     ];
     if let Some(porosity) = s.porosity {
         rows.push(row("porosity", format!("{porosity:.4}")));

@@ -1,16 +1,17 @@
-//! What a study runs: scenes of particles, or of another method that the program brings along.
+//! Scenes that can be run, whatever computes them.
 
 use std::fmt::Debug;
-use std::path::Path;
 use std::sync::Arc;
 
-use sph_core::SceneProblem;
+use scene_text::{Diagnostic, SceneProblem, Source};
+use serde::Serialize;
+use serde_json::Value as Json;
 use sph_io::IoError;
-use sph_run::Watch;
-use sph_scene::{Diagnostic, Source};
 use toml::Table;
 
-use crate::running::record::Record;
+use crate::model::Status;
+use crate::observer::Watch;
+use crate::options::RunOptions;
 
 /// A way to compute scenes.
 pub trait Method: Debug + Sync {
@@ -54,31 +55,38 @@ pub trait Subject: Debug + Send + Sync {
     ///
     /// # Errors
     /// A file that cannot be written, which is no fault of the scene.
-    fn run(&self, request: &Request<'_>, observer: &mut Watch<'_>) -> Result<Ended, IoError>;
+    fn run(&self, options: &RunOptions, observer: &mut Watch<'_>) -> Result<Ended, IoError>;
 }
 
-/// How a scene is to be run.
-#[derive(Clone, Copy, Debug)]
-pub struct Request<'a> {
-    /// Folder of the results.
-    pub out: &'a Path,
-    /// Whether it goes on from the checkpoint in its folder.
-    pub resume: bool,
-    /// Threads.
-    pub threads: usize,
-    /// What the run is known by: a checkpoint of another one is not gone on from.
-    pub identity: &'a str,
-}
-
-/// What became of a run. Records hold what it gave, the time of this run as their `spent`.
+/// What became of a run, with its summary.
 #[derive(Debug)]
 pub enum Ended {
     /// It reached its end.
-    Done(Box<Record>),
+    Done(Json),
     /// It was stopped, by its observer or a bound of its own.
-    Stopped(Box<Record>),
-    /// It failed, for this reason.
-    Failed(Box<Record>, String),
+    Stopped(Json),
+    /// It failed, for this reason; as much of the summary as is known.
+    Failed(Json, String),
     /// The checkpoint that it was to go on from is of no use.
     Unusable,
+}
+
+impl Ended {
+    /// Of a run that ended well.
+    pub fn of(status: Status, summary: &impl Serialize) -> Self {
+        let summary = serde_json::to_value(summary).unwrap_or(Json::Null);
+        match status {
+            Status::Done => Ended::Done(summary),
+            _ => Ended::Stopped(summary),
+        }
+    }
+}
+
+/// Whether a file is no checkpoint that can be read.
+pub fn unusable(error: &IoError) -> bool {
+    use IoError::{Checkpoint, Malformed, Read, TooShort};
+    matches!(
+        error,
+        Checkpoint { .. } | Malformed { .. } | Read { .. } | TooShort { .. }
+    )
 }

@@ -1,0 +1,108 @@
+//! Scenes of particles as what can be run.
+
+use std::sync::Arc;
+
+use serde_json::{Value as Json, json};
+use sph_core::SceneProblem;
+use sph_io::IoError;
+use sph_run::{Ended, FileMark, Method, RunOptions, Subject, Watch, unusable};
+use sph_scene::{Diagnostic, Loaded, Source, read};
+use sph_setup::examine;
+use sph_solver::SolverError;
+use toml::Table;
+
+use crate::failure::error::RunError;
+use crate::running::identity::marks;
+use crate::running::run::run;
+
+/// Smoothed particles.
+#[derive(Clone, Copy, Debug)]
+pub struct Particles;
+
+impl Method for Particles {
+    fn quiet(&self) -> &[&str] {
+        &["output.vtk=false", "output.picture=[]"]
+    }
+
+    fn read(&self, source: Source) -> Result<Arc<dyn Subject>, (Source, Vec<Diagnostic>)> {
+        match read(source) {
+            Ok(loaded) => Ok(Arc::new(Scene(loaded))),
+            Err(refused) => Err((refused.source, refused.diagnostics)),
+        }
+    }
+}
+
+/// A scene of particles.
+#[derive(Debug)]
+struct Scene(Loaded);
+
+impl Subject for Scene {
+    fn source(&self) -> &Source {
+        &self.0.source
+    }
+
+    fn references(&self) -> Vec<String> {
+        self.0.scene.reference.keys().cloned().collect()
+    }
+
+    fn resolved(&self) -> Table {
+        self.0.resolved()
+    }
+
+    fn marks(&self) -> Result<Vec<(String, String)>, SceneProblem> {
+        let marks = marks(&self.0).map_err(|error| match error {
+            SolverError::Scene(problems) => {
+                let first = problems.into_iter().next();
+                first.unwrap_or_else(|| SceneProblem::new("", ""))
+            }
+            other => SceneProblem::new("", other.to_string()),
+        })?;
+        let each = |mark: FileMark| (mark.key, mark.content.to_string());
+        Ok(marks.into_iter().map(each).collect())
+    }
+
+    fn end(&self) -> f64 {
+        self.0.scene.run.end
+    }
+
+    /// Pairs in the sweeps of all steps.
+    fn assemble(&self) -> Result<f64, Vec<SceneProblem>> {
+        match examine(&self.0.scene) {
+            Ok(examined) => Ok(examined.pairs),
+            Err(SolverError::Scene(problems)) => Err(problems),
+            Err(other) => Err(vec![SceneProblem::new("", other.to_string())]),
+        }
+    }
+
+    fn run(&self, options: &RunOptions, observer: &mut Watch<'_>) -> Result<Ended, IoError> {
+        match run(&self.0.scene, options, observer) {
+            Ok(summary) => Ok(Ended::of(summary.status, &summary)),
+            Err(error) if options.start.goes_on() && cannot_resume(&error) => Ok(Ended::Unusable),
+            Err(RunError::Io(error)) => Err(error),
+            Err(error) => Ok(Ended::Failed(known(&error), error.to_string())),
+        }
+    }
+}
+
+/// What is known of a failed run.
+fn known(error: &RunError) -> Json {
+    let RunError::Failed(failure) = error else {
+        return Json::Null;
+    };
+    let mut known = match &failure.summary {
+        Some(summary) => serde_json::to_value(summary).unwrap_or(Json::Null),
+        None => json!({ "first_trouble": failure.first }),
+    };
+    known["steps"] = failure.step.into();
+    known["simulated_seconds"] = failure.time.into();
+    known
+}
+
+/// Whether an error says that a checkpoint is of no use.
+fn cannot_resume(error: &RunError) -> bool {
+    match error {
+        RunError::Resume { .. } => true,
+        RunError::Io(io) => unusable(io),
+        _ => false,
+    }
+}
