@@ -8,9 +8,12 @@
 //! * [`Flow`]: one evaluation, one step; a [`sph_core::System`] for the integrator. `sph-particles` takes the steps of a run.
 //! * [`rheometer`]: a law by its name, sheared alone; [`kernels`]: a kernel by its name.
 
-// Plugins of contributions alone, which the solver knows by their kinds.
+// Plugins that are found by their names: a binary with the solver has them.
 use sph_diffusion as _;
+use sph_implicit as _;
 use sph_seepage as _;
+use sph_stress as _;
+use sph_viscosity as _;
 
 pub mod defaults;
 mod error;
