@@ -9,7 +9,7 @@ use sph_run::{CHECKPOINT, Identity, RunOptions, SUMMARY, Start, Status, Watch};
 use sph_scene::{Loaded, Source};
 
 use crate::arguments::RunArguments;
-use crate::commands::left_behind::{failed_summary, going_on, remedy};
+use crate::commands::left_behind::{failed_summary, going_on};
 use crate::commands::{grains, outcome};
 use crate::interrupt;
 use crate::ranks;
@@ -198,20 +198,24 @@ fn conclude(arguments: &RunArguments, ended: &Ended, out: &Path) -> Result<(), T
     Err(Trouble::Interrupted)
 }
 
-fn trouble(error: impl Failing, arguments: &RunArguments, source: &Source, out: &Path) -> Trouble {
-    let ran = error.ran();
-    let unwritten = error.io().and_then(remedy);
-    let stands = unwritten.filter(|_| out.join(CHECKPOINT).is_file());
+fn trouble(
+    error: impl Into<Failing>,
+    arguments: &RunArguments,
+    source: &Source,
+    out: &Path,
+) -> Trouble {
+    let told: Failing = error.into();
+    let left = told.ran.then(|| failed_summary(&out.join(SUMMARY)));
+    let stands = told.remedy.filter(|_| out.join(CHECKPOINT).is_file());
     let again = stands.map(|why| {
         let again = going_on(arguments, out);
         format!("the last checkpoint stands: {why}, then go on with\n  {again}")
     });
-    let mut trouble = Trouble::of(error, source);
+    let mut trouble = Trouble::of(told, source);
     if let Trouble::Failed {
         summary, advice, ..
     } = &mut trouble
     {
-        let left = ran.then(|| failed_summary(&out.join(SUMMARY)));
         *summary = left.flatten().map(Box::new);
         *advice = again;
     }

@@ -1,7 +1,5 @@
 //! Everything that keeps a command from its end, and how it is told.
 
-use std::fmt::Display;
-
 use dem_scene::DemError;
 use serde_json::{Value as Json, json};
 use sph_core::SceneProblem;
@@ -11,6 +9,7 @@ use sph_scene::{LoadError, Source};
 use sph_solver::SolverError;
 use sph_study::{ReadError, Refused};
 
+use crate::commands::left_behind::remedy;
 use crate::number;
 use crate::telling::console;
 use crate::telling::diagnostics::{self, Located};
@@ -68,110 +67,101 @@ impl From<Refused> for Trouble {
 
 impl From<IoError> for Trouble {
     fn from(error: IoError) -> Self {
-        Trouble::failed(&RunError::Io(error))
+        Failing::from(RunError::Io(error)).into()
     }
 }
 
-/// An error of a model.
-pub trait Failing: Display + Sized {
+/// What a model says of an error.
+#[derive(Default)]
+pub struct Failing {
     /// Mistakes of the scene, if it is these.
-    ///
-    /// # Errors
-    /// The error itself, where it is another.
-    fn mistakes(self) -> Result<Vec<SceneProblem>, Self>;
-    /// To whom it happened, and what may help, in lines.
-    fn more(&self) -> String;
-    /// Exit code of the program.
-    fn code(&self) -> u8;
+    mistakes: Vec<SceneProblem>,
+    error: String,
+    more: String,
+    code: u8,
     /// Whether a step failed.
-    fn ran(&self) -> bool;
-    /// The file that could not be read or written, if it is one.
-    fn io(&self) -> Option<&IoError>;
+    pub ran: bool,
+    /// What is to be done first where a file could not be written.
+    pub remedy: Option<&'static str>,
 }
 
-impl Failing for RunError {
-    fn mistakes(self) -> Result<Vec<SceneProblem>, Self> {
-        match self {
-            RunError::Solver(SolverError::Scene(problems)) => Ok(problems),
-            error if error.exit_code() == 2 => Ok(vec![SceneProblem::new("", error.to_string())]),
-            error => Err(error),
-        }
-    }
-    fn more(&self) -> String {
-        match self {
-            RunError::Failed(failure) => crate::commands::failed::text(failure),
-            RunError::Io(io) if is_unreadable_checkpoint(io) => {
-                "a checkpoint that cannot be read cannot be resumed: start again without --resume\n"
-                    .into()
-            }
-            _ => String::new(),
-        }
-    }
-    fn code(&self) -> u8 {
-        1
-    }
-    fn ran(&self) -> bool {
-        matches!(self, RunError::Failed(_))
-    }
-    fn io(&self) -> Option<&IoError> {
-        match self {
-            RunError::Io(io) => Some(io),
-            _ => None,
-        }
-    }
-}
-
-impl Failing for DemError {
-    fn mistakes(self) -> Result<Vec<SceneProblem>, Self> {
-        match self {
-            DemError::Scene(problems) => Ok(problems),
-            error => Err(error),
-        }
-    }
-    fn more(&self) -> String {
-        let DemError::Failed(failure) = self else {
-            return String::new();
+impl From<RunError> for Failing {
+    fn from(error: RunError) -> Self {
+        let mut told = Failing {
+            error: error.to_string(),
+            code: 1,
+            ..Failing::default()
         };
-        let at = failure.grain.zip(failure.position).map(|(grain, at)| {
-            let at = at.map(number::plain).join(", ");
-            format!("grain {grain} at ({at}) m\n")
-        });
-        at.unwrap_or_default()
-            + "bad_state.vtu and bad_state.png show all grains as they were, the one at fault ringed\n\
-               the last checkpoint stands: try --resume --changed with a smaller run.safety\n"
+        match error {
+            RunError::Solver(SolverError::Scene(problems)) => told.mistakes = problems,
+            RunError::Solver(SolverError::Plan(_)) => {
+                told.mistakes = vec![SceneProblem::new("", told.error.clone())];
+            }
+            RunError::Failed(failure) => {
+                told.ran = true;
+                told.more = crate::commands::failed::text(&failure);
+            }
+            RunError::Io(io) => {
+                told.remedy = remedy(&io);
+                if is_unreadable_checkpoint(&io) {
+                    told.more = "a checkpoint that cannot be read cannot be resumed: start again without --resume\n".into();
+                }
+            }
+            _ => {}
+        }
+        told
     }
-    fn code(&self) -> u8 {
-        self.exit_code()
+}
+
+impl From<DemError> for Failing {
+    fn from(error: DemError) -> Self {
+        let mut told = Failing {
+            error: error.to_string(),
+            code: error.exit_code(),
+            ..Failing::default()
+        };
+        match error {
+            DemError::Scene(problems) => told.mistakes = problems,
+            DemError::Failed(failure) => {
+                told.ran = true;
+                if let (Some(grain), Some(at)) = (failure.grain, failure.position) {
+                    let at = at.map(number::plain).join(", ");
+                    told.more = format!("grain {grain} at ({at}) m\n");
+                }
+                told.more.push_str(
+                    "bad_state.vtu and bad_state.png show all grains as they were, the one at fault ringed\n\
+                     the last checkpoint stands: try --resume --changed with a smaller run.safety\n",
+                );
+            }
+            DemError::Io(io) => told.remedy = remedy(&io),
+            _ => {}
+        }
+        told
     }
-    fn ran(&self) -> bool {
-        matches!(self, DemError::Failed(_))
-    }
-    fn io(&self) -> Option<&IoError> {
-        match self {
-            DemError::Io(io) => Some(io),
-            _ => None,
+}
+
+impl From<Failing> for Trouble {
+    fn from(told: Failing) -> Self {
+        Trouble::Failed {
+            error: told.error,
+            more: told.more,
+            code: told.code,
+            summary: None,
+            advice: None,
         }
     }
 }
 
 impl Trouble {
     /// What a model says, with places in the scene where it is the scene's fault.
-    pub fn of(error: impl Failing, source: &Source) -> Self {
-        match error.mistakes() {
-            Ok(problems) => {
-                Trouble::Scene(diagnostics::located(source, &source.diagnose(&problems)))
+    pub fn of(error: impl Into<Failing>, source: &Source) -> Self {
+        let told = error.into();
+        match told.mistakes.is_empty() {
+            true => told.into(),
+            false => {
+                let found = source.diagnose(&told.mistakes);
+                Trouble::Scene(diagnostics::located(source, &found))
             }
-            Err(error) => Trouble::failed(&error),
-        }
-    }
-
-    fn failed(error: &impl Failing) -> Self {
-        Trouble::Failed {
-            error: error.to_string(),
-            more: error.more(),
-            code: error.code(),
-            summary: None,
-            advice: None,
         }
     }
 
