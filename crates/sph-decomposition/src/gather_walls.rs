@@ -1,21 +1,11 @@
 //! What walls feel, at one rank, for files.
 
-use sph_core::{Store, Vect, fields};
+use sph_core::{Vect, fields};
 use sph_neighbours::{Clusters, World};
 
-use crate::owner::OWNER;
 use crate::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {
-    /// Whether each particle is this rank's own.
-    ///
-    /// # Errors
-    /// If particles have no owners.
-    pub fn own(&self, free: &Store<D>) -> Result<Vec<bool>, PartError> {
-        let rank = self.link.transport.rank() as u32;
-        Ok(free.get(OWNER)?.iter().map(|o| *o == rank).collect())
-    }
-
     /// Gives the points and elements of the walls at rank 0, which has the `whole`, the pressures that the ranks found there. A rank
     /// that has a particle of its own within reach has all that the mean is taken over, so that all such have found the same.
     /// It knows the corners of such elements as well, and every rank knows open faces.
@@ -27,13 +17,13 @@ impl<const D: usize> Parts<D> {
         world: &World<D>,
         whole: Option<&mut World<D>>,
     ) -> Result<(), PartError> {
-        let own = self.own(&world.free)?;
+        let owned = world.owned();
         let positions = world.free.get(fields::POSITION)?;
         let support = world.kernel.support_radius();
         let knows = |lists: &Clusters, place: usize, at: &Vect<D>| {
             let near = |k: &u32| {
                 let apart = world.domain.nearest_image(positions[*k as usize] - at);
-                own[*k as usize] && apart.norm() < support
+                owned.has(*k as usize) && apart.norm() < support
             };
             place < lists.len() && lists.candidates(place).iter().any(near)
         };

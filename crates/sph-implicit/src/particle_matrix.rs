@@ -14,8 +14,8 @@ pub struct ParticleMatrix<'a, const D: usize> {
     space: &'a Space<D>,
     /// Particles of the rows, if not all have one.
     places: Option<&'a [u32]>,
-    /// Of the rows, where not all particles have one.
-    owned: Option<Owned>,
+    /// The rows that count.
+    owned: Owned,
     inside: OnceLock<Matrix<1>>,
 }
 
@@ -26,14 +26,12 @@ impl<'a, const D: usize> ParticleMatrix<'a, D> {
             matrix,
             space,
             places,
-            owned: places.map(|places| space.owned().of_rows(places)),
+            owned: match places {
+                None => space.owned().clone(),
+                Some(places) => space.owned().of_rows(places),
+            },
             inside: OnceLock::new(),
         }
-    }
-
-    /// The rows that count.
-    fn owned(&self) -> &Owned {
-        self.owned.as_ref().unwrap_or(self.space.owned())
     }
 
     /// Copies follow their owners.
@@ -70,7 +68,7 @@ impl<'a, const D: usize> ParticleMatrix<'a, D> {
                     .clone()
                     .map(|k| (self.matrix.pattern.columns[k], values.others[k]))
                 {
-                    if self.owned().has(j as usize) {
+                    if self.owned.has(j as usize) {
                         pattern.columns.push(j);
                         cut.others.push(value);
                     }
@@ -94,7 +92,7 @@ impl<const D: usize> Operator<1> for ParticleMatrix<'_, D> {
         self.refresh(x);
     }
     fn inner(&self, x: &[Vect<1>], y: &[Vect<1>]) -> f64 {
-        self.space.inner_of(self.owned(), x, y)
+        self.space.inner_of(&self.owned, x, y)
     }
     fn all(&self, holds: bool) -> bool {
         self.space.all(holds)

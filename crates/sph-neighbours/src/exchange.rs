@@ -13,17 +13,15 @@ pub trait Words: Sized {
     fn read(from: &[u64]) -> Self;
 }
 
-/// An item of a list, with its place there.
-struct Placed<T>(usize, T);
-
-impl<T: Words> Words for Placed<T> {
+/// An item of a list behind its place there.
+impl<T: Words> Words for (usize, T) {
     fn write(&self, to: &mut Vec<u64>) {
         to.push(self.0 as u64);
         self.1.write(to);
     }
 
     fn read(from: &[u64]) -> Self {
-        Placed(from[0] as usize, T::read(&from[1..]))
+        (from[0] as usize, T::read(&from[1..]))
     }
 }
 
@@ -78,8 +76,7 @@ impl<const D: usize> World<D> {
         }
         let mut all: Vec<T> = (0..list.len()).map(otherwise).collect();
         let known = list.into_iter().enumerate().filter(|(k, _)| owned(*k));
-        let known = known.map(|(k, item)| Placed(k, item)).collect();
-        for Placed(k, item) in self.of_all(known)? {
+        for (k, item) in self.of_all(known.collect())? {
             if let Some(place) = all.get_mut(k) {
                 *place = item;
             }

@@ -51,10 +51,10 @@ impl<const D: usize> World<D> {
         let owned = self.owned();
         let looked = match owned.all() {
             true => None,
-            false => Some(Looked {
-                identity: self.free.get(fields::IDENTITY)?,
-                position: self.free.get(fields::POSITION)?,
-            }),
+            false => Some((
+                self.free.get(fields::IDENTITY)?,
+                self.free.get(fields::POSITION)?,
+            )),
         };
         Ok(OwnedElements {
             world: self,
@@ -69,13 +69,8 @@ impl<const D: usize> World<D> {
 pub struct OwnedElements<'a, const D: usize> {
     world: &'a World<D>,
     owned: Owned,
-    looked: Option<Looked<'a, D>>,
-}
-
-/// What tells the particle of the lowest number.
-struct Looked<'a, const D: usize> {
-    identity: &'a [u32],
-    position: &'a [Vect<D>],
+    /// Numbers and places of the particles, where there are copies.
+    looked: Option<(&'a [u32], &'a [Vect<D>])>,
 }
 
 impl<const D: usize> OwnedElements<'_, D> {
@@ -87,17 +82,17 @@ impl<const D: usize> OwnedElements<'_, D> {
 
     /// The same of a place on a wall, with all particles that may be within a support of it.
     pub fn has_around<'c>(&self, place: &Vect<D>, candidates: impl FnOnce() -> &'c [u32]) -> bool {
-        let (world, Some(looked)) = (self.world, &self.looked) else {
+        let (world, Some((identity, position))) = (self.world, self.looked) else {
             return true;
         };
         let support = world.kernel.support_radius().powi(2);
         let near = |j: &usize| {
-            let apart = world.domain.nearest_image(looked.position[*j] - place);
+            let apart = world.domain.nearest_image(position[*j] - place);
             apart.norm_squared() < support
         };
         let first = candidates().iter().map(|j| *j as usize).filter(near);
         first
-            .min_by_key(|j| looked.identity[*j])
+            .min_by_key(|j| identity[*j])
             .is_some_and(|j| self.owned.has(j))
     }
 }

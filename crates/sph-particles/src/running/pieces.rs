@@ -72,12 +72,8 @@ pub(crate) fn own_particles<const D: usize>(
     flow: &Flow<D>,
     wanted: impl Fn(&str) -> bool,
 ) -> Result<Piece<'static>, RunError> {
-    let own = match &flow.parts {
-        Some(parts) => parts
-            .own(&flow.world.free)
-            .map_err(sph_core::StepError::from)?,
-        None => vec![true; flow.world.free.len()],
-    };
+    let owned = flow.world.owned();
+    let own: Vec<bool> = (0..flow.world.free.len()).map(|k| owned.has(k)).collect();
     let all = points(flow)?;
     let piece = particles(&flow.world.free, &all, |name| {
         name != OWNER.name && wanted(name)

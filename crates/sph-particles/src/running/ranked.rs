@@ -136,13 +136,8 @@ impl<const D: usize> Running<'_, D> {
         if flow.world.lists.free.len() != free.len() {
             return Ok(());
         }
-        self.around = match &flow.parts {
-            None => flow.world.nearby(|_| true)?,
-            Some(parts) => {
-                let own = parts.own(free).map_err(StepError::from)?;
-                flow.world.nearby(|k| own[k])?
-            }
-        };
+        let owned = flow.world.owned();
+        self.around = flow.world.nearby(|k| owned.has(k))?;
         Ok(())
     }
 
