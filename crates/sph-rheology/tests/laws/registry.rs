@@ -66,7 +66,7 @@ fn a_registered_plugin_is_found_built_and_listed() {
     assert_eq!(listed[0].unit, "Pa s");
     assert_eq!(listed[0].source, "Newton 1687");
     let kind = sph_core::kind_of("law").unwrap();
-    assert_eq!((kind.plugins)().len(), 2);
+    assert!((kind.plugins)().iter().any(|law| law.name == "newtonian"));
 }
 
 #[test]

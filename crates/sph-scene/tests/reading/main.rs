@@ -3,6 +3,7 @@
 mod common;
 mod drawings;
 mod filling;
+mod kinds;
 mod motion;
 mod overrides;
 mod robust;
