@@ -6,7 +6,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::tool_arguments::{
     CompareArguments, CompletionArguments, DrawCommand, ManArguments, MeasureArguments,
-    ViewArguments,
+    PluginArguments, ViewArguments,
 };
 
 /// Smoothed particle hydrodynamics, and grains one by one, from scene files.
@@ -172,7 +172,7 @@ Examples:
   sph measure results/movable-bed-dambreak-sand y --quantile 0.99 --phase sand --out bed.csv
 
 A table with a row for every frame of fields.pvd. The field is a column of the frames, of a vector its length, a \
-component (velocity.x) or a coordinate (x, y, z). In a scene the probe `measure` does the same at every row of the series.
+component (velocity.x) or a coordinate (x, y, z). In a scene the probe `statistic` does the same at every row of the series.
 
 Exit codes: 0 measured, 1 the file cannot be written, 2 bad usage.")]
     Measure(MeasureArguments),
@@ -323,55 +323,6 @@ pub struct ExplainArguments {
     #[arg(long, value_name = "N")]
     pub ranks: Option<std::num::NonZeroUsize>,
     /// Print the result, or the diagnostics as an array, as JSON on stdout
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Arguments of `sph plugins`.
-#[derive(Debug, Args)]
-pub struct PluginArguments {
-    /// Kind of plugin, for example `kernel` or `rheology`
-    pub kind: Option<String>,
-    /// Name of a plugin of that kind; several to have them in one picture
-    #[arg(value_name = "NAME")]
-    pub names: Vec<String>,
-    /// Draw into FILE.svg or FILE.png: stress and viscosity of a law sheared alone, or a kernel and its slope
-    #[arg(long, value_name = "FILE", requires = "names")]
-    pub picture: Option<PathBuf>,
-    /// Put a value on top of the law's example: --set yield_stress='5 Pa', or with several laws
-    /// --set bingham.yield_stress='5 Pa' (may be repeated)
-    #[arg(long = "set", value_name = "KEY=VALUE", requires = "picture")]
-    pub set: Vec<String>,
-    /// Draw a curve for each value of a list: --vary yield_stress=[1,10,100]
-    #[arg(long, value_name = "KEY=[…]", requires = "picture")]
-    pub vary: Option<String>,
-    /// Pressures at which a law with friction is sheared [default: 1 kPa]
-    #[arg(
-        long,
-        value_name = "P,…",
-        value_delimiter = ',',
-        requires = "picture",
-        allow_hyphen_values = true
-    )]
-    pub pressure: Vec<String>,
-    /// The ends of the axis [default: 0.001,100], or for a law with an elastic part the rates at
-    /// which it is sheared from rest [default: 0.01,0.1,1,10], 1/s
-    #[arg(
-        long,
-        value_name = "RATE,…",
-        value_delimiter = ',',
-        requires = "picture",
-        allow_hyphen_values = true
-    )]
-    pub strain_rates: Vec<String>,
-    /// Strain up to which a law with an elastic part is sheared [default: four times that at which it
-    /// yields, 2 at most]
-    #[arg(long, requires = "picture", allow_hyphen_values = true)]
-    pub strain: Option<f64>,
-    /// Print all plugins as a page of Markdown
-    #[arg(long, conflicts_with_all = ["kind", "json"])]
-    pub markdown: bool,
-    /// Print JSON
     #[arg(long)]
     pub json: bool,
 }

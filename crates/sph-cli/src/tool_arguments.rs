@@ -78,6 +78,55 @@ fn share(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Arguments of `sph plugins`.
+#[derive(Debug, Args)]
+pub struct PluginArguments {
+    /// Kind of plugin, for example `kernel` or `rheology`
+    pub kind: Option<String>,
+    /// Name of a plugin of that kind; several to have them in one picture
+    #[arg(value_name = "NAME")]
+    pub names: Vec<String>,
+    /// Draw into FILE.svg or FILE.png: stress and viscosity of a law sheared alone, or a kernel and its slope
+    #[arg(long, value_name = "FILE", requires = "names")]
+    pub picture: Option<PathBuf>,
+    /// Put a value on top of the law's example: --set yield_stress='5 Pa', or with several laws
+    /// --set bingham.yield_stress='5 Pa' (may be repeated)
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "picture")]
+    pub set: Vec<String>,
+    /// Draw a curve for each value of a list: --vary yield_stress=[1,10,100]
+    #[arg(long, value_name = "KEY=[…]", requires = "picture")]
+    pub vary: Option<String>,
+    /// Pressures at which a law with friction is sheared [default: 1 kPa]
+    #[arg(
+        long,
+        value_name = "P,…",
+        value_delimiter = ',',
+        requires = "picture",
+        allow_hyphen_values = true
+    )]
+    pub pressure: Vec<String>,
+    /// The ends of the axis [default: 0.001,100], or for a law with an elastic part the rates at
+    /// which it is sheared from rest [default: 0.01,0.1,1,10], 1/s
+    #[arg(
+        long,
+        value_name = "RATE,…",
+        value_delimiter = ',',
+        requires = "picture",
+        allow_hyphen_values = true
+    )]
+    pub strain_rates: Vec<String>,
+    /// Strain up to which a law with an elastic part is sheared [default: four times that at which it
+    /// yields, 2 at most]
+    #[arg(long, requires = "picture", allow_hyphen_values = true)]
+    pub strain: Option<f64>,
+    /// Print all plugins as a page of Markdown
+    #[arg(long, conflicts_with_all = ["kind", "json"])]
+    pub markdown: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// Arguments of `sph view`.
 #[derive(Debug, Args)]
 pub struct ViewArguments {

@@ -32,6 +32,7 @@ mod limit;
 mod parcel;
 mod plan;
 mod plugin_choice;
+mod plugin_info;
 mod pool;
 mod registry;
 mod saved;
@@ -53,10 +54,10 @@ pub use kinds::{Place, PluginKind, Work, kind_of, kinds};
 pub use limit::StepLimit;
 pub use plan::{Plan, plan};
 pub use plugin_choice::PluginChoice;
+pub use plugin_info::PluginInfo;
 pub use pool::{Lent, Pool};
 pub use registry::{
-    Contract, Makes, Parameter, PluginInfo, Registry, node_of, parameters, plugins_of, schema_of,
-    typed,
+    Contract, Makes, Parameter, Registry, node_of, parameters, plugins_of, schema_of, typed,
 };
 pub use saved::Saved;
 pub use scene_text::{

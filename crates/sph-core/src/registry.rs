@@ -5,24 +5,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use toml::{Table, Value};
 
-use crate::{PluginKind, RegistryError, SceneProblem, conform, suggestion};
-
-/// What is known of a plugin without building it.
-#[derive(Clone, Copy)]
-pub struct PluginInfo {
-    /// Name in scene files.
-    pub name: &'static str,
-    /// One sentence.
-    pub summary: &'static str,
-    /// Publication and equation.
-    pub source: &'static str,
-    /// Crate and version that registered it.
-    pub provider: &'static str,
-    /// Dimensions it can be built in.
-    pub dimensions: &'static [usize],
-    /// JSON schema of its parameters.
-    pub schema: fn() -> Json,
-}
+use crate::{PluginInfo, PluginKind, RegistryError, SceneProblem, conform, suggestion};
 
 /// One parameter of a plugin, for listings.
 #[derive(Clone, Debug, serde::Serialize)]

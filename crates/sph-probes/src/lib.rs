@@ -7,7 +7,7 @@
 //!   one phase of it ([`Interface`], [`PhaseVolume`], [`PhaseEnergy`], [`Extent`], [`Yielded`],
 //!   [`SurfaceSlope`], [`Line`]), and of a bed under water ([`BedLines`], [`ErodedMass`],
 //!   [`PorePressureProbe`]).
-//! * [`Measure`] composes a quantity, the particles that count and reductions; probes as [`Front`] are such measurements
+//! * [`Statistic`] composes a quantity, the particles that count and reductions; probes as [`Front`] are such measurements
 //!   with names of their own.
 //! * [`derived_stages`]: vorticity and other fields that outputs and probes ask for by name.
 //! * [`surface_distance`]: the distance to the free surface, computed when it is written.
@@ -55,7 +55,7 @@ pub use flow::spectrum::EnergySpectrum;
 pub use flow::stream_function::StreamFunction;
 pub use flow::wall_force::WallForceProbe;
 pub use flow::wall_motion::WallMotionProbe;
-pub use measure::{Measure, Reduction, Weight, quantile, reduced};
+pub use measure::{Reduction, Statistic, Weight, quantile, reduced};
 pub use phases::extent::Extent;
 pub use phases::interface::Interface;
 pub use phases::line::{Line, LineOf};

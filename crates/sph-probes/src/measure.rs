@@ -8,6 +8,6 @@ mod reduction;
 
 pub(crate) use conditions::Condition;
 pub(crate) use plan::{Measured, Plan, PlannedColumn, Preset};
-pub use plugin::{Measure, Reduction, Weight, quantile, reduced};
+pub use plugin::{Reduction, Statistic, Weight, quantile, reduced};
 pub(crate) use quantity::Quantity;
 pub(crate) use reduction::Reduce;

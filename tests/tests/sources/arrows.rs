@@ -220,6 +220,7 @@ const ALLOWED: [(&str, &[&str]); 41] = [
             "sph-mpi",
             "sph-pressure",
             "sph-particles",
+            "sph-probes",
             "sph-run",
             "sph-scene",
             "sph-setup",

@@ -10,10 +10,10 @@ mod specimen;
 use serde_json::{Value as Json, json};
 use sph_core::{Parameter, PluginInfo, PluginKind, kinds, parameters, suggestion};
 
-use crate::arguments::PluginArguments;
 use crate::telling::console;
 use crate::telling::layout::{columns, paragraph};
 use crate::telling::trouble::Trouble;
+use crate::tool_arguments::PluginArguments;
 
 /// The kinds of plugins that can be drawn.
 const LAWS: &str = "rheology";

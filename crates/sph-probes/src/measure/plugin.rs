@@ -140,16 +140,16 @@ impl Weight {
 ///
 /// ```toml
 /// [probe.wave-crest]
-/// kind = "measure"
+/// kind = "statistic"
 /// field = "y"
 /// reduce = ["max", "mean"]
 /// quantiles = [0.99]
 /// phase = "water"
 /// above = { x = 0.5 }
 /// ```
-#[plugin(ProbeEntry [2, 3], "measure", "any field over any particles, reduced to numbers",
+#[plugin(ProbeEntry [2, 3], "statistic", "any field over any particles, reduced to numbers",
     source: "sums, extrema, quantiles", within: Measured::new)]
-pub struct Measure {
+pub struct Statistic {
     /// The quantity.
     pub field: String,
     /// Its reductions.
@@ -181,7 +181,7 @@ pub struct Measure {
     pub scale: f64,
 }
 
-impl Measure {
+impl Statistic {
     fn column(&self, suffix: &str, reduce: Reduce) -> PlannedColumn {
         let column = PlannedColumn::new(suffix, Quantity::named(&self.field), reduce);
         match reduce {
@@ -195,7 +195,7 @@ impl Measure {
     }
 }
 
-impl Preset for Measure {
+impl Preset for Statistic {
     fn plan(&self, _: usize) -> Plan<'_> {
         let count = self.reduce.len() + self.quantiles.len();
         let suffix = |name: String| match count {

@@ -35,7 +35,7 @@ fn built(kind: &str, keys: &str) -> Box<dyn Probe<2>> {
 }
 
 fn measured(keys: &str) -> Vec<f64> {
-    built("measure", keys).measure(&world()).unwrap()
+    built("statistic", keys).measure(&world()).unwrap()
 }
 
 fn assert_near(found: &[f64], expected: &[f64]) {
@@ -101,7 +101,7 @@ fn weights_enter_means_and_quantiles() {
 fn a_line_is_fitted_and_slices_are_curves() {
     assert_near(&measured("field = 'pressure'\nfit = 'x'"), &[2.5, 3.0, 0.0]);
     let probe = built(
-        "measure",
+        "statistic",
         "field = 'pressure'\nreduce = ['mean', 'max']\nalong = 'x'",
     );
     let curves = probe.as_curves().expect("curves");
@@ -120,7 +120,7 @@ fn a_line_is_fitted_and_slices_are_curves() {
 #[test]
 fn unknown_fields_are_named_with_the_nearest() {
     let told = |field: &str| {
-        let probe = built("measure", &format!("field = '{field}'"));
+        let probe = built("statistic", &format!("field = '{field}'"));
         probe.measure(&world()).unwrap_err().to_string()
     };
     assert!(

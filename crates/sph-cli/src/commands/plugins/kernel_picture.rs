@@ -7,8 +7,8 @@ use sph_io::{Panels, Plot, Series};
 use sph_solver::kernels::{self, Kernel};
 
 use super::picture;
-use crate::arguments::PluginArguments;
 use crate::telling::trouble::Trouble;
+use crate::tool_arguments::PluginArguments;
 
 /// Points of a curve.
 const POINTS: usize = 200;

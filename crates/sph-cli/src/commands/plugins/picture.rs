@@ -7,9 +7,9 @@ use sph_io::{Panels, Plot, Series};
 use sph_solver::rheometer::{self, Rheology};
 
 use super::specimen::{self, Specimen};
-use crate::arguments::PluginArguments;
 use crate::telling::console;
 use crate::telling::trouble::Trouble;
+use crate::tool_arguments::PluginArguments;
 
 /// Strain rates in 1/s where none are given: the ends of the axis of a flow curve.
 const ENDS: [f64; 2] = [1e-3, 1e2];
