@@ -188,6 +188,16 @@ pub fn slope(x: &[f64], y: &[f64]) -> f64 {
     xy / xx
 }
 
+/// Slope of the least-squares line of y over x, and the root mean square of y about it.
+pub fn line(x: &[f64], y: &[f64]) -> [f64; 2] {
+    let slope = slope(x, y);
+    let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
+    let (mx, my) = (mean(x), mean(y));
+    let about = x.iter().zip(y).map(|(x, y)| y - my - slope * (x - mx));
+    let squares: f64 = about.map(|d| d * d).sum();
+    [slope, (squares / x.len() as f64).sqrt()]
+}
+
 /// Observed order of convergence: least-squares slope of ln error over ln spacing, three finest.
 pub fn order(spacing: &[f64], error: &[f64]) -> f64 {
     let mut pairs: Vec<(f64, f64)> = spacing.iter().copied().zip(error.iter().copied()).collect();

@@ -11,24 +11,15 @@ use super::reduction::{Reduce, Weighed};
 use crate::phases::phase;
 use crate::{Curves, Needs, Probe, ProbeColumn, ProbeScene, norm};
 
-/// A column of a measurement: reduced/`scale` + `offset`.
+/// A column of a measurement: reduced/`scale` + `spacings` · δr.
 pub(crate) struct PlannedColumn {
     pub suffix: String,
     pub of: Quantity,
     pub reduce: Reduce,
     pub scale: f64,
-    pub offset: Offset,
+    pub spacings: f64,
     /// The unit, where it is not that of the quantity.
     pub unit: Option<&'static str>,
-}
-
-/// What is added to a reduced value.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Offset {
-    /// Nothing.
-    None,
-    /// So many spacings.
-    Spacings(f64),
 }
 
 impl PlannedColumn {
@@ -39,14 +30,14 @@ impl PlannedColumn {
             of,
             reduce,
             scale: 1.0,
-            offset: Offset::None,
+            spacings: 0.0,
             unit: None,
         }
     }
 
     /// With so many spacings more.
     pub fn and_spacings(mut self, spacings: f64) -> Self {
-        self.offset = Offset::Spacings(spacings);
+        self.spacings = spacings;
         self
     }
 
@@ -142,12 +133,8 @@ impl<P: Preset> Measured<P> {
         let weight = plan.weight.as_ref().map(|weight| weight.values(world));
         let weight = weight.transpose()?.map(|(weight, _)| weight);
         let weights = |of: &[usize]| -> Option<Vec<f64>> {
-            Some(
-                of.iter()
-                    .map(|k| weight.as_ref().map_or(1.0, |w| w(*k)))
-                    .collect(),
-            )
-            .filter(|_| weight.is_some())
+            let weight = weight.as_ref()?;
+            Some(of.iter().map(|k| weight(*k)).collect())
         };
         let own = weights(counted);
         let whole = weights(of_phase).map_or(of_phase.len() as f64, |all| all.iter().sum());
@@ -161,11 +148,7 @@ impl<P: Preset> Measured<P> {
                 weights: own.as_deref(),
                 whole,
             };
-            let reduced = weighed.reduced(column.reduce) / column.scale;
-            Ok(match column.offset {
-                Offset::None => reduced,
-                Offset::Spacings(some) => reduced + some * world.spacing,
-            })
+            Ok(weighed.reduced(column.reduce) / column.scale + column.spacings * world.spacing)
         };
         let all: Result<Vec<f64>, StepError> = plan.columns.iter().map(one).collect();
         self.units.get_or_init(|| units);
@@ -186,12 +169,7 @@ impl<P: Preset> Measured<P> {
         if x.len() < 3 {
             return Ok([f64::NAN; 2]);
         }
-        let slope = norm::slope(&x, &y);
-        let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
-        let (mx, my) = (mean(&x), mean(&y));
-        let about = x.iter().zip(&y).map(|(x, y)| y - my - slope * (x - mx));
-        let squares: f64 = about.map(|d| d * d).sum();
-        Ok([slope, (squares / x.len() as f64).sqrt()])
+        Ok(norm::line(&x, &y))
     }
 }
 

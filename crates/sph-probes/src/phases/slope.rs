@@ -80,11 +80,7 @@ impl Probe<2> for SurfaceSlope {
         if x.len() < 3 {
             return Ok(vec![f64::NAN; 2]);
         }
-        let slope = norm::slope(&x, &y);
-        let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
-        let (mx, my) = (mean(&x), mean(&y));
-        let about = x.iter().zip(&y).map(|(x, y)| y - my - slope * (x - mx));
-        let squares: f64 = about.map(|d| d * d).sum();
-        Ok(vec![slope.atan(), (squares / x.len() as f64).sqrt()])
+        let [slope, rms] = norm::line(&x, &y);
+        Ok(vec![slope.atan(), rms])
     }
 }
